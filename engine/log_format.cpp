@@ -1,0 +1,135 @@
+#include "engine/log_format.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "engine/checksum.hpp"
+#include "engine/io_error.hpp"
+
+namespace frahm::engine {
+namespace {
+
+constexpr std::string_view file_magic = "FRAHMLOG";
+constexpr std::uint32_t record_magic = 0x454C4954U;  // "TILE" in the file
+constexpr std::size_t hash_size = 64;
+constexpr std::size_t version_at = 8, tiles_at = 12, physics_at = 20, grid_at = 84, header_crc_at = 148;
+static_assert(header_crc_at + sizeof(std::uint32_t) == owner_offset &&
+              owner_offset + owner_size == header_size);
+
+void put_text(std::byte* to, std::string_view text) {
+  std::memcpy(to, text.data(), text.size());
+}
+
+void put_hash(std::byte* to, const std::string& hash, std::string_view name) {
+  if (hash.empty() || hash.size() > hash_size) {
+    throw std::invalid_argument(fmt::format("{} fingerprint '{}' has {} characters: it must have 1 to {}",
+                                            name, hash, hash.size(), hash_size));
+  }
+  put_text(to, hash);
+}
+
+std::string get_hash(const std::byte* from) {
+  const auto* text = reinterpret_cast<const char*>(from);
+  return std::string(text, strnlen(text, hash_size));
+}
+
+}  // namespace
+
+Bytes encode_header(const LogHeader& header) {
+  Bytes bytes(header_size, std::byte{0});
+  put_text(bytes.data(), file_magic);
+  put_little_endian(&bytes[version_at], log_version);
+  put_little_endian(&bytes[tiles_at], header.tiles);
+  put_hash(&bytes[physics_at], header.fingerprint.physics, "physics");
+  put_hash(&bytes[grid_at], header.fingerprint.grid, "grid");
+  put_little_endian(&bytes[header_crc_at], crc32c(std::span(bytes).first(header_crc_at)));
+  put_text(&bytes[owner_offset], std::string_view(this_process()).substr(0, owner_size));
+  return bytes;
+}
+
+std::uint64_t study_mark(const LogHeader& header) {
+  const Bytes bytes = encode_header(header);
+  return crc64(std::span(bytes).subspan(tiles_at, header_crc_at - tiles_at));
+}
+
+void encode_record(std::uint64_t mark, std::uint64_t tile, std::span<const std::byte> payload,
+                   Bytes& record) {
+  record.resize(payload.size() + record_overhead);
+  put_little_endian(&record[0], record_magic);
+  put_little_endian(&record[4], log_version);
+  put_little_endian(&record[8], mark);
+  put_little_endian(&record[16], tile);
+  put_little_endian(&record[24], std::uint64_t{payload.size()});
+  std::ranges::copy(payload, record.begin() + record_head_size);
+  const std::size_t crc_at = record_head_size + payload.size();
+  put_little_endian(&record[crc_at], crc32c(std::span(record).first(crc_at)));
+}
+
+std::optional<LogHeader> read_header(const File& log) {
+  Bytes bytes(header_size);
+  if (log.read_at(0, bytes) < header_size) return std::nullopt;
+  if (std::memcmp(bytes.data(), file_magic.data(), file_magic.size()) != 0) {
+    throw IoError(log.path(), "not a shard log, or its header is damaged (it does not begin with FRAHMLOG)");
+  }
+  const auto version = get_little_endian<std::uint32_t>(&bytes[version_at]);
+  if (version != log_version) {
+    throw IoError(log.path(),
+                  fmt::format("a shard log of version {}, or one with a damaged header; this program "
+                              "reads version {}",
+                              version, log_version));
+  }
+  const auto crc = get_little_endian<std::uint32_t>(&bytes[header_crc_at]);
+  if (crc32c(std::span(bytes).first(header_crc_at)) != crc) {
+    throw IoError(log.path(),
+                  "the header of this shard log is damaged (its checksum is wrong); remove the file to "
+                  "have its tiles computed again");
+  }
+  return LogHeader{.fingerprint = {get_hash(&bytes[physics_at]), get_hash(&bytes[grid_at])},
+                   .tiles = get_little_endian<std::uint64_t>(&bytes[tiles_at])};
+}
+
+bool read_record(const File& log, std::uint64_t offset, std::uint64_t file_size, std::uint64_t mark,
+                 std::uint64_t tiles, Bytes& record) {
+  if (offset > file_size || file_size - offset < record_overhead) return false;
+  record.resize(record_head_size);
+  if (log.read_at(offset, record) < record_head_size) return false;
+  const auto length = get_little_endian<std::uint64_t>(&record[24]);
+  const bool head_is_good = get_little_endian<std::uint32_t>(&record[0]) == record_magic &&
+                            get_little_endian<std::uint32_t>(&record[4]) == log_version &&
+                            get_little_endian<std::uint64_t>(&record[8]) == mark && tile_of(record) < tiles &&
+                            length <= file_size - offset - record_overhead;
+  if (!head_is_good) return false;
+
+  record.resize(static_cast<std::size_t>(length) + record_overhead);
+  const auto rest = std::span(record).subspan(record_head_size);
+  if (log.read_at(offset + record_head_size, rest) < rest.size()) return false;
+  const std::size_t crc_at = record.size() - sizeof(std::uint32_t);
+  return crc32c(std::span(record).first(crc_at)) == get_little_endian<std::uint32_t>(&record[crc_at]);
+}
+
+std::uint64_t tile_of(const Bytes& record) {
+  return get_little_endian<std::uint64_t>(&record[16]);
+}
+
+std::span<const std::byte> payload_of(const Bytes& record) {
+  return std::span(record).subspan(record_head_size, record.size() - record_overhead);
+}
+
+LogExtent read_records(const File& log, const LogHeader& header, const RecordVisitor& visit) {
+  const std::uint64_t mark = study_mark(header);
+  LogExtent extent{.good_bytes = header_size, .file_bytes = log.size()};
+  Bytes record;
+  while (read_record(log, extent.good_bytes, extent.file_bytes, mark, header.tiles, record)) {
+    visit(tile_of(record), extent.good_bytes, payload_of(record));
+    extent.good_bytes += record.size();
+    ++extent.records;
+  }
+  return extent;
+}
+
+}  // namespace frahm::engine

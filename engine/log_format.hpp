@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+
+#include "engine/bytes.hpp"
+#include "engine/file.hpp"
+#include "engine/fingerprint.hpp"
+
+// The bytes of a shard log, all numbers little-endian:
+//
+//   header   0  "FRAHMLOG"                 record   0  magic "TILE"
+//            8  version             u32             4  version               u32
+//           12  tiles of the study  u64             8  study: CRC-64 of the
+//           20  physics, 64 bytes of text              header's bytes 12-147 u64
+//           84  grid, 64 bytes of text             16  tile                  u64
+//          148  CRC-32C of 0-147    u32            24  length of the payload u64
+//          152  owner, 104 bytes of text           32  payload
+//          256  first record                     then  CRC-32C of all before u32
+//
+// The owner names the process that last held the lock of the log, for messages only; the CRC leaves it out,
+// as it changes when a run resumes. Every record names its study, so that pieces of two logs can never pass
+// for one.
+namespace frahm::engine {
+
+constexpr std::uint32_t log_version = 1;
+constexpr std::size_t header_size = 256;
+constexpr std::uint64_t owner_offset = 152;
+constexpr std::size_t record_head_size = 32;
+constexpr std::size_t record_overhead = record_head_size + sizeof(std::uint32_t);
+
+// Throws std::invalid_argument for a hash of the fingerprint that is empty or longer than 64 characters.
+Bytes encode_header(const LogHeader& header);
+
+// The mark by which the records of a study are known.
+std::uint64_t study_mark(const LogHeader& header);
+
+// Makes `record` the record of one tile.
+void encode_record(std::uint64_t mark, std::uint64_t tile, std::span<const std::byte> payload, Bytes& record);
+
+// The header of a log; nothing if the file is shorter than a header (its writer was stopped at birth).
+// Throws IoError for a file that is no shard log, is one of another version, or has a damaged header.
+std::optional<LogHeader> read_header(const File& log);
+
+// Reads the record at `offset` into `record` (the whole of it, checked); false if no good record is there.
+// file_size: bytes of the log that may be read.  tiles: numbers of tiles are below it.
+bool read_record(const File& log, std::uint64_t offset, std::uint64_t file_size, std::uint64_t mark,
+                 std::uint64_t tiles, Bytes& record);
+
+// Parts of a record that has been read.
+std::uint64_t tile_of(const Bytes& record);
+std::span<const std::byte> payload_of(const Bytes& record);
+
+// What a log holds.
+struct LogExtent {
+  std::uint64_t records = 0;
+  std::uint64_t good_bytes = 0;  // header and records up to the first bad one
+  std::uint64_t file_bytes = 0;
+
+  // Behind the last good record: one cut off by a kill or still being written, or damage.
+  std::uint64_t unused_bytes() const { return file_bytes - good_bytes; }
+};
+
+// Calls visit(tile, offset of the record, payload) for each record in turn, up to the first bad one.
+// header: that of the log.  Throws IoError when the log cannot be read, and what `visit` throws.
+using RecordVisitor =
+    std::function<void(std::uint64_t tile, std::uint64_t offset, std::span<const std::byte> payload)>;
+LogExtent read_records(const File& log, const LogHeader& header, const RecordVisitor& visit);
+
+}  // namespace frahm::engine

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/bytes.hpp"
+#include "engine/fingerprint.hpp"
+#include "engine/progress.hpp"
+#include "engine/tile_index.hpp"
+
+// Many answers: the tiles of a job computed by a team of threads and kept in a shard log as each is finished.
+//
+// A thread team, a rank, an array task and a resumed run are the same thing, writers of shards: what they
+// leave together does not depend on who computed which tile, in what order, or how often they were stopped.
+namespace frahm::engine {
+
+// Computes one tile and writes its record to `out`, which is empty before the call. The record must depend on
+// the tile alone. A kernel is used by one thread and may keep its workspace.
+using Kernel = std::function<void(std::uint64_t tile, Bytes& out)>;
+
+struct Job {
+  std::uint64_t tiles = 0;
+  Fingerprint fingerprint;
+  // The functions below are called from several threads at once.
+  std::function<Kernel()> make_kernel;                      // once in each thread
+  std::function<std::uint64_t(std::uint64_t tile)> points;  // points of a tile
+  // Points of a finished tile that failed; may be empty: none ever do.
+  std::function<std::uint64_t(std::uint64_t tile, std::span<const std::byte> record)> failed;
+};
+
+// The part of the tiles a run computes: those with tile % count == index. Needs index < count.
+struct Shard {
+  std::uint64_t index = 0;
+  std::uint64_t count = 1;
+};
+
+struct RunOptions {
+  std::filesystem::path output;  // the file to be assembled later; the logs stand beside it
+  int threads = 0;               // >= 0; 0: one on each processor this process may use
+  Shard shard;
+  // Discard what earlier runs left: all logs; for one shard of several its own log and those of other
+  // studies, because the other shards of this study may be at work or done.
+  bool fresh = false;
+  std::optional<std::chrono::duration<double>> time_budget;  // > 0, from the start of the run; absent: none
+  ProgressStyle progress = ProgressStyle::automatic;
+};
+
+enum class Outcome {
+  complete,  // every tile of the shard is in a log
+  stopped,   // a signal or the time budget came first; the same run again goes on from there
+};
+
+// Tiles and points are those of the shard.
+struct Summary {
+  Outcome outcome = Outcome::complete;
+  std::string reason;  // why it ended, as a sentence
+  std::uint64_t tiles = 0;
+  std::uint64_t tiles_resumed = 0;  // found in logs
+  std::uint64_t tiles_computed = 0;
+  Tally points;
+  int threads = 0;                  // of the team
+  double seconds = 0.0;             // wall time
+  std::vector<UnusedBytes> unused;  // ends of logs that could not be used when the run began
+};
+
+// Computes the tiles of the shard that are in no log beside the output yet. On SIGTERM, SIGINT, SIGUSR1 or at
+// the end of the time budget the tiles in hand are finished; at the end, however it comes, what is finished
+// is on the disk. One run at a time in a process. Throws std::invalid_argument for options outside their
+// range, ResumeRefused when tiles of another study are kept beside the output (unless fresh), Locked when
+// another process computes this shard, IoError, and, when the tiles in hand are kept, the first exception of
+// a kernel.
+Summary run(const Job& job, const RunOptions& options);
+
+}  // namespace frahm::engine

@@ -1,0 +1,74 @@
+#include "engine/shard_log.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <system_error>
+
+#include "engine/io_error.hpp"
+
+namespace frahm::engine {
+
+ShardLog::ShardLog(const std::filesystem::path& path, const LogHeader& header)
+    : mark_(study_mark(header)), file_(open_locked(path, owner_offset)) {
+  const std::optional<LogHeader> kept = read_header(file_);
+  if (!kept) {
+    begin(header);
+    return;
+  }
+  found_ = read_records(file_, *kept, [](auto&&...) {});
+  if (*kept != header) {
+    if (found_.records > 0) throw ResumeRefused(path, *kept, header);
+    begin(header);  // nothing is kept in it, so there is nothing to protect
+    return;
+  }
+  const Bytes bytes = encode_header(header);
+  file_.write_at(owner_offset, std::span(bytes).subspan(owner_offset));
+  if (found_.unused_bytes() > 0) file_.truncate(found_.good_bytes);
+  end_ = found_.good_bytes;
+}
+
+ShardLog::~ShardLog() {
+  if (end_ > header_size) return;
+  std::error_code ignored;  // an empty log left behind is harmless
+  std::filesystem::remove(file_.path(), ignored);
+}
+
+void ShardLog::begin(const LogHeader& header) {
+  found_ = {};
+  file_.truncate(0);
+  file_.write_at(0, encode_header(header));
+  file_.sync();
+  sync_directory(directory_of(file_.path()));
+  end_ = synced_end_ = header_size;
+}
+
+void ShardLog::append(std::uint64_t tile, std::span<const std::byte> payload) {
+  const std::lock_guard turn(append_turn_);
+  encode_record(mark_, tile, payload, record_);
+  try {
+    file_.write_at(end_, record_);
+  } catch (const IoError&) {
+    // Cut off the part that was written. Should even that fail, the reader will cut there, and the next
+    // record is written over it.
+    try {
+      file_.truncate(end_);
+    } catch (const IoError&) {
+    }
+    throw;
+  }
+  end_ += record_.size();
+}
+
+void ShardLog::sync() {
+  const std::lock_guard turn(sync_turn_);
+  std::uint64_t end = 0;
+  {
+    const std::lock_guard append_turn(append_turn_);
+    end = end_;
+  }
+  if (end == synced_end_) return;
+  file_.sync();
+  synced_end_ = end;
+}
+
+}  // namespace frahm::engine

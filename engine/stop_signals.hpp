@@ -1,0 +1,30 @@
+#pragma once
+
+#include <csignal>
+#include <string>
+
+namespace frahm::engine {
+
+// As long as it lives, SIGTERM, SIGINT and SIGUSR1 ask the run to stop instead of ending the process; a
+// second SIGINT ends it at once. The handlers found are put back afterwards. Only one may live at a time
+// (std::logic_error): signals belong to the process.
+class StopSignals {
+ public:
+  StopSignals();
+  ~StopSignals();
+  StopSignals(const StopSignals&) = delete;
+  StopSignals& operator=(const StopSignals&) = delete;
+
+  // The first signal received, 0 if none.
+  int received() const;
+
+ private:
+  struct sigaction terminate_before_ {};
+  struct sigaction interrupt_before_ {};
+  struct sigaction user_before_ {};
+};
+
+// "SIGTERM", "SIGINT", "SIGUSR1".
+std::string signal_name(int signal);
+
+}  // namespace frahm::engine

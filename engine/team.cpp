@@ -1,0 +1,46 @@
+#include "engine/team.hpp"
+
+#include <mutex>
+
+namespace frahm::engine {
+namespace {
+
+struct Team {
+  const std::function<void(const std::atomic<bool>&)>& work;
+  std::atomic<bool> failed = false;
+  std::mutex first_error_turn;
+  std::exception_ptr first_error;
+  // Orders what happens before, in and after the team in the C++ memory model. OpenMP's own barriers do so
+  // too, but those of GCC's runtime are invisible to ThreadSanitizer, which would see races everywhere.
+  std::atomic<int> handover = 0;
+};
+
+void take_part(Team& team) {
+  team.handover.load(std::memory_order_acquire);
+  try {
+    team.work(team.failed);
+  } catch (...) {  // must not leave an OpenMP region; run_team returns it
+    const std::lock_guard turn(team.first_error_turn);
+    if (!team.first_error) team.first_error = std::current_exception();
+    team.failed = true;
+  }
+  team.handover.fetch_add(1, std::memory_order_release);
+}
+
+// Without ThreadSanitizer, as the handing over of `team` itself precedes the handover above.
+[[gnu::no_sanitize("thread")]] void in_parallel(int threads, Team& team) {
+#pragma omp parallel num_threads(threads)
+  take_part(team);
+}
+
+}  // namespace
+
+std::exception_ptr run_team(int threads, const std::function<void(const std::atomic<bool>& failed)>& work) {
+  Team team{.work = work, .first_error_turn = {}, .first_error = {}};
+  team.handover.store(0, std::memory_order_release);
+  in_parallel(threads, team);
+  team.handover.load(std::memory_order_acquire);
+  return team.first_error;
+}
+
+}  // namespace frahm::engine

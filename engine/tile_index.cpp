@@ -1,0 +1,155 @@
+#include "engine/tile_index.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+#include <system_error>
+
+#include "engine/io_error.hpp"
+#include "engine/log_format.hpp"
+
+namespace frahm::engine {
+namespace {
+
+constexpr std::string_view log_suffix = ".frahm-log";
+
+// Whether `name` is <output_name>.<writer>.frahm-log with no dot in the writer's name.
+bool is_log_name(std::string_view name, std::string_view output_name) {
+  if (!name.starts_with(output_name) || !name.ends_with(log_suffix)) return false;
+  name.remove_prefix(output_name.size());
+  if (name.size() <= log_suffix.size() || !name.starts_with('.')) return false;
+  name.remove_suffix(log_suffix.size());
+  return name.size() > 1 && name.find('.', 1) == std::string_view::npos;
+}
+
+// Enters the tiles of one log into the index.
+void index_log(const File& file, TileIndex& index, const TileVisitor& visit) {
+  const std::optional<LogHeader> kept = read_header(file);
+  if (!kept) return;
+  const bool same_study = *kept == index.study;
+  const auto log = static_cast<std::uint32_t>(index.logs.size());
+  const LogExtent extent =
+      read_records(file, *kept, [&](std::uint64_t tile, std::uint64_t offset, auto payload) {
+        if (!same_study) throw ResumeRefused(file.path(), *kept, index.study);
+        if (index.has(tile)) return;
+        index.places[tile] = {log, offset};
+        visit(tile, payload);
+      });
+  if (!same_study) return;
+  index.logs.push_back(file.path());
+  if (extent.unused_bytes() > 0) {
+    index.unused.push_back({file.path(), extent.good_bytes, extent.unused_bytes()});
+  }
+}
+
+// Logs opened when first needed. An array job may have left more of them than a process may hold open.
+class OpenLogs {
+ public:
+  explicit OpenLogs(const std::vector<std::filesystem::path>& paths) : paths_(paths), files_(paths.size()) {}
+
+  const File& operator[](std::uint32_t log) {
+    if (!files_[log]) {
+      if (open_ == most_open) close_all();
+      files_[log] = File::open_if_present(paths_[log]);
+      if (!files_[log]) throw IoError(paths_[log], "this shard log was removed while its tiles were read");
+      ++open_;
+    }
+    return *files_[log];
+  }
+
+ private:
+  static constexpr int most_open = 256;  // a quarter of the usual limit of 1024
+
+  void close_all() {
+    std::ranges::fill(files_, std::nullopt);
+    open_ = 0;
+  }
+
+  const std::vector<std::filesystem::path>& paths_;
+  std::vector<std::optional<File>> files_;
+  int open_ = 0;
+};
+
+}  // namespace
+
+std::filesystem::path log_path(const std::filesystem::path& output, const std::string& writer) {
+  return fmt::format("{}.{}{}", output.string(), writer, log_suffix);
+}
+
+std::vector<std::filesystem::path> find_logs(const std::filesystem::path& output) {
+  const std::string output_name = output.filename().string();
+  std::vector<std::filesystem::path> logs;
+  std::error_code error;
+  std::filesystem::directory_iterator entry(directory_of(output), error);
+  for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (is_log_name(name, output_name)) logs.push_back(output.parent_path() / name);
+  }
+  if (error) throw IoError(directory_of(output), "list", error.value());
+  std::ranges::sort(logs);
+  return logs;
+}
+
+std::optional<LogHeader> study_of_log(const std::filesystem::path& log) {
+  const std::optional<File> file = File::open_if_present(log);
+  return file ? read_header(*file) : std::nullopt;
+}
+
+TileIndex index_tiles(const std::vector<std::filesystem::path>& logs, const LogHeader& study,
+                      const TileVisitor& visit) {
+  TileIndex index{
+      .study = study, .logs = {}, .places = std::vector<TileIndex::Place>(study.tiles), .unused = {}};
+  for (const auto& log : logs) {
+    if (const std::optional<File> file = File::open_if_present(log)) index_log(*file, index, visit);
+  }
+  return index;
+}
+
+std::vector<std::uint64_t> missing_tiles(const TileIndex& index) {
+  std::vector<std::uint64_t> missing;
+  for (std::uint64_t tile = 0; tile < index.places.size(); ++tile) {
+    if (!index.has(tile)) missing.push_back(tile);
+  }
+  return missing;
+}
+
+void for_each_tile(const TileIndex& index, const TileVisitor& visit) {
+  const std::uint64_t mark = study_mark(index.study);
+  OpenLogs logs(index.logs);
+  Bytes record;
+  for (std::uint64_t tile = 0; tile < index.places.size(); ++tile) {
+    if (!index.has(tile)) continue;
+    const auto [log, offset] = index.places[tile];
+    const File& file = logs[log];
+    if (!read_record(file, offset, file.size(), mark, index.study.tiles, record) || tile_of(record) != tile) {
+      throw IoError(file.path(),
+                    fmt::format("the record of tile {} at byte {} has been damaged since it was indexed",
+                                tile, offset));
+    }
+    visit(tile, payload_of(record));
+  }
+}
+
+void remove_logs(const std::vector<std::filesystem::path>& logs) {
+  for (const auto& log : logs) {
+    const File held = open_locked(log, owner_offset);
+    std::error_code error;
+    std::filesystem::remove(log, error);
+    if (error) throw IoError(log, "remove", error.value());
+  }
+}
+
+AssemblyLock::AssemblyLock(const std::filesystem::path& output)
+    : file_(open_locked(output.string() + ".frahm-lock", 0)) {
+  const std::string owner = this_process();
+  file_.truncate(0);
+  file_.write_at(0, std::as_bytes(std::span(owner)));
+}
+
+AssemblyLock::~AssemblyLock() {
+  std::error_code ignored;  // a lock file left behind is harmless: it is the lock that counts
+  std::filesystem::remove(file_.path(), ignored);
+}
+
+}  // namespace frahm::engine

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/file.hpp"
+#include "engine/fingerprint.hpp"
+
+// Reading back what the writers of shards have finished, whoever they were.
+namespace frahm::engine {
+
+// The log of a writer, beside the output: <output>.<writer>.frahm-log; a writer's name has no dot.
+std::filesystem::path log_path(const std::filesystem::path& output, const std::string& writer);
+
+// All logs beside `output`, by name. Throws IoError.
+std::vector<std::filesystem::path> find_logs(const std::filesystem::path& output);
+
+// The study a log belongs to, without reading its tiles; nothing if the log is gone or was cut off at birth.
+// Throws IoError for a file that is no shard log, is one of another version, or has a damaged header.
+std::optional<LogHeader> study_of_log(const std::filesystem::path& log);
+
+// Bytes of a log behind its last good record, which are not used: a record cut off by a kill or still being
+// written, or damage.
+struct UnusedBytes {
+  std::filesystem::path log;
+  std::uint64_t from = 0;  // offset in the file
+  std::uint64_t bytes = 0;
+};
+
+// Where the finished tiles of a study lie. 16 bytes a tile, whatever the size of their records.
+struct TileIndex {
+  static constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
+  struct Place {
+    std::uint32_t log = nowhere;  // in `logs`; `nowhere`: not finished
+    std::uint64_t offset = 0;     // of the record
+  };
+
+  LogHeader study;
+  std::vector<std::filesystem::path> logs;
+  std::vector<Place> places;  // of each tile
+  std::vector<UnusedBytes> unused;
+
+  bool has(std::uint64_t tile) const { return places[tile].log != nowhere; }
+};
+
+// Called with a tile and the bytes its kernel wrote, which are gone when the call returns.
+using TileVisitor = std::function<void(std::uint64_t tile, std::span<const std::byte> bytes)>;
+
+// Reads `logs` once, checking every record; of a tile recorded twice the first one counts.
+// Logs that have vanished since they were listed are passed over: their writer removed them, empty or
+// assembled. visit: called for each finished tile, in the order of the logs. Throws ResumeRefused for a log
+// that keeps tiles of another study, IoError.
+TileIndex index_tiles(const std::vector<std::filesystem::path>& logs, const LogHeader& study,
+                      const TileVisitor& visit);
+
+// The tiles that are in no log, in order.
+std::vector<std::uint64_t> missing_tiles(const TileIndex& index);
+
+// Calls visit for every finished tile in the order of their numbers, holding one record in memory at a time.
+// Throws IoError when a record can no longer be read as it was indexed, and what `visit` throws.
+void for_each_tile(const TileIndex& index, const TileVisitor& visit);
+
+// Removes logs that no process is writing. Throws Locked at the first that is in use, IoError.
+void remove_logs(const std::vector<std::filesystem::path>& logs);
+
+// Held by the one process that assembles `output` from its logs.
+class AssemblyLock {
+ public:
+  // Throws Locked if another process is assembling, IoError.
+  explicit AssemblyLock(const std::filesystem::path& output);
+  ~AssemblyLock();
+  AssemblyLock(const AssemblyLock&) = delete;
+  AssemblyLock& operator=(const AssemblyLock&) = delete;
+
+ private:
+  File file_;
+};
+
+}  // namespace frahm::engine
