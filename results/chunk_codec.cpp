@@ -1,0 +1,106 @@
+#include "results/chunk_codec.hpp"
+
+#include <fmt/core.h>
+#include <isa-l/igzip_lib.h>
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+
+namespace frahm::results {
+namespace {
+
+// Byte 0 of every element, then byte 1 of every element, ...: the slowly changing sign and exponent bytes of
+// neighbours come together and compress.
+template <std::size_t Size>
+void shuffle(std::span<const std::byte> elements, std::span<std::byte> shuffled) {
+  const std::size_t count = elements.size() / Size;
+  for (std::size_t b = 0; b < Size; ++b) {
+    for (std::size_t i = 0; i < count; ++i) shuffled[b * count + i] = elements[i * Size + b];
+  }
+}
+
+Bytes shuffled(std::span<const std::byte> elements, std::size_t element_size) {
+  Bytes bytes(elements.size());
+  switch (element_size) {
+    case 1:
+      shuffle<1>(elements, bytes);
+      return bytes;
+    case 4:
+      shuffle<4>(elements, bytes);
+      return bytes;
+    case 8:
+      shuffle<8>(elements, bytes);
+      return bytes;
+    default:
+      throw std::logic_error(fmt::format("element of {} bytes: must be 1, 4 or 8", element_size));
+  }
+}
+
+// In zlib's format, with `spare` bytes left free at the end.
+Bytes deflated(std::span<const std::byte> data, std::size_t spare) {
+  // Data that does not compress is stored in blocks of at most 65535 bytes with 5 bytes of header each;
+  // zlib's header and checksum take 6 more. Twice that is kept.
+  const std::size_t bound = data.size() + 10 * (data.size() / 65535 + 1) + 64;
+  if (bound > std::numeric_limits<std::uint32_t>::max()) {
+    throw std::invalid_argument(fmt::format("chunk of {} bytes: must be below 4 GiB", data.size()));
+  }
+  Bytes out(bound + spare);
+  const auto workspace = std::make_unique_for_overwrite<std::uint8_t[]>(ISAL_DEF_LVL1_DEFAULT);
+  isal_zstream stream;
+  isal_deflate_stateless_init(&stream);
+  stream.gzip_flag = IGZIP_ZLIB;
+  stream.level = 1;
+  stream.level_buf = workspace.get();
+  stream.level_buf_size = ISAL_DEF_LVL1_DEFAULT;
+  stream.end_of_stream = 1;
+  stream.flush = NO_FLUSH;
+  // ISA-L does not write to its input; its interface only lacks the const.
+  stream.next_in = const_cast<std::uint8_t*>(reinterpret_cast<const std::uint8_t*>(data.data()));
+  stream.avail_in = static_cast<std::uint32_t>(data.size());
+  stream.next_out = reinterpret_cast<std::uint8_t*>(out.data());
+  stream.avail_out = static_cast<std::uint32_t>(bound);
+  if (const int status = isal_deflate_stateless(&stream); status != COMP_OK) {
+    throw std::logic_error(
+        fmt::format("isal_deflate_stateless of {} bytes returned {}", data.size(), status));
+  }
+  out.resize(stream.total_out + spare);
+  return out;
+}
+
+}  // namespace
+
+Bytes encode_chunk(std::span<const std::byte> chunk, std::size_t element_size) {
+  constexpr std::size_t checksum_size = 4;
+  Bytes encoded = deflated(shuffled(chunk, element_size), checksum_size);
+  const std::size_t size = encoded.size() - checksum_size;
+  const std::uint32_t checksum = fletcher32({encoded.data(), size});
+  std::memcpy(encoded.data() + size, &checksum, checksum_size);
+  return encoded;
+}
+
+std::uint32_t fletcher32(std::span<const std::byte> data) {
+  std::uint32_t sum1 = 0, sum2 = 0;
+  const auto add = [&](std::byte high, std::byte low) {
+    sum1 += std::to_integer<std::uint32_t>(high) << 8 | std::to_integer<std::uint32_t>(low);
+    sum2 += sum1;
+  };
+  const auto fold = [](std::uint32_t sum) { return (sum & 0xffff) + (sum >> 16); };
+  constexpr std::size_t block =
+      2 * 359;  // bytes; the sums of 360 words, one kept for an odd end, stay below 2^32
+  const std::size_t even = data.size() / 2 * 2;
+  for (std::size_t from = 0; from < even; from += block) {
+    sum1 = fold(sum1);
+    sum2 = fold(sum2);
+    for (std::size_t i = from; i < std::min(from + block, even); i += 2) add(data[i], data[i + 1]);
+  }
+  if (even < data.size()) add(data[even], std::byte{0});
+  // Twice: the first leaves a carry.
+  sum1 = fold(fold(sum1));
+  sum2 = fold(fold(sum2));
+  return sum2 << 16 | sum1;
+}
+
+}  // namespace frahm::results

@@ -1,0 +1,11 @@
+#pragma once
+
+// How a result file says what it is: attributes of its root. See FORMAT.md.
+namespace frahm::results {
+
+inline constexpr const char* format_attribute = "format";
+inline constexpr const char* format_name = "frahm";
+inline constexpr const char* version_attribute = "format_version";
+inline constexpr int format_version = 1;
+
+}  // namespace frahm::results

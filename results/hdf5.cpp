@@ -1,0 +1,251 @@
+#include "results/hdf5.hpp"
+
+#include <hdf5.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+
+#include "results/hdf5_call.hpp"
+#include "results/storage.hpp"
+#include "results/utf8.hpp"
+
+namespace frahm::results::hdf5 {
+namespace {
+
+static_assert(std::is_same_v<hid_t, std::int64_t>);
+
+// The deepest entry of HDF5's error stack says what really happened ("No such file or directory").
+std::string deepest_error() {
+  std::string cause;
+  const auto visit = [](unsigned depth, const H5E_error2_t* error, void* text) -> herr_t {
+    if (depth == 0 && error->desc != nullptr) *static_cast<std::string*>(text) = error->desc;
+    return 0;
+  };
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, visit, &cause);
+  return cause.substr(0, cause.find(", buf = "));  // addresses in memory tell nobody anything
+}
+
+// netCDF-4 orders its dimensions, variables and attributes by creation.
+constexpr unsigned in_creation_order = H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED;
+
+void order_by_creation(hid_t properties, const std::string& where) {
+  checked(H5Pset_link_creation_order(properties, in_creation_order), where,
+          "cannot track the order of links");
+  checked(H5Pset_attr_creation_order(properties, in_creation_order), where,
+          "cannot track the order of attributes");
+  // The same data give the same bytes: no times of modification.
+  checked(H5Pset_obj_track_times(properties, false), where, "cannot leave out times");
+}
+
+Handle file_access(const std::string& path) {
+  // First of all calls: HDF5 must not tidy up at the program's exit. Our handles have closed everything by
+  // then, and after a full disk HDF5's own attempt ends in a segmentation fault. (Called again, it does
+  // nothing.)
+  H5dont_atexit();
+  // Errors are thrown, not printed. (The setting is the calling thread's.)
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  Handle access(checked(H5Pcreate(H5P_FILE_ACCESS), path, "cannot open"));
+  // V18 stores texts above 64 KiB as attributes; nothing newer than 1.10 is needed to read the file.
+  checked(H5Pset_libver_bounds(access.get(), H5F_LIBVER_V18, H5F_LIBVER_V110), path,
+          "cannot set the file version");
+  // A file is written beside its name by one process and only then renamed, so HDF5's lock guards nothing; on
+  // network file systems without locks it would fail.
+  checked(H5Pset_file_locking(access.get(), false, true), path, "cannot switch locks off");
+  return access;
+}
+
+Handle string_type(std::size_t size, const std::string& where) {
+  Handle type(checked(H5Tcopy(H5T_C_S1), where, "cannot make a string type"));
+  checked(H5Tset_size(type.get(), std::max<std::size_t>(size, 1)), where, "cannot make a string type");
+  checked(H5Tset_strpad(type.get(), H5T_STR_NULLPAD), where, "cannot make a string type");
+  checked(H5Tset_cset(type.get(), H5T_CSET_UTF8), where, "cannot make a string type");
+  return type;
+}
+
+Handle open_attribute(hid_t object, const std::string& name, const std::string& where) {
+  return Handle(checked(H5Aopen(object, name.c_str(), H5P_DEFAULT), where, "cannot read attribute " + name));
+}
+
+// The text of an attribute that is a scalar string of fixed length.
+std::optional<std::string> text_of(hid_t attribute, const std::string& where) {
+  const Handle type(checked(H5Aget_type(attribute), where, "cannot read an attribute"));
+  const Handle space(checked(H5Aget_space(attribute), where, "cannot read an attribute"));
+  if (H5Tget_class(type.get()) != H5T_STRING || H5Tis_variable_str(type.get()) > 0 ||
+      H5Sget_simple_extent_type(space.get()) != H5S_SCALAR) {
+    return std::nullopt;
+  }
+  std::string text(H5Tget_size(type.get()), '\0');
+  checked(H5Aread(attribute, type.get(), text.data()), where, "cannot read an attribute");
+  text.resize(std::min(text.size(), text.find('\0')));
+  return text;
+}
+
+}  // namespace
+
+void fail(const std::string& where, const std::string& what) {
+  throw StoreError(where, what, deepest_error());
+}
+
+std::int64_t numeric_type(Type type) {
+  switch (type) {
+    case Type::float64:
+      return H5T_IEEE_F64LE;
+    case Type::float32:
+      return H5T_IEEE_F32LE;
+    case Type::int64:
+      return H5T_STD_I64LE;
+    case Type::int32:
+      return H5T_STD_I32LE;
+    case Type::flag:
+      return H5T_STD_I8LE;
+  }
+  throw std::logic_error("unknown results::Type");
+}
+
+Handle& Handle::operator=(Handle&& other) noexcept {
+  if (this != &other) {
+    Handle old(std::exchange(id_, other.release()));
+  }
+  return *this;
+}
+
+// Failures to write are met earlier, by File::close(); here there is nobody left to tell.
+Handle::~Handle() {
+  if (id_ >= 0) H5Idec_ref(id_);
+}
+
+std::int64_t Handle::release() noexcept {
+  return std::exchange(id_, -1);
+}
+
+std::string Object::name() const {
+  return where_.substr(where_.rfind('/') + 1);
+}
+
+void Object::write_text(const std::string& name, const std::string& text) {
+  check_utf8(name, text);
+  const std::string what = "cannot write attribute " + name;
+  const Handle type = string_type(text.size(), where_);
+  const Handle space(checked(H5Screate(H5S_SCALAR), where_, what));
+  const Handle attribute(checked(
+      H5Acreate2(id(), name.c_str(), type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT), where_, what));
+  checked(H5Awrite(attribute.get(), type.get(), text.c_str()), where_,
+          what);  // c_str(): one byte even if empty
+}
+
+void Object::write_numbers(const std::string& name, const Variable& as, std::span<const double> values) {
+  const std::string what = "cannot write attribute " + name;
+  const hid_t type = numeric_type(as.type);
+  const hsize_t size = values.size();
+  const Handle space(checked(H5Screate_simple(1, &size, nullptr), where_, what));
+  const Handle attribute(
+      checked(H5Acreate2(id(), name.c_str(), type, space.get(), H5P_DEFAULT, H5P_DEFAULT), where_, what));
+  checked(H5Awrite(attribute.get(), type, to_storage(as, values).data()), where_, what);
+}
+
+std::optional<std::string> Object::text(const std::string& name) const {
+  if (checked(H5Aexists(id(), name.c_str()), where_, "cannot look for attribute " + name) == 0)
+    return std::nullopt;
+  return text_of(open_attribute(id(), name, where_).get(), where_);
+}
+
+std::optional<std::vector<double>> Object::numbers(const std::string& name) const {
+  const std::string what = "cannot read attribute " + name;
+  if (checked(H5Aexists(id(), name.c_str()), where_, what) == 0) return std::nullopt;
+  const Handle attribute = open_attribute(id(), name, where_);
+  const Handle space(checked(H5Aget_space(attribute.get()), where_, what));
+  std::vector<double> values(
+      static_cast<std::size_t>(checked(H5Sget_simple_extent_npoints(space.get()), where_, what)));
+  checked(H5Aread(attribute.get(), H5T_NATIVE_DOUBLE, values.data()), where_, what);
+  return values;
+}
+
+std::vector<Text> Object::texts() const {
+  std::vector<std::string> names;
+  const auto visit = [](hid_t, const char* name, const H5A_info_t*, void* list) -> herr_t {
+    static_cast<std::vector<std::string>*>(list)->emplace_back(name);
+    return 0;
+  };
+  hsize_t position = 0;
+  checked(H5Aiterate2(id(), H5_INDEX_CRT_ORDER, H5_ITER_INC, &position, visit, &names), where_,
+          "cannot list the attributes");
+  std::vector<Text> texts;
+  for (const std::string& attribute : names) {
+    if (auto value = text(attribute)) texts.emplace_back(attribute, std::move(*value));
+  }
+  return texts;
+}
+
+std::string Group::path_of(const std::string& name) const {
+  return where_.back() == '/' ? where_ + name : where_ + "/" + name;
+}
+
+bool Group::has(const std::string& name) const {
+  return checked(H5Lexists(id(), name.c_str(), H5P_DEFAULT), where_, "cannot look for " + name) > 0;
+}
+
+bool Group::has_dataset(const std::string& name) const {
+  if (!has(name)) return false;
+  H5O_info_t info;
+  checked(H5Oget_info_by_name2(id(), name.c_str(), &info, H5O_INFO_BASIC, H5P_DEFAULT), path_of(name),
+          "cannot open");
+  return info.type == H5O_TYPE_DATASET;
+}
+
+std::vector<std::string> Group::dataset_names() const {
+  std::vector<std::string> names;
+  const auto visit = [](hid_t, const char* name, const H5L_info_t*, void* list) -> herr_t {
+    static_cast<std::vector<std::string>*>(list)->emplace_back(name);
+    return 0;
+  };
+  checked(H5Literate(id(), H5_INDEX_CRT_ORDER, H5_ITER_INC, nullptr, visit, &names), where_,
+          "cannot list the group");
+  std::erase_if(names, [&](const std::string& link) { return !has_dataset(link); });
+  return names;
+}
+
+Group Group::create_group(const std::string& name) {
+  const std::string path = path_of(name);
+  const Handle properties(checked(H5Pcreate(H5P_GROUP_CREATE), path, "cannot create"));
+  order_by_creation(properties.get(), path);
+  return Group(Handle(checked(H5Gcreate2(id(), name.c_str(), H5P_DEFAULT, properties.get(), H5P_DEFAULT),
+                              path, "cannot create the group")),
+               path);
+}
+
+Group Group::group(const std::string& name) const {
+  const std::string path = path_of(name);
+  return Group(Handle(checked(H5Gopen2(id(), name.c_str(), H5P_DEFAULT), path, "cannot open the group")),
+               path);
+}
+
+File File::create(const std::filesystem::path& path) {
+  const Handle access = file_access(path.string());
+  const Handle properties(checked(H5Pcreate(H5P_FILE_CREATE), path.string(), "cannot create"));
+  order_by_creation(properties.get(), path.string());
+  return File(Handle(checked(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, properties.get(), access.get()),
+                             path.string(), "cannot create the file")),
+              path.string());
+}
+
+File File::open(const std::filesystem::path& path) {
+  const Handle access = file_access(path.string());
+  return File(Handle(checked(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()), path.string(),
+                             "cannot open the file")),
+              path.string());
+}
+
+Group File::root() const {
+  return Group(
+      Handle(checked(H5Gopen2(handle_.get(), "/", H5P_DEFAULT), path_, "cannot open the root group")),
+      path_ + ":/");
+}
+
+void File::close() {
+  checked(H5Fflush(handle_.get(), H5F_SCOPE_GLOBAL), path_, "cannot write");
+  checked(H5Fclose(handle_.release()), path_, "cannot close");
+}
+
+}  // namespace frahm::results::hdf5

@@ -1,0 +1,127 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "results/box.hpp"
+#include "results/layout.hpp"
+
+// HDF5 by its own nouns: file, group, dataset, attribute, dimension scale. Only hdf5.cpp and hdf5_dataset.cpp
+// know the library. Every failure of it is thrown as StoreError with the object concerned and HDF5's own
+// reason.
+namespace frahm::results::hdf5 {
+
+// The owner of one HDF5 identifier (hid_t).
+class Handle {
+ public:
+  Handle() = default;
+  explicit Handle(std::int64_t id) : id_(id) {}
+  Handle(Handle&& other) noexcept : id_(other.release()) {}
+  Handle& operator=(Handle&& other) noexcept;
+  ~Handle();
+
+  std::int64_t get() const { return id_; }
+  std::int64_t release() noexcept;  // gives the identifier away
+
+ private:
+  std::int64_t id_ = -1;
+};
+
+// What carries attributes: a group or a dataset.
+class Object {
+ public:
+  const std::string& where() const { return where_; }  // "atlas.h5:/orbits/time", for messages
+  std::string name() const;                            // the last part of its path
+
+  // A scalar UTF-8 string of fixed length. std::invalid_argument if `text` is not UTF-8 or contains a zero
+  // byte.
+  void write_text(const std::string& name, const std::string& text);
+  void write_numbers(const std::string& name, const Variable& as,
+                     std::span<const double> values);  // shape [n]
+
+  std::optional<std::string> text(const std::string& name) const;             // if there is such an attribute
+  std::optional<std::vector<double>> numbers(const std::string& name) const;  // if there is such an attribute
+  std::vector<Text> texts() const;  // every scalar string attribute, in order of creation
+
+ protected:
+  Object(Handle handle, std::string where) : handle_(std::move(handle)), where_(std::move(where)) {}
+  std::int64_t id() const { return handle_.get(); }
+
+  Handle handle_;
+  std::string where_;
+};
+
+// How a dataset is kept.
+struct Storage {
+  Type type = Type::float64;
+  Shape shape = {};      // empty: a single number
+  Shape chunk = {};      // shuffle, deflate and fletcher32 by chunk; empty: contiguous, unfiltered
+  bool growing = false;  // its first dimension is unlimited (needs a chunk)
+};
+
+class Dataset : public Object {
+ public:
+  Type type() const;
+  Shape shape() const;
+  Shape chunk() const;  // empty if contiguous
+
+  // A box of the dataset. Start and count are empty for a single number.
+  void write(std::span<const std::uint64_t> start, std::span<const std::uint64_t> count,
+             std::span<const std::byte> elements);  // as stored
+  std::vector<double> read(std::span<const std::uint64_t> start, std::span<const std::uint64_t> count) const;
+
+  // The elements of a box, as stored, to the first corner of an array of shape `to_shape`, which it fits.
+  void read_elements(const Box& box, std::span<std::byte> to, const Shape& to_shape) const;
+
+  void write_chunk(std::span<const std::uint64_t> start,
+                   std::span<const std::byte> encoded);  // see encode_chunk
+  void grow(std::uint64_t size);                         // sets the size of the unlimited dimension
+
+  void make_scale();  // this becomes the dimension scale of its own name
+  bool is_scale() const;
+  void attach_scale(unsigned axis, const Dataset& scale);
+  std::string scale_name(unsigned axis) const;  // empty if none is attached
+
+ private:
+  friend class Group;
+  using Object::Object;
+};
+
+class Group : public Object {
+ public:
+  bool has(const std::string& name) const;
+  bool has_dataset(const std::string& name) const;
+  std::vector<std::string> dataset_names() const;  // in order of creation
+
+  Group create_group(const std::string& name);
+  Group group(const std::string& name) const;
+  Dataset create_dataset(const std::string& name, const Storage& storage);
+  Dataset dataset(const std::string& name) const;
+
+ private:
+  friend class File;
+  using Object::Object;
+  std::string path_of(const std::string& name) const;
+};
+
+class File {
+ public:
+  static File create(const std::filesystem::path& path);  // replaces what is there
+  static File open(const std::filesystem::path& path);    // to read
+
+  Group root() const;
+  void close();  // everything written is with the operating system, or StoreError
+
+ private:
+  File(Handle handle, std::string path) : handle_(std::move(handle)), path_(std::move(path)) {}
+  Handle handle_;
+  std::string path_;
+};
+
+}  // namespace frahm::results::hdf5

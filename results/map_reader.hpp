@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "results/hdf5.hpp"
+#include "results/layout.hpp"
+
+namespace frahm::results {
+
+// Reads a result file (FORMAT.md). Throws StoreError if it cannot be opened, is not one of ours, is of a
+// newer format, or where its data are damaged (each chunk carries a checksum).
+class MapReader {
+ public:
+  explicit MapReader(const std::filesystem::path& path);
+
+  // What the file holds; the chunk is that of its variables, and empty if there are none.
+  const MapLayout& layout() const { return layout_; }
+
+  // A box of a variable (index into layout().variables), row-major, in its unit; missing values as stored:
+  // NaN in floats, -1 in integers, 0 in flags. Throws std::invalid_argument for a box outside the map.
+  std::vector<double> read(std::size_t variable, std::span<const std::uint64_t> start,
+                           std::span<const std::uint64_t> count) const;
+
+  bool has_group(const std::string& name) const;
+
+  // The texts of a group ("provenance"), in order of writing. StoreError if there is no such group.
+  std::vector<Text> texts(const std::string& group) const;
+
+  // All numbers and columns of a group, its indices left out: dimension scales first, then in order of
+  // writing. In ragged groups row i has the samples row_start[i] <= s < row_start[i + 1], the last row those
+  // up to the end. StoreError if there is no such group.
+  std::vector<Column> columns(const std::string& group) const;
+
+ private:
+  hdf5::File file_;
+  MapLayout layout_;
+  std::vector<hdf5::Dataset> datasets_;  // of the variables
+};
+
+}  // namespace frahm::results

@@ -1,0 +1,160 @@
+#include "results/map_writer.hpp"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+
+#include "results/format.hpp"
+#include "results/storage.hpp"
+#include "results/variable_io.hpp"
+
+namespace frahm::results {
+namespace {
+
+constexpr std::size_t open_chunk_memory = std::size_t{256}
+                                          << 20;  // [bytes] of partly filled chunks, all variables
+
+// Names of the coordinates that are not dimensions, as CF's attribute `coordinates` lists them.
+std::string auxiliary_coordinates(const MapLayout& layout) {
+  std::string names;
+  for (const Axis& axis : layout.axes) {
+    for (const Coordinate& coordinate : axis.coordinates) {
+      if (coordinate.name != axis.name) names += (names.empty() ? "" : " ") + coordinate.name;
+    }
+  }
+  return names;
+}
+
+void describe_file(hdf5::Group& root, const MapLayout& layout, const std::string& auxiliary) {
+  root.write_text("Conventions", "CF-1.10");
+  root.write_text("title", layout.title);
+  root.write_text("source", layout.source);
+  root.write_text("history", layout.history);
+  root.write_text(format_attribute, format_name);
+  const double version = format_version;
+  root.write_numbers(version_attribute, {.name = version_attribute, .type = Type::int32}, {&version, 1});
+  if (!auxiliary.empty()) root.write_text("coordinates", auxiliary);
+}
+
+// A coordinate, or the index of an axis, along one axis.
+hdf5::Dataset write_line(hdf5::Group& root, const Variable& variable, std::span<const double> values) {
+  const Shape size{values.size()};
+  hdf5::Dataset dataset = root.create_dataset(variable.name, {.type = variable.type, .shape = size});
+  describe(dataset, variable, false);
+  dataset.write(Shape{0}, size, to_storage(variable, values));
+  return dataset;
+}
+
+Variable as_variable(const Coordinate& coordinate) {
+  return {.name = coordinate.name, .unit = coordinate.unit, .long_name = coordinate.long_name};
+}
+
+void write_scale(hdf5::Group& root, const Axis& axis) {
+  const auto own = std::find_if(axis.coordinates.begin(), axis.coordinates.end(),
+                                [&](const Coordinate& coordinate) { return coordinate.name == axis.name; });
+  if (own != axis.coordinates.end()) {
+    write_line(root, as_variable(*own), own->values).make_scale();
+    return;
+  }
+  std::vector<double> index(axis.size);
+  std::iota(index.begin(), index.end(), 0.0);
+  write_line(root, index_variable(axis.name), index).make_scale();
+}
+
+void write_auxiliary_coordinates(hdf5::Group& root, const Axis& axis) {
+  const hdf5::Dataset scale = root.dataset(axis.name);
+  for (const Coordinate& coordinate : axis.coordinates) {
+    if (coordinate.name == axis.name) continue;
+    write_line(root, as_variable(coordinate), coordinate.values).attach_scale(0, scale);
+  }
+}
+
+}  // namespace
+
+MapWriter::MapWriter(const std::filesystem::path& path, const MapLayout& layout)
+    : part_(path), file_(hdf5::File::create((check(layout), part_.part()))), variables_(layout.variables) {
+  hdf5::Group root = file_.root();
+  const std::string auxiliary = auxiliary_coordinates(layout);
+  describe_file(root, layout, auxiliary);
+  // All scales before any other coordinate: netCDF orders its dimensions by the creation of their scales.
+  for (const Axis& axis : layout.axes) write_scale(root, axis);
+  for (const Axis& axis : layout.axes) write_auxiliary_coordinates(root, axis);
+  create_variables(root, layout, auxiliary);
+}
+
+void MapWriter::create_variables(hdf5::Group& root, const MapLayout& layout, const std::string& auxiliary) {
+  Shape chunk = layout.chunk;
+  for (std::size_t k = 0; k < chunk.size(); ++k) {
+    shape_.push_back(layout.axes[k].size);
+    chunk[k] = std::min(chunk[k], shape_[k]);
+  }
+  for (const Variable& variable : variables_) {
+    hdf5::Dataset dataset =
+        root.create_dataset(variable.name, {.type = variable.type, .shape = shape_, .chunk = chunk});
+    describe(dataset, variable, true);
+    if (!auxiliary.empty()) dataset.write_text("coordinates", auxiliary);
+    for (unsigned k = 0; k < shape_.size(); ++k) dataset.attach_scale(k, root.dataset(layout.axes[k].name));
+    const std::size_t chunks_memory = variables_.size() * product(chunk) * element_size(variable.type);
+    arrays_.emplace_back(std::move(dataset), std::max<std::size_t>(1, open_chunk_memory / chunks_memory));
+  }
+}
+
+void MapWriter::write_block(std::size_t variable, std::span<const std::uint64_t> start,
+                            std::span<const std::uint64_t> count, std::span<const double> values) {
+  if (variable >= arrays_.size()) {
+    throw std::invalid_argument(fmt::format("variable {}: must be below {}", variable, arrays_.size()));
+  }
+  const std::string& name = variables_[variable].name;
+  const Box block{{start.begin(), start.end()}, {count.begin(), count.end()}};
+  check_within(name, block, shape_);
+  if (values.size() != product(count)) {
+    throw std::invalid_argument(fmt::format("{}: {} values for a block of {}", name, values.size(), count));
+  }
+  if (values.empty()) return;
+  arrays_[variable].write(block, to_storage(variables_[variable], values));
+}
+
+hdf5::Group MapWriter::group(const std::string& name) {
+  hdf5::Group root = file_.root();
+  return root.has(name) ? root.group(name) : root.create_group(name);
+}
+
+void MapWriter::write_texts(const std::string& name, const std::vector<Text>& texts) {
+  hdf5::Group to = group(name);
+  for (const auto& [text_name, text] : texts) to.write_text(text_name, text);
+}
+
+void MapWriter::write_columns(const std::string& name, const std::vector<Column>& columns) {
+  check(columns);
+  hdf5::Group to = group(name);
+  results::write_columns(to, columns);
+}
+
+std::size_t MapWriter::create_ragged(const RaggedLayout& layout) {
+  check(layout);
+  tables_.emplace_back(group(layout.group), layout);
+  return tables_.size() - 1;
+}
+
+void MapWriter::append_ragged(std::size_t table, std::span<const double> row,
+                              std::span<const std::vector<double>> samples) {
+  if (table >= tables_.size()) {
+    throw std::invalid_argument(fmt::format("table {}: must be below {}", table, tables_.size()));
+  }
+  tables_[table].append(row, samples);
+}
+
+void MapWriter::finish() {
+  for (ChunkedArray& array : arrays_) array.flush();
+  for (RaggedTable& table : tables_) table.flush();
+  // HDF5 closes the file with its last object.
+  arrays_.clear();
+  tables_.clear();
+  file_.close();
+  part_.publish();
+}
+
+}  // namespace frahm::results

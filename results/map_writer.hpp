@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "results/chunked_array.hpp"
+#include "results/columns.hpp"
+#include "results/hdf5.hpp"
+#include "results/layout.hpp"
+#include "results/part_file.hpp"
+
+namespace frahm::results {
+
+// Writes one result file (FORMAT.md): as <path>.part beside its place until finish() puts it there in one
+// step. A writer destroyed before leaves nothing behind. Two writers of one path are the caller's to prevent.
+//
+// Memory is bounded whatever the size of the map: a few chunks of each variable, 256 MiB at most, or one
+// chunk of each variable if those are more. Blocks may come in any order, those that are unions of whole
+// chunks fastest; the bytes of the file depend on that order only.
+//
+// Errors: StoreError where the file cannot be written; std::invalid_argument, naming the thing, its value and
+// the rule, for what must not be in it. Not thread-safe.
+class MapWriter {
+ public:
+  MapWriter(const std::filesystem::path& path, const MapLayout& layout);
+
+  // values: one for each point of the box (start and count: one number for each axis), row-major, in the
+  // variable's unit, missing ones as NaN for floats, -1 for integers, 0 for flags.  variable: index into
+  // MapLayout::variables. A point never written is missing, one written twice has the later value.
+  void write_block(std::size_t variable, std::span<const std::uint64_t> start,
+                   std::span<const std::uint64_t> count, std::span<const double> values);
+
+  // Texts, UTF-8 of any length, as attributes of a group, which is made if need be: /provenance.
+  void write_texts(const std::string& group, const std::vector<Text>& texts);
+
+  // Numbers and columns of a group, which is made if need be, once a group: /optimum, /identification,
+  // /decay, /transient.
+  void write_columns(const std::string& group, const std::vector<Column>& columns);
+
+  // A group of rows that arrive one by one: /orbits, /borders. Returns its number, for append_ragged().
+  std::size_t create_ragged(const RaggedLayout& layout);
+
+  // row: one number for each of RaggedLayout::row_variables.  samples: for each of ::sample_variables the
+  // row's stretch of values, all of one length.
+  void append_ragged(std::size_t table, std::span<const double> row,
+                     std::span<const std::vector<double>> samples = {});
+
+  void finish();  // the file is complete, on the disk and at its path; nothing is written after
+
+ private:
+  void create_variables(hdf5::Group& root, const MapLayout& layout, const std::string& auxiliary);
+  hdf5::Group group(const std::string& name);
+
+  PartFile part_;
+  hdf5::File file_;
+  std::vector<Variable> variables_;
+  Shape shape_;                       // of the map
+  std::vector<ChunkedArray> arrays_;  // one for each variable
+  std::vector<RaggedTable> tables_;
+};
+
+}  // namespace frahm::results

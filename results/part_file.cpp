@@ -1,0 +1,45 @@
+#include "results/part_file.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <system_error>
+
+#include "results/store_error.hpp"
+
+namespace frahm::results {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& path, const char* what, int error) {
+  throw StoreError(path.string(), what, std::strerror(error));
+}
+
+void sync(const std::filesystem::path& path, int flags) {
+  const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC);
+  if (descriptor < 0) fail(path, "cannot open to sync", errno);
+  const int error = ::fsync(descriptor) == 0 ? 0 : errno;
+  ::close(descriptor);
+  // Some file systems cannot sync a directory and say EINVAL: there is nothing more to do then.
+  if (error != 0 && !(error == EINVAL && (flags & O_DIRECTORY))) fail(path, "cannot sync", error);
+}
+
+}  // namespace
+
+PartFile::~PartFile() {
+  if (published_) return;
+  std::error_code none;  // a part that could not be made need not be removed
+  std::filesystem::remove(part_, none);
+}
+
+void PartFile::publish() {
+  sync(part_, O_RDWR);
+  if (std::rename(part_.c_str(), path_.c_str()) != 0) fail(path_, "cannot rename the part to it", errno);
+  published_ = true;
+  const std::filesystem::path directory = path_.parent_path();
+  sync(directory.empty() ? "." : directory, O_RDONLY | O_DIRECTORY);
+}
+
+}  // namespace frahm::results

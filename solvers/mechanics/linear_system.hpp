@@ -1,0 +1,89 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <stdexcept>
+#include <vector>
+
+#include "solvers/mechanics/network.hpp"
+
+namespace frahm::mechanics {
+
+// A value that breaks a rule of the mechanics; what() names the thing, its value and the rule.
+class MechanicsError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// How an element acts: u = w^T q + p^T y, with q the displacements of the masses and y those of the
+// prescribed nodes. +1 at node b, -1 at node a.
+struct Incidence {
+  Eigen::VectorXd w;  // size n
+  Eigen::VectorXd p;  // size of Network::prescribed
+};
+Incidence incidence(const Network& network, const Element& element);
+
+// The place of a Coulomb element in a friction contact. Elements between the same two nodes act as one
+// contact, whose limit is the sum of theirs; each carries the share F_j / sum F of its force.
+struct ContactShare {
+  std::size_t contact = 0;  // index of the contact
+  double orientation = 1;   // +1 if the element points as the contact does, -1 otherwise
+};
+
+// Equation of motion of a network of n masses, p prescribed nodes and m friction contacts:
+//
+//   M q'' + C q' + K q = f(t) - sum_j w_j lambda_j,   lambda_j in F_j Sgn(w_j^T q' + p_j^T y')
+//   y(t) = y_0 + Re sum_k Y_k e^{i order_k omega t}
+//   f(t) = f_0 + Re sum_k f_k e^{i order_k omega t}, which includes what the prescribed nodes exert
+//
+// Shapes: M, C, K n x n; M_support, C_support, K_support n x p; W n x m; W_support p x m.
+struct LinearSystem {
+  double omega = 0.0;  // [rad/s]
+  Eigen::MatrixXd M, C, K;
+  Eigen::MatrixXd M_support, C_support, K_support;  // blocks that couple masses to prescribed nodes
+  Eigen::MatrixXd W, W_support;                     // directions of the friction contacts
+  Eigen::VectorXd limit;                            // F_j [N] of each contact
+  std::vector<int> orders;                          // > 0, ascending: of the excitation, and the reference order
+  bool odd_forcing = false;                         // every component of the excitation has an odd order
+  Eigen::VectorXd constant_force;                   // f_0 [N], size n
+  Eigen::MatrixXcd force;                           // column k is f_k [N]
+  Eigen::VectorXd constant_applied_force;           // the part of f_0 that acts on the masses from outside
+  Eigen::MatrixXcd applied_force;                   // the part of f_k that does
+  Eigen::VectorXd constant_motion;                  // y_0 [m], size p
+  Eigen::MatrixXcd motion;                          // column k is Y_k [m]
+
+  Eigen::Index masses() const { return M.rows(); }
+  Eigen::Index contacts() const { return limit.size(); }
+
+};
+
+// Builds LinearSystems of one network. Topology is worked out once; `set_values` and `set_forcing` only fill
+// numbers in and do not allocate after the first call.
+class Assembly {
+ public:
+  explicit Assembly(const Network& network);  // keeps a copy; throws MechanicsError
+
+  // Element and mass values -> matrices and friction limits.
+  // Throws MechanicsError where a value is out of range or M or K is not positive definite.
+  void set_values(const NetworkValues& values, LinearSystem& system) const;
+
+  // Excitation values and omega -> forcing; `system` must hold the matrices of the same values.
+  void set_forcing(const NetworkValues& values, LinearSystem& system) const;
+
+  const Network& network() const { return network_; }
+  const std::vector<Incidence>& incidences() const { return incidences_; }  // of each element
+  const std::vector<ContactShare>& shares() const { return shares_; }       // of each element (coulomb only)
+  const std::vector<int>& orders() const { return orders_; }
+  std::size_t contacts() const { return contacts_; }
+
+ private:
+  void check_values(const NetworkValues& values) const;
+
+  Network network_;
+  std::vector<Incidence> incidences_;
+  std::vector<ContactShare> shares_;
+  std::vector<int> orders_;
+  bool odd_forcing_ = true;
+  std::size_t contacts_ = 0;
+};
+
+}  // namespace frahm::mechanics

@@ -1,0 +1,121 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "solvers/periodic/linear_form.hpp"
+#include "solvers/periodic/orbit_steps.hpp"
+
+// The largest and least value of a quantity over an orbit: stationary points solved, never the largest sample,
+// and both one-sided limits wherever the mode changes.
+namespace frahm::periodic {
+
+struct Extremes {
+  double most = -std::numeric_limits<double>::infinity();
+  double least = std::numeric_limits<double>::infinity();
+  double most_phase = 0.0, least_phase = 0.0;  // omega t in [0, 2 pi) at which each is first reached
+
+  double magnitude() const { return std::fmax(std::abs(most), std::abs(least)); }
+};
+
+// The angle in [0, 2 pi); an angle within 1e-9 of 2 pi is 0.
+inline double whole_turns_removed(double phase) {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  const double angle = phase - kTurn * std::floor(phase / kTurn);
+  return angle > kTurn - 1e-9 ? 0.0 : angle;
+}
+
+// Keeps the extremes among candidates; of equal ones (to 1e-12) the earliest in omega t.
+class ExtremeCollector {
+ public:
+  ExtremeCollector(double section, double rate) : section_(section), rate_(rate) {}
+
+  // `reached`: the value is arrived at here, not held from before.
+  void consider(double value, double at, bool reached) {
+    extremes_.most = std::fmax(extremes_.most, value);
+    extremes_.least = std::fmin(extremes_.least, value);
+    if (!reached) return;
+    update(most_reached_, extremes_.most_phase, value, at);
+    update(least_reached_, extremes_.least_phase, -value, at);
+  }
+  const Extremes& extremes() const { return extremes_; }
+
+ private:
+  void update(double& reached, double& reached_phase, double value, double at) const {
+    constexpr double kEqual = 1e-12;
+    const double phase = whole_turns_removed(section_ + at * rate_);
+    const double tie = kEqual * std::abs(value);
+    if (value < reached - tie || (value <= reached + tie && phase >= reached_phase)) return;
+    reached = std::fmax(reached, value);
+    reached_phase = phase;
+  }
+
+  double section_, rate_;
+  double most_reached_ = -std::numeric_limits<double>::infinity();
+  double least_reached_ = -std::numeric_limits<double>::infinity();
+  Extremes extremes_;
+};
+
+// Interior stationary values of a form over one step, where they could matter.
+template <int N, int H>
+void consider_interior(const OrbitSteps<N, H>& orbit, OrbitStep<N, H>& step, const LinearForm<N, H>& form,
+                       ValueAndSlope left, ValueAndSlope right, ExtremeCollector& collector) {
+  // Bernstein coefficients of the cubic Hermite interpolant bound it; the fourth derivative adds less than `slack`.
+  const double b1 = left.value + left.slope * step.length / 3.0, b2 = right.value - right.slope * step.length / 3.0;
+  const double slack = 0.02 * step.length * (std::abs(left.slope) + std::abs(right.slope));
+  const Extremes& so_far = collector.extremes();
+  if (std::fmax(b1, b2) + slack <= so_far.most && std::fmin(b1, b2) - slack >= so_far.least) return;
+  // Slopes of one sign and a secant steep enough: monotone (Fritsch and Carlson 1980).
+  const double rise = right.value - left.value;
+  const bool monotone = left.slope * right.slope > 0.0 && rise * left.slope > 0.0 &&
+                        (std::abs(left.slope) + std::abs(right.slope)) * step.length < 2.8 * std::abs(rise);
+  if (monotone) return;
+  const Polynomial p = form.polynomial(orbit.expand(step));
+  const Roots stationary = sign_changes(derivative(p));
+  for (int i = 0; i < stationary.count; ++i) {
+    const double s = stationary.at[static_cast<std::size_t>(i)];
+    if (s <= step.length) collector.consider(evaluate(p, s), step.start + s, true);
+  }
+}
+
+// `form_of(mode)` gives the quantity's form in a mode.
+template <int N, int H, class FormOf>
+Extremes find_extremes(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow, double section, const FormOf& form_of) {
+  ExtremeCollector collector(section, flow.fundamental_rate());
+  LinearForm<N, H> form;
+  bool starts_segment = true;
+  double at_segment_start = 0.0;
+  for (OrbitStep<N, H>& step : orbit.steps()) {
+    if (starts_segment) form = form_of(flow.mode(step.mode));
+    const ValueAndSlope left = form.at(step.left), right = form.at(step.right);
+    if (starts_segment) {
+      at_segment_start = left.value;
+      collector.consider(left.value, step.start, false);
+    }
+    consider_interior(orbit, step, form, left, right, collector);
+    if (step.ends_segment) {
+      const bool held = std::abs(right.value - at_segment_start) <= 1e-13 * std::abs(right.value);
+      const bool is_section = &step == &orbit.steps().back();
+      collector.consider(right.value, step.start + step.length, !held && !is_section);
+    }
+    starts_segment = step.ends_segment;
+  }
+  return collector.extremes();
+}
+
+// The extremes over the whole period of an orbit of which half is known: x(t + T/2) = -x(t).
+inline Extremes mirrored(const Extremes& half) {
+  constexpr double kEqual = 1e-12;
+  Extremes whole;
+  whole.most = half.magnitude();
+  whole.least = -whole.most;
+  const double turned = whole_turns_removed(half.least_phase + std::numbers::pi);
+  const double difference = half.most + half.least;  // most - |least|
+  if (std::abs(difference) <= kEqual * whole.most) whole.most_phase = std::fmin(half.most_phase, turned);
+  else whole.most_phase = difference > 0.0 ? half.most_phase : turned;
+  whole.least_phase = whole_turns_removed(whole.most_phase + std::numbers::pi);
+  return whole;
+}
+
+}  // namespace frahm::periodic

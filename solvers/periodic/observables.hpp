@@ -1,0 +1,87 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "solvers/periodic/contact_history.hpp"
+#include "solvers/periodic/extremes.hpp"
+#include "solvers/periodic/integrals.hpp"
+#include "solvers/periodic/quantity.hpp"
+#include "solvers/periodic/resonance.hpp"
+
+// From an orbit to the quantities asked for, and to no others.
+namespace frahm::periodic {
+
+template <int N, int H>
+class Observables {
+ public:
+  using S = Sizes<N, H>;
+  using Form = LinearForm<N, H>;
+
+  // `assembly` and `flow` must outlive the observables.
+  Observables(const mechanics::Assembly& assembly, const Flow<N, H>& flow, std::vector<Quantity> quantities);
+
+  bool needs_stability() const { return needs_stability_; }
+  std::size_t size() const { return quantities_.size(); }
+
+  // Frequencies and damping of the linear modes, when the matrices have changed.
+  void set_system(const mechanics::LinearSystem& system);
+
+  // out[i] is quantity i; `element_values` are those of the network.
+  void evaluate(const Orbit<N, H>& orbit, const mechanics::LinearSystem& system,
+                const std::vector<double>& element_values, std::span<double> out);
+  // For a point without a response.
+  void fill_missing(Status status, std::span<double> out) const;
+
+ private:
+  // A quantity whose extremes are wanted.
+  struct Trace {
+    Measure measure;  // amplitude (displacements of masses and elements), velocity_peak, acceleration_peak, force_peak, transmitted_force
+    mechanics::Incidence at;
+    std::size_t element = 0;
+    mechanics::Node node;
+    Extremes extremes;
+  };
+
+  void plan(const Quantity& quantity);
+  std::size_t trace_of(Trace trace);
+  mechanics::Incidence incidence_of_mass(std::size_t mass) const;
+  Form form_of(const Trace& trace, const Mode<N, H>& mode) const;
+  void integrate(const Orbit<N, H>& orbit);
+  void balance_energy();
+  double phase_of(const Form& form, double magnitude) const;
+  ContactHistory history_of(std::size_t contact) const;
+  double element_energy(std::size_t element) const;
+  double value_of(std::size_t place) const;
+  double value_of_mass(std::size_t place) const;
+  double value_of_element(std::size_t place) const;
+  double value_of_point(const Quantity& quantity) const;
+
+  const mechanics::Assembly& assembly_;
+  const Flow<N, H>& flow_;
+  Forms<N, H> forms_;
+  std::vector<Quantity> quantities_;
+  std::vector<std::size_t> trace_index_;  // of each quantity
+  std::vector<Trace> traces_;
+  bool needs_integrals_ = false, needs_histories_ = false, needs_stability_ = false, needs_modes_ = false;
+  std::vector<double> natural_frequency_, modal_damping_;
+
+  // Of the orbit in hand.
+  OrbitSteps<N, H> steps_;
+  Integrals<N, H> integrals_;
+  std::vector<ContactHistory> histories_;
+  const Orbit<N, H>* orbit_ = nullptr;
+  const mechanics::LinearSystem* system_ = nullptr;
+  const std::vector<double>* element_values_ = nullptr;
+  double dissipated_ = 0.0;
+};
+
+// Undamped frequencies [rad/s], ascending, and phi^T C phi / (2 omega phi^T M phi) of each mode phi.
+void modes_of(const mechanics::LinearSystem& system, std::vector<double>& frequency, std::vector<double>& damping);
+
+}  // namespace frahm::periodic
+
+#include "solvers/periodic/observables.ipp"

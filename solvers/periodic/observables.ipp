@@ -1,0 +1,310 @@
+// Included by observables.hpp.
+namespace frahm::periodic {
+
+template <int N, int H>
+Observables<N, H>::Observables(const mechanics::Assembly& assembly, const Flow<N, H>& flow,
+                               std::vector<Quantity> quantities)
+    : assembly_(assembly), flow_(flow), forms_(assembly, flow), quantities_(std::move(quantities)), steps_(flow) {
+  for (const Quantity& quantity : quantities_) plan(quantity);
+}
+
+template <int N, int H>
+mechanics::Incidence Observables<N, H>::incidence_of_mass(std::size_t mass) const {
+  const auto& network = assembly_.network();
+  mechanics::Incidence at{Eigen::VectorXd::Zero(static_cast<Eigen::Index>(network.masses.size())),
+                          Eigen::VectorXd::Zero(static_cast<Eigen::Index>(network.prescribed.size()))};
+  at.w[static_cast<Eigen::Index>(mass)] = 1.0;
+  return at;
+}
+
+template <int N, int H>
+std::size_t Observables<N, H>::trace_of(Trace trace) {
+  for (std::size_t i = 0; i < traces_.size(); ++i) {
+    const Trace& other = traces_[i];
+    if (other.measure == trace.measure && other.at.w == trace.at.w && other.at.p == trace.at.p &&
+        other.element == trace.element && other.node == trace.node) {
+      return i;
+    }
+  }
+  traces_.push_back(std::move(trace));
+  return traces_.size() - 1;
+}
+
+// What has to be worked out for a quantity.
+template <int N, int H>
+void Observables<N, H>::plan(const Quantity& quantity) {
+  std::size_t trace = 0;
+  switch (quantity.measure) {
+    case Measure::amplitude:
+    case Measure::peak:
+    case Measure::peak_phase:
+      trace = trace_of({Measure::amplitude, incidence_of_mass(quantity.index), 0, {}, {}});
+      break;
+    case Measure::velocity_peak:
+    case Measure::acceleration_peak:
+      trace = trace_of({quantity.measure, incidence_of_mass(quantity.index), 0, {}, {}});
+      break;
+    case Measure::stroke:
+      trace = trace_of({Measure::amplitude, assembly_.incidences()[quantity.index], 0, {}, {}});
+      break;
+    case Measure::force_peak:
+      trace = trace_of({quantity.measure, {}, quantity.index, {}, {}});
+      break;
+    case Measure::transmitted_force: {
+      mechanics::Node node;
+      if (quantity.index > 0) node = {mechanics::NodeKind::prescribed, quantity.index - 1};
+      trace = trace_of({quantity.measure, {}, 0, node, {}});
+      break;
+    }
+    case Measure::phase:
+      trace = trace_of({Measure::amplitude, incidence_of_mass(quantity.index), 0, {}, {}});
+      needs_integrals_ = true;
+      break;
+    case Measure::element_phase:
+      trace = trace_of({Measure::amplitude, assembly_.incidences()[quantity.index], 0, {}, {}});
+      needs_integrals_ = true;
+      break;
+    case Measure::mean:
+    case Measure::rms: needs_integrals_ = true; break;
+    case Measure::energy:
+    case Measure::energy_share:
+    case Measure::energy_input:
+    case Measure::energy_balance: needs_integrals_ = needs_histories_ = true; break;
+    case Measure::stops:
+    case Measure::reversals:
+    case Measure::stuck_fraction:
+    case Measure::regime: needs_histories_ = true; break;
+    case Measure::floquet_radius:
+    case Measure::error_bound: needs_stability_ = true; break;
+    case Measure::natural_frequency:
+    case Measure::modal_damping: needs_modes_ = true; break;
+    case Measure::status:
+    case Measure::residual:
+    case Measure::newton_iterations:
+    case Measure::events: break;
+  }
+  trace_index_.push_back(trace);
+}
+
+template <int N, int H>
+void Observables<N, H>::set_system(const mechanics::LinearSystem& system) {
+  if (needs_modes_) modes_of(system, natural_frequency_, modal_damping_);
+}
+
+template <int N, int H>
+LinearForm<N, H> Observables<N, H>::form_of(const Trace& trace, const Mode<N, H>& mode) const {
+  switch (trace.measure) {
+    case Measure::velocity_peak: return forms_.velocity(trace.at);
+    case Measure::acceleration_peak: return forms_.acceleration(trace.at, mode);
+    case Measure::force_peak: return forms_.element_force(trace.element, (*element_values_)[trace.element], mode);
+    case Measure::transmitted_force: return forms_.node_force(trace.node, *element_values_, mode);
+    default: return forms_.displacement(trace.at);
+  }
+}
+
+template <int N, int H>
+void Observables<N, H>::evaluate(const Orbit<N, H>& orbit, const mechanics::LinearSystem& system,
+                                 const std::vector<double>& element_values, std::span<double> out) {
+  orbit_ = &orbit;
+  system_ = &system;
+  element_values_ = &element_values;
+  steps_.lay_out(orbit);
+  if (needs_integrals_) integrate(orbit);
+  for (Trace& trace : traces_) {
+    const Extremes found = find_extremes(steps_, flow_, orbit.section,
+                                         [&](const Mode<N, H>& mode) { return form_of(trace, mode); });
+    trace.extremes = orbit.half_period ? mirrored(found) : found;
+  }
+  if (needs_histories_) {
+    histories_.resize(assembly_.contacts());
+    for (std::size_t j = 0; j < histories_.size(); ++j) histories_[j] = history_of(j);
+    if (needs_integrals_) balance_energy();
+  }
+  for (std::size_t i = 0; i < quantities_.size(); ++i) out[i] = value_of(i);
+}
+
+template <int N, int H>
+void Observables<N, H>::fill_missing(Status status, std::span<double> out) const {
+  for (std::size_t i = 0; i < quantities_.size(); ++i) {
+    switch (quantities_[i].measure) {
+      case Measure::status: out[i] = static_cast<double>(status); break;
+      case Measure::regime: out[i] = static_cast<double>(Regime::not_computed); break;
+      case Measure::stops:
+      case Measure::reversals:
+      case Measure::newton_iterations:
+      case Measure::events: out[i] = -1.0; break;
+      default: out[i] = std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+}
+
+// What puts energy in: outside forces on masses, and what drives each prescribed node.
+template <int N, int H>
+void Observables<N, H>::integrate(const Orbit<N, H>& orbit) {
+  const StepEquations<N, H>& eq = flow_.equations();
+  const auto powers_of = [&](const Mode<N, H>& mode, std::vector<typename Integrals<N, H>::Power>& powers) {
+    powers.clear();
+    for (Eigen::Index i = 0; i < eq.masses(); ++i) {
+      if (eq.applied_force.row(i).isZero(0.0)) continue;
+      Form force = Form::zero(eq.masses(), eq.oscillators());
+      force.u = eq.applied_force.row(i).transpose();
+      powers.push_back({force, forms_.velocity(incidence_of_mass(static_cast<std::size_t>(i)))});
+    }
+    for (Eigen::Index s = 0; s < eq.motion.rows(); ++s) {
+      Form velocity = Form::zero(eq.masses(), eq.oscillators());
+      velocity.u = eq.motion_velocity.row(s).transpose() / eq.step;
+      const mechanics::Node node{mechanics::NodeKind::prescribed, static_cast<std::size_t>(s)};
+      powers.push_back({forms_.node_force(node, *element_values_, mode), velocity});
+    }
+  };
+  integrals_.integrate(steps_, flow_, orbit.half_period, powers_of);
+}
+
+template <int N, int H>
+ContactHistory Observables<N, H>::history_of(std::size_t contact) const {
+  const auto column = static_cast<Eigen::Index>(contact);
+  const StepEquations<N, H>& eq = flow_.equations();
+  const bool moving_support = !eq.support_velocity.row(column).isZero(0.0);
+  const auto relative = [&](const typename S::State& z, double at) {
+    double u = system_->W.col(column).dot(z.head(eq.masses()));
+    if (moving_support) {
+      typename S::Oscillators oscillators(eq.oscillators());
+      eq.oscillators_at(orbit_->section + at * flow_.fundamental_rate(), flow_.orders(), oscillators);
+      u += (system_->W_support.col(column).transpose() * eq.motion).dot(oscillators);
+    }
+    return u;
+  };
+  return contact_history(*orbit_, flow_, column, relative);
+}
+
+template <int N, int H>
+double Observables<N, H>::element_energy(std::size_t element) const {
+  const double value = (*element_values_)[element];
+  switch (assembly_.network().elements[element].type) {
+    case mechanics::ElementType::damper: {
+      // integral of c v^2
+      const Form velocity = forms_.velocity(assembly_.incidences()[element]);
+      return value * integrals_.product(velocity, velocity);
+    }
+    case mechanics::ElementType::coulomb: return value * histories_[assembly_.shares()[element].contact].sliding_distance;
+    case mechanics::ElementType::spring:
+    case mechanics::ElementType::inerter: break;
+  }
+  return 0.0;
+}
+
+template <int N, int H>
+void Observables<N, H>::balance_energy() {
+  dissipated_ = 0.0;
+  for (std::size_t e = 0; e < assembly_.network().elements.size(); ++e) dissipated_ += element_energy(e);
+}
+
+// x_n = |X_n| cos(n omega t - phase), with X_n the component of the reference order n; NaN where there is none.
+template <int N, int H>
+double Observables<N, H>::phase_of(const Form& form, double magnitude) const {
+  const int reference = assembly_.network().reference_order;
+  if (orbit_->half_period && reference % 2 == 0) return std::numeric_limits<double>::quiet_NaN();
+  const auto& orders = flow_.orders();
+  const auto place = std::find(orders.begin(), orders.end(), reference) - orders.begin();
+  const auto component = [&](Eigen::Index oscillator) {
+    Form unit = Form::zero(flow_.equations().masses(), flow_.equations().oscillators());
+    unit.u[oscillator] = 1.0;
+    return integrals_.product(form, unit);
+  };
+  const double in_phase = component(1 + 2 * place), in_quadrature = component(2 + 2 * place);
+  const double period = flow_.equations().period * flow_.equations().step;
+  const double amplitude = 2.0 / period * std::hypot(in_phase, in_quadrature);
+  if (amplitude <= 1e-12 * magnitude) return std::numeric_limits<double>::quiet_NaN();
+  return std::atan2(in_quadrature, in_phase);
+}
+
+template <int N, int H>
+double Observables<N, H>::value_of(std::size_t i) const {
+  const Quantity& quantity = quantities_[i];
+  switch (quantity.measure) {
+    case Measure::amplitude:
+    case Measure::peak:
+    case Measure::peak_phase:
+    case Measure::velocity_peak:
+    case Measure::acceleration_peak:
+    case Measure::mean:
+    case Measure::rms:
+    case Measure::phase: return value_of_mass(i);
+    case Measure::stroke:
+    case Measure::force_peak:
+    case Measure::element_phase:
+    case Measure::energy:
+    case Measure::energy_share:
+    case Measure::stops:
+    case Measure::reversals:
+    case Measure::stuck_fraction:
+    case Measure::regime: return value_of_element(i);
+    case Measure::transmitted_force: return traces_[trace_index_[i]].extremes.magnitude();
+    default: return value_of_point(quantity);
+  }
+}
+
+template <int N, int H>
+double Observables<N, H>::value_of_mass(std::size_t i) const {
+  const Quantity& quantity = quantities_[i];
+  const auto mass = static_cast<Eigen::Index>(quantity.index);
+  const Extremes extremes = traces_.empty() ? Extremes{} : traces_[trace_index_[i]].extremes;
+  const double period = flow_.equations().period * flow_.equations().step;  // [s]
+  switch (quantity.measure) {
+    case Measure::amplitude: return 0.5 * (extremes.most - extremes.least);
+    case Measure::peak_phase: return extremes.most_phase;
+    case Measure::mean: {
+      if (orbit_->half_period) return 0.0;
+      return integrals_.gram()(mass, 2 * flow_.equations().masses()) / period;
+    }
+    case Measure::rms: return std::sqrt(integrals_.gram()(mass, mass) / period);
+    case Measure::phase: return phase_of(forms_.displacement(incidence_of_mass(quantity.index)), extremes.magnitude());
+    default: return extremes.magnitude();  // peaks
+  }
+}
+
+template <int N, int H>
+double Observables<N, H>::value_of_element(std::size_t i) const {
+  const Quantity& quantity = quantities_[i];
+  const std::size_t element = quantity.index;
+  switch (quantity.measure) {
+    case Measure::energy: return element_energy(element);
+    case Measure::energy_share: return dissipated_ > 0.0 ? element_energy(element) / dissipated_ : 0.0;
+    case Measure::element_phase:
+      return phase_of(forms_.displacement(assembly_.incidences()[element]), traces_[trace_index_[i]].extremes.magnitude());
+    case Measure::stroke:
+    case Measure::force_peak: return traces_[trace_index_[i]].extremes.magnitude();
+    default: break;
+  }
+  const ContactHistory& history = histories_[assembly_.shares()[element].contact];
+  switch (quantity.measure) {
+    case Measure::stops: return history.stops;
+    case Measure::reversals: return history.reversals;
+    case Measure::stuck_fraction: return history.stuck_fraction;
+    default: return static_cast<double>(regime_of((*element_values_)[element], history));
+  }
+}
+
+template <int N, int H>
+double Observables<N, H>::value_of_point(const Quantity& quantity) const {
+  switch (quantity.measure) {
+    case Measure::status: return static_cast<double>(orbit_->status);
+    case Measure::floquet_radius: return orbit_->floquet_radius;
+    case Measure::error_bound: return orbit_->error_bound;
+    case Measure::residual: return orbit_->residual;
+    case Measure::newton_iterations: return orbit_->newton_iterations;
+    case Measure::events: return (orbit_->half_period ? 2.0 : 1.0) * orbit_->passage.events;
+    case Measure::energy_input: return integrals_.input();
+    case Measure::energy_balance: {
+      // Where nothing moves both are rounding of the forcing's energy.
+      const double rounding = 1e-11 * flow_.static_norm() * flow_.static_norm();
+      const double size = std::max(integrals_.input_size(), dissipated_);
+      return size > rounding ? std::abs(integrals_.input() - dissipated_) / size : 0.0;
+    }
+    case Measure::natural_frequency: return natural_frequency_[quantity.index];
+    case Measure::modal_damping: return modal_damping_[quantity.index];
+    default: return std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+}  // namespace frahm::periodic

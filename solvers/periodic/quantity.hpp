@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "solvers/mechanics/network.hpp"
+
+// The quantities that a periodic response is reported in: their names, units and meanings.
+namespace frahm::periodic {
+
+enum class Measure {
+  // of a mass
+  amplitude, peak, mean, rms, phase, peak_phase, velocity_peak, acceleration_peak,
+  // of an element
+  stroke, element_phase, force_peak, energy, energy_share,
+  // of a Coulomb element
+  stops, reversals, stuck_fraction, regime,
+  // of the response
+  status, floquet_radius, energy_input, energy_balance, transmitted_force, residual, error_bound,
+  newton_iterations, events, natural_frequency, modal_damping,
+};
+
+enum class Regime { not_computed = 0, no_friction = 1, non_stop = 2, one_stop = 3, multi_stop = 4, stuck = 5 };
+
+struct Quantity {
+  Measure measure = Measure::status;
+  // Of the mass or element; of a mode from 0; for transmitted_force 0 = ground, 1 + s = prescribed node s.
+  std::size_t index = 0;
+
+  friend bool operator==(const Quantity&, const Quantity&) = default;
+};
+
+enum class QuantityKind { real, count, flag };
+
+struct QuantityDescription {
+  std::string name;       // "main_peak"
+  std::string unit;       // UDUNITS form; "1" where `dimensionless`
+  std::string long_name;  // "largest displacement of main, either way"
+  QuantityKind kind = QuantityKind::real;
+  std::vector<std::pair<std::string, int>> flags;  // of a flag: meaning and value
+};
+
+QuantityDescription describe(const Quantity& quantity, const mechanics::Network& network, bool dimensionless);
+
+// Every quantity that a network has, in a fixed order.
+std::vector<Quantity> all_quantities(const mechanics::Network& network);
+
+// What an atlas shows: peak, amplitude, mean, rms and phase of each mass; stroke of each spring; stops, stuck
+// fraction, regime and energy of each Coulomb element; status, floquet_radius, energy_balance, residual,
+// error_bound, transmitted_force.
+std::vector<Quantity> standard_quantities(const mechanics::Network& network);
+
+std::optional<Quantity> find_quantity(const std::string& name, const mechanics::Network& network);
+
+}  // namespace frahm::periodic

@@ -1,0 +1,176 @@
+#pragma once
+
+#include "solvers/periodic/continuation.hpp"
+#include "solvers/periodic/observables.hpp"
+#include "solvers/periodic/periodic_response.hpp"
+#include "solvers/periodic/rest_position.hpp"
+
+namespace frahm::periodic {
+
+// What PeriodicResponse does, for a network of any size.
+class ResponseSolver {
+ public:
+  virtual ~ResponseSolver() = default;
+  virtual void set_values(const mechanics::NetworkValues& values) = 0;
+  virtual void set_forcing(const mechanics::NetworkValues& values) = 0;
+  virtual void forget() = 0;
+  virtual void begin_row() = 0;
+  virtual const ResponseSummary& solve() = 0;
+  virtual void quantities(std::span<double> out) = 0;
+  virtual History history(std::size_t samples) = 0;
+  virtual std::vector<Stretch> stretches() const = 0;
+};
+
+// N masses and H harmonics, or any number of either (Eigen::Dynamic).
+template <int N, int H>
+class SizedSolver final : public ResponseSolver {
+ public:
+  SizedSolver(const mechanics::Network& network, std::vector<Quantity> quantities)
+      : assembly_(network),
+        continuation_(flow_),
+        observables_(assembly_, flow_, std::move(quantities)),
+        steps_(flow_) {}
+
+  void set_values(const mechanics::NetworkValues& values) override {
+    assembly_.set_values(values, system_);
+    assembly_.set_forcing(values, system_);
+    element_values_ = values.element;
+    flow_.set_system(system_);
+    flow_.set_forcing(system_);
+    undamped_modes_ = undamped_modes(system_);
+    observables_.set_system(system_);
+  }
+
+  void set_forcing(const mechanics::NetworkValues& values) override {
+    assembly_.set_forcing(values, system_);
+    flow_.set_forcing(system_);
+  }
+
+  void forget() override { continuation_.forget(); }
+  void begin_row() override { continuation_.begin_row(); }
+  const ResponseSummary& solve() override;
+
+  void quantities(std::span<double> out) override {
+    if (has_response()) observables_.evaluate(orbit_, system_, element_values_, out);
+    else observables_.fill_missing(orbit_.status, out);
+  }
+
+  History history(std::size_t samples) override;
+  std::vector<Stretch> stretches() const override;
+
+ private:
+  bool has_response() const { return orbit_.status == Status::ok || orbit_.status == Status::grazing; }
+
+  mechanics::Assembly assembly_;
+  mechanics::LinearSystem system_;
+  std::vector<double> element_values_;
+  std::vector<UndampedMode> undamped_modes_;
+  Flow<N, H> flow_;
+  Continuation<N, H> continuation_;
+  Observables<N, H> observables_;
+  OrbitSteps<N, H> steps_;
+  Integrals<N, H> integrals_;
+  Orbit<N, H> orbit_;
+  ResponseSummary summary_;
+};
+
+template <int N, int H>
+const ResponseSummary& SizedSolver<N, H>::solve() {
+  if (is_unbounded(system_, undamped_modes_)) {
+    orbit_.status = Status::unbounded;
+    orbit_.reason = "an undamped mode is driven at resonance harder than friction can hold";
+    orbit_.residual = std::numeric_limits<double>::quiet_NaN();
+    orbit_.newton_iterations = orbit_.passages = 0;
+    continuation_.forget();
+  } else {
+    continuation_.find(system_.omega, system_.odd_forcing, orbit_);
+    if (has_response() && orbit_.stuck_throughout != 0 && !orbit_.half_period) {
+      settle_rest_position(assembly_, flow_, steps_, integrals_, orbit_);
+    }
+    if (has_response() && observables_.needs_stability()) judge_stability(flow_, orbit_);
+  }
+  summary_.status = orbit_.status;
+  summary_.reason = orbit_.reason;
+  summary_.residual = orbit_.residual;
+  summary_.newton_iterations = orbit_.newton_iterations;
+  summary_.passages = orbit_.passages;
+  return summary_;
+}
+
+// The orbit at equal intervals of omega t: displacement and velocity of each mass, force of each element.
+template <int N, int H>
+History SizedSolver<N, H>::history(std::size_t samples) {
+  const auto& network = assembly_.network();
+  History result;
+  const auto add_column = [&](const std::string& name, const char* unit) {
+    result.names.push_back(name);
+    result.units.push_back(unit);
+    result.columns.emplace_back();
+  };
+  for (const std::string& mass : network.masses) {
+    add_column(mass + "_displacement", "m");
+    add_column(mass + "_velocity", "m s-1");
+  }
+  for (const auto& element : network.elements) add_column(element.name + "_force", "N");
+
+  const Forms<N, H> forms(assembly_, flow_);
+  const Eigen::Index n = flow_.equations().masses();
+  const double turn = 2.0 * std::numbers::pi, seconds_per_turn = turn / system_.omega;
+  const double covered = orbit_.half_period ? 0.5 * turn : turn;
+  for (std::size_t i = 0; i < samples; ++i) {
+    const double phase = samples > 1 ? turn * static_cast<double>(i) / static_cast<double>(samples - 1) : 0.0;
+    double from_section = phase - orbit_.section;
+    double sign = 1.0;
+    for (; from_section < 0.0; from_section += covered) sign *= orbit_.sign();
+    for (; from_section >= covered; from_section -= covered) sign *= orbit_.sign();
+    const double at = from_section / flow_.fundamental_rate();
+    const auto& segments = orbit_.passage.segments;
+    auto segment = segments.begin();
+    while (segment + 1 != segments.end() && segment->start + segment->length <= at) ++segment;
+    const Mode<N, H>& mode = flow_.mode(segment->mode);
+    Instant<N, H> instant;
+    flow_.instant_at(flow_.state_within(*segment, orbit_.section, at - segment->start), orbit_.section + from_section,
+                     mode, instant);
+    result.time.push_back(phase / turn * seconds_per_turn);
+    std::size_t column = 0;
+    for (Eigen::Index mass = 0; mass < n; ++mass) {
+      result.columns[column++].push_back(sign * instant.z[mass]);
+      result.columns[column++].push_back(sign * instant.z[n + mass] / flow_.equations().step);
+    }
+    for (std::size_t e = 0; e < network.elements.size(); ++e) {
+      result.columns[column++].push_back(sign * forms.element_force(e, element_values_[e], mode).at(instant).value);
+    }
+  }
+  return result;
+}
+
+template <int N, int H>
+std::vector<Stretch> SizedSolver<N, H>::stretches() const {
+  std::vector<Stretch> result;
+  const double rate = flow_.fundamental_rate();
+  for (int half = 0; half < (orbit_.half_period ? 2 : 1); ++half) {
+    for (const Segment<N, H>& segment : orbit_.passage.segments) {
+      const Mode<N, H>& mode = flow_.mode(segment.mode);
+      Stretch stretch;
+      stretch.start = whole_turns_removed(orbit_.section + segment.start * rate + half * std::numbers::pi);
+      stretch.length = segment.length * rate;
+      for (std::size_t e = 0; e < assembly_.network().elements.size(); ++e) {
+        if (assembly_.network().elements[e].type != mechanics::ElementType::coulomb) continue;
+        const mechanics::ContactShare& place = assembly_.shares()[e];
+        const auto contact = static_cast<Eigen::Index>(place.contact);
+        const double sign = (half == 0 ? 1.0 : -1.0) * place.orientation * mode.sign(contact);
+        stretch.contacts.push_back(contains(mode.stuck, contact) ? "sticks" : sign > 0.0 ? "slides +" : "slides -");
+      }
+      result.push_back(std::move(stretch));
+    }
+  }
+  std::sort(result.begin(), result.end(), [](const Stretch& a, const Stretch& b) { return a.start < b.start; });
+  return result;
+}
+
+extern template class SizedSolver<1, 1>;
+extern template class SizedSolver<1, 2>;
+extern template class SizedSolver<2, 1>;
+extern template class SizedSolver<Eigen::Dynamic, Eigen::Dynamic>;
+
+}  // namespace frahm::periodic

@@ -1,0 +1,25 @@
+#include "solvers/periodic/step_equations.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <numbers>
+
+namespace frahm::periodic {
+
+double fastest_rate(const mechanics::LinearSystem& system) {
+  const auto largest = [&](const Eigen::MatrixXd& matrix) {
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix, system.M, Eigen::EigenvaluesOnly);
+    return std::max(0.0, solver.eigenvalues().maxCoeff());
+  };
+  const double gamma = largest(system.C), kappa = largest(system.K);
+  return 0.5 * (gamma + std::sqrt(gamma * gamma + 4.0 * kappa));
+}
+
+double step_length(double fastest_rate, double omega, int largest_order) {
+  const double forcing_rate = std::max(1, largest_order) * omega;
+  double rate = fastest_rate;
+  while (rate < forcing_rate) rate *= std::numbers::sqrt2;
+  return kStepRate / rate;
+}
+
+}  // namespace frahm::periodic

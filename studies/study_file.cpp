@@ -1,0 +1,172 @@
+#include "studies/study_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+#include "studies/spelling.hpp"
+#include "studies/study_reading.hpp"
+
+namespace frahm::studies {
+namespace {
+
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // some editors begin a UTF-8 file with it
+
+const std::vector<std::string> sweep_keys{"study",      "parameters", "mass",       "element",
+                                          "excitation", "axis",       "coordinate", "output"};
+const std::vector<std::string> reserved_keys{"tune",  "design",    "constraint", "identify",
+                                             "decay", "transient", "initial"};
+
+void check_top_keys(const StudySource& source, const TomlValue& root) {
+  std::vector<std::string> known = sweep_keys;
+  known.insert(known.end(), reserved_keys.begin(), reserved_keys.end());
+  for (const TomlEntry& entry : *root.as<TomlTable>()) {
+    if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
+    throw source.error_at(entry.position, fmt::format("unknown section \"{}\"{}", entry.key,
+                                                      suggestion(entry.key, sweep_keys)));
+  }
+}
+
+// Other kinds of study have sections of their own, which would be silently without effect here.
+void check_no_reserved_keys(const StudySource& source, const TomlValue& root) {
+  for (const TomlEntry& entry : *root.as<TomlTable>()) {
+    if (std::find(reserved_keys.begin(), reserved_keys.end(), entry.key) == reserved_keys.end()) continue;
+    throw source.error_at(entry.position,
+                          fmt::format("the section \"{}\" is not part of a sweep, and other kinds of "
+                                      "study are not available in this version",
+                                      entry.key));
+  }
+}
+
+void read_heading(const TomlValue& root, StudyFile& study) {
+  const TomlEntry* heading = find_entry(root, "study");
+  if (!heading)
+    throw study.source.error_at(root.position,
+                                "the study does not begin: [study] with schema and kind is missing");
+  const TomlSection section(study.source, heading->value, "[study]", {"schema", "kind", "title", "units"});
+  section.require("schema");
+  const std::int64_t schema = section.integer_or("schema", 1);
+  if (schema != 1)
+    section.fail("schema", fmt::format("{} is unknown; this version reads schema = 1", schema));
+  section.require("kind");
+  const std::string kind = section.choice_or("kind", {"sweep", "tune", "identify", "decay", "transient"});
+  if (kind != "sweep") {
+    section.fail("kind", fmt::format("\"{}\" is not available in this version; \"sweep\" is", kind));
+  }
+  study.title = section.text_or("title", "");
+  study.dimensionless = section.choice_or("units", {"SI", "dimensionless"}) == "dimensionless";
+}
+
+// What the masses and elements read.
+std::vector<std::size_t> read_by_matrices(const StudyFile& study) {
+  std::vector<std::size_t> reads;
+  for (const auto* values : {&study.values.mass, &study.values.element}) {
+    for (const StudyValue& value : *values) {
+      reads.insert(reads.end(), value.expression.reads().begin(), value.expression.reads().end());
+    }
+  }
+  return reads;
+}
+
+void find_frequency_dimension(StudyFile& study) {
+  const auto moving = dimensions_moving(study, study.values.omega.expression.reads());
+  if (moving.empty()) return;
+  const auto matrices = dimensions_moving(study, read_by_matrices(study));
+  const auto moves_matrices = [&](std::size_t d) {
+    return std::find(matrices.begin(), matrices.end(), d) != matrices.end();
+  };
+  const auto still = std::find_if_not(moving.rbegin(), moving.rend(), moves_matrices);
+  study.values_depend_on_frequency = still == moving.rend();
+  study.frequency_dimension = study.values_depend_on_frequency ? moving.back() : *still;
+}
+
+}  // namespace
+
+StudyFile read_study(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file || std::filesystem::is_directory(path)) {
+    throw StudyError(fmt::format("{}: the study cannot be read: {}", path.string(),
+                                 file ? "it is a directory" : std::strerror(errno)));
+  }
+  std::string text(std::istreambuf_iterator<char>(file), {});
+  if (file.bad())
+    throw StudyError(fmt::format("{}: the study cannot be read: {}", path.string(), std::strerror(errno)));
+  return parse_study(std::move(text), path);
+}
+
+StudyFile parse_study(std::string text, const std::filesystem::path& name) {
+  StudyFile study;
+  if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
+  study.source = {name.string(), std::move(text)};
+  const TomlValue root = read_toml(study.source);
+  check_top_keys(study.source, root);
+  read_heading(root, study);
+  check_no_reserved_keys(study.source, root);
+
+  const UnitSystem units;
+  const StudyContext context{study.source, units, study.dimensionless};
+  study.parameters = read_parameters(context, root, name.parent_path());
+  auto [network, values] = read_network(context, root, study.parameters);
+  study.network = std::move(network);
+  study.values = std::move(values);
+  convert_parameters(context, study.parameters);
+  read_axes(context, root, study);
+  read_coordinates(context, root, study);
+  read_output(context, root, study);
+  find_frequency_dimension(study);
+  check_grid(study);
+  return study;
+}
+
+StudyFile with_parameters(StudyFile study, std::span<const Assignment> assignments) {
+  for (const Assignment& assignment : assignments) {
+    study.parameters.list[assignment.parameter].definition = assignment.value;
+  }
+  check_grid(study);
+  return study;
+}
+
+void place(const StudyFile& study, std::size_t dimension, std::size_t index, std::span<double> parameters) {
+  for (const std::size_t axis : study.dimensions[dimension].axes) {
+    parameters[study.axes[axis].parameter] = study.axes[axis].si_values[index];
+  }
+}
+
+std::vector<double> coordinate_values(const StudyFile& study, const DerivedCoordinate& coordinate) {
+  std::vector<double> parameters = study.parameters.nominal();
+  std::vector<double> values(study.dimensions[coordinate.dimension].size);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    place(study, coordinate.dimension, i, parameters);
+    study.parameters.complete(std::span<double>(parameters));
+    values[i] = coordinate.value.expression.evaluate(std::span<const double>(parameters));
+  }
+  return values;
+}
+
+std::vector<std::size_t> dimensions_moving(const StudyFile& study, std::span<const std::size_t> reads) {
+  const auto inputs = study.parameters.inputs_of(reads);
+  const auto is_input = [&](std::size_t axis) {
+    return std::find(inputs.begin(), inputs.end(), study.axes[axis].parameter) != inputs.end();
+  };
+  std::vector<std::size_t> moving;
+  for (std::size_t d = 0; d < study.dimensions.size(); ++d) {
+    const auto& axes = study.dimensions[d].axes;
+    if (std::any_of(axes.begin(), axes.end(), is_input)) moving.push_back(d);
+  }
+  return moving;
+}
+
+UsualUnit usual_unit(const StudyFile& study, std::size_t parameter) {
+  for (const ParameterAxis& axis : study.axes) {
+    if (axis.parameter == parameter) return {axis.unit, axis.si_factor};
+  }
+  const Parameter& definition = study.parameters.list[parameter];
+  if (!definition.unit) return {};
+  return {definition.unit->text, si_factor(definition, *definition.unit)};
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace frahm::studies {
+
+// What is wrong in a study, told to its author. what() is the whole message.
+class StudyError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// A place in the text of a study: line and column count from 1, columns in characters. Line 0: no place.
+struct Position {
+  std::size_t line = 0;
+  std::size_t column = 0;
+
+  friend auto operator<=>(const Position&, const Position&) = default;
+};
+
+// The text of a study and the name of its file, kept for the record and for messages.
+struct StudySource {
+  std::string name;
+  std::string text;
+
+  // The error `name:line:column: message`, with the line in question below it and a mark under the column.
+  StudyError error_at(Position position, std::string_view message) const;
+
+  // Position of the character `offset` (from 0) of the string value that starts at `string`; where the string
+  // is written with escapes or over several lines, that of the string itself.
+  Position inside_string(Position string, std::size_t offset) const;
+
+ private:
+  std::string_view line(std::size_t number) const;
+};
+
+}  // namespace frahm::studies

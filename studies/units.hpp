@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace frahm::studies {
+
+// The kinds of quantity a study has, each with its SI unit.
+enum class Quantity {
+  number,             // 1
+  length,             // m
+  mass,               // kg
+  inertance,          // kg
+  force,              // N
+  stiffness,          // N/m
+  damping,            // N s/m
+  angle,              // rad
+  angular_frequency,  // rad/s
+};
+
+std::string_view quantity_name(Quantity quantity);    // with its article: "a stiffness"
+std::string_view si_unit(Quantity quantity);          // for the record, in the form of CF: "N m-1"
+std::string_view written_si_unit(Quantity quantity);  // for readers: "N/m"
+
+// A unit that does not exist or has the wrong dimension; what() names the unit, its dimension and what was
+// expected.
+class UnitError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// A unit as read: 1 unit = scale x (m^a kg^b s^c rad^d).
+struct Unit {
+  std::string text;                // as the user wrote it, which is a form UDUNITS reads
+  double scale = 1.0;              // to the coherent SI unit of the same dimension
+  std::array<int, 3> exponents{};  // of metre, kilogram, second
+  int radians = 0;                 // exponent of the radian: tells rad/s from 1/s
+  bool foreign = false;            // contains kelvin, ampere, mole or candela
+
+  // 1/s, Hz or 1/min: cycles where an angular frequency is meant, and 2 pi off where a plain rate is.
+  bool counts_cycles() const;
+};
+
+// Value in SI = factor x value in this unit. Where an angular frequency is expected 1/s, Hz and 1/min count
+// cycles: 1 Hz = 60 rpm = 2 pi rad/s (UDUNITS alone takes 1 Hz = 1 rad/s). Throws UnitError for another
+// dimension.
+double si_factor(const Unit& unit, Quantity expected);
+
+// What a unit measures, in words: "a stiffness", else its dimension in base units: "m2 s-2".
+std::string dimension_name(const Unit& unit);
+
+// The units UDUNITS-2 knows. Reading its database costs some milliseconds; UDUNITS is not thread-safe, so a
+// system is used by one thread, when a study is read.
+class UnitSystem {
+ public:
+  UnitSystem();  // throws std::runtime_error if the database of UDUNITS is not installed
+  ~UnitSystem();
+  UnitSystem(const UnitSystem&) = delete;
+  UnitSystem& operator=(const UnitSystem&) = delete;
+
+  // Throws UnitError for a text that is no unit, or no proportional one (degC, dB, dates).
+  Unit parse(std::string_view text) const;
+
+  // `value` of `unit` in the SI unit of `expected`. Throws UnitError.
+  double to_si(double value, std::string_view unit, Quantity expected) const;
+
+ private:
+  struct Database;
+  std::unique_ptr<Database> database_;
+};
+
+}  // namespace frahm::studies

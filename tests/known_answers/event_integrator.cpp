@@ -1,0 +1,249 @@
+#include "tests/known_answers/event_integrator.hpp"
+
+#include <algorithm>
+#include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
+#include <cmath>
+#include <complex>
+#include <stdexcept>
+
+namespace frahm::periodic {
+namespace {
+
+using Eigen::Index, Eigen::VectorXd;
+constexpr double kStepAngle = 0.06;  // fastest rate times step: the eighth-order error is then below rounding
+
+Eigen::Map<const VectorXd> head(const std::vector<double>& x, Index n) { return {x.data(), n}; }
+Eigen::Map<const VectorXd> tail(const std::vector<double>& x, Index n) { return {x.data() + n, n}; }
+
+// Re sum_k amplitude_k (i order_k omega)^derivative e^{i order_k omega t}
+VectorXd harmonic(const mechanics::LinearSystem& s, const Eigen::MatrixXcd& amplitude, double t, int derivative) {
+  VectorXd result = VectorXd::Zero(amplitude.rows());
+  for (std::size_t k = 0; k < s.orders.size(); ++k) {
+    const std::complex<double> rate(0.0, s.orders[k] * s.omega);
+    result += (amplitude.col(static_cast<Index>(k)) * std::pow(rate, derivative) * std::exp(rate * t)).real();
+  }
+  return result;
+}
+
+// The root of a function that is positive at `lo` and not at `hi`.
+template <class Function>
+double bisect(double lo, double hi, const Function& function) {
+  for (double middle = 0.5 * (lo + hi); middle > lo && middle < hi; middle = 0.5 * (lo + hi)) {
+    (function(middle) > 0.0 ? lo : hi) = middle;
+  }
+  return hi;
+}
+
+}  // namespace
+
+EventIntegrator::EventIntegrator(const mechanics::LinearSystem& system)
+    : system_(system), M_inverse_(system.M.inverse()) {
+  const double stiff = (M_inverse_ * system.K).eigenvalues().cwiseAbs().maxCoeff();
+  const double viscous = (M_inverse_ * system.C).eigenvalues().cwiseAbs().maxCoeff();
+  step_ = kStepAngle / std::max({std::sqrt(stiff), viscous, system.orders.back() * system.omega});
+}
+
+void EventIntegrator::start(double t, const VectorXd& q, const VectorXd& v) {
+  t_ = t;
+  state_.assign(q.data(), q.data() + q.size());
+  state_.insert(state_.end(), v.data(), v.data() + v.size());
+  most_ = least_ = q;
+  events_ = 0;
+  modes_.assign(static_cast<std::size_t>(system_.contacts()), Mode::stuck);
+  fresh_.assign(modes_.size(), false);
+  const VectorXd static_q = system_.K.llt().solve(system_.force.cwiseAbs().rowwise().sum());
+  speed_scale_ = v.cwiseAbs().maxCoeff() + system_.omega * (static_q.norm() + system_.motion.norm());
+  std::vector<Index> at_rest;
+  for (Index j = 0; j < system_.contacts(); ++j) {
+    const double speed = relative_velocity(state_, t, j);
+    if (std::abs(speed) < 1e-11 * speed_scale_) at_rest.push_back(j);
+    else modes_[static_cast<std::size_t>(j)] = speed > 0.0 ? Mode::forward : Mode::backward;
+  }
+  choose(at_rest);
+}
+
+EventIntegrator::Motion EventIntegrator::motion(const State& x, double t, const std::vector<Mode>& modes) const {
+  const Index n = system_.masses(), m = system_.contacts();
+  Motion result{VectorXd::Zero(n), VectorXd::Zero(m)};
+  std::vector<Index> stuck;
+  for (Index j = 0; j < m; ++j) {
+    const Mode mode = modes[static_cast<std::size_t>(j)];
+    if (mode == Mode::stuck) stuck.push_back(j);
+    else result.friction[j] = mode == Mode::forward ? system_.limit[j] : -system_.limit[j];
+  }
+  const VectorXd force = system_.constant_force + harmonic(system_, system_.force, t, 0) - system_.K * head(x, n) -
+                         system_.C * tail(x, n);
+  result.acceleration = M_inverse_ * (force - system_.W * result.friction);
+  if (stuck.empty()) return result;
+  // W_S^T (a - M^-1 W_S lambda) = - p_S^T y''
+  const Eigen::MatrixXd W = system_.W(Eigen::all, stuck);
+  VectorXd relative(static_cast<Index>(stuck.size()));
+  for (std::size_t i = 0; i < stuck.size(); ++i) {
+    relative[static_cast<Index>(i)] = relative_acceleration(result.acceleration, t, stuck[i]);
+  }
+  const Eigen::MatrixXd G = W.transpose() * M_inverse_ * W;
+  const VectorXd lambda = G.completeOrthogonalDecomposition().solve(relative);
+  result.acceleration -= M_inverse_ * W * lambda;
+  for (std::size_t i = 0; i < stuck.size(); ++i) result.friction[stuck[i]] = lambda[static_cast<Index>(i)];
+  return result;
+}
+
+double EventIntegrator::relative_velocity(const State& x, double t, Index j) const {
+  double speed = system_.W.col(j).dot(tail(x, system_.masses()));
+  if (system_.motion.rows() > 0) speed += system_.W_support.col(j).dot(harmonic(system_, system_.motion, t, 1));
+  return speed;
+}
+
+double EventIntegrator::relative_acceleration(const VectorXd& a, double t, Index j) const {
+  double relative = system_.W.col(j).dot(a);
+  if (system_.motion.rows() > 0) relative += system_.W_support.col(j).dot(harmonic(system_, system_.motion, t, 2));
+  return relative;
+}
+
+double EventIntegrator::margin(const State& x, double t, Index j) const {
+  switch (modes_[static_cast<std::size_t>(j)]) {
+    case Mode::forward: return relative_velocity(x, t, j);
+    case Mode::backward: return -relative_velocity(x, t, j);
+    case Mode::stuck: break;
+  }
+  return system_.limit[j] * (1.0 + 1e-12) - std::abs(motion(x, t, modes_).friction[j]);
+}
+
+EventIntegrator::State EventIntegrator::moved(double t, double h) const {
+  boost::numeric::odeint::runge_kutta_fehlberg78<State> stepper;
+  const Index n = system_.masses();
+  State x = state_;
+  const auto rate = [&](const State& y, State& dy, double at) {
+    const VectorXd a = motion(y, at, modes_).acceleration;
+    std::copy_n(y.data() + n, n, dy.data());
+    std::copy_n(a.data(), n, dy.data() + n);
+  };
+  stepper.do_step(rate, x, t, h);
+  return x;
+}
+
+// The time after t_ at which the contact's mode ends, or 2 h.
+double EventIntegrator::first_end_of_mode(double h, Index j) const {
+  const auto at = [&](double elapsed) { return margin(moved(t_, elapsed), t_ + elapsed, j); };
+  const double little = 1e-3 * h;
+  double lo = fresh_[static_cast<std::size_t>(j)] ? 0.02 * h : 0.0;
+  const double left = at(lo), right = at(h);
+  if (fresh_[static_cast<std::size_t>(j)] && left <= 0.0) return lo;  // a micro-slip shorter than the search resolves
+  if (right <= 0.0) return bisect(lo, h, at);
+  if (at(lo + little) >= left || at(h - little) >= right) return 2.0 * h;
+  double hi = h;  // both ends positive, falling inwards: look for a minimum below zero
+  constexpr double kGolden = 0.6180339887498949;
+  while (hi - lo > 1e-7 * h) {
+    const double c = hi - kGolden * (hi - lo), d = lo + kGolden * (hi - lo), at_c = at(c), at_d = at(d);
+    if (at_c <= 0.0) return bisect(lo, c, at);
+    if (at_d <= 0.0) return bisect(lo, d, at);
+    (at_c < at_d ? hi : lo) = at_c < at_d ? d : c;
+  }
+  return 2.0 * h;
+}
+
+bool EventIntegrator::is_consistent(const std::vector<Index>& at_rest, const std::vector<Mode>& modes) const {
+  const Motion result = motion(state_, t_, modes);
+  for (const Index j : at_rest) {
+    const double scale = std::max(1e-300, (system_.W.transpose() * M_inverse_ * system_.W)(j, j) * system_.limit[j]);
+    const double relative = relative_acceleration(result.acceleration, t_, j);
+    switch (modes[static_cast<std::size_t>(j)]) {
+      case Mode::stuck:
+        if (std::abs(result.friction[j]) > system_.limit[j] * (1.0 + 1e-11)) return false;
+        if (std::abs(relative) > 1e-9 * scale) return false;  // two constraints that contradict each other
+        break;
+      case Mode::forward:
+        if (relative < -1e-11 * scale) return false;
+        break;
+      case Mode::backward:
+        if (relative > 1e-11 * scale) return false;
+        break;
+    }
+  }
+  return true;
+}
+
+// Of all consistent modes of the contacts at rest, those with most of them stuck.
+void EventIntegrator::choose(const std::vector<Index>& at_rest) {
+  if (at_rest.empty()) return;
+  int best = -1;
+  std::vector<Mode> chosen;
+  const auto count = static_cast<int>(std::lround(std::pow(3.0, static_cast<double>(at_rest.size()))));
+  for (int code = 0; code < count; ++code) {
+    std::vector<Mode> modes = modes_;
+    int stuck = 0, rest = code;
+    for (const Index j : at_rest) {
+      modes[static_cast<std::size_t>(j)] = static_cast<Mode>(rest % 3);
+      stuck += rest % 3 == 0;
+      rest /= 3;
+    }
+    if (stuck > best && is_consistent(at_rest, modes)) {
+      best = stuck;
+      chosen = modes;
+    }
+  }
+  if (best < 0) throw std::logic_error("the reference found no consistent modes");
+  modes_ = chosen;
+  for (const Index j : at_rest) fresh_[static_cast<std::size_t>(j)] = modes_[static_cast<std::size_t>(j)] != Mode::stuck;
+}
+
+void EventIntegrator::pass_event(Index j) {
+  ++events_;
+  const auto place = static_cast<std::size_t>(j);
+  std::vector<Index> at_rest;
+  if (modes_[place] == Mode::stuck) {
+    modes_[place] = motion(state_, t_, modes_).friction[j] > 0.0 ? Mode::forward : Mode::backward;
+    fresh_[place] = true;
+    return;
+  }
+  for (Index k = 0; k < system_.contacts(); ++k) {
+    const bool arrives = k == j || std::abs(relative_velocity(state_, t_, k)) < 1e-12 * speed_scale_;
+    if ((arrives && !fresh_[static_cast<std::size_t>(k)]) || modes_[static_cast<std::size_t>(k)] == Mode::stuck) {
+      at_rest.push_back(k);
+    }
+  }
+  fresh_[place] = false;
+  if (std::find(at_rest.begin(), at_rest.end(), j) == at_rest.end()) at_rest.push_back(j);
+  choose(at_rest);
+}
+
+void EventIntegrator::note_extremes(double h) {
+  const Index n = system_.masses();
+  const State end = moved(t_, h);
+  for (Index i = 0; i < n; ++i) {
+    const auto velocity = [&](double elapsed) { return moved(t_, elapsed)[static_cast<std::size_t>(n + i)]; };
+    double value = end[static_cast<std::size_t>(i)];
+    most_[i] = std::max(most_[i], value);
+    least_[i] = std::min(least_[i], value);
+    const double before = state_[static_cast<std::size_t>(n + i)], after = end[static_cast<std::size_t>(n + i)];
+    if (before * after >= 0.0) continue;
+    const double side = before > 0.0 ? 1.0 : -1.0;
+    value = moved(t_, bisect(0.0, h, [&](double elapsed) { return side * velocity(elapsed); }))[static_cast<std::size_t>(i)];
+    most_[i] = std::max(most_[i], value);
+    least_[i] = std::min(least_[i], value);
+  }
+}
+
+void EventIntegrator::advance_to(double t_end) {
+  while (t_ < t_end) {
+    double h = std::min(step_, t_end - t_);
+    if (h < 1e-9 * step_) break;
+    Index first = -1;
+    for (Index j = 0; j < system_.contacts(); ++j) {
+      const double at = first_end_of_mode(h, j);
+      if (at > h) continue;
+      h = at;
+      first = j;
+    }
+    note_extremes(h);
+    state_ = moved(t_, h);
+    t_ += h;
+    std::fill(fresh_.begin(), fresh_.end(), false);
+    if (first >= 0) pass_event(first);
+  }
+}
+
+VectorXd EventIntegrator::displacements() const { return head(state_, system_.masses()); }
+VectorXd EventIntegrator::velocities() const { return tail(state_, system_.masses()); }
+
+}  // namespace frahm::periodic

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <vector>
+
+#include "solvers/mechanics/linear_system.hpp"
+
+// An independent reference for the flow with set-valued friction: Boost.odeint's Runge-Kutta-Fehlberg 7(8) between
+// events that are found by bisection of partial steps, with the modes of contacts at rest found by trying all.
+// It shares with the solvers nothing but the matrices.
+namespace frahm::periodic {
+
+class EventIntegrator {
+ public:
+  explicit EventIntegrator(const mechanics::LinearSystem& system);
+
+  // From displacements [m] and velocities [m/s] at time t [s].
+  void start(double t, const Eigen::VectorXd& q, const Eigen::VectorXd& v);
+  void advance_to(double t_end);
+
+  Eigen::VectorXd displacements() const;
+  Eigen::VectorXd velocities() const;
+  // (max - min) / 2 of the displacement of a mass since the start [m], stationary points solved.
+  double amplitude(Eigen::Index mass) const { return 0.5 * (most_[mass] - least_[mass]); }
+  int events() const { return events_; }
+
+ private:
+  enum class Mode { stuck, forward, backward };
+  using State = std::vector<double>;  // displacements, then velocities
+
+  struct Motion {
+    Eigen::VectorXd acceleration, friction;  // of the masses; of the contacts
+  };
+  Motion motion(const State& x, double t, const std::vector<Mode>& modes) const;
+  double relative_velocity(const State& x, double t, Eigen::Index contact) const;
+  double relative_acceleration(const Eigen::VectorXd& a, double t, Eigen::Index contact) const;
+  // > 0 while the contact's mode lasts: velocity in its direction, or room up to the limit of friction.
+  double margin(const State& x, double t, Eigen::Index contact) const;
+  State moved(double t, double h) const;  // state_ after a partial step
+  double first_end_of_mode(double h, Eigen::Index contact) const;
+  void choose(const std::vector<Eigen::Index>& at_rest);
+  bool is_consistent(const std::vector<Eigen::Index>& at_rest, const std::vector<Mode>& modes) const;
+  void pass_event(Eigen::Index contact);
+  void note_extremes(double h);
+
+  const mechanics::LinearSystem& system_;
+  Eigen::MatrixXd M_inverse_;
+  double step_ = 0.0, speed_scale_ = 0.0;
+  double t_ = 0.0;
+  State state_;
+  std::vector<Mode> modes_;
+  std::vector<bool> fresh_;  // velocity or room is zero now and is about to grow
+  Eigen::VectorXd most_, least_;
+  int events_ = 0;
+};
+
+}  // namespace frahm::periodic

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "solvers/mechanics/network.hpp"
+
+// Networks drawn at random: a chain of masses on springs and dampers, with further springs, an inerter, friction
+// and a shaken support that acts through a spring, a damper, an inerter and friction.
+namespace frahm::periodic {
+
+struct RandomNetwork {
+  mechanics::Network network;
+  mechanics::NetworkValues values;
+};
+
+struct RandomNetworkOptions {
+  int masses = 1;
+  int contacts = 0;
+  std::vector<int> orders = {1};  // of the forces and of the support's motion
+  bool shaken = true;             // a prescribed node exists
+  double largest_friction = 1.0;  // of the amplitude of the force, 1 N
+};
+
+inline RandomNetwork random_network(const RandomNetworkOptions& options, std::mt19937& random) {
+  using namespace mechanics;
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  const auto spread = [&](double decades) { return std::pow(10.0, decades * (uniform(random) - 0.5)); };
+  const auto pick = [&](int count) { return static_cast<int>(uniform(random) * count); };
+  const auto n = static_cast<std::size_t>(options.masses);
+  const Node ground{}, support{NodeKind::prescribed, 0};
+  const auto mass = [](std::size_t i) { return Node{NodeKind::mass, i}; };
+  RandomNetwork result;
+  Network& network = result.network;
+  NetworkValues& values = result.values;
+  const auto add = [&](ElementType type, Node a, Node b, double value) {
+    network.elements.push_back({"e" + std::to_string(network.elements.size()), type, a, b});
+    values.element.push_back(value);
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    network.masses.push_back("m" + std::to_string(i));
+    values.mass.push_back(spread(1.0));
+    const Node before = i == 0 ? ground : mass(i - 1);
+    add(ElementType::spring, before, mass(i), spread(1.0));
+    add(ElementType::damper, before, mass(i), 0.1 * spread(1.5));
+  }
+  if (n > 1) {
+    add(ElementType::spring, ground, mass(n - 1), spread(2.0));
+    add(ElementType::inerter, mass(0), mass(n - 1), 0.5 * spread(1.0));
+  }
+  if (options.shaken) {
+    network.prescribed.push_back("support");
+    const Node at = mass(static_cast<std::size_t>(pick(options.masses)));
+    add(ElementType::spring, support, at, spread(1.0));
+    add(ElementType::damper, support, at, 0.1 * spread(1.0));
+    add(ElementType::inerter, support, at, 0.1 * spread(1.0));
+  }
+  for (int j = 0; j < options.contacts; ++j) {
+    const Node b = mass(static_cast<std::size_t>(pick(options.masses)));
+    Node a = ground;
+    if (options.shaken && uniform(random) < 0.3) a = support;
+    else if (n > 1 && uniform(random) < 0.5) a = mass((b.index + 1 + static_cast<std::size_t>(pick(options.masses - 1))) % n);
+    add(ElementType::coulomb, a, b, options.largest_friction * uniform(random));
+  }
+  for (const int order : options.orders) {
+    const auto on = static_cast<std::size_t>(pick(options.masses));
+    network.excitations.push_back({ExcitationKind::force, on, order});
+    values.excitation.push_back({order == 0 ? 0.3 : 1.0 / order, 2.0 * std::numbers::pi * uniform(random)});
+    if (!options.shaken) continue;
+    network.excitations.push_back({ExcitationKind::motion, 0, order});
+    values.excitation.push_back({0.5 / (order + 1), 2.0 * std::numbers::pi * uniform(random)});
+  }
+  values.omega = spread(1.4);
+  return result;
+}
+
+}  // namespace frahm::periodic

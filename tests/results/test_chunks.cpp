@@ -1,0 +1,175 @@
+#include <algorithm>
+#include <array>
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <numeric>
+#include <random>
+#include <thread>
+
+#include "results/chunk_codec.hpp"
+#include "results/chunked_array.hpp"
+#include "results/hdf5.hpp"
+#include "temporary_directory.hpp"
+
+using namespace frahm::results;
+
+namespace {
+
+Bytes as_bytes(const std::vector<double>& values) {
+  Bytes bytes(values.size() * sizeof(double));
+  std::memcpy(bytes.data(), values.data(), bytes.size());
+  return bytes;
+}
+
+// A 3-D grid whose sizes are no multiples of the chunk's.
+const Shape grid{5, 7, 11}, chunk{2, 3, 4};
+
+double value_at(const Shape& point) {
+  return static_cast<double>(point[0] * 10000 + point[1] * 100 + point[2]) + 0.25;
+}
+
+std::vector<double> values_of(const Box& box) {
+  std::vector<double> values;
+  Shape last = box.start;
+  for (std::size_t k = 0; k < 3; ++k) last[k] += box.count[k] - 1;
+  Shape point = box.start;
+  do {
+    values.push_back(value_at(point));
+  } while (next_index(point, box.start, last));
+  return values;
+}
+
+// The grid as boxes of `tile` points, clipped to it.
+std::vector<Box> tiles(const Shape& tile) {
+  std::vector<Box> boxes;
+  for (std::uint64_t i = 0; i < grid[0]; i += tile[0]) {
+    for (std::uint64_t j = 0; j < grid[1]; j += tile[1]) {
+      for (std::uint64_t k = 0; k < grid[2]; k += tile[2]) {
+        boxes.push_back(common({{i, j, k}, tile}, {{0, 0, 0}, grid}));
+      }
+    }
+  }
+  return boxes;
+}
+
+// Writes the boxes in turn, through a file, and reads all of the grid.
+std::vector<double> written_and_read(const std::vector<Box>& boxes, std::size_t max_open) {
+  const TemporaryDirectory directory;
+  {
+    hdf5::File file = hdf5::File::create(directory / "array.h5");
+    {
+      ChunkedArray array(
+          file.root().create_dataset("x", {.type = Type::float64, .shape = grid, .chunk = chunk}), max_open);
+      for (const Box& box : boxes) array.write(box, as_bytes(values_of(box)));
+      array.flush();
+    }
+    file.close();
+  }
+  const hdf5::File file = hdf5::File::open(directory / "array.h5");
+  return file.root().dataset("x").read(Shape{0, 0, 0}, grid);
+}
+
+}  // namespace
+
+TEST_CASE("blocks of any shape and order, with few or many chunks open, give the same array") {
+  const std::vector<double> expected = values_of({{0, 0, 0}, grid});
+  const std::vector<Shape> shapes = {{5, 7, 11}, {2, 3, 4}, {1, 1, 1}, {4, 6, 8}, {3, 2, 5}, {1, 7, 11}};
+  std::mt19937 shuffler(1);
+  for (const Shape& shape : shapes) {
+    std::vector<Box> boxes = tiles(shape);
+    for (const std::size_t max_open : {1u, 3u, 1000u}) {
+      INFO("blocks of " << shape[0] << " x " << shape[1] << " x " << shape[2] << ", " << max_open << " open");
+      CHECK(written_and_read(boxes, max_open) == expected);
+      std::vector<Box> shuffled = boxes;
+      std::shuffle(shuffled.begin(), shuffled.end(), shuffler);
+      CHECK(written_and_read(shuffled, max_open) == expected);
+    }
+  }
+}
+
+TEST_CASE("blocks that come twice or overlap leave every point right") {
+  std::vector<Box> boxes = tiles({1, 2, 3});
+  const std::vector<Box> again = tiles({3, 3, 3});
+  boxes.insert(boxes.end(), again.begin(), again.end());
+  boxes.insert(boxes.begin(), again.begin(), again.begin() + 5);
+  boxes.insert(boxes.begin(), again.begin(), again.begin() + 5);
+  CHECK(written_and_read(boxes, 2) == values_of({{0, 0, 0}, grid}));
+}
+
+TEST_CASE("a later block overwrites an earlier one") {
+  const TemporaryDirectory directory;
+  hdf5::File file = hdf5::File::create(directory / "array.h5");
+  hdf5::Group root = file.root();
+  ChunkedArray array(root.create_dataset("x", {.type = Type::float64, .shape = {6}, .chunk = {3}}), 1);
+  array.write({{0}, {2}}, as_bytes({1, 1}));
+  array.write({{0}, {6}}, as_bytes({2, 2, 2, 2, 2, 2}));
+  array.write({{2}, {2}}, as_bytes({3, 3}));
+  array.flush();
+  CHECK(root.dataset("x").read(Shape{0}, Shape{6}) == std::vector<double>{2, 2, 3, 3, 2, 2});
+}
+
+TEST_CASE("the checksum is HDF5's") {
+  // From H5_checksum_fletcher32 of HDF5 1.10.8 over the bytes 0, 1, 2, ... (mod 251).
+  const std::vector<std::pair<std::size_t, std::uint32_t>> known = {{1, 0x00000000},   {2, 0x00010001},
+                                                                    {3, 0x02020201},   {720, 0x308434a1},
+                                                                    {721, 0x3f260ea2}, {4001, 0x94bea3b1}};
+  for (const auto& [size, checksum] : known) {
+    Bytes data(size);
+    for (std::size_t i = 0; i < size; ++i) data[i] = static_cast<std::byte>(i % 251);
+    INFO(size << " bytes");
+    CHECK(fletcher32(data) == checksum);
+  }
+  // The largest sums: every byte 255.
+  CHECK(fletcher32(Bytes(720, std::byte{255})) == 0xffffffff);
+  CHECK(fletcher32(Bytes(721, std::byte{255})) == 0xff00ff00);
+  CHECK(fletcher32(Bytes(4001, std::byte{255})) == 0xff00ff00);
+}
+
+TEST_CASE("a chunk that does not compress, and one that compresses to nothing, read back") {
+  const TemporaryDirectory directory;
+  const std::uint64_t size = 100'000;
+  std::mt19937_64 random(1);
+  std::vector<double> noise(size);
+  for (double& value : noise) {
+    const std::uint64_t bits = random() >> 2;  // no NaN
+    std::memcpy(&value, &bits, sizeof value);
+  }
+  for (const std::vector<double>& values : {noise, std::vector<double>(size, 1.5)}) {
+    hdf5::File file = hdf5::File::create(directory / "array.h5");
+    hdf5::Group root = file.root();
+    ChunkedArray array(root.create_dataset("x", {.type = Type::float64, .shape = {size}, .chunk = {size}}),
+                       1);
+    array.write({{0}, {size}}, as_bytes(values));
+    CHECK(root.dataset("x").read(Shape{0}, Shape{size}) == values);
+  }
+}
+
+TEST_CASE("the same chunk is encoded to the same bytes whatever was encoded before") {
+  std::vector<double> smooth(65536), other(65536);
+  std::iota(smooth.begin(), smooth.end(), 1.0);
+  std::iota(other.rbegin(), other.rend(), 7.0);
+  const Bytes first = encode_chunk(as_bytes(smooth), sizeof(double));
+  encode_chunk(as_bytes(other), sizeof(double));
+  CHECK(encode_chunk(as_bytes(smooth), sizeof(double)) == first);
+}
+
+TEST_CASE("chunks encoded by several threads at once are those encoded by one") {
+  constexpr std::size_t threads = 4, rounds = 20;
+  std::vector<std::vector<double>> chunks(threads, std::vector<double>(4096));
+  for (std::size_t t = 0; t < threads; ++t)
+    std::iota(chunks[t].begin(), chunks[t].end(), 1000.0 * static_cast<double>(t));
+  std::vector<std::size_t> same(threads, 0);
+  std::vector<Bytes> alone;
+  for (const std::vector<double>& values : chunks)
+    alone.push_back(encode_chunk(as_bytes(values), sizeof(double)));
+  {
+    std::vector<std::jthread> team;
+    for (std::size_t t = 0; t < threads; ++t) {
+      team.emplace_back([&, t] {
+        for (std::size_t k = 0; k < rounds; ++k)
+          same[t] += encode_chunk(as_bytes(chunks[t]), sizeof(double)) == alone[t];
+      });
+    }
+  }
+  CHECK(same == std::vector<std::size_t>(threads, rounds));
+}

@@ -1,0 +1,260 @@
+#include <unistd.h>
+
+#include <array>
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <random>
+
+#include "results/hdf5.hpp"
+#include "results/map_reader.hpp"
+#include "results/map_writer.hpp"
+#include "results/store_error.hpp"
+#include "sample.hpp"
+#include "temporary_directory.hpp"
+
+using namespace frahm::results;
+using Catch::Matchers::Contains;
+using Catch::Matchers::Message;
+
+namespace {
+
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+const std::array<std::uint64_t, 2> origin{0, 0}, one{1, 1}, whole{sample::designs, sample::frequencies};
+
+// What is thrown, with its type; empty if nothing is.
+std::string refusal(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const StoreError& error) {
+    return std::string("StoreError: ") + error.what();
+  } catch (const std::invalid_argument& error) {
+    return std::string("invalid_argument: ") + error.what();
+  }
+  return "";
+}
+
+// The refusal of the sample's layout after a change.
+std::string refusal_of(const std::function<void(MapLayout&)>& change) {
+  MapLayout layout = sample::layout();
+  change(layout);
+  return refusal([&] { check(layout); });
+}
+
+void write_at(const std::filesystem::path& path, std::streamoff offset, const std::string& bytes) {
+  std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+  file.seekp(offset);
+  file << bytes;
+}
+
+}  // namespace
+
+TEST_CASE("a layout that would not open everywhere is refused by name and rule") {
+  CHECK(refusal_of([](MapLayout&) {}).empty());
+  CHECK_THAT(refusal_of([](MapLayout& l) { l.variables[0].name = "main peak"; }),
+             Contains("'main peak'") && Contains("[A-Za-z][A-Za-z0-9_]*"));
+  CHECK_THAT(refusal_of([](MapLayout& l) { l.variables[0].name = "1st"; }), Contains("'1st'"));
+  CHECK_THAT(refusal_of([](MapLayout& l) { l.variables[1].name = "omega"; }),
+             Contains("'omega'") && Contains("once"));
+  CHECK_THAT(refusal_of([](MapLayout& l) { l.axes[0].coordinates[0].name = "frequency_ratio"; }),
+             Contains("once"));
+  CHECK_THAT(refusal_of([](MapLayout& l) { l.variables[0].unit = ""; }),
+             Contains("'main_peak'") && Contains("unit"));
+  CHECK_THAT(refusal_of([](MapLayout& l) { l.variables[0].long_name = ""; }), Contains("long_name"));
+  CHECK_THAT(refusal_of([](MapLayout& l) { l.variables[4].unit = "1"; }), Contains("'status'"));
+  CHECK_THAT(refusal_of([](MapLayout& l) { l.variables[4].flags = {{"ok", 1}}; }), Contains("not_computed"));
+  CHECK_THAT(refusal_of([](MapLayout& l) { l.variables[4].flags[2].value = 128; }),
+             Contains("grazing = 128"));
+  CHECK_THAT(refusal_of([](MapLayout& l) { l.variables[4].flags[2].value = 1; }), Contains("used once"));
+  CHECK_THAT(refusal_of([](MapLayout& l) { l.variables[4].flags[2].meaning = "a b"; }), Contains("'a b'"));
+  CHECK_THAT(refusal_of([](MapLayout& l) {
+               l.variables[0].flags = {{"not_computed", 0}};
+             }),
+             Contains("flag only"));
+  CHECK_THAT(refusal_of([](MapLayout& l) { l.axes[1].size = 71; }), Contains("70 values") && Contains("71"));
+  CHECK_THAT(refusal_of([](MapLayout& l) { l.axes[1].coordinates[0].values[3] = missing; }),
+             Contains("finite"));
+  CHECK_THAT(refusal_of([](MapLayout& l) { l.axes[1].coordinates[1].unit = ""; }),
+             Contains("'frequency_ratio'"));
+  CHECK_THAT(refusal_of([](MapLayout& l) { l.axes[1] = {.name = "omega", .size = 0}; }), Contains("size 0"));
+  CHECK_THAT(refusal_of([](MapLayout& l) { l.chunk = {64}; }), Contains("1 dimensions") && Contains("2"));
+  CHECK_THAT(refusal_of([](MapLayout& l) { l.chunk = {0, 64}; }), Contains("chunk"));
+  CHECK_THAT(refusal([] { check(MapLayout{.variables = {{.name = "x", .unit = "m", .long_name = "x"}}}); }),
+             Contains("without axes"));
+}
+
+TEST_CASE("columns and rows that do not fit together are refused") {
+  const Variable x{.name = "x", .unit = "m", .long_name = "x"}, y{.name = "y", .unit = "m", .long_name = "y"};
+  CHECK_THAT(refusal([&] {
+               check(std::vector<Column>{{x, "t", {1, 2}}, {y, "t", {1}}});
+             }),
+             Contains("'y': 1 values"));
+  CHECK_THAT(refusal([&] { check(std::vector<Column>{{x, "", {1, 2}}}); }), Contains("must be 1"));
+  CHECK_THAT(refusal([&] {
+               check(std::vector<Column>{{x, "y", {1}}, {y, "t", {1}}});
+             }),
+             Contains("dimension 'y'"));
+  CHECK_THAT(
+      refusal([&] { check(RaggedLayout{.group = "orbits", .row = "orbit", .sample_variables = {x}}); }),
+      Contains("samples must have a dimension"));
+  CHECK_THAT(refusal([&] { check(RaggedLayout{.group = "a/b", .row = "orbit"}); }), Contains("'a/b'"));
+
+  const TemporaryDirectory directory;
+  MapWriter writer(directory / "map.h5", {});
+  const std::size_t table =
+      writer.create_ragged({.group = "orbits",
+                            .row = "orbit",
+                            .row_variables = {x},
+                            .sample = "s",
+                            .sample_variables = {y, {.name = "z", .unit = "m", .long_name = "z"}}});
+  CHECK_THAT(refusal([&] { writer.append_ragged(table, {}, {}); }),
+             Contains("'orbits'") && Contains("must be 1 and 2"));
+  CHECK_THAT(
+      refusal([&] {
+        writer.append_ragged(table, std::vector{1.0}, std::vector<std::vector<double>>{{1.0}, {1.0, 2.0}});
+      }),
+      Contains("must be equal"));
+  CHECK_THAT(refusal([&] { writer.append_ragged(7, {}, {}); }), Contains("table 7"));
+}
+
+TEST_CASE("a value its type cannot hold is refused by variable, value and rule") {
+  const TemporaryDirectory directory;
+  MapWriter writer(directory / "map.h5", sample::layout());
+  const auto write = [&](std::size_t variable, double value) {
+    return refusal([&] { writer.write_block(variable, origin, one, std::vector<double>{value}); });
+  };
+  CHECK(write(sample::peak, missing).empty());
+  CHECK_THAT(write(sample::stops, missing), Contains("'guide_stops': value nan: must be a whole number"));
+  CHECK_THAT(write(sample::stops, 1.5), Contains("1.5"));
+  CHECK_THAT(write(sample::stops, 2147483648.0), Contains("int32"));
+  CHECK_THAT(write(sample::regime, 6.0), Contains("'guide_regime': value 6: must be one of its flag values"));
+  CHECK_THAT(write(sample::regime, missing), Contains("flag values"));
+  CHECK_THAT(write(sample::regime, -1.0), Contains("flag values"));
+  CHECK_THAT(write(sample::phase, 1e39), Contains("float32"));
+}
+
+TEST_CASE("a block outside the map, or with other than its values, is refused") {
+  const TemporaryDirectory directory;
+  MapWriter writer(directory / "map.h5", sample::layout());
+  const auto write = [&](std::vector<std::uint64_t> start, std::vector<std::uint64_t> count,
+                         std::size_t values) {
+    return refusal([&] { writer.write_block(0, start, count, std::vector<double>(values)); });
+  };
+  CHECK_THAT(write({4, 60}, {1, 11}, 11),
+             Contains("main_peak: block of [1, 11] at [4, 60]: must lie within [5, 70]"));
+  CHECK_THAT(write({6, 0}, {1, 1}, 1), Contains("must lie within"));
+  CHECK_THAT(write({1, 0}, {std::numeric_limits<std::uint64_t>::max(), 1}, 1), Contains("must lie within"));
+  CHECK_THAT(write({0}, {1}, 1), Contains("must lie within"));
+  CHECK_THAT(write({0, 0}, {2, 3}, 5), Contains("5 values for a block of [2, 3]"));
+  CHECK_THAT(refusal([&] { writer.write_block(5, origin, one, std::vector{1.0}); }), Contains("variable 5"));
+}
+
+TEST_CASE("a text that is not UTF-8 is refused") {
+  const TemporaryDirectory directory;
+  MapWriter writer(directory / "map.h5", {});
+  const auto write = [&](const std::string& text) {
+    return refusal([&] { writer.write_texts("provenance", {{"t" + std::to_string(text.size()), text}}); });
+  };
+  CHECK(write("plain ζ 漢 😀").empty());
+  for (const std::string bad :
+       {"\xff", "a\x80", "\xc0\xaf", "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xe6\xbc"}) {
+    CHECK_THAT(write(bad), Contains("must be UTF-8"));
+  }
+  CHECK_THAT(write(std::string("a\0b", 3)), Contains("byte 1 (0x00)"));
+}
+
+TEST_CASE("an unfinished file leaves nothing behind and the finished one before it alone") {
+  const TemporaryDirectory directory;
+  sample::write(directory / "map.h5");
+  {
+    MapWriter writer(directory / "map.h5", {.title = "another"});
+    CHECK(std::filesystem::exists(directory / "map.h5.part"));
+  }
+  CHECK_FALSE(std::filesystem::exists(directory / "map.h5.part"));
+  CHECK(MapReader(directory / "map.h5").layout().title == "Sample");
+}
+
+TEST_CASE("a layout refused leaves nothing behind") {
+  const TemporaryDirectory directory;
+  MapLayout layout = sample::layout();
+  layout.variables[0].unit.clear();
+  CHECK_THAT(refusal([&] { MapWriter(directory / "map.h5", layout); }), Contains("invalid_argument"));
+  CHECK_FALSE(std::filesystem::exists(directory / "map.h5.part"));
+}
+
+TEST_CASE("a place that cannot be written is a StoreError with path and cause") {
+  const TemporaryDirectory directory;
+  CHECK_THAT(
+      refusal([&] { MapWriter(directory / "absent" / "map.h5", {}); }),
+      Contains("StoreError") && Contains("absent/map.h5.part") && Contains("No such file or directory"));
+  std::ofstream(directory / "file") << "a file, not a directory";
+  CHECK_THAT(refusal([&] { MapWriter(directory / "file" / "map.h5", {}); }), Contains("Not a directory"));
+  if (::geteuid() != 0) {  // root may write anywhere
+    std::filesystem::create_directory(directory / "closed");
+    std::filesystem::permissions(directory / "closed", std::filesystem::perms::owner_read);
+    CHECK_THAT(refusal([&] { MapWriter(directory / "closed" / "map.h5", {}); }),
+               Contains("Permission denied"));
+  }
+}
+
+TEST_CASE("a path taken by a directory is refused at the end and the part removed") {
+  const TemporaryDirectory directory;
+  std::filesystem::create_directory(directory / "map.h5");
+  CHECK_THAT(refusal([&] { sample::write(directory / "map.h5"); }),
+             Contains("cannot rename") && Contains("directory"));
+  CHECK_FALSE(std::filesystem::exists(directory / "map.h5.part"));
+}
+
+TEST_CASE("a file that is not ours is refused, and why") {
+  const TemporaryDirectory directory;
+  const auto open = [&](const std::string& name) { return refusal([&] { MapReader(directory / name); }); };
+  CHECK_THAT(open("absent.h5"), Contains("StoreError") && Contains("absent.h5") && Contains("No such file"));
+  std::ofstream(directory / "text.h5") << "not HDF5 at all";
+  CHECK_THAT(open("text.h5"), Contains("text.h5") && Contains("signature"));
+  hdf5::File::create(directory / "foreign.h5").close();
+  CHECK_THAT(open("foreign.h5"), Contains("must be a Frahm result"));
+  {
+    hdf5::File file = hdf5::File::create(directory / "newer.h5");
+    hdf5::Group root = file.root();
+    root.write_text("format", "frahm");
+    const double version = 2;
+    root.write_numbers("format_version", {.name = "v", .type = Type::int32}, {&version, 1});
+  }
+  CHECK_THAT(open("newer.h5"), Contains("format_version 2") && Contains("must be 1 to 1"));
+}
+
+TEST_CASE("reading what is not there is refused") {
+  const TemporaryDirectory directory;
+  sample::write(directory / "map.h5");
+  const MapReader reader(directory / "map.h5");
+  CHECK_THAT(refusal([&] {
+               reader.read(0, origin, std::array<std::uint64_t, 2>{5, 71});
+             }),
+             Contains("must lie within"));
+  CHECK_THAT(refusal([&] { reader.read(5, origin, one); }), Contains("variable 5"));
+  CHECK_THAT(refusal([&] { reader.columns("decay"); }),
+             Contains("map.h5:/decay") && Contains("cannot open the group"));
+}
+
+TEST_CASE("a damaged chunk is an error, not a wrong number") {
+  const TemporaryDirectory directory;
+  const auto path = directory / "map.h5";
+  const std::array<std::uint64_t, 2> shape{64, 64};
+  std::mt19937_64 random(1);
+  std::vector<double> noise(64 * 64);
+  for (double& value : noise) value = std::uniform_real_distribution<double>(1.0, 2.0)(random);
+  {
+    MapWriter writer(path, {.axes = {{.name = "p", .size = 64}, {.name = "q", .size = 64}},
+                            .variables = {{.name = "x", .unit = "m", .long_name = "x"}},
+                            .chunk = {64, 64}});
+    writer.write_block(0, origin, shape, noise);
+    writer.finish();
+  }
+  CHECK(MapReader(path).read(0, origin, shape) == noise);
+  // The one chunk is most of the file: the file's middle lies in it.
+  write_at(path, static_cast<std::streamoff>(std::filesystem::file_size(path) / 2), "damaged");
+  const MapReader reader(path);
+  CHECK_THAT(refusal([&] { reader.read(0, origin, shape); }),
+             Contains("map.h5:/x: cannot read") && Contains("Fletcher32"));
+}

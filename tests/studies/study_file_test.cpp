@@ -1,0 +1,238 @@
+#include "studies/study_file.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <string>
+
+namespace {
+
+using namespace frahm::studies;
+using frahm::mechanics::ElementType;
+using frahm::mechanics::ExcitationKind;
+using frahm::mechanics::Node;
+using frahm::mechanics::NodeKind;
+
+constexpr double rounding = 1e-14;  // a few roundings of double arithmetic
+const std::string studies = FRAHM_SOURCE_DIR "/studies/";
+
+// A small study, into which tests put what they are about.
+const std::string heading = "[study]\nschema = 1\nkind = \"sweep\"\n";
+const std::string oscillator =
+    "[[mass]]\nname = \"main\"\nmass = 2\n"
+    "[[element]]\nname = \"spring\"\ntype = \"spring\"\nbetween = [\"ground\", \"main\"]\nstiffness = 8\n"
+    "[excitation]\nfrequency = \"omega\"\n[[excitation.force]]\non = \"main\"\namplitude = 1\n";
+
+std::string complaint_about(const std::string& text) {
+  try {
+    parse_study(text, "study.toml");
+  } catch (const StudyError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST_CASE("every study of the project is read") {
+  std::size_t count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(studies)) {
+    if (entry.path().extension() != ".toml") continue;
+    INFO(entry.path().string());
+    CHECK_NOTHROW(read_study(entry.path()));
+    ++count;
+  }
+  CHECK(count >= 7);
+}
+
+TEST_CASE("the rig atlas is the network and the grid of its file") {
+  const StudyFile rig = read_study(studies + "rig_atlas.toml");
+  CHECK_FALSE(rig.dimensionless);
+  CHECK(rig.network.masses == std::vector<std::string>{"main", "tmd"});
+  CHECK(rig.network.prescribed == std::vector<std::string>{"exciter"});
+  REQUIRE(rig.network.elements.size() == 8);
+  CHECK(rig.network.elements[1].name == "drive");
+  CHECK(rig.network.elements[1].a == Node{NodeKind::prescribed, 0});
+  CHECK(rig.network.elements[1].b == Node{NodeKind::mass, 0});
+  CHECK(rig.network.elements[6].type == ElementType::inerter);
+  REQUIRE(rig.network.excitations.size() == 1);
+  CHECK(rig.network.excitations[0].kind == ExcitationKind::motion);
+  CHECK(rig.network.reference_order == 1);
+
+  REQUIRE(rig.dimensions.size() == 3);
+  CHECK(rig.dimensions[0].name == "I");
+  CHECK(rig.dimensions[0].size == 42);
+  CHECK(rig.dimensions[1].size == 31);
+  CHECK(rig.dimensions[2].size == 401);
+  CHECK(rig.frequency_dimension == std::size_t{2});
+  CHECK_FALSE(rig.values_depend_on_frequency);
+  CHECK(rig.axes[0].unit == "kg");
+  CHECK(rig.axes[0].values.back() == 12.9);
+  CHECK(rig.axes[2].unit == "rpm");
+  CHECK(rig.axes[2].values[1] == 150.5);
+  CHECK_THAT(rig.axes[2].si_values[0], Catch::WithinRel(5.0 * std::numbers::pi, rounding));
+}
+
+TEST_CASE("the rig atlas has the published values at 250 rpm and I = 6.36 kg") {
+  const StudyFile rig = read_study(studies + "rig_atlas.toml");
+  auto parameters = rig.parameters.nominal();
+  frahm::mechanics::NetworkValues values;
+  evaluate(rig.values, rig.parameters, parameters, values);
+  CHECK_THAT(values.omega, Catch::WithinRel(26.179938779914945, rounding));
+  CHECK(values.mass == std::vector<double>{102.66, 12.82});
+  CHECK_THAT(values.element[0], Catch::WithinRel(49086.0, rounding));
+  CHECK_THAT(values.element[2], Catch::WithinRel(0.0419 * 8181.0 * 0.02955, rounding));
+  CHECK_THAT(values.element[5], Catch::WithinRel(26.5104 + 0.4811 * 6.36, rounding));
+  CHECK_THAT(values.excitation[0].amplitude, Catch::WithinRel(0.02955, rounding));
+  CHECK_THAT(values.excitation[0].phase, Catch::WithinRel(-std::numbers::pi / 2.0, rounding));
+}
+
+TEST_CASE("derived coordinates lie along their dimension") {
+  const StudyFile rig = read_study(studies + "rig_atlas.toml");
+  REQUIRE(rig.coordinates.size() == 2);
+  CHECK(rig.coordinates[0].dimension == 2);
+  const auto ratios = coordinate_values(rig, rig.coordinates[0]);
+  REQUIRE(ratios.size() == 401);
+  const double natural = std::sqrt(7.0 * 8181.0 / 102.66);
+  CHECK_THAT(ratios[0], Catch::WithinRel(5.0 * std::numbers::pi / natural, rounding));
+  CHECK_THAT(coordinate_values(rig, rig.coordinates[1])[41], Catch::WithinRel(12.9 / 102.66, rounding));
+}
+
+TEST_CASE("a study of two frequencies has its orders and the lowest as reference") {
+  const StudyFile study = read_study(studies + "cheng_zu.toml");
+  REQUIRE(study.network.excitations.size() == 2);
+  CHECK(study.network.excitations[0].order == 1);
+  CHECK(study.network.excitations[1].order == 3);
+  CHECK(study.network.reference_order == 1);
+  CHECK(read_study(studies + "cheng_zu_even.toml").network.excitations[1].order == 2);
+}
+
+TEST_CASE("an axis runs linearly, by ratios or over given values, ends exact") {
+  const StudyFile study =
+      parse_study(heading + "[parameters]\nomega = 1\na = 1\nb = 1\n" + oscillator +
+                      "[[axis]]\nparameter = \"a\"\nfrom = 0.1\nto = 0.7\npoints = 4\n"
+                      "[[axis]]\nparameter = \"b\"\nfrom = 1\nto = 1000\npoints = 4\nspacing = \"log\"\n"
+                      "[[axis]]\nparameter = \"omega\"\nunit = \"Hz\"\nvalues = [3, 1, 2]\n",
+                  "study.toml");
+  CHECK(study.axes[0].values.front() == 0.1);
+  CHECK(study.axes[0].values.back() == 0.7);
+  CHECK_THAT(study.axes[0].values[1], Catch::WithinRel(0.3, rounding));
+  CHECK_THAT(study.axes[1].values[2], Catch::WithinRel(100.0, rounding));
+  CHECK(study.axes[1].values[3] == 1000.0);
+  CHECK(study.axes[1].unit.empty());
+  CHECK(study.axes[2].values == std::vector<double>{3, 1, 2});
+  CHECK_THAT(study.axes[2].si_values[1], Catch::WithinRel(2.0 * std::numbers::pi, rounding));
+}
+
+TEST_CASE("zipped axes share a dimension and are placed together") {
+  const StudyFile study = parse_study(heading + "[parameters]\nomega = 1\na = 1\nb = 1\n" + oscillator +
+                                          "[[axis]]\nparameter = \"a\"\nvalues = [1, 1, 3]\nzip = \"pair\"\n"
+                                          "[[axis]]\nparameter = \"omega\"\nvalues = [4, 5]\n"
+                                          "[[axis]]\nparameter = \"b\"\nvalues = [7, 8, 9]\nzip = \"pair\"\n",
+                                      "study.toml");
+  REQUIRE(study.dimensions.size() == 2);
+  CHECK(study.dimensions[0].name == "pair");
+  CHECK(study.dimensions[0].axes == std::vector<std::size_t>{0, 2});
+  auto parameters = study.parameters.nominal();
+  place(study, 0, 2, parameters);
+  CHECK(parameters == std::vector<double>{1, 3, 9});
+}
+
+TEST_CASE("the frequency dimension is one along which the matrices stay the same, if there is one") {
+  const auto study = [](const std::string& frequency, const std::string& mass) {
+    return parse_study(
+        heading + "[parameters]\nr = 1\nw = 2\n[[mass]]\nname = \"main\"\nmass = \"" + mass + "\"\n" +
+            "[[element]]\nname = \"s\"\ntype = \"spring\"\nbetween = [\"ground\", \"main\"]\n"
+            "stiffness = 8\n[excitation]\nfrequency = \"" +
+            frequency +
+            "\"\n[[excitation.force]]\n"
+            "on = \"main\"\namplitude = 1\n[[axis]]\nparameter = \"r\"\nvalues = [1, 2]\n[[axis]]\n"
+            "parameter = \"w\"\nvalues = [1, 2]\n",
+        "study.toml");
+  };
+  CHECK(study("r*w", "1").frequency_dimension == std::size_t{1});
+  CHECK(study("r*w", "w^2").frequency_dimension == std::size_t{0});
+  CHECK_FALSE(study("r*w", "w^2").values_depend_on_frequency);
+  CHECK(study("r*w", "r*w").frequency_dimension == std::size_t{1});
+  CHECK(study("r*w", "r*w").values_depend_on_frequency);
+  CHECK(study("w", "w").values_depend_on_frequency);
+  CHECK_FALSE(study("3", "w").frequency_dimension);
+}
+
+TEST_CASE("Hz are cycles in everything the frequency depends on, and refused where they could be either") {
+  const std::string axis = "[[axis]]\nparameter = \"r\"\nvalues = [1]\n";
+  const std::string text =
+      heading + "[parameters]\nr = 1\nf0 = { value = 2, unit = \"Hz\" }\nomega = \"r*f0\"\n";
+  const StudyFile study = parse_study(text + oscillator + axis, "study.toml");
+  CHECK_THAT(study.parameters.nominal()[2], Catch::WithinRel(4.0 * std::numbers::pi, rounding));
+  CHECK_THAT(
+      complaint_about(heading + "[parameters]\nr = 1\nomega = \"r\"\nf0 = { value = 2, unit = \"Hz\" }\n" +
+                      oscillator + axis),
+      Catch::Contains("may count cycles or radians"));
+}
+
+TEST_CASE("a schedule is read from a table beside the study and refused outside it") {
+  const auto folder = std::filesystem::temp_directory_path() / "frahm_study_file_test";
+  std::filesystem::create_directory(folder);
+  std::ofstream(folder / "schedule.csv") << "omega,I\n15,4\n35,12\n";
+  const auto study = [&](const std::string& to) {
+    return parse_study(heading +
+                           "[parameters]\nomega = 20\nI = { table = \"schedule.csv\", of = \"omega\" }\n" +
+                           oscillator +
+                           "[[element]]\nname = \"inerter\"\ntype = \"inerter\"\n"
+                           "between = [\"ground\", \"main\"]\ninertance = \"I\"\n"
+                           "[[axis]]\nparameter = \"omega\"\nfrom = 15\nto = " +
+                           to + "\npoints = 3\n",
+                       folder / "study.toml");
+  };
+  const StudyFile inside = study("35");
+  CHECK(inside.parameters.nominal() == std::vector<double>{20, 6});
+  CHECK(inside.values_depend_on_frequency);
+  CHECK_THROWS_WITH(study("40"), Catch::Contains("it covers omega from 15 to 35 (SI), here 40"));
+  std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("quantities keep their places and orbits are in the units of their axes") {
+  const StudyFile study =
+      parse_study(heading + "[parameters]\nomega = { value = 60, unit = \"rpm\" }\nI = 1\n" + oscillator +
+                      "[[axis]]\nparameter = \"omega\"\nunit = \"Hz\"\nvalues = [1, 2]\n"
+                      "[output]\nquantities = [\"main_peak\", \"status\"]\nprecision = \"single\"\n"
+                      "orbits = [{ omega = 2, I = 6 }, { omega = { value = 60, unit = \"rpm\" } }]\n",
+                  "study.toml");
+  CHECK(study.output.quantities == OutputChoice::Quantities::listed);
+  CHECK(study.output.single_precision);
+  REQUIRE(study.output.names.size() == 2);
+  const auto& name = study.output.names[1];
+  CHECK_THAT(study.source.error_at(name.position, name.text).what(),
+             Catch::StartsWith("study.toml:25:28: status\n"));
+  REQUIRE(study.output.orbits.size() == 2);
+  CHECK_THAT(study.output.orbits[0][0].value, Catch::WithinRel(4.0 * std::numbers::pi, rounding));
+  CHECK(study.output.orbits[0][1].value == 6.0);
+  CHECK_THAT(study.output.orbits[1][0].value, Catch::WithinRel(2.0 * std::numbers::pi, rounding));
+}
+
+TEST_CASE("a study begins with a byte order mark or has Windows line ends and is read all the same") {
+  std::string text = "\xEF\xBB\xBF" + heading + "[parameters]\nomega = 1\n" + oscillator +
+                     "[[axis]]\nparameter = \"omega\"\nvalues = [1]\n";
+  CHECK(complaint_about(text) == "none");
+  for (std::size_t i = 0; (i = text.find('\n', i)) != std::string::npos; i += 2) text.replace(i, 1, "\r\n");
+  CHECK(complaint_about(text) == "none");
+}
+
+TEST_CASE("a file that cannot be read is an error that names it") {
+  CHECK_THROWS_WITH(read_study("no_such_study.toml"),
+                    Catch::StartsWith("no_such_study.toml: the study cannot be read"));
+  CHECK_THROWS_WITH(read_study(studies), Catch::Contains("it is a directory"));
+}
+
+TEST_CASE("parts of a study cut off anywhere are read or refused, never a crash") {
+  const StudyFile rig = read_study(studies + "rig_atlas.toml");
+  const std::string& text = rig.source.text;
+  std::size_t refused = 0;
+  for (std::size_t length = 0; length < text.size(); length += 7) {
+    refused += complaint_about(text.substr(0, length)) != "none";
+  }
+  CHECK(refused > 200);
+}
+
+}  // namespace
