@@ -270,6 +270,21 @@ std::optional<std::size_t> Expression::sole_parameter() const {
   return program_[0].parameter;
 }
 
+std::string Expression::canonical_text(std::span<const std::string> names) const {
+  std::string text;
+  for (const Instruction& step : program_) {
+    if (!text.empty()) text += ' ';
+    if (step.operation == Operation::constant) {
+      text += fmt::format("{}", step.constant);
+    } else if (step.operation == Operation::parameter) {
+      text += names[step.parameter];
+    } else {
+      text += fmt::format("#{}", static_cast<int>(step.operation));
+    }
+  }
+  return text;
+}
+
 const std::vector<std::string>& Expression::reserved_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all{"pi"};

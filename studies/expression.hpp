@@ -52,6 +52,10 @@ class Expression {
   // The parameter, if the expression is a parameter's name and nothing else.
   std::optional<std::size_t> sole_parameter() const;
 
+  // The expression as it is computed, in postfix form: the same for all ways of writing it that compute the
+  // same. names: those given to parse().
+  std::string canonical_text(std::span<const std::string> names) const;
+
   // Names that have a meaning in expressions, so that no parameter may have them: pi and the functions.
   static const std::vector<std::string>& reserved_names();
 

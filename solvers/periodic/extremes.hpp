@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -16,7 +17,7 @@ struct Extremes {
   double least = std::numeric_limits<double>::infinity();
   double most_phase = 0.0, least_phase = 0.0;  // omega t in [0, 2 pi) at which each is first reached
 
-  double magnitude() const { return std::fmax(std::abs(most), std::abs(least)); }
+  double magnitude() const { return std::max(std::abs(most), std::abs(least)); }
 };
 
 // The angle in [0, 2 pi); an angle within 1e-9 of 2 pi is 0.
@@ -33,8 +34,8 @@ class ExtremeCollector {
 
   // `reached`: the value is arrived at here, not held from before.
   void consider(double value, double at, bool reached) {
-    extremes_.most = std::fmax(extremes_.most, value);
-    extremes_.least = std::fmin(extremes_.least, value);
+    extremes_.most = std::max(extremes_.most, value);
+    extremes_.least = std::min(extremes_.least, value);
     if (!reached) return;
     update(most_reached_, extremes_.most_phase, value, at);
     update(least_reached_, extremes_.least_phase, -value, at);
@@ -47,7 +48,7 @@ class ExtremeCollector {
     const double phase = whole_turns_removed(section_ + at * rate_);
     const double tie = kEqual * std::abs(value);
     if (value < reached - tie || (value <= reached + tie && phase >= reached_phase)) return;
-    reached = std::fmax(reached, value);
+    reached = std::max(reached, value);
     reached_phase = phase;
   }
 
@@ -65,12 +66,13 @@ void consider_interior(const OrbitSteps<N, H>& orbit, OrbitStep<N, H>& step, con
   const double b1 = left.value + left.slope * step.length / 3.0, b2 = right.value - right.slope * step.length / 3.0;
   const double slack = 0.02 * step.length * (std::abs(left.slope) + std::abs(right.slope));
   const Extremes& so_far = collector.extremes();
-  if (std::fmax(b1, b2) + slack <= so_far.most && std::fmin(b1, b2) - slack >= so_far.least) return;
-  // Slopes of one sign and a secant steep enough: monotone (Fritsch and Carlson 1980).
-  const double rise = right.value - left.value;
-  const bool monotone = left.slope * right.slope > 0.0 && rise * left.slope > 0.0 &&
-                        (std::abs(left.slope) + std::abs(right.slope)) * step.length < 2.8 * std::abs(rise);
-  if (monotone) return;
+  if (std::max(b1, b2) + slack <= so_far.most && std::min(b1, b2) - slack >= so_far.least) return;
+  // Neither slope against the rise and the secant steep enough: monotone (Fritsch and Carlson 1980). A slope that is
+  // zero, as at every stop, is so to rounding only.
+  const double rise = right.value - left.value, direction = rise > 0.0 ? 1.0 : -1.0;
+  const double steepest = (std::abs(left.slope) + std::abs(right.slope)) * step.length;
+  const double least_slope = std::min(direction * left.slope, direction * right.slope) * step.length;
+  if (least_slope >= -1e-13 * (steepest + std::abs(left.value)) && steepest < 2.8 * std::abs(rise)) return;
   const Polynomial p = form.polynomial(orbit.expand(step));
   const Roots stationary = sign_changes(derivative(p));
   for (int i = 0; i < stationary.count; ++i) {
@@ -112,7 +114,7 @@ inline Extremes mirrored(const Extremes& half) {
   whole.least = -whole.most;
   const double turned = whole_turns_removed(half.least_phase + std::numbers::pi);
   const double difference = half.most + half.least;  // most - |least|
-  if (std::abs(difference) <= kEqual * whole.most) whole.most_phase = std::fmin(half.most_phase, turned);
+  if (std::abs(difference) <= kEqual * whole.most) whole.most_phase = std::min(half.most_phase, turned);
   else whole.most_phase = difference > 0.0 ? half.most_phase : turned;
   whole.least_phase = whole_turns_removed(whole.most_phase + std::numbers::pi);
   return whole;

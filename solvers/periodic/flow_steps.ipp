@@ -157,6 +157,7 @@ typename Flow<N, H>::Event Flow<N, H>::first_event(Passage<N, H>& passage) {
 // The first sign change of p on (0, 1], or 2. Where there is none, its closest approach to zero is a margin.
 template <int N, int H>
 double Flow<N, H>::first_crossing(const Polynomial& p, double scale, Passage<N, H>& passage) const {
+  if (!may_change_sign(p)) return 2.0;
   const Roots roots = sign_changes(p);
   if (roots.count > 0) return roots.at[0];
   const Roots extremes = sign_changes(derivative(p));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <utility>
 #include <vector>
 
 #include "solvers/periodic/linear_form.hpp"
@@ -53,6 +54,7 @@ class Integrals {
 
   Gram gram_;
   std::vector<Power> powers_;  // of the mode in hand
+  std::vector<std::pair<Joined, Joined>> joined_powers_;
   double input_ = 0.0, input_size_ = 0.0;
 };
 
@@ -72,19 +74,23 @@ void Integrals<N, H>::integrate(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow,
   bool starts_segment = true;
   Samples y(size, kNodes), weighted(size, kNodes);
   for (OrbitStep<N, H>& step : orbit.steps()) {
-    if (starts_segment) powers_of(flow.mode(step.mode), powers_);
+    if (starts_segment) {
+      powers_of(flow.mode(step.mode), powers_);
+      joined_powers_.clear();
+      for (const Power& p : powers_) joined_powers_.emplace_back(joined(p.force), joined(p.velocity));
+    }
     starts_segment = step.ends_segment;
     const Expansion<N, H>& x = orbit.expand(step);
     Nodes at = full;
     if (step.length < 1.0) at.array().colwise() *= powers(step.length).array();
-    y.topRows(2 * eq.masses()).noalias() = x.z.transpose() * at;
-    y.bottomRows(eq.oscillators()).noalias() = x.u.transpose() * at;
+    y.topRows(2 * eq.masses()) = x.z.transpose().lazyProduct(at);
+    y.bottomRows(eq.oscillators()) = x.u.transpose().lazyProduct(at);
     for (int i = 0; i < kNodes; ++i) weighted.col(i) = (step.length * kNodeWeight[i]) * y.col(i);
-    gram_.noalias() += weighted * y.transpose();
+    gram_ += weighted.lazyProduct(y.transpose());
 
     Eigen::Matrix<double, 1, kNodes> power = Eigen::Matrix<double, 1, kNodes>::Zero();
-    for (const Power& p : powers_) {
-      power.array() += (joined(p.force).transpose() * y).array() * (joined(p.velocity).transpose() * y).array();
+    for (const auto& [force, velocity] : joined_powers_) {
+      for (int i = 0; i < kNodes; ++i) power[i] += force.dot(y.col(i)) * velocity.dot(y.col(i));
     }
     for (int i = 0; i < kNodes; ++i) {
       input_ += step.length * kNodeWeight[i] * power[i];

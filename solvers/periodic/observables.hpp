@@ -48,7 +48,6 @@ class Observables {
 
   void plan(const Quantity& quantity);
   std::size_t trace_of(Trace trace);
-  mechanics::Incidence incidence_of_mass(std::size_t mass) const;
   Form form_of(const Trace& trace, const Mode<N, H>& mode) const;
   void integrate(const Orbit<N, H>& orbit);
   void balance_energy();
@@ -63,6 +62,7 @@ class Observables {
   const mechanics::Assembly& assembly_;
   const Flow<N, H>& flow_;
   Forms<N, H> forms_;
+  std::vector<mechanics::Incidence> mass_incidences_;  // the displacement of each mass by itself
   std::vector<Quantity> quantities_;
   std::vector<std::size_t> trace_index_;  // of each quantity
   std::vector<Trace> traces_;

@@ -5,16 +5,12 @@ template <int N, int H>
 Observables<N, H>::Observables(const mechanics::Assembly& assembly, const Flow<N, H>& flow,
                                std::vector<Quantity> quantities)
     : assembly_(assembly), flow_(flow), forms_(assembly, flow), quantities_(std::move(quantities)), steps_(flow) {
+  const auto masses = static_cast<Eigen::Index>(assembly.network().masses.size());
+  const auto supports = static_cast<Eigen::Index>(assembly.network().prescribed.size());
+  for (Eigen::Index i = 0; i < masses; ++i) {
+    mass_incidences_.push_back({Eigen::VectorXd::Unit(masses, i), Eigen::VectorXd::Zero(supports)});
+  }
   for (const Quantity& quantity : quantities_) plan(quantity);
-}
-
-template <int N, int H>
-mechanics::Incidence Observables<N, H>::incidence_of_mass(std::size_t mass) const {
-  const auto& network = assembly_.network();
-  mechanics::Incidence at{Eigen::VectorXd::Zero(static_cast<Eigen::Index>(network.masses.size())),
-                          Eigen::VectorXd::Zero(static_cast<Eigen::Index>(network.prescribed.size()))};
-  at.w[static_cast<Eigen::Index>(mass)] = 1.0;
-  return at;
 }
 
 template <int N, int H>
@@ -38,11 +34,11 @@ void Observables<N, H>::plan(const Quantity& quantity) {
     case Measure::amplitude:
     case Measure::peak:
     case Measure::peak_phase:
-      trace = trace_of({Measure::amplitude, incidence_of_mass(quantity.index), 0, {}, {}});
+      trace = trace_of({Measure::amplitude, mass_incidences_[quantity.index], 0, {}, {}});
       break;
     case Measure::velocity_peak:
     case Measure::acceleration_peak:
-      trace = trace_of({quantity.measure, incidence_of_mass(quantity.index), 0, {}, {}});
+      trace = trace_of({quantity.measure, mass_incidences_[quantity.index], 0, {}, {}});
       break;
     case Measure::stroke:
       trace = trace_of({Measure::amplitude, assembly_.incidences()[quantity.index], 0, {}, {}});
@@ -57,7 +53,7 @@ void Observables<N, H>::plan(const Quantity& quantity) {
       break;
     }
     case Measure::phase:
-      trace = trace_of({Measure::amplitude, incidence_of_mass(quantity.index), 0, {}, {}});
+      trace = trace_of({Measure::amplitude, mass_incidences_[quantity.index], 0, {}, {}});
       needs_integrals_ = true;
       break;
     case Measure::element_phase:
@@ -148,7 +144,7 @@ void Observables<N, H>::integrate(const Orbit<N, H>& orbit) {
       if (eq.applied_force.row(i).isZero(0.0)) continue;
       Form force = Form::zero(eq.masses(), eq.oscillators());
       force.u = eq.applied_force.row(i).transpose();
-      powers.push_back({force, forms_.velocity(incidence_of_mass(static_cast<std::size_t>(i)))});
+      powers.push_back({force, forms_.velocity(mass_incidences_[static_cast<std::size_t>(i)])});
     }
     for (Eigen::Index s = 0; s < eq.motion.rows(); ++s) {
       Form velocity = Form::zero(eq.masses(), eq.oscillators());
@@ -258,7 +254,7 @@ double Observables<N, H>::value_of_mass(std::size_t i) const {
       return integrals_.gram()(mass, 2 * flow_.equations().masses()) / period;
     }
     case Measure::rms: return std::sqrt(integrals_.gram()(mass, mass) / period);
-    case Measure::phase: return phase_of(forms_.displacement(incidence_of_mass(quantity.index)), extremes.magnitude());
+    case Measure::phase: return phase_of(forms_.displacement(mass_incidences_[quantity.index]), extremes.magnitude());
     default: return extremes.magnitude();  // peaks
   }
 }

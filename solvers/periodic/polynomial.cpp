@@ -70,22 +70,29 @@ double hermite_root(ValueAndSlope left, ValueAndSlope right, double lo, double h
   const double c2 = 3.0 * rise - 2.0 * c1 - right.slope * length;
   const double c3 = rise - c1 - c2;
   double s = -left.value / rise;
-  for (int iteration = 0; iteration < 3; ++iteration) {
+  for (int iteration = 0; iteration < 2; ++iteration) {
     const double value = left.value + s * (c1 + s * (c2 + s * c3)), slope = c1 + s * (2.0 * c2 + 3.0 * s * c3);
     s = std::clamp(s - value / slope, 0.0, 1.0);
   }
   return s > 0.0 && s < 1.0 ? lo + s * length : 0.5 * (lo + hi);
 }
 
+// Within the sum of k (k-1) (k-2) (k-3) |p_k|, which bounds the fourth derivative.
+SignVerdict verdict_from_ends(const Polynomial& p) {
+  double fourth_derivative = 0.0, value = p[0], slope = 0.0;
+  for (int k = 1; k < kTerms; ++k) {
+    value += p[k];
+    slope += k * p[k];
+    fourth_derivative += (k * (k - 1.0) * (k - 2.0) * (k - 3.0)) * std::abs(p[k]);
+  }
+  return hermite_verdict({p[0], p[1]}, {value, slope}, fourth_derivative / 384.0);
+}
+
 }  // namespace
 
 double root_between(const Polynomial& p, double lo, double hi) {
-  const Polynomial d = derivative(p);
-  const auto at = [&](double s) {
-    const Polynomial power = powers(s);
-    return ValueAndSlope{p.dot(power), d.dot(power)};
-  };
-  const ValueAndSlope left = at(lo), right = at(hi);
+  const Polynomial d = derivative(p), dd = derivative(d);
+  const ValueAndSlope left = evaluate_with_slope(p, lo), right = evaluate_with_slope(p, hi);
   if (left.value == 0.0) return lo;
   if (right.value == 0.0) return hi;
   const double side = left.value > 0.0 ? 1.0 : -1.0;
@@ -94,11 +101,13 @@ double root_between(const Polynomial& p, double lo, double hi) {
   constexpr int kMostIterations = 100;
   double last_step = hi - lo;
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
-    const auto [value, slope] = at(s);
-    const double step = -value / slope, next = s + step;
-    // Newton's error is squared each time: what is left after this step is about step^3 / last_step^2.
+    const Polynomial power = powers(s);
+    const double value = p.dot(power), slope = d.dot(power), curvature = dd.dot(power);
+    // Halley's method: the error is cubed each time, so what a step leaves is about step^4 / last_step^3.
+    const double step = -2.0 * value * slope / (2.0 * slope * slope - value * curvature), next = s + step;
+    const double ratio = step / last_step;
     if (std::abs(step) <= kResolution ||
-        (std::abs(step) < 1e-4 && std::abs(step * step * step) <= 0.1 * kResolution * last_step * last_step)) {
+        (std::abs(ratio) < 1e-2 && std::abs(step * ratio * ratio * ratio) <= 0.1 * kResolution)) {
       return std::clamp(next, lo, hi);
     }
     (side * value > 0.0 ? lo : hi) = s;
@@ -109,12 +118,11 @@ double root_between(const Polynomial& p, double lo, double hi) {
   return s;
 }
 
+bool may_change_sign(const Polynomial& p) { return verdict_from_ends(p) != SignVerdict::no_change; }
+
 Roots sign_changes(const Polynomial& p) {
-  // Most polynomials are settled by their ends; the fourth derivative is at most sum k (k-1) (k-2) (k-3) |p_k|.
-  double fourth_derivative = 0.0;
-  for (int k = 4; k < kTerms; ++k) fourth_derivative += (k * (k - 1.0) * (k - 2.0) * (k - 3.0)) * std::abs(p[k]);
   Roots roots;
-  switch (hermite_verdict({p[0], p[1]}, {p.sum(), derivative(p).sum()}, fourth_derivative / 384.0)) {
+  switch (verdict_from_ends(p)) {
     case SignVerdict::no_change: return roots;
     case SignVerdict::one_change:
       roots.at[0] = root_between(p, 0.0, 1.0);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -52,7 +53,7 @@ inline Polynomial deflate(const Polynomial& p, int multiplicity) {
   return q;
 }
 
-// The root of p between lo and hi, where p changes sign: Newton's method kept inside the bracket.
+// The root of p between lo and hi, where p changes sign: Halley's method kept inside the bracket.
 double root_between(const Polynomial& p, double lo, double hi);
 
 // The roots in [0, 1] at which p changes sign, ascending, from at most kMaxRoots brackets.
@@ -67,14 +68,17 @@ struct Roots {
 };
 Roots sign_changes(const Polynomial& p);
 
+// False where the values and slopes at the ends already say that p keeps its sign, and not by little.
+bool may_change_sign(const Polynomial& p);
+
 // What the values and slopes at both ends say of a function's sign in between, when its fourth derivative is
 // bounded by 384 `margin`: the Bernstein coefficients of the cubic Hermite interpolant, within `margin`.
 enum class SignVerdict { no_change, one_change, unclear };
 inline SignVerdict hermite_verdict(ValueAndSlope left, ValueAndSlope right, double margin) {
   const double b0 = left.value, b1 = left.value + left.slope / 3.0;
   const double b2 = right.value - right.slope / 3.0, b3 = right.value;
-  const double least = std::fmin(std::fmin(b0, b1), std::fmin(b2, b3));
-  const double most = std::fmax(std::fmax(b0, b1), std::fmax(b2, b3));
+  const double least = std::min(std::min(b0, b1), std::min(b2, b3));
+  const double most = std::max(std::max(b0, b1), std::max(b2, b3));
   if (least > margin || most < -margin) return SignVerdict::no_change;
   const double s = b0 > 0.0 ? 1.0 : -1.0;
   // + ? ? -  has one change of sign unless it reads + - + -.

@@ -103,11 +103,6 @@ void Flow<N, H>::choose_modes(ContactMask at_rest, Passage<N, H>& passage) {
   const typename S::Vector a_free =
       eq.M_inverse * (eq.force * left_.u - eq.K * left_.z.head(n) - eq.C * left_.z.tail(n) - eq.W * friction);
 
-  std::vector<Eigen::Index> contacts;
-  for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
-    if (contains(at_rest, j)) contacts.push_back(j);
-  }
-  const auto m = static_cast<Eigen::Index>(contacts.size());
   const auto relative = [&](Eigen::Index j) { return eq.W.col(j).dot(a_free) + eq.support_acceleration.row(j).dot(left_.u); };
 
   ContactMask stuck = 0, positive = before.positive & ~at_rest;
@@ -116,13 +111,18 @@ void Flow<N, H>::choose_modes(ContactMask at_rest, Passage<N, H>& passage) {
     fresh_ |= bit(j);
     just_released_ &= ~bit(j);
   };
+  const Eigen::Index m = __builtin_popcountll(at_rest);
   if (m == 1) {
-    const Eigen::Index j = contacts[0];
+    const Eigen::Index j = __builtin_ctzll(at_rest);
     const double force = relative(j) / eq.compliance[j], limit = eq.limit[j];
     if (limit > 0.0) passage.margin = std::min(passage.margin, std::abs(std::abs(force) - limit) / limit);
     if (std::abs(force) <= limit * (1.0 + kTie) && limit > 0.0) stuck = bit(j);
     else slide(j, force > 0.0);
   } else {
+    std::vector<Eigen::Index> contacts;
+    for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
+      if (contains(at_rest, j)) contacts.push_back(j);
+    }
     Eigen::MatrixXd G(m, m);
     Eigen::VectorXd c(m), limit(m);
     for (Eigen::Index i = 0; i < m; ++i) {

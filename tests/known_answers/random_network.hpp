@@ -33,15 +33,16 @@ inline RandomNetwork random_network(const RandomNetworkOptions& options, std::mt
   const auto n = static_cast<std::size_t>(options.masses);
   const Node ground{}, support{NodeKind::prescribed, 0};
   const auto mass = [](std::size_t i) { return Node{NodeKind::mass, i}; };
+  const auto numbered = [](char letter, std::size_t number) { return std::string(1, letter).append(std::to_string(number)); };
   RandomNetwork result;
   Network& network = result.network;
   NetworkValues& values = result.values;
   const auto add = [&](ElementType type, Node a, Node b, double value) {
-    network.elements.push_back({"e" + std::to_string(network.elements.size()), type, a, b});
+    network.elements.push_back({numbered('e', network.elements.size()), type, a, b});
     values.element.push_back(value);
   };
   for (std::size_t i = 0; i < n; ++i) {
-    network.masses.push_back("m" + std::to_string(i));
+    network.masses.push_back(numbered('m', i));
     values.mass.push_back(spread(1.0));
     const Node before = i == 0 ? ground : mass(i - 1);
     add(ElementType::spring, before, mass(i), spread(1.0));

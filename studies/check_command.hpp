@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace frahm::studies {
+
+struct CheckOptions {
+  std::filesystem::path study;
+  std::vector<std::string> set;  // name=value, a unit behind the value or none
+  int threads = 0;               // for the predicted time; 0: one on each processor
+};
+
+// Validates a study and tells what running it means: points and tiles, the time and size to expect, the line
+// that submits it as an array of tasks, and the linear modes at the first point of the grid. Computes rows of
+// the map for about a second to predict the time. Returns 0. Throws StudyError for whatever is wrong in the
+// study.
+int check_command(const CheckOptions& options, std::ostream& out);
+
+}  // namespace frahm::studies

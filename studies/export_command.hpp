@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+
+namespace frahm::studies {
+
+struct ExportOptions {
+  std::filesystem::path file;
+  std::filesystem::path output;  // "-": `out`; empty: the file's name with .csv
+  bool csv = false;              // asked for by name; the only form there is
+};
+
+// Writes a map as CSV: a row a point, coordinates first, then variables, numbers to 17 significant digits,
+// what was not computed as an empty field (0 in flags). Points in the order of the map. Returns 0.
+// Throws results::StoreError, engine::IoError.
+int export_command(const ExportOptions& options, std::ostream& out);
+
+}  // namespace frahm::studies

@@ -1,0 +1,38 @@
+#include "studies/map_plan.hpp"
+
+#include <memory>
+#include <utility>
+
+#include "studies/fingerprint.hpp"
+#include "studies/map_kernel.hpp"
+#include "studies/output_quantities.hpp"
+#include "studies/tile_record.hpp"
+
+namespace frahm::studies {
+
+MapPlan plan_map(StudyFile study, std::vector<std::string> set) {
+  MapPlan plan{.study = std::move(study), .set = std::move(set), .grid = {}, .quantities = {}, .fingerprint = {}};
+  plan.grid = grid_of(plan.study);
+  plan.quantities = output_quantities(plan.study);
+  plan.fingerprint = fingerprint(plan.study, plan.grid, plan.quantities);
+  return plan;
+}
+
+engine::Job job_of(const MapPlan& plan) {
+  const auto points = [&plan](std::uint64_t tile) { return plan.grid.box(tile).points(); };
+  return {.tiles = plan.grid.tiles(),
+          .fingerprint = plan.fingerprint,
+          .make_kernel =
+              [&plan]() -> engine::Kernel {
+            // Shared, as an engine::Kernel has to be copyable.
+            auto kernel = std::make_shared<MapKernel>(plan.study, plan.grid, plan.quantities);
+            return [kernel](std::uint64_t tile, engine::Bytes& out) { (*kernel)(tile, out); };
+          },
+          .points = points,
+          .failed =
+              [&plan, points](std::uint64_t tile, std::span<const std::byte> record) {
+                return count_failed(record, points(tile) * plan.quantities.size());
+              }};
+}
+
+}  // namespace frahm::studies

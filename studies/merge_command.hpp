@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <vector>
+
+namespace frahm::studies {
+
+struct MergeOptions {
+  std::filesystem::path output;
+  std::vector<std::filesystem::path> logs;  // empty: all beside the output
+  bool partial = false;                     // although tiles are missing; the logs are kept then
+};
+
+// Makes a result file from the logs of shards and prints the table of it that a run prints. Returns 0; 3 if
+// some points failed, 4 if stopped. Throws engine::IoError, engine::ResumeRefused, results::StoreError.
+int merge_command(const MergeOptions& options, std::ostream& out);
+
+}  // namespace frahm::studies

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "engine/run.hpp"
+
+namespace frahm::studies {
+
+struct RunCommandOptions {
+  std::filesystem::path study;
+  std::vector<std::string> set;  // name=value, a unit behind the value or none
+  std::string command;           // as typed, for the record
+  engine::RunOptions run;        // output empty: the study's name with .h5, in the working directory
+};
+
+// Computes the map of a study, or what is left of it, and writes its file. Prints a short table of it.
+// Returns 0; 3 if some points failed; 4 if stopped. Throws StudyError, engine::ResumeRefused when an output of
+// another study is there, engine::IoError, results::StoreError.
+int run_command(const RunCommandOptions& options, std::ostream& out);
+
+}  // namespace frahm::studies

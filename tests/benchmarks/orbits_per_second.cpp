@@ -1,0 +1,211 @@
+// Orbits per second and core, beside the strongest peer in the same run: Boost.odeint's dopri5 on the smoothed
+// friction law F (2/pi) arctan(1e5 v), integrated until the peak changes by less than 1e-4 from one period to the
+// next, which is how such maps are made today. Process CPU time, one thread, median of several repetitions.
+//
+//   benchmark_orbits            everything
+//   benchmark_orbits --no-peer  Frahm only
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <boost/numeric/odeint.hpp>
+#include <cmath>
+#include <cstring>
+#include <ctime>
+#include <numbers>
+#include <vector>
+
+#include "solvers/periodic/periodic_response.hpp"
+
+namespace {
+
+using namespace frahm;
+using mechanics::ElementType;
+using mechanics::ExcitationKind;
+using mechanics::Network;
+using mechanics::NetworkValues;
+using mechanics::NodeKind;
+using std::numbers::pi;
+
+double cpu_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// A map of rows of frequencies, and the equation of motion of its smoothed twin.
+struct Work {
+  const char* name;
+  Network network;
+  std::vector<std::vector<NetworkValues>> rows;
+  double (*peer_peak)(const NetworkValues&);
+};
+
+// x'' + 2 zeta x' + x + f Sgn(x') = cos(r t), zeta = 0.02, r in 0.2..2, f in 0..0.7.
+double single_mass_peak(const NetworkValues& values);
+Work single_mass() {
+  Work work{"one mass", {}, {}, single_mass_peak};
+  const mechanics::Node ground{NodeKind::ground, 0}, mass{NodeKind::mass, 0};
+  work.network.masses = {"mass"};
+  work.network.elements = {{"spring", ElementType::spring, ground, mass},
+                           {"damper", ElementType::damper, ground, mass},
+                           {"friction", ElementType::coulomb, ground, mass}};
+  work.network.excitations = {{ExcitationKind::force, 0, 1}};
+  for (int i = 0; i <= 28; ++i) {
+    std::vector<NetworkValues> row;
+    for (int k = 0; k <= 400; ++k) {
+      row.push_back({0.2 + 1.8 * k / 400.0, {1.0}, {1.0, 0.04, 0.025 * i}, {{1.0, 0.0}}});
+    }
+    work.rows.push_back(std::move(row));
+  }
+  return work;
+}
+
+// The rig (README, studies/rig_atlas.toml): 150..350 rpm, friction 0..0.3, inertance 4.72, 8.81, 12.9 kg.
+double rig_peak(const NetworkValues& values);
+Work rig() {
+  Work work{"rig", {}, {}, rig_peak};
+  const mechanics::Node ground{NodeKind::ground, 0}, main{NodeKind::mass, 0}, tmd{NodeKind::mass, 1};
+  const mechanics::Node exciter{NodeKind::prescribed, 0};
+  work.network.masses = {"main", "tmd"};
+  work.network.prescribed = {"exciter"};
+  work.network.elements = {{"suspension", ElementType::spring, ground, main},
+                           {"drive", ElementType::spring, exciter, main},
+                           {"guide", ElementType::coulomb, ground, main},
+                           {"guide_damper", ElementType::damper, ground, main},
+                           {"tmd_spring", ElementType::spring, main, tmd},
+                           {"tmd_damper", ElementType::damper, main, tmd},
+                           {"inerter", ElementType::inerter, main, tmd},
+                           {"tmd_friction", ElementType::coulomb, main, tmd}};
+  work.network.excitations = {{ExcitationKind::motion, 0, 1}};
+  for (const double inertance : {4.72, 8.81, 12.9}) {
+    for (int i = 0; i <= 30; ++i) {
+      std::vector<NetworkValues> row;
+      for (int k = 0; k <= 400; ++k) {
+        const double omega = (150.0 + 0.5 * k) * pi / 30.0;
+        row.push_back({omega,
+                       {102.66, 12.82},
+                       {6 * 8181.0, 8181.0, 0.01 * i * 8181.0 * 0.02955, 1.7688, 10985.1, 26.5104 + 0.4811 * inertance,
+                        inertance, 15.0109},
+                       {{0.02955, -pi / 2}}});
+      }
+      work.rows.push_back(std::move(row));
+    }
+  }
+  return work;
+}
+
+// Seconds per orbit, median of `repetitions`; `sum` keeps the work from being optimised away.
+double frahm_seconds(const Work& work, const std::vector<periodic::Quantity>& quantities, int repetitions) {
+  std::vector<double> seconds;
+  std::vector<double> out(quantities.size());
+  std::size_t orbits = 0;
+  for (int repetition = 0; repetition < repetitions; ++repetition) {
+    periodic::PeriodicResponse response(work.network, quantities);
+    orbits = 0;
+    const double start = cpu_seconds();
+    for (const auto& row : work.rows) {
+      response.begin_row();
+      for (std::size_t k = 0; k < row.size(); ++k) {
+        if (k == 0) response.set_values(row[k]);
+        else response.set_forcing(row[k]);
+        response.solve();
+        response.quantities(out);
+        ++orbits;
+      }
+    }
+    seconds.push_back((cpu_seconds() - start) / static_cast<double>(orbits));
+  }
+  std::nth_element(seconds.begin(), seconds.begin() + repetitions / 2, seconds.end());
+  return seconds[static_cast<std::size_t>(repetitions / 2)];
+}
+
+double smooth_sign(double v) { return 2.0 / pi * std::atan(1e5 * v); }
+
+// Peak of coordinate 0 in steady state, by dopri5 with tolerances 1e-3 (relative) and 1e-6 (absolute).
+template <std::size_t Size, class Rate>
+double integrated_peak(const Rate& rate, double omega, double relative_unit) {
+  namespace odeint = boost::numeric::odeint;
+  using State = std::array<double, Size>;
+  State state{};
+  const auto stepper = odeint::make_controlled(1e-6 * relative_unit, 1e-3, odeint::runge_kutta_dopri5<State>());
+  const double period = 2.0 * pi / omega;
+  constexpr int kMostPeriods = 2000;
+  double last = 0.0;
+  for (int cycle = 0; cycle < kMostPeriods; ++cycle) {
+    double peak = 0.0;
+    odeint::integrate_adaptive(stepper, rate, state, cycle * period, (cycle + 1) * period, period / 200.0,
+                               [&](const State& x, double) { peak = std::max(peak, std::abs(x[0])); });
+    if (cycle > 3 && std::abs(peak - last) < 1e-4 * peak) return peak;
+    last = peak;
+  }
+  return last;
+}
+
+double single_mass_peak(const NetworkValues& values) {
+  using State = std::array<double, 2>;
+  const auto rate = [&](const State& x, State& dx, double t) {
+    dx[0] = x[1];
+    dx[1] = std::cos(values.omega * t) - values.element[1] * x[1] - x[0] - values.element[2] * smooth_sign(x[1]);
+  };
+  return integrated_peak<2>(rate, values.omega, 1.0);
+}
+
+double rig_peak(const NetworkValues& values) {
+  using State = std::array<double, 4>;
+  const auto& e = values.element;
+  const double M = values.mass[0], m = values.mass[1], b = e[6];
+  const double determinant = M * m + b * (M + m);  // of the mass matrix [M+b, -b; -b, m+b]
+  const auto rate = [&](const State& x, State& dx, double t) {
+    const double drive = values.excitation[0].amplitude * std::cos(values.omega * t + values.excitation[0].phase);
+    const double between = e[4] * (x[0] - x[1]) + e[5] * (x[2] - x[3]) + e[7] * smooth_sign(x[2] - x[3]);
+    const double on_main = e[1] * drive - (e[0] + e[1]) * x[0] - e[3] * x[2] - e[2] * smooth_sign(x[2]) - between;
+    dx[0] = x[2];
+    dx[1] = x[3];
+    dx[2] = ((m + b) * on_main + b * between) / determinant;
+    dx[3] = (b * on_main + (M + b) * between) / determinant;
+  };
+  return integrated_peak<4>(rate, values.omega, 1e-2);
+}
+
+void compare(const Work& work, double frahm) {
+  periodic::PeriodicResponse response(work.network, {{periodic::Measure::peak, 0}});
+  std::vector<double> errors;
+  std::size_t points = 0;
+  const double start = cpu_seconds();
+  double outside = 0.0;  // time of the exact orbits, not the peer's
+  for (std::size_t row = 1; row < work.rows.size(); row += 7) {
+    for (std::size_t k = 13; k < work.rows[row].size(); k += 97) {
+      const double peak = work.peer_peak(work.rows[row][k]);
+      ++points;
+      const double exact_start = cpu_seconds();
+      double exact = 0.0;
+      response.forget();
+      response.set_values(work.rows[row][k]);
+      response.solve();
+      response.quantities({&exact, 1});
+      if (exact > 1e-6 * work.rows[row][k].excitation[0].amplitude) errors.push_back(std::abs(peak / exact - 1.0));
+      outside += cpu_seconds() - exact_start;
+    }
+  }
+  const double peer = (cpu_seconds() - start - outside) / static_cast<double>(points);
+  std::sort(errors.begin(), errors.end());
+  fmt::print("{:9} odeint dopri5 1e-3/1e-6: {:.2e} s a point ({} points), error median {:.0e}, largest {:.0e}; Frahm is {:.0f} times as fast\n",
+             work.name, peer, points, errors[errors.size() / 2], errors.back(), peer / frahm);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const bool with_peer = argc < 2 || std::strcmp(argv[1], "--no-peer") != 0;
+  constexpr int kRepetitions = 5;
+  for (const Work& work : {single_mass(), rig()}) {
+    std::vector<periodic::Quantity> peaks;
+    for (std::size_t i = 0; i < work.network.masses.size(); ++i) peaks.push_back({periodic::Measure::peak, i});
+    const double kernel = frahm_seconds(work, peaks, kRepetitions);
+    const double standard = frahm_seconds(work, periodic::standard_quantities(work.network), kRepetitions);
+    fmt::print("{:9} peaks only: {:.3f} us an orbit, {:.0f} orbits/s a core; standard quantities: {:.3f} us, {:.0f} orbits/s\n",
+               work.name, 1e6 * kernel, 1.0 / kernel, 1e6 * standard, 1.0 / standard);
+    if (with_peer) compare(work, kernel);
+  }
+}

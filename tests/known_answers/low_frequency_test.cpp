@@ -1,0 +1,64 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "solvers/periodic/flow.hpp"
+#include "tests/known_answers/responses.hpp"
+#include "tests/known_answers/single_mass.hpp"
+
+// Low frequencies and low damping, where one half cycle holds many stops: against a long forward march from rest.
+namespace frahm::periodic {
+namespace {
+
+constexpr double kBalance = 1e-10;
+constexpr double kAgreement = 1e-9;  // of the displacement at omega t = 0 after the march [P/k]
+
+// The state at omega t = 0 after `periods` of the flow from rest.
+Eigen::Vector2d march(const mechanics::NetworkValues& values, int periods) {
+  const mechanics::Assembly assembly(single_mass());
+  mechanics::LinearSystem system;
+  assembly.set_values(values, system);
+  assembly.set_forcing(values, system);
+  Flow<1, 1> flow;
+  flow.set_system(system);
+  flow.set_forcing(system);
+  Passage<1, 1> passage;
+  Eigen::Vector2d z = Eigen::Vector2d::Zero();
+  for (int period = 0; period < periods; ++period) {
+    flow.pass(z, 0.0, flow.equations().period, passage);
+    REQUIRE(passage.failure == nullptr);
+    z = passage.end;
+  }
+  z[1] /= flow.equations().step;
+  return z;
+}
+
+TEST_CASE("At low frequency the orbit with many stops is the one that a long march from rest settles on") {
+  Responses responses(single_mass());
+  double most_stops = 0.0;
+  for (const double r : {0.05, 0.09, 0.13, 0.2, 0.3}) {
+    for (const double zeta : {0.0, 0.01, 0.1}) {
+      for (const double f : {0.01, 0.05, 0.2, 0.5, 0.9}) {
+        const mechanics::NetworkValues values = single_mass_values(r, zeta, f);
+        responses.solve(values);
+        INFO("r " << r << " zeta " << zeta << " f " << f << " stops " << responses["friction_stops"]);
+        CHECK((responses["status"] == 1.0 || responses["status"] == 2.0));
+        CHECK(responses["energy_balance"] < kBalance);
+        CHECK(responses["floquet_radius"] <= 1.0 + 1e-9);
+        most_stops = std::max(most_stops, responses["friction_stops"]);
+        // The slowest multiplier says how long the march takes.
+        const double radius = responses["floquet_radius"];
+        const int periods = 3 + static_cast<int>(std::log(1e-12) / std::log(std::max(radius, 1e-6)));
+        if (periods > 5000) continue;
+        const Eigen::Vector2d z = march(values, periods);
+        const History history = responses.response().history(2);
+        CHECK(std::abs(z[0] - history.columns[0][0]) < kAgreement);
+        CHECK(std::abs(z[1] - history.columns[1][0]) < kAgreement);
+      }
+    }
+  }
+  CHECK(most_stops >= 8.0);
+}
+
+}  // namespace
+}  // namespace frahm::periodic

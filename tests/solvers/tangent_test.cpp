@@ -1,0 +1,112 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+
+#include "solvers/periodic/flow.hpp"
+#include "tests/known_answers/random_network.hpp"
+
+// The derivative of the flow through its events, product of flow and saltation matrices, against differences.
+namespace frahm::periodic {
+namespace {
+
+constexpr double kAgreement = 1e-6;  // relative to the largest entry, in the energy norm's scaling
+constexpr int kAny = Eigen::Dynamic;
+using AnyFlow = Flow<kAny, kAny>;
+
+bool same_sequence(const AnyFlow& flow, const Passage<kAny, kAny>& a, const Passage<kAny, kAny>& b) {
+  if (a.segments.size() != b.segments.size()) return false;
+  for (std::size_t i = 0; i < a.segments.size(); ++i) {
+    const auto &p = flow.mode(a.segments[i].mode), &q = flow.mode(b.segments[i].mode);
+    if (p.stuck != q.stuck || p.positive != q.positive) return false;
+  }
+  return true;
+}
+
+// Central differences of the flow, column by column; false where a neighbour goes through other events.
+bool difference(AnyFlow& flow, const Eigen::VectorXd& z, double length, const Passage<kAny, kAny>& centre,
+                Eigen::MatrixXd& result) {
+  constexpr double kStep = 1e-6;
+  result.resize(z.size(), z.size());
+  Passage<kAny, kAny> ahead, behind;
+  for (Eigen::Index column = 0; column < z.size(); ++column) {
+    const Eigen::VectorXd step = kStep * Eigen::VectorXd::Unit(z.size(), column);
+    flow.pass(z + step, 0.3, length, ahead);
+    flow.pass(z - step, 0.3, length, behind);
+    if (!same_sequence(flow, centre, ahead) || !same_sequence(flow, centre, behind)) return false;
+    result.col(column) = (ahead.end - behind.end) / (2.0 * kStep);
+  }
+  return true;
+}
+
+TEST_CASE("The derivative through stops, releases and reversals is that of differences, for 1 to 5 masses") {
+  std::mt19937 random(11);
+  std::normal_distribution<double> normal;
+  int compared = 0, events = 0, stuck_segments = 0;
+  for (const int masses : {1, 2, 3, 5}) {
+    for (const int contacts : {0, 1, 2, 3}) {
+      for (int trial = 0; trial < 25; ++trial) {
+        const RandomNetwork drawn =
+            random_network({.masses = masses, .contacts = contacts, .orders = {1, 2}, .largest_friction = 0.7}, random);
+        const mechanics::Assembly assembly(drawn.network);
+        mechanics::LinearSystem system;
+        assembly.set_values(drawn.values, system);
+        assembly.set_forcing(drawn.values, system);
+        AnyFlow flow;
+        flow.set_system(system);
+        flow.set_forcing(system);
+        const Eigen::VectorXd z = Eigen::VectorXd::NullaryExpr(2 * masses, [&] { return normal(random); });
+        Passage<kAny, kAny> passage;
+        flow.pass(z, 0.3, flow.equations().period, passage);
+        REQUIRE(passage.failure == nullptr);
+        Eigen::MatrixXd expected;
+        if (passage.margin < 1e-3 || !difference(flow, z, flow.equations().period, passage, expected)) continue;
+        const Eigen::MatrixXd tangent = passage.tangent;
+        INFO("masses " << masses << " contacts " << contacts << " trial " << trial << " events " << passage.events);
+        CHECK((tangent - expected).cwiseAbs().maxCoeff() < kAgreement * std::max(1.0, expected.cwiseAbs().maxCoeff()));
+        ++compared;
+        events += passage.events;
+        for (const auto& segment : passage.segments) stuck_segments += flow.mode(segment.mode).stuck != 0;
+      }
+    }
+  }
+  INFO("compared " << compared << " events " << events << " with sticking " << stuck_segments);
+  CHECK(compared > 200);
+  CHECK(events > 400);
+  CHECK(stuck_segments > 200);
+}
+
+TEST_CASE("The distance of two motions never grows in the energy norm") {
+  constexpr double kRounding = 1e-12;
+  std::mt19937 random(12);
+  std::normal_distribution<double> normal;
+  for (int trial = 0; trial < 300; ++trial) {
+    const int masses = std::vector<int>{1, 2, 3, 5}[static_cast<std::size_t>(trial % 4)];
+    const RandomNetwork drawn =
+        random_network({.masses = masses, .contacts = trial % 5 % 4, .orders = {1, 3}, .largest_friction = 2.0}, random);
+    const mechanics::Assembly assembly(drawn.network);
+    mechanics::LinearSystem system;
+    assembly.set_values(drawn.values, system);
+    assembly.set_forcing(drawn.values, system);
+    AnyFlow flow;
+    flow.set_system(system);
+    flow.set_forcing(system);
+    Passage<kAny, kAny> first, second;
+    Eigen::VectorXd a = Eigen::VectorXd::NullaryExpr(2 * masses, [&] { return normal(random); });
+    Eigen::VectorXd b = Eigen::VectorXd::NullaryExpr(2 * masses, [&] { return normal(random); });
+    double distance = flow.equations().energy_norm(a - b);
+    for (int part = 0; part < 10; ++part) {
+      const double length = 0.2 * flow.equations().period, phase = part * 0.4 * M_PI;
+      flow.pass(a, phase, length, first);
+      flow.pass(b, phase, length, second);
+      a = first.end;
+      b = second.end;
+      const double now = flow.equations().energy_norm(a - b);
+      INFO("trial " << trial << " part " << part);
+      CHECK(now <= distance * (1.0 + kRounding) + kRounding);
+      distance = now;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace frahm::periodic

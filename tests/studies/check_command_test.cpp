@@ -1,0 +1,62 @@
+#include "studies/check_command.hpp"
+
+#include <catch2/catch.hpp>
+#include <sstream>
+#include <string>
+
+#include "studies/map_sample.hpp"
+#include "studies/settings.hpp"
+
+namespace {
+
+using frahm::studies::check_command;
+using frahm::studies::MapPlan;
+using frahm::studies::plan_map;
+using frahm::studies::read_study_with;
+using frahm::studies::sample_map;
+
+const std::string studies = std::string(FRAHM_SOURCE_DIR) + "/studies/";
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST_CASE("Checking the rig atlas tells its size, its array of tasks and its modes") {
+  std::ostringstream out;
+  CHECK(check_command({.study = studies + "rig_atlas.toml", .set = {"K=8000 N/m"}, .threads = 2}, out) == 0);
+  const std::string text = out.str();
+  INFO(text);
+  CHECK(has(text, "rig_atlas.toml is a valid study: Tuned mass damper with inerter: the rig"));
+  CHECK(has(text, "points  522102 = 42 I x 31 FP x 401 omega\n"));
+  CHECK(has(text, "on 2 threads of this machine"));
+  CHECK(has(text, "sbatch --array=0-1 "));
+  CHECK(has(text, "--set "));
+  CHECK(has(text, "K=8000 N/m"));
+  CHECK(has(text, "frahm merge rig_atlas.h5\n"));
+  CHECK(has(text, "At the first point of the grid, I=4.72 kg,FP=0,omega=150 rpm:\n"));
+  CHECK(has(text, "shape of main, tmd\n"));
+  CHECK(has(text, "With all friction stuck nothing moves."));
+}
+
+TEST_CASE("A sample of a map is at least a tile and at most the map") {
+  const MapPlan plan = plan_map(read_study_with(studies + "cheng_zu.toml", {}), {});
+  const auto one = sample_map(plan, 0.0);
+  CHECK(one.points == plan.grid.box(0).points());
+  CHECK(one.seconds > 0.0);
+  constexpr double long_enough = 600.0;
+  const auto all = sample_map(plan, long_enough);
+  CHECK(all.points == plan.grid.points());
+  CHECK(all.stored_bytes > 0);
+  CHECK(all.stored_bytes < all.raw_bytes);
+  CHECK(all.failed == 0);
+}
+
+TEST_CASE("Points that fail in a sample are counted and the first is named") {
+  MapPlan plan = plan_map(read_study_with(studies + "den_hartog.toml", {}), {});
+  // A stiffness of zero is no study; a map may meet one all the same, through a table or an expression.
+  plan.study.values.element[0].expression = frahm::studies::Expression(0.0);
+  const auto sample = sample_map(plan, 0.0);
+  CHECK(sample.failed == sample.points);
+  CHECK(has(sample.failed_at, "zeta=0,f=0"));
+  CHECK(has(sample.reason, "definite"));
+}
+
+}  // namespace
