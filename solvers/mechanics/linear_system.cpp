@@ -11,10 +11,14 @@ namespace {
 
 const char* value_name(ElementType type) {
   switch (type) {
-    case ElementType::spring: return "stiffness";
-    case ElementType::damper: return "damping";
-    case ElementType::inerter: return "inertance";
-    case ElementType::coulomb: return "force";
+    case ElementType::spring:
+      return "stiffness";
+    case ElementType::damper:
+      return "damping";
+    case ElementType::inerter:
+      return "inertance";
+    case ElementType::coulomb:
+      return "force";
   }
   return "value";
 }
@@ -25,12 +29,12 @@ const char* value_name(ElementType type) {
   throw MechanicsError(message.str());
 }
 
-void require_positive_definite(const Eigen::MatrixXd& matrix, const std::string& name, const std::string& hint) {
+void require_positive_definite(const Eigen::MatrixXd& matrix, const std::string& name,
+                               const std::string& hint) {
   const Eigen::LLT<Eigen::MatrixXd> factor(matrix);
   // A pivot that is only rounding away from zero is a singular matrix too.
   const double smallest_pivot = 1e-13 * std::sqrt(matrix.diagonal().cwiseAbs().maxCoeff());
-  if (factor.info() != Eigen::Success ||
-      !(factor.matrixLLT().diagonal().minCoeff() > smallest_pivot)) {
+  if (factor.info() != Eigen::Success || !(factor.matrixLLT().diagonal().minCoeff() > smallest_pivot)) {
     throw MechanicsError("the " + name + " matrix of the moving nodes is not positive definite: " + hint);
   }
 }
@@ -59,7 +63,8 @@ Assembly::Assembly(const Network& network) : network_(network), shares_(network.
     }
     if (element.type != ElementType::coulomb) continue;
     const auto same_nodes = [&](const Element* other) {
-      return (other->a == element.a && other->b == element.b) || (other->a == element.b && other->b == element.a);
+      return (other->a == element.a && other->b == element.b) ||
+             (other->a == element.b && other->b == element.a);
     };
     const auto found = std::find_if(contact_elements.begin(), contact_elements.end(), same_nodes);
     shares_[e].contact = static_cast<std::size_t>(found - contact_elements.begin());
@@ -123,9 +128,15 @@ void Assembly::set_values(const NetworkValues& values, LinearSystem& system) con
     const Incidence& at = incidences_[e];
     const double value = values.element[e];
     switch (network_.elements[e].type) {
-      case ElementType::spring: add(system.K, system.K_support, at, value); break;
-      case ElementType::damper: add(system.C, system.C_support, at, value); break;
-      case ElementType::inerter: add(system.M, system.M_support, at, value); break;
+      case ElementType::spring:
+        add(system.K, system.K_support, at, value);
+        break;
+      case ElementType::damper:
+        add(system.C, system.C_support, at, value);
+        break;
+      case ElementType::inerter:
+        add(system.M, system.M_support, at, value);
+        break;
       case ElementType::coulomb: {
         const auto contact = static_cast<Eigen::Index>(shares_[e].contact);
         system.W.col(contact) = shares_[e].orientation * at.w;
@@ -136,7 +147,8 @@ void Assembly::set_values(const NetworkValues& values, LinearSystem& system) con
     }
   }
   require_positive_definite(system.M, "mass", "a mass of zero needs an inerter that moves with it");
-  require_positive_definite(system.K, "stiffness", "some motion is held by no spring, or a negative stiffness is too large");
+  require_positive_definite(system.K, "stiffness",
+                            "some motion is held by no spring, or a negative stiffness is too large");
 }
 
 void Assembly::set_forcing(const NetworkValues& values, LinearSystem& system) const {
@@ -177,7 +189,8 @@ void Assembly::set_forcing(const NetworkValues& values, LinearSystem& system) co
     for (Eigen::Index row = 0; row < n; ++row) {
       for (Eigen::Index s = 0; s < p; ++s) {
         const std::complex<double> dynamic_stiffness =
-            system.K_support(row, s) + i_omega * (system.C_support(row, s) + i_omega * system.M_support(row, s));
+            system.K_support(row, s) +
+            i_omega * (system.C_support(row, s) + i_omega * system.M_support(row, s));
         system.force(row, k) -= dynamic_stiffness * system.motion(s, k);
       }
     }

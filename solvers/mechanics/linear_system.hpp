@@ -42,18 +42,17 @@ struct LinearSystem {
   Eigen::MatrixXd M_support, C_support, K_support;  // blocks that couple masses to prescribed nodes
   Eigen::MatrixXd W, W_support;                     // directions of the friction contacts
   Eigen::VectorXd limit;                            // F_j [N] of each contact
-  std::vector<int> orders;                          // > 0, ascending: of the excitation, and the reference order
-  bool odd_forcing = false;                         // every component of the excitation has an odd order
-  Eigen::VectorXd constant_force;                   // f_0 [N], size n
-  Eigen::MatrixXcd force;                           // column k is f_k [N]
-  Eigen::VectorXd constant_applied_force;           // the part of f_0 that acts on the masses from outside
-  Eigen::MatrixXcd applied_force;                   // the part of f_k that does
-  Eigen::VectorXd constant_motion;                  // y_0 [m], size p
-  Eigen::MatrixXcd motion;                          // column k is Y_k [m]
+  std::vector<int> orders;                 // > 0, ascending: of the excitation, and the reference order
+  bool odd_forcing = false;                // every component of the excitation has an odd order
+  Eigen::VectorXd constant_force;          // f_0 [N], size n
+  Eigen::MatrixXcd force;                  // column k is f_k [N]
+  Eigen::VectorXd constant_applied_force;  // the part of f_0 that acts on the masses from outside
+  Eigen::MatrixXcd applied_force;          // the part of f_k that does
+  Eigen::VectorXd constant_motion;         // y_0 [m], size p
+  Eigen::MatrixXcd motion;                 // column k is Y_k [m]
 
   Eigen::Index masses() const { return M.rows(); }
   Eigen::Index contacts() const { return limit.size(); }
-
 };
 
 // Builds LinearSystems of one network. Topology is worked out once; `set_values` and `set_forcing` only fill

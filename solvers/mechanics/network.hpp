@@ -60,9 +60,9 @@ struct Harmonic {
 
 // The numbers of a network at one point of a map, in the order of the lists in `Network`.
 struct NetworkValues {
-  double omega = 0.0;                // fundamental angular frequency [rad/s], > 0
-  std::vector<double> mass;          // [kg], >= 0 (zero where an inerter keeps the mass matrix definite)
-  std::vector<double> element;       // stiffness, damping, inertance or force of each element (see ElementType)
+  double omega = 0.0;           // fundamental angular frequency [rad/s], > 0
+  std::vector<double> mass;     // [kg], >= 0 (zero where an inerter keeps the mass matrix definite)
+  std::vector<double> element;  // stiffness, damping, inertance or force of each element (see ElementType)
   std::vector<Harmonic> excitation;  // of each excitation component
 };
 

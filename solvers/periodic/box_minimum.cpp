@@ -15,8 +15,8 @@ struct Step {
 };
 
 // From lambda to the minimum over the free components, or along a direction in which G is flat and c is not.
-Step step_to_free_minimum(const MatrixXd& G, const VectorXd& c, const VectorXd& weight, const VectorXd& lambda,
-                          const std::vector<Index>& free) {
+Step step_to_free_minimum(const MatrixXd& G, const VectorXd& c, const VectorXd& weight,
+                          const VectorXd& lambda, const std::vector<Index>& free) {
   const auto m = static_cast<Index>(free.size());
   MatrixXd scaled(m, m);
   VectorXd right(m), start(m);
@@ -76,7 +76,8 @@ VectorXd box_minimum(const MatrixXd& G, const VectorXd& c, const VectorXd& lower
         lambda[free[i]] += length * step.direction[static_cast<Index>(i)];
       }
       if (blocking >= 0) {
-        const bool at_upper = std::abs(lambda[blocking] - upper[blocking]) <= std::abs(lambda[blocking] - lower[blocking]);
+        const bool at_upper =
+            std::abs(lambda[blocking] - upper[blocking]) <= std::abs(lambda[blocking] - lower[blocking]);
         lambda[blocking] = at_upper ? upper[blocking] : lower[blocking];
         is_free[static_cast<std::size_t>(blocking)] = false;
         continue;

@@ -19,7 +19,9 @@ Complex sinc(Complex z) {
 }
 
 // s = sqrt(1 - zeta^2), imaginary for zeta > 1.
-Complex damped_rate(double zeta) { return std::sqrt(Complex((1.0 - zeta) * (1.0 + zeta), 0.0)); }
+Complex damped_rate(double zeta) {
+  return std::sqrt(Complex((1.0 - zeta) * (1.0 + zeta), 0.0));
+}
 
 // (e^{a tau} - e^{b tau}) / (a - b) = tau e^{(a + b) tau / 2} sinh(d)/d with d = (a - b) tau / 2, without
 // overflow where the damping is strong: Re a, Re b <= 0.
@@ -34,11 +36,12 @@ int samples_over(double length, double rate) {
   return 64 + static_cast<int>(kPerRadian * length * rate);
 }
 
-// sup of a smooth function over [lo, hi]: every local maximum among the samples is refined by golden sections.
-// The value there is then exact to rounding, as it is stationary.
+// sup of a smooth function over [lo, hi]: every local maximum among the samples is refined by golden
+// sections. The value there is then exact to rounding, as it is stationary.
 double supremum(const std::function<double(double)>& function, double lo, double hi, int samples) {
   const double spacing = (hi - lo) / samples;
-  double best = -std::numeric_limits<double>::infinity(), before = function(lo), here = function(lo + spacing);
+  double best = -std::numeric_limits<double>::infinity(), before = function(lo),
+         here = function(lo + spacing);
   best = std::max(before, function(hi));
   for (int i = 1; i < samples; ++i) {
     const double after = i + 1 < samples ? function(lo + (i + 1) * spacing) : function(hi);
@@ -125,7 +128,8 @@ DenHartogFunctions den_hartog_functions(double r, double zeta) {
   const Complex shift(-0.5 * zeta * th, 0.0), i_half = Complex(0.0, 1.0) * half;
   // e^{-zeta th / 2} cos(s th / 2), and sin(s th / 2) / s likewise
   const double cosine = 0.5 * (std::exp(shift + i_half) + std::exp(shift - i_half)).real();
-  const double sine = exponential_difference(-zeta + Complex(0.0, 1.0) * s, -zeta - Complex(0.0, 1.0) * s, 0.5 * th).real();
+  const double sine =
+      exponential_difference(-zeta + Complex(0.0, 1.0) * s, -zeta - Complex(0.0, 1.0) * s, 0.5 * th).real();
   // Dn = cosh(zeta th) + cos(s th) = 2 sinh^2(zeta th / 2) + 2 cos^2(s th / 2)
   const double rise = -std::expm1(-zeta * th);  // 1 - e^{-zeta th}
   const double Dn = 0.5 * rise * rise + 2.0 * cosine * cosine;
@@ -181,7 +185,8 @@ bool is_one_stop(double r, double zeta, double f, double X, double Ts, double ps
   if (least + X < -f - kRounding || std::cos(stop_phase) + X > f + kRounding) return false;
   const auto velocity_over_sine = [&](double tau) {
     // x' < 0 within the slide; the division takes out its zeros at both ends (t^2 and t - Ts).
-    const double ends = std::sin(0.5 * pi * tau / Ts) * std::sin(0.5 * pi * tau / Ts) * std::cos(0.5 * pi * tau / Ts);
+    const double ends =
+        std::sin(0.5 * pi * tau / Ts) * std::sin(0.5 * pi * tau / Ts) * std::cos(0.5 * pi * tau / Ts);
     if (tau < 1e-3 * Ts || tau > (1.0 - 1e-6) * Ts) return -1.0;
     return (Complex(0.0, r) * std::polar(1.0, psi) * forced_from_rest(r, zeta, tau)).real() / ends;
   };
@@ -196,8 +201,10 @@ OneStop one_stop_response(double r, double zeta, double f) {
   const auto excess = [&](double Ts) { return slide_of_length(r, zeta, Ts).friction - f; };
   // Longer slides come first: the shorter roots are those whose velocity has already turned once.
   double longer = th, at_longer = excess(longer);
-  for (int i = samples - 1; i > 0; --i) {
-    const double shorter = th * i / samples, at_shorter = excess(shorter);
+  constexpr double kShortest = 1e-5;  // of th: slides at f = 1 - 1e-9 are that short
+  for (int i = samples - 1; i >= 0; --i) {
+    const double shorter = th * std::max(kShortest, static_cast<double>(i) / samples),
+                 at_shorter = excess(shorter);
     if (at_longer * at_shorter <= 0.0) {
       const double Ts = bisect(excess, shorter, longer);
       const double psi = slide_of_length(r, zeta, Ts).psi, X = f + std::cos(psi);
@@ -256,10 +263,13 @@ TwoFrequencyResponse two_frequency_response(const TwoFrequencies& system) {
     return 1.0 / Complex((1.0 - r) * (1.0 + r), 2.0 * zeta * r);
   };
   const Complex first = transfer(M), second = p2 * std::polar(1.0, phase) * transfer(N);
-  const auto turned = [&](Complex amplitude, int order, double t) { return amplitude * std::polar(1.0, order * base * t); };
+  const auto turned = [&](Complex amplitude, int order, double t) {
+    return amplitude * std::polar(1.0, order * base * t);
+  };
   const auto linear = [&](double t) { return (turned(first, M, t) + turned(second, N, t)).real(); };
   const auto linear_velocity = [&](double t) {
-    return (Complex(0.0, M * base) * turned(first, M, t) + Complex(0.0, N * base) * turned(second, N, t)).real();
+    return (Complex(0.0, M * base) * turned(first, M, t) + Complex(0.0, N * base) * turned(second, N, t))
+        .real();
   };
   // t_m from x_p'(t_m) = r_base H f; x' < 0 in the half period that follows; X = x_p(t_m) - G f
   const auto excess = [&](double t) { return linear_velocity(t) - base * d.H * f; };

@@ -8,10 +8,11 @@
 //
 // One mass on a spring and a damper, with friction to ground, under a harmonic force, dimensionless:
 //
-//   x'' + 2 zeta x' + x + f Sgn(x') = cos(r tau),     tau = omega_n t,  x in P/k,  r = omega/omega_n,  f = F/P
+//   x'' + 2 zeta x' + x + f Sgn(x') = cos(r tau),     tau = omega_n t,  x in P/k,  r = omega/omega_n,  f =
+//   F/P
 //
-// Every function takes r > 0, zeta >= 0, f >= 0, all of unit 1; zeta may pass through 1. Where a closed form does
-// not hold its result is NaN, never a plausible number. The only poles are those of the undamped system:
+// Every function takes r > 0, zeta >= 0, f >= 0, all of unit 1; zeta may pass through 1. Where a closed form
+// does not hold its result is NaN, never a plausible number. The only poles are those of the undamped system:
 // zeta = 0 with r = 1 (V) and with r = 1, 1/3, 1/5, ... (H).
 namespace frahm::periodic {
 
@@ -60,19 +61,19 @@ double classical_amplitude(double r, double zeta, double f);
 std::array<std::complex<double>, 2> non_stop_multipliers(double r, double zeta, double f);
 std::array<std::complex<double>, 2> one_stop_multipliers(double r, double zeta, double f);
 
-// The base moves by Y cos(omega t), friction between mass and ground, spring and damper between mass and base:
-// max|x| / Y with f = F/(kY).  S. S. Hundal, J. Sound Vib. 64 (1979) 371.
+// The base moves by Y cos(omega t), friction between mass and ground, spring and damper between mass and
+// base: max|x| / Y with f = F/(kY).  S. S. Hundal, J. Sound Vib. 64 (1979) 371.
 double hundal_amplitude(double r, double zeta, double f);
 
 // Friction, spring and damper all between mass and base: max|x - y| / Y with f = F/(kY).
 // E. S. Levitan, J. Acoust. Soc. Am. 32 (1960) 1265.
 double levitan_amplitude(double r, double zeta, double f);
 
-// Two harmonics, x'' + 2 zeta x' + x + f Sgn(x') = cos(r1 tau) + p2 cos(r2 tau + phase), r1/r2 = M/N with M and N
-// odd and coprime, two reversals and no stop in a common period.
-// G. Cheng and J. W. Zu, J. Sound Vib. 264 (2003) 1085.
+// Two harmonics, x'' + 2 zeta x' + x + f Sgn(x') = cos(r1 tau) + p2 cos(r2 tau + phase), r1/r2 = M/N with M
+// and N odd and coprime, two reversals and no stop in a common period. G. Cheng and J. W. Zu, J. Sound Vib.
+// 264 (2003) 1085.
 struct TwoFrequencies {
-  double r1;     // omega1/omega_n
+  double r1;  // omega1/omega_n
   int M, N;
   double zeta;
   double f;      // F/P1

@@ -9,8 +9,12 @@
 namespace frahm::periodic {
 
 using ContactMask = std::uint64_t;  // bit j: contact j
-inline bool contains(ContactMask mask, Eigen::Index contact) { return (mask >> contact) & 1U; }
-inline ContactMask bit(Eigen::Index contact) { return ContactMask{1} << contact; }
+inline bool contains(ContactMask mask, Eigen::Index contact) {
+  return (mask >> contact) & 1U;
+}
+inline ContactMask bit(Eigen::Index contact) {
+  return ContactMask{1} << contact;
+}
 
 // The linear system that moves while one set of contacts sticks and the others slide:
 //   q'' = Aq q + Av v + Au u(t) + Af phi,      phi_j = sigma_j F_j of the sliding contacts, 0 of the stuck
@@ -24,6 +28,7 @@ struct Configuration {
   using S = Sizes<N, H>;
 
   ContactMask stuck = 0;
+  bool has_forcing = false;  // set_forcing was called since the forcing changed
   typename S::Square Aq, Av;
   typename S::VectorByOscillators Au;
   typename S::VectorByContacts Af;
@@ -32,7 +37,8 @@ struct Configuration {
   typename S::ContactSquare Lf;
   typename S::Square P;  // velocities -> velocities that keep the stuck contacts stuck, M-orthogonal
 
-  // The flow as Taylor series in the step fraction, z(s) = series_z(s) z(0) + series_u(s) u(0) + series_f(s) phi.
+  // The flow as Taylor series in the step fraction, z(s) = series_z(s) z(0) + series_u(s) u(0) + series_f(s)
+  // phi.
   typename S::SeriesByState series_z;
   typename S::SeriesByOscillators series_u;
   typename S::SeriesByContacts series_f;
@@ -42,7 +48,8 @@ struct Configuration {
   typename S::StateByContacts Ef;
 
   // Takes the last rounding out of the stuck contacts' relative velocities, M-orthogonally.
-  void hold(const StepEquations<N, H>& equations, const typename S::Oscillators& u, typename S::State& z) const {
+  void hold(const StepEquations<N, H>& equations, const typename S::Oscillators& u,
+            typename S::State& z) const {
     if (stuck == 0) return;
     const Eigen::Index n = equations.masses();
     z.tail(n) -= reaction_ * (equations.W.transpose() * z.tail(n) + equations.support_velocity * u);
@@ -88,8 +95,8 @@ void Configuration<N, H>::set_system(const StepEquations<N, H>& equations, Conta
   const Eigen::Index n = equations.masses(), m = equations.contacts();
   const typename S::VectorByContacts MW = equations.M_inverse * equations.W;
 
-  // G_S^+ with G = W^T M^-1 W over the stuck contacts. Stuck directions may depend on one another; of the forces
-  // that then serve equally, those of least sum (lambda_j / F_j)^2 are meant.
+  // G_S^+ with G = W^T M^-1 W over the stuck contacts. Stuck directions may depend on one another; of the
+  // forces that then serve equally, those of least sum (lambda_j / F_j)^2 are meant.
   constraint_.setZero(m, m);
   const Eigen::Index stuck_count = __builtin_popcountll(stuck);
   if (stuck_count == 1) {
@@ -106,7 +113,8 @@ void Configuration<N, H>::set_system(const StepEquations<N, H>& equations, Conta
   Aq.noalias() = -(P * equations.M_inverse) * equations.K;
   Av.noalias() = -(P * equations.M_inverse) * equations.C;
   Af = -(P * MW);
-  const typename S::ContactsByVector per_force = (equations.M_inverse * equations.W * constraint_).transpose();
+  const typename S::ContactsByVector per_force =
+      (equations.M_inverse * equations.W * constraint_).transpose();
   Lq = -(per_force * equations.K);
   Lv = -(per_force * equations.C);
   Lf = -(per_force * equations.W);
@@ -116,6 +124,7 @@ void Configuration<N, H>::set_system(const StepEquations<N, H>& equations, Conta
 template <int N, int H>
 void Configuration<N, H>::set_forcing(const StepEquations<N, H>& equations) {
   const Eigen::Index n = equations.masses(), oscillators = equations.oscillators();
+  has_forcing = true;
   Au.noalias() = P * (equations.M_inverse * equations.force);
   Lu.noalias() = (equations.M_inverse * equations.W * constraint_).transpose() * equations.force;
   if (stuck != 0) {
@@ -123,7 +132,8 @@ void Configuration<N, H>::set_forcing(const StepEquations<N, H>& equations) {
     Lu.noalias() += constraint_ * equations.support_acceleration;
   }
 
-  // Column i starts from rest with oscillator i at 1. The forcing's own Taylor coefficients follow from its rows.
+  // Column i starts from rest with oscillator i at 1. The forcing's own Taylor coefficients follow from its
+  // rows.
   typename S::VectorByOscillators q = S::VectorByOscillators::Zero(n, oscillators), v = q, drive = Au, next;
   series_u.resize(2 * n * kTerms, oscillators);
   for (int k = 0; k < kTerms; ++k) {

@@ -25,6 +25,8 @@ Eigen::MatrixXd projector_off(const Eigen::MatrixXd& A, const Eigen::MatrixXd& W
   return Eigen::MatrixXd::Identity(A.rows(), A.rows()) - A_inverse_W * gram.solve(W.transpose());
 }
 
-Eigen::MatrixXd cholesky_root(const Eigen::MatrixXd& A) { return A.llt().matrixU(); }
+Eigen::MatrixXd cholesky_root(const Eigen::MatrixXd& A) {
+  return A.llt().matrixU();
+}
 
 }  // namespace frahm::periodic

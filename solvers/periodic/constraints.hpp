@@ -5,12 +5,12 @@
 // Linear algebra of stuck contacts, for any number of them.
 namespace frahm::periodic {
 
-// G^+ for a symmetric positive semidefinite G (m x m): lambda = G^+ b solves G lambda = b; where several lambda do,
-// that of least sum (lambda_j / weight_j)^2. Rows and columns of weight 0 are left out (zero).
+// G^+ for a symmetric positive semidefinite G (m x m): lambda = G^+ b solves G lambda = b; where several
+// lambda do, that of least sum (lambda_j / weight_j)^2. Rows and columns of weight 0 are left out (zero).
 Eigen::MatrixXd weighted_pseudo_inverse(const Eigen::MatrixXd& G, const Eigen::VectorXd& weight);
 
-// 1 - A^-1 W (W^T A^-1 W)^+ W^T (n x n): takes out the motion in the directions W (n x m), orthogonally in the norm
-// of A, symmetric positive definite.
+// 1 - A^-1 W (W^T A^-1 W)^+ W^T (n x n): takes out the motion in the directions W (n x m), orthogonally in
+// the norm of A, symmetric positive definite.
 Eigen::MatrixXd projector_off(const Eigen::MatrixXd& A, const Eigen::MatrixXd& W);
 
 // R, upper triangular, with R^T R = A, symmetric positive definite.

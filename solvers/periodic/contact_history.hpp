@@ -7,9 +7,9 @@ namespace frahm::periodic {
 
 // What a friction contact does in a period.
 struct ContactHistory {
-  int stops = 0;                // stuck intervals of finite length
-  int reversals = 0;            // changes of sliding direction, with or without a stop
-  double stuck_fraction = 0.0;  // of the period
+  int stops = 0;                  // stuck intervals of finite length
+  int reversals = 0;              // changes of sliding direction, with or without a stop
+  double stuck_fraction = 0.0;    // of the period
   double sliding_distance = 0.0;  // [m]
 };
 

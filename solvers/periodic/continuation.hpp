@@ -9,8 +9,8 @@
 #include "solvers/periodic/linear_response.hpp"
 #include "solvers/periodic/shooting.hpp"
 
-// Orbits one after the other along the frequency: each starts from an extrapolation of those before it, and the
-// section is kept away from events.
+// Orbits one after the other along the frequency: each starts from an extrapolation of those before it, and
+// the section is kept away from events.
 namespace frahm::periodic {
 
 template <int N, int H>
@@ -24,6 +24,7 @@ class Continuation {
   void forget() {
     begin_row();
     has_row_start_ = false;
+    section_ = 0.0;
   }
   // A new row of frequencies: the next orbit starts from that which started the row before.
   void begin_row() {
@@ -37,8 +38,8 @@ class Continuation {
  private:
   struct Known {
     double omega = 0.0;
-    typename S::State z;           // displacements [m], velocities [m/s], at the section
-    std::uint64_t sequence = 0;    // of the modes the orbit goes through
+    typename S::State z;         // displacements [m], velocities [m/s], at the section
+    std::uint64_t sequence = 0;  // of the modes the orbit goes through
   };
 
   void predict(double omega, bool half_period, Orbit<N, H>& orbit);
@@ -127,8 +128,8 @@ typename Sizes<N, H>::State Continuation<N, H>::response_without_friction(double
   return z;
 }
 
-// Moves the section to the middle of the longest stretch without events when an event has come within 2 % of the
-// map's length. Returns whether it did; the orbit then holds the state there.
+// Moves the section to the middle of the longest stretch without events when an event has come within 2 % of
+// the map's length. Returns whether it did; the orbit then holds the state there.
 template <int N, int H>
 bool Continuation<N, H>::move_section(Orbit<N, H>& orbit) const {
   const double length = (orbit.half_period ? 0.5 : 1.0) * flow_.equations().period;

@@ -8,8 +8,8 @@
 #include "solvers/periodic/linear_form.hpp"
 #include "solvers/periodic/orbit_steps.hpp"
 
-// The largest and least value of a quantity over an orbit: stationary points solved, never the largest sample,
-// and both one-sided limits wherever the mode changes.
+// The largest and least value of a quantity over an orbit: stationary points solved, never the largest
+// sample, and both one-sided limits wherever the mode changes.
 namespace frahm::periodic {
 
 struct Extremes {
@@ -62,17 +62,21 @@ class ExtremeCollector {
 template <int N, int H>
 void consider_interior(const OrbitSteps<N, H>& orbit, OrbitStep<N, H>& step, const LinearForm<N, H>& form,
                        ValueAndSlope left, ValueAndSlope right, ExtremeCollector& collector) {
-  // Bernstein coefficients of the cubic Hermite interpolant bound it; the fourth derivative adds less than `slack`.
-  const double b1 = left.value + left.slope * step.length / 3.0, b2 = right.value - right.slope * step.length / 3.0;
+  // Bernstein coefficients of the cubic Hermite interpolant bound it; the fourth derivative adds less than
+  // `slack`.
+  const double b1 = left.value + left.slope * step.length / 3.0,
+               b2 = right.value - right.slope * step.length / 3.0;
   const double slack = 0.02 * step.length * (std::abs(left.slope) + std::abs(right.slope));
   const Extremes& so_far = collector.extremes();
   if (std::max(b1, b2) + slack <= so_far.most && std::min(b1, b2) - slack >= so_far.least) return;
-  // Neither slope against the rise and the secant steep enough: monotone (Fritsch and Carlson 1980). A slope that is
-  // zero, as at every stop, is so to rounding only.
+  // Neither slope against the rise and the secant steep enough: monotone (Fritsch and Carlson 1980). A slope
+  // that is zero, as at every stop, is so to rounding only.
   const double rise = right.value - left.value, direction = rise > 0.0 ? 1.0 : -1.0;
   const double steepest = (std::abs(left.slope) + std::abs(right.slope)) * step.length;
   const double least_slope = std::min(direction * left.slope, direction * right.slope) * step.length;
-  if (least_slope >= -1e-13 * (steepest + std::abs(left.value)) && steepest < 2.8 * std::abs(rise)) return;
+  const double rounding = 1e-13 * std::abs(left.value);
+  if (steepest + std::abs(rise) <= rounding) return;  // held
+  if (least_slope >= -1e-13 * steepest - rounding && steepest < 2.8 * std::abs(rise)) return;
   const Polynomial p = form.polynomial(orbit.expand(step));
   const Roots stationary = sign_changes(derivative(p));
   for (int i = 0; i < stationary.count; ++i) {
@@ -83,7 +87,8 @@ void consider_interior(const OrbitSteps<N, H>& orbit, OrbitStep<N, H>& step, con
 
 // `form_of(mode)` gives the quantity's form in a mode.
 template <int N, int H, class FormOf>
-Extremes find_extremes(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow, double section, const FormOf& form_of) {
+Extremes find_extremes(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow, double section,
+                       const FormOf& form_of) {
   ExtremeCollector collector(section, flow.fundamental_rate());
   LinearForm<N, H> form;
   bool starts_segment = true;
@@ -114,8 +119,10 @@ inline Extremes mirrored(const Extremes& half) {
   whole.least = -whole.most;
   const double turned = whole_turns_removed(half.least_phase + std::numbers::pi);
   const double difference = half.most + half.least;  // most - |least|
-  if (std::abs(difference) <= kEqual * whole.most) whole.most_phase = std::min(half.most_phase, turned);
-  else whole.most_phase = difference > 0.0 ? half.most_phase : turned;
+  if (std::abs(difference) <= kEqual * whole.most)
+    whole.most_phase = std::min(half.most_phase, turned);
+  else
+    whole.most_phase = difference > 0.0 ? half.most_phase : turned;
   whole.least_phase = whole_turns_removed(whole.most_phase + std::numbers::pi);
   return whole;
 }

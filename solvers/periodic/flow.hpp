@@ -20,11 +20,11 @@ template <int N, int H>
 struct Mode {
   ContactMask stuck = 0, positive = 0;  // positive: sliding with w^T q' > 0
   std::size_t configuration = 0;
-  typename Sizes<N, H>::Contacts friction;             // sigma_j F_j of the sliding contacts [N]
-  typename Sizes<N, H>::Vector acceleration;           // Af * friction
-  typename Sizes<N, H>::State step;                    // Ef * friction
-  typename Sizes<N, H>::Series series;                 // series_f * friction
-  typename Sizes<N, H>::Contacts stuck_force;          // Lf * friction
+  typename Sizes<N, H>::Contacts friction;     // sigma_j F_j of the sliding contacts [N]
+  typename Sizes<N, H>::Vector acceleration;   // Af * friction
+  typename Sizes<N, H>::State step;            // Ef * friction
+  typename Sizes<N, H>::Series series;         // series_f * friction
+  typename Sizes<N, H>::Contacts stuck_force;  // Lf * friction
 
   double sign(Eigen::Index contact) const { return contains(positive, contact) ? 1.0 : -1.0; }
 };
@@ -34,7 +34,7 @@ template <int N, int H>
 struct Segment {
   double start = 0.0, length = 0.0;  // [steps]
   std::size_t mode = 0;
-  typename Sizes<N, H>::State z;     // at its start
+  typename Sizes<N, H>::State z;  // at its start
 };
 
 // State, acceleration and forcing at one instant.
@@ -69,7 +69,7 @@ struct Passage {
   typename Sizes<N, H>::StateSquare tangent;  // d end / d start, product of flow and saltation matrices
   std::vector<Segment<N, H>> segments;
   int events = 0;
-  double margin = 1.0;         // how far the nearest event is from happening otherwise, relative; 0 = grazing
+  double margin = 1.0;  // how far the nearest event is from happening otherwise, relative; 0 = grazing
   const char* failure = nullptr;  // why the passage could not be completed
 };
 
@@ -88,7 +88,9 @@ class Flow {
   const StepEquations<N, H>& equations() const { return equations_; }
   const std::vector<int>& orders() const { return orders_; }
   const Mode<N, H>& mode(std::size_t index) const { return modes_[index]; }
-  const Configuration<N, H>& configuration(const Mode<N, H>& mode) const { return configurations_[mode.configuration]; }
+  const Configuration<N, H>& configuration(const Mode<N, H>& mode) const {
+    return configurations_[mode.configuration];
+  }
   double fundamental_rate() const { return fundamental_rate_; }  // omega h [rad a step]
   // The energy norm of the static response to the excitation's amplitudes [sqrt(J)].
   double static_norm() const { return static_norm_; }
@@ -128,14 +130,15 @@ class Flow {
   ContactMask arrivals(const Event& event) const;
   void choose_modes(ContactMask at_rest, Passage<N, H>& passage);
   void release_at_limits();
-  void saltate(ContactMask arrived, const Instant<N, H>& before, const Mode<N, H>& mode_before, Passage<N, H>& passage);
+  void saltate(ContactMask arrived, const Instant<N, H>& before, const Mode<N, H>& mode_before,
+               Passage<N, H>& passage);
   void open_segment(Passage<N, H>& passage);
 
   StepEquations<N, H> equations_;
   std::vector<Configuration<N, H>> configurations_;
   std::vector<Mode<N, H>> modes_;
   std::vector<int> orders_;
-  std::vector<double> rotation_;      // cos, sin of each phase rate
+  std::vector<double> rotation_;             // cos, sin of each phase rate
   std::vector<Polynomial> rotation_series_;  // their Taylor polynomials over a step
   double fastest_rate_ = 0.0;
   double fundamental_rate_ = 0.0;
@@ -149,8 +152,8 @@ class Flow {
   Expansion<N, H> expansion_;
   bool expanded_ = false;
   std::size_t mode_ = 0;
-  double clock_ = 0.0;            // steps since the passage began
-  ContactMask fresh_ = 0;         // sliding contacts whose velocity is zero at left_
+  double clock_ = 0.0;             // steps since the passage began
+  ContactMask fresh_ = 0;          // sliding contacts whose velocity is zero at left_
   ContactMask just_released_ = 0;  // those whose relative acceleration is zero there too
 };
 

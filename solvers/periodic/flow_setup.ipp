@@ -58,7 +58,8 @@ void Flow<N, H>::set_forcing(const mechanics::LinearSystem& system) {
     }
   }
   // Re(f e^{i phi}) = Re f cos phi - Im f sin phi.
-  const auto on_oscillators = [&](const Eigen::VectorXd& constant, const Eigen::MatrixXcd& harmonic, auto& rows) {
+  const auto on_oscillators = [&](const Eigen::VectorXd& constant, const Eigen::MatrixXcd& harmonic,
+                                  auto& rows) {
     rows.resize(constant.size(), 1 + 2 * harmonics);
     rows.col(0) = constant;
     for (Eigen::Index k = 0; k < harmonics; ++k) {
@@ -84,19 +85,20 @@ void Flow<N, H>::set_forcing(const mechanics::LinearSystem& system) {
   }
   static_norm_ = std::sqrt(static_norm_);
 
-  for (Configuration<N, H>& configuration : configurations_) configuration.set_forcing(eq);
+  for (Configuration<N, H>& configuration : configurations_) configuration.has_forcing = false;
   modes_.clear();
 }
 
 template <int N, int H>
 std::size_t Flow<N, H>::configuration_index(ContactMask stuck) {
-  for (std::size_t i = 0; i < configurations_.size(); ++i) {
-    if (configurations_[i].stuck == stuck) return i;
+  std::size_t index = 0;
+  while (index < configurations_.size() && configurations_[index].stuck != stuck) ++index;
+  if (index == configurations_.size()) {
+    configurations_.emplace_back();
+    configurations_.back().set_system(equations_, stuck);
   }
-  configurations_.emplace_back();
-  configurations_.back().set_system(equations_, stuck);
-  configurations_.back().set_forcing(equations_);
-  return configurations_.size() - 1;
+  if (!configurations_[index].has_forcing) configurations_[index].set_forcing(equations_);
+  return index;
 }
 
 template <int N, int H>
@@ -122,8 +124,8 @@ std::size_t Flow<N, H>::mode_index(ContactMask stuck, ContactMask positive) {
   return modes_.size() - 1;
 }
 
-// Scales against which velocities and forces of contacts are small: those of the larger of the state's and the
-// static response's energy, plus a support's own motion.
+// Scales against which velocities and forces of contacts are small: those of the larger of the state's and
+// the static response's energy, plus a support's own motion.
 template <int N, int H>
 void Flow<N, H>::set_scales(const typename S::State& z) {
   const StepEquations<N, H>& eq = equations_;

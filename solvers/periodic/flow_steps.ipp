@@ -14,7 +14,8 @@ void Flow<N, H>::pass(const typename S::State& z, double phase, double length, P
     if (event.at < room && event.at <= 1.0) {
       at_this_instant = event.at > 0.0 ? 0 : at_this_instant + 1;
       pass_event(event, phase, passage);
-      if (at_this_instant > 8 + 4 * equations_.contacts()) passage.failure = "the contacts chatter at one instant";
+      if (at_this_instant > 8 + 4 * equations_.contacts())
+        passage.failure = "the contacts chatter at one instant";
       if (passage.events > kMostEvents) passage.failure = "more than 20000 events in one passage";
     } else if (room <= 1.0) {
       advance(room, passage);
@@ -32,7 +33,8 @@ void Flow<N, H>::pass(const typename S::State& z, double phase, double length, P
 }
 
 template <int N, int H>
-void Flow<N, H>::instant_at(const typename S::State& z, double phase, const Mode<N, H>& mode, Instant<N, H>& at) const {
+void Flow<N, H>::instant_at(const typename S::State& z, double phase, const Mode<N, H>& mode,
+                            Instant<N, H>& at) const {
   const StepEquations<N, H>& eq = equations_;
   at.z = z;
   at.u.resize(eq.oscillators());
@@ -68,7 +70,8 @@ void Flow<N, H>::step(const Instant<N, H>& from, const Mode<N, H>& mode, Instant
   to.u[0] = 1.0;
   to.du[0] = 0.0;
   for (Eigen::Index k = 0; k < eq.phase_rate.size(); ++k) {
-    const double c = rotation_[2 * static_cast<std::size_t>(k)], s = rotation_[2 * static_cast<std::size_t>(k) + 1];
+    const double c = rotation_[2 * static_cast<std::size_t>(k)],
+                 s = rotation_[2 * static_cast<std::size_t>(k) + 1];
     const double u_cos = from.u[1 + 2 * k], u_sin = from.u[2 + 2 * k];
     to.u[1 + 2 * k] = c * u_cos - s * u_sin;
     to.u[2 + 2 * k] = s * u_cos + c * u_sin;
@@ -105,7 +108,8 @@ void Flow<N, H>::evaluate(const Expansion<N, H>& x, double s, typename S::State&
 }
 
 template <int N, int H>
-typename Sizes<N, H>::State Flow<N, H>::state_within(const Segment<N, H>& segment, double section, double elapsed) const {
+typename Sizes<N, H>::State Flow<N, H>::state_within(const Segment<N, H>& segment, double section,
+                                                     double elapsed) const {
   const Mode<N, H>& mode = modes_[segment.mode];
   Instant<N, H> at, next;
   instant_at(segment.z, section + segment.start * fundamental_rate_, mode, at);
@@ -139,7 +143,8 @@ template <int N, int H>
 ValueAndSlope Flow<N, H>::stuck_force(const Instant<N, H>& at, const Mode<N, H>& mode, Eigen::Index j) const {
   const Eigen::Index n = equations_.masses();
   const Configuration<N, H>& c = configurations_[mode.configuration];
-  return {c.Lq.row(j).dot(at.z.head(n)) + c.Lv.row(j).dot(at.z.tail(n)) + c.Lu.row(j).dot(at.u) + mode.stuck_force[j],
+  return {c.Lq.row(j).dot(at.z.head(n)) + c.Lv.row(j).dot(at.z.tail(n)) + c.Lu.row(j).dot(at.u) +
+              mode.stuck_force[j],
           c.Lq.row(j).dot(at.z.tail(n)) + c.Lv.row(j).dot(at.a) + c.Lu.row(j).dot(at.du)};
 }
 
@@ -168,8 +173,8 @@ double Flow<N, H>::first_crossing(const Polynomial& p, double scale, Passage<N, 
   return 2.0;
 }
 
-// Where the room p that a stuck force has left to its limit turns negative by more than a tie, or 2: a force that
-// only touches its limit lets nothing go.
+// Where the room p that a stuck force has left to its limit turns negative by more than a tie, or 2: a force
+// that only touches its limit lets nothing go.
 template <int N, int H>
 double Flow<N, H>::first_lasting_fall(const Polynomial& p, double limit, Passage<N, H>& passage) const {
   const double first = first_crossing(p, limit, passage);
@@ -204,9 +209,12 @@ double Flow<N, H>::first_stop(Eigen::Index j, Passage<N, H>& passage) {
   if (modes_[mode_].sign(j) * left.value <= 0.0) return 0.0;  // at the node itself, seen late by rounding
   constexpr double kFourthDerivative = 2.0 * kStepRate * kStepRate * kStepRate * kStepRate;
   switch (hermite_verdict(left, right, scale * kFourthDerivative / 384.0)) {
-    case SignVerdict::no_change: return 2.0;
-    case SignVerdict::one_change: return root_between(polynomial(), 0.0, 1.0);
-    case SignVerdict::unclear: break;
+    case SignVerdict::no_change:
+      return 2.0;
+    case SignVerdict::one_change:
+      return root_between(polynomial(), 0.0, 1.0);
+    case SignVerdict::unclear:
+      break;
   }
   return first_crossing(polynomial(), scale, passage);
 }
@@ -215,11 +223,13 @@ double Flow<N, H>::first_stop(Eigen::Index j, Passage<N, H>& passage) {
 template <int N, int H>
 double Flow<N, H>::first_release(Eigen::Index j, Passage<N, H>& passage) {
   const double limit = equations_.limit[j];
-  const ValueAndSlope left = stuck_force(left_, modes_[mode_], j), right = stuck_force(right_, modes_[mode_], j);
+  const ValueAndSlope left = stuck_force(left_, modes_[mode_], j),
+                      right = stuck_force(right_, modes_[mode_], j);
   constexpr double kFourthDerivative = 2.0 * kStepRate * kStepRate * kStepRate * kStepRate;
   const double margin = force_scale_[j] * kFourthDerivative / 384.0;
-  const double largest = std::max(std::max(std::abs(left.value), std::abs(right.value)),
-                                  std::max(std::abs(left.value + left.slope / 3.0), std::abs(right.value - right.slope / 3.0)));
+  const double largest =
+      std::max(std::max(std::abs(left.value), std::abs(right.value)),
+               std::max(std::abs(left.value + left.slope / 3.0), std::abs(right.value - right.slope / 3.0)));
   if (largest + margin < limit) return 2.0;
 
   const Expansion<N, H>& x = expansion();
@@ -252,7 +262,8 @@ void Flow<N, H>::advance(double fraction, Passage<N, H>& passage) {
   const Eigen::Index size = passage.tangent.rows();
   typename S::StateSquare flow(size, size);
   for (Eigen::Index column = 0; column < size; ++column) {
-    const Eigen::Map<const typename S::StatePolynomials> series(configuration.series_z.col(column).data(), kTerms, size);
+    const Eigen::Map<const typename S::StatePolynomials> series(configuration.series_z.col(column).data(),
+                                                                kTerms, size);
     flow.col(column).noalias() = series.transpose() * power;
   }
   passage.tangent = (flow * passage.tangent).eval();

@@ -7,15 +7,15 @@
 #include "solvers/periodic/linear_form.hpp"
 #include "solvers/periodic/orbit_steps.hpp"
 
-// Integrals over an orbit. Means, root mean squares, Fourier components, damping losses are all entries of, or
-// products with, one matrix: the integral of y y^T with y = (q, v, u) state and oscillators.
+// Integrals over an orbit. Means, root mean squares, Fourier components, damping losses are all entries of,
+// or products with, one matrix: the integral of y y^T with y = (q, v, u) state and oscillators.
 namespace frahm::periodic {
 
 // Six-point Gauss-Legendre nodes and weights on [0, 1] (Abramowitz and Stegun, table 25.4). Over a step the
-// integrands' rates are at most 2 kStepRate: the error is below 2e-15 of the scale.
+// integrands' rates are at most 2 kStepRate: the error is below 2e-14 of the scale.
 inline constexpr int kNodes = 6;
 inline constexpr double kNodeAt[kNodes] = {0.03376524289842397, 0.16939530676686774, 0.3806904069584015,
-                                           0.6193095930415985, 0.8306046932331323, 0.966234757101576};
+                                           0.6193095930415985,  0.8306046932331323,  0.966234757101576};
 inline constexpr double kNodeWeight[kNodes] = {0.08566224618958517, 0.1803807865240693, 0.23395696728634552,
                                                0.23395696728634552, 0.1803807865240693, 0.08566224618958517};
 
@@ -31,17 +31,18 @@ class Integrals {
     LinearForm<N, H> force, velocity;
   };
 
-  // Over the orbit's steps; `powers_of(mode, powers)` lists what puts energy in during a mode. The orbit covers
-  // half a period if `half_period`, and all integrals are of the whole.
+  // Over the orbit's steps; `powers_of(mode, powers)` lists what puts energy in during a mode. The orbit
+  // covers half a period if `half_period`, and all integrals are of the whole.
   template <class PowersOf>
-  void integrate(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow, bool half_period, const PowersOf& powers_of);
+  void integrate(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow, bool half_period,
+                 const PowersOf& powers_of);
 
   // Integral over a period of the product of two forms [their units x s].
   double product(const LinearForm<N, H>& f, const LinearForm<N, H>& g) const {
     return joined(f).dot(gram_ * joined(g));
   }
-  const Gram& gram() const { return gram_; }       // [units of the state x s]
-  double input() const { return input_; }          // [J] in a period
+  const Gram& gram() const { return gram_; }         // [units of the state x s]
+  double input() const { return input_; }            // [J] in a period
   double input_size() const { return input_size_; }  // integral of |power| [J], to quadrature accuracy
 
  private:

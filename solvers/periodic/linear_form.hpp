@@ -53,7 +53,8 @@ class Forms {
   Form stuck_contact_force(Eigen::Index contact, const Mode<N, H>& mode) const;
 
   // Sum of the forces [N] that all elements at `node` (ground or prescribed) need there: what drives it.
-  Form node_force(const mechanics::Node& node, const std::vector<double>& element_values, const Mode<N, H>& mode) const;
+  Form node_force(const mechanics::Node& node, const std::vector<double>& element_values,
+                  const Mode<N, H>& mode) const;
 
  private:
   Form zero() const { return Form::zero(flow_.equations().masses(), flow_.equations().oscillators()); }
@@ -99,10 +100,14 @@ LinearForm<N, H> Forms<N, H>::element_force(std::size_t element, double value, c
   const mechanics::Incidence& at = assembly_.incidences()[element];
   Form form = zero();
   switch (assembly_.network().elements[element].type) {
-    case mechanics::ElementType::spring: return form.add(value, displacement(at));
-    case mechanics::ElementType::damper: return form.add(value, velocity(at));
-    case mechanics::ElementType::inerter: return form.add(value, acceleration(at, mode));
-    case mechanics::ElementType::coulomb: break;
+    case mechanics::ElementType::spring:
+      return form.add(value, displacement(at));
+    case mechanics::ElementType::damper:
+      return form.add(value, velocity(at));
+    case mechanics::ElementType::inerter:
+      return form.add(value, acceleration(at, mode));
+    case mechanics::ElementType::coulomb:
+      break;
   }
   const mechanics::ContactShare& place = assembly_.shares()[element];
   const auto contact = static_cast<Eigen::Index>(place.contact);
@@ -129,7 +134,8 @@ LinearForm<N, H> Forms<N, H>::stuck_contact_force(Eigen::Index contact, const Mo
 }
 
 template <int N, int H>
-LinearForm<N, H> Forms<N, H>::node_force(const mechanics::Node& node, const std::vector<double>& element_values,
+LinearForm<N, H> Forms<N, H>::node_force(const mechanics::Node& node,
+                                         const std::vector<double>& element_values,
                                          const Mode<N, H>& mode) const {
   Form sum = zero();
   const auto& elements = assembly_.network().elements;

@@ -6,7 +6,8 @@
 
 namespace frahm::periodic {
 
-void modes_of(const mechanics::LinearSystem& system, std::vector<double>& frequency, std::vector<double>& damping) {
+void modes_of(const mechanics::LinearSystem& system, std::vector<double>& frequency,
+              std::vector<double>& damping) {
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(system.K, system.M);
   frequency.clear();
   damping.clear();
@@ -18,7 +19,8 @@ void modes_of(const mechanics::LinearSystem& system, std::vector<double>& freque
   }
 }
 
-LinearModes linear_modes(const mechanics::Network& network, const mechanics::NetworkValues& values, bool all_stuck) {
+LinearModes linear_modes(const mechanics::Network& network, const mechanics::NetworkValues& values,
+                         bool all_stuck) {
   const mechanics::Assembly assembly(network);
   mechanics::LinearSystem system;
   assembly.set_values(values, system);
@@ -31,7 +33,7 @@ LinearModes linear_modes(const mechanics::Network& network, const mechanics::Net
     B = constraints.kernel();
   }
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(B.transpose() * system.K * B,
-                                                                       B.transpose() * system.M * B);
+                                                                        B.transpose() * system.M * B);
   LinearModes result;
   for (Eigen::Index k = 0; k < B.cols(); ++k) {
     Eigen::VectorXd shape = B * modes.eigenvectors().col(k);

@@ -39,7 +39,8 @@ class Observables {
  private:
   // A quantity whose extremes are wanted.
   struct Trace {
-    Measure measure;  // amplitude (displacements of masses and elements), velocity_peak, acceleration_peak, force_peak, transmitted_force
+    Measure measure;  // amplitude (displacements of masses and elements), velocity_peak, acceleration_peak,
+                      // force_peak, transmitted_force
     mechanics::Incidence at;
     std::size_t element = 0;
     mechanics::Node node;
@@ -80,7 +81,8 @@ class Observables {
 };
 
 // Undamped frequencies [rad/s], ascending, and phi^T C phi / (2 omega phi^T M phi) of each mode phi.
-void modes_of(const mechanics::LinearSystem& system, std::vector<double>& frequency, std::vector<double>& damping);
+void modes_of(const mechanics::LinearSystem& system, std::vector<double>& frequency,
+              std::vector<double>& damping);
 
 }  // namespace frahm::periodic
 

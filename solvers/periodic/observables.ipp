@@ -4,7 +4,11 @@ namespace frahm::periodic {
 template <int N, int H>
 Observables<N, H>::Observables(const mechanics::Assembly& assembly, const Flow<N, H>& flow,
                                std::vector<Quantity> quantities)
-    : assembly_(assembly), flow_(flow), forms_(assembly, flow), quantities_(std::move(quantities)), steps_(flow) {
+    : assembly_(assembly),
+      flow_(flow),
+      forms_(assembly, flow),
+      quantities_(std::move(quantities)),
+      steps_(flow) {
   const auto masses = static_cast<Eigen::Index>(assembly.network().masses.size());
   const auto supports = static_cast<Eigen::Index>(assembly.network().prescribed.size());
   for (Eigen::Index i = 0; i < masses; ++i) {
@@ -61,23 +65,34 @@ void Observables<N, H>::plan(const Quantity& quantity) {
       needs_integrals_ = true;
       break;
     case Measure::mean:
-    case Measure::rms: needs_integrals_ = true; break;
+    case Measure::rms:
+      needs_integrals_ = true;
+      break;
     case Measure::energy:
     case Measure::energy_share:
     case Measure::energy_input:
-    case Measure::energy_balance: needs_integrals_ = needs_histories_ = true; break;
+    case Measure::energy_balance:
+      needs_integrals_ = needs_histories_ = true;
+      break;
     case Measure::stops:
     case Measure::reversals:
     case Measure::stuck_fraction:
-    case Measure::regime: needs_histories_ = true; break;
+    case Measure::regime:
+      needs_histories_ = true;
+      break;
     case Measure::floquet_radius:
-    case Measure::error_bound: needs_stability_ = true; break;
+    case Measure::error_bound:
+      needs_stability_ = true;
+      break;
     case Measure::natural_frequency:
-    case Measure::modal_damping: needs_modes_ = true; break;
+    case Measure::modal_damping:
+      needs_modes_ = true;
+      break;
     case Measure::status:
     case Measure::residual:
     case Measure::newton_iterations:
-    case Measure::events: break;
+    case Measure::events:
+      break;
   }
   trace_index_.push_back(trace);
 }
@@ -90,11 +105,16 @@ void Observables<N, H>::set_system(const mechanics::LinearSystem& system) {
 template <int N, int H>
 LinearForm<N, H> Observables<N, H>::form_of(const Trace& trace, const Mode<N, H>& mode) const {
   switch (trace.measure) {
-    case Measure::velocity_peak: return forms_.velocity(trace.at);
-    case Measure::acceleration_peak: return forms_.acceleration(trace.at, mode);
-    case Measure::force_peak: return forms_.element_force(trace.element, (*element_values_)[trace.element], mode);
-    case Measure::transmitted_force: return forms_.node_force(trace.node, *element_values_, mode);
-    default: return forms_.displacement(trace.at);
+    case Measure::velocity_peak:
+      return forms_.velocity(trace.at);
+    case Measure::acceleration_peak:
+      return forms_.acceleration(trace.at, mode);
+    case Measure::force_peak:
+      return forms_.element_force(trace.element, (*element_values_)[trace.element], mode);
+    case Measure::transmitted_force:
+      return forms_.node_force(trace.node, *element_values_, mode);
+    default:
+      return forms_.displacement(trace.at);
   }
 }
 
@@ -123,13 +143,20 @@ template <int N, int H>
 void Observables<N, H>::fill_missing(Status status, std::span<double> out) const {
   for (std::size_t i = 0; i < quantities_.size(); ++i) {
     switch (quantities_[i].measure) {
-      case Measure::status: out[i] = static_cast<double>(status); break;
-      case Measure::regime: out[i] = static_cast<double>(Regime::not_computed); break;
+      case Measure::status:
+        out[i] = static_cast<double>(status);
+        break;
+      case Measure::regime:
+        out[i] = static_cast<double>(Regime::not_computed);
+        break;
       case Measure::stops:
       case Measure::reversals:
       case Measure::newton_iterations:
-      case Measure::events: out[i] = -1.0; break;
-      default: out[i] = std::numeric_limits<double>::quiet_NaN();
+      case Measure::events:
+        out[i] = -1.0;
+        break;
+      default:
+        out[i] = std::numeric_limits<double>::quiet_NaN();
     }
   }
 }
@@ -182,9 +209,11 @@ double Observables<N, H>::element_energy(std::size_t element) const {
       const Form velocity = forms_.velocity(assembly_.incidences()[element]);
       return value * integrals_.product(velocity, velocity);
     }
-    case mechanics::ElementType::coulomb: return value * histories_[assembly_.shares()[element].contact].sliding_distance;
+    case mechanics::ElementType::coulomb:
+      return value * histories_[assembly_.shares()[element].contact].sliding_distance;
     case mechanics::ElementType::spring:
-    case mechanics::ElementType::inerter: break;
+    case mechanics::ElementType::inerter:
+      break;
   }
   return 0.0;
 }
@@ -195,7 +224,8 @@ void Observables<N, H>::balance_energy() {
   for (std::size_t e = 0; e < assembly_.network().elements.size(); ++e) dissipated_ += element_energy(e);
 }
 
-// x_n = |X_n| cos(n omega t - phase), with X_n the component of the reference order n; NaN where there is none.
+// x_n = |X_n| cos(n omega t - phase), with X_n the component of the reference order n; NaN where there is
+// none.
 template <int N, int H>
 double Observables<N, H>::phase_of(const Form& form, double magnitude) const {
   const int reference = assembly_.network().reference_order;
@@ -225,7 +255,8 @@ double Observables<N, H>::value_of(std::size_t i) const {
     case Measure::acceleration_peak:
     case Measure::mean:
     case Measure::rms:
-    case Measure::phase: return value_of_mass(i);
+    case Measure::phase:
+      return value_of_mass(i);
     case Measure::stroke:
     case Measure::force_peak:
     case Measure::element_phase:
@@ -234,9 +265,12 @@ double Observables<N, H>::value_of(std::size_t i) const {
     case Measure::stops:
     case Measure::reversals:
     case Measure::stuck_fraction:
-    case Measure::regime: return value_of_element(i);
-    case Measure::transmitted_force: return traces_[trace_index_[i]].extremes.magnitude();
-    default: return value_of_point(quantity);
+    case Measure::regime:
+      return value_of_element(i);
+    case Measure::transmitted_force:
+      return traces_[trace_index_[i]].extremes.magnitude();
+    default:
+      return value_of_point(quantity);
   }
 }
 
@@ -247,15 +281,20 @@ double Observables<N, H>::value_of_mass(std::size_t i) const {
   const Extremes extremes = traces_.empty() ? Extremes{} : traces_[trace_index_[i]].extremes;
   const double period = flow_.equations().period * flow_.equations().step;  // [s]
   switch (quantity.measure) {
-    case Measure::amplitude: return 0.5 * (extremes.most - extremes.least);
-    case Measure::peak_phase: return extremes.most_phase;
+    case Measure::amplitude:
+      return 0.5 * (extremes.most - extremes.least);
+    case Measure::peak_phase:
+      return extremes.most_phase;
     case Measure::mean: {
       if (orbit_->half_period) return 0.0;
       return integrals_.gram()(mass, 2 * flow_.equations().masses()) / period;
     }
-    case Measure::rms: return std::sqrt(integrals_.gram()(mass, mass) / period);
-    case Measure::phase: return phase_of(forms_.displacement(mass_incidences_[quantity.index]), extremes.magnitude());
-    default: return extremes.magnitude();  // peaks
+    case Measure::rms:
+      return std::sqrt(integrals_.gram()(mass, mass) / period);
+    case Measure::phase:
+      return phase_of(forms_.displacement(mass_incidences_[quantity.index]), extremes.magnitude());
+    default:
+      return extremes.magnitude();  // peaks
   }
 }
 
@@ -264,42 +303,61 @@ double Observables<N, H>::value_of_element(std::size_t i) const {
   const Quantity& quantity = quantities_[i];
   const std::size_t element = quantity.index;
   switch (quantity.measure) {
-    case Measure::energy: return element_energy(element);
-    case Measure::energy_share: return dissipated_ > 0.0 ? element_energy(element) / dissipated_ : 0.0;
+    case Measure::energy:
+      return element_energy(element);
+    case Measure::energy_share:
+      return dissipated_ > 0.0 ? element_energy(element) / dissipated_ : 0.0;
     case Measure::element_phase:
-      return phase_of(forms_.displacement(assembly_.incidences()[element]), traces_[trace_index_[i]].extremes.magnitude());
+      return phase_of(forms_.displacement(assembly_.incidences()[element]),
+                      traces_[trace_index_[i]].extremes.magnitude());
     case Measure::stroke:
-    case Measure::force_peak: return traces_[trace_index_[i]].extremes.magnitude();
-    default: break;
+    case Measure::force_peak:
+      return traces_[trace_index_[i]].extremes.magnitude();
+    default:
+      break;
   }
   const ContactHistory& history = histories_[assembly_.shares()[element].contact];
   switch (quantity.measure) {
-    case Measure::stops: return history.stops;
-    case Measure::reversals: return history.reversals;
-    case Measure::stuck_fraction: return history.stuck_fraction;
-    default: return static_cast<double>(regime_of((*element_values_)[element], history));
+    case Measure::stops:
+      return history.stops;
+    case Measure::reversals:
+      return history.reversals;
+    case Measure::stuck_fraction:
+      return history.stuck_fraction;
+    default:
+      return static_cast<double>(regime_of((*element_values_)[element], history));
   }
 }
 
 template <int N, int H>
 double Observables<N, H>::value_of_point(const Quantity& quantity) const {
   switch (quantity.measure) {
-    case Measure::status: return static_cast<double>(orbit_->status);
-    case Measure::floquet_radius: return orbit_->floquet_radius;
-    case Measure::error_bound: return orbit_->error_bound;
-    case Measure::residual: return orbit_->residual;
-    case Measure::newton_iterations: return orbit_->newton_iterations;
-    case Measure::events: return (orbit_->half_period ? 2.0 : 1.0) * orbit_->passage.events;
-    case Measure::energy_input: return integrals_.input();
+    case Measure::status:
+      return static_cast<double>(orbit_->status);
+    case Measure::floquet_radius:
+      return orbit_->floquet_radius;
+    case Measure::error_bound:
+      return orbit_->error_bound;
+    case Measure::residual:
+      return orbit_->residual;
+    case Measure::newton_iterations:
+      return orbit_->newton_iterations;
+    case Measure::events:
+      return (orbit_->half_period ? 2.0 : 1.0) * orbit_->passage.events;
+    case Measure::energy_input:
+      return integrals_.input();
     case Measure::energy_balance: {
       // Where nothing moves both are rounding of the forcing's energy.
       const double rounding = 1e-11 * flow_.static_norm() * flow_.static_norm();
       const double size = std::max(integrals_.input_size(), dissipated_);
       return size > rounding ? std::abs(integrals_.input() - dissipated_) / size : 0.0;
     }
-    case Measure::natural_frequency: return natural_frequency_[quantity.index];
-    case Measure::modal_damping: return modal_damping_[quantity.index];
-    default: return std::numeric_limits<double>::quiet_NaN();
+    case Measure::natural_frequency:
+      return natural_frequency_[quantity.index];
+    case Measure::modal_damping:
+      return modal_damping_[quantity.index];
+    default:
+      return std::numeric_limits<double>::quiet_NaN();
   }
 }
 

@@ -8,7 +8,8 @@ namespace frahm::periodic {
 enum class Status {
   not_computed = 0,
   ok = 1,
-  grazing = 2,    // a contact's velocity or force only touches: the response is right, its derivative does not exist
+  grazing =
+      2,  // a contact's velocity or force only touches: the response is right, its derivative does not exist
   unbounded = 3,  // an undamped resonance that friction cannot hold: no periodic response exists
   failed = 4,
 };
@@ -16,17 +17,17 @@ enum class Status {
 // Below this relative margin of its nearest event an orbit counts as grazing.
 inline constexpr double kGrazing = 1e-9;
 
-// A periodic orbit in the units of StepEquations (time in steps), from its section over one period, or over half
-// a period where the orbit repeats with the opposite sign.
+// A periodic orbit in the units of StepEquations (time in steps), from its section over one period, or over
+// half a period where the orbit repeats with the opposite sign.
 template <int N, int H>
 struct Orbit {
   using S = Sizes<N, H>;
 
   Status status = Status::not_computed;
   const char* reason = "";
-  typename S::State z;          // at the section
-  double section = 0.0;         // omega t of the section [rad]
-  bool half_period = false;     // the passage covers half a period: x(t + T/2) = -x(t)
+  typename S::State z;       // at the section
+  double section = 0.0;      // omega t of the section [rad]
+  bool half_period = false;  // the passage covers half a period: x(t + T/2) = -x(t)
   Passage<N, H> passage;
   ContactMask stuck_throughout = 0;
   double residual = 0.0;        // of the periodic condition, relative, energy norm
@@ -34,7 +35,7 @@ struct Orbit {
   double contraction = 0.0;     // L, energy norm of the map's derivative
   double floquet_radius = 0.0;  // largest Floquet multiplier of the full period, of what can move
   int newton_iterations = 0;
-  int passages = 0;             // of the flow that the search took
+  int passages = 0;  // of the flow that the search took
 
   double sign() const { return half_period ? -1.0 : 1.0; }
 };

@@ -8,8 +8,8 @@
 
 namespace frahm::periodic {
 
-// An orbit laid out in steps of one mode each, from its section on. A step has its Taylor expansion when one was
-// asked for.
+// An orbit laid out in steps of one mode each, from its section on. A step has its Taylor expansion when one
+// was asked for.
 template <int N, int H>
 struct OrbitStep {
   double start = 0.0;   // [steps] since the section
@@ -37,8 +37,10 @@ class OrbitSteps {
         step.length = std::min(1.0, segment.length - done);
         step.mode = segment.mode;
         const double phase = orbit.section + step.start * flow_.fundamental_rate();
-        if (done == 0.0) flow_.instant_at(z, phase, mode, step.left);
-        else step.left = steps_[count_ - 2].right;
+        if (done == 0.0)
+          flow_.instant_at(z, phase, mode, step.left);
+        else
+          step.left = steps_[count_ - 2].right;
         if (step.length == 1.0) {
           flow_.step(step.left, mode, step.right);
         } else {

@@ -11,11 +11,12 @@ using Bernstein = std::array<double, kTerms>;
 Bernstein to_bernstein(const Polynomial& p) {
   Bernstein b;
   for (int i = 0; i < kTerms; ++i) b[static_cast<std::size_t>(i)] = 0.0;
-  double scale = 1.0;  // 1 / binomial(d, k)
+  double scale = 1.0;                 // 1 / binomial(d, k)
   std::array<double, kTerms> column;  // binomial(i, k)
   column.fill(1.0);
   for (int k = 0; k < kTerms; ++k) {
-    for (int i = k; i < kTerms; ++i) b[static_cast<std::size_t>(i)] += column[static_cast<std::size_t>(i)] * scale * p[k];
+    for (int i = k; i < kTerms; ++i)
+      b[static_cast<std::size_t>(i)] += column[static_cast<std::size_t>(i)] * scale * p[k];
     scale *= (k + 1.0) / (kTerms - 1.0 - k);
     for (int i = k; i < kTerms; ++i) column[static_cast<std::size_t>(i)] *= (i - k) / (k + 1.0);
   }
@@ -71,7 +72,8 @@ double hermite_root(ValueAndSlope left, ValueAndSlope right, double lo, double h
   const double c3 = rise - c1 - c2;
   double s = -left.value / rise;
   for (int iteration = 0; iteration < 2; ++iteration) {
-    const double value = left.value + s * (c1 + s * (c2 + s * c3)), slope = c1 + s * (2.0 * c2 + 3.0 * s * c3);
+    const double value = left.value + s * (c1 + s * (c2 + s * c3)),
+                 slope = c1 + s * (2.0 * c2 + 3.0 * s * c3);
     s = std::clamp(s - value / slope, 0.0, 1.0);
   }
   return s > 0.0 && s < 1.0 ? lo + s * length : 0.5 * (lo + hi);
@@ -118,17 +120,21 @@ double root_between(const Polynomial& p, double lo, double hi) {
   return s;
 }
 
-bool may_change_sign(const Polynomial& p) { return verdict_from_ends(p) != SignVerdict::no_change; }
+bool may_change_sign(const Polynomial& p) {
+  return verdict_from_ends(p) != SignVerdict::no_change;
+}
 
 Roots sign_changes(const Polynomial& p) {
   Roots roots;
   switch (verdict_from_ends(p)) {
-    case SignVerdict::no_change: return roots;
+    case SignVerdict::no_change:
+      return roots;
     case SignVerdict::one_change:
       roots.at[0] = root_between(p, 0.0, 1.0);
       roots.count = 1;
       return roots;
-    case SignVerdict::unclear: break;
+    case SignVerdict::unclear:
+      break;
   }
   collect(p, to_bernstein(p), 0.0, 1.0, roots);
   return roots;

@@ -8,10 +8,10 @@
 // Taylor polynomials of the exact flow over one step, in the step fraction s in [0, 1], and their roots.
 namespace frahm::periodic {
 
-// A step is so short that its fastest rate times its length is at most kStepRate. The Taylor remainder is then
-// below kStepRate^kTerms / kTerms! = 1.3e-17 of the scale: the flow is exact to the last digit.
+// A step is so short that its fastest rate times its length is at most kStepRate. The Taylor remainder is
+// then below kStepRate^kTerms / kTerms! = 1.6e-16 of the scale: the flow is exact to the last digit.
 inline constexpr int kTerms = 16;
-inline constexpr double kStepRate = 0.6;
+inline constexpr double kStepRate = 0.7;
 
 using Polynomial = Eigen::Matrix<double, kTerms, 1>;  // coefficient k belongs to s^k
 
@@ -32,7 +32,9 @@ struct ValueAndSlope {
   double value, slope;
 };
 
-inline double evaluate(const Polynomial& p, double s) { return p.dot(powers(s)); }
+inline double evaluate(const Polynomial& p, double s) {
+  return p.dot(powers(s));
+}
 
 inline Polynomial derivative(const Polynomial& p) {
   Polynomial d;
@@ -58,9 +60,10 @@ double root_between(const Polynomial& p, double lo, double hi);
 
 // The roots in [0, 1] at which p changes sign, ascending, from at most kMaxRoots brackets.
 //
-// No root is missed, however close to another: the Bernstein coefficients of p on an interval have at least as
-// many sign changes as p has roots there, and an interval with more than one is halved (variation diminishing
-// property; G. Farin, Curves and Surfaces for CAGD, 5th ed., sec. 5.3). Two roots closer than 1e-9 count as none.
+// No root is missed, however close to another: the Bernstein coefficients of p on an interval have at least
+// as many sign changes as p has roots there, and an interval with more than one is halved (variation
+// diminishing property; G. Farin, Curves and Surfaces for CAGD, 5th ed., sec. 5.3). Two roots closer than
+// 1e-9 count as none.
 struct Roots {
   static constexpr int kMaxRoots = 8;
   std::array<double, kMaxRoots> at{};

@@ -25,43 +25,66 @@ constexpr Row kRows[] = {
     {Measure::mean, Owner::mass, "mean", "m", "mean displacement of {}"},
     {Measure::rms, Owner::mass, "rms", "m", "root mean square displacement of {}"},
     {Measure::phase, Owner::mass, "phase", "rad", "phase lag of {} at the reference order"},
-    {Measure::peak_phase, Owner::mass, "peak_phase", "rad", "omega t at which {} first reaches its largest displacement"},
+    {Measure::peak_phase, Owner::mass, "peak_phase", "rad",
+     "omega t at which {} first reaches its largest displacement"},
     {Measure::velocity_peak, Owner::mass, "velocity_peak", "m s-1", "largest velocity of {}, either way"},
-    {Measure::acceleration_peak, Owner::mass, "acceleration_peak", "m s-2", "largest acceleration of {}, either way"},
+    {Measure::acceleration_peak, Owner::mass, "acceleration_peak", "m s-2",
+     "largest acceleration of {}, either way"},
     {Measure::stroke, Owner::element, "stroke", "m", "largest relative displacement across {}, either way"},
-    {Measure::element_phase, Owner::element, "phase", "rad", "phase lag of the relative displacement across {} at the reference order"},
+    {Measure::element_phase, Owner::element, "phase", "rad",
+     "phase lag of the relative displacement across {} at the reference order"},
     {Measure::force_peak, Owner::element, "force_peak", "N", "largest force of {}, either way"},
     {Measure::energy, Owner::element, "energy", "J", "energy dissipated by {} in a period"},
-    {Measure::energy_share, Owner::element, "energy_share", "1", "share of {} in the energy dissipated in a period"},
-    {Measure::stops, Owner::coulomb, "stops", "1", "stops of finite length of {} in a period", QuantityKind::count},
-    {Measure::reversals, Owner::coulomb, "reversals", "1", "changes of sliding direction of {} in a period", QuantityKind::count},
-    {Measure::stuck_fraction, Owner::coulomb, "stuck_fraction", "1", "share of the period for which {} sticks"},
+    {Measure::energy_share, Owner::element, "energy_share", "1",
+     "share of {} in the energy dissipated in a period"},
+    {Measure::stops, Owner::coulomb, "stops", "1", "stops of finite length of {} in a period",
+     QuantityKind::count},
+    {Measure::reversals, Owner::coulomb, "reversals", "1", "changes of sliding direction of {} in a period",
+     QuantityKind::count},
+    {Measure::stuck_fraction, Owner::coulomb, "stuck_fraction", "1",
+     "share of the period for which {} sticks"},
     {Measure::regime, Owner::coulomb, "regime", "1", "stick-slip regime of {}", QuantityKind::flag},
-    {Measure::status, Owner::point, "status", "1", "how the search for the periodic response ended", QuantityKind::flag},
-    {Measure::floquet_radius, Owner::point, "floquet_radius", "1", "largest modulus of the Floquet multipliers of a period"},
+    {Measure::status, Owner::point, "status", "1", "how the search for the periodic response ended",
+     QuantityKind::flag},
+    {Measure::floquet_radius, Owner::point, "floquet_radius", "1",
+     "largest modulus of the Floquet multipliers of a period"},
     {Measure::energy_input, Owner::point, "energy_input", "J", "work of the excitation in a period"},
-    {Measure::energy_balance, Owner::point, "energy_balance", "1", "energy put in less energy dissipated, relative"},
-    {Measure::transmitted_force, Owner::support, "transmitted_force", "N", "largest force that all elements together exert on {}"},
-    {Measure::residual, Owner::point, "residual", "1", "residual of the periodic condition, relative, energy norm"},
-    {Measure::error_bound, Owner::point, "error_bound", "m", "bound of the error of every displacement at every time"},
-    {Measure::newton_iterations, Owner::point, "newton_iterations", "1", "Newton steps of the search", QuantityKind::count},
-    {Measure::events, Owner::point, "events", "1", "stops, releases and reversals of all contacts in a period", QuantityKind::count},
-    {Measure::natural_frequency, Owner::mode, "natural_frequency", "rad s-1", "undamped natural frequency {} with all friction sliding"},
-    {Measure::modal_damping, Owner::mode, "modal_damping", "1", "damping ratio of mode {} with all friction sliding"},
+    {Measure::energy_balance, Owner::point, "energy_balance", "1",
+     "energy put in less energy dissipated, relative"},
+    {Measure::transmitted_force, Owner::support, "transmitted_force", "N",
+     "largest force that all elements together exert on {}"},
+    {Measure::residual, Owner::point, "residual", "1",
+     "residual of the periodic condition, relative, energy norm"},
+    {Measure::error_bound, Owner::point, "error_bound", "m",
+     "bound of the error of every displacement at every time"},
+    {Measure::newton_iterations, Owner::point, "newton_iterations", "1", "Newton steps of the search",
+     QuantityKind::count},
+    {Measure::events, Owner::point, "events", "1",
+     "stops, releases and reversals of all contacts in a period", QuantityKind::count},
+    {Measure::natural_frequency, Owner::mode, "natural_frequency", "rad s-1",
+     "undamped natural frequency {} with all friction sliding"},
+    {Measure::modal_damping, Owner::mode, "modal_damping", "1",
+     "damping ratio of mode {} with all friction sliding"},
 };
 
 const Row& row_of(Measure measure) {
-  return *std::find_if(std::begin(kRows), std::end(kRows), [&](const Row& row) { return row.measure == measure; });
+  return *std::find_if(std::begin(kRows), std::end(kRows),
+                       [&](const Row& row) { return row.measure == measure; });
 }
 
 std::string owner_name(Owner owner, std::size_t index, const Network& network) {
   switch (owner) {
-    case Owner::mass: return network.masses[index];
+    case Owner::mass:
+      return network.masses[index];
     case Owner::element:
-    case Owner::coulomb: return network.elements[index].name;
-    case Owner::mode: return std::to_string(index + 1);
-    case Owner::support: return index == 0 ? "ground" : network.prescribed[index - 1];
-    case Owner::point: break;
+    case Owner::coulomb:
+      return network.elements[index].name;
+    case Owner::mode:
+      return std::to_string(index + 1);
+    case Owner::support:
+      return index == 0 ? "ground" : network.prescribed[index - 1];
+    case Owner::point:
+      break;
   }
   return "";
 }
@@ -69,11 +92,15 @@ std::string owner_name(Owner owner, std::size_t index, const Network& network) {
 std::size_t owner_count(Owner owner, const Network& network) {
   switch (owner) {
     case Owner::mass:
-    case Owner::mode: return network.masses.size();
+    case Owner::mode:
+      return network.masses.size();
     case Owner::element:
-    case Owner::coulomb: return network.elements.size();
-    case Owner::support: return 1 + network.prescribed.size();
-    case Owner::point: break;
+    case Owner::coulomb:
+      return network.elements.size();
+    case Owner::support:
+      return 1 + network.prescribed.size();
+    case Owner::point:
+      break;
   }
   return 1;
 }
@@ -81,12 +108,16 @@ std::size_t owner_count(Owner owner, const Network& network) {
 std::string name_of(const Row& row, std::size_t index, const Network& network) {
   const std::string suffix = row.suffix;
   switch (row.owner) {
-    case Owner::point: return suffix;
-    case Owner::mode: return suffix + "_" + std::to_string(index + 1);
-    case Owner::support: return index == 0 ? suffix : network.prescribed[index - 1] + "_" + suffix;
+    case Owner::point:
+      return suffix;
+    case Owner::mode:
+      return suffix + "_" + std::to_string(index + 1);
+    case Owner::support:
+      return index == 0 ? suffix : network.prescribed[index - 1] + "_" + suffix;
     case Owner::mass:
     case Owner::element:
-    case Owner::coulomb: break;
+    case Owner::coulomb:
+      break;
   }
   return owner_name(row.owner, index, network) + "_" + suffix;
 }
@@ -106,7 +137,8 @@ QuantityDescription describe(const Quantity& quantity, const Network& network, b
   if (quantity.measure == Measure::status) {
     result.flags = {{"not_computed", 0}, {"ok", 1}, {"grazing", 2}, {"unbounded", 3}, {"failed", 4}};
   } else if (quantity.measure == Measure::regime) {
-    result.flags = {{"not_computed", 0}, {"no_friction", 1}, {"non_stop", 2}, {"one_stop", 3}, {"multi_stop", 4}, {"stuck", 5}};
+    result.flags = {{"not_computed", 0}, {"no_friction", 1}, {"non_stop", 2},
+                    {"one_stop", 3},     {"multi_stop", 4},  {"stuck", 5}};
   }
   return result;
 }
@@ -125,7 +157,8 @@ std::vector<Quantity> all_quantities(const Network& network) {
 std::vector<Quantity> standard_quantities(const Network& network) {
   std::vector<Quantity> result;
   for (std::size_t i = 0; i < network.masses.size(); ++i) {
-    for (const Measure measure : {Measure::peak, Measure::amplitude, Measure::mean, Measure::rms, Measure::phase}) {
+    for (const Measure measure :
+         {Measure::peak, Measure::amplitude, Measure::mean, Measure::rms, Measure::phase}) {
       result.push_back({measure, i});
     }
   }
@@ -134,12 +167,13 @@ std::vector<Quantity> standard_quantities(const Network& network) {
   }
   for (std::size_t e = 0; e < network.elements.size(); ++e) {
     if (network.elements[e].type != ElementType::coulomb) continue;
-    for (const Measure measure : {Measure::stops, Measure::stuck_fraction, Measure::regime, Measure::energy}) {
+    for (const Measure measure :
+         {Measure::stops, Measure::stuck_fraction, Measure::regime, Measure::energy}) {
       result.push_back({measure, e});
     }
   }
-  for (const Measure measure : {Measure::status, Measure::floquet_radius, Measure::energy_balance, Measure::residual,
-                                Measure::error_bound, Measure::transmitted_force}) {
+  for (const Measure measure : {Measure::status, Measure::floquet_radius, Measure::energy_balance,
+                                Measure::residual, Measure::error_bound, Measure::transmitted_force}) {
     result.push_back({measure, 0});
   }
   return result;

@@ -12,17 +12,47 @@ namespace frahm::periodic {
 
 enum class Measure {
   // of a mass
-  amplitude, peak, mean, rms, phase, peak_phase, velocity_peak, acceleration_peak,
+  amplitude,
+  peak,
+  mean,
+  rms,
+  phase,
+  peak_phase,
+  velocity_peak,
+  acceleration_peak,
   // of an element
-  stroke, element_phase, force_peak, energy, energy_share,
+  stroke,
+  element_phase,
+  force_peak,
+  energy,
+  energy_share,
   // of a Coulomb element
-  stops, reversals, stuck_fraction, regime,
+  stops,
+  reversals,
+  stuck_fraction,
+  regime,
   // of the response
-  status, floquet_radius, energy_input, energy_balance, transmitted_force, residual, error_bound,
-  newton_iterations, events, natural_frequency, modal_damping,
+  status,
+  floquet_radius,
+  energy_input,
+  energy_balance,
+  transmitted_force,
+  residual,
+  error_bound,
+  newton_iterations,
+  events,
+  natural_frequency,
+  modal_damping,
 };
 
-enum class Regime { not_computed = 0, no_friction = 1, non_stop = 2, one_stop = 3, multi_stop = 4, stuck = 5 };
+enum class Regime {
+  not_computed = 0,
+  no_friction = 1,
+  non_stop = 2,
+  one_stop = 3,
+  multi_stop = 4,
+  stuck = 5
+};
 
 struct Quantity {
   Measure measure = Measure::status;

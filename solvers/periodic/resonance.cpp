@@ -8,7 +8,8 @@ namespace frahm::periodic {
 namespace {
 
 // Does the mode shape (phi^T M phi = 1) at this order outgrow what friction takes out?
-bool outgrows_friction(const mechanics::LinearSystem& system, const Eigen::VectorXd& shape, Eigen::Index order) {
+bool outgrows_friction(const mechanics::LinearSystem& system, const Eigen::VectorXd& shape,
+                       Eigen::Index order) {
   const double drive = std::abs(std::complex<double>((shape.transpose() * system.force.col(order))(0)));
   const double force_size = system.force.col(order).norm() * shape.norm();
   if (drive <= 1e-14 * force_size) return false;
@@ -23,7 +24,8 @@ std::vector<UndampedMode> undamped_modes(const mechanics::LinearSystem& system) 
   const Eigen::Index n = system.masses();
   const Eigen::LLT<Eigen::MatrixXd> damped(system.C);
   const double scale = system.C.cwiseAbs().maxCoeff();
-  if (damped.info() == Eigen::Success && damped.matrixLLT().diagonal().minCoeff() > 1e-7 * std::sqrt(scale)) return result;
+  if (damped.info() == Eigen::Success && damped.matrixLLT().diagonal().minCoeff() > 1e-7 * std::sqrt(scale))
+    return result;
 
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(system.K, system.M);
   const Eigen::VectorXd& squares = modes.eigenvalues();

@@ -13,12 +13,12 @@ struct UndampedMode {
   Eigen::VectorXd shape;
 };
 
-// All undamped modes of a system with its friction sliding. Modes of one frequency are given as a basis of those
-// of them that are undamped.
+// All undamped modes of a system with its friction sliding. Modes of one frequency are given as a basis of
+// those of them that are undamped.
 std::vector<UndampedMode> undamped_modes(const mechanics::LinearSystem& system);
 
-// Whether an undamped mode is driven at its resonance harder than friction can hold: n omega = omega_phi to 1e-12
-// and pi |p_n| >= 4 sum_j F_j |w_j^T phi|, p_n = phi^T f_n. In a cycle of amplitude X the force puts in
+// Whether an undamped mode is driven at its resonance harder than friction can hold: n omega = omega_phi to
+// 1e-12 and pi |p_n| >= 4 sum_j F_j |w_j^T phi|, p_n = phi^T f_n. In a cycle of amplitude X the force puts in
 // pi |p_n| X and friction takes out 4 F X: no amplitude balances (Den Hartog 1931; one mass: F/P <= pi/4).
 bool is_unbounded(const mechanics::LinearSystem& system, const std::vector<UndampedMode>& modes);
 

@@ -51,8 +51,10 @@ class SizedSolver final : public ResponseSolver {
   const ResponseSummary& solve() override;
 
   void quantities(std::span<double> out) override {
-    if (has_response()) observables_.evaluate(orbit_, system_, element_values_, out);
-    else observables_.fill_missing(orbit_.status, out);
+    if (has_response())
+      observables_.evaluate(orbit_, system_, element_values_, out);
+    else
+      observables_.fill_missing(orbit_.status, out);
   }
 
   History history(std::size_t samples) override;
@@ -129,8 +131,8 @@ History SizedSolver<N, H>::history(std::size_t samples) {
     while (segment + 1 != segments.end() && segment->start + segment->length <= at) ++segment;
     const Mode<N, H>& mode = flow_.mode(segment->mode);
     Instant<N, H> instant;
-    flow_.instant_at(flow_.state_within(*segment, orbit_.section, at - segment->start), orbit_.section + from_section,
-                     mode, instant);
+    flow_.instant_at(flow_.state_within(*segment, orbit_.section, at - segment->start),
+                     orbit_.section + from_section, mode, instant);
     result.time.push_back(phase / turn * seconds_per_turn);
     std::size_t column = 0;
     for (Eigen::Index mass = 0; mass < n; ++mass) {
@@ -138,7 +140,8 @@ History SizedSolver<N, H>::history(std::size_t samples) {
       result.columns[column++].push_back(sign * instant.z[n + mass] / flow_.equations().step);
     }
     for (std::size_t e = 0; e < network.elements.size(); ++e) {
-      result.columns[column++].push_back(sign * forms.element_force(e, element_values_[e], mode).at(instant).value);
+      result.columns[column++].push_back(sign *
+                                         forms.element_force(e, element_values_[e], mode).at(instant).value);
     }
   }
   return result;
@@ -159,12 +162,15 @@ std::vector<Stretch> SizedSolver<N, H>::stretches() const {
         const mechanics::ContactShare& place = assembly_.shares()[e];
         const auto contact = static_cast<Eigen::Index>(place.contact);
         const double sign = (half == 0 ? 1.0 : -1.0) * place.orientation * mode.sign(contact);
-        stretch.contacts.push_back(contains(mode.stuck, contact) ? "sticks" : sign > 0.0 ? "slides +" : "slides -");
+        stretch.contacts.push_back(contains(mode.stuck, contact) ? "sticks"
+                                   : sign > 0.0                  ? "slides +"
+                                                                 : "slides -");
       }
       result.push_back(std::move(stretch));
     }
   }
-  std::sort(result.begin(), result.end(), [](const Stretch& a, const Stretch& b) { return a.start < b.start; });
+  std::sort(result.begin(), result.end(),
+            [](const Stretch& a, const Stretch& b) { return a.start < b.start; });
   return result;
 }
 

@@ -12,17 +12,18 @@ struct RestShift {
 
 // delta with lower <= delta <= upper that minimises 1/2 q^T K q, q = q_mean - K^-1 W delta.
 // Shapes: K_inverse n x n, W n x m, q_mean n; lower, upper, limit m [N].
-RestShift least_energy_shift(const Eigen::MatrixXd& K_inverse, const Eigen::MatrixXd& W, const Eigen::VectorXd& q_mean,
-                             const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, const Eigen::VectorXd& limit);
+RestShift least_energy_shift(const Eigen::MatrixXd& K_inverse, const Eigen::MatrixXd& W,
+                             const Eigen::VectorXd& q_mean, const Eigen::VectorXd& lower,
+                             const Eigen::VectorXd& upper, const Eigen::VectorXd& limit);
 
-// Contacts that never slide may rest anywhere in an interval. A shift of their mean forces by delta moves the whole
-// orbit by -K^-1 W delta and leaves every velocity as it is, so all of these orbits are periodic. By convention
-// the mean position of least energy is taken,
+// Contacts that never slide may rest anywhere in an interval. A shift of their mean forces by delta moves the
+// whole orbit by -K^-1 W delta and leaves every velocity as it is, so all of these orbits are periodic. By
+// convention the mean position of least energy is taken,
 //   minimise 1/2 q^T K q,  q = q_mean - K^-1 W delta,  |lambda_j(t) + delta_j| <= F_j.
 // Moves `orbit` there; one whose limit is reached is grazing.
 template <int N, int H>
-void settle_rest_position(const mechanics::Assembly& assembly, const Flow<N, H>& flow, OrbitSteps<N, H>& steps,
-                          Integrals<N, H>& integrals, Orbit<N, H>& orbit) {
+void settle_rest_position(const mechanics::Assembly& assembly, const Flow<N, H>& flow,
+                          OrbitSteps<N, H>& steps, Integrals<N, H>& integrals, Orbit<N, H>& orbit) {
   const StepEquations<N, H>& eq = flow.equations();
   const Eigen::Index n = eq.masses(), m = __builtin_popcountll(orbit.stuck_throughout);
   steps.lay_out(orbit);
@@ -35,8 +36,9 @@ void settle_rest_position(const mechanics::Assembly& assembly, const Flow<N, H>&
   Eigen::VectorXd lower(m), upper(m), limit(m);
   for (Eigen::Index j = 0, row = 0; j < eq.contacts(); ++j) {
     if (!contains(orbit.stuck_throughout, j)) continue;
-    const Extremes force = find_extremes(steps, flow, orbit.section,
-                                         [&](const Mode<N, H>& mode) { return forms.stuck_contact_force(j, mode); });
+    const Extremes force = find_extremes(steps, flow, orbit.section, [&](const Mode<N, H>& mode) {
+      return forms.stuck_contact_force(j, mode);
+    });
     W.col(row) = eq.W.col(j);
     limit[row] = eq.limit[j];
     lower[row] = std::min(0.0, -eq.limit[j] - force.least);

@@ -8,14 +8,14 @@
 #include "solvers/periodic/stability.hpp"
 
 // The periodic orbit as a fixed point of the period map g, by Newton's method on g(z) - z = 0 with the exact
-// derivative of g. Where a Newton step does not pay, the map itself is applied: for Coulomb friction it expands no
-// distance in the energy norm, so the search converges whenever the map contracts.
+// derivative of g. Where a Newton step does not pay, the map itself is applied: for Coulomb friction it
+// expands no distance in the energy norm, so the search converges whenever the map contracts.
 namespace frahm::periodic {
 
 struct ShootingOptions {
-  double tolerance = 1e-13;     // of the relative residual: a few units of rounding of one passage
-  double good_enough = 1e-12;   // accepted when rounding keeps the residual from falling further
-  int most_passages = 100000;   // enough for the map alone at damping ratios of 1e-4
+  double tolerance = 1e-13;    // of the relative residual: a few units of rounding of one passage
+  double good_enough = 1e-12;  // accepted when rounding keeps the residual from falling further
+  int most_passages = 100000;  // enough for the map alone at damping ratios of 1e-4
 };
 
 template <int N, int H>
@@ -87,7 +87,8 @@ void Shooting<N, H>::apply_map(Orbit<N, H>& orbit) {
   flow_.pass(orbit.z, orbit.section, orbit.half_period ? 0.5 * eq.period : eq.period, orbit.passage);
   ++orbit.passages;
   orbit.stuck_throughout = ~ContactMask{0};
-  for (const Segment<N, H>& segment : orbit.passage.segments) orbit.stuck_throughout &= flow_.mode(segment.mode).stuck;
+  for (const Segment<N, H>& segment : orbit.passage.segments)
+    orbit.stuck_throughout &= flow_.mode(segment.mode).stuck;
   residual_ = orbit.sign() * orbit.passage.end - orbit.z;
   residual_norm_ = eq.energy_norm(residual_);
   const double scale = std::max(eq.energy_norm(orbit.z), flow_.static_norm());

@@ -33,8 +33,8 @@ double spectral_radius(Square A, int squarings = 36) {
   }
 }
 
-// The part of a tangent matrix that can contract: the rest positions of permanently stuck contacts, which keep
-// any value for ever (multiplier +1), are projected out orthogonally in the energy norm.
+// The part of a tangent matrix that can contract: the rest positions of permanently stuck contacts, which
+// keep any value for ever (multiplier +1), are projected out orthogonally in the energy norm.
 template <int N, int H>
 typename Sizes<N, H>::StateSquare moving_part(const StepEquations<N, H>& eq,
                                               const typename Sizes<N, H>::StateSquare& tangent,

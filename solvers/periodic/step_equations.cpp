@@ -8,7 +8,8 @@ namespace frahm::periodic {
 
 double fastest_rate(const mechanics::LinearSystem& system) {
   const auto largest = [&](const Eigen::MatrixXd& matrix) {
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix, system.M, Eigen::EigenvaluesOnly);
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix, system.M,
+                                                                           Eigen::EigenvaluesOnly);
     return std::max(0.0, solver.eigenvalues().maxCoeff());
   };
   const double gamma = largest(system.C), kappa = largest(system.K);

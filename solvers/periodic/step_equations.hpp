@@ -11,8 +11,9 @@
 
 namespace frahm::periodic {
 
-// Sizes and types of a system of N masses under H harmonics. Known at compile time for the systems of which maps
-// of millions of points are made; Eigen::Dynamic for all others. Contacts: at most kMaxContacts, then Dynamic.
+// Sizes and types of a system of N masses under H harmonics. Known at compile time for the systems of which
+// maps of millions of points are made; Eigen::Dynamic for all others. Contacts: at most kMaxContacts, then
+// Dynamic.
 template <int N, int H>
 struct Sizes {
   static constexpr bool is_fixed = N != Eigen::Dynamic;
@@ -22,7 +23,7 @@ struct Sizes {
 
   using Vector = Eigen::Matrix<double, N, 1>;
   using Square = Eigen::Matrix<double, N, N>;
-  using State = Eigen::Matrix<double, kState, 1>;            // displacements, then velocities
+  using State = Eigen::Matrix<double, kState, 1>;  // displacements, then velocities
   using StateSquare = Eigen::Matrix<double, kState, kState>;
   using Oscillators = Eigen::Matrix<double, kOscillators, 1>;  // 1, cos, sin of each harmonic's phase
   using OscillatorRow = Eigen::Matrix<double, 1, kOscillators>;
@@ -30,18 +31,23 @@ struct Sizes {
   using StateByOscillators = Eigen::Matrix<double, kState, kOscillators>;
   using VectorByContacts =
       Eigen::Matrix<double, N, Eigen::Dynamic, N == 1 ? Eigen::RowMajor : Eigen::ColMajor, N, kMaxContacts>;
-  using StateByContacts = Eigen::Matrix<double, kState, Eigen::Dynamic, Eigen::ColMajor, kState, kMaxContacts>;
-  using ContactsByVector = Eigen::Matrix<double, Eigen::Dynamic, N, N == 1 ? Eigen::ColMajor : Eigen::RowMajor, kMaxContacts, N>;
-  using ContactsByOscillators = Eigen::Matrix<double, Eigen::Dynamic, kOscillators, Eigen::RowMajor, kMaxContacts, kOscillators>;
+  using StateByContacts =
+      Eigen::Matrix<double, kState, Eigen::Dynamic, Eigen::ColMajor, kState, kMaxContacts>;
+  using ContactsByVector =
+      Eigen::Matrix<double, Eigen::Dynamic, N, N == 1 ? Eigen::ColMajor : Eigen::RowMajor, kMaxContacts, N>;
+  using ContactsByOscillators =
+      Eigen::Matrix<double, Eigen::Dynamic, kOscillators, Eigen::RowMajor, kMaxContacts, kOscillators>;
   using Contacts = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxContacts, 1>;
-  using ContactSquare = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMaxContacts, kMaxContacts>;
+  using ContactSquare =
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMaxContacts, kMaxContacts>;
   using SupportsByOscillators = Eigen::Matrix<double, Eigen::Dynamic, kOscillators, Eigen::RowMajor>;
   static constexpr int kSeries = is_fixed ? kTerms * 2 * N : Eigen::Dynamic;
   // Taylor polynomials of all components of the state, one below the other; and as columns.
   using Series = Eigen::Matrix<double, kSeries, 1>;
   using SeriesByState = Eigen::Matrix<double, kSeries, kState>;
   using SeriesByOscillators = Eigen::Matrix<double, kSeries, kOscillators>;
-  using SeriesByContacts = Eigen::Matrix<double, kSeries, Eigen::Dynamic, Eigen::ColMajor, kSeries, kMaxContacts>;
+  using SeriesByContacts =
+      Eigen::Matrix<double, kSeries, Eigen::Dynamic, Eigen::ColMajor, kSeries, kMaxContacts>;
   using StatePolynomials = Eigen::Matrix<double, kTerms, kState>;
   using OscillatorPolynomials = Eigen::Matrix<double, kTerms, kOscillators>;
 };
@@ -56,14 +62,16 @@ struct StepEquations {
   double period = 0.0;  // of the fundamental, in steps
   typename S::Square M, C, K, M_inverse, K_inverse;
   typename S::Square M_root, K_root, M_root_inverse, K_root_inverse;  // upper Cholesky factors: M = R^T R
-  typename S::VectorByOscillators force;          // f(t) = force * u(t) [N]
+  typename S::VectorByOscillators force;                              // f(t) = force * u(t) [N]
   typename S::VectorByOscillators applied_force;  // the part of it that acts on the masses from outside
-  typename S::SupportsByOscillators motion, motion_velocity, motion_acceleration;  // y(t) of the prescribed nodes
-  typename S::VectorByContacts W;         // n x m
-  typename S::ContactsByOscillators support_velocity, support_acceleration;  // p_j^T y'(t), p_j^T y''(t), m rows
-  typename S::Contacts limit;             // [N]
-  typename S::Contacts compliance;        // w_j^T M^-1 w_j
-  Eigen::VectorXd phase_rate;             // order_k omega h [rad a step], size H
+  typename S::SupportsByOscillators motion, motion_velocity,
+      motion_acceleration;         // y(t) of the prescribed nodes
+  typename S::VectorByContacts W;  // n x m
+  typename S::ContactsByOscillators support_velocity,
+      support_acceleration;         // p_j^T y'(t), p_j^T y''(t), m rows
+  typename S::Contacts limit;       // [N]
+  typename S::Contacts compliance;  // w_j^T M^-1 w_j
+  Eigen::VectorXd phase_rate;       // order_k omega h [rad a step], size H
 
   Eigen::Index masses() const { return M.rows(); }
   Eigen::Index contacts() const { return limit.size(); }
@@ -79,7 +87,8 @@ struct StepEquations {
     }
   }
 
-  void oscillators_at(double fundamental_phase, const std::vector<int>& orders, typename S::Oscillators& u) const {
+  void oscillators_at(double fundamental_phase, const std::vector<int>& orders,
+                      typename S::Oscillators& u) const {
     u[0] = 1.0;
     for (std::size_t k = 0; k < orders.size(); ++k) {
       const auto i = static_cast<Eigen::Index>(k);
@@ -103,8 +112,8 @@ struct StepEquations {
 // Contacts that stick only lower it (Courant-Fischer).
 double fastest_rate(const mechanics::LinearSystem& system);
 
-// Length of a step [s]: kStepRate over the fastest rate of system and forcing, the latter rounded up in powers
-// of sqrt(2) of the former so that the step stays the same over a range of frequencies.
+// Length of a step [s]: kStepRate over the fastest rate of system and forcing, the latter rounded up in
+// powers of sqrt(2) of the former so that the step stays the same over a range of frequencies.
 double step_length(double fastest_rate, double omega, int largest_order);
 
 }  // namespace frahm::periodic

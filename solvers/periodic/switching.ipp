@@ -23,8 +23,10 @@ void Flow<N, H>::enter(const typename S::State& z, double phase, Passage<N, H>& 
   ContactMask at_rest = 0, positive = 0;
   for (Eigen::Index j = 0; j < equations_.contacts(); ++j) {
     const double speed = sliding_speed(left_, j).value;
-    if (std::abs(speed) <= kRest * speed_scale_[j]) at_rest |= bit(j);
-    else if (speed > 0.0) positive |= bit(j);
+    if (std::abs(speed) <= kRest * speed_scale_[j])
+      at_rest |= bit(j);
+    else if (speed > 0.0)
+      positive |= bit(j);
   }
   mode_ = mode_index(0, positive);
   if (at_rest != 0) choose_modes(at_rest, passage);
@@ -72,11 +74,13 @@ void Flow<N, H>::pass_event(const Event& event, double phase, Passage<N, H>& pas
     const ValueAndSlope force = stuck_force(left_, mode_before, event.contact);
     passage.margin = std::min(passage.margin, std::abs(force.slope) / force_scale_[event.contact]);
     const ContactMask released = bit(event.contact);
-    mode_ = mode_index(mode_before.stuck & ~released, mode_before.positive | (force.value > 0.0 ? released : 0));
+    mode_ =
+        mode_index(mode_before.stuck & ~released, mode_before.positive | (force.value > 0.0 ? released : 0));
     fresh_ |= released;
     just_released_ |= released;
   }
-  if (arrived != 0) choose_modes((event.release ? modes_[mode_].stuck : mode_before.stuck) | arrived, passage);
+  if (arrived != 0)
+    choose_modes((event.release ? modes_[mode_].stuck : mode_before.stuck) | arrived, passage);
   configurations_[modes_[mode_].configuration].hold(equations_, left_.u, left_.z);
   accelerate(modes_[mode_], left_);
   release_at_limits();
@@ -89,7 +93,8 @@ void Flow<N, H>::pass_event(const Event& event, double phase, Passage<N, H>& pas
 }
 
 // Friction forces of all contacts at rest from one convex problem: with a_free the acceleration without them,
-//   minimise 1/2 lambda^T G lambda - c^T lambda,  |lambda_j| <= F_j,  c = W^T a_free + relative support acceleration.
+//   minimise 1/2 lambda^T G lambda - c^T lambda,  |lambda_j| <= F_j,  c = W^T a_free + relative support
+//   acceleration.
 // Inside its limit a contact sticks; at its limit it slides that way (Glocker 2001, ch. 9).
 template <int N, int H>
 void Flow<N, H>::choose_modes(ContactMask at_rest, Passage<N, H>& passage) {
@@ -103,7 +108,9 @@ void Flow<N, H>::choose_modes(ContactMask at_rest, Passage<N, H>& passage) {
   const typename S::Vector a_free =
       eq.M_inverse * (eq.force * left_.u - eq.K * left_.z.head(n) - eq.C * left_.z.tail(n) - eq.W * friction);
 
-  const auto relative = [&](Eigen::Index j) { return eq.W.col(j).dot(a_free) + eq.support_acceleration.row(j).dot(left_.u); };
+  const auto relative = [&](Eigen::Index j) {
+    return eq.W.col(j).dot(a_free) + eq.support_acceleration.row(j).dot(left_.u);
+  };
 
   ContactMask stuck = 0, positive = before.positive & ~at_rest;
   const auto slide = [&](Eigen::Index j, bool forward) {
@@ -116,8 +123,10 @@ void Flow<N, H>::choose_modes(ContactMask at_rest, Passage<N, H>& passage) {
     const Eigen::Index j = __builtin_ctzll(at_rest);
     const double force = relative(j) / eq.compliance[j], limit = eq.limit[j];
     if (limit > 0.0) passage.margin = std::min(passage.margin, std::abs(std::abs(force) - limit) / limit);
-    if (std::abs(force) <= limit * (1.0 + kTie) && limit > 0.0) stuck = bit(j);
-    else slide(j, force > 0.0);
+    if (std::abs(force) <= limit * (1.0 + kTie) && limit > 0.0)
+      stuck = bit(j);
+    else
+      slide(j, force > 0.0);
   } else {
     std::vector<Eigen::Index> contacts;
     for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
@@ -141,15 +150,17 @@ void Flow<N, H>::choose_modes(ContactMask at_rest, Passage<N, H>& passage) {
       const double pull = std::abs(acceleration[i]) / scale;
       const double room = (limit[i] - std::abs(force[i])) / weight[i];
       if (limit[i] > 0.0) passage.margin = std::min(passage.margin, std::max(pull, room));
-      if (pull <= kTie && limit[i] > 0.0) stuck |= bit(j);
-      else slide(j, limit[i] > 0.0 ? force[i] > 0.0 : acceleration[i] > 0.0);
+      if (pull <= kTie && limit[i] > 0.0)
+        stuck |= bit(j);
+      else
+        slide(j, limit[i] > 0.0 ? force[i] > 0.0 : acceleration[i] > 0.0);
     }
   }
   mode_ = mode_index(stuck, positive);
 }
 
-// A stuck contact whose force stands at its limit and grows lets go at once (two contacts released together, or
-// one that came to rest in a tie).
+// A stuck contact whose force stands at its limit and grows lets go at once (two contacts released together,
+// or one that came to rest in a tie).
 template <int N, int H>
 void Flow<N, H>::release_at_limits() {
   for (bool again = true; again;) {
