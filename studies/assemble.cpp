@@ -50,7 +50,8 @@ class TileWriting {
   std::vector<std::string> told_;
 };
 
-void refuse_gaps(const AssemblyOptions& options, const std::vector<std::uint64_t>& missing, std::uint64_t tiles) {
+void refuse_gaps(const AssemblyOptions& options, const std::vector<std::uint64_t>& missing,
+                 std::uint64_t tiles) {
   if (missing.empty() || options.partial) return;
   throw engine::IoError(options.output,
                         fmt::format("{} of its {} tiles are in no shard log yet (the first is tile {})",

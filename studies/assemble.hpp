@@ -14,8 +14,8 @@ namespace frahm::studies {
 struct AssemblyOptions {
   std::filesystem::path output;
   std::vector<std::filesystem::path> logs;
-  bool partial = false;               // write what there is, the rest as not computed; the logs are kept then
-  std::function<bool()> stop_asked;   // looked at between tiles
+  bool partial = false;              // write what there is, the rest as not computed; the logs are kept then
+  std::function<bool()> stop_asked;  // looked at between tiles
 };
 
 struct Assembly {

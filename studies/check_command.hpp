@@ -9,8 +9,8 @@ namespace frahm::studies {
 
 struct CheckOptions {
   std::filesystem::path study;
-  std::vector<std::string> set;  // name=value, a unit behind the value or none
-  int threads = 0;               // for the predicted time; 0: one on each processor
+  std::vector<std::string> set = {};  // name=value, a unit behind the value or none
+  int threads = 0;                    // for the predicted time; 0: one on each processor
 };
 
 // Validates a study and tells what running it means: points and tiles, the time and size to expect, the line

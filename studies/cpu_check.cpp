@@ -11,7 +11,8 @@ namespace {
 __attribute__((constructor(101))) void check_cpu() {
   __builtin_cpu_init();
   if (std::string_view(FRAHM_CPU) != "x86-64-v3") return;
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2")) return;
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2"))
+    return;
   constexpr std::string_view message =
       "frahm: this program was built for x86-64-v3 and this processor lacks AVX2, FMA or BMI2; build it with "
       "-DFRAHM_CPU= for any x86-64\n";

@@ -41,7 +41,8 @@ bool is_missing(const results::Variable& variable, double value) {
 void write_box(const results::MapReader& map, const MapBox& box, std::ostream& out) {
   const results::MapLayout& layout = map.layout();
   std::vector<std::vector<double>> values;
-  for (std::size_t v = 0; v < layout.variables.size(); ++v) values.push_back(map.read(v, box.start, box.count));
+  for (std::size_t v = 0; v < layout.variables.size(); ++v)
+    values.push_back(map.read(v, box.start, box.count));
   std::vector<std::size_t> dimensions(layout.axes.size());
   for (std::size_t d = 0; d < dimensions.size(); ++d) dimensions[d] = d;
 

@@ -7,11 +7,11 @@
 namespace frahm::studies {
 namespace {
 
-constexpr std::uint64_t longest_row = 4000;           // [points]; longer ones are cut
-constexpr std::uint64_t tile_points_least = 256;      // below it warm starts are lost for nothing
-constexpr std::uint64_t tile_points_most = 2048;      // some 20 ms of work: fine steps of progress and resume
-constexpr std::uint64_t tiles_wanted = 128;           // of a small map, for the threads to share
-constexpr std::uint64_t chunk_points_wanted = 90 * 90;  // from 64 KiB on a chunk compresses well
+constexpr std::uint64_t longest_row = 4000;       // [points]; longer ones are cut
+constexpr std::uint64_t tile_points_least = 256;  // below it warm starts are lost for nothing
+constexpr std::uint64_t tile_points_most = 2048;  // some 20 ms of work: fine steps of progress and resume
+constexpr std::uint64_t tiles_wanted = 128;       // of a small map, for the threads to share
+constexpr std::uint64_t chunk_points_wanted = 128 * 128;  // 128 KiB of doubles
 
 std::uint64_t product(const std::vector<std::uint64_t>& factors) {
   std::uint64_t result = 1;
@@ -19,7 +19,9 @@ std::uint64_t product(const std::vector<std::uint64_t>& factors) {
   return result;
 }
 
-std::uint64_t pieces(std::uint64_t size, std::uint64_t extent) { return (size + extent - 1) / extent; }
+std::uint64_t pieces(std::uint64_t size, std::uint64_t extent) {
+  return (size + extent - 1) / extent;
+}
 
 // The extent of at most `most`, and at least half of it, whose pieces cut `size` most evenly.
 std::uint64_t even_extent(std::uint64_t size, std::uint64_t most) {
@@ -32,8 +34,7 @@ std::uint64_t even_extent(std::uint64_t size, std::uint64_t most) {
 }
 
 void cut_into_tiles(Grid& grid) {
-  const std::uint64_t wanted =
-      std::clamp(grid.points() / tiles_wanted, tile_points_least, tile_points_most);
+  const std::uint64_t wanted = std::clamp(grid.points() / tiles_wanted, tile_points_least, tile_points_most);
   grid.tile.assign(grid.shape.size(), 1);
   const std::size_t row = grid.order.back();
   grid.tile[row] = even_extent(grid.shape[row], longest_row);
@@ -52,17 +53,22 @@ void join_into_chunks(Grid& grid) {
   grid.chunk = grid.tile;
   for (auto d = grid.order.rbegin(); d != grid.order.rend(); ++d) {
     const std::uint64_t most = pieces(grid.shape[*d], grid.tile[*d]);
-    const std::uint64_t wanted = pieces(chunk_points_wanted, product(grid.chunk));
-    grid.chunk[*d] = std::min(grid.shape[*d], grid.tile[*d] * std::min(most, wanted));
-    if (wanted < most) return;
+    const std::uint64_t wanted = std::min(most, pieces(chunk_points_wanted, product(grid.chunk)));
+    const std::uint64_t joined = pieces(most, pieces(most, wanted));  // no more chunks, of more even size
+    grid.chunk[*d] = std::min(grid.shape[*d], grid.tile[*d] * joined);
+    if (joined < most) return;
   }
 }
 
 }  // namespace
 
-std::uint64_t MapBox::points() const { return product(count); }
+std::uint64_t MapBox::points() const {
+  return product(count);
+}
 
-std::uint64_t Grid::points() const { return product(shape); }
+std::uint64_t Grid::points() const {
+  return product(shape);
+}
 
 std::uint64_t Grid::tiles() const {
   std::uint64_t result = 1;

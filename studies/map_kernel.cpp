@@ -12,12 +12,13 @@ namespace {
 using periodic::QuantityKind;
 
 // What a point without a response has: a quantity of each kind, and the status `failed`.
-std::vector<double> values_of_failure(const StudyFile& study, std::span<const periodic::Quantity> quantities) {
+std::vector<double> values_of_failure(const StudyFile& study,
+                                      std::span<const periodic::Quantity> quantities) {
   std::vector<double> values;
   for (const periodic::Quantity& quantity : quantities) {
     const QuantityKind kind = periodic::describe(quantity, study.network, study.dimensionless).kind;
     const bool is_status = quantity.measure == periodic::Measure::status;
-    values.push_back(is_status                      ? static_cast<double>(periodic::Status::failed)
+    values.push_back(is_status                     ? static_cast<double>(periodic::Status::failed)
                      : kind == QuantityKind::flag  ? 0.0
                      : kind == QuantityKind::count ? -1.0
                                                    : std::numeric_limits<double>::quiet_NaN());

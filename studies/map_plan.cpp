@@ -1,17 +1,38 @@
 #include "studies/map_plan.hpp"
 
+#include <fmt/format.h>
+
 #include <memory>
 #include <utility>
 
+#include "studies/assignment.hpp"
 #include "studies/fingerprint.hpp"
 #include "studies/map_kernel.hpp"
 #include "studies/output_quantities.hpp"
 #include "studies/tile_record.hpp"
 
 namespace frahm::studies {
+namespace {
+
+// A value on the command line that the grid overrules would be silently without effect.
+void refuse_axes(const StudyFile& study, const std::vector<std::string>& set) {
+  for (const std::string& text : set) {
+    for (const Assignment& assignment : parse_assignments(study, "--set", text)) {
+      for (const ParameterAxis& axis : study.axes) {
+        if (axis.parameter != assignment.parameter) continue;
+        throw StudyError(fmt::format("--set \"{}\": \"{}\" runs along an axis of the map; change the axis",
+                                     text, study.parameters.list[axis.parameter].name));
+      }
+    }
+  }
+}
+
+}  // namespace
 
 MapPlan plan_map(StudyFile study, std::vector<std::string> set) {
-  MapPlan plan{.study = std::move(study), .set = std::move(set), .grid = {}, .quantities = {}, .fingerprint = {}};
+  refuse_axes(study, set);
+  MapPlan plan{
+      .study = std::move(study), .set = std::move(set), .grid = {}, .quantities = {}, .fingerprint = {}};
   plan.grid = grid_of(plan.study);
   plan.quantities = output_quantities(plan.study);
   plan.fingerprint = fingerprint(plan.study, plan.grid, plan.quantities);
@@ -22,8 +43,7 @@ engine::Job job_of(const MapPlan& plan) {
   const auto points = [&plan](std::uint64_t tile) { return plan.grid.box(tile).points(); };
   return {.tiles = plan.grid.tiles(),
           .fingerprint = plan.fingerprint,
-          .make_kernel =
-              [&plan]() -> engine::Kernel {
+          .make_kernel = [&plan]() -> engine::Kernel {
             // Shared, as an engine::Kernel has to be copyable.
             auto kernel = std::make_shared<MapKernel>(plan.study, plan.grid, plan.quantities);
             return [kernel](std::uint64_t tile, engine::Bytes& out) { (*kernel)(tile, out); };

@@ -13,7 +13,7 @@ namespace frahm::studies {
 
 // A study ready to be computed, kept and recorded.
 struct MapPlan {
-  StudyFile study;  // with the values of --set
+  StudyFile study;               // with the values of --set
   std::vector<std::string> set;  // as given: name=value
   Grid grid;
   std::vector<periodic::Quantity> quantities;

@@ -12,13 +12,16 @@
 namespace frahm::studies {
 namespace {
 
-std::string unit_or_one(const std::string& unit) { return unit.empty() ? "1" : unit; }
+std::string unit_or_one(const std::string& unit) {
+  return unit.empty() ? "1" : unit;
+}
 
 results::Coordinate coordinate_of(const StudyFile& study, const ParameterAxis& axis) {
   const Parameter& parameter = study.parameters.list[axis.parameter];
   return {.name = parameter.name,
           .unit = unit_or_one(axis.unit),
-          .long_name = parameter.used_as.empty() ? fmt::format("parameter {}", parameter.name) : parameter.used_as,
+          .long_name =
+              parameter.used_as.empty() ? fmt::format("parameter {}", parameter.name) : parameter.used_as,
           .values = axis.values};
 }
 
@@ -26,7 +29,8 @@ std::vector<results::Axis> axes_of(const StudyFile& study) {
   std::vector<results::Axis> axes;
   for (const GridDimension& dimension : study.dimensions) {
     results::Axis axis{.name = dimension.name, .size = dimension.size};
-    for (const std::size_t a : dimension.axes) axis.coordinates.push_back(coordinate_of(study, study.axes[a]));
+    for (const std::size_t a : dimension.axes)
+      axis.coordinates.push_back(coordinate_of(study, study.axes[a]));
     axes.push_back(std::move(axis));
   }
   for (const DerivedCoordinate& derived : study.coordinates) {
@@ -41,20 +45,16 @@ std::vector<results::Axis> axes_of(const StudyFile& study) {
 
 results::Variable variable_of(const StudyFile& study, const periodic::Quantity& quantity) {
   const auto description = periodic::describe(quantity, study.network, study.dimensionless);
-  results::Variable variable{.name = description.name, .long_name = description.long_name};
-  switch (description.kind) {
-    case periodic::QuantityKind::real:
-      variable.type = study.output.single_precision ? results::Type::float32 : results::Type::float64;
-      variable.unit = description.unit;
-      break;
-    case periodic::QuantityKind::count:
-      variable.type = results::Type::int32;
-      variable.unit = "1";
-      break;
-    case periodic::QuantityKind::flag:
-      variable.type = results::Type::flag;
-      for (const auto& [meaning, value] : description.flags) variable.flags.push_back({meaning, value});
-      break;
+  results::Variable variable{
+      .name = description.name, .unit = description.unit, .long_name = description.long_name};
+  if (description.kind == periodic::QuantityKind::count) variable.type = results::Type::int32;
+  if (description.kind == periodic::QuantityKind::real && study.output.single_precision) {
+    variable.type = results::Type::float32;
+  }
+  if (description.kind == periodic::QuantityKind::flag) {
+    variable.type = results::Type::flag;
+    variable.unit.clear();
+    for (const auto& [meaning, value] : description.flags) variable.flags.push_back({meaning, value});
   }
   return variable;
 }

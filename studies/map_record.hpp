@@ -12,9 +12,9 @@ namespace frahm::studies {
 
 // How the map came about.
 struct RunRecord {
-  std::string command;   // "frahm run rig_atlas.toml"
-  int threads = 0;       // of the last run
-  std::string started;   // of the last run, ISO 8601 in UTC
+  std::string command;  // "frahm run rig_atlas.toml"
+  int threads = 0;      // of the last run
+  std::string started;  // of the last run, ISO 8601 in UTC
 };
 
 // The time now: "2026-11-21T12:34:56Z".

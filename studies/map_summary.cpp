@@ -19,7 +19,8 @@ constexpr std::size_t most_rows = 12;
 FlagCounts count_flag(const results::MapReader& map, std::size_t variable) {
   std::vector<std::uint64_t> counts(128);
   for_each_chunk(map.layout(), [&](const MapBox& box) {
-    for (const double value : map.read(variable, box.start, box.count)) ++counts[static_cast<std::size_t>(value)];
+    for (const double value : map.read(variable, box.start, box.count))
+      ++counts[static_cast<std::size_t>(value)];
   });
   const results::Variable& flag = map.layout().variables[variable];
   FlagCounts result{.variable = flag.name, .counts = {}};
@@ -30,11 +31,16 @@ FlagCounts count_flag(const results::MapReader& map, std::size_t variable) {
   return result;
 }
 
-// "omega=238.5 rpm": the coordinates of one point of an axis that belong to its parameters.
+double to_six_digits(double value) {
+  return std::stod(fmt::format("{:.6g}", value));
+}
+
+// "omega=238.5 rpm"; of axes that advance together the index: "design=3".
 std::string place_text(const results::Axis& axis, std::uint64_t index) {
   for (const results::Coordinate& coordinate : axis.coordinates) {
     if (coordinate.name == axis.name) {
-      return fmt::format("{}={}", axis.name, with_unit(coordinate.values[index], coordinate.unit));
+      return fmt::format("{}={}", axis.name,
+                         with_unit(to_six_digits(coordinate.values[index]), coordinate.unit));
     }
   }
   return fmt::format("{}={}", axis.name, index);
@@ -101,12 +107,12 @@ void print_worst(const results::MapReader& map, const WorstAlongAxis& worst, std
   for (std::size_t i = 0; i < shown; ++i) {
     const std::size_t at = shown > 1 ? (i * (rows - 1) + (shown - 1) / 2) / (shown - 1) : 0;
     const WorstAlongAxis::Row& row = worst.rows[at];
-    fmt::print(out, "  {:<28}", place_text(layout.axes.front(), at));
+    fmt::print(out, "  {:<20}", place_text(layout.axes.front(), at));
     if (std::isnan(row.worst)) {
       fmt::print(out, " no value\n");
       continue;
     }
-    fmt::print(out, " {:<14}", with_unit(std::stod(fmt::format("{:.6g}", row.worst)), variable.unit));
+    fmt::print(out, " {:<14}", with_unit(to_six_digits(row.worst), variable.unit));
     for (std::size_t d = 1; d < layout.axes.size(); ++d) {
       fmt::print(out, " {} {}", d == 1 ? "at" : "  ", place_text(layout.axes[d], row.index[d]));
     }

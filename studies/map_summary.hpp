@@ -21,8 +21,8 @@ struct FlagCounts {
 // The largest value of a variable at each point of the slowest axis.
 struct WorstAlongAxis {
   struct Row {
-    double worst = 0.0;                      // NaN where nothing was computed
-    std::vector<std::uint64_t> index;        // of the point
+    double worst = 0.0;                // NaN where nothing was computed
+    std::vector<std::uint64_t> index;  // of the point
   };
   std::size_t variable = 0;  // in the layout
   std::vector<Row> rows;

@@ -19,8 +19,8 @@ constexpr int most_failures_shown = 3;
 
 void print_effort(const Effort& effort, std::ostream& out) {
   const auto points = static_cast<double>(effort.points);
-  fmt::print(out, "{:<22} {:.2f} s wall, {:.2f} s CPU on {} thread{}", "time", effort.seconds, effort.cpu_seconds,
-             effort.threads, effort.threads == 1 ? "" : "s");
+  fmt::print(out, "{:<22} {:.2f} s wall, {:.2f} s CPU on {} thread{}", "time", effort.seconds,
+             effort.cpu_seconds, effort.threads, effort.threads == 1 ? "" : "s");
   if (effort.points > 0) {
     fmt::print(out, "; {} orbits, {:.0f}/s, {:.0f} per CPU second", effort.points, points / effort.seconds,
                points / effort.cpu_seconds);
@@ -45,7 +45,8 @@ void print_failures(const MapPlan& plan, const std::filesystem::path& study, con
   }
   for (int i = 0; i < most_failures_shown && std::getline(told, line); ++i) {
     const std::size_t colon = line.find(": ");
-    fmt::print(std::cerr, "  {}\n    frahm point {} --at \"{}\"", line, study.string(), line.substr(0, colon));
+    fmt::print(std::cerr, "  {}\n    frahm point {} --at \"{}\"", line, study.string(),
+               line.substr(0, colon));
     for (const std::string& set : plan.set) fmt::print(std::cerr, " --set \"{}\"", set);
     fmt::print(std::cerr, "\n");
   }
@@ -53,8 +54,9 @@ void print_failures(const MapPlan& plan, const std::filesystem::path& study, con
 
 }  // namespace
 
-int print_map_table(const MapPlan& plan, const std::filesystem::path& study, const std::filesystem::path& file,
-                    const std::optional<Effort>& effort, std::ostream& out) {
+int print_map_table(const MapPlan& plan, const std::filesystem::path& study,
+                    const std::filesystem::path& file, const std::optional<Effort>& effort,
+                    std::ostream& out) {
   const results::MapReader map(file);
   const auto& variables = map.layout().variables;
   const std::uint64_t points = points_of(map.layout());

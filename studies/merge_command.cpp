@@ -18,7 +18,8 @@ namespace frahm::studies {
 namespace {
 
 // The study of the first log that says one.
-engine::LogHeader study_of(const std::vector<std::filesystem::path>& logs, const std::filesystem::path& output) {
+engine::LogHeader study_of(const std::vector<std::filesystem::path>& logs,
+                           const std::filesystem::path& output) {
   for (const auto& log : logs) {
     if (!std::filesystem::exists(log)) throw engine::IoError(log, "there is no such shard log");
     if (const auto study = engine::study_of_log(log)) return *study;
@@ -43,11 +44,10 @@ int merge_command(const MergeOptions& options, std::ostream& out) {
   const RunRecord record{
       .command = fmt::format("frahm merge {}", options.output.string()), .threads = 1, .started = utc_now()};
   const engine::StopSignals signals;
-  const Assembly assembly = assemble(plan, record,
-                                     {.output = options.output,
-                                      .logs = logs,
-                                      .partial = options.partial,
-                                      .stop_asked = [&] { return signals.received() != 0; }});
+  const Assembly assembly = assemble(
+      plan, record, {.output = options.output, .logs = logs, .partial = options.partial, .stop_asked = [&] {
+                       return signals.received() != 0;
+                     }});
   if (!assembly.finished) {
     fmt::print(std::cerr, "stopped; the shard logs are kept and {} is as it was\n", options.output.string());
     return exit_code::stopped;

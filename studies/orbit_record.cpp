@@ -46,7 +46,8 @@ std::vector<results::Variable> sample_variables(const StudyFile& study) {
     add(mass + "_displacement", "m", "displacement of " + mass);
     add(mass + "_velocity", "m s-1", "velocity of " + mass);
   }
-  for (const auto& element : study.network.elements) add(element.name + "_force", "N", "force of " + element.name);
+  for (const auto& element : study.network.elements)
+    add(element.name + "_force", "N", "force of " + element.name);
   return variables;
 }
 

@@ -53,7 +53,8 @@ std::map<std::string, Taken> names_of_coordinates(const StudyFile& study) {
     taken.emplace(dimension.name, Taken{"the dimension of an axis", position});
   }
   for (const ParameterAxis& axis : study.axes) {
-    taken.emplace(study.parameters.list[axis.parameter].name, Taken{"the parameter of an axis", axis.position});
+    taken.emplace(study.parameters.list[axis.parameter].name,
+                  Taken{"the parameter of an axis", axis.position});
   }
   for (const DerivedCoordinate& coordinate : study.coordinates) {
     taken.emplace(coordinate.name, Taken{"a coordinate", coordinate.value.position});

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "studies/point_report.hpp"
@@ -23,8 +24,12 @@ void print_heading(const StudyFile& study, const PointReport& report, std::ostre
   }
   fmt::print(out, "\nstatus {}", report.status);
   if (!report.reason.empty()) fmt::print(out, ": {}", report.reason);
-  fmt::print(out, "\nresidual {:.2g} after {} Newton steps, {} passages of the flow\n\n", report.residual,
-             report.newton_iterations, report.passages);
+  fmt::print(out, "\n");
+  if (!std::isnan(report.residual)) {
+    fmt::print(out, "residual {:.2g} after {} Newton steps, {} passages of the flow\n", report.residual,
+               report.newton_iterations, report.passages);
+  }
+  fmt::print(out, "\n");
 }
 
 void print_quantities(const PointReport& report, std::ostream& out) {

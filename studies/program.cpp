@@ -94,13 +94,15 @@ struct RunTexts {
 };
 
 void add_run(CLI::App& program, RunTexts& texts, Action& action) {
-  CLI::App* run = add_command(program, "run", "compute the map of a study, or what is left of it", run_examples);
+  CLI::App* run =
+      add_command(program, "run", "compute the map of a study, or what is left of it", run_examples);
   auto& [options, shard, budget] = texts;
   add_study(*run, options.study);
   run->add_option("-o,--output", options.run.output, "result file; else the study's name with .h5, here");
   add_threads(*run, options.run.threads);
-  run->add_option("--shard", shard,
-                  "i/n: compute every n-th tile from i on, i from 0; in an array task of Slurm its own share");
+  run->add_option(
+      "--shard", shard,
+      "i/n: compute every n-th tile from i on, i from 0; in an array task of Slurm its own share");
   run->add_flag("--fresh", options.run.fresh, "discard what earlier runs have left");
   run->add_option("--time-budget", budget, "stop after 90s, 50m, 2h or 1d");
   add_set(*run, options.set);
@@ -121,7 +123,8 @@ void add_run(CLI::App& program, RunTexts& texts, Action& action) {
 }
 
 void add_check(CLI::App& program, CheckOptions& options, Action& action) {
-  CLI::App* check = add_command(program, "check", "validate a study and tell what running it means", check_examples);
+  CLI::App* check =
+      add_command(program, "check", "validate a study and tell what running it means", check_examples);
   add_study(*check, options.study);
   add_set(*check, options.set);
   add_threads(*check, options.threads);
@@ -131,7 +134,8 @@ void add_check(CLI::App& program, CheckOptions& options, Action& action) {
 void add_point(CLI::App& program, PointOptions& options, Action& action) {
   CLI::App* point = add_command(program, "point", "one response, told in full", point_examples);
   add_study(*point, options.study);
-  point->add_option("--at", options.at, "name=value,...; the rest as the study states it")->allow_extra_args(false);
+  point->add_option("--at", options.at, "name=value,...; the rest as the study states it")
+      ->allow_extra_args(false);
   add_set(*point, options.set);
   point->add_option("--history", options.history, "write the motion over one period to this CSV file");
   point->add_flag("--json", options.json, "the report as one JSON object");
@@ -145,7 +149,8 @@ void add_status(CLI::App& program, std::filesystem::path& file, Action& action) 
 }
 
 void add_merge(CLI::App& program, MergeOptions& options, Action& action) {
-  CLI::App* merge = add_command(program, "merge", "make the result file from the logs of shards", merge_examples);
+  CLI::App* merge =
+      add_command(program, "merge", "make the result file from the logs of shards", merge_examples);
   merge->add_option("FILE", options.output, "result file to make")->required();
   merge->add_option("SHARD", options.logs, "shard logs (*.frahm-log); else those beside FILE");
   merge->add_flag("--partial", options.partial, "although tiles are missing; keeps the logs");
@@ -176,14 +181,17 @@ void describe(CLI::App& program, CommandLine& line) {
   program.footer(first_steps);
   program.require_subcommand(0, 1);
   auto* version = program.add_flag("--version", line.version, "print the version");
-  program.add_flag("--verbose", line.verbose, "with --version: compiler, libraries, processor")->needs(version);
+  program.add_flag("--verbose", line.verbose, "with --version: compiler, libraries, processor")
+      ->needs(version);
   add_run(program, line.run, line.action);
   add_check(program, line.check, line.action);
   add_point(program, line.point, line.action);
   add_status(program, line.status, line.action);
   add_merge(program, line.merge, line.action);
   add_export(program, line.table, line.action);
-  program.add_subcommand("verify", "solve the classical cases on this machine and compare with their closed forms")
+  program
+      .add_subcommand("verify",
+                      "solve the classical cases on this machine and compare with their closed forms")
       ->callback([&line] { line.action = [](std::ostream& out) { return verify_command(out); }; });
 }
 
@@ -201,9 +209,9 @@ int carry_out(const Action& action, std::ostream& out) {
   } catch (const StudyError& error) {
     return complain(error.what(), exit_code::wrong_input);
   } catch (const engine::ResumeRefused& error) {
-    return complain(std::string(error.what()) +
-                        "\nname another file with -o, or discard what is there with --fresh",
-                    exit_code::resume_refused);
+    return complain(
+        std::string(error.what()) + "\nname another file with -o, or discard what is there with --fresh",
+        exit_code::resume_refused);
   } catch (const engine::IoError& error) {
     return complain(error.what(), exit_code::input_output);
   } catch (const results::StoreError& error) {
@@ -227,7 +235,8 @@ int run_program(int argc, const char* const* argv, std::ostream& out) {
   } catch (const CLI::ParseError& error) {
     return program.exit(error, out, std::cerr) == 0 ? exit_code::done : exit_code::wrong_input;
   }
-  if (line.version) return carry_out([&](std::ostream& to) { return version_command(line.verbose, to); }, out);
+  if (line.version)
+    return carry_out([&](std::ostream& to) { return version_command(line.verbose, to); }, out);
   if (line.action) return carry_out(line.action, out);
   std::cerr << program.help();
   return exit_code::wrong_input;

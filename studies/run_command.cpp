@@ -23,7 +23,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-std::filesystem::path default_output(const std::filesystem::path& study) { return study.stem().string() + ".h5"; }
+std::filesystem::path default_output(const std::filesystem::path& study) {
+  return study.stem().string() + ".h5";
+}
 
 // What an earlier run that was killed between writing the file and removing its logs has left.
 void remove_leftovers(const MapPlan& plan, const std::filesystem::path& output) {
@@ -41,6 +43,16 @@ bool is_finished(const MapPlan& plan, const std::filesystem::path& output) {
   throw engine::ResumeRefused(output, {*kept, plan.grid.tiles()}, plan.log_header());
 }
 
+engine::Summary compute(const MapPlan& plan, const engine::RunOptions& run) {
+  write_study_note(run.output, plan);
+  try {
+    return engine::run(job_of(plan), run);
+  } catch (const engine::ResumeRefused&) {
+    remove_study_note(run.output, plan.fingerprint);
+    throw;
+  }
+}
+
 void tell_unused(const engine::Summary& summary) {
   for (const engine::UnusedBytes& unused : summary.unused) {
     fmt::print(std::cerr, "note: {}: {} bytes from byte {} on are no whole tile and are computed again\n",
@@ -49,7 +61,8 @@ void tell_unused(const engine::Summary& summary) {
 }
 
 int tell_stopped(const engine::Summary& summary, const std::filesystem::path& output) {
-  const double percent = 100.0 * static_cast<double>(summary.points.done) / static_cast<double>(summary.points.points);
+  const double percent =
+      100.0 * static_cast<double>(summary.points.done) / static_cast<double>(summary.points.points);
   fmt::print(std::cerr, "{}: {:.1f} % is done and kept beside {}; the same command goes on from there\n",
              summary.reason, percent, output.string());
   return exit_code::stopped;
@@ -78,18 +91,17 @@ int run_command(const RunCommandOptions& options, std::ostream& out) {
     fmt::print(out, "everything is computed already; --fresh computes it anew\n");
     return print_map_table(plan, options.study, run.output, std::nullopt, out);
   }
-  write_study_note(run.output, plan);
-  const engine::Summary summary = engine::run(job_of(plan), run);
+  const engine::Summary summary = compute(plan, run);
   tell_unused(summary);
   if (summary.outcome == engine::Outcome::stopped) return tell_stopped(summary, run.output);
   if (run.shard.count > 1) return tell_shard(run, summary, out);
 
   record.threads = summary.threads;
   const engine::StopSignals signals;
-  const Assembly assembly = assemble(plan, record,
-                                     {.output = run.output,
-                                      .logs = engine::find_logs(run.output),
-                                      .stop_asked = [&] { return signals.received() != 0; }});
+  const Assembly assembly =
+      assemble(plan, record, {.output = run.output, .logs = engine::find_logs(run.output), .stop_asked = [&] {
+                                return signals.received() != 0;
+                              }});
   if (!assembly.finished) return tell_stopped(summary, run.output);
   remove_study_notes(run.output);
   const Effort effort{.points = summary.points.done - summary.points.resumed,

@@ -17,8 +17,8 @@ struct RunCommandOptions {
 };
 
 // Computes the map of a study, or what is left of it, and writes its file. Prints a short table of it.
-// Returns 0; 3 if some points failed; 4 if stopped. Throws StudyError, engine::ResumeRefused when an output of
-// another study is there, engine::IoError, results::StoreError.
+// Returns 0; 3 if some points failed; 4 if stopped. Throws StudyError, engine::ResumeRefused when an output
+// of another study is there, engine::IoError, results::StoreError.
 int run_command(const RunCommandOptions& options, std::ostream& out);
 
 }  // namespace frahm::studies

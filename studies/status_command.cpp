@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
-#include <ostream>
 #include <algorithm>
+#include <ostream>
 
 #include "engine/io_error.hpp"
 #include "engine/tile_index.hpp"
@@ -26,24 +26,26 @@ void print_file(const std::filesystem::path& file, std::ostream& out) {
   print_flags(count_flags(map), points, out);
   if (!map.has_group("provenance")) return;
   for (const auto& [name, text] : map.texts("provenance")) {
-    if (name != "study" && name != "failed_points" && !text.empty()) fmt::print(out, "{:<22} {}\n", name, text);
+    if (name != "study" && name != "failed_points" && !text.empty())
+      fmt::print(out, "{:<22} {}\n", name, text);
   }
 }
 
 // The logs of one study: there is more than one only where a run was refused or a log put there by hand.
-void print_logs(const std::vector<std::filesystem::path>& logs, const engine::LogHeader& study, std::ostream& out) {
+void print_logs(const std::vector<std::filesystem::path>& logs, const engine::LogHeader& study,
+                std::ostream& out) {
   std::vector<std::filesystem::path> own = logs;
   std::erase_if(own, [&](const auto& log) { return engine::study_of_log(log) != study; });
   const engine::TileIndex index = engine::index_tiles(own, study, [](std::uint64_t, auto) {});
   const std::uint64_t missing = engine::missing_tiles(index).size(), done = study.tiles - missing;
   fmt::print(out, "{:<22} {} of {} ({:.1f} %), {} missing\n", "tiles", done, study.tiles,
              100.0 * static_cast<double>(done) / static_cast<double>(study.tiles), missing);
-  fmt::print(out, "{:<22} {}\n{:<22} {}\n", "fingerprint_physics", study.fingerprint.physics, "fingerprint_grid",
-             study.fingerprint.grid);
+  fmt::print(out, "{:<22} {}\n{:<22} {}\n", "fingerprint_physics", study.fingerprint.physics,
+             "fingerprint_grid", study.fingerprint.grid);
   for (const auto& log : index.logs) fmt::print(out, "{:<22} {}\n", "log", log.string());
   for (const engine::UnusedBytes& unused : index.unused) {
-    fmt::print(out, "{:<22} {}: {} bytes from byte {} on\n", "unused or in writing", unused.log.string(), unused.bytes,
-               unused.from);
+    fmt::print(out, "{:<22} {}: {} bytes from byte {} on\n", "unused or in writing", unused.log.string(),
+               unused.bytes, unused.from);
   }
 }
 
@@ -56,11 +58,14 @@ int status_command(const std::filesystem::path& file, std::ostream& out) {
   std::vector<engine::LogHeader> studies;
   for (const auto& log : logs) {
     const auto study = engine::study_of_log(log);
-    if (study && std::find(studies.begin(), studies.end(), *study) == studies.end()) studies.push_back(*study);
+    if (study && std::find(studies.begin(), studies.end(), *study) == studies.end())
+      studies.push_back(*study);
   }
-  if (!is_there && studies.empty()) throw engine::IoError(file, "there is no such file, and no shard log beside it");
+  if (!is_there && studies.empty())
+    throw engine::IoError(file, "there is no such file, and no shard log beside it");
   for (const engine::LogHeader& study : studies) {
-    fmt::print(out, "{}: {}\n", file.string(), is_there ? "a newer run is in progress or was stopped" : "unfinished");
+    fmt::print(out, "{}: {}\n", file.string(),
+               is_there ? "a newer run is in progress or was stopped" : "unfinished");
     print_logs(logs, study, out);
   }
   return 0;

@@ -49,7 +49,8 @@ std::optional<StudyNote> read_note(const std::filesystem::path& path) {
 }  // namespace
 
 void write_study_note(const std::filesystem::path& output, const MapPlan& plan) {
-  std::string text = fmt::format("{}\n{}\n", std::filesystem::absolute(plan.study.source.name).string(), plan.set.size());
+  std::string text =
+      fmt::format("{}\n{}\n", std::filesystem::absolute(plan.study.source.name).string(), plan.set.size());
   for (const std::string& set : plan.set) text += set + '\n';
   text += plan.study.source.text;
   const std::filesystem::path path = note_path(output, plan.fingerprint);
@@ -72,9 +73,10 @@ MapPlan plan_from_note(const std::vector<std::filesystem::path>& outputs, const 
     }
     MapPlan plan = plan_map(std::move(study), note->set);
     if (plan.log_header() != header) {
-      throw engine::IoError(note_path(output, header.fingerprint),
-                            "the study kept here no longer gives what the logs were made from: a table it reads, "
-                            "or this program, has changed");
+      throw engine::IoError(
+          note_path(output, header.fingerprint),
+          "the study kept here no longer gives what the logs were made from: a table it reads, "
+          "or this program, has changed");
     }
     return plan;
   }
@@ -82,12 +84,20 @@ MapPlan plan_from_note(const std::vector<std::filesystem::path>& outputs, const 
                         "the study of the shard logs is not kept here; `frahm run` with it writes it");
 }
 
+void remove_study_note(const std::filesystem::path& output, const engine::Fingerprint& fingerprint) {
+  std::error_code ignored;  // a note left behind is harmless
+  std::filesystem::remove(note_path(output, fingerprint), ignored);
+}
+
 void remove_study_notes(const std::filesystem::path& output) {
   const std::string prefix = output.filename().string() + ".";
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(engine::directory_of(output), error)) {
     const std::string name = entry.path().filename().string();
-    if (name.starts_with(prefix) && name.ends_with(note_suffix)) std::filesystem::remove(entry.path(), error);
+    // Behind the suffix stand the names of notes that a kill left half written.
+    if (name.starts_with(prefix) && name.find(note_suffix) != std::string::npos) {
+      std::filesystem::remove(entry.path(), error);
+    }
   }
 }
 

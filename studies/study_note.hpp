@@ -20,6 +20,9 @@ void write_study_note(const std::filesystem::path& output, const MapPlan& plan);
 // that it can no longer be read.
 MapPlan plan_from_note(const std::vector<std::filesystem::path>& outputs, const engine::LogHeader& header);
 
+// Removes the note of one study.
+void remove_study_note(const std::filesystem::path& output, const engine::Fingerprint& fingerprint);
+
 // Removes the notes of an output, whatever their study.
 void remove_study_notes(const std::filesystem::path& output);
 

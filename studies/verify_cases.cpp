@@ -18,12 +18,14 @@ constexpr double agreement = 1e-9;             // relative to max(value, 1)
 constexpr double of_critical_friction = 1e-8;  // by bisection on the regime
 constexpr double of_stuck_time = 1e-7;         // its end is a double root of the velocity
 constexpr double of_energy = 1e-10;            // relative
+constexpr double rounding = 1e-15;
 
 constexpr double zetas[] = {0.0, 0.02, 0.1, 0.5, 1.0, 1.2};
 constexpr double ratios[] = {0.2, 0.35, 0.6, 0.9, 1.0, 1.1, 1.7, 3.0};  // r
 
+// The motion without stops has no closed form without damping at r = 1, 1/3, 1/5, ...: H is infinite there.
 bool is_pole(double r, double zeta) {
-  return r == 1.0 && zeta == 0.0;
+  return zeta == 0.0 && std::abs(std::abs(std::remainder(1.0 / r, 2.0)) - 1.0) < 1e-12;
 }
 
 // The maximum and, half a period later, the minimum are equally large.
@@ -91,7 +93,7 @@ void add_one_stop(std::vector<VerifyCase>& cases, VerifyCase& energy) {
   for (const double zeta : zetas) {
     for (const double r : ratios) {
       for (const double f : {0.3, 0.6, 0.8, 0.9, 0.97}) {
-        if (is_pole(r, zeta) || f <= critical_friction(r, zeta)) continue;
+        if (f <= critical_friction(r, zeta)) continue;
         const OneStop exact = one_stop_response(r, zeta, f);
         if (!exact.valid()) continue;
         const KnownQuantities found = solve(system, mass_values(r, zeta, f), energy);
@@ -110,7 +112,7 @@ void add_degenerate(std::vector<VerifyCase>& cases, VerifyCase& energy) {
   VerifyCase unbounded{"Undamped at resonance, f < pi/4: unbounded", 0.0};
   VerifyCase bounded{"Undamped at and 1e-9 beside resonance, f > pi/4: amplitude", agreement};
   VerifyCase critical{"Damping ratio 1, 1 +- 1e-9 and 1.2: amplitude", agreement};
-  VerifyCase stuck{"Friction as large as the force: no motion", 0.0};
+  VerifyCase stuck{"Friction as large as the force: no motion", rounding};
   ClassicalSystem system(forced_mass({1}));
   for (const double f : {0.0, 0.5, 0.78}) {
     ++unbounded.points;
@@ -146,7 +148,7 @@ void add_moving_base(std::vector<VerifyCase>& cases, VerifyCase& energy) {
   ClassicalSystem to_ground(mass_on_base(false)), to_base(mass_on_base(true));
   for (const double zeta : zetas) {
     for (const double r : ratios) {
-      if (is_pole(r, zeta)) continue;
+      if (r == 1.0 && zeta == 0.0) continue;  // V is infinite
       for (const double f : {0.05, 0.3, 0.6, 0.97, 2.0}) {
         const double hundal_exact = hundal_amplitude(r, zeta, f),
                      levitan_exact = levitan_amplitude(r, zeta, f);

@@ -86,7 +86,9 @@ void Continuation<N, H>::predict(double omega, bool half_period, Orbit<N, H>& or
     known_ = 1;
   }
   orbit.section = section_;
-  if (known_ == 0) {
+  // Without friction the linear response is the orbit, and of several (no damping either) the one meant.
+  const bool has_friction = (flow_.equations().limit.array() > 0.0).any();
+  if (known_ == 0 || !has_friction) {
     orbit.z = response_without_friction(orbit.section);
     return;
   }

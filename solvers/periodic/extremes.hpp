@@ -15,7 +15,9 @@ namespace frahm::periodic {
 struct Extremes {
   double most = -std::numeric_limits<double>::infinity();
   double least = std::numeric_limits<double>::infinity();
-  double most_phase = 0.0, least_phase = 0.0;  // omega t in [0, 2 pi) at which each is first reached
+  // omega t in [0, 2 pi) at which each is first reached; NaN where it is only held.
+  double most_phase = std::numeric_limits<double>::quiet_NaN();
+  double least_phase = std::numeric_limits<double>::quiet_NaN();
 
   double magnitude() const { return std::max(std::abs(most), std::abs(least)); }
 };
@@ -42,9 +44,18 @@ class ExtremeCollector {
   }
   const Extremes& extremes() const { return extremes_; }
 
+  Extremes with_phases() const {
+    constexpr double kNever = std::numeric_limits<double>::quiet_NaN();
+    Extremes result = extremes_;
+    if (most_reached_ < result.most - kEqual * std::abs(result.most)) result.most_phase = kNever;
+    if (least_reached_ < -result.least - kEqual * std::abs(result.least)) result.least_phase = kNever;
+    return result;
+  }
+
  private:
+  static constexpr double kEqual = 1e-12;
+
   void update(double& reached, double& reached_phase, double value, double at) const {
-    constexpr double kEqual = 1e-12;
     const double phase = whole_turns_removed(section_ + at * rate_);
     const double tie = kEqual * std::abs(value);
     if (value < reached - tie || (value <= reached + tie && phase >= reached_phase)) return;
@@ -108,7 +119,7 @@ Extremes find_extremes(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow, double s
     }
     starts_segment = step.ends_segment;
   }
-  return collector.extremes();
+  return collector.with_phases();
 }
 
 // The extremes over the whole period of an orbit of which half is known: x(t + T/2) = -x(t).
@@ -120,7 +131,7 @@ inline Extremes mirrored(const Extremes& half) {
   const double turned = whole_turns_removed(half.least_phase + std::numbers::pi);
   const double difference = half.most + half.least;  // most - |least|
   if (std::abs(difference) <= kEqual * whole.most)
-    whole.most_phase = std::min(half.most_phase, turned);
+    whole.most_phase = std::fmin(half.most_phase, turned);  // fmin: the one that is reached
   else
     whole.most_phase = difference > 0.0 ? half.most_phase : turned;
   whole.least_phase = whole_turns_removed(whole.most_phase + std::numbers::pi);

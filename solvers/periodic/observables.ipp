@@ -284,7 +284,7 @@ double Observables<N, H>::value_of_mass(std::size_t i) const {
     case Measure::amplitude:
       return 0.5 * (extremes.most - extremes.least);
     case Measure::peak_phase:
-      return extremes.most_phase;
+      return std::isnan(extremes.most_phase) ? 0.0 : extremes.most_phase;  // 0: at rest all the time
     case Measure::mean: {
       if (orbit_->half_period) return 0.0;
       return integrals_.gram()(mass, 2 * flow_.equations().masses()) / period;

@@ -46,7 +46,8 @@ TEST_CASE("With friction to ground a shaken mass moves as Hundal says") {
   CHECK(checked > 90);
 }
 
-TEST_CASE("With friction to the base a shaken mass moves as Levitan says, and rides with the base if f >= r^2") {
+TEST_CASE(
+    "With friction to the base a shaken mass moves as Levitan says, and rides with the base if f >= r^2") {
   Responses responses(on_a_base(Node{NodeKind::prescribed, 0}));
   int checked = 0;
   for (const double r : {0.5, 0.8, 1.0, 1.2, 2.0, 5.0}) {

@@ -7,7 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-// The references themselves are tested first: each closed-form orbit is integrated through its equation of motion.
+// The references themselves are tested first: each closed-form orbit is integrated through its equation of
+// motion.
 namespace frahm::periodic {
 namespace {
 
@@ -24,16 +25,15 @@ struct Slid {
   double fastest = -1e9;
 };
 template <class Force>
-Slid slide(State state, double zeta, double friction, const Force& force, double duration) {
+Slid slide(State state, double zeta, double friction, const Force& force, double duration, int steps = 400) {
   boost::numeric::odeint::runge_kutta_fehlberg78<State> stepper;
   const auto rate = [&](const State& x, State& dx, double tau) {
     dx = {x[1], force(tau) - friction - 2.0 * zeta * x[1] - x[0]};
   };
-  constexpr int kSteps = 400;
   Slid result;
-  for (int i = 0; i < kSteps; ++i) {
-    stepper.do_step(rate, state, i * duration / kSteps, duration / kSteps);
-    if (i + 1 < kSteps) result.fastest = std::max(result.fastest, state[1]);
+  for (int i = 0; i < steps; ++i) {
+    stepper.do_step(rate, state, i * duration / steps, duration / steps);
+    if (i + 1 < steps) result.fastest = std::max(result.fastest, state[1]);
   }
   result.end = state;
   return result;
@@ -63,8 +63,9 @@ TEST_CASE("Den Hartog's orbit without stops satisfies its equation of motion") {
 TEST_CASE("Above the critical friction Den Hartog's orbit would move against its own friction") {
   for (const double r : {0.15, 0.22, 0.3, 0.37, 0.45, 0.8, 1.0, 1.5}) {
     for (const double zeta : {0.01, 0.05, 0.2, 1.0}) {
-      // Just beyond the border the wrong velocity is only as long and as small as the step across it.
-      const double f = critical_friction(r, zeta), beyond = 1.0 + 1e-6;
+      // Just beyond the border the wrong velocity is short and small: many samples are needed to meet it.
+      constexpr int kSamples = 20000;
+      const double f = critical_friction(r, zeta), beyond = 1.0 + 1e-3;
       CHECK(non_stop_response(r, zeta, f).valid());
       CHECK_FALSE(non_stop_response(r, zeta, f * beyond).valid());
       const DenHartogFunctions d = den_hartog_functions(r, zeta);
@@ -72,7 +73,7 @@ TEST_CASE("Above the critical friction Den Hartog's orbit would move against its
       const double lag = std::atan2(2.0 * zeta * r, 1.0 - r * r) - std::atan2(d.H * over, root);
       const auto force = [&](double tau) { return std::cos(r * tau + lag); };
       const State start{root - d.G * over, 0.0};
-      const Slid whole = slide(start, zeta, -over, force, pi / r);
+      const Slid whole = slide(start, zeta, -over, force, pi / r, kSamples);
       const double acceleration_at_start = force(0.0) + over - start[0];
       INFO("r " << r << " zeta " << zeta);
       CHECK((whole.fastest > 0.0 || acceleration_at_start > 0.0));
@@ -80,7 +81,8 @@ TEST_CASE("Above the critical friction Den Hartog's orbit would move against its
   }
 }
 
-TEST_CASE("The orbit with one stop satisfies its equation of motion, and rests within the limit of friction") {
+TEST_CASE(
+    "The orbit with one stop satisfies its equation of motion, and rests within the limit of friction") {
   int valid = 0;
   for (const double r : {0.4, 0.6, 0.9, 1.0, 1.3, 2.0}) {
     for (const double zeta : {0.0, 0.02, 0.2, 1.0, 1.5}) {
@@ -104,7 +106,8 @@ TEST_CASE("The orbit with one stop satisfies its equation of motion, and rests w
   CHECK(valid > 60);
 }
 
-TEST_CASE("Responses with and without a stop meet at the critical friction where the supremum is at the ends") {
+TEST_CASE(
+    "Responses with and without a stop meet at the critical friction where the supremum is at the ends") {
   constexpr double kAcross = 1e-8, kContinuity = 1e-6;
   for (const double r : {0.6, 0.9, 1.1, 1.8}) {
     for (const double zeta : {0.01, 0.1, 1.0}) {
@@ -169,7 +172,7 @@ TEST_CASE("Closed forms refuse what lies outside their region") {
   // The formula alone would say 0.505 here; the true amplitude is 0.918.
   CHECK_FALSE(non_stop_response(0.2, 0.05, 0.2).valid());
   CHECK_THAT(classical_amplitude(0.2, 0.05, 0.2), WithinAbs(0.918, 5e-4));
-  CHECK(std::isnan(classical_amplitude(0.1, 0.0, 0.02)));  // several stops
+  CHECK(std::isnan(classical_amplitude(0.1, 0.0, 0.3)));  // several stops
   CHECK(classical_amplitude(0.7, 0.1, 1.0) == 0.0);
   CHECK(levitan_amplitude(0.5, 0.1, 0.25) == 0.0);  // the mass rides with the base if f >= r^2
 }

@@ -12,11 +12,16 @@ namespace {
 using Eigen::Index, Eigen::VectorXd;
 constexpr double kStepAngle = 0.06;  // fastest rate times step: the eighth-order error is then below rounding
 
-Eigen::Map<const VectorXd> head(const std::vector<double>& x, Index n) { return {x.data(), n}; }
-Eigen::Map<const VectorXd> tail(const std::vector<double>& x, Index n) { return {x.data() + n, n}; }
+Eigen::Map<const VectorXd> head(const std::vector<double>& x, Index n) {
+  return {x.data(), n};
+}
+Eigen::Map<const VectorXd> tail(const std::vector<double>& x, Index n) {
+  return {x.data() + n, n};
+}
 
 // Re sum_k amplitude_k (i order_k omega)^derivative e^{i order_k omega t}
-VectorXd harmonic(const mechanics::LinearSystem& s, const Eigen::MatrixXcd& amplitude, double t, int derivative) {
+VectorXd harmonic(const mechanics::LinearSystem& s, const Eigen::MatrixXcd& amplitude, double t,
+                  int derivative) {
   VectorXd result = VectorXd::Zero(amplitude.rows());
   for (std::size_t k = 0; k < s.orders.size(); ++k) {
     const std::complex<double> rate(0.0, s.orders[k] * s.omega);
@@ -56,23 +61,28 @@ void EventIntegrator::start(double t, const VectorXd& q, const VectorXd& v) {
   std::vector<Index> at_rest;
   for (Index j = 0; j < system_.contacts(); ++j) {
     const double speed = relative_velocity(state_, t, j);
-    if (std::abs(speed) < 1e-11 * speed_scale_) at_rest.push_back(j);
-    else modes_[static_cast<std::size_t>(j)] = speed > 0.0 ? Mode::forward : Mode::backward;
+    if (std::abs(speed) < 1e-11 * speed_scale_)
+      at_rest.push_back(j);
+    else
+      modes_[static_cast<std::size_t>(j)] = speed > 0.0 ? Mode::forward : Mode::backward;
   }
   choose(at_rest);
 }
 
-EventIntegrator::Motion EventIntegrator::motion(const State& x, double t, const std::vector<Mode>& modes) const {
+EventIntegrator::Motion EventIntegrator::motion(const State& x, double t,
+                                                const std::vector<Mode>& modes) const {
   const Index n = system_.masses(), m = system_.contacts();
   Motion result{VectorXd::Zero(n), VectorXd::Zero(m)};
   std::vector<Index> stuck;
   for (Index j = 0; j < m; ++j) {
     const Mode mode = modes[static_cast<std::size_t>(j)];
-    if (mode == Mode::stuck) stuck.push_back(j);
-    else result.friction[j] = mode == Mode::forward ? system_.limit[j] : -system_.limit[j];
+    if (mode == Mode::stuck)
+      stuck.push_back(j);
+    else
+      result.friction[j] = mode == Mode::forward ? system_.limit[j] : -system_.limit[j];
   }
-  const VectorXd force = system_.constant_force + harmonic(system_, system_.force, t, 0) - system_.K * head(x, n) -
-                         system_.C * tail(x, n);
+  const VectorXd force = system_.constant_force + harmonic(system_, system_.force, t, 0) -
+                         system_.K * head(x, n) - system_.C * tail(x, n);
   result.acceleration = M_inverse_ * (force - system_.W * result.friction);
   if (stuck.empty()) return result;
   // W_S^T (a - M^-1 W_S lambda) = - p_S^T y''
@@ -90,21 +100,26 @@ EventIntegrator::Motion EventIntegrator::motion(const State& x, double t, const 
 
 double EventIntegrator::relative_velocity(const State& x, double t, Index j) const {
   double speed = system_.W.col(j).dot(tail(x, system_.masses()));
-  if (system_.motion.rows() > 0) speed += system_.W_support.col(j).dot(harmonic(system_, system_.motion, t, 1));
+  if (system_.motion.rows() > 0)
+    speed += system_.W_support.col(j).dot(harmonic(system_, system_.motion, t, 1));
   return speed;
 }
 
 double EventIntegrator::relative_acceleration(const VectorXd& a, double t, Index j) const {
   double relative = system_.W.col(j).dot(a);
-  if (system_.motion.rows() > 0) relative += system_.W_support.col(j).dot(harmonic(system_, system_.motion, t, 2));
+  if (system_.motion.rows() > 0)
+    relative += system_.W_support.col(j).dot(harmonic(system_, system_.motion, t, 2));
   return relative;
 }
 
 double EventIntegrator::margin(const State& x, double t, Index j) const {
   switch (modes_[static_cast<std::size_t>(j)]) {
-    case Mode::forward: return relative_velocity(x, t, j);
-    case Mode::backward: return -relative_velocity(x, t, j);
-    case Mode::stuck: break;
+    case Mode::forward:
+      return relative_velocity(x, t, j);
+    case Mode::backward:
+      return -relative_velocity(x, t, j);
+    case Mode::stuck:
+      break;
   }
   return system_.limit[j] * (1.0 + 1e-12) - std::abs(motion(x, t, modes_).friction[j]);
 }
@@ -128,7 +143,8 @@ double EventIntegrator::first_end_of_mode(double h, Index j) const {
   const double little = 1e-3 * h;
   double lo = fresh_[static_cast<std::size_t>(j)] ? 0.02 * h : 0.0;
   const double left = at(lo), right = at(h);
-  if (fresh_[static_cast<std::size_t>(j)] && left <= 0.0) return lo;  // a micro-slip shorter than the search resolves
+  if (fresh_[static_cast<std::size_t>(j)] && left <= 0.0)
+    return lo;  // a micro-slip shorter than the search resolves
   if (right <= 0.0) return bisect(lo, h, at);
   if (at(lo + little) >= left || at(h - little) >= right) return 2.0 * h;
   double hi = h;  // both ends positive, falling inwards: look for a minimum below zero
@@ -145,7 +161,8 @@ double EventIntegrator::first_end_of_mode(double h, Index j) const {
 bool EventIntegrator::is_consistent(const std::vector<Index>& at_rest, const std::vector<Mode>& modes) const {
   const Motion result = motion(state_, t_, modes);
   for (const Index j : at_rest) {
-    const double scale = std::max(1e-300, (system_.W.transpose() * M_inverse_ * system_.W)(j, j) * system_.limit[j]);
+    const double scale =
+        std::max(1e-300, (system_.W.transpose() * M_inverse_ * system_.W)(j, j) * system_.limit[j]);
     const double relative = relative_acceleration(result.acceleration, t_, j);
     switch (modes[static_cast<std::size_t>(j)]) {
       case Mode::stuck:
@@ -184,11 +201,13 @@ void EventIntegrator::choose(const std::vector<Index>& at_rest) {
   }
   if (best < 0) throw std::logic_error("the reference found no consistent modes");
   modes_ = chosen;
-  for (const Index j : at_rest) fresh_[static_cast<std::size_t>(j)] = modes_[static_cast<std::size_t>(j)] != Mode::stuck;
+  for (const Index j : at_rest)
+    fresh_[static_cast<std::size_t>(j)] = modes_[static_cast<std::size_t>(j)] != Mode::stuck;
 }
 
 void EventIntegrator::pass_event(Index j) {
-  ++events_;
+  constexpr int kMostEvents = 10000;
+  if (++events_ > kMostEvents) throw std::runtime_error("the reference met more than 10000 events");
   const auto place = static_cast<std::size_t>(j);
   std::vector<Index> at_rest;
   if (modes_[place] == Mode::stuck) {
@@ -198,7 +217,8 @@ void EventIntegrator::pass_event(Index j) {
   }
   for (Index k = 0; k < system_.contacts(); ++k) {
     const bool arrives = k == j || std::abs(relative_velocity(state_, t_, k)) < 1e-12 * speed_scale_;
-    if ((arrives && !fresh_[static_cast<std::size_t>(k)]) || modes_[static_cast<std::size_t>(k)] == Mode::stuck) {
+    if ((arrives && !fresh_[static_cast<std::size_t>(k)]) ||
+        modes_[static_cast<std::size_t>(k)] == Mode::stuck) {
       at_rest.push_back(k);
     }
   }
@@ -215,10 +235,13 @@ void EventIntegrator::note_extremes(double h) {
     double value = end[static_cast<std::size_t>(i)];
     most_[i] = std::max(most_[i], value);
     least_[i] = std::min(least_[i], value);
-    const double before = state_[static_cast<std::size_t>(n + i)], after = end[static_cast<std::size_t>(n + i)];
+    const double before = state_[static_cast<std::size_t>(n + i)],
+                 after = end[static_cast<std::size_t>(n + i)];
     if (before * after >= 0.0) continue;
     const double side = before > 0.0 ? 1.0 : -1.0;
-    value = moved(t_, bisect(0.0, h, [&](double elapsed) { return side * velocity(elapsed); }))[static_cast<std::size_t>(i)];
+    value = moved(t_, bisect(0.0, h, [&](double elapsed) {
+                    return side * velocity(elapsed);
+                  }))[static_cast<std::size_t>(i)];
     most_[i] = std::max(most_[i], value);
     least_[i] = std::min(least_[i], value);
   }
@@ -243,7 +266,11 @@ void EventIntegrator::advance_to(double t_end) {
   }
 }
 
-VectorXd EventIntegrator::displacements() const { return head(state_, system_.masses()); }
-VectorXd EventIntegrator::velocities() const { return tail(state_, system_.masses()); }
+VectorXd EventIntegrator::displacements() const {
+  return head(state_, system_.masses());
+}
+VectorXd EventIntegrator::velocities() const {
+  return tail(state_, system_.masses());
+}
 
 }  // namespace frahm::periodic

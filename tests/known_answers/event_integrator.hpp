@@ -5,9 +5,9 @@
 
 #include "solvers/mechanics/linear_system.hpp"
 
-// An independent reference for the flow with set-valued friction: Boost.odeint's Runge-Kutta-Fehlberg 7(8) between
-// events that are found by bisection of partial steps, with the modes of contacts at rest found by trying all.
-// It shares with the solvers nothing but the matrices.
+// An independent reference for the flow with set-valued friction: Boost.odeint's Runge-Kutta-Fehlberg 7(8)
+// between events that are found by bisection of partial steps, with the modes of contacts at rest found by
+// trying all. It shares with the solvers nothing but the matrices.
 namespace frahm::periodic {
 
 class EventIntegrator {

@@ -17,7 +17,8 @@ namespace {
 
 using Catch::Matchers::WithinAbs;
 constexpr double kAmplitude = 1e-8;  // relative to the largest amplitude
-constexpr double kClosure = 1e-8;    // of the state after a period, relative to displacement and velocity amplitudes
+constexpr double kClosure =
+    1e-8;  // of the state after a period, relative to displacement and velocity amplitudes
 
 // One period of the independent flow from the state that the orbit has at omega t = 0.
 void check_orbit(Responses& responses, const mechanics::NetworkValues& values) {

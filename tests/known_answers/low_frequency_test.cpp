@@ -6,7 +6,8 @@
 #include "tests/known_answers/responses.hpp"
 #include "tests/known_answers/single_mass.hpp"
 
-// Low frequencies and low damping, where one half cycle holds many stops: against a long forward march from rest.
+// Low frequencies and low damping, where one half cycle holds many stops: against a long forward march from
+// rest.
 namespace frahm::periodic {
 namespace {
 
@@ -48,7 +49,7 @@ TEST_CASE("At low frequency the orbit with many stops is the one that a long mar
         most_stops = std::max(most_stops, responses["friction_stops"]);
         // The slowest multiplier says how long the march takes.
         const double radius = responses["floquet_radius"];
-        const int periods = 3 + static_cast<int>(std::log(1e-12) / std::log(std::max(radius, 1e-6)));
+        const int periods = 3 + static_cast<int>(std::log(1e-15) / std::log(std::max(radius, 1e-6)));
         if (periods > 5000) continue;
         const Eigen::Vector2d z = march(values, periods);
         const History history = responses.response().history(2);

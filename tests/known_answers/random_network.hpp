@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -8,8 +9,9 @@
 
 #include "solvers/mechanics/network.hpp"
 
-// Networks drawn at random: a chain of masses on springs and dampers, with further springs, an inerter, friction
-// and a shaken support that acts through a spring, a damper, an inerter and friction.
+// Networks drawn at random: a chain of masses on springs and dampers, with further springs, an inerter,
+// friction and a shaken support that acts through a spring, a damper, an inerter and friction. Contacts form
+// no loops among the masses and their support, in which friction forces are a matter of convention.
 namespace frahm::periodic {
 
 struct RandomNetwork {
@@ -33,7 +35,9 @@ inline RandomNetwork random_network(const RandomNetworkOptions& options, std::mt
   const auto n = static_cast<std::size_t>(options.masses);
   const Node ground{}, support{NodeKind::prescribed, 0};
   const auto mass = [](std::size_t i) { return Node{NodeKind::mass, i}; };
-  const auto numbered = [](char letter, std::size_t number) { return std::string(1, letter).append(std::to_string(number)); };
+  const auto numbered = [](char letter, std::size_t number) {
+    return std::string(1, letter).append(std::to_string(number));
+  };
   RandomNetwork result;
   Network& network = result.network;
   NetworkValues& values = result.values;
@@ -59,11 +63,21 @@ inline RandomNetwork random_network(const RandomNetworkOptions& options, std::mt
     add(ElementType::damper, support, at, 0.1 * spread(1.0));
     add(ElementType::inerter, support, at, 0.1 * spread(1.0));
   }
+  std::vector<std::size_t> cluster(n + 2);  // of masses, ground and support joined by contacts
+  for (std::size_t i = 0; i < cluster.size(); ++i) cluster[i] = i;
+  const auto place = [&](const Node& node) {
+    return node.kind == NodeKind::mass ? node.index : node.kind == NodeKind::ground ? n : n + 1;
+  };
   for (int j = 0; j < options.contacts; ++j) {
     const Node b = mass(static_cast<std::size_t>(pick(options.masses)));
     Node a = ground;
-    if (options.shaken && uniform(random) < 0.3) a = support;
-    else if (n > 1 && uniform(random) < 0.5) a = mass((b.index + 1 + static_cast<std::size_t>(pick(options.masses - 1))) % n);
+    if (options.shaken && uniform(random) < 0.3)
+      a = support;
+    else if (n > 1 && uniform(random) < 0.5)
+      a = mass((b.index + 1 + static_cast<std::size_t>(pick(options.masses - 1))) % n);
+    const std::size_t from = cluster[place(a)], to = cluster[place(b)];
+    if (from == to) continue;
+    std::replace(cluster.begin(), cluster.end(), from, to);
     add(ElementType::coulomb, a, b, options.largest_friction * uniform(random));
   }
   for (const int order : options.orders) {

@@ -6,8 +6,8 @@
 //   a(t) = 0.02955 sin(omega t)  [m].
 namespace frahm::periodic {
 
-inline constexpr double kRigSpring = 8181.0;   // K [N/m], one of seven
-inline constexpr double kRigCrank = 0.02955;   // A [m]
+inline constexpr double kRigSpring = 8181.0;  // K [N/m], one of seven
+inline constexpr double kRigCrank = 0.02955;  // A [m]
 
 // With `with_absorber` the tuned mass, its spring, damper, inerter and friction.
 inline mechanics::Network rig(bool with_absorber = true) {
@@ -36,7 +36,8 @@ inline mechanics::NetworkValues rig_values(double omega, double I, double share,
   const double phase = -1.5707963267948966;  // cos(omega t - pi/2) = sin(omega t)
   return {.omega = omega,
           .mass = {102.66, 12.82},
-          .element = {6.0 * kRigSpring, kRigSpring, 1.7688, share * kRigSpring * kRigCrank, 10985.1, 26.5104 + 0.4811 * I, I, d},
+          .element = {6.0 * kRigSpring, kRigSpring, 1.7688, share * kRigSpring * kRigCrank, 10985.1,
+                      26.5104 + 0.4811 * I, I, d},
           .excitation = {{kRigCrank, phase}}};
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kBalance = 1e-10;
 constexpr double kResidual = 1e-12;
-constexpr double kSameOrbit = 1e-9;  // relative, in the energy norm
+constexpr double kSameOrbit = 1e-9;               // relative, in the energy norm
 constexpr double kRpm = std::numbers::pi / 30.0;  // [rad/s]
 
 TEST_CASE("Over the rig's working range no point fails, and each balances and is stable") {
@@ -27,8 +27,10 @@ TEST_CASE("Over the rig's working range no point fails, and each balances and is
       responses.response().begin_row();
       for (double rpm = 150.0; rpm <= 350.0; rpm += 1.0) {
         const mechanics::NetworkValues values = rig_values(rpm * kRpm, I, share);
-        if (rpm == 150.0) responses.solve(values, true);
-        else responses.follow(values);
+        if (rpm == 150.0)
+          responses.solve(values, true);
+        else
+          responses.follow(values);
         ++points;
         failed += responses["status"] != 1.0 && responses["status"] != 2.0;
         worst_balance = std::max(worst_balance, responses["energy_balance"]);
@@ -37,7 +39,8 @@ TEST_CASE("Over the rig's working range no point fails, and each balances and is
       }
     }
   }
-  INFO("points " << points << ", balance " << worst_balance << ", residual " << worst_residual << ", radius " << worst_radius);
+  INFO("points " << points << ", balance " << worst_balance << ", residual " << worst_residual << ", radius "
+                 << worst_radius);
   CHECK(failed == 0);
   CHECK(worst_balance < kBalance);
   CHECK(worst_residual < kResidual);

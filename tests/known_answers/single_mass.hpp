@@ -2,7 +2,8 @@
 
 #include "solvers/mechanics/network.hpp"
 
-// x'' + 2 zeta x' + x + f Sgn(x') = cos(r tau) as a network: one mass of 1 on a spring of 1, force of amplitude 1.
+// x'' + 2 zeta x' + x + f Sgn(x') = cos(r tau) as a network: one mass of 1 on a spring of 1, force of
+// amplitude 1.
 namespace frahm::periodic {
 
 inline mechanics::Network single_mass() {

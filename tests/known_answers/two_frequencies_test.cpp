@@ -7,7 +7,8 @@
 #include "tests/known_answers/responses.hpp"
 #include "tests/known_answers/single_mass.hpp"
 
-// Two-frequency forcing: the response without stops of Cheng and Zu, and a case that repeats only with the full period.
+// Two-frequency forcing: the response without stops of Cheng and Zu, and a case that repeats only with the
+// full period.
 namespace frahm::periodic {
 namespace {
 
@@ -35,14 +36,17 @@ TEST_CASE("Two odd frequencies without stops move the mass as Cheng and Zu say")
       for (const double f : {0.02, 0.1, 0.3}) {
         for (const double p2 : {0.2, 1.0, 5.0}) {
           for (const double phase : {0.0, 0.7, 2.5}) {
-            const TwoFrequencies system{.r1 = r1, .M = M, .N = N, .zeta = 0.1, .f = f, .p2 = p2, .phase = phase};
+            const TwoFrequencies system{
+                .r1 = r1, .M = M, .N = N, .zeta = 0.1, .f = f, .p2 = p2, .phase = phase};
             const TwoFrequencyResponse exact = two_frequency_response(system);
             if (!exact.valid()) continue;
             responses.solve(two_force_values(system));
             INFO("M " << M << " N " << N << " r1 " << r1 << " f " << f << " p2 " << p2 << " phase " << phase);
-            CHECK_THAT(responses["x_amplitude"], WithinAbs(exact.amplitude, kAgreement * std::max(1.0, exact.amplitude)));
+            CHECK_THAT(responses["x_amplitude"],
+                       WithinAbs(exact.amplitude, kAgreement * std::max(1.0, exact.amplitude)));
             // The minimum half a period later is as large; the earlier of the two is told.
-            const double peak = std::remainder(responses["x_peak_phase"] - exact.peak_phase, std::numbers::pi);
+            const double peak =
+                std::remainder(responses["x_peak_phase"] - exact.peak_phase, std::numbers::pi);
             CHECK_THAT(peak, WithinAbs(0.0, kAgreement));
             CHECK(responses["friction_regime"] == static_cast<double>(Regime::non_stop));
             ++checked;
@@ -59,7 +63,8 @@ TEST_CASE("Two frequencies of ratio 1/2 have no half-period symmetry and still b
   Responses responses(two_forces(1, 2));
   for (const double r : {0.3, 0.8, 1.7}) {
     for (const double f : {0.05, 0.3, 0.8}) {
-      responses.solve(two_force_values({.r1 = r, .M = 1, .N = 2, .zeta = 0.05, .f = f, .p2 = 0.6, .phase = 0.9}));
+      responses.solve(
+          two_force_values({.r1 = r, .M = 1, .N = 2, .zeta = 0.05, .f = f, .p2 = 0.6, .phase = 0.9}));
       INFO("r " << r << " f " << f);
       CHECK(responses["status"] == 1.0);
       CHECK(responses["energy_balance"] < kBalance);

@@ -91,10 +91,12 @@ TEST_CASE("Values out of range are refused by name, value and rule") {
 
   NetworkValues bad = good;
   bad.mass[1] = -2.0;
-  CHECK_THAT(refusal(network, bad), Contains("mass of 'tmd' = -2") && Contains("must be finite and not negative"));
+  CHECK_THAT(refusal(network, bad),
+             Contains("mass of 'tmd' = -2") && Contains("must be finite and not negative"));
   bad = good;
   bad.element[2] = -0.5;
-  CHECK_THAT(refusal(network, bad), Contains("damping of 'guide_damper' = -0.5") && Contains("must not be negative"));
+  CHECK_THAT(refusal(network, bad),
+             Contains("damping of 'guide_damper' = -0.5") && Contains("must not be negative"));
   bad = good;
   bad.element[6] = infinity;
   CHECK_THAT(refusal(network, bad), Contains("inertance of 'inerter' = inf") && Contains("must be finite"));
@@ -110,14 +112,17 @@ TEST_CASE("Values out of range are refused by name, value and rule") {
   for (const double omega : {0.0, -1.0, infinity, std::nan("")}) {
     bad = good;
     bad.omega = omega;
-    CHECK_THAT(refusal(network, bad), Contains("angular frequency") && Contains("must be finite and positive"));
+    CHECK_THAT(refusal(network, bad),
+               Contains("angular frequency") && Contains("must be finite and positive"));
   }
   bad = good;
   bad.excitation[0].amplitude = std::nan("");
   CHECK_THAT(refusal(network, bad), Contains("amplitude") && Contains("must be finite"));
 }
 
-TEST_CASE("A negative stiffness is allowed while the whole stays positive definite, a massless node with an inerter too") {
+TEST_CASE(
+    "A negative stiffness is allowed while the whole stays positive definite, a massless node with an "
+    "inerter too") {
   const Network network = periodic::rig();
   NetworkValues values = periodic::rig_values(25.0, 6.36, 0.05);
   values.element[0] = -8000.0;

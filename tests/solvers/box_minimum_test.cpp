@@ -7,8 +7,8 @@
 namespace frahm::periodic {
 namespace {
 
-using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 using Catch::Matchers::WithinAbs;
+using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 constexpr double kOptimality = 1e-10;  // of the slope, relative to |c|
 
 // Karush-Kuhn-Tucker: the slope G lambda - c is zero inside, points inwards at neither bound.
@@ -39,12 +39,13 @@ TEST_CASE("The minimum over a box satisfies its optimality conditions, for defin
   }
 }
 
-TEST_CASE("Parallel contacts share in proportion to their limits") {
+TEST_CASE("Of forces that serve equally those of least sum (lambda / F)^2 are taken") {
   const MatrixXd G = MatrixXd::Ones(2, 2);
   const VectorXd limit = Eigen::Vector2d(3.0, 1.0), c = Eigen::Vector2d(2.0, 2.0);
   const VectorXd lambda = box_minimum(G, c, -limit, limit, limit);
-  CHECK_THAT(lambda[0], WithinAbs(1.5, 1e-14));
-  CHECK_THAT(lambda[1], WithinAbs(0.5, 1e-14));
+  // lambda_1 + lambda_2 = 2 and lambda_1 / 9 = lambda_2
+  CHECK_THAT(lambda[0], WithinAbs(1.8, 1e-14));
+  CHECK_THAT(lambda[1], WithinAbs(0.2, 1e-14));
 }
 
 TEST_CASE("Beyond all limits together every contact stands at its own") {

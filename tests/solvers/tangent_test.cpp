@@ -45,8 +45,8 @@ TEST_CASE("The derivative through stops, releases and reversals is that of diffe
   for (const int masses : {1, 2, 3, 5}) {
     for (const int contacts : {0, 1, 2, 3}) {
       for (int trial = 0; trial < 25; ++trial) {
-        const RandomNetwork drawn =
-            random_network({.masses = masses, .contacts = contacts, .orders = {1, 2}, .largest_friction = 0.7}, random);
+        const RandomNetwork drawn = random_network(
+            {.masses = masses, .contacts = contacts, .orders = {1, 2}, .largest_friction = 0.7}, random);
         const mechanics::Assembly assembly(drawn.network);
         mechanics::LinearSystem system;
         assembly.set_values(drawn.values, system);
@@ -59,10 +59,13 @@ TEST_CASE("The derivative through stops, releases and reversals is that of diffe
         flow.pass(z, 0.3, flow.equations().period, passage);
         REQUIRE(passage.failure == nullptr);
         Eigen::MatrixXd expected;
-        if (passage.margin < 1e-3 || !difference(flow, z, flow.equations().period, passage, expected)) continue;
+        if (passage.margin < 1e-3 || !difference(flow, z, flow.equations().period, passage, expected))
+          continue;
         const Eigen::MatrixXd tangent = passage.tangent;
-        INFO("masses " << masses << " contacts " << contacts << " trial " << trial << " events " << passage.events);
-        CHECK((tangent - expected).cwiseAbs().maxCoeff() < kAgreement * std::max(1.0, expected.cwiseAbs().maxCoeff()));
+        INFO("masses " << masses << " contacts " << contacts << " trial " << trial << " events "
+                       << passage.events);
+        CHECK((tangent - expected).cwiseAbs().maxCoeff() <
+              kAgreement * std::max(1.0, expected.cwiseAbs().maxCoeff()));
         ++compared;
         events += passage.events;
         for (const auto& segment : passage.segments) stuck_segments += flow.mode(segment.mode).stuck != 0;
@@ -81,8 +84,8 @@ TEST_CASE("The distance of two motions never grows in the energy norm") {
   std::normal_distribution<double> normal;
   for (int trial = 0; trial < 300; ++trial) {
     const int masses = std::vector<int>{1, 2, 3, 5}[static_cast<std::size_t>(trial % 4)];
-    const RandomNetwork drawn =
-        random_network({.masses = masses, .contacts = trial % 5 % 4, .orders = {1, 3}, .largest_friction = 2.0}, random);
+    const RandomNetwork drawn = random_network(
+        {.masses = masses, .contacts = trial % 5 % 4, .orders = {1, 3}, .largest_friction = 2.0}, random);
     const mechanics::Assembly assembly(drawn.network);
     mechanics::LinearSystem system;
     assembly.set_values(drawn.values, system);

@@ -17,7 +17,9 @@ using frahm::studies::sample_map;
 
 const std::string studies = std::string(FRAHM_SOURCE_DIR) + "/studies/";
 
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
 TEST_CASE("Checking the rig atlas tells its size, its array of tasks and its modes") {
   std::ostringstream out;

@@ -1,0 +1,69 @@
+"""Runs the rig atlas on a small grid and reads its file as a user would: coordinates and units in place.
+
+usage: labelled_arrays.py FRAHM SOURCE_DIR
+"""
+
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+import h5py
+import numpy as np
+import xarray as xr
+
+REDUCED = {"I": 42, "FP": 2, "omega": 81}
+
+
+def reduced_study(source):
+    with open(os.path.join(source, "studies", "rig_atlas.toml")) as file:
+        text = file.read()
+    for parameter, points in REDUCED.items():
+        text, count = re.subn(rf'(parameter = "{parameter}"\n(?:unit.*\n)?from.*\nto.*\npoints = )\d+', rf"\g<1>{points}", text)
+        assert count == 1, parameter
+    return text + '\n[output]\norbits = [{ omega = 250, I = 6.36 }]\n'
+
+
+def check_map(path, engine, study):
+    with xr.open_dataset(path, engine=engine) as ds:
+        assert dict(ds.sizes) == REDUCED, ds.sizes
+        assert set(ds.coords) == {"I", "FP", "omega", "frequency_ratio", "inertance_ratio"}, ds.coords
+        assert [ds[name].attrs["units"] for name in ("I", "FP", "omega")] == ["kg", "1", "rpm"]
+        assert ds.main_peak.dims == ("I", "FP", "omega") and ds.main_peak.attrs["units"] == "m"
+        assert ds.main_peak.attrs["long_name"] and ds.attrs["Conventions"] == "CF-1.10"
+        assert ds.guide_regime.attrs["flag_meanings"].split()[2] == "non_stop"
+        forced = ds.sel(omega=250, I=6.36, method="nearest")
+        assert forced.main_peak.dims == ("FP",) and float(forced.omega) == 250.0
+        assert abs(float(forced.I) - 6.36) < 0.1 and (0.001 < forced.main_peak).all()
+        np.testing.assert_allclose(ds.frequency_ratio, ds.omega * np.pi / 30 / np.sqrt(7 * 8181.0 / 102.66), rtol=1e-14)
+        assert (ds.status == 1).all() and float(ds.energy_balance.max()) < 1e-10
+    with xr.open_dataset(path, engine=engine, group="provenance") as ds:
+        assert ds.attrs["study"] == study and len(ds.attrs["fingerprint_physics"]) == 32
+        assert re.fullmatch(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ", ds.attrs["started"])
+        assert "HDF5 1." in ds.attrs["libraries"] and ds.attrs["threads"] == "2"
+    with xr.open_dataset(path, engine=engine, group="orbits") as ds:
+        assert dict(ds.sizes) == {"orbit": 1, "sample": 512}
+        assert float(ds.omega[0]) == 250.0 and ds.omega.attrs["units"] == "rpm" and ds.time.attrs["units"] == "s"
+        assert abs(float(ds.time[-1]) - 60 / 250) < 1e-12
+        assert ds.guide_force.attrs["units"] == "N"
+
+
+def main():
+    program, source = sys.argv[1:]
+    with tempfile.TemporaryDirectory() as folder:
+        path, study = os.path.join(folder, "rig.h5"), reduced_study(source)
+        with open(os.path.join(folder, "rig.toml"), "w") as file:
+            file.write(study)
+        subprocess.run([program, "run", os.path.join(folder, "rig.toml"), "-o", path, "--threads", "2"], check=True,
+                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        check_map(path, "netcdf4", study)
+        check_map(path, "h5netcdf", study)
+        with h5py.File(path) as file:
+            assert file["main_peak"].shape == tuple(REDUCED.values())
+        subprocess.run(["h5dump", "-d", "/status", path], check=True, stdout=subprocess.DEVNULL)
+    print("opened by xarray (netcdf4, h5netcdf), h5py and h5dump")
+
+
+if __name__ == "__main__":
+    main()

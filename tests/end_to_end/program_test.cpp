@@ -1,0 +1,213 @@
+// Exit codes, messages and what is left behind.
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <iterator>
+
+#include "results/map_reader.hpp"
+#include "tests/end_to_end/runs.hpp"
+#include "tests/studies/small_studies.hpp"
+
+namespace {
+
+using runs::Folder;
+using runs::frahm;
+using small_studies::axis;
+using small_studies::oscillator;
+using Names = std::vector<std::string>;
+
+const std::string small = oscillator() + axis("f", 0, 1, 5) + axis("r", 0.2, 2, 31);
+
+runs::Outcome run(const std::string& study, const std::string& output, const Names& more = {}) {
+  Names arguments{"run", study, "-o", output, "--threads", "1", "--progress", "none"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return frahm(arguments);
+}
+
+std::string provenance(const std::string& path, const std::string& name) {
+  for (const auto& [key, text] : ::frahm::results::MapReader(path).texts("provenance")) {
+    if (key == name) return text;
+  }
+  return "none";
+}
+
+TEST_CASE("wrong usage ends with code 2 and says what is wrong") {
+  CHECK(frahm({}).code == 2);
+  CHECK(frahm({"walk"}).code == 2);
+  CHECK(frahm({"run"}).code == 2);
+  CHECK(frahm({"run", "no-such-study.toml"}).code == 2);
+  CHECK_THAT(frahm({"run", "no-such-study.toml"}).err, Catch::Contains("no-such-study.toml"));
+  const Folder folder;
+  const std::string study = folder.write("small.toml", small);
+  for (const Names& wrong :
+       {Names{"--shard", "4/4"}, Names{"--time-budget", "50"}, Names{"--threads", "-1"},
+        Names{"--set", "q=1"}, Names{"--set", "f=0.5"}, Names{"--progress", "loud"}, Names{"--colour"}}) {
+    INFO(wrong.front());
+    const auto outcome = run(study, folder / "small.h5", wrong);
+    CHECK(outcome.code == 2);
+    CHECK(outcome.out.empty());
+    CHECK_FALSE(outcome.err.empty());
+  }
+  CHECK(folder.names() == Names{"small.toml"});
+}
+
+TEST_CASE("help teaches by examples, for each command") {
+  CHECK(frahm({"--help"}).code == 0);
+  for (const char* command : {"run", "check", "point", "merge", "export"}) {
+    const auto help = frahm({command, "--help"});
+    CHECK(help.code == 0);
+    CHECK_THAT(help.out, Catch::Contains("Example") && Catch::Contains(std::string("frahm ") + command));
+  }
+}
+
+TEST_CASE("a study error is told with its place and leaves no file") {
+  const Folder folder;
+  const std::string study = folder.write("wrong.toml", small + "[output]\nquantities = [\"main_peek\"]\n");
+  const auto outcome = run(study, folder / "wrong.h5");
+  CHECK(outcome.code == 2);
+  CHECK_THAT(outcome.err, Catch::Contains("wrong.toml:") && Catch::Contains("did you mean \"main_peak\""));
+  CHECK(folder.names() == Names{"wrong.toml"});
+}
+
+TEST_CASE("an output that cannot be written ends with code 6 and leaves nothing") {
+  const Folder folder;
+  const std::string study = folder.write("small.toml", small);
+  const auto outcome = run(study, folder / "no-folder/small.h5");
+  CHECK(outcome.code == 6);
+  CHECK_THAT(outcome.err, Catch::Contains("no-folder"));
+  CHECK(folder.names() == Names{"small.toml"});
+}
+
+TEST_CASE("a finished run is not repeated, and a file of another study is not overwritten") {
+  const Folder folder;
+  const std::string study = folder.write("small.toml", small), output = folder / "small.h5";
+  CHECK(run(study, output).code == 0);
+  const auto again = run(study, output);
+  CHECK(again.code == 0);
+  CHECK_THAT(again.out, Catch::Contains("computed already"));
+  const auto other = run(study, output, {"--set", "zeta=0.1"});
+  CHECK(other.code == 5);
+  CHECK_THAT(other.err, Catch::Contains("another physics") && Catch::Contains("--fresh"));
+  CHECK(run(study, output, {"--set", "zeta=0.1", "--fresh"}).code == 0);
+  CHECK(provenance(output, "overrides") == "zeta=0.1");
+  CHECK(folder.names() == Names{"small.h5", "small.toml"});
+}
+
+TEST_CASE("a file that is no result is not overwritten") {
+  const Folder folder;
+  const std::string study = folder.write("small.toml", small),
+                    output = folder.write("thesis.h5", "my thesis");
+  CHECK(run(study, output).code == 6);
+  CHECK(std::filesystem::file_size(output) == 9);
+}
+
+TEST_CASE("shards are kept apart, merged when all are there, and give what one run gives") {
+  const Folder folder;
+  const std::string study =
+      folder.write("small.toml", oscillator() + axis("f", 0, 1, 30) + axis("r", 0.2, 2, 101));
+  CHECK(run(study, folder / "one.h5").code == 0);
+  const std::string parts = folder / "parts.h5";
+  CHECK(run(study, parts, {"--shard", "0/3"}).code == 0);
+  CHECK(run(study, parts, {"--shard", "2/3"}).code == 0);
+  CHECK_FALSE(std::filesystem::exists(parts));
+  CHECK_THAT(frahm({"status", parts}).out, Catch::Contains("unfinished") && Catch::Contains("missing"));
+
+  const auto early = frahm({"merge", parts});
+  CHECK(early.code == 6);
+  CHECK_THAT(early.err, Catch::Contains("tiles are in no shard log yet"));
+  CHECK(frahm({"merge", parts, "--partial"}).code == 0);
+  CHECK(runs::read_map(parts)["status"] != runs::read_map(folder / "one.h5")["status"]);
+
+  std::filesystem::remove(parts);
+  CHECK(run(study, parts, {"--shard", "1/3"}).code == 0);
+  CHECK(frahm({"merge", parts}).code == 0);
+  const runs::Map one = runs::read_map(folder / "one.h5"), merged = runs::read_map(parts);
+  CHECK(one["main_peak"] == merged["main_peak"]);
+  CHECK(one["status"] == merged["status"]);
+  CHECK(folder.names() == Names{"one.h5", "parts.h5", "small.toml"});
+}
+
+TEST_CASE(
+    "failed points end with code 3, are listed in the file, and come with the command that repeats them") {
+  const Folder folder;
+  const std::string study = folder.write(
+      "soft.toml", oscillator("\"k\"") + small_studies::axis_of("k", "[-1, 1]") + axis("r", 0.5, 1, 3));
+  const auto outcome = run(study, folder / "soft.h5");
+  CHECK(outcome.code == 3);
+  CHECK_THAT(outcome.err, Catch::Contains("3 points failed") && Catch::Contains("not positive definite") &&
+                              Catch::Contains("frahm point " + study + " --at \"k=-1,r=0.5\""));
+  CHECK_THAT(provenance(folder / "soft.h5", "failed_points"), Catch::StartsWith("k=-1,r=0.5: "));
+  CHECK(run(study, folder / "soft.h5").code == 3);
+  CHECK(frahm({"point", study, "--at", "k=-1,r=0.5"}).code == 3);
+}
+
+TEST_CASE("a time budget too short stops the run with code 4, and the next run ends it") {
+  const Folder folder;
+  const std::string study =
+      folder.write("small.toml", oscillator() + axis("f", 0, 1, 200) + axis("r", 0.2, 2, 401));
+  const auto first = run(study, folder / "small.h5", {"--time-budget", "0.02s"});
+  CHECK(first.code == 4);
+  CHECK_THAT(first.err, Catch::Contains("% is done"));
+  CHECK_FALSE(std::filesystem::exists(folder / "small.h5"));
+  CHECK(run(study, folder / "small.h5").code == 0);
+  CHECK(folder.names() == Names{"small.h5", "small.toml"});
+}
+
+TEST_CASE("the map as CSV has a row a point, coordinates first") {
+  const Folder folder;
+  const std::string study =
+      folder.write("small.toml", oscillator() + axis("f", 0, 1, 2) + axis("r", 0.5, 1, 3) +
+                                     "[output]\nquantities = [\"main_peak\", \"status\"]\n");
+  REQUIRE(run(study, folder / "small.h5").code == 0);
+  const auto csv = frahm({"export", folder / "small.h5", "-o", "-"});
+  CHECK(csv.code == 0);
+  CHECK_THAT(csv.out, Catch::StartsWith("f,r,main_peak,status\n0,0.5,1.3"));
+  CHECK(std::count(csv.out.begin(), csv.out.end(), '\n') == 7);
+  CHECK(frahm({"export", folder / "small.h5"}).code == 0);
+  std::ifstream file(folder / "small.csv");
+  CHECK(std::string(std::istreambuf_iterator<char>(file), {}) == csv.out);
+  CHECK(frahm({"export", folder / "none.h5"}).code == 6);
+}
+
+TEST_CASE("the orbits that a study lists are kept sample by sample") {
+  const Folder folder;
+  const std::string study =
+      folder.write("small.toml", small + "[output]\norbits = [{ r = 0.5, f = 0.2 }, { r = 1.5 }]\n");
+  REQUIRE(run(study, folder / "small.h5").code == 0);
+  const auto columns = ::frahm::results::MapReader(folder / "small.h5").columns("orbits");
+  const auto values = [&](const std::string& name) {
+    for (const auto& column : columns) {
+      if (column.variable.name == name) return column.values;
+    }
+    return std::vector<double>{};
+  };
+  CHECK(values("r") == std::vector<double>{0.5, 1.5});
+  CHECK(values("row_start") == std::vector<double>{0, 512});
+  const auto x = values("main_displacement");
+  REQUIRE(x.size() == 1024);
+  CHECK_THAT(x[511], Catch::WithinAbs(x[0], 1e-12));
+  CHECK(values("time").size() == 1024);
+}
+
+TEST_CASE("single precision halves the reals and leaves the counts") {
+  const Folder folder;
+  const std::string study = folder.write("small.toml", small + "[output]\nprecision = \"single\"\n");
+  REQUIRE(run(study, folder / "small.h5").code == 0);
+  for (const auto& variable : runs::read_map(folder / "small.h5").layout.variables) {
+    if (variable.name == "main_peak") CHECK(variable.type == ::frahm::results::Type::float32);
+    if (variable.name == "friction_stops") CHECK(variable.type == ::frahm::results::Type::int32);
+  }
+}
+
+TEST_CASE("status tells of a finished file what it holds, and of no file that there is none") {
+  const Folder folder;
+  const std::string study = folder.write("small.toml", small);
+  REQUIRE(run(study, folder / "small.h5").code == 0);
+  CHECK_THAT(frahm({"status", folder / "small.h5"}).out,
+             Catch::Contains("finished") && Catch::Contains("155") && Catch::Contains("fingerprint_physics"));
+  CHECK(frahm({"status", folder / "none.h5"}).code == 6);
+}
+
+}  // namespace

@@ -1,0 +1,94 @@
+"""Whoever computes a map, and however often they are killed, every dataset of its file has the same bytes.
+
+usage: same_bytes.py FRAHM SOURCE_DIR
+"""
+
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+import h5py
+
+KILLS = 10
+
+
+def raw_bytes(path):
+    """Of each dataset its type, its shape and its stored bytes, chunk by chunk, as compressed."""
+    found = {}
+
+    def take(name, item):
+        if not isinstance(item, h5py.Dataset):
+            return
+        if item.chunks is None:
+            stored = item[()].tobytes()
+        else:
+            chunks = [item.id.get_chunk_info(i).chunk_offset for i in range(item.id.get_num_chunks())]
+            stored = [(offset, item.id.read_direct_chunk(offset)) for offset in chunks]
+        found[name] = (item.dtype.str, item.shape, stored)
+
+    with h5py.File(path) as file:
+        file.visititems(take)
+    return found
+
+
+class Runs:
+    def __init__(self, program, folder, study_path):
+        self.program, self.folder, self.study = program, folder, study_path
+
+    def start(self, output, *options):
+        return subprocess.Popen([self.program, "run", self.study, "-o", output, "--progress", "none", *options],
+                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+
+    def finish(self, output, *options):
+        process = self.start(output, *options)
+        message = process.communicate()[1]
+        assert process.returncode == 0, f"code {process.returncode}: {message}"
+        assert sorted(os.listdir(self.folder)) == sorted(["study.toml", os.path.basename(output)]), os.listdir(self.folder)
+        found = raw_bytes(output)
+        os.remove(output)
+        return found
+
+    def killed(self, expected, output, how, *options):
+        """Starts again and again, each time killed at a random moment of its work; then to the end."""
+        stopped = 0
+        for _ in range(KILLS):
+            process = self.start(output, *options)
+            time.sleep(random.uniform(0.0, 0.15))
+            process.send_signal(how)
+            process.communicate()
+            if process.returncode == 0:  # it was faster: the next one begins anew
+                os.remove(output)
+                continue
+            codes = {signal.SIGKILL: (-signal.SIGKILL,), signal.SIGTERM: (4, -signal.SIGTERM)}[how]
+            assert process.returncode in codes, process.returncode
+            stopped += 1
+            if os.path.exists(output):  # killed behind its work: the file is whole, its logs may still be there
+                assert raw_bytes(output) == expected, "a half file"
+                break
+        assert stopped > 0
+        assert self.finish(output, *options) == expected, how
+
+
+def main():
+    random.seed(2)
+    program, source = sys.argv[1:]
+    with tempfile.TemporaryDirectory() as folder:
+        study_path, output = os.path.join(folder, "study.toml"), os.path.join(folder, "map.h5")
+        shutil.copy(os.path.join(source, "studies", "den_hartog.toml"), study_path)
+        runs = Runs(program, folder, study_path)
+        one = runs.finish(output, "--threads", "1")
+        assert len(one) > 10 and one["main_peak"][1] == (6, 25, 481)
+        for threads in "2", "5":
+            assert runs.finish(output, "--threads", threads) == one, threads
+        runs.killed(one, output, signal.SIGKILL, "--threads", "2")
+        runs.killed(one, output, signal.SIGTERM, "--threads", "1")
+    print("1, 2 and 5 threads, SIGKILL and SIGTERM: the same bytes in every dataset")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,77 @@
+#include "studies/fingerprint.hpp"
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+
+#include "studies/map_plan.hpp"
+#include "tests/studies/small_studies.hpp"
+
+namespace {
+
+using namespace frahm::studies;
+using small_studies::axis;
+using small_studies::oscillator;
+
+const std::string axes = axis("f", 0, 1, 5) + axis("r", 0.1, 2, 11);
+const std::string base = oscillator() + axes;
+
+frahm::engine::Fingerprint of(const std::string& text) {
+  return plan_map(parse_study(text, "small.toml"), {}).fingerprint;
+}
+
+std::string with(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
+TEST_CASE(
+    "title, comments, blanks, other ways of writing a number and nominal values of axes change nothing") {
+  CHECK(of(base).physics.size() == 32);
+  CHECK(of(with(base, "title = \"small\"", "title = \"other\" # new")) == of(base));
+  CHECK(of(with(base, "\"2*zeta\"", "\" 2 * ( zeta ) \"")) == of(base));
+  CHECK(of(with(base, "zeta = 0.05", "zeta = 5e-2")) == of(base));
+  CHECK(of(with(base, "f = 0.2", "f = 0.3")) == of(base));
+  CHECK(of(base + "[[coordinate]]\nname = \"twice\"\nvalue = \"2*f\"\n") == of(base));
+}
+
+TEST_CASE("whatever changes a number changes the physics") {
+  for (const auto& [from, to] :
+       std::vector<std::pair<std::string, std::string>>{{"zeta = 0.05", "zeta = 0.06"},
+                                                        {"\"2*zeta\"", "\"3*zeta\""},
+                                                        {"mass = 1", "mass = 1.5"},
+                                                        {"force = \"f\"", "force = \"2*f\""},
+                                                        {"amplitude = 1", "amplitude = 1\norder = 3"},
+                                                        {"amplitude = 1", "amplitude = 1\nphase = 1"},
+                                                        {"units = \"dimensionless\"", "units = \"SI\""}}) {
+    INFO(from << " -> " << to);
+    CHECK(of(with(base, from, to)).physics != of(base).physics);
+  }
+  CHECK(of(base + "[output]\nprecision = \"single\"\n").physics != of(base).physics);
+  CHECK(of(base + "[output]\nquantities = \"all\"\n").physics != of(base).physics);
+}
+
+TEST_CASE("other values on an axis are another grid of the same physics") {
+  const std::string finer = oscillator() + axis("f", 0, 1, 6) + axis("r", 0.1, 2, 11);
+  CHECK(of(finer).physics == of(base).physics);
+  CHECK(of(finer).grid != of(base).grid);
+  const std::string turned = oscillator() + axis("r", 0.1, 2, 11) + axis("f", 0, 1, 5);
+  CHECK(of(turned).grid != of(base).grid);
+}
+
+TEST_CASE("the contents of a table are part of the physics") {
+  const auto path = std::filesystem::temp_directory_path() / "frahm-fingerprint-table.csv";
+  const std::string text =
+      with(base, "zeta = 0.05", "zeta = { table = \"" + path.string() + "\", of = \"f\" }");
+  const auto write = [&](const char* rows) { std::ofstream(path) << rows; };
+  write("0,0.1\n1,0.2\n");
+  const auto before = of(text);
+  write("0.0, 0.10\n1, 0.2\n");
+  CHECK(of(text) == before);
+  write("0,0.1\n1,0.3\n");
+  CHECK(of(text).physics != before.physics);
+  std::filesystem::remove(path);
+}
+
+}  // namespace

@@ -1,0 +1,81 @@
+#include "studies/grid.hpp"
+
+#include <catch2/catch.hpp>
+#include <numeric>
+
+#include "tests/studies/small_studies.hpp"
+
+namespace {
+
+using namespace frahm::studies;
+using small_studies::axis;
+using small_studies::oscillator;
+
+StudyFile study_of(const std::string& axes) {
+  return parse_study(oscillator() + axes, "small.toml");
+}
+
+// How often each point of the map lies in a tile.
+std::vector<int> visits(const Grid& grid) {
+  std::vector<int> visited(grid.points());
+  std::vector<std::size_t> dimensions(grid.shape.size());
+  std::iota(dimensions.begin(), dimensions.end(), 0);
+  for (std::uint64_t tile = 0; tile < grid.tiles(); ++tile) {
+    const MapBox box = grid.box(tile);
+    std::vector<std::uint64_t> index = box.start;
+    do {
+      std::uint64_t place = 0;
+      for (std::size_t d = 0; d < index.size(); ++d) place = place * grid.shape[d] + index[d];
+      ++visited.at(place);
+    } while (next_point(box, dimensions, index));
+  }
+  return visited;
+}
+
+void check_chunks(const Grid& grid) {
+  for (std::size_t d = 0; d < grid.shape.size(); ++d) {
+    INFO("dimension " << d << ": chunk " << grid.chunk[d] << ", tile " << grid.tile[d]);
+    CHECK((grid.chunk[d] % grid.tile[d] == 0 || grid.chunk[d] == grid.shape[d]));
+  }
+}
+
+TEST_CASE("the tiles of a map hold each of its points once, and its chunks are unions of tiles") {
+  for (const std::string& axes :
+       {axis("r", 0.1, 2, 7), axis("r", 0.1, 2, 9001), axis("f", 0, 1, 31) + axis("r", 0.1, 2, 401),
+        axis("r", 0.1, 2, 401) + axis("f", 0, 1, 31), axis("f", 0, 1, 5) + axis("zeta", 0, 1, 600),
+        axis("zeta", 0, 1, 3) + axis("r", 0.1, 2, 5) + axis("f", 0, 1, 700)}) {
+    INFO(axes);
+    const Grid grid = grid_of(study_of(axes));
+    const std::vector<int> visited = visits(grid);
+    CHECK(std::count(visited.begin(), visited.end(), 1) == static_cast<std::ptrdiff_t>(visited.size()));
+    check_chunks(grid);
+  }
+}
+
+TEST_CASE("the rig atlas is cut into tiles of whole frequency rows, and chunks of 128 KiB and more") {
+  const Grid grid = grid_of(read_study(FRAHM_SOURCE_DIR "/studies/rig_atlas.toml"));
+  CHECK(grid.points() == 522102);
+  CHECK(grid.tile == std::vector<std::uint64_t>{1, 4, 401});
+  CHECK(grid.tiles() == 42 * 8);
+  CHECK(grid.chunk == std::vector<std::uint64_t>{2, 31, 401});
+  CHECK(grid.order == std::vector<std::size_t>{0, 1, 2});
+}
+
+TEST_CASE("the frequency runs innermost wherever it stands in the study") {
+  const Grid grid = grid_of(study_of(axis("r", 0.1, 2, 401) + axis("f", 0, 1, 31)));
+  CHECK(grid.order == std::vector<std::size_t>{1, 0});
+  CHECK(grid.tile[0] == 401);
+}
+
+TEST_CASE("a row of frequencies longer than 4000 is cut") {
+  const Grid grid = grid_of(study_of(axis("f", 0, 1, 2) + axis("r", 0.1, 2, 10000)));
+  CHECK(grid.tile == std::vector<std::uint64_t>{1, 2500});
+  CHECK(grid.tiles() == 8);
+}
+
+TEST_CASE("a point is told as the option --at takes it, with its units") {
+  const StudyFile rig = read_study(FRAHM_SOURCE_DIR "/studies/rig_atlas.toml");
+  CHECK(point_text(rig, std::vector<std::uint64_t>{41, 1, 400}) == "I=12.9 kg,FP=0.01,omega=350 rpm");
+}
+
+}  // namespace

@@ -1,0 +1,114 @@
+#include "studies/map_kernel.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "solvers/periodic/closed_forms.hpp"
+#include "studies/map_plan.hpp"
+#include "tests/studies/small_studies.hpp"
+
+namespace {
+
+using namespace frahm::studies;
+using small_studies::axis;
+using small_studies::axis_of;
+using small_studies::oscillator;
+
+constexpr double closed_form_tolerance = 1e-9;  // of amplitudes of order 1, where the solver stops at 1e-12
+
+const std::string peaks = "[output]\nquantities = [\"main_peak\", \"status\", \"friction_stops\"]\n";
+
+MapPlan plan_of(const std::string& text) {
+  return plan_map(parse_study(text, "small.toml"), {});
+}
+
+frahm::engine::Bytes bytes_of(MapKernel& kernel, std::uint64_t tile) {
+  frahm::engine::Bytes bytes;
+  kernel(tile, bytes);
+  return bytes;
+}
+
+TileRecord tile_of(const MapPlan& plan, std::uint64_t tile) {
+  MapKernel kernel(plan.study, plan.grid, plan.quantities);
+  TileRecord record;
+  decode(bytes_of(kernel, tile), plan.grid.box(tile).points() * plan.quantities.size(), record);
+  return record;
+}
+
+TEST_CASE("a tile holds the responses of its points in the map's order") {
+  const MapPlan plan = plan_of(oscillator() + axis("f", 0, 0.4, 3) + axis("r", 0.8, 1.2, 5) + peaks);
+  REQUIRE(plan.grid.tiles() == 1);
+  const TileRecord tile = tile_of(plan, 0);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 5; ++j) {
+      INFO("point " << i << ", " << j);
+      const double expected = frahm::periodic::non_stop_response(0.8 + 0.1 * j, 0.05, 0.2 * i).amplitude;
+      CHECK_THAT(tile.values[5 * i + j], Catch::WithinAbs(expected, closed_form_tolerance));
+      CHECK(tile.values[15 + 5 * i + j] == 1.0);
+      CHECK(tile.values[30 + 5 * i + j] == 0.0);
+    }
+  }
+}
+
+TEST_CASE("the place of the frequency among the axes does not change the responses") {
+  const TileRecord last =
+      tile_of(plan_of(oscillator() + axis("f", 0, 1, 7) + axis("r", 0.3, 1.2, 9) + peaks), 0);
+  const TileRecord first =
+      tile_of(plan_of(oscillator() + axis("r", 0.3, 1.2, 9) + axis("f", 0, 1, 7) + peaks), 0);
+  for (std::size_t q = 0; q < 3; ++q) {
+    for (std::size_t i = 0; i < 7; ++i) {
+      for (std::size_t j = 0; j < 9; ++j)
+        CHECK(last.values[63 * q + 9 * i + j] == first.values[63 * q + 7 * j + i]);
+    }
+  }
+}
+
+TEST_CASE("the bytes of a tile do not depend on the tiles computed before it") {
+  const MapPlan plan = plan_of(oscillator() + axis("f", 0, 1, 40) + axis("r", 0.2, 1.2, 150));
+  REQUIRE(plan.grid.tiles() > 5);
+  MapKernel busy(plan.study, plan.grid, plan.quantities), fresh(plan.study, plan.grid, plan.quantities);
+  for (const std::uint64_t tile : {3, 1, 4}) bytes_of(busy, tile);
+  CHECK(bytes_of(busy, 2) == bytes_of(fresh, 2));
+}
+
+TEST_CASE(
+    "a point whose values break a rule of mechanics fails with the reason, and the others are computed") {
+  const MapPlan plan =
+      plan_of(oscillator("\"k\"") + axis_of("k", "[1, -1, 2]") + axis_of("r", "[0.5, 0.6]") + peaks);
+  const TileRecord tile = tile_of(plan, 0);
+  REQUIRE(tile.failed.size() == 2);
+  CHECK(tile.failed[0].place == 2);
+  CHECK_THAT(tile.failed[0].reason, Catch::Contains("stiffness") && Catch::Contains("not positive definite"));
+  CHECK(std::isnan(tile.values[2]));
+  CHECK(tile.values[6 + 2] == 4.0);    // failed
+  CHECK(tile.values[12 + 2] == -1.0);  // no count
+  for (const std::size_t place : {0, 1, 4, 5}) CHECK(tile.values[6 + place] == 1.0);
+}
+
+TEST_CASE("a map without a frequency axis is computed, also where stiffness and damping change") {
+  const MapPlan plan = plan_of(oscillator("\"k\"") + axis("k", 1, 2, 3) + axis("zeta", 0.1, 0.5, 3) + peaks);
+  const TileRecord tile = tile_of(plan, 0);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      // In units of the stiffness k: r / sqrt k, c / (2 sqrt k), f, x k.
+      const double k = 1 + 0.5 * i, zeta = 0.1 + 0.2 * j;
+      const double expected =
+          frahm::periodic::classical_amplitude(0.9 / std::sqrt(k), zeta / std::sqrt(k), 0.2) / k;
+      CHECK_THAT(tile.values[3 * i + j], Catch::WithinAbs(expected, closed_form_tolerance));
+    }
+  }
+}
+
+TEST_CASE("frequencies that stand still or turn back along a zip are computed like any others") {
+  const std::string zip = "zip = \"path\"\n";
+  const MapPlan plan = plan_of(oscillator() + axis_of("r", "[0.7, 0.8, 0.8, 0.7, 0.7, 1.3]", zip) +
+                               axis_of("f", "[0.1, 0.1, 0.2, 0.2, 0.1, 0.1]", zip) + peaks);
+  const TileRecord tile = tile_of(plan, 0);
+  const double r[] = {0.7, 0.8, 0.8, 0.7, 0.7, 1.3}, f[] = {0.1, 0.1, 0.2, 0.2, 0.1, 0.1};
+  for (int i = 0; i < 6; ++i) {
+    const double expected = frahm::periodic::non_stop_response(r[i], 0.05, f[i]).amplitude;
+    CHECK_THAT(tile.values[i], Catch::WithinAbs(expected, closed_form_tolerance));
+  }
+}
+
+}  // namespace

@@ -1,0 +1,59 @@
+#include "studies/option_values.hpp"
+
+#include <catch2/catch.hpp>
+#include <map>
+#include <string>
+
+#include "studies/study_source.hpp"
+
+namespace {
+
+using namespace frahm::studies;
+
+using Environment = std::map<std::string, std::string>;
+
+frahm::engine::Shard shard_in(const Environment& environment) {
+  return shard_of_array_task([&](const char* name) -> const char* {
+    const auto found = environment.find(name);
+    return found == environment.end() ? nullptr : found->second.c_str();
+  });
+}
+
+TEST_CASE("a shard is given as i/n, counted from 0") {
+  CHECK(shard_of("3/16").index == 3);
+  CHECK(shard_of("3/16").count == 16);
+  for (const char* wrong : {"", "3", "16/16", "-1/4", "1/", "/4", "1/4x", "a/b", "0/0"}) {
+    INFO(wrong);
+    CHECK_THROWS_AS(shard_of(wrong), StudyError);
+  }
+}
+
+TEST_CASE("an array task of Slurm takes its own share") {
+  CHECK(shard_in({}).count == 1);
+  const Environment task{{"SLURM_ARRAY_TASK_ID", "7"},
+                         {"SLURM_ARRAY_TASK_COUNT", "4"},
+                         {"SLURM_ARRAY_TASK_MIN", "1"},
+                         {"SLURM_ARRAY_TASK_STEP", "2"}};
+  CHECK(shard_in(task).index == 3);
+  CHECK(shard_in(task).count == 4);
+}
+
+TEST_CASE("array tasks that are no shares of one work are refused") {
+  const Environment gap{
+      {"SLURM_ARRAY_TASK_ID", "9"}, {"SLURM_ARRAY_TASK_COUNT", "2"}, {"SLURM_ARRAY_TASK_MIN", "0"}};
+  CHECK_THROWS_WITH(shard_in(gap), Catch::Contains("array task 9") && Catch::Contains("--shard"));
+  CHECK_THROWS_AS(shard_in({{"SLURM_ARRAY_TASK_ID", "x"}}), StudyError);
+}
+
+TEST_CASE("a time budget has a unit") {
+  CHECK(time_span_of("--time-budget", "90s").count() == 90.0);
+  CHECK(time_span_of("--time-budget", "50m").count() == 3000.0);
+  CHECK(time_span_of("--time-budget", "1.5h").count() == 5400.0);
+  CHECK(time_span_of("--time-budget", "2d").count() == 172800.0);
+  for (const char* wrong : {"", "50", "m", "-1s", "0s", "5 m", "1e400s", "infs", "nans"}) {
+    INFO(wrong);
+    CHECK_THROWS_WITH(time_span_of("--time-budget", wrong), Catch::Contains("--time-budget"));
+  }
+}
+
+}  // namespace

@@ -1,0 +1,36 @@
+#include "studies/output_quantities.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "tests/studies/small_studies.hpp"
+
+namespace {
+
+using namespace frahm::studies;
+
+const std::string base = small_studies::oscillator() + small_studies::axis("r", 0.1, 2, 11);
+
+std::vector<frahm::periodic::Quantity> of(const std::string& text) {
+  return output_quantities(parse_study(text, "small.toml"));
+}
+
+TEST_CASE("quantities are recorded in the order in which the study lists them") {
+  const auto listed = of(base + "[output]\nquantities = [\"status\", \"main_peak\"]\n");
+  REQUIRE(listed.size() == 2);
+  CHECK(listed[0].measure == frahm::periodic::Measure::status);
+  CHECK(listed[1].measure == frahm::periodic::Measure::peak);
+}
+
+TEST_CASE("an unknown quantity is refused with its place and the nearest name") {
+  CHECK_THROWS_WITH(of(base + "[output]\nquantities = [\"main_peek\"]\n"),
+                    Catch::StartsWith("small.toml:40:15: ") && Catch::Contains("there is no \"main_peek\"") &&
+                        Catch::Contains("did you mean \"main_peak\"?"));
+}
+
+TEST_CASE("a coordinate may not have the name of a quantity that is recorded") {
+  const std::string clash = "[[coordinate]]\nname = \"main_peak\"\nvalue = \"2*r\"\n";
+  CHECK_THROWS_WITH(of(base + clash), Catch::Contains("\"main_peak\" is the name of a coordinate"));
+  CHECK_NOTHROW(of(base + clash + "[output]\nquantities = [\"status\"]\n"));
+}
+
+}  // namespace

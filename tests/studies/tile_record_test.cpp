@@ -1,0 +1,44 @@
+#include "studies/tile_record.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+namespace {
+
+using namespace frahm::studies;
+
+const TileRecord sample{.values = {1.5, -0.0, std::numeric_limits<double>::quiet_NaN()},
+                        .failed = {{2, "it did not converge"}, {0, ""}}};
+
+TEST_CASE("a tile's record gives back its values and its failed points") {
+  frahm::engine::Bytes bytes;
+  encode(sample, bytes);
+  TileRecord read;
+  decode(bytes, sample.values.size(), read);
+  CHECK(read.values[0] == 1.5);
+  CHECK(std::signbit(read.values[1]));
+  CHECK(std::isnan(read.values[2]));
+  REQUIRE(read.failed.size() == 2);
+  CHECK(read.failed[0].place == 2);
+  CHECK(read.failed[0].reason == "it did not converge");
+  CHECK(count_failed(bytes, sample.values.size()) == 2);
+}
+
+TEST_CASE("values are kept least significant byte first") {
+  frahm::engine::Bytes bytes;
+  encode({.values = {1.0}, .failed = {}}, bytes);
+  CHECK(bytes[7] == std::byte{0x3f});
+  CHECK(bytes[0] == std::byte{0});
+}
+
+TEST_CASE("a record cut short anywhere but between failed points is refused") {
+  frahm::engine::Bytes bytes;
+  encode(sample, bytes);
+  TileRecord read;
+  for (const std::size_t size : {std::size_t{5}, std::size_t{23}, std::size_t{30}, std::size_t{45}}) {
+    CHECK_THROWS_AS(decode(std::span(bytes).first(size), sample.values.size(), read), std::runtime_error);
+  }
+}
+
+}  // namespace
