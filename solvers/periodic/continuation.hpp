@@ -62,6 +62,11 @@ template <int N, int H>
 void Continuation<N, H>::find(double omega, bool half_period, Orbit<N, H>& orbit) {
   predict(omega, half_period, orbit);
   shooting_.find(orbit);
+  if (orbit.status == Status::failed && known_ > 0) {  // from further back, without the orbits before
+    forget();
+    predict(omega, half_period, orbit);
+    shooting_.find(orbit);
+  }
   if (orbit.status == Status::failed) {
     known_ = 0;
     return;
@@ -94,7 +99,13 @@ void Continuation<N, H>::predict(double omega, bool half_period, Orbit<N, H>& or
   }
   // Lagrange's polynomial through the orbits that went through the same modes.
   std::size_t points = 1;
-  while (points < known_ && history_[points].sequence == history_[0].sequence) ++points;
+  const auto differs_from_all_before = [&](std::size_t i) {
+    return std::none_of(history_.begin(), history_.begin() + static_cast<std::ptrdiff_t>(i),
+                        [&](const Known& known) { return known.omega == history_[i].omega; });
+  };
+  while (points < known_ && history_[points].sequence == history_[0].sequence &&
+         differs_from_all_before(points))
+    ++points;
   orbit.z.setZero(2 * n);
   for (std::size_t i = 0; i < points; ++i) {
     double weight = 1.0;
@@ -136,9 +147,15 @@ template <int N, int H>
 bool Continuation<N, H>::move_section(Orbit<N, H>& orbit) const {
   const double length = (orbit.half_period ? 0.5 : 1.0) * flow_.equations().period;
   const auto& segments = orbit.passage.segments;
-  if (segments.size() < 2) return false;
   const double first = segments.front().length, last = segments.back().length;
-  if (first > 0.02 * length && last > 0.02 * length) return false;
+  const bool near_event = segments.size() > 1 && (first <= 0.02 * length || last <= 0.02 * length);
+  if (!near_event && !orbit.passage.starts_at_event) return false;
+  if (segments.size() == 1) {
+    orbit.z = flow_.state_within(segments.front(), orbit.section, 0.5 * length);
+    orbit.section =
+        std::fmod(orbit.section + 0.5 * length * flow_.fundamental_rate(), 2.0 * std::numbers::pi);
+    return true;
+  }
 
   double longest = first + last, middle = 0.5 * (first - last);
   const Segment<N, H>* in = middle >= 0.0 ? &segments.front() : &segments.back();

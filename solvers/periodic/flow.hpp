@@ -70,6 +70,7 @@ struct Passage {
   std::vector<Segment<N, H>> segments;
   int events = 0;
   double margin = 1.0;  // how far the nearest event is from happening otherwise, relative; 0 = grazing
+  bool starts_at_event = false;   // a contact comes through rest at the very start, outside the tangent
   const char* failure = nullptr;  // why the passage could not be completed
 };
 
@@ -84,6 +85,11 @@ class Flow {
 
   // The flow from state z at `phase` (omega t) [rad] over `length` steps.
   void pass(const typename S::State& z, double phase, double length, Passage<N, H>& passage);
+
+  // Contacts that stick whatever their force, to try whether they stick throughout. None by default.
+  void hold_contacts(ContactMask contacts) { held_ = contacts; }
+  // z with the velocities of these contacts' rest at `phase`.
+  typename S::State brought_to_rest(const typename S::State& z, double phase, ContactMask contacts);
 
   const StepEquations<N, H>& equations() const { return equations_; }
   const std::vector<int>& orders() const { return orders_; }
@@ -145,6 +151,8 @@ class Flow {
   double static_norm_ = 0.0;
   bool matrices_changed_ = true;
   bool moving_support_ = false;  // some contact rubs on a prescribed node
+
+  ContactMask held_ = 0;
 
   // Of the passage in hand.
   typename S::Contacts speed_scale_, force_scale_;

@@ -222,6 +222,7 @@ double Flow<N, H>::first_stop(Eigen::Index j, Passage<N, H>& passage) {
 // When does the force of stuck contact j reach its limit within the step?
 template <int N, int H>
 double Flow<N, H>::first_release(Eigen::Index j, Passage<N, H>& passage) {
+  if (contains(held_, j)) return 2.0;
   const double limit = equations_.limit[j];
   const ValueAndSlope left = stuck_force(left_, modes_[mode_], j),
                       right = stuck_force(right_, modes_[mode_], j);

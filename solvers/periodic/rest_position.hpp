@@ -20,9 +20,10 @@ RestShift least_energy_shift(const Eigen::MatrixXd& K_inverse, const Eigen::Matr
 // whole orbit by -K^-1 W delta and leaves every velocity as it is, so all of these orbits are periodic. By
 // convention the mean position of least energy is taken,
 //   minimise 1/2 q^T K q,  q = q_mean - K^-1 W delta,  |lambda_j(t) + delta_j| <= F_j.
-// Moves `orbit` there; one whose limit is reached is grazing.
+// Moves `orbit` there; one whose limit is reached is grazing. False, and the orbit as it was, where no rest
+// position keeps the forces within their limits.
 template <int N, int H>
-void settle_rest_position(const mechanics::Assembly& assembly, const Flow<N, H>& flow,
+bool settle_rest_position(const mechanics::Assembly& assembly, const Flow<N, H>& flow,
                           OrbitSteps<N, H>& steps, Integrals<N, H>& integrals, Orbit<N, H>& orbit) {
   const StepEquations<N, H>& eq = flow.equations();
   const Eigen::Index n = eq.masses(), m = __builtin_popcountll(orbit.stuck_throughout);
@@ -41,8 +42,10 @@ void settle_rest_position(const mechanics::Assembly& assembly, const Flow<N, H>&
     });
     W.col(row) = eq.W.col(j);
     limit[row] = eq.limit[j];
-    lower[row] = std::min(0.0, -eq.limit[j] - force.least);
-    upper[row] = std::max(0.0, eq.limit[j] - force.most);
+    lower[row] = -eq.limit[j] - force.least;
+    upper[row] = eq.limit[j] - force.most;
+    if (lower[row] > upper[row] + kTie * eq.limit[j]) return false;
+    upper[row] = std::max(upper[row], lower[row]);
     ++row;
   }
   const RestShift shift = least_energy_shift(eq.K_inverse, W, mean, lower, upper, limit);
@@ -50,6 +53,7 @@ void settle_rest_position(const mechanics::Assembly& assembly, const Flow<N, H>&
   orbit.passage.end.head(n) += shift.displacement;
   for (Segment<N, H>& segment : orbit.passage.segments) segment.z.head(n) += shift.displacement;
   if (shift.at_limit) orbit.status = Status::grazing;
+  return true;
 }
 
 }  // namespace frahm::periodic

@@ -6,6 +6,16 @@ void Flow<N, H>::open_segment(Passage<N, H>& passage) {
   passage.segments.push_back({clock_, 0.0, mode_, left_.z});
 }
 
+template <int N, int H>
+typename Sizes<N, H>::State Flow<N, H>::brought_to_rest(const typename S::State& z, double phase,
+                                                        ContactMask contacts) {
+  typename S::State held = z;
+  typename S::Oscillators u(equations_.oscillators());
+  equations_.oscillators_at(phase, orders_, u);
+  configurations_[configuration_index(contacts)].hold(equations_, u, held);
+  return held;
+}
+
 // The mode at the start of a passage, and the tangent that keeps its stuck contacts stuck.
 template <int N, int H>
 void Flow<N, H>::enter(const typename S::State& z, double phase, Passage<N, H>& passage) {
@@ -14,6 +24,7 @@ void Flow<N, H>::enter(const typename S::State& z, double phase, Passage<N, H>& 
   passage.events = 0;
   passage.margin = 1.0;
   passage.failure = nullptr;
+  passage.starts_at_event = false;
   clock_ = 0.0;
   fresh_ = just_released_ = 0;
   set_scales(z);
@@ -35,6 +46,7 @@ void Flow<N, H>::enter(const typename S::State& z, double phase, Passage<N, H>& 
   release_at_limits();
   accelerate(modes_[mode_], left_);
 
+  passage.starts_at_event = fresh_ != 0;
   passage.tangent.setIdentity(2 * n, 2 * n);
   passage.tangent.bottomRightCorner(n, n) = configurations_[modes_[mode_].configuration].P;
   open_segment(passage);
@@ -123,7 +135,7 @@ void Flow<N, H>::choose_modes(ContactMask at_rest, Passage<N, H>& passage) {
     const Eigen::Index j = __builtin_ctzll(at_rest);
     const double force = relative(j) / eq.compliance[j], limit = eq.limit[j];
     if (limit > 0.0) passage.margin = std::min(passage.margin, std::abs(std::abs(force) - limit) / limit);
-    if (std::abs(force) <= limit * (1.0 + kTie) && limit > 0.0)
+    if (contains(held_, j) || (std::abs(force) <= limit * (1.0 + kTie) && limit > 0.0))
       stuck = bit(j);
     else
       slide(j, force > 0.0);
@@ -142,7 +154,12 @@ void Flow<N, H>::choose_modes(ContactMask at_rest, Passage<N, H>& passage) {
       for (Eigen::Index k = 0; k < m; ++k) G(i, k) = MWj.dot(eq.W.col(contacts[static_cast<std::size_t>(k)]));
     }
     const Eigen::VectorXd weight = limit.unaryExpr([](double f) { return f > 0.0 ? f : 1.0; });
-    const Eigen::VectorXd force = box_minimum(G, c, -limit, limit, weight);
+    constexpr double kWithoutLimit = 1e9;
+    Eigen::VectorXd bound = limit;
+    for (Eigen::Index i = 0; i < m; ++i) {
+      if (contains(held_, contacts[static_cast<std::size_t>(i)])) bound[i] = kWithoutLimit * weight[i];
+    }
+    const Eigen::VectorXd force = box_minimum(G, c, -bound, bound, weight);
     const Eigen::VectorXd acceleration = c - G * force;
     for (Eigen::Index i = 0; i < m; ++i) {
       const Eigen::Index j = contacts[static_cast<std::size_t>(i)];
@@ -167,7 +184,7 @@ void Flow<N, H>::release_at_limits() {
     again = false;
     for (Eigen::Index j = 0; j < equations_.contacts(); ++j) {
       const Mode<N, H>& mode = modes_[mode_];
-      if (!contains(mode.stuck, j)) continue;
+      if (!contains(mode.stuck & ~held_, j)) continue;
       const ValueAndSlope force = stuck_force(left_, mode, j);
       const double side = force.value > 0.0 ? 1.0 : -1.0;
       if (side * force.value < equations_.limit[j] * (1.0 - kTie) || side * force.slope <= 0.0) continue;
