@@ -133,8 +133,9 @@ void judge_stability(const Flow<N, H>& flow, Orbit<N, H>& orbit) {
   orbit.contraction = energy_operator_norm<N, H>(eq, moving);
   orbit.floquet_radius = spectral_radius(moving);
   if (orbit.half_period) orbit.floquet_radius *= orbit.floquet_radius;
-  // At grazing the map has a kink and no derivative.
-  if (orbit.passage.margin < kGrazing) orbit.floquet_radius = std::numeric_limits<double>::quiet_NaN();
+  // Where an event only just happens the map has a kink and no derivative.
+  const bool has_kink = orbit.passage.margin < kGrazing && orbit.passage.events > 0;
+  if (has_kink) orbit.floquet_radius = std::numeric_limits<double>::quiet_NaN();
 
   // ||z - z*||_E <= (||r||_E + rounding) / (1 - L), and |x_n| <= sqrt(2 (K^-1)_nn) ||z||_E.
   const double scale = std::max(eq.energy_norm(orbit.z), flow.static_norm());

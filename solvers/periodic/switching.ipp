@@ -134,7 +134,8 @@ void Flow<N, H>::choose_modes(ContactMask at_rest, Passage<N, H>& passage) {
   if (m == 1) {
     const Eigen::Index j = __builtin_ctzll(at_rest);
     const double force = relative(j) / eq.compliance[j], limit = eq.limit[j];
-    if (limit > 0.0) passage.margin = std::min(passage.margin, std::abs(std::abs(force) - limit) / limit);
+    if (limit > 0.0 && !contains(held_, j))
+      passage.margin = std::min(passage.margin, std::abs(std::abs(force) - limit) / limit);
     if (contains(held_, j) || (std::abs(force) <= limit * (1.0 + kTie) && limit > 0.0))
       stuck = bit(j);
     else
@@ -166,7 +167,8 @@ void Flow<N, H>::choose_modes(ContactMask at_rest, Passage<N, H>& passage) {
       const double scale = G(i, i) * weight[i] + std::abs(c[i]);
       const double pull = std::abs(acceleration[i]) / scale;
       const double room = (limit[i] - std::abs(force[i])) / weight[i];
-      if (limit[i] > 0.0) passage.margin = std::min(passage.margin, std::max(pull, room));
+      if (limit[i] > 0.0 && !contains(held_, j))
+        passage.margin = std::min(passage.margin, std::max(pull, room));
       if (pull <= kTie && limit[i] > 0.0)
         stuck |= bit(j);
       else
