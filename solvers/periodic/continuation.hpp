@@ -99,20 +99,16 @@ void Continuation<N, H>::predict(double omega, bool half_period, Orbit<N, H>& or
   }
   // Lagrange's polynomial through the orbits that went through the same modes.
   std::size_t points = 1;
-  const auto differs_from_all_before = [&](std::size_t i) {
-    return std::none_of(history_.begin(), history_.begin() + static_cast<std::ptrdiff_t>(i),
-                        [&](const Known& known) { return known.omega == history_[i].omega; });
-  };
-  while (points < known_ && history_[points].sequence == history_[0].sequence &&
-         differs_from_all_before(points))
-    ++points;
+  while (points < known_ && history_[points].sequence == history_[0].sequence) ++points;
   orbit.z.setZero(2 * n);
   for (std::size_t i = 0; i < points; ++i) {
-    double weight = 1.0;
+    double above = 1.0, below = 1.0;
     for (std::size_t k = 0; k < points; ++k) {
-      if (k != i) weight *= (omega - history_[k].omega) / (history_[i].omega - history_[k].omega);
+      if (k == i) continue;
+      above *= omega - history_[k].omega;
+      below *= history_[i].omega - history_[k].omega;
     }
-    orbit.z += weight * history_[i].z;
+    orbit.z += (above / below) * history_[i].z;
   }
   orbit.z.tail(n) *= flow_.equations().step;
 }
@@ -175,6 +171,10 @@ bool Continuation<N, H>::move_section(Orbit<N, H>& orbit) const {
 template <int N, int H>
 void Continuation<N, H>::remember(double omega, const Orbit<N, H>& orbit) {
   const Eigen::Index n = flow_.equations().masses();
+  // A frequency that returns ends what is known: no polynomial goes through one place twice.
+  for (std::size_t i = 0; i < known_; ++i) {
+    if (history_[i].omega == omega) known_ = i;
+  }
   for (std::size_t i = std::min(known_, kHistory - 1); i > 0; --i) history_[i] = history_[i - 1];
   known_ = std::min(known_ + 1, kHistory);
   Known& latest = history_[0];

@@ -89,7 +89,13 @@ void consider_interior(const OrbitSteps<N, H>& orbit, OrbitStep<N, H>& step, con
   if (steepest + std::abs(rise) <= rounding) return;  // held
   if (least_slope >= -1e-13 * steepest - rounding && steepest < 2.8 * std::abs(rise)) return;
   const Polynomial p = form.polynomial(orbit.expand(step));
-  const Roots stationary = sign_changes(derivative(p));
+  // After a stop or a release the slope starts from zero like s or s^2: that root is the step's end, divide
+  // it out.
+  Polynomial slope = derivative(p);
+  const double size = slope.cwiseAbs().sum();
+  int zeros = 0;
+  while (zeros < 3 && std::abs(slope[zeros]) <= 1e-13 * size) ++zeros;
+  const Roots stationary = sign_changes(deflate(slope, zeros));
   for (int i = 0; i < stationary.count; ++i) {
     const double s = stationary.at[static_cast<std::size_t>(i)];
     if (s <= step.length) collector.consider(evaluate(p, s), step.start + s, true);
