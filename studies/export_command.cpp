@@ -4,16 +4,13 @@
 #include <fmt/ostream.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <ostream>
-#include <system_error>
 
-#include "engine/io_error.hpp"
 #include "results/map_reader.hpp"
 #include "studies/grid.hpp"
+#include "studies/whole_file.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -89,22 +86,6 @@ void write_map(const results::MapReader& map, std::ostream& out) {
   }
 }
 
-void write_file(const results::MapReader& map, const std::filesystem::path& path) {
-  const std::filesystem::path part = path.string() + ".part";
-  std::error_code error;
-  errno = 0;
-  std::ofstream file(part, std::ios::binary | std::ios::trunc);
-  if (file) write_map(map, file);
-  file.close();
-  const int reason = errno;
-  if (!file) {
-    std::filesystem::remove(part, error);
-    throw engine::IoError(path, "write", reason);
-  }
-  std::filesystem::rename(part, path, error);
-  if (error) throw engine::IoError(path, "write", error.value());
-}
-
 }  // namespace
 
 int export_command(const ExportOptions& options, std::ostream& out) {
@@ -115,7 +96,8 @@ int export_command(const ExportOptions& options, std::ostream& out) {
   }
   const std::filesystem::path output =
       options.output.empty() ? std::filesystem::path(options.file).replace_extension(".csv") : options.output;
-  write_file(map, output);
+  check_output_is_not_input(output, options.file);
+  write_whole_file(output, [&](std::ostream& file) { write_map(map, file); });
   fmt::print(out, "{}\n", output.string());
   return 0;
 }

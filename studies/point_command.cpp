@@ -36,6 +36,7 @@ int point_command(const PointOptions& options, std::ostream& out) {
   }
   const StudyFile study = read_study_with(options.study, options.set);
   const std::vector<double> parameters = parameters_at(study, options.at);
+  if (options.history) check_output_is_not_input(*options.history, options.study);
   const PointReport report = tell_point(study, parameters, options.history ? intervals_a_period + 1 : 0);
   options.json ? print_point_json(study, report, out) : print_point(study, report, out);
   if (report.status == "failed") return exit_code::some_failed;

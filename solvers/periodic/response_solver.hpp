@@ -83,7 +83,7 @@ template <int N, int H>
 const ResponseSummary& SizedSolver<N, H>::solve() {
   if (is_unbounded(system_, undamped_modes_)) {
     orbit_.status = Status::unbounded;
-    orbit_.reason = "an undamped mode is driven at resonance harder than friction can hold";
+    orbit_.reason = "an undamped mode is driven at its resonance, and no friction holds it";
     orbit_.residual = std::numeric_limits<double>::quiet_NaN();
     orbit_.newton_iterations = orbit_.passages = 0;
     continuation_.forget();

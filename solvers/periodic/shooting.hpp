@@ -15,7 +15,9 @@ namespace frahm::periodic {
 struct ShootingOptions {
   double tolerance = 1e-13;    // of the relative residual: a few units of rounding of one passage
   double good_enough = 1e-12;  // accepted when rounding keeps the residual from falling further
-  int most_passages = 100000;  // enough for the map alone at damping ratios of 1e-4
+  int most_passages = 20000;   // enough for the map alone at damping ratios of 1e-3
+  double most_steps = 2e7;     // of all passages together: about a second of work
+  double most_steps_a_period = 2e5;
 };
 
 template <int N, int H>
@@ -44,11 +46,18 @@ template <int N, int H>
 void Shooting<N, H>::find(Orbit<N, H>& orbit) {
   orbit.status = Status::failed;
   orbit.reason = "";
+  orbit.residual = std::numeric_limits<double>::quiet_NaN();
+  orbit.passage.segments.clear();
   orbit.newton_iterations = orbit.passages = 0;
+  if (flow_.equations().period > options_.most_steps_a_period) {
+    orbit.reason = "the excitation is too slow, or the system too stiff: more than 200000 steps a period";
+    return;
+  }
   int maps = 2;
   apply_map(orbit);
   while (orbit.passage.failure == nullptr && orbit.residual > options_.tolerance) {
-    if (orbit.passages > options_.most_passages) {
+    const bool too_long = orbit.passages * flow_.equations().period > options_.most_steps;
+    if (orbit.passages > options_.most_passages || too_long) {
       orbit.reason = "no convergence: the period map contracts too slowly";
       return;
     }
