@@ -39,8 +39,9 @@ void check_masses_are_held(const StudyContext& context, const NetworkOfStudy& sy
     const auto& element = network.elements[i];
     const Expression& stiffness = system.values.element[i].expression;
     const bool absent = stiffness.is_constant() && stiffness.evaluate(std::span<const double>{}) == 0.0;
-    if (element.type == mechanics::ElementType::spring && !absent)
-      sets.join(set_of(element.a), set_of(element.b));
+    const bool holds =
+        element.type == mechanics::ElementType::spring || element.type == mechanics::ElementType::hysteretic;
+    if (holds && !absent) sets.join(set_of(element.a), set_of(element.b));
   }
   for (std::size_t i = 0; i < held; ++i) {
     if (sets.root(i) == sets.root(held)) continue;

@@ -22,7 +22,7 @@ const std::string force_path = "excitation.force";
 const std::string motion_path = "excitation.motion";
 const std::vector<std::string> excitation_keys{"frequency", "reference_order", "force", "motion"};
 
-// A component's keys; those of the crank are known so that its message can be about the profile.
+// A component's keys; those of the other profile are known so that the message can be about the profile.
 const std::vector<std::string> force_keys{"on", "node", "profile", "amplitude", "order", "phase"};
 const std::vector<std::string> motion_keys{"node",  "profile", "amplitude", "order",
                                            "phase", "crank",   "rod",       "taylor_order"};
@@ -36,13 +36,20 @@ int read_order(const TomlSection& section, const std::string& key, std::int64_t 
   return static_cast<int>(order);
 }
 
-void read_profile(const TomlSection& section, const std::vector<std::string>& profiles) {
-  if (section.choice_or("profile", profiles) == "crank") {
-    section.fail("profile", "\"crank\" is not available in this version; \"harmonic\" is");
+enum class Profile { harmonic, crank };
+
+Profile read_profile(const TomlSection& section, const std::vector<std::string>& profiles) {
+  const bool crank = section.choice_or("profile", profiles) == "crank";
+  if (crank) {
+    for (const char* key : {"amplitude", "order"}) {
+      if (section.find(key)) section.fail(key, "belongs to the profile \"harmonic\", not to \"crank\"");
+    }
+    return Profile::crank;
   }
   for (const char* key : {"crank", "rod", "taylor_order"}) {
     if (section.find(key)) section.fail(key, "belongs to the profile \"crank\", not to \"harmonic\"");
   }
+  return Profile::harmonic;
 }
 
 void read_component(NetworkReading& reading, const TomlSection& section, Excitation component) {
@@ -52,6 +59,24 @@ void read_component(NetworkReading& reading, const TomlSection& section, Excitat
   network.excitations.push_back(component);
   values.amplitude.push_back(read_value(reading, section, "amplitude",
                                         is_force ? Quantity::force : Quantity::length, Range::finite));
+  values.phase.push_back(read_value(reading, section, "phase", Quantity::angle, Range::finite, 0.0));
+  values.rod.push_back({});
+}
+
+// How many of its even orders are kept depends on crank/rod over the whole study: set_crank_orders().
+void read_crank(NetworkReading& reading, const TomlSection& section, Excitation component) {
+  auto& [network, values] = reading.result;
+  const std::int64_t taylor_order = section.integer_or("taylor_order", 0);
+  if (section.find("taylor_order") && taylor_order != 1 && taylor_order != 2 && taylor_order != 4) {
+    section.fail("taylor_order", fmt::format("{} is not possible; write 1, 2 or 4, or leave it out for the "
+                                             "crank's full Fourier series",
+                                             taylor_order));
+  }
+  component.taylor_order = static_cast<int>(taylor_order);
+  component.even_orders = component.taylor_order / 2;
+  network.excitations.push_back(component);
+  values.amplitude.push_back(read_value(reading, section, "crank", Quantity::length, Range::not_negative));
+  values.rod.push_back(read_value(reading, section, "rod", Quantity::length, Range::positive));
   values.phase.push_back(read_value(reading, section, "phase", Quantity::angle, Range::finite, 0.0));
 }
 
@@ -82,9 +107,12 @@ TomlSection motion_section(const NetworkReading& reading, const TomlValue& table
 
 void read_motion(NetworkReading& reading, const TomlValue& table, std::size_t number) {
   const TomlSection section = motion_section(reading, table, number);
-  read_profile(section, {"harmonic", "crank"});
   const auto node = find_node(reading.result.network, section.identifier("node"));
-  read_component(reading, section, {ExcitationKind::motion, node->index});
+  if (read_profile(section, {"harmonic", "crank"}) == Profile::crank) {
+    read_crank(reading, section, {ExcitationKind::crank, node->index});
+  } else {
+    read_component(reading, section, {ExcitationKind::motion, node->index});
+  }
 }
 
 // The frequency, and with it which parameters are angular frequencies or ratios of them.
@@ -107,6 +135,25 @@ int lowest_order(const NetworkReading& reading, const TomlSection& section) {
         "system");
   }
   return lowest;
+}
+
+// A hysteretic element has its damping at one frequency only, omega_h.
+void check_hysteretic_frequency(const NetworkReading& reading, const TomlSection& section) {
+  const auto& network = reading.result.network;
+  const auto hysteretic =
+      std::find_if(network.elements.begin(), network.elements.end(),
+                   [](const auto& element) { return element.type == mechanics::ElementType::hysteretic; });
+  if (hysteretic == network.elements.end() || section.find("reference_order")) return;
+  std::vector<int> orders;
+  for (const Excitation& component : network.excitations) {
+    if (component.order > 0) orders.push_back(component.order);
+    if (component.kind == ExcitationKind::crank && component.taylor_order != 1) orders.push_back(2);
+  }
+  if (std::all_of(orders.begin(), orders.end(), [&](int order) { return order == orders.front(); })) return;
+  section.fail(
+      fmt::format("the key \"reference_order\" is missing: the excitation has several orders, and "
+                  "the hysteretic element \"{}\" has its loss factor at reference_order x frequency",
+                  hysteretic->name));
 }
 
 }  // namespace
@@ -146,6 +193,7 @@ void read_excitation(NetworkReading& reading, const TomlValue& excitation) {
   const int lowest = lowest_order(reading, section);
   auto& reference = reading.result.network.reference_order;
   reference = section.find("reference_order") ? read_order(section, "reference_order", 1) : lowest;
+  check_hysteretic_frequency(reading, section);
 }
 
 }  // namespace frahm::studies

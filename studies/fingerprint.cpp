@@ -10,7 +10,7 @@ namespace frahm::studies {
 namespace {
 
 // Raised with every change of the solvers that changes a result by more than the last bits.
-constexpr int solver_version = 1;
+constexpr int solver_version = 2;
 
 // The text that is hashed: a line for each thing, every number in its shortest exact form.
 class CanonicalText {
@@ -66,14 +66,16 @@ void add_network(const StudyFile& study, CanonicalText& text) {
   text.line("prescribed {}", fmt::join(network.prescribed, " "));
   for (std::size_t i = 0; i < network.elements.size(); ++i) {
     const mechanics::Element& element = network.elements[i];
-    text.line("element {} {} {} {} {}", element.name, static_cast<int>(element.type), node_text(element.a),
-              node_text(element.b), value(values.element[i]));
+    text.line("element {} {} {} {} {} {} {}", element.name, static_cast<int>(element.type),
+              node_text(element.a), node_text(element.b), value(values.element[i]),
+              static_cast<int>(element.law), value(values.second[i]));
   }
   text.line("frequency {}", value(values.omega));
   for (std::size_t i = 0; i < network.excitations.size(); ++i) {
     const mechanics::Excitation& excitation = network.excitations[i];
-    text.line("excitation {} {} {} {} {}", static_cast<int>(excitation.kind), excitation.node,
-              excitation.order, value(values.amplitude[i]), value(values.phase[i]));
+    text.line("excitation {} {} {} {} {} {} {} {}", static_cast<int>(excitation.kind), excitation.node,
+              excitation.order, value(values.amplitude[i]), value(values.phase[i]), value(values.rod[i]),
+              excitation.taylor_order, excitation.even_orders);
   }
   text.line("reference order {}", network.reference_order);
 }

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "solvers/mechanics/crank.hpp"
 #include "studies/study_reading.hpp"
 
 namespace frahm::studies {
@@ -25,7 +27,7 @@ std::vector<Checked> all_checked(const StudyFile& study) {
   };
   const StudyValues& values = study.values;
   add(values.omega);
-  for (const auto* list : {&values.mass, &values.element, &values.amplitude, &values.phase}) {
+  for (const auto* list : values.lists()) {
     for (const StudyValue& value : *list) add(value);
   }
   for (const DerivedCoordinate& coordinate : study.coordinates) add(coordinate.value);
@@ -89,9 +91,12 @@ void check(const StudyFile& study, const Checked& checked, std::span<double> par
   }
 }
 
-// Walks over the product of some dimensions, all points or only the corners.
-void check_along(const StudyFile& study, const Checked& checked, std::vector<double>& parameters) {
-  const auto moving = dimensions_moving(study, checked.reads);
+// Walks over the product of the dimensions along which `reads` change, all points or only the corners.
+// visit(): at each, with `parameters` placed there but not completed.
+template <class Visit>
+void walk(const StudyFile& study, std::span<const std::size_t> reads, std::vector<double>& parameters,
+          const Visit& visit) {
+  const auto moving = dimensions_moving(study, reads);
   std::size_t points = 1;
   for (const std::size_t d : moving) {
     if (points <= most_points_tried) points *= study.dimensions[d].size;
@@ -101,7 +106,7 @@ void check_along(const StudyFile& study, const Checked& checked, std::vector<dou
   std::size_t turned = 0;
   do {
     for (std::size_t i = 0; i < moving.size(); ++i) place(study, moving[i], index[i], parameters);
-    check(study, checked, parameters);
+    visit();
     // The next index, like the digits of a counter.
     for (turned = 0; turned < moving.size(); ++turned) {
       const std::size_t last = study.dimensions[moving[turned]].size - 1;
@@ -114,7 +119,36 @@ void check_along(const StudyFile& study, const Checked& checked, std::vector<dou
   } while (turned < moving.size());
 }
 
+// The largest crank/rod of an excitation on the grid.
+double largest_crank_ratio(const StudyFile& study, std::size_t excitation) {
+  const StudyValue &crank = study.values.amplitude[excitation], &rod = study.values.rod[excitation];
+  std::vector<std::size_t> reads = crank.expression.reads();
+  reads.insert(reads.end(), rod.expression.reads().begin(), rod.expression.reads().end());
+  std::vector<double> parameters = study.parameters.nominal();
+  double largest = 0.0;
+  walk(study, reads, parameters, [&] {
+    study.parameters.complete(std::span<double>(parameters));
+    const std::span<const double> at(parameters);
+    const double ratio = crank.expression.evaluate(at) / rod.expression.evaluate(at);
+    if (ratio > mechanics::kLargestCrankRatio) {
+      fail(study, {&crank, nullptr, reads}, parameters, fmt::format("is {:.6g} times the rod", ratio),
+           fmt::format("must be at most {} times the rod", mechanics::kLargestCrankRatio));
+    }
+    largest = std::max(largest, ratio);
+  });
+  return largest;
+}
+
 }  // namespace
+
+void set_crank_orders(StudyFile& study) {
+  for (std::size_t i = 0; i < study.network.excitations.size(); ++i) {
+    mechanics::Excitation& excitation = study.network.excitations[i];
+    if (excitation.kind != mechanics::ExcitationKind::crank) continue;
+    const double ratio = largest_crank_ratio(study, i);
+    if (excitation.taylor_order == 0) excitation.even_orders = mechanics::crank_orders_needed(ratio);
+  }
+}
 
 void check_point(const StudyFile& study, std::span<double> parameters) {
   for (const Checked& checked : all_checked(study)) check(study, checked, parameters);
@@ -124,7 +158,7 @@ void check_grid(const StudyFile& study) {
   const std::vector<double> nominal = study.parameters.nominal();
   for (const Checked& checked : all_checked(study)) {
     std::vector<double> parameters = nominal;
-    check_along(study, checked, parameters);
+    walk(study, checked.reads, parameters, [&] { check(study, checked, parameters); });
   }
   for (const auto& orbit : study.output.orbits) {
     std::vector<double> parameters = nominal;

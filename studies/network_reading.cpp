@@ -14,22 +14,36 @@ using mechanics::ElementType;
 using mechanics::Node;
 using mechanics::NodeKind;
 
+struct ValueKey {
+  std::string key;  // "" : none
+  Quantity quantity = Quantity::number;
+  Range range = Range::finite;
+};
+
 struct ElementKind {
   std::string name;
   ElementType type;
-  std::string key;  // of its value
-  Quantity quantity;
-  Range range;
+  ValueKey value, second;
 };
 
-const std::array<ElementKind, 4>& element_kinds() {
-  static const std::array<ElementKind, 4> kinds{
-      {{"spring", ElementType::spring, "stiffness", Quantity::stiffness, Range::finite},
-       {"damper", ElementType::damper, "damping", Quantity::damping, Range::not_negative},
-       {"inerter", ElementType::inerter, "inertance", Quantity::inertance, Range::not_negative},
-       {"coulomb", ElementType::coulomb, "force", Quantity::force, Range::not_negative}}};
+const std::array<ElementKind, 6>& element_kinds() {
+  static const std::array<ElementKind, 6> kinds{
+      {{"spring", ElementType::spring, {"stiffness", Quantity::stiffness}, {}},
+       {"damper", ElementType::damper, {"damping", Quantity::damping, Range::not_negative}, {}},
+       {"inerter", ElementType::inerter, {"inertance", Quantity::inertance, Range::not_negative}, {}},
+       {"coulomb", ElementType::coulomb, {"force", Quantity::force, Range::not_negative}, {}},
+       {"hysteretic",
+        ElementType::hysteretic,
+        {"stiffness", Quantity::stiffness, Range::not_negative},
+        {"loss_factor", Quantity::number, Range::not_negative}},
+       {"maxwell",
+        ElementType::maxwell,
+        {"stiffness", Quantity::stiffness, Range::positive},
+        {"damping", Quantity::damping, Range::positive}}}};
   return kinds;
 }
+
+const ValueKey arctan_slope{"slope", Quantity::inverse_speed, Range::positive};
 
 const ElementKind& read_kind(const TomlSection& section) {
   const std::string type = section.text("type");
@@ -38,30 +52,26 @@ const ElementKind& read_kind(const TomlSection& section) {
     if (kind.name == type) return kind;
     known.push_back(kind.name);
   }
-  if (type == "hysteretic" || type == "maxwell") {
-    section.fail("type", fmt::format("\"{}\" is not available in this version", type));
-  }
   section.fail("type", fmt::format("no element is of type \"{}\"{}", type, suggestion(type, known)));
 }
 
-// Each type has one value and no key of another type.
+// Each type has its values and no key of another type.
 void check_keys_of_kind(const TomlSection& section, const ElementKind& kind) {
-  const auto refuse = [&](const std::string& key) {
-    if (section.find(key)) section.fail(key, fmt::format("a {} has a {}, no {}", kind.name, kind.key, key));
-  };
-  for (const ElementKind& other : element_kinds()) {
-    if (other.key != kind.key) refuse(other.key);
+  const bool rubs = kind.type == ElementType::coulomb;
+  for (const char* key : {"stiffness", "damping", "inertance", "force", "loss_factor", "law", "slope"}) {
+    const bool own = key == kind.value.key || key == kind.second.key;
+    if (own || !section.find(key) || (rubs && (key == std::string("law") || key == arctan_slope.key)))
+      continue;
+    const std::string second = kind.second.key.empty() ? "" : fmt::format(" and a {}", kind.second.key);
+    section.fail(key, fmt::format("a {} has a {}{}, no {}", kind.name, kind.value.key, second, key));
   }
-  refuse("loss_factor");
-  if (kind.type != ElementType::coulomb) {
-    refuse("law");
-    refuse("slope");
-    return;
-  }
-  if (section.choice_or("law", {"exact", "arctan"}) == "arctan") {
-    section.fail("law", "\"arctan\" is not available in this version; \"exact\" is");
-  }
+}
+
+mechanics::FrictionLaw read_law(const TomlSection& section, const ElementKind& kind) {
+  if (kind.type != ElementType::coulomb) return mechanics::FrictionLaw::exact;
+  if (section.choice_or("law", {"exact", "arctan"}) == "arctan") return mechanics::FrictionLaw::arctan;
   if (section.find("slope")) section.fail("slope", "only the law \"arctan\" has a slope");
+  return mechanics::FrictionLaw::exact;
 }
 
 std::array<Node, 2> read_between(const NetworkReading& reading, const TomlSection& section) {
@@ -111,8 +121,14 @@ void read_element(NetworkReading& reading, const TomlValue& table, std::size_t n
   const ElementKind& kind = read_kind(section);
   check_keys_of_kind(section, kind);
   const auto [a, b] = read_between(reading, section);
-  reading.result.network.elements.push_back({name, kind.type, a, b});
-  reading.result.values.element.push_back(read_value(reading, section, kind.key, kind.quantity, kind.range));
+  const mechanics::FrictionLaw law = read_law(section, kind);
+  reading.result.network.elements.push_back({name, kind.type, a, b, law});
+  const auto read = [&](const ValueKey& value) {
+    return read_value(reading, section, value.key, value.quantity, value.range);
+  };
+  const ValueKey second = law == mechanics::FrictionLaw::arctan ? arctan_slope : kind.second;
+  reading.result.values.element.push_back(read(kind.value));
+  reading.result.values.second.push_back(second.key.empty() ? StudyValue{} : read(second));
 }
 
 // A value that is nothing but a parameter, perhaps through other names for it, tells what that parameter is.

@@ -64,11 +64,17 @@ void read_heading(const TomlValue& root, StudyFile& study) {
 // What the masses and elements read.
 std::vector<std::size_t> read_by_matrices(const StudyFile& study) {
   std::vector<std::size_t> reads;
-  for (const auto* values : {&study.values.mass, &study.values.element}) {
-    for (const StudyValue& value : *values) {
-      reads.insert(reads.end(), value.expression.reads().begin(), value.expression.reads().end());
-    }
+  const auto add = [&](const StudyValue& value) {
+    reads.insert(reads.end(), value.expression.reads().begin(), value.expression.reads().end());
+  };
+  for (const auto* values : {&study.values.mass, &study.values.element, &study.values.second}) {
+    for (const StudyValue& value : *values) add(value);
   }
+  const auto& elements = study.network.elements;
+  const bool hysteretic = std::any_of(elements.begin(), elements.end(), [](const auto& element) {
+    return element.type == mechanics::ElementType::hysteretic;  // whose damping is eta k / omega
+  });
+  if (hysteretic) add(study.values.omega);
   return reads;
 }
 
@@ -119,6 +125,7 @@ StudyFile parse_study(std::string text, const std::filesystem::path& name) {
   read_output(context, root, study);
   find_frequency_dimension(study);
   check_grid(study);
+  set_crank_orders(study);
   return study;
 }
 
@@ -127,6 +134,7 @@ StudyFile with_parameters(StudyFile study, std::span<const Assignment> assignmen
     study.parameters.list[assignment.parameter].definition = assignment.value;
   }
   check_grid(study);
+  set_crank_orders(study);
   return study;
 }
 

@@ -47,6 +47,10 @@ void read_output(const StudyContext& context, const TomlValue& root, StudyFile& 
 // tried on all points of the dimensions it depends on, or, where these are too many, on their corners.
 void check_grid(const StudyFile& study);
 
+// How many even orders each crank needs for its largest crank/rod on the grid; refuses cranks that cannot
+// turn.
+void set_crank_orders(StudyFile& study);
+
 // A number in the unit given beside it, as { value, unit } or as a bare number (no unit then).
 struct NumberWithUnit {
   double value = 0.0;

@@ -10,12 +10,14 @@ void fill(const StudyValues& values, std::span<const Number> parameters, Part pa
   const auto at = [&](const StudyValue& value) { return part(value.expression.evaluate(parameters)); };
   out.mass.resize(values.mass.size());
   out.element.resize(values.element.size());
+  out.second.resize(values.second.size());
+  for (std::size_t i = 0; i < out.second.size(); ++i) out.second[i] = at(values.second[i]);
   out.excitation.resize(values.amplitude.size());
   out.omega = at(values.omega);
   for (std::size_t i = 0; i < out.mass.size(); ++i) out.mass[i] = at(values.mass[i]);
   for (std::size_t i = 0; i < out.element.size(); ++i) out.element[i] = at(values.element[i]);
   for (std::size_t i = 0; i < out.excitation.size(); ++i) {
-    out.excitation[i] = {at(values.amplitude[i]), at(values.phase[i])};
+    out.excitation[i] = {at(values.amplitude[i]), at(values.phase[i]), at(values.rod[i])};
   }
 }
 

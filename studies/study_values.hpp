@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,6 +28,13 @@ struct StudyValue {
 struct StudyValues {
   StudyValue omega;
   std::vector<StudyValue> mass, element, amplitude, phase;
+  std::vector<StudyValue> second;  // of each element, the constant 0 where it has none
+  std::vector<StudyValue> rod;     // of each excitation, the constant 0 where it is no crank
+
+  // All but the frequency.
+  std::array<const std::vector<StudyValue>*, 6> lists() const {
+    return {&mass, &element, &second, &amplitude, &phase, &rod};
+  }
 };
 
 // The numbers of the network at one point of the map.

@@ -18,7 +18,7 @@ struct QuantityEntry {
 };
 
 // In the order of Quantity.
-constexpr std::array<QuantityEntry, 9> quantities{{
+constexpr std::array<QuantityEntry, 12> quantities{{
     {"a pure number", "1", "1", "1 or %", {0, 0, 0}},
     {"a length", "m", "m", "m, mm or um", {1, 0, 0}},
     {"a mass", "kg", "kg", "kg, g or t", {0, 1, 0}},
@@ -28,6 +28,9 @@ constexpr std::array<QuantityEntry, 9> quantities{{
     {"a damping", "N s m-1", "N s/m", "N s/m, kN s/m or N s/mm", {0, 1, -1}},
     {"an angle", "rad", "rad", "rad or degree", {0, 0, 0}},
     {"an angular frequency", "rad s-1", "rad/s", "rad/s, rpm or Hz", {0, 0, -1}},
+    {"a speed", "m s-1", "m/s", "m/s or mm/s", {1, 0, -1}},
+    {"a time", "s", "s", "s, ms or min", {0, 0, 1}},
+    {"an inverse speed", "s m-1", "s/m", "s/m or s/mm", {-1, 0, 1}},
 }};
 
 const QuantityEntry& entry(Quantity quantity) {

@@ -19,6 +19,9 @@ enum class Quantity {
   damping,            // N s/m
   angle,              // rad
   angular_frequency,  // rad/s
+  speed,              // m/s
+  time,               // s
+  inverse_speed,      // s/m
 };
 
 std::string_view quantity_name(Quantity quantity);    // with its article: "a stiffness"

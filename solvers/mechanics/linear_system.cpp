@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <numbers>
 #include <sstream>
+
+#include "solvers/mechanics/crank.hpp"
 
 namespace frahm::mechanics {
 namespace {
@@ -19,8 +22,41 @@ const char* value_name(ElementType type) {
       return "inertance";
     case ElementType::coulomb:
       return "force";
+    case ElementType::hysteretic:
+    case ElementType::maxwell:
+      return "stiffness";
   }
   return "value";
+}
+
+// Of the types that have a second value; "" for the others.
+const char* second_value_name(const Element& element) {
+  if (element.type == ElementType::hysteretic) return "loss_factor";
+  if (element.type == ElementType::maxwell) return "damping";
+  if (element.type == ElementType::coulomb && element.law == FrictionLaw::arctan) return "slope";
+  return "";
+}
+
+double second_value(const NetworkValues& values, std::size_t element) {
+  return element < values.second.size() ? values.second[element] : 0.0;
+}
+
+ElementLaw element_law(ElementType type, double value, double second, double omega_h) {
+  switch (type) {
+    case ElementType::spring:
+      return {.stiffness = value};
+    case ElementType::damper:
+      return {.damping = value};
+    case ElementType::inerter:
+      return {.inertance = value};
+    case ElementType::coulomb:
+      return {.friction = value};
+    case ElementType::hysteretic:  // k (1 + i eta) at omega_h
+      return {.stiffness = value, .damping = second * value / omega_h};
+    case ElementType::maxwell:
+      return {.maxwell_damping = second};
+  }
+  return {};
 }
 
 [[noreturn]] void refuse(const std::string& thing, double value, const std::string& rule) {
@@ -61,6 +97,8 @@ Assembly::Assembly(const Network& network) : network_(network), shares_(network.
     if (incidences_.back().w.isZero(0.0)) {
       throw MechanicsError("element '" + element.name + "' joins no moving node");
     }
+    if (element.type == ElementType::maxwell) ++maxwell_elements_;
+    if (element.type == ElementType::hysteretic) has_hysteretic_ = true;
     if (element.type != ElementType::coulomb) continue;
     const auto same_nodes = [&](const Element* other) {
       return (other->a == element.a && other->b == element.b) ||
@@ -79,6 +117,9 @@ Assembly::Assembly(const Network& network) : network_(network), shares_(network.
     if (excitation.order < 0) throw MechanicsError("the order of an excitation must not be negative");
     if (excitation.order > 0) orders_.push_back(excitation.order);
     if (excitation.order % 2 == 0) odd_forcing_ = false;
+    if (excitation.kind != ExcitationKind::crank || excitation.taylor_order == 1) continue;
+    odd_forcing_ = false;
+    for (int m = 1; m <= excitation.even_orders; ++m) orders_.push_back(2 * m);
   }
   if (network_.reference_order < 1) throw MechanicsError("the reference order must be at least 1");
   orders_.push_back(network_.reference_order);
@@ -98,6 +139,17 @@ void Assembly::check_values(const NetworkValues& values) const {
     const std::string thing = std::string(value_name(element.type)) + " of '" + element.name + "'";
     if (!std::isfinite(value)) refuse(thing, value, "must be finite");
     if (element.type != ElementType::spring && value < 0.0) refuse(thing, value, "must not be negative");
+    if (element.type == ElementType::maxwell && value == 0.0) refuse(thing, value, "must be positive");
+    const std::string second_name = second_value_name(element);
+    if (second_name.empty()) continue;
+    const double second = second_value(values, e);
+    const std::string second_thing = second_name + " of '" + element.name + "'";
+    if (element.type == ElementType::hysteretic) {
+      if (!(second >= 0.0 && std::isfinite(second)))
+        refuse(second_thing, second, "must be finite and not negative");
+    } else if (!(second > 0.0 && std::isfinite(second))) {
+      refuse(second_thing, second, "must be finite and positive");
+    }
   }
 }
 
@@ -115,40 +167,80 @@ void Assembly::set_values(const NetworkValues& values, LinearSystem& system) con
   system.W.setZero(n, m);
   system.W_support.setZero(p, m);
   system.limit.setZero(m);
+  const auto s = static_cast<Eigen::Index>(maxwell_elements_);
+  system.D.setZero(n, s);
+  system.D_support.setZero(p, s);
+  system.maxwell_stiffness.setZero(s);
+  system.maxwell_rate.setZero(s);
   system.orders = orders_;
   system.odd_forcing = odd_forcing_;
   for (Eigen::Index i = 0; i < n; ++i) system.M(i, i) = values.mass[static_cast<std::size_t>(i)];
 
-  // Each element adds value * w w^T to the block of the masses and value * w p^T to that of the supports.
+  const double omega_h =
+      values.hysteretic_omega > 0.0 ? values.hysteretic_omega : network_.reference_order * values.omega;
+  system.laws.resize(network_.elements.size());
+  Eigen::Index maxwell = 0;
+  // Each coefficient adds coefficient * w w^T to the block of the masses and coefficient * w p^T to that of
+  // the supports.
   const auto add = [](Eigen::MatrixXd& block, Eigen::MatrixXd& support, const Incidence& at, double value) {
+    if (value == 0.0) return;
     block.noalias() += value * at.w * at.w.transpose();
     support.noalias() += value * at.w * at.p.transpose();
   };
   for (std::size_t e = 0; e < network_.elements.size(); ++e) {
     const Incidence& at = incidences_[e];
-    const double value = values.element[e];
+    ElementLaw& law = system.laws[e];
+    law = element_law(network_.elements[e].type, values.element[e], second_value(values, e), omega_h);
+    add(system.K, system.K_support, at, law.stiffness);
+    add(system.C, system.C_support, at, law.damping);
+    add(system.M, system.M_support, at, law.inertance);
     switch (network_.elements[e].type) {
-      case ElementType::spring:
-        add(system.K, system.K_support, at, value);
-        break;
-      case ElementType::damper:
-        add(system.C, system.C_support, at, value);
-        break;
-      case ElementType::inerter:
-        add(system.M, system.M_support, at, value);
-        break;
       case ElementType::coulomb: {
         const auto contact = static_cast<Eigen::Index>(shares_[e].contact);
         system.W.col(contact) = shares_[e].orientation * at.w;
         system.W_support.col(contact) = shares_[e].orientation * at.p;
-        system.limit[contact] += value;
+        system.limit[contact] += law.friction;
         break;
       }
+      case ElementType::maxwell:
+        law.maxwell = maxwell++;
+        system.D.col(law.maxwell) = at.w;
+        system.D_support.col(law.maxwell) = at.p;
+        system.maxwell_stiffness[law.maxwell] = values.element[e];
+        system.maxwell_rate[law.maxwell] = values.element[e] / law.maxwell_damping;
+        break;
+      case ElementType::spring:
+      case ElementType::damper:
+      case ElementType::inerter:
+      case ElementType::hysteretic:
+        break;
     }
   }
   require_positive_definite(system.M, "mass", "a mass of zero needs an inerter that moves with it");
   require_positive_definite(system.K, "stiffness",
                             "some motion is held by no spring, or a negative stiffness is too large");
+}
+
+// R cos(omega t + phase - pi/2) + sum_m even[m] cos(2 m (omega t + phase))
+void Assembly::add_crank(const Excitation& excitation, const ExcitationValue& value,
+                         LinearSystem& system) const {
+  const auto [radius, phase, rod] = value;
+  if (!(radius >= 0.0)) refuse("the crank's radius", radius, "must not be negative");
+  if (!(std::isfinite(rod) && rod > radius)) refuse("the crank's rod", rod, "must be longer than the crank");
+  const int even_orders = excitation.taylor_order == 1 ? 0 : excitation.even_orders;
+  if (excitation.taylor_order == 0 && radius > 0.0 && crank_orders_needed(radius / rod) > even_orders) {
+    refuse("crank over rod", radius / rod, "is more than the orders kept serve");
+  }
+  const auto node = static_cast<Eigen::Index>(excitation.node);
+  const auto place = [&](int order) {
+    return std::lower_bound(orders_.begin(), orders_.end(), order) - orders_.begin();
+  };
+  const auto even = crank_even_orders(radius, rod, even_orders, excitation.taylor_order);
+  system.motion(node, place(1)) += std::polar(radius, phase - 0.5 * std::numbers::pi);
+  system.constant_motion[node] += even[0];
+  for (int m = 1; m <= even_orders; ++m) {
+    system.motion(node, place(2 * m)) += even[static_cast<std::size_t>(m)] * std::polar(1.0, 2 * m * phase);
+  }
 }
 
 void Assembly::set_forcing(const NetworkValues& values, LinearSystem& system) const {
@@ -167,9 +259,13 @@ void Assembly::set_forcing(const NetworkValues& values, LinearSystem& system) co
   for (std::size_t k = 0; k < network_.excitations.size(); ++k) {
     const Excitation& excitation = network_.excitations[k];
     const auto node = static_cast<Eigen::Index>(excitation.node);
-    const auto [amplitude, phase] = values.excitation[k];
+    const auto [amplitude, phase, rod] = values.excitation[k];
     if (!std::isfinite(amplitude)) refuse("an excitation's amplitude", amplitude, "must be finite");
     if (!std::isfinite(phase)) refuse("an excitation's phase", phase, "must be finite");
+    if (excitation.kind == ExcitationKind::crank) {
+      add_crank(excitation, values.excitation[k], system);
+      continue;
+    }
     const bool is_force = excitation.kind == ExcitationKind::force;
     if (excitation.order == 0) {
       (is_force ? system.constant_force : system.constant_motion)[node] += amplitude * std::cos(phase);
@@ -182,7 +278,8 @@ void Assembly::set_forcing(const NetworkValues& values, LinearSystem& system) co
   system.applied_force = system.force;
   if (p == 0) return;
 
-  // What the supports exert: f = -(K_s y + C_s y' + M_s y''), harmonic by harmonic.
+  // What the supports exert: f = -(K_s y + C_s y' + M_s y''), harmonic by harmonic. What they exert through
+  // Maxwell elements is in those elements' forces.
   system.constant_force.noalias() -= system.K_support * system.constant_motion;
   for (Eigen::Index k = 0; k < harmonics; ++k) {
     const std::complex<double> i_omega(0.0, orders_[static_cast<std::size_t>(k)] * values.omega);

@@ -29,19 +29,36 @@ struct ContactShare {
   double orientation = 1;   // +1 if the element points as the contact does, -1 otherwise
 };
 
+// Force of an element by its coefficients: k u + c v + b v' + friction Sgn(v) + s.
+struct ElementLaw {
+  double stiffness = 0.0;        // k [N/m]
+  double damping = 0.0;          // c [N s/m]; of a hysteretic element eta k / omega_h
+  double inertance = 0.0;        // b [kg]
+  double friction = 0.0;         // [N]
+  Eigen::Index maxwell = -1;     // place of the Maxwell force s among the system's, -1: none
+  double maxwell_damping = 0.0;  // of the damper that s runs through [N s/m]
+};
+
 // Equation of motion of a network of n masses, p prescribed nodes and m friction contacts:
 //
-//   M q'' + C q' + K q = f(t) - sum_j w_j lambda_j,   lambda_j in F_j Sgn(w_j^T q' + p_j^T y')
+//   M q'' + C q' + K q + sum_e d_e s_e = f(t) - sum_j w_j lambda_j,
+//   s_e' = k_e (d_e^T q' + p_e^T y') - s_e k_e / c_e           of each Maxwell element
+//   lambda_j in F_j Sgn(w_j^T q' + p_j^T y')                   of each friction contact
 //   y(t) = y_0 + Re sum_k Y_k e^{i order_k omega t}
 //   f(t) = f_0 + Re sum_k f_k e^{i order_k omega t}, which includes what the prescribed nodes exert
 //
-// Shapes: M, C, K n x n; M_support, C_support, K_support n x p; W n x m; W_support p x m.
+// Shapes: M, C, K n x n; M_support, C_support, K_support n x p; W n x m; W_support p x m; D n x s; D_support
+// p x s.
 struct LinearSystem {
   double omega = 0.0;  // [rad/s]
   Eigen::MatrixXd M, C, K;
   Eigen::MatrixXd M_support, C_support, K_support;  // blocks that couple masses to prescribed nodes
   Eigen::MatrixXd W, W_support;                     // directions of the friction contacts
   Eigen::VectorXd limit;                            // F_j [N] of each contact
+  Eigen::MatrixXd D, D_support;                     // directions d_e, p_e of the Maxwell elements
+  Eigen::VectorXd maxwell_stiffness;                // k_e [N/m]
+  Eigen::VectorXd maxwell_rate;                     // k_e / c_e [rad/s]
+  std::vector<ElementLaw> laws;                     // of each element
   std::vector<int> orders;                 // > 0, ascending: of the excitation, and the reference order
   bool odd_forcing = false;                // every component of the excitation has an odd order
   Eigen::VectorXd constant_force;          // f_0 [N], size n
@@ -53,6 +70,7 @@ struct LinearSystem {
 
   Eigen::Index masses() const { return M.rows(); }
   Eigen::Index contacts() const { return limit.size(); }
+  Eigen::Index maxwell_elements() const { return maxwell_stiffness.size(); }
 };
 
 // Builds LinearSystems of one network. Topology is worked out once; `set_values` and `set_forcing` only fill
@@ -61,7 +79,8 @@ class Assembly {
  public:
   explicit Assembly(const Network& network);  // keeps a copy; throws MechanicsError
 
-  // Element and mass values -> matrices and friction limits.
+  // Element and mass values -> matrices, Maxwell elements and friction limits. Hysteretic elements make them
+  // depend on omega, see matrices_depend_on_frequency().
   // Throws MechanicsError where a value is out of range or M or K is not positive definite.
   void set_values(const NetworkValues& values, LinearSystem& system) const;
 
@@ -73,16 +92,19 @@ class Assembly {
   const std::vector<ContactShare>& shares() const { return shares_; }       // of each element (coulomb only)
   const std::vector<int>& orders() const { return orders_; }
   std::size_t contacts() const { return contacts_; }
+  std::size_t maxwell_elements() const { return maxwell_elements_; }
+  bool matrices_depend_on_frequency() const { return has_hysteretic_; }
 
  private:
   void check_values(const NetworkValues& values) const;
+  void add_crank(const Excitation& excitation, const ExcitationValue& value, LinearSystem& system) const;
 
   Network network_;
   std::vector<Incidence> incidences_;
   std::vector<ContactShare> shares_;
   std::vector<int> orders_;
-  bool odd_forcing_ = true;
-  std::size_t contacts_ = 0;
+  bool odd_forcing_ = true, has_hysteretic_ = false;
+  std::size_t contacts_ = 0, maxwell_elements_ = 0;
 };
 
 }  // namespace frahm::mechanics

@@ -21,28 +21,37 @@ struct Node {
 };
 
 // Force of an element on its relative displacement u = q_b - q_a and relative velocity v = u':
-//   spring   k u        value = stiffness k [N/m]
-//   damper   c v        value = damping c [N s/m]
-//   inerter  b v'       value = inertance b [kg]
-//   coulomb  F Sgn(v)   value = friction force F [N], Sgn(0) = [-1, 1]
-enum class ElementType { spring, damper, inerter, coulomb };
+//   spring      k u                          value = stiffness k [N/m]
+//   damper      c v                          value = damping c [N s/m]
+//   inerter     b v'                         value = inertance b [kg]
+//   coulomb     F Sgn(v), Sgn(0) = [-1, 1]   value = friction force F [N]
+//   hysteretic  k u + (eta k / omega_h) v    value = stiffness k [N/m], second = loss factor eta [1]
+//   maxwell     s, s' = k v - (k/c) s        value = stiffness k [N/m], second = damping c [N s/m], in series
+enum class ElementType { spring, damper, inerter, coulomb, hysteretic, maxwell };
+
+// Of a coulomb element. arctan smooths it: F (2/pi) arctan(slope v), second value = slope [s/m].
+enum class FrictionLaw { exact, arctan };
 
 struct Element {
   std::string name;
   ElementType type = ElementType::spring;
   Node a, b;
+  FrictionLaw law = FrictionLaw::exact;
 };
 
 enum class ExcitationKind {
   force,   // P cos(order omega t + phase) on a mass [N]
   motion,  // displacement A cos(order omega t + phase) of a prescribed node [m]
+  crank,   // displacement of a prescribed node by a crank that turns with omega t + phase (crank.hpp)
 };
 
 // One component of the excitation; order 0 is a constant. Components on one node add up.
 struct Excitation {
   ExcitationKind kind = ExcitationKind::force;
-  std::size_t node = 0;  // index into Network::masses (force) or Network::prescribed (motion)
-  int order = 1;
+  std::size_t node = 0;  // index into Network::masses (force) or Network::prescribed (motion, crank)
+  int order = 1;         // of a crank: 1
+  int even_orders = 0;   // of a crank: how many of its orders 2, 4, 6 ... are kept
+  int taylor_order = 0;  // of a crank: 1, 2 or 4 cuts its Taylor series in crank/rod there; 0: exact
 };
 
 struct Network {
@@ -53,9 +62,10 @@ struct Network {
   int reference_order = 1;  // the harmonic of which phases are taken
 };
 
-struct Harmonic {
-  double amplitude = 0.0;  // [N] for a force, [m] for a motion
+struct ExcitationValue {
+  double amplitude = 0.0;  // [N] for a force, [m] for a motion; radius [m] of a crank
   double phase = 0.0;      // [rad]
+  double rod = 0.0;        // length [m] of a crank's rod, > amplitude
 };
 
 // The numbers of a network at one point of a map, in the order of the lists in `Network`.
@@ -63,7 +73,9 @@ struct NetworkValues {
   double omega = 0.0;           // fundamental angular frequency [rad/s], > 0
   std::vector<double> mass;     // [kg], >= 0 (zero where an inerter keeps the mass matrix definite)
   std::vector<double> element;  // stiffness, damping, inertance or force of each element (see ElementType)
-  std::vector<Harmonic> excitation;  // of each excitation component
+  std::vector<ExcitationValue> excitation;  // of each excitation component
+  std::vector<double> second{};   // of each element, 0 where it has none; may be empty where none has one
+  double hysteretic_omega = 0.0;  // omega_h [rad/s] of hysteretic elements; 0: reference order x omega
 };
 
 }  // namespace frahm::mechanics

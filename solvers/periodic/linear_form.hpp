@@ -46,14 +46,14 @@ class Forms {
   Form velocity(const mechanics::Incidence& at) const;
   Form acceleration(const mechanics::Incidence& at, const Mode<N, H>& mode) const;
 
-  // Force [N] of an element; `value` is its stiffness, damping, inertance or friction force.
-  Form element_force(std::size_t element, double value, const Mode<N, H>& mode) const;
+  // Force [N] of an element.
+  Form element_force(std::size_t element, const mechanics::ElementLaw& law, const Mode<N, H>& mode) const;
 
   // lambda_j [N] of a contact that sticks in this mode.
   Form stuck_contact_force(Eigen::Index contact, const Mode<N, H>& mode) const;
 
   // Sum of the forces [N] that all elements at `node` (ground or prescribed) need there: what drives it.
-  Form node_force(const mechanics::Node& node, const std::vector<double>& element_values,
+  Form node_force(const mechanics::Node& node, const std::vector<mechanics::ElementLaw>& laws,
                   const Mode<N, H>& mode) const;
 
  private:
@@ -96,27 +96,22 @@ LinearForm<N, H> Forms<N, H>::acceleration(const mechanics::Incidence& at, const
 }
 
 template <int N, int H>
-LinearForm<N, H> Forms<N, H>::element_force(std::size_t element, double value, const Mode<N, H>& mode) const {
+LinearForm<N, H> Forms<N, H>::element_force(std::size_t element, const mechanics::ElementLaw& law,
+                                            const Mode<N, H>& mode) const {
   const mechanics::Incidence& at = assembly_.incidences()[element];
   Form form = zero();
-  switch (assembly_.network().elements[element].type) {
-    case mechanics::ElementType::spring:
-      return form.add(value, displacement(at));
-    case mechanics::ElementType::damper:
-      return form.add(value, velocity(at));
-    case mechanics::ElementType::inerter:
-      return form.add(value, acceleration(at, mode));
-    case mechanics::ElementType::coulomb:
-      break;
-  }
+  if (law.stiffness != 0.0) form.add(law.stiffness, displacement(at));
+  if (law.damping != 0.0) form.add(law.damping, velocity(at));
+  if (law.inertance != 0.0) form.add(law.inertance, acceleration(at, mode));
+  if (law.friction == 0.0) return form;
   const mechanics::ContactShare& place = assembly_.shares()[element];
   const auto contact = static_cast<Eigen::Index>(place.contact);
   const double limit = flow_.equations().limit[contact];
-  const double share = limit > 0.0 ? place.orientation * value / limit : 0.0;
+  const double share = limit > 0.0 ? place.orientation * law.friction / limit : 0.0;
   if (contains(mode.stuck, contact)) {
     form.add(share, stuck_contact_force(contact, mode));
   } else {
-    form.u[0] = share * mode.friction[contact];
+    form.u[0] += share * mode.friction[contact];
   }
   return form;
 }
@@ -135,13 +130,13 @@ LinearForm<N, H> Forms<N, H>::stuck_contact_force(Eigen::Index contact, const Mo
 
 template <int N, int H>
 LinearForm<N, H> Forms<N, H>::node_force(const mechanics::Node& node,
-                                         const std::vector<double>& element_values,
+                                         const std::vector<mechanics::ElementLaw>& laws,
                                          const Mode<N, H>& mode) const {
   Form sum = zero();
   const auto& elements = assembly_.network().elements;
   for (std::size_t e = 0; e < elements.size(); ++e) {
-    if (elements[e].b == node) sum.add(+1.0, element_force(e, element_values[e], mode));
-    if (elements[e].a == node) sum.add(-1.0, element_force(e, element_values[e], mode));
+    if (elements[e].b == node) sum.add(+1.0, element_force(e, laws[e], mode));
+    if (elements[e].a == node) sum.add(-1.0, element_force(e, laws[e], mode));
   }
   return sum;
 }

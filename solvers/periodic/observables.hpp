@@ -30,9 +30,8 @@ class Observables {
   // Frequencies and damping of the linear modes, when the matrices have changed.
   void set_system(const mechanics::LinearSystem& system);
 
-  // out[i] is quantity i; `element_values` are those of the network.
-  void evaluate(const Orbit<N, H>& orbit, const mechanics::LinearSystem& system,
-                const std::vector<double>& element_values, std::span<double> out);
+  // out[i] is quantity i.
+  void evaluate(const Orbit<N, H>& orbit, const mechanics::LinearSystem& system, std::span<double> out);
   // For a point without a response.
   void fill_missing(Status status, std::span<double> out) const;
 
@@ -76,7 +75,6 @@ class Observables {
   std::vector<ContactHistory> histories_;
   const Orbit<N, H>* orbit_ = nullptr;
   const mechanics::LinearSystem* system_ = nullptr;
-  const std::vector<double>* element_values_ = nullptr;
   double dissipated_ = 0.0;
 };
 

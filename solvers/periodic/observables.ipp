@@ -110,9 +110,9 @@ LinearForm<N, H> Observables<N, H>::form_of(const Trace& trace, const Mode<N, H>
     case Measure::acceleration_peak:
       return forms_.acceleration(trace.at, mode);
     case Measure::force_peak:
-      return forms_.element_force(trace.element, (*element_values_)[trace.element], mode);
+      return forms_.element_force(trace.element, system_->laws[trace.element], mode);
     case Measure::transmitted_force:
-      return forms_.node_force(trace.node, *element_values_, mode);
+      return forms_.node_force(trace.node, system_->laws, mode);
     default:
       return forms_.displacement(trace.at);
   }
@@ -120,10 +120,9 @@ LinearForm<N, H> Observables<N, H>::form_of(const Trace& trace, const Mode<N, H>
 
 template <int N, int H>
 void Observables<N, H>::evaluate(const Orbit<N, H>& orbit, const mechanics::LinearSystem& system,
-                                 const std::vector<double>& element_values, std::span<double> out) {
+                                 std::span<double> out) {
   orbit_ = &orbit;
   system_ = &system;
-  element_values_ = &element_values;
   steps_.lay_out(orbit);
   if (needs_integrals_) integrate(orbit);
   for (Trace& trace : traces_) {
@@ -177,7 +176,7 @@ void Observables<N, H>::integrate(const Orbit<N, H>& orbit) {
       Form velocity = Form::zero(eq.masses(), eq.oscillators());
       velocity.u = eq.motion_velocity.row(s).transpose() / eq.step;
       const mechanics::Node node{mechanics::NodeKind::prescribed, static_cast<std::size_t>(s)};
-      powers.push_back({forms_.node_force(node, *element_values_, mode), velocity});
+      powers.push_back({forms_.node_force(node, system_->laws, mode), velocity});
     }
   };
   integrals_.integrate(steps_, flow_, orbit.half_period, powers_of);
@@ -202,20 +201,17 @@ ContactHistory Observables<N, H>::history_of(std::size_t contact) const {
 
 template <int N, int H>
 double Observables<N, H>::element_energy(std::size_t element) const {
-  const double value = (*element_values_)[element];
-  switch (assembly_.network().elements[element].type) {
-    case mechanics::ElementType::damper: {
-      // integral of c v^2
-      const Form velocity = forms_.velocity(assembly_.incidences()[element]);
-      return value * integrals_.product(velocity, velocity);
-    }
-    case mechanics::ElementType::coulomb:
-      return value * histories_[assembly_.shares()[element].contact].sliding_distance;
-    case mechanics::ElementType::spring:
-    case mechanics::ElementType::inerter:
-      break;
+  const mechanics::ElementLaw& law = system_->laws[element];
+  double energy = 0.0;
+  if (law.damping != 0.0) {
+    // integral of c v^2
+    const Form velocity = forms_.velocity(assembly_.incidences()[element]);
+    energy += law.damping * integrals_.product(velocity, velocity);
   }
-  return 0.0;
+  if (law.friction != 0.0) {
+    energy += law.friction * histories_[assembly_.shares()[element].contact].sliding_distance;
+  }
+  return energy;
 }
 
 template <int N, int H>
@@ -325,7 +321,7 @@ double Observables<N, H>::value_of_element(std::size_t i) const {
     case Measure::stuck_fraction:
       return history.stuck_fraction;
     default:
-      return static_cast<double>(regime_of((*element_values_)[element], history));
+      return static_cast<double>(regime_of(system_->laws[element].friction, history));
   }
 }
 

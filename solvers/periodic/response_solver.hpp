@@ -34,7 +34,6 @@ class SizedSolver final : public ResponseSolver {
   void set_values(const mechanics::NetworkValues& values) override {
     assembly_.set_values(values, system_);
     assembly_.set_forcing(values, system_);
-    element_values_ = values.element;
     flow_.set_system(system_);
     flow_.set_forcing(system_);
     undamped_modes_ = undamped_modes(system_);
@@ -52,7 +51,7 @@ class SizedSolver final : public ResponseSolver {
 
   void quantities(std::span<double> out) override {
     if (has_response())
-      observables_.evaluate(orbit_, system_, element_values_, out);
+      observables_.evaluate(orbit_, system_, out);
     else
       observables_.fill_missing(orbit_.status, out);
   }
@@ -68,7 +67,6 @@ class SizedSolver final : public ResponseSolver {
 
   mechanics::Assembly assembly_;
   mechanics::LinearSystem system_;
-  std::vector<double> element_values_;
   std::vector<UndampedMode> undamped_modes_;
   Flow<N, H> flow_;
   Continuation<N, H> continuation_;
@@ -179,7 +177,7 @@ History SizedSolver<N, H>::history(std::size_t samples) {
     }
     for (std::size_t e = 0; e < network.elements.size(); ++e) {
       result.columns[column++].push_back(sign *
-                                         forms.element_force(e, element_values_[e], mode).at(instant).value);
+                                         forms.element_force(e, system_.laws[e], mode).at(instant).value);
     }
   }
   return result;

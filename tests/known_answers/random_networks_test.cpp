@@ -135,6 +135,13 @@ TEST_CASE("Other units of length, time and force change the numbers and not the 
         case mechanics::ElementType::coulomb:
           scaled.element[e] *= kForce;
           break;
+        case mechanics::ElementType::hysteretic:
+          scaled.element[e] *= per_length;
+          break;
+        case mechanics::ElementType::maxwell:
+          scaled.element[e] *= per_length;
+          scaled.second[e] *= per_length * kTime;
+          break;
       }
     }
     for (std::size_t k = 0; k < scaled.excitation.size(); ++k) {
