@@ -75,6 +75,7 @@ Assembly assemble(const MapPlan& plan, const RunRecord& run, const AssemblyOptio
       writing.write(tile, bytes);
     });
     write_orbits(plan, writer);
+    write_resonances(plan, writer);
     writer.write_texts("provenance", provenance(plan, run, writing.told()));
     writer.finish();
     assembly.finished = true;

@@ -102,6 +102,11 @@ std::string grid_hash(const StudyFile& study, const Grid& grid) {
       text.line("axis {} {}", study.parameters.list[axis.parameter].name, fmt::join(axis.si_values, " "));
     }
   }
+  for (const auto& orbit : study.output.orbits) {
+    for (const Assignment& at : orbit) text.line("orbit {} {}", at.parameter, at.value);
+    text.line("orbit ends");
+  }
+  text.line("resonances {}", fmt::join(study.output.resonances, " "));
   text.line("order {}", fmt::join(grid.order, " "));
   text.line("tile {}", fmt::join(grid.tile, " "));
   return text.hash();

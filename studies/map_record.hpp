@@ -31,4 +31,8 @@ std::vector<results::Text> provenance(const MapPlan& plan, const RunRecord& run,
 // none. An orbit that does not exist has a row without samples.
 void write_orbits(const MapPlan& plan, results::MapWriter& writer);
 
+// Resonance and half-power frequencies of the masses that the study lists, solved for each point of the axes
+// other than the frequency, a row of /resonance each; nothing if it lists none.
+void write_resonances(const MapPlan& plan, results::MapWriter& writer);
+
 }  // namespace frahm::studies

@@ -81,18 +81,44 @@ void read_orbits(const StudyContext& context, const TomlSection& section, StudyF
   }
 }
 
+void read_resonances(const StudyContext& context, const TomlSection& section, StudyFile& study) {
+  const TomlValue* value = section.find("resonances");
+  if (!value) return;
+  const auto* names = value->as<TomlArray>();
+  if (!names) section.fail("resonances", "expected an array of masses such as [\"main\"]");
+  const std::string where = fmt::format("{}: resonances", section.where());
+  const auto& masses = study.network.masses;
+  for (const TomlValue& item : *names) {
+    const std::string name = read_text(context.source, where, item);
+    const auto mass = std::find(masses.begin(), masses.end(), name);
+    if (mass == masses.end()) {
+      throw context.source.error_at(item.position, fmt::format("{}: no mass is called \"{}\"{}", where, name,
+                                                               suggestion(name, masses)));
+    }
+    study.output.resonances.push_back(static_cast<std::size_t>(mass - masses.begin()));
+  }
+  const auto dimension = study.frequency_dimension;
+  if (!dimension || study.dimensions[*dimension].axes.size() > 1 || study.dimensions[*dimension].size < 3) {
+    section.fail(
+        "resonances",
+        "a resonance is sought along an axis of the excitation frequency: one that is zipped with no "
+        "other and has at least 3 points");
+  }
+}
+
 }  // namespace
 
 void read_output(const StudyContext& context, const TomlValue& root, StudyFile& study) {
   const TomlEntry* entry = find_entry(root, "output");
   if (!entry) return;
   const TomlSection section(context.source, entry->value, "[output]",
-                            {"quantities", "precision", "borders", "orbits"});
+                            {"quantities", "precision", "borders", "orbits", "resonances"});
   read_quantities(section, study.output);
   study.output.single_precision = section.choice_or("precision", {"double", "single"}) == "single";
   if (section.boolean_or("borders", false))
     section.fail("borders", "borders are not available in this version");
   read_orbits(context, section, study);
+  read_resonances(context, section, study);
 }
 
 }  // namespace frahm::studies

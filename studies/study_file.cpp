@@ -122,8 +122,8 @@ StudyFile parse_study(std::string text, const std::filesystem::path& name) {
   convert_parameters(context, study.parameters);
   read_axes(context, root, study);
   read_coordinates(context, root, study);
-  read_output(context, root, study);
   find_frequency_dimension(study);
+  read_output(context, root, study);
   check_grid(study);
   set_crank_orders(study);
   return study;

@@ -58,6 +58,7 @@ struct OutputChoice {
   std::vector<Name> names;  // of Quantities::listed, not empty then; the program knows which names exist
   bool single_precision = false;
   std::vector<std::vector<Assignment>> orbits;  // points whose time histories are kept
+  std::vector<std::size_t> resonances;          // masses whose resonance is sought along the frequency axis
 };
 
 // A study of kind "sweep", complete and checked: whatever stands here has a meaning for the solvers.

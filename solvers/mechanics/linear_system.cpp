@@ -173,8 +173,10 @@ void Assembly::set_values(const NetworkValues& values, LinearSystem& system) con
   system.maxwell_stiffness.setZero(s);
   system.maxwell_rate.setZero(s);
   system.orders = orders_;
+  system.reference_order = network_.reference_order;
   system.odd_forcing = odd_forcing_;
-  for (Eigen::Index i = 0; i < n; ++i) system.M(i, i) = values.mass[static_cast<std::size_t>(i)];
+  system.mass = Eigen::Map<const Eigen::VectorXd>(values.mass.data(), n);
+  system.M.diagonal() = system.mass;
 
   const double omega_h =
       values.hysteretic_omega > 0.0 ? values.hysteretic_omega : network_.reference_order * values.omega;

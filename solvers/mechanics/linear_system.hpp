@@ -50,7 +50,8 @@ struct ElementLaw {
 // Shapes: M, C, K n x n; M_support, C_support, K_support n x p; W n x m; W_support p x m; D n x s; D_support
 // p x s.
 struct LinearSystem {
-  double omega = 0.0;  // [rad/s]
+  double omega = 0.0;    // [rad/s]
+  Eigen::VectorXd mass;  // of the nodes, without inerters [kg]
   Eigen::MatrixXd M, C, K;
   Eigen::MatrixXd M_support, C_support, K_support;  // blocks that couple masses to prescribed nodes
   Eigen::MatrixXd W, W_support;                     // directions of the friction contacts
@@ -60,6 +61,7 @@ struct LinearSystem {
   Eigen::VectorXd maxwell_rate;                     // k_e / c_e [rad/s]
   std::vector<ElementLaw> laws;                     // of each element
   std::vector<int> orders;                 // > 0, ascending: of the excitation, and the reference order
+  int reference_order = 1;                 // the harmonic of which phases are taken
   bool odd_forcing = false;                // every component of the excitation has an odd order
   Eigen::VectorXd constant_force;          // f_0 [N], size n
   Eigen::MatrixXcd force;                  // column k is f_k [N]

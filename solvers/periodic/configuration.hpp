@@ -17,8 +17,8 @@ inline ContactMask bit(Eigen::Index contact) {
 }
 
 // The linear system that moves while one set of contacts sticks and the others slide:
-//   q'' = Aq q + Av v + Au u(t) + Af phi,      phi_j = sigma_j F_j of the sliding contacts, 0 of the stuck
-//   lambda_j = (Lq q + Lv v + Lu u(t) + Lf phi)_j  of the stuck contacts
+//   q'' = Aq q + Av v + As s + Au u(t) + Af phi,   phi_j = sigma_j F_j of the sliding contacts, 0 of the
+//   stuck lambda_j = (Lq q + Lv v + Ls s + Lu u(t) + Lf phi)_j  of the stuck contacts
 // and its exact flow over one step,
 //   z(1) = E z(0) + Eu u(0) + Ef phi,
 // the exponential of the matrix augmented by the oscillators of the forcing (C. Van Loan, IEEE Trans. Autom.
@@ -30,9 +30,11 @@ struct Configuration {
   ContactMask stuck = 0;
   bool has_forcing = false;  // set_forcing was called since the forcing changed
   typename S::Square Aq, Av;
+  typename S::VectorByMaxwell As;
   typename S::VectorByOscillators Au;
   typename S::VectorByContacts Af;
   typename S::ContactsByVector Lq, Lv;
+  typename S::ContactsByMaxwell Ls;
   typename S::ContactsByOscillators Lu;
   typename S::ContactSquare Lf;
   typename S::Square P;  // velocities -> velocities that keep the stuck contacts stuck, M-orthogonal
@@ -52,7 +54,8 @@ struct Configuration {
             typename S::State& z) const {
     if (stuck == 0) return;
     const Eigen::Index n = equations.masses();
-    z.tail(n) -= reaction_ * (equations.W.transpose() * z.tail(n) + equations.support_velocity * u);
+    z.segment(n, n) -=
+        reaction_ * (equations.W.transpose() * z.segment(n, n) + equations.support_velocity * u);
   }
 
   // Matrices that do not depend on the forcing.
@@ -66,15 +69,51 @@ struct Configuration {
   typename S::VectorByContacts reaction_;  // M^-1 W G_S^+ : accelerations per unit of relative acceleration
   void propagate_homogeneous(const StepEquations<N, H>& equations);
 
-  // Coefficient k of displacements q and velocities v, each column a solution.
-  template <class Columns, class Series>
-  static void store(const Columns& q, const Columns& v, int k, Series& series) {
-    const Eigen::Index n = q.rows();
-    for (Eigen::Index column = 0; column < q.cols(); ++column) {
-      for (Eigen::Index i = 0; i < n; ++i) {
-        series(i * kTerms + k, column) = q(i, column);
-        series((n + i) * kTerms + k, column) = v(i, column);
+  // Columns of solutions, and of what drives them.
+  template <int Columns, int MostColumns = Columns>
+  struct Solutions {
+    using Vectors =
+        Eigen::Matrix<double, N, Columns, N == 1 ? Eigen::RowMajor : Eigen::ColMajor, N, MostColumns>;
+    using Maxwells = Eigen::Matrix<double, S::kMaxwell, Columns, Eigen::ColMajor, S::kMaxwell, MostColumns>;
+    Vectors q, v;
+    Maxwells s;
+
+    Solutions(const StepEquations<N, H>& eq, Eigen::Index columns)
+        : q(eq.masses(), columns), v(eq.masses(), columns), s(eq.maxwell_elements(), columns) {
+      q.setZero();
+      v.setZero();
+      s.setZero();
+    }
+  };
+
+  // The Taylor series of solutions whose coefficients 0 are given: coefficient k + 1 is the derivative of
+  // coefficient k over k + 1. drive_next(k, v', s') adds what drives the velocities and Maxwell forces at k.
+  template <class Columns, class Series, class DriveNext>
+  void expand_series(const StepEquations<N, H>& equations, Columns x, Series& series,
+                     const DriveNext& drive_next) const {
+    const Eigen::Index n = equations.masses(), maxwell = equations.maxwell_elements();
+    series.resize(equations.states() * kTerms, x.q.cols());
+    typename Columns::Vectors next(n, x.q.cols());
+    typename Columns::Maxwells s_next = x.s;
+    for (int k = 0; k < kTerms; ++k) {
+      for (Eigen::Index column = 0; column < x.q.cols(); ++column) {
+        for (Eigen::Index i = 0; i < n; ++i) {
+          series(i * kTerms + k, column) = x.q(i, column);
+          series((n + i) * kTerms + k, column) = x.v(i, column);
+        }
+        for (Eigen::Index i = 0; i < maxwell; ++i) series((2 * n + i) * kTerms + k, column) = x.s(i, column);
       }
+      next.noalias() = Aq * x.q + Av * x.v;
+      if constexpr (S::kMaxwell != 0) {
+        next += As * x.s;
+        s_next = equations.maxwell_stiffness.asDiagonal() * (equations.D.transpose() * x.v) -
+                 equations.maxwell_rate.asDiagonal() * x.s;
+      }
+      drive_next(k, next, s_next);
+      const double share = 1.0 / (k + 1.0);
+      x.q = x.v * share;
+      x.v = next * share;
+      x.s = s_next * share;
     }
   }
   template <class Series, class Sums>
@@ -113,17 +152,18 @@ void Configuration<N, H>::set_system(const StepEquations<N, H>& equations, Conta
   Aq.noalias() = -(P * equations.M_inverse) * equations.K;
   Av.noalias() = -(P * equations.M_inverse) * equations.C;
   Af = -(P * MW);
+  if constexpr (S::kMaxwell != 0) As = -(P * (equations.M_inverse * equations.D));
   const typename S::ContactsByVector per_force =
       (equations.M_inverse * equations.W * constraint_).transpose();
   Lq = -(per_force * equations.K);
   Lv = -(per_force * equations.C);
   Lf = -(per_force * equations.W);
+  if constexpr (S::kMaxwell != 0) Ls = -(per_force * equations.D);
   propagate_homogeneous(equations);
 }
 
 template <int N, int H>
 void Configuration<N, H>::set_forcing(const StepEquations<N, H>& equations) {
-  const Eigen::Index n = equations.masses(), oscillators = equations.oscillators();
   has_forcing = true;
   Au.noalias() = P * (equations.M_inverse * equations.force);
   Lu.noalias() = (equations.M_inverse * equations.W * constraint_).transpose() * equations.force;
@@ -134,46 +174,39 @@ void Configuration<N, H>::set_forcing(const StepEquations<N, H>& equations) {
 
   // Column i starts from rest with oscillator i at 1. The forcing's own Taylor coefficients follow from its
   // rows.
-  typename S::VectorByOscillators q = S::VectorByOscillators::Zero(n, oscillators), v = q, drive = Au, next;
-  series_u.resize(2 * n * kTerms, oscillators);
-  for (int k = 0; k < kTerms; ++k) {
-    store(q, v, k, series_u);
-    next.noalias() = Aq * q + Av * v;
-    next += drive;
-    const double share = 1.0 / (k + 1.0);
-    q = v * share;
-    v = next * share;
-    equations.differentiate(drive, next);
-    drive = next * share;
-  }
+  typename S::VectorByOscillators drive = Au, drive_rate;
+  typename S::MaxwellByOscillators maxwell_drive = equations.maxwell_drive, maxwell_drive_rate;
+  drive_rate.resizeLike(drive);
+  maxwell_drive_rate.resizeLike(maxwell_drive);
+  const auto forcing = [&](int k, auto& v_next, auto& s_next) {
+    v_next += drive;
+    s_next += maxwell_drive;
+    equations.differentiate(drive, drive_rate);
+    equations.differentiate(maxwell_drive, maxwell_drive_rate);
+    drive = drive_rate * (1.0 / (k + 1.0));
+    maxwell_drive = maxwell_drive_rate * (1.0 / (k + 1.0));
+  };
+  const Solutions<S::kOscillators> from_rest(equations, equations.oscillators());
+  expand_series(equations, from_rest, series_u, forcing);
   sum_series(series_u, Eu);
 }
 
 template <int N, int H>
 void Configuration<N, H>::propagate_homogeneous(const StepEquations<N, H>& equations) {
-  const Eigen::Index n = equations.masses(), m = equations.contacts();
-  using Columns = Eigen::Matrix<double, N, S::kState>;
-  Columns q = Columns::Zero(n, 2 * n), v = q, next;
-  q.leftCols(n).setIdentity();
-  v.rightCols(n).setIdentity();
-  series_z.resize(2 * n * kTerms, 2 * n);
-  for (int k = 0; k < kTerms; ++k) {
-    store(q, v, k, series_z);
-    next.noalias() = Aq * q + Av * v;
-    q = v * (1.0 / (k + 1.0));
-    v = next * (1.0 / (k + 1.0));
-  }
+  const Eigen::Index n = equations.masses();
+  Solutions<S::kState> units(equations, equations.states());
+  units.q.leftCols(n).setIdentity();
+  units.v.middleCols(n, n).setIdentity();
+  if constexpr (S::kMaxwell != 0) units.s.rightCols(equations.maxwell_elements()).setIdentity();
+  expand_series(equations, units, series_z, [](int, auto&, auto&) {});
   sum_series(series_z, E);
 
   // A unit friction force from rest, constant over the step.
-  typename S::VectorByContacts fq = S::VectorByContacts::Zero(n, m), fv = fq, f_next = Af;
-  series_f.resize(2 * n * kTerms, m);
-  for (int k = 0; k < kTerms; ++k) {
-    store(fq, fv, k, series_f);
-    fq = fv * (1.0 / (k + 1.0));
-    fv = f_next * (1.0 / (k + 1.0));
-    f_next = Aq * fq + Av * fv;
-  }
+  const Solutions<Eigen::Dynamic, S::kMaxContacts> from_rest(equations, equations.contacts());
+  const auto constant_force = [&](int k, auto& v_next, auto&) {
+    if (k == 0) v_next += Af;
+  };
+  expand_series(equations, from_rest, series_f, constant_force);
   sum_series(series_f, Ef);
 }
 

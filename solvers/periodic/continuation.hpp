@@ -100,7 +100,7 @@ void Continuation<N, H>::predict(double omega, bool half_period, Orbit<N, H>& or
   // Lagrange's polynomial through the orbits that went through the same modes.
   std::size_t points = 1;
   while (points < known_ && history_[points].sequence == history_[0].sequence) ++points;
-  orbit.z.setZero(2 * n);
+  orbit.z.setZero(flow_.equations().states());
   for (std::size_t i = 0; i < points; ++i) {
     double above = 1.0, below = 1.0;
     for (std::size_t k = 0; k < points; ++k) {
@@ -110,27 +110,39 @@ void Continuation<N, H>::predict(double omega, bool half_period, Orbit<N, H>& or
     }
     orbit.z += (above / below) * history_[i].z;
   }
-  orbit.z.tail(n) *= flow_.equations().step;
+  orbit.z.segment(n, n) *= flow_.equations().step;
 }
 
-// (K + i Omega C - Omega^2 M) x = f, each harmonic by itself; at rest where that has no answer.
+// (K + i Omega C - Omega^2 M) x + D s = f,  (i Omega + rate) s = k D^T (i Omega x) + its drive, each harmonic
+// by itself; at rest where that has no answer.
 template <int N, int H>
 typename Sizes<N, H>::State Continuation<N, H>::response_without_friction(double phase) const {
   const StepEquations<N, H>& eq = flow_.equations();
   const Eigen::Index n = eq.masses();
-  typename S::State z = S::State::Zero(2 * n);
+  typename S::State z = S::State::Zero(eq.states());
   z.head(n) = eq.K_inverse * eq.force.col(0);
   for (Eigen::Index k = 0; k < eq.phase_rate.size(); ++k) {
     const double rate = eq.phase_rate[k];
     Eigen::VectorXcd force(n);
     force.real() = eq.force.col(1 + 2 * k);
     force.imag() = -eq.force.col(2 + 2 * k);
-    const Eigen::VectorXcd x = linear_response(eq.M, eq.C, eq.K, rate, force);
+    Eigen::MatrixXcd stiffness = eq.K + std::complex<double>(0.0, rate) * eq.C;
+    Eigen::VectorXcd s(eq.maxwell_elements()), per_velocity = s;
+    for (Eigen::Index e = 0; e < s.size(); ++e) {
+      const std::complex<double> i_rate(0.0, rate), slip = i_rate + eq.maxwell_rate[e];
+      s[e] = std::complex<double>(eq.maxwell_drive(e, 1 + 2 * k), -eq.maxwell_drive(e, 2 + 2 * k)) / slip;
+      per_velocity[e] = eq.maxwell_stiffness[e] * i_rate / slip;
+      force -= eq.D.col(e) * s[e];
+      stiffness += eq.D.col(e) * per_velocity[e] * eq.D.col(e).transpose();
+    }
+    const Eigen::VectorXcd x = linear_response(eq.M, stiffness, rate, force);
+    for (Eigen::Index e = 0; e < s.size(); ++e) s[e] += per_velocity[e] * eq.D.col(e).dot(x);
     const std::complex<double> turn = std::polar(1.0, flow_.orders()[static_cast<std::size_t>(k)] * phase);
     for (Eigen::Index i = 0; i < n; ++i) {
       z[i] += (x[i] * turn).real();
       z[n + i] -= rate * (x[i] * turn).imag();
     }
+    for (Eigen::Index e = 0; e < s.size(); ++e) z[2 * n + e] += (s[e] * turn).real();
   }
   const double limit = 1e6 * flow_.static_norm();
   if (!z.allFinite() || eq.energy_norm(z) > limit) z.setZero();
@@ -180,7 +192,7 @@ void Continuation<N, H>::remember(double omega, const Orbit<N, H>& orbit) {
   Known& latest = history_[0];
   latest.omega = omega;
   latest.z = orbit.z;
-  latest.z.tail(n) /= flow_.equations().step;
+  latest.z.segment(n, n) /= flow_.equations().step;
   latest.sequence = mode_sequence(flow_, orbit);
   if (at_row_start_) {  // it replaces the guess it began with, which was of another row
     known_ = 1;

@@ -42,6 +42,7 @@ template <int N, int H>
 struct Instant {
   typename Sizes<N, H>::State z;
   typename Sizes<N, H>::Vector a;
+  typename Sizes<N, H>::Maxwell ds;  // rate of the Maxwell forces [N a step]
   typename Sizes<N, H>::Oscillators u, du;
 };
 
@@ -54,11 +55,15 @@ struct Expansion {
   // sum_i weight_i * polynomial of displacement i
   template <class Weights>
   Polynomial displacement(const Weights& weight) const {
-    return z.leftCols(z.cols() / 2) * weight;
+    return z.leftCols(weight.size()) * weight;
   }
   template <class Weights>
   Polynomial velocity(const Weights& weight) const {
-    return z.rightCols(z.cols() / 2) * weight;
+    return z.middleCols(weight.size(), weight.size()) * weight;
+  }
+  template <class Weights>
+  Polynomial maxwell_force(const Weights& weight) const {
+    return z.rightCols(weight.size()) * weight;
   }
 };
 

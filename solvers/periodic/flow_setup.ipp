@@ -23,6 +23,9 @@ void Flow<N, H>::scale_matrices(const mechanics::LinearSystem& system) {
   eq.K_root_inverse = eq.K_root.inverse();
   eq.W = system.W;
   eq.limit = system.limit;
+  eq.D = system.D;
+  eq.maxwell_stiffness = system.maxwell_stiffness;
+  eq.maxwell_rate = h * system.maxwell_rate;
   const Eigen::Index m = system.contacts();
   eq.compliance.resize(m);
   for (Eigen::Index j = 0; j < m; ++j) eq.compliance[j] = eq.W.col(j).dot(eq.M_inverse * eq.W.col(j));
@@ -77,6 +80,8 @@ void Flow<N, H>::set_forcing(const mechanics::LinearSystem& system) {
   eq.support_velocity.noalias() = system.W_support.transpose() * eq.motion_velocity;
   moving_support_ = !eq.support_velocity.isZero(0.0);
   eq.support_acceleration.noalias() = system.W_support.transpose() * eq.motion_acceleration;
+  eq.maxwell_drive.noalias() =
+      eq.maxwell_stiffness.asDiagonal() * (system.D_support.transpose() * eq.motion_velocity);
 
   // sqrt(1/2 sum_k f_k^H K^-1 f_k)
   static_norm_ = 0.0;

@@ -48,14 +48,20 @@ void Flow<N, H>::instant_at(const typename S::State& z, double phase, const Mode
   accelerate(mode, at);
 }
 
-// q'' = Aq q + Av v + Au u + Af phi
+// q'' = Aq q + Av v + As s + Au u + Af phi;  s' = k (D^T v + p^T y') - rate s
 template <int N, int H>
 void Flow<N, H>::accelerate(const Mode<N, H>& mode, Instant<N, H>& at) const {
   const Eigen::Index n = equations_.masses();
   const Configuration<N, H>& configuration = configurations_[mode.configuration];
-  at.a.noalias() = configuration.Aq * at.z.head(n) + configuration.Av * at.z.tail(n);
+  at.a.noalias() = configuration.Aq * at.z.head(n) + configuration.Av * at.z.segment(n, n);
   at.a.noalias() += configuration.Au * at.u;
   at.a += mode.acceleration;
+  if constexpr (S::kMaxwell != 0) {
+    const auto s = at.z.tail(equations_.maxwell_elements());
+    at.a += configuration.As * s;
+    at.ds = equations_.maxwell_stiffness.asDiagonal() * (equations_.D.transpose() * at.z.segment(n, n)) -
+            equations_.maxwell_rate.asDiagonal() * s + equations_.maxwell_drive * at.u;
+  }
 }
 
 template <int N, int H>
@@ -85,7 +91,7 @@ template <int N, int H>
 void Flow<N, H>::expand(const Instant<N, H>& at, const Mode<N, H>& mode, Expansion<N, H>& x) const {
   const StepEquations<N, H>& eq = equations_;
   const Configuration<N, H>& configuration = configurations_[mode.configuration];
-  x.z.resize(kTerms, 2 * eq.masses());
+  x.z.resize(kTerms, eq.states());
   Eigen::Map<typename S::Series> series(x.z.data(), x.z.size());
   series.noalias() = configuration.series_z * at.z;
   series.noalias() += configuration.series_u * at.u;
@@ -136,16 +142,21 @@ ValueAndSlope Flow<N, H>::sliding_speed(const Instant<N, H>& at, Eigen::Index j)
   const Eigen::Index n = equations_.masses();
   const auto w = equations_.W.col(j);
   const auto support = equations_.support_velocity.row(j);
-  return {w.dot(at.z.tail(n)) + support.dot(at.u), w.dot(at.a) + support.dot(at.du)};
+  return {w.dot(at.z.segment(n, n)) + support.dot(at.u), w.dot(at.a) + support.dot(at.du)};
 }
 
 template <int N, int H>
 ValueAndSlope Flow<N, H>::stuck_force(const Instant<N, H>& at, const Mode<N, H>& mode, Eigen::Index j) const {
   const Eigen::Index n = equations_.masses();
   const Configuration<N, H>& c = configurations_[mode.configuration];
-  return {c.Lq.row(j).dot(at.z.head(n)) + c.Lv.row(j).dot(at.z.tail(n)) + c.Lu.row(j).dot(at.u) +
-              mode.stuck_force[j],
-          c.Lq.row(j).dot(at.z.tail(n)) + c.Lv.row(j).dot(at.a) + c.Lu.row(j).dot(at.du)};
+  ValueAndSlope force{c.Lq.row(j).dot(at.z.head(n)) + c.Lv.row(j).dot(at.z.segment(n, n)) +
+                          c.Lu.row(j).dot(at.u) + mode.stuck_force[j],
+                      c.Lq.row(j).dot(at.z.segment(n, n)) + c.Lv.row(j).dot(at.a) + c.Lu.row(j).dot(at.du)};
+  if constexpr (S::kMaxwell != 0) {
+    force.value += c.Ls.row(j).dot(at.z.tail(equations_.maxwell_elements()));
+    force.slope += c.Ls.row(j).dot(at.ds);
+  }
+  return force;
 }
 
 template <int N, int H>
@@ -237,6 +248,7 @@ double Flow<N, H>::first_release(Eigen::Index j, Passage<N, H>& passage) {
   const Configuration<N, H>& c = configurations_[modes_[mode_].configuration];
   Polynomial force = x.displacement(c.Lq.row(j).transpose()) + x.velocity(c.Lv.row(j).transpose());
   force.noalias() += x.u * c.Lu.row(j).transpose();
+  if constexpr (S::kMaxwell != 0) force += x.maxwell_force(c.Ls.row(j).transpose());
   force[0] += modes_[mode_].stuck_force[j];
   double first = 2.0;
   for (const double side : {1.0, -1.0}) {

@@ -8,7 +8,7 @@
 #include "solvers/periodic/orbit_steps.hpp"
 
 // Integrals over an orbit. Means, root mean squares, Fourier components, damping losses are all entries of,
-// or products with, one matrix: the integral of y y^T with y = (q, v, u) state and oscillators.
+// or products with, one matrix: the integral of y y^T with y = (q, v, s, u) state and oscillators.
 namespace frahm::periodic {
 
 // Six-point Gauss-Legendre nodes and weights on [0, 1] (Abramowitz and Stegun, table 25.4). Over a step the
@@ -66,7 +66,7 @@ void Integrals<N, H>::integrate(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow,
   using Nodes = Eigen::Matrix<double, kTerms, kNodes>;
   using Samples = Eigen::Matrix<double, kSize, kNodes>;
   const StepEquations<N, H>& eq = flow.equations();
-  const Eigen::Index size = 2 * eq.masses() + eq.oscillators();
+  const Eigen::Index size = eq.states() + eq.oscillators();
   Nodes full;
   for (int i = 0; i < kNodes; ++i) full.col(i) = powers(kNodeAt[i]);
 
@@ -84,7 +84,7 @@ void Integrals<N, H>::integrate(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow,
     const Expansion<N, H>& x = orbit.expand(step);
     Nodes at = full;
     if (step.length < 1.0) at.array().colwise() *= powers(step.length).array();
-    y.topRows(2 * eq.masses()) = x.z.transpose().lazyProduct(at);
+    y.topRows(eq.states()) = x.z.transpose().lazyProduct(at);
     y.bottomRows(eq.oscillators()) = x.u.transpose().lazyProduct(at);
     for (int i = 0; i < kNodes; ++i) weighted.col(i) = (step.length * kNodeWeight[i]) * y.col(i);
     gram_ += weighted.lazyProduct(y.transpose());

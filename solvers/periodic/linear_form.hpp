@@ -4,22 +4,20 @@
 
 namespace frahm::periodic {
 
-// A quantity that is linear in the state and the forcing while the mode lasts: g(t) = z . (q, v) + u . u(t).
-// Displacements, velocities, accelerations, element forces and sums of them are all of this kind.
+// A quantity that is linear in the state and the forcing while the mode lasts: g(t) = z . (q, v, s) + u .
+// u(t). Displacements, velocities, accelerations, element forces and sums of them are all of this kind.
 template <int N, int H>
 struct LinearForm {
   using S = Sizes<N, H>;
   typename S::State z;
   typename S::Oscillators u;
 
-  static LinearForm zero(Eigen::Index n, Eigen::Index oscillators) {
-    return {S::State::Zero(2 * n), S::Oscillators::Zero(oscillators)};
-  }
-
   ValueAndSlope at(const Instant<N, H>& instant) const {
-    const Eigen::Index n = z.size() / 2;
-    return {z.dot(instant.z) + u.dot(instant.u),
-            z.head(n).dot(instant.z.tail(n)) + z.tail(n).dot(instant.a) + u.dot(instant.du)};
+    const Eigen::Index n = instant.a.size();
+    double slope =
+        z.head(n).dot(instant.z.segment(n, n)) + z.segment(n, n).dot(instant.a) + u.dot(instant.du);
+    if constexpr (S::kMaxwell != 0) slope += z.tail(z.size() - 2 * n).dot(instant.ds);
+    return {z.dot(instant.z) + u.dot(instant.u), slope};
   }
 
   Polynomial polynomial(const Expansion<N, H>& x) const { return x.z * z + x.u * u; }
@@ -56,9 +54,12 @@ class Forms {
   Form node_force(const mechanics::Node& node, const std::vector<mechanics::ElementLaw>& laws,
                   const Mode<N, H>& mode) const;
 
- private:
-  Form zero() const { return Form::zero(flow_.equations().masses(), flow_.equations().oscillators()); }
+  Form zero() const {
+    return {S::State::Zero(flow_.equations().states()),
+            S::Oscillators::Zero(flow_.equations().oscillators())};
+  }
 
+ private:
   const mechanics::Assembly& assembly_;
   const Flow<N, H>& flow_;
 };
@@ -75,7 +76,7 @@ template <int N, int H>
 LinearForm<N, H> Forms<N, H>::velocity(const mechanics::Incidence& at) const {
   const StepEquations<N, H>& eq = flow_.equations();
   Form form = zero();
-  form.z.tail(at.w.size()) = at.w / eq.step;
+  form.z.segment(at.w.size(), at.w.size()) = at.w / eq.step;
   if (at.p.size() > 0) form.u = eq.motion_velocity.transpose() * at.p / eq.step;
   return form;
 }
@@ -88,7 +89,8 @@ LinearForm<N, H> Forms<N, H>::acceleration(const mechanics::Incidence& at, const
   const typename S::Vector w = at.w * per_second_squared;
   Form form = zero();
   form.z.head(w.size()) = c.Aq.transpose() * w;
-  form.z.tail(w.size()) = c.Av.transpose() * w;
+  form.z.segment(w.size(), w.size()) = c.Av.transpose() * w;
+  if constexpr (S::kMaxwell != 0) form.z.tail(eq.maxwell_elements()) = c.As.transpose() * w;
   form.u = c.Au.transpose() * w;
   form.u[0] += w.dot(mode.acceleration);
   if (at.p.size() > 0) form.u += eq.motion_acceleration.transpose() * at.p * per_second_squared;
@@ -103,6 +105,7 @@ LinearForm<N, H> Forms<N, H>::element_force(std::size_t element, const mechanics
   if (law.stiffness != 0.0) form.add(law.stiffness, displacement(at));
   if (law.damping != 0.0) form.add(law.damping, velocity(at));
   if (law.inertance != 0.0) form.add(law.inertance, acceleration(at, mode));
+  if (law.maxwell >= 0) form.z[2 * at.w.size() + law.maxwell] += 1.0;
   if (law.friction == 0.0) return form;
   const mechanics::ContactShare& place = assembly_.shares()[element];
   const auto contact = static_cast<Eigen::Index>(place.contact);
@@ -122,7 +125,10 @@ LinearForm<N, H> Forms<N, H>::stuck_contact_force(Eigen::Index contact, const Mo
   const Eigen::Index n = flow_.equations().masses();
   Form form = zero();
   form.z.head(n) = c.Lq.row(contact).transpose();
-  form.z.tail(n) = c.Lv.row(contact).transpose();
+  form.z.segment(n, n) = c.Lv.row(contact).transpose();
+  if constexpr (S::kMaxwell != 0) {
+    form.z.tail(flow_.equations().maxwell_elements()) = c.Ls.row(contact).transpose();
+  }
   form.u = c.Lu.row(contact).transpose();
   form.u[0] += mode.stuck_force[contact];
   return form;

@@ -5,6 +5,20 @@
 #include "solvers/periodic/periodic_response.hpp"
 
 namespace frahm::periodic {
+namespace {
+
+// phi^T C phi / (2 omega phi^T M phi) of an undamped mode; a Maxwell element adds the damping it has at
+// omega,
+//   Re[k / (i omega + k/c)] = k (k/c) / (omega^2 + (k/c)^2).
+double damping_ratio(const mechanics::LinearSystem& system, const Eigen::VectorXd& shape, double omega) {
+  const Eigen::ArrayXd rate = system.maxwell_rate.array();
+  const Eigen::VectorXd dampers = system.maxwell_stiffness.array() * rate / (omega * omega + rate * rate);
+  const Eigen::VectorXd strain = system.D.transpose() * shape;
+  const double loss = shape.dot(system.C * shape) + strain.dot(dampers.asDiagonal() * strain);
+  return loss / (2.0 * omega * shape.dot(system.M * shape));
+}
+
+}  // namespace
 
 void modes_of(const mechanics::LinearSystem& system, std::vector<double>& frequency,
               std::vector<double>& damping) {
@@ -15,7 +29,7 @@ void modes_of(const mechanics::LinearSystem& system, std::vector<double>& freque
     const Eigen::VectorXd shape = modes.eigenvectors().col(k);  // phi^T M phi = 1
     const double omega = std::sqrt(modes.eigenvalues()[k]);
     frequency.push_back(omega);
-    damping.push_back(shape.dot(system.C * shape) / (2.0 * omega));
+    damping.push_back(damping_ratio(system, shape, omega));
   }
 }
 
@@ -39,7 +53,7 @@ LinearModes linear_modes(const mechanics::Network& network, const mechanics::Net
     Eigen::VectorXd shape = B * modes.eigenvectors().col(k);
     const double omega = std::sqrt(modes.eigenvalues()[k]);
     result.frequency.push_back(omega);
-    result.damping.push_back(shape.dot(system.C * shape) / (2.0 * omega * shape.dot(system.M * shape)));
+    result.damping.push_back(damping_ratio(system, shape, omega));
     Eigen::Index largest = 0;
     shape.cwiseAbs().maxCoeff(&largest);
     shape /= shape[largest];

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <span>
 #include <vector>
 
 #include "solvers/periodic/contact_history.hpp"
 #include "solvers/periodic/extremes.hpp"
+#include "solvers/periodic/fundamental_response.hpp"
 #include "solvers/periodic/integrals.hpp"
 #include "solvers/periodic/quantity.hpp"
 #include "solvers/periodic/resonance.hpp"
@@ -51,7 +53,11 @@ class Observables {
   Form form_of(const Trace& trace, const Mode<N, H>& mode) const;
   void integrate(const Orbit<N, H>& orbit);
   void balance_energy();
+  std::complex<double> reference_component(const Form& form) const;
   double phase_of(const Form& form, double magnitude) const;
+  double harmonic_of(std::size_t mass) const {
+    return std::abs(reference_component(forms_.displacement(mass_incidences_[mass])));
+  }
   ContactHistory history_of(std::size_t contact) const;
   double element_energy(std::size_t element) const;
   double value_of(std::size_t place) const;

@@ -66,6 +66,10 @@ void Observables<N, H>::plan(const Quantity& quantity) {
       break;
     case Measure::mean:
     case Measure::rms:
+    case Measure::harmonic:
+    case Measure::magnification:
+    case Measure::transmissibility:
+    case Measure::force_transmissibility:
       needs_integrals_ = true;
       break;
     case Measure::energy:
@@ -168,12 +172,12 @@ void Observables<N, H>::integrate(const Orbit<N, H>& orbit) {
     powers.clear();
     for (Eigen::Index i = 0; i < eq.masses(); ++i) {
       if (eq.applied_force.row(i).isZero(0.0)) continue;
-      Form force = Form::zero(eq.masses(), eq.oscillators());
+      Form force = forms_.zero();
       force.u = eq.applied_force.row(i).transpose();
       powers.push_back({force, forms_.velocity(mass_incidences_[static_cast<std::size_t>(i)])});
     }
     for (Eigen::Index s = 0; s < eq.motion.rows(); ++s) {
-      Form velocity = Form::zero(eq.masses(), eq.oscillators());
+      Form velocity = forms_.zero();
       velocity.u = eq.motion_velocity.row(s).transpose() / eq.step;
       const mechanics::Node node{mechanics::NodeKind::prescribed, static_cast<std::size_t>(s)};
       powers.push_back({forms_.node_force(node, system_->laws, mode), velocity});
@@ -208,6 +212,12 @@ double Observables<N, H>::element_energy(std::size_t element) const {
     const Form velocity = forms_.velocity(assembly_.incidences()[element]);
     energy += law.damping * integrals_.product(velocity, velocity);
   }
+  if (law.maxwell >= 0) {
+    // integral of s^2 / c
+    Form force = forms_.zero();
+    force.z[2 * flow_.equations().masses() + law.maxwell] = 1.0;
+    energy += integrals_.product(force, force) / law.maxwell_damping;
+  }
   if (law.friction != 0.0) {
     energy += law.friction * histories_[assembly_.shares()[element].contact].sliding_distance;
   }
@@ -220,24 +230,28 @@ void Observables<N, H>::balance_energy() {
   for (std::size_t e = 0; e < assembly_.network().elements.size(); ++e) dissipated_ += element_energy(e);
 }
 
-// x_n = |X_n| cos(n omega t - phase), with X_n the component of the reference order n; NaN where there is
-// none.
+// X_n of a form, x_n(t) = Re X_n e^{i n omega t} its component at the reference order n.
 template <int N, int H>
-double Observables<N, H>::phase_of(const Form& form, double magnitude) const {
+std::complex<double> Observables<N, H>::reference_component(const Form& form) const {
   const int reference = assembly_.network().reference_order;
-  if (orbit_->half_period && reference % 2 == 0) return std::numeric_limits<double>::quiet_NaN();
+  if (orbit_->half_period && reference % 2 == 0) return 0.0;
   const auto& orders = flow_.orders();
   const auto place = std::find(orders.begin(), orders.end(), reference) - orders.begin();
   const auto component = [&](Eigen::Index oscillator) {
-    Form unit = Form::zero(flow_.equations().masses(), flow_.equations().oscillators());
+    Form unit = forms_.zero();
     unit.u[oscillator] = 1.0;
     return integrals_.product(form, unit);
   };
-  const double in_phase = component(1 + 2 * place), in_quadrature = component(2 + 2 * place);
   const double period = flow_.equations().period * flow_.equations().step;
-  const double amplitude = 2.0 / period * std::hypot(in_phase, in_quadrature);
-  if (amplitude <= 1e-12 * magnitude) return std::numeric_limits<double>::quiet_NaN();
-  return std::atan2(in_quadrature, in_phase);
+  return {2.0 / period * component(1 + 2 * place), -2.0 / period * component(2 + 2 * place)};
+}
+
+// x_n = |X_n| cos(n omega t - phase); NaN where there is none.
+template <int N, int H>
+double Observables<N, H>::phase_of(const Form& form, double magnitude) const {
+  const std::complex<double> component = reference_component(form);
+  if (std::abs(component) <= 1e-12 * magnitude) return std::numeric_limits<double>::quiet_NaN();
+  return -std::arg(component);
 }
 
 template <int N, int H>
@@ -252,6 +266,9 @@ double Observables<N, H>::value_of(std::size_t i) const {
     case Measure::mean:
     case Measure::rms:
     case Measure::phase:
+    case Measure::harmonic:
+    case Measure::magnification:
+    case Measure::transmissibility:
       return value_of_mass(i);
     case Measure::stroke:
     case Measure::force_peak:
@@ -283,12 +300,18 @@ double Observables<N, H>::value_of_mass(std::size_t i) const {
       return std::isnan(extremes.most_phase) ? 0.0 : extremes.most_phase;  // 0: at rest all the time
     case Measure::mean: {
       if (orbit_->half_period) return 0.0;
-      return integrals_.gram()(mass, 2 * flow_.equations().masses()) / period;
+      return integrals_.gram()(mass, flow_.equations().states()) / period;
     }
     case Measure::rms:
       return std::sqrt(integrals_.gram()(mass, mass) / period);
     case Measure::phase:
       return phase_of(forms_.displacement(mass_incidences_[quantity.index]), extremes.magnitude());
+    case Measure::harmonic:
+      return harmonic_of(quantity.index);
+    case Measure::magnification:
+      return ratio(harmonic_of(quantity.index), static_displacement(*system_)[mass]);
+    case Measure::transmissibility:
+      return ratio(harmonic_of(quantity.index), support_amplitude(*system_));
     default:
       return extremes.magnitude();  // peaks
   }
@@ -334,6 +357,17 @@ double Observables<N, H>::value_of_point(const Quantity& quantity) const {
       return orbit_->floquet_radius;
     case Measure::error_bound:
       return orbit_->error_bound;
+    case Measure::force_transmissibility: {
+      // What acts on the supports: P - sum_i m_i x_i'', at the reference order P + (n omega)^2 sum_i m_i X_i.
+      const std::complex<double> applied = system_->applied_force.col(reference_place(*system_)).sum();
+      const double rate = assembly_.network().reference_order * system_->omega;
+      std::complex<double> on_supports = applied;
+      for (std::size_t i = 0; i < mass_incidences_.size(); ++i) {
+        on_supports += rate * rate * system_->mass[static_cast<Eigen::Index>(i)] *
+                       reference_component(forms_.displacement(mass_incidences_[i]));
+      }
+      return ratio(std::abs(on_supports), std::abs(applied));
+    }
     case Measure::residual:
       return orbit_->residual;
     case Measure::newton_iterations:

@@ -10,7 +10,7 @@ std::unique_ptr<ResponseSolver> make_solver(const mechanics::Network& network,
                                             std::vector<Quantity> quantities) {
   const mechanics::Assembly assembly(network);
   const std::size_t masses = network.masses.size(), harmonics = assembly.orders().size();
-  if (assembly.contacts() <= Sizes<1, 1>::kMaxContacts) {
+  if (assembly.contacts() <= Sizes<1, 1>::kMaxContacts && assembly.maxwell_elements() == 0) {
     if (masses == 1 && harmonics == 1)
       return std::make_unique<SizedSolver<1, 1>>(network, std::move(quantities));
     if (masses == 1 && harmonics == 2)

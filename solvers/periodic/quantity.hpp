@@ -20,6 +20,9 @@ enum class Measure {
   peak_phase,
   velocity_peak,
   acceleration_peak,
+  harmonic,
+  magnification,
+  transmissibility,
   // of an element
   stroke,
   element_phase,
@@ -37,6 +40,7 @@ enum class Measure {
   energy_input,
   energy_balance,
   transmitted_force,
+  force_transmissibility,
   residual,
   error_bound,
   newton_iterations,

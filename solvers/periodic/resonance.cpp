@@ -22,8 +22,11 @@ bool outgrows_friction(const mechanics::LinearSystem& system, const Eigen::Vecto
 std::vector<UndampedMode> undamped_modes(const mechanics::LinearSystem& system) {
   std::vector<UndampedMode> result;
   const Eigen::Index n = system.masses();
-  const Eigen::LLT<Eigen::MatrixXd> damped(system.C);
-  const double scale = system.C.cwiseAbs().maxCoeff();
+  // A Maxwell element takes energy out wherever it is strained, as its damper would.
+  const Eigen::VectorXd dampers = system.maxwell_stiffness.cwiseQuotient(system.maxwell_rate);
+  const Eigen::MatrixXd C = system.C + system.D * dampers.asDiagonal() * system.D.transpose();
+  const Eigen::LLT<Eigen::MatrixXd> damped(C);
+  const double scale = C.cwiseAbs().maxCoeff();
   if (damped.info() == Eigen::Success && damped.matrixLLT().diagonal().minCoeff() > 1e-7 * std::sqrt(scale))
     return result;
 
@@ -33,7 +36,7 @@ std::vector<UndampedMode> undamped_modes(const mechanics::LinearSystem& system) 
     Eigen::Index last = first + 1;
     while (last < n && squares[last] - squares[first] <= 1e-12 * squares[last]) ++last;
     const Eigen::MatrixXd shapes = modes.eigenvectors().middleCols(first, last - first);
-    const Eigen::MatrixXd loss = shapes.transpose() * system.C * shapes;  // positive semidefinite
+    const Eigen::MatrixXd loss = shapes.transpose() * C * shapes;  // positive semidefinite
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> losses(loss);
     const double frequency = std::sqrt(squares[first]);
     for (Eigen::Index k = 0; k < last - first; ++k) {

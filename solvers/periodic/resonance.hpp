@@ -7,7 +7,7 @@
 
 namespace frahm::periodic {
 
-// A mode in which no damping acts, C phi = 0; phi^T M phi = 1.
+// A mode in which no damping acts, C phi = 0 and no Maxwell element is strained; phi^T M phi = 1.
 struct UndampedMode {
   double frequency = 0.0;  // [rad/s]
   Eigen::VectorXd shape;

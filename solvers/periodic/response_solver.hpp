@@ -41,6 +41,7 @@ class SizedSolver final : public ResponseSolver {
   }
 
   void set_forcing(const mechanics::NetworkValues& values) override {
+    if (assembly_.matrices_depend_on_frequency()) return set_values(values);
     assembly_.set_forcing(values, system_);
     flow_.set_forcing(system_);
   }

@@ -30,7 +30,7 @@ bool settle_rest_position(const mechanics::Assembly& assembly, const Flow<N, H>&
   steps.lay_out(orbit);
   integrals.integrate(steps, flow, orbit.half_period, [](const auto&, auto& powers) { powers.clear(); });
   const double period = 2.0 * std::numbers::pi / flow.fundamental_rate() * eq.step;
-  const typename Sizes<N, H>::Vector mean = integrals.gram().col(2 * n).head(n) / period;
+  const typename Sizes<N, H>::Vector mean = integrals.gram().col(eq.states()).head(n) / period;
 
   const Forms<N, H> forms(assembly, flow);
   Eigen::MatrixXd W(n, m);

@@ -49,9 +49,9 @@ typename Sizes<N, H>::StateSquare moving_part(const StepEquations<N, H>& eq,
   typename Sizes<N, H>::StateSquare projected = tangent;
   const Eigen::MatrixXd on_q = projector_off(eq.K, W), on_v = projector_off(eq.M, W);
   projected.leftCols(n) = (tangent.leftCols(n) * on_q).eval();
-  projected.rightCols(n) = (tangent.rightCols(n) * on_v).eval();
+  projected.middleCols(n, n) = (tangent.middleCols(n, n) * on_v).eval();
   projected.topRows(n) = (on_q * projected.topRows(n)).eval();
-  projected.bottomRows(n) = (on_v * projected.bottomRows(n)).eval();
+  projected.middleRows(n, n) = (on_v * projected.middleRows(n, n)).eval();
   return projected;
 }
 
@@ -60,12 +60,17 @@ template <int N, int H>
 double energy_operator_norm(const StepEquations<N, H>& eq, const typename Sizes<N, H>::StateSquare& A) {
   using S = Sizes<N, H>;
   const Eigen::Index n = eq.masses();
-  // ||A||_E = ||R A R^-1||_2 with R^T R = blockdiag(K, M).
-  typename S::StateSquare B(2 * n, 2 * n);
-  B.topLeftCorner(n, n) = eq.K_root * A.topLeftCorner(n, n) * eq.K_root_inverse;
-  B.topRightCorner(n, n) = eq.K_root * A.topRightCorner(n, n) * eq.M_root_inverse;
-  B.bottomLeftCorner(n, n) = eq.M_root * A.bottomLeftCorner(n, n) * eq.K_root_inverse;
-  B.bottomRightCorner(n, n) = eq.M_root * A.bottomRightCorner(n, n) * eq.M_root_inverse;
+  // ||A||_E = ||R A R^-1||_2 with R^T R = blockdiag(K, M, 1/k of the Maxwell elements).
+  typename S::StateSquare B = A;
+  B.topRows(n) = (eq.K_root * B.topRows(n)).eval();
+  B.middleRows(n, n) = (eq.M_root * B.middleRows(n, n)).eval();
+  B.leftCols(n) = (B.leftCols(n) * eq.K_root_inverse).eval();
+  B.middleCols(n, n) = (B.middleCols(n, n) * eq.M_root_inverse).eval();
+  if constexpr (S::kMaxwell != 0) {
+    const Eigen::VectorXd root = eq.maxwell_stiffness.cwiseSqrt();
+    B.bottomRows(root.size()).array().colwise() /= root.array();
+    B.rightCols(root.size()).array().rowwise() *= root.transpose().array();
+  }
   const typename S::StateSquare gram = B.transpose() * B;
   constexpr int kSquarings = 20;  // symmetric: the error is log(2n) / 2^20, on the low side
   return std::sqrt(spectral_radius(gram, kSquarings));

@@ -12,6 +12,11 @@ double fastest_rate(const mechanics::LinearSystem& system) {
                                                                            Eigen::EigenvaluesOnly);
     return std::max(0.0, solver.eigenvalues().maxCoeff());
   };
+  if (system.maxwell_elements() > 0) {
+    const double gamma = std::max(largest(system.C), system.maxwell_rate.maxCoeff());
+    return gamma + std::sqrt(largest(system.K + system.D * system.maxwell_stiffness.asDiagonal() *
+                                                    system.D.transpose()));
+  }
   const double gamma = largest(system.C), kappa = largest(system.K);
   return 0.5 * (gamma + std::sqrt(gamma * gamma + 4.0 * kappa));
 }

@@ -13,17 +13,23 @@ namespace frahm::periodic {
 
 // Sizes and types of a system of N masses under H harmonics. Known at compile time for the systems of which
 // maps of millions of points are made; Eigen::Dynamic for all others. Contacts: at most kMaxContacts, then
-// Dynamic.
+// Dynamic. Maxwell elements: none, then Dynamic.
 template <int N, int H>
 struct Sizes {
   static constexpr bool is_fixed = N != Eigen::Dynamic;
+  static constexpr int kMaxwell = is_fixed ? 0 : Eigen::Dynamic;
   static constexpr int kState = is_fixed ? 2 * N : Eigen::Dynamic;
   static constexpr int kOscillators = is_fixed ? 1 + 2 * H : Eigen::Dynamic;
   static constexpr int kMaxContacts = is_fixed ? 4 : Eigen::Dynamic;
 
   using Vector = Eigen::Matrix<double, N, 1>;
   using Square = Eigen::Matrix<double, N, N>;
-  using State = Eigen::Matrix<double, kState, 1>;  // displacements, then velocities
+  using State = Eigen::Matrix<double, kState, 1>;  // displacements, velocities, forces of Maxwell elements
+  using Maxwell = Eigen::Matrix<double, kMaxwell, 1>;
+  using VectorByMaxwell = Eigen::Matrix<double, N, kMaxwell>;
+  using MaxwellByOscillators = Eigen::Matrix<double, kMaxwell, kOscillators>;
+  using ContactsByMaxwell =
+      Eigen::Matrix<double, Eigen::Dynamic, kMaxwell, Eigen::ColMajor, kMaxContacts, kMaxwell>;
   using StateSquare = Eigen::Matrix<double, kState, kState>;
   using Oscillators = Eigen::Matrix<double, kOscillators, 1>;  // 1, cos, sin of each harmonic's phase
   using OscillatorRow = Eigen::Matrix<double, 1, kOscillators>;
@@ -53,7 +59,8 @@ struct Sizes {
 };
 
 // The equation of motion with time counted in steps of length h, so that velocities are displacements a step:
-//   (M/h^2) q'' + (C/h) q' + K q = f(t) - W lambda.  Energies and forces keep their units [J, N].
+//   (M/h^2) q'' + (C/h) q' + K q + D s = f(t) - W lambda,  s' = k (D^T q' + p^T y') - (rate h) s  (Maxwell)
+// Energies and forces keep their units [J, N].
 template <int N, int H>
 struct StepEquations {
   using S = Sizes<N, H>;
@@ -68,13 +75,18 @@ struct StepEquations {
       motion_acceleration;         // y(t) of the prescribed nodes
   typename S::VectorByContacts W;  // n x m
   typename S::ContactsByOscillators support_velocity,
-      support_acceleration;         // p_j^T y'(t), p_j^T y''(t), m rows
-  typename S::Contacts limit;       // [N]
-  typename S::Contacts compliance;  // w_j^T M^-1 w_j
-  Eigen::VectorXd phase_rate;       // order_k omega h [rad a step], size H
+      support_acceleration;                         // p_j^T y'(t), p_j^T y''(t), m rows
+  typename S::Contacts limit;                       // [N]
+  typename S::Contacts compliance;                  // w_j^T M^-1 w_j
+  Eigen::MatrixXd D;                                // n x s
+  Eigen::VectorXd maxwell_stiffness, maxwell_rate;  // k [N/m]; k/c times h
+  Eigen::MatrixXd maxwell_drive;                    // k p^T y'(t) [N a step]
+  Eigen::VectorXd phase_rate;                       // order_k omega h [rad a step], size H
 
   Eigen::Index masses() const { return M.rows(); }
   Eigen::Index contacts() const { return limit.size(); }
+  Eigen::Index maxwell_elements() const { return maxwell_stiffness.size(); }
+  Eigen::Index states() const { return 2 * masses() + maxwell_elements(); }
   Eigen::Index oscillators() const { return force.cols(); }
 
   // d/dt of row * u(t):  cos' = -rate sin, sin' = rate cos.
@@ -97,18 +109,23 @@ struct StepEquations {
     }
   }
 
-  // The energy norm of a state, sqrt((v^T M v + q^T K q) / 2)  [sqrt(J)].
+  // The energy norm of a state, sqrt((v^T M v + q^T K q + sum s^2 / k) / 2)  [sqrt(J)].
   template <class AnyState>
   double energy_norm(const AnyState& z) const {
     const Eigen::Index n = masses();
     const auto q = z.head(n);
-    const auto v = z.tail(n);
-    return std::sqrt(0.5 * (v.dot(M * v) + q.dot(K * q)));
+    const auto v = z.segment(n, n);
+    double energy = v.dot(M * v) + q.dot(K * q);
+    if constexpr (S::kMaxwell != 0) {
+      energy += (z.tail(maxwell_elements()).array().square() / maxwell_stiffness.array()).sum();
+    }
+    return std::sqrt(0.5 * energy);
   }
 };
 
 // The fastest rate [rad/s] at which a solution's Taylor coefficients can grow in the energy norm:
-// rho = (gamma + sqrt(gamma^2 + 4 kappa)) / 2 with gamma, kappa the largest eigenvalues of M^-1 C and M^-1 K.
+// rho = (gamma + sqrt(gamma^2 + 4 kappa)) / 2 with gamma, kappa the largest eigenvalues of M^-1 C and M^-1 K;
+// with Maxwell elements gamma + sqrt(kappa), gamma at least their largest rate and K with their springs.
 // Contacts that stick only lower it (Courant-Fischer).
 double fastest_rate(const mechanics::LinearSystem& system);
 

@@ -47,8 +47,8 @@ void Flow<N, H>::enter(const typename S::State& z, double phase, Passage<N, H>& 
   accelerate(modes_[mode_], left_);
 
   passage.starts_at_event = fresh_ != 0;
-  passage.tangent.setIdentity(2 * n, 2 * n);
-  passage.tangent.bottomRightCorner(n, n) = configurations_[modes_[mode_].configuration].P;
+  passage.tangent.setIdentity(equations_.states(), equations_.states());
+  passage.tangent.block(n, n, n, n) = configurations_[modes_[mode_].configuration].P;
   open_segment(passage);
 }
 
@@ -117,8 +117,10 @@ void Flow<N, H>::choose_modes(ContactMask at_rest, Passage<N, H>& passage) {
     friction[j] = contains(at_rest | before.stuck, j) ? 0.0 : before.sign(j) * eq.limit[j];
   }
   const Eigen::Index n = eq.masses();
-  const typename S::Vector a_free =
-      eq.M_inverse * (eq.force * left_.u - eq.K * left_.z.head(n) - eq.C * left_.z.tail(n) - eq.W * friction);
+  typename S::Vector force_free =
+      eq.force * left_.u - eq.K * left_.z.head(n) - eq.C * left_.z.segment(n, n) - eq.W * friction;
+  if constexpr (S::kMaxwell != 0) force_free -= eq.D * left_.z.tail(eq.maxwell_elements());
+  const typename S::Vector a_free = eq.M_inverse * force_free;
 
   const auto relative = [&](Eigen::Index j) {
     return eq.W.col(j).dot(a_free) + eq.support_acceleration.row(j).dot(left_.u);
@@ -207,9 +209,9 @@ void Flow<N, H>::saltate(ContactMask arrived, const Instant<N, H>& before, const
   const StepEquations<N, H>& eq = equations_;
   const Eigen::Index n = eq.masses();
   const bool alone = __builtin_popcountll(arrived) == 1;
-  auto dv = passage.tangent.bottomRows(n);
+  auto dv = passage.tangent.middleRows(n, n);
   Eigen::Matrix<double, N, S::kState> correction;
-  correction.setZero(n, 2 * n);
+  correction.setZero(n, eq.states());
   for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
     if (!contains(arrived, j)) continue;
     const double slope = sliding_speed(before, j).slope;

@@ -15,8 +15,11 @@ constexpr double kStepAngle = 0.06;  // fastest rate times step: the eighth-orde
 Eigen::Map<const VectorXd> head(const std::vector<double>& x, Index n) {
   return {x.data(), n};
 }
-Eigen::Map<const VectorXd> tail(const std::vector<double>& x, Index n) {
+Eigen::Map<const VectorXd> velocity(const std::vector<double>& x, Index n) {
   return {x.data() + n, n};
+}
+Eigen::Map<const VectorXd> maxwell(const std::vector<double>& x, Index n) {
+  return {x.data() + 2 * n, static_cast<Index>(x.size()) - 2 * n};
 }
 
 // Re sum_k amplitude_k (i order_k omega)^derivative e^{i order_k omega t}
@@ -45,13 +48,21 @@ EventIntegrator::EventIntegrator(const mechanics::LinearSystem& system)
     : system_(system), M_inverse_(system.M.inverse()) {
   const double stiff = (M_inverse_ * system.K).eigenvalues().cwiseAbs().maxCoeff();
   const double viscous = (M_inverse_ * system.C).eigenvalues().cwiseAbs().maxCoeff();
-  step_ = kStepAngle / std::max({std::sqrt(stiff), viscous, system.orders.back() * system.omega});
+  double maxwell = 0.0;
+  if (system.maxwell_elements() > 0) {
+    const Eigen::MatrixXd springs = system.D * system.maxwell_stiffness.asDiagonal() * system.D.transpose();
+    maxwell = system.maxwell_rate.maxCoeff() +
+              std::sqrt((M_inverse_ * springs).eigenvalues().cwiseAbs().maxCoeff());
+  }
+  step_ = kStepAngle / std::max({std::sqrt(stiff), viscous, maxwell, system.orders.back() * system.omega});
 }
 
-void EventIntegrator::start(double t, const VectorXd& q, const VectorXd& v) {
+void EventIntegrator::start(double t, const VectorXd& q, const VectorXd& v, const VectorXd& s) {
   t_ = t;
   state_.assign(q.data(), q.data() + q.size());
   state_.insert(state_.end(), v.data(), v.data() + v.size());
+  state_.insert(state_.end(), s.data(), s.data() + s.size());
+  state_.resize(static_cast<std::size_t>(2 * system_.masses() + system_.maxwell_elements()), 0.0);
   most_ = least_ = q;
   events_ = 0;
   modes_.assign(static_cast<std::size_t>(system_.contacts()), Mode::stuck);
@@ -82,7 +93,7 @@ EventIntegrator::Motion EventIntegrator::motion(const State& x, double t,
       result.friction[j] = mode == Mode::forward ? system_.limit[j] : -system_.limit[j];
   }
   const VectorXd force = system_.constant_force + harmonic(system_, system_.force, t, 0) -
-                         system_.K * head(x, n) - system_.C * tail(x, n);
+                         system_.K * head(x, n) - system_.C * velocity(x, n) - system_.D * maxwell(x, n);
   result.acceleration = M_inverse_ * (force - system_.W * result.friction);
   if (stuck.empty()) return result;
   // W_S^T (a - M^-1 W_S lambda) = - p_S^T y''
@@ -99,7 +110,7 @@ EventIntegrator::Motion EventIntegrator::motion(const State& x, double t,
 }
 
 double EventIntegrator::relative_velocity(const State& x, double t, Index j) const {
-  double speed = system_.W.col(j).dot(tail(x, system_.masses()));
+  double speed = system_.W.col(j).dot(velocity(x, system_.masses()));
   if (system_.motion.rows() > 0)
     speed += system_.W_support.col(j).dot(harmonic(system_, system_.motion, t, 1));
   return speed;
@@ -132,6 +143,15 @@ EventIntegrator::State EventIntegrator::moved(double t, double h) const {
     const VectorXd a = motion(y, at, modes_).acceleration;
     std::copy_n(y.data() + n, n, dy.data());
     std::copy_n(a.data(), n, dy.data() + n);
+    // s' = k (d^T q' + p^T y') - s k / c
+    VectorXd strain_rate = system_.D.transpose() * velocity(y, n);
+    if (system_.motion.rows() > 0) {
+      strain_rate += system_.D_support.transpose() * harmonic(system_, system_.motion, at, 1);
+    }
+    for (Index e = 0; e < system_.maxwell_elements(); ++e) {
+      const auto place = static_cast<std::size_t>(2 * n + e);
+      dy[place] = system_.maxwell_stiffness[e] * strain_rate[e] - system_.maxwell_rate[e] * y[place];
+    }
   };
   stepper.do_step(rate, x, t, h);
   return x;
@@ -269,8 +289,11 @@ void EventIntegrator::advance_to(double t_end) {
 VectorXd EventIntegrator::displacements() const {
   return head(state_, system_.masses());
 }
+VectorXd EventIntegrator::maxwell_forces() const {
+  return maxwell(state_, system_.masses());
+}
 VectorXd EventIntegrator::velocities() const {
-  return tail(state_, system_.masses());
+  return velocity(state_, system_.masses());
 }
 
 }  // namespace frahm::periodic

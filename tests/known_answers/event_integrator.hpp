@@ -14,19 +14,20 @@ class EventIntegrator {
  public:
   explicit EventIntegrator(const mechanics::LinearSystem& system);
 
-  // From displacements [m] and velocities [m/s] at time t [s].
-  void start(double t, const Eigen::VectorXd& q, const Eigen::VectorXd& v);
+  // From displacements [m], velocities [m/s] and the forces [N] of Maxwell elements at time t [s].
+  void start(double t, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& s = {});
   void advance_to(double t_end);
 
   Eigen::VectorXd displacements() const;
   Eigen::VectorXd velocities() const;
+  Eigen::VectorXd maxwell_forces() const;
   // (max - min) / 2 of the displacement of a mass since the start [m], stationary points solved.
   double amplitude(Eigen::Index mass) const { return 0.5 * (most_[mass] - least_[mass]); }
   int events() const { return events_; }
 
  private:
   enum class Mode { stuck, forward, backward };
-  using State = std::vector<double>;  // displacements, then velocities
+  using State = std::vector<double>;  // displacements, velocities, Maxwell forces
 
   struct Motion {
     Eigen::VectorXd acceleration, friction;  // of the masses; of the contacts

@@ -10,7 +10,7 @@
 #include "solvers/mechanics/network.hpp"
 
 // Networks drawn at random: a chain of masses on springs and dampers, with further springs, an inerter,
-// friction and a shaken support that acts through a spring, a damper, an inerter and friction. Contacts form
+// friction, Maxwell and hysteretic elements and a shaken support that acts through all of them. Contacts form
 // no loops among the masses and their support, in which friction forces are a matter of convention.
 namespace frahm::periodic {
 
@@ -22,6 +22,8 @@ struct RandomNetwork {
 struct RandomNetworkOptions {
   int masses = 1;
   int contacts = 0;
+  int maxwell_elements = 0;
+  bool hysteretic = false;
   std::vector<int> orders = {1};  // of the forces and of the support's motion
   bool shaken = true;             // a prescribed node exists
   double largest_friction = 1.0;  // of the amplitude of the force, 1 N
@@ -44,6 +46,7 @@ inline RandomNetwork random_network(const RandomNetworkOptions& options, std::mt
   const auto add = [&](ElementType type, Node a, Node b, double value) {
     network.elements.push_back({numbered('e', network.elements.size()), type, a, b});
     values.element.push_back(value);
+    values.second.push_back(0.0);
   };
   for (std::size_t i = 0; i < n; ++i) {
     network.masses.push_back(numbered('m', i));
@@ -79,6 +82,18 @@ inline RandomNetwork random_network(const RandomNetworkOptions& options, std::mt
     if (from == to) continue;
     std::replace(cluster.begin(), cluster.end(), from, to);
     add(ElementType::coulomb, a, b, options.largest_friction * uniform(random));
+  }
+  for (int j = 0; j < options.maxwell_elements; ++j) {
+    const Node b = mass(static_cast<std::size_t>(pick(options.masses)));
+    const Node a = options.shaken && uniform(random) < 0.5 ? support
+                   : b.index > 0                           ? mass(b.index - 1)
+                                                           : ground;
+    add(ElementType::maxwell, a, b, spread(1.0));
+    values.second.back() = spread(1.5);
+  }
+  if (options.hysteretic) {
+    add(ElementType::hysteretic, options.shaken ? support : ground, mass(n - 1), spread(1.0));
+    values.second.back() = 0.2 * spread(1.0);
   }
   for (const int order : options.orders) {
     const auto on = static_cast<std::size_t>(pick(options.masses));

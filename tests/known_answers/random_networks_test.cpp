@@ -26,7 +26,7 @@ void check_period(const RandomNetwork& drawn, const Responses& responses, const 
   assembly.set_values(drawn.values, system);
   assembly.set_forcing(drawn.values, system);
   const Eigen::Index n = system.masses();
-  Eigen::VectorXd q(n), v(n);
+  Eigen::VectorXd q(n), v(n), s(system.maxwell_elements());
   double largest = 1e-4, fastest = 0.0;  // [m]: the static response is near 1 m
   for (Eigen::Index i = 0; i < n; ++i) {
     q[i] = history.columns[static_cast<std::size_t>(2 * i)][0];
@@ -35,8 +35,13 @@ void check_period(const RandomNetwork& drawn, const Responses& responses, const 
     largest = std::max(largest, responses[name + "_peak"]);
     fastest = std::max(fastest, responses[name + "_velocity_peak"]);
   }
+  Eigen::Index maxwell = 0;
+  for (std::size_t e = 0; e < drawn.network.elements.size(); ++e) {
+    if (drawn.network.elements[e].type != mechanics::ElementType::maxwell) continue;
+    s[maxwell++] = history.columns[2 * drawn.network.masses.size() + e][0];
+  }
   EventIntegrator reference(system);
-  reference.start(0.0, q, v);
+  reference.start(0.0, q, v, s);
   reference.advance_to(2.0 * std::numbers::pi / drawn.values.omega);
   CHECK((reference.displacements() - q).cwiseAbs().maxCoeff() <=
         kClosure * std::max(largest, fastest / drawn.values.omega));
@@ -56,11 +61,24 @@ void check_extremes(const RandomNetwork& drawn, const Responses& responses, cons
   }
 }
 
+void check_network(const RandomNetwork& drawn) {
+  Responses responses(drawn.network);
+  const ResponseSummary& summary = responses.solve(drawn.values);
+  INFO("status " << responses["status"] << " " << summary.reason);
+  CHECK((responses["status"] == 1.0 || responses["status"] == 2.0));
+  CHECK(responses["residual"] < kResidual);
+  CHECK(responses["energy_balance"] < kBalance);
+  CHECK(responses["floquet_radius"] <= kUnstable);
+  if (responses["status"] == 4.0) return;
+  const History history = responses.response().history(2001);
+  check_extremes(drawn, responses, history);
+  check_period(drawn, responses, history);
+}
+
 TEST_CASE(
     "Random networks of 1 to 5 masses with up to 3 contacts balance, are stable and return to themselves") {
   const std::vector<std::vector<int>> orders = {{1}, {1, 3}, {1, 2}, {2}, {0, 1}};
   int points = 0;
-  double worst_balance = 0.0, worst_radius = 0.0;
   for (const int masses : {1, 2, 3, 5}) {
     for (const int contacts : {0, 1, 2, 3}) {
       for (unsigned trial = 0; trial < 20; ++trial) {
@@ -72,25 +90,29 @@ TEST_CASE(
                                                     .shaken = trial % 2 == 0,
                                                     .largest_friction = trial % 3 == 0 ? 2.0 : 0.5},
                                                    random);
-        Responses responses(drawn.network);
-        const ResponseSummary& summary = responses.solve(drawn.values);
-        INFO("masses " << masses << " contacts " << contacts << " trial " << trial << " " << summary.reason);
-        CHECK((responses["status"] == 1.0 || responses["status"] == 2.0));
-        CHECK(responses["residual"] < kResidual);
-        CHECK(responses["energy_balance"] < kBalance);
-        CHECK(responses["floquet_radius"] <= kUnstable);
-        if (responses["status"] == 4.0) continue;
-        worst_balance = std::max(worst_balance, responses["energy_balance"]);
-        worst_radius = std::max(worst_radius, responses["floquet_radius"]);
-        const History history = responses.response().history(2001);
-        check_extremes(drawn, responses, history);
-        check_period(drawn, responses, history);
+        INFO("masses " << masses << " contacts " << contacts << " trial " << trial);
+        check_network(drawn);
         ++points;
       }
     }
   }
-  INFO("points " << points << " balance " << worst_balance << " radius " << worst_radius);
   CHECK(points == 320);
+}
+
+TEST_CASE("So do networks with Maxwell and hysteretic elements") {
+  const std::vector<std::vector<int>> orders = {{1}, {1, 3}, {1, 2}, {0, 1}};
+  for (unsigned trial = 0; trial < 60; ++trial) {
+    std::mt19937 random(7000U + trial);
+    INFO("trial " << trial);
+    check_network(random_network({.masses = 1 + static_cast<int>(trial % 4),
+                                  .contacts = static_cast<int>(trial % 3),
+                                  .maxwell_elements = 1 + static_cast<int>(trial / 4 % 3),
+                                  .hysteretic = trial % 2 == 1,
+                                  .orders = orders[trial / 2 % orders.size()],
+                                  .shaken = trial % 5 != 0,
+                                  .largest_friction = trial % 3 == 0 ? 2.0 : 0.5},
+                                 random));
+  }
 }
 
 TEST_CASE("Under odd forcing every mean is zero") {
@@ -114,9 +136,13 @@ TEST_CASE("Other units of length, time and force change the numbers and not the 
   constexpr double kLength = 1e-3, kTime = 3.7, kForce = 250.0;  // new unit in old ones
   for (unsigned trial = 0; trial < 20; ++trial) {
     std::mt19937 random(500 + trial);
-    const RandomNetwork drawn = random_network(
-        {.masses = 1 + static_cast<int>(trial % 3), .contacts = 2, .orders = {1, 2}, .largest_friction = 0.4},
-        random);
+    const RandomNetwork drawn = random_network({.masses = 1 + static_cast<int>(trial % 3),
+                                                .contacts = 2,
+                                                .maxwell_elements = static_cast<int>(trial % 2),
+                                                .hysteretic = trial % 4 > 1,
+                                                .orders = {1, 2},
+                                                .largest_friction = 0.4},
+                                               random);
     mechanics::NetworkValues scaled = drawn.values;
     const double per_length = kForce / kLength;
     scaled.omega /= kTime;

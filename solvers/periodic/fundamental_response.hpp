@@ -1,0 +1,23 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "solvers/mechanics/linear_system.hpp"
+
+// What the harmonics of the reference order are measured by.
+namespace frahm::periodic {
+
+// Where the reference order stands among LinearSystem::orders.
+Eigen::Index reference_place(const mechanics::LinearSystem& system);
+
+// |K^-1 (f - K_support Y)|: the displacements [m] of the masses under the reference order's amplitudes of
+// force and motion, applied without haste.
+Eigen::VectorXd static_displacement(const mechanics::LinearSystem& system);
+
+// Amplitude [m] at the reference order of the one support that moves at it; 0 where none or several do.
+double support_amplitude(const mechanics::LinearSystem& system);
+
+// a / b, NaN where there is no b.
+double ratio(double a, double b);
+
+}  // namespace frahm::periodic

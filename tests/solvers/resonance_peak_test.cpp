@@ -1,0 +1,87 @@
+#include "solvers/periodic/resonance_peak.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+namespace frahm::periodic {
+namespace {
+
+using Catch::Matchers::WithinAbs;
+constexpr double kSolved = 1e-10;
+
+std::vector<double> grid(double from, double to, int points) {
+  std::vector<double> places;
+  for (int i = 0; i < points; ++i) places.push_back(from + (to - from) * i / (points - 1));
+  return places;
+}
+
+// Viscous damping: |X| = 1 / sqrt((1 - r^2)^2 + (2 zeta r)^2).
+double viscous(double r, double zeta) {
+  return 1.0 / std::hypot(1.0 - r * r, 2.0 * zeta * r);
+}
+
+TEST_CASE(
+    "a viscous peak stands at sqrt(1 - 2 zeta^2), its half-power points where the curve is 1/sqrt(2) of it") {
+  for (const double zeta : {0.001, 0.01, 0.05, 0.1, 0.3, 0.38}) {
+    INFO("zeta " << zeta);
+    const auto peak = find_resonance_peak([&](double r) { return viscous(r, zeta); }, grid(0.02, 2.0, 100));
+    CHECK_THAT(peak.at, WithinAbs(std::sqrt(1.0 - 2.0 * zeta * zeta), kSolved));
+    const double height = 1.0 / (2.0 * zeta * std::sqrt(1.0 - zeta * zeta));
+    CHECK_THAT(peak.value / height, WithinAbs(1.0, 1e-12));
+    // r^2 = 1 - 2 zeta^2 -+ 2 zeta sqrt(1 - zeta^2)
+    const double spread = 2.0 * zeta * std::sqrt(1.0 - zeta * zeta);
+    CHECK_THAT(peak.half_power_low, WithinAbs(std::sqrt(1.0 - 2.0 * zeta * zeta - spread), kSolved));
+    CHECK_THAT(peak.half_power_high, WithinAbs(std::sqrt(1.0 - 2.0 * zeta * zeta + spread), kSolved));
+  }
+}
+
+TEST_CASE("a viscous curve has no peak above zeta = 1/sqrt(2), and one just below") {
+  for (const double zeta : {0.7072, 0.8, 1.5}) {
+    INFO("zeta " << zeta);
+    const auto peak = find_resonance_peak([&](double r) { return viscous(r, zeta); }, grid(0.001, 2.0, 500));
+    CHECK(std::isnan(peak.at));
+    CHECK(std::isnan(peak.value));
+    CHECK(std::isnan(peak.half_power_low));
+  }
+  const auto flat = find_resonance_peak([](double r) { return viscous(r, 0.7); }, grid(0.001, 2.0, 500));
+  CHECK_THAT(flat.at, WithinAbs(std::sqrt(0.02), kSolved));
+  CHECK(std::isnan(flat.half_power_low));  // the static response is above 1/sqrt(2) of so low a peak
+}
+
+TEST_CASE("a hysteretic peak stands at the natural frequency and is 1/eta high") {
+  for (const double eta : {0.002, 0.05, 0.3}) {
+    const auto peak =
+        find_resonance_peak([&](double r) { return 1.0 / std::hypot(1.0 - r * r, eta); }, grid(0.1, 2.0, 77));
+    CHECK_THAT(peak.at, WithinAbs(1.0, kSolved));
+    CHECK_THAT(peak.value * eta, WithinAbs(1.0, 1e-12));
+    CHECK_THAT(peak.half_power_high, WithinAbs(std::sqrt(1.0 + eta), kSolved));
+    CHECK_THAT(peak.half_power_low, WithinAbs(std::sqrt(1.0 - eta), kSolved));
+  }
+}
+
+TEST_CASE("of two peaks the higher is found, from a grid that runs either way") {
+  const auto two = [](double r) { return viscous(r, 0.05) + 2.0 * viscous(r / 1.7, 0.05); };
+  std::vector<double> places = grid(0.5, 2.5, 401);
+  const auto up = find_resonance_peak(two, places);
+  std::reverse(places.begin(), places.end());
+  const auto down = find_resonance_peak(two, places);
+  CHECK(up.at > 1.6);
+  CHECK_THAT(down.at, WithinAbs(up.at, kSolved));
+}
+
+TEST_CASE("places without a response are passed over, and a kink is met to the width of the search") {
+  const auto broken = [](double r) {
+    return r > 1.2 ? std::numeric_limits<double>::quiet_NaN() : viscous(r, 0.05);
+  };
+  const auto peak = find_resonance_peak(broken, grid(0.1, 2.0, 191));
+  CHECK_THAT(peak.at, WithinAbs(std::sqrt(1.0 - 0.005), kSolved));
+  const auto kink =
+      find_resonance_peak([](double r) { return 2.0 - std::abs(r - 1.03); }, grid(0.1, 2.0, 20));
+  CHECK_THAT(kink.at, WithinAbs(1.03, 1e-7));
+}
+
+}  // namespace
+}  // namespace frahm::periodic
