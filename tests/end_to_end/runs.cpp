@@ -58,6 +58,12 @@ std::string reduced(const std::string& name, const std::map<std::string, int>& p
   return result;
 }
 
+std::string replaced(std::string text, const std::string& passage, const std::string& by) {
+  const std::size_t place = text.find(passage);
+  if (place == std::string::npos) throw std::runtime_error("the study has no \"" + passage + "\"");
+  return text.replace(place, passage.size(), by);
+}
+
 Folder::Folder() {
   std::string path = (std::filesystem::temp_directory_path() / "frahm-end-to-end-XXXXXX").string();
   if (::mkdtemp(path.data()) == nullptr) throw std::runtime_error("cannot make " + path);

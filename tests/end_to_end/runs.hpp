@@ -21,6 +21,9 @@ Outcome frahm(const std::vector<std::string>& arguments);
 // The text of studies/<name>.toml with fewer points on some axes: parameter -> points.
 std::string reduced(const std::string& name, const std::map<std::string, int>& points);
 
+// A study's text with one passage, which must be there, replaced.
+std::string replaced(std::string text, const std::string& passage, const std::string& by);
+
 // A folder of its own, removed with everything in it.
 class Folder {
  public:
