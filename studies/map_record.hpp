@@ -32,7 +32,7 @@ std::vector<results::Text> provenance(const MapPlan& plan, const RunRecord& run,
 void write_orbits(const MapPlan& plan, results::MapWriter& writer);
 
 // Resonance and half-power frequencies of the masses that the study lists, solved for each point of the axes
-// other than the frequency, a row of /resonance each; nothing if it lists none.
+// other than the frequency, a curve of /resonance each; nothing if it lists none.
 void write_resonances(const MapPlan& plan, results::MapWriter& writer);
 
 }  // namespace frahm::studies

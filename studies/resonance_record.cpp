@@ -76,7 +76,7 @@ std::vector<results::Column> columns_of(const StudyFile& study, std::size_t freq
   const auto add = [&](const std::string& name, const std::string& unit, const std::string& long_name) {
     const bool pure = unit.empty() || study.dimensionless;
     columns.push_back(
-        {.variable = {.name = name, .unit = pure ? "1" : unit, .long_name = long_name}, .dimension = "row"});
+        {.variable = {.name = name, .unit = pure ? "1" : unit, .long_name = long_name}, .dimension = "curve"});
   };
   for (std::size_t d = 0; d < study.dimensions.size(); ++d) {
     if (d == frequency_dimension) continue;

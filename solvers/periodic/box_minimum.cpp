@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "solvers/periodic/constraints.hpp"
+
 namespace frahm::periodic {
 namespace {
 
@@ -17,30 +19,16 @@ struct Step {
 // From lambda to the minimum over the free components, or along a direction in which G is flat and c is not.
 Step step_to_free_minimum(const MatrixXd& G, const VectorXd& c, const VectorXd& weight,
                           const VectorXd& lambda, const std::vector<Index>& free) {
-  const auto m = static_cast<Index>(free.size());
-  MatrixXd scaled(m, m);
-  VectorXd right(m), start(m);
-  for (Index i = 0; i < m; ++i) {
-    const Index row = free[static_cast<std::size_t>(i)];
-    double fixed_part = G.row(row).dot(lambda);
-    for (Index k = 0; k < m; ++k) {
-      const Index column = free[static_cast<std::size_t>(k)];
-      scaled(i, k) = weight[row] * G(row, column) * weight[column];
-      fixed_part -= G(row, column) * lambda[column];
-    }
-    right[i] = weight[row] * (c[row] - fixed_part);
-    start[i] = lambda[row] / weight[row];
-  }
-  Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver;
-  solver.setThreshold(1e-11);
-  solver.compute(scaled);
-  const VectorXd target = solver.solve(right);  // least norm: least sum (lambda / weight)^2
-  const VectorXd rest = right - scaled * target;
-  const double size = scaled.norm() * target.norm() + right.norm();
-  const bool bounded = rest.norm() <= 1e-10 * size;
-  Step step{bounded ? VectorXd(target - start) : rest, bounded};
-  for (Index i = 0; i < m; ++i) step.direction[i] *= weight[free[static_cast<std::size_t>(i)]];
-  return step;
+  const MatrixXd G_free = G(free, free);
+  const VectorXd weight_free = weight(free), start = lambda(free);
+  const VectorXd right = c(free) - G(free, Eigen::all) * lambda + G_free * start;
+  const MatrixXd inverse = weighted_pseudo_inverse(G_free, weight_free);
+  VectorXd target = inverse * right;  // of least sum (lambda / weight)^2
+  target += inverse * (right - G_free * target);
+  const VectorXd rest = right - G_free * target;
+  const VectorXd size = G_free.cwiseAbs() * target.cwiseAbs() + right.cwiseAbs();
+  if ((rest.array().abs() <= 1e-10 * size.array()).all()) return {target - start, true};
+  return {weight_free.cwiseAbs2().cwiseProduct(rest), false};
 }
 
 }  // namespace

@@ -11,10 +11,17 @@ constexpr double kDependent = 1e-11;
 }  // namespace
 
 Eigen::MatrixXd weighted_pseudo_inverse(const Eigen::MatrixXd& G, const Eigen::VectorXd& weight) {
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> scaled;
-  scaled.setThreshold(kDependent);
-  scaled.compute(weight.asDiagonal() * G * weight.asDiagonal());
-  return weight.asDiagonal() * scaled.pseudoInverse() * weight.asDiagonal();
+  const Eigen::VectorXd size =
+      (weight.array() > 0.0).select(G.diagonal().cwiseSqrt().cwiseInverse(), 0.0).matrix();
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
+  solver.setThreshold(kDependent);
+  // Directions that do not depend on one another have one answer, whatever the weights, which may be of very
+  // different size.
+  solver.compute(size.asDiagonal() * G * size.asDiagonal());
+  const bool independent = solver.rank() == (weight.array() > 0.0).count();
+  if (independent) return size.asDiagonal() * solver.pseudoInverse() * size.asDiagonal();
+  solver.compute(weight.asDiagonal() * G * weight.asDiagonal());
+  return weight.asDiagonal() * solver.pseudoInverse() * weight.asDiagonal();
 }
 
 Eigen::MatrixXd projector_off(const Eigen::MatrixXd& A, const Eigen::MatrixXd& W) {

@@ -13,6 +13,7 @@
 namespace frahm::periodic {
 namespace {
 
+using Catch::Matchers::WithinAbs;
 constexpr double kBalance = 1e-10;
 constexpr double kResidual = 1e-12;
 constexpr double kSameOrbit = 1e-9;               // relative, in the energy norm
@@ -124,6 +125,31 @@ TEST_CASE("Without the absorber the resonant peak falls as friction grows") {
     INFO("F/P " << share << " peak " << peak << " m");
     CHECK(peak < last);
     last = peak;
+  }
+}
+
+TEST_CASE("Friction that clamps the absorber leaves one mass of both, whatever its size") {
+  constexpr double kClamped = 1e-10;
+  // A second order in the excitation takes the half-period symmetry away.
+  mechanics::Network clamped = rig(), joined = rig(false);
+  for (mechanics::Network* network : {&clamped, &joined}) {
+    network->excitations.push_back({mechanics::ExcitationKind::motion, 0, 2});
+  }
+  Responses with(clamped), without(joined);
+  for (const double friction : {1e4, 1e6, 1e9}) {
+    for (const double omega : {8.4, 10.5, 20.0, 26.0}) {
+      mechanics::NetworkValues values = rig_values(omega, 4.72, 0.15, friction);
+      values.excitation.push_back({0.1 * kRigCrank, 0.3});
+      with.solve(values);
+      mechanics::NetworkValues one = bare_rig_values(omega, 0.15);
+      one.mass[0] += values.mass[1];
+      one.excitation = values.excitation;
+      without.solve(one);
+      INFO("friction " << friction << " omega " << omega << " " << with["status"]);
+      CHECK(with["tmd_friction_stuck_fraction"] == 1.0);
+      CHECK_THAT(with["main_peak"], WithinAbs(without["main_peak"], kClamped));
+      CHECK(with["guide_stops"] == without["guide_stops"]);
+    }
   }
 }
 

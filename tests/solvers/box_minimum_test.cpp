@@ -48,6 +48,20 @@ TEST_CASE("Of forces that serve equally those of least sum (lambda / F)^2 are ta
   CHECK_THAT(lambda[1], WithinAbs(0.2, 1e-14));
 }
 
+TEST_CASE("A limit of any size beside small ones leaves the small ones their digits") {
+  MatrixXd G(2, 2);
+  G << 1.0, -1.0, -1.0, 3.0;
+  const VectorXd c = Eigen::Vector2d(0.3, 0.4);
+  // inside both limits: lambda = G^-1 c = (0.65, 0.35)
+  for (const double large : {1.0, 1e4, 1e7, 1e12}) {
+    INFO("large limit " << large);
+    const VectorXd limit = Eigen::Vector2d(large, 1.0);
+    const VectorXd lambda = box_minimum(G, c, -limit, limit, limit);
+    CHECK_THAT(lambda[0], WithinAbs(0.65, 1e-15));
+    CHECK_THAT(lambda[1], WithinAbs(0.35, 1e-15));
+  }
+}
+
 TEST_CASE("Beyond all limits together every contact stands at its own") {
   const MatrixXd G = MatrixXd::Ones(3, 3);
   const VectorXd limit = Eigen::Vector3d(1.0, 2.0, 0.5), c = Eigen::Vector3d::Constant(-9.0);

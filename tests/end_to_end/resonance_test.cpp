@@ -1,0 +1,98 @@
+// Resonance and half-power frequencies along the frequency axis: [output] resonances.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
+
+#include "tests/end_to_end/runs.hpp"
+
+namespace {
+
+using Columns = std::map<std::string, std::vector<double>>;
+constexpr double solved = 1e-10;
+
+// The columns of /resonance after a run of this study.
+Columns resonances_of(const std::string& text) {
+  const runs::Folder folder;
+  const runs::Outcome run =
+      runs::frahm({"run", folder.write("study.toml", text), "-o", folder / "study.h5", "--threads", "1"});
+  INFO(run.err);
+  REQUIRE(run.code == 0);
+  Columns columns;
+  for (const auto& column : frahm::results::MapReader(folder / "study.h5").columns("resonance")) {
+    columns[column.variable.name] = column.values;
+  }
+  return columns;
+}
+
+TEST_CASE("lecture_hysteretic.toml: the resonance is at omega_n exactly whatever eta, and 1/eta high") {
+  const Columns columns = resonances_of(runs::reduced("lecture_hysteretic", {{"r", 60}}));
+  const auto& eta = columns.at("eta");
+  REQUIRE(eta.size() == 6);
+  for (std::size_t i = 0; i < eta.size(); ++i) {
+    INFO("eta " << eta[i]);
+    CHECK_THAT(columns.at("main_resonance_frequency")[i], Catch::WithinAbs(1.0, solved));
+    CHECK_THAT(columns.at("main_resonance_amplitude")[i] * eta[i], Catch::WithinAbs(1.0, solved));
+    CHECK_THAT(columns.at("main_half_power_high")[i], Catch::WithinAbs(std::sqrt(1.0 + eta[i]), solved));
+    if (eta[i] < 0.9) {
+      CHECK_THAT(columns.at("main_half_power_low")[i], Catch::WithinAbs(std::sqrt(1.0 - eta[i]), solved));
+    }
+  }
+}
+
+TEST_CASE("A viscous resonance is at sqrt(1 - 2 zeta^2), and there is none above zeta = 0.707") {
+  std::string text = runs::reduced("lecture_isolation", {});
+  text = runs::replaced(text, "[output]\n", "[output]\nresonances = [\"machine\"]\n");
+  const Columns columns = resonances_of(text);
+  const auto& zeta = columns.at("zeta");
+  REQUIRE(zeta.size() >= 4);
+  int with_peak = 0;
+  for (std::size_t i = 0; i < zeta.size(); ++i) {
+    INFO("zeta " << zeta[i]);
+    const double square = 1.0 - 2.0 * zeta[i] * zeta[i];
+    if (square < 0.0) {
+      CHECK(std::isnan(columns.at("machine_resonance_frequency")[i]));
+      continue;
+    }
+    ++with_peak;
+    const double spread = 2.0 * zeta[i] * std::sqrt(1.0 - zeta[i] * zeta[i]);
+    CHECK_THAT(columns.at("machine_resonance_frequency")[i], Catch::WithinAbs(std::sqrt(square), solved));
+    CHECK_THAT(columns.at("machine_half_power_high")[i],
+               Catch::WithinAbs(std::sqrt(square + spread), solved));
+  }
+  CHECK(with_peak >= 2);
+}
+
+TEST_CASE("identification_response.toml: the solved half-power points are those of the closed form") {
+  const std::string text = runs::reduced("identification_response", {});
+  const Columns columns = resonances_of(text);
+  const auto& f_n = columns.at("f_n");
+  REQUIRE(f_n.size() == 11);
+  for (std::size_t i = 0; i < f_n.size(); ++i) {
+    INFO("row " << i);
+    const double omega = 2.0 * 3.14159265358979323846 * f_n[i];
+    const double resonance = columns.at("main_resonance_frequency")[i] / omega;
+    const double zeta = std::sqrt(0.5 * (1.0 - resonance * resonance));
+    const double spread = 2.0 * zeta * std::sqrt(1.0 - zeta * zeta);
+    CHECK_THAT(columns.at("main_half_power_low")[i] / omega,
+               Catch::WithinAbs(std::sqrt(resonance * resonance - spread), 1e-8));
+    CHECK_THAT(columns.at("main_half_power_high")[i] / omega,
+               Catch::WithinAbs(std::sqrt(resonance * resonance + spread), 1e-8));
+    CHECK_THAT(columns.at("main_resonance_amplitude")[i], Catch::WithinRel(1e-3 / spread, 1e-8));
+  }
+}
+
+TEST_CASE("With friction the resonance is that of the harmonic component, below the linear one") {
+  const Columns columns =
+      resonances_of(runs::reduced("rig_without_absorber", {}) + "\n[output]\nresonances = [\"main\"]\n");
+  const auto& share = columns.at("FP");
+  const auto& amplitude = columns.at("main_resonance_amplitude");
+  REQUIRE(share.size() > 2);
+  for (std::size_t i = 1; i < share.size(); ++i) {
+    INFO("F/P " << share[i]);
+    CHECK(amplitude[i] < amplitude[i - 1]);
+    CHECK(columns.at("main_half_power_low")[i] < columns.at("main_resonance_frequency")[i]);
+    CHECK(columns.at("main_resonance_frequency")[i] < columns.at("main_half_power_high")[i]);
+  }
+}
+
+}  // namespace
