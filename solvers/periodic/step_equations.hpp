@@ -75,6 +75,7 @@ struct StepEquations {
 
   Eigen::Index masses() const { return M.rows(); }
   Eigen::Index contacts() const { return limit.size(); }
+  Eigen::Index states() const { return 2 * masses(); }
   Eigen::Index oscillators() const { return force.cols(); }
 
   // d/dt of row * u(t):  cos' = -rate sin, sin' = rate cos.
