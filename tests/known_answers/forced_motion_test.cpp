@@ -255,6 +255,32 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("A mass that friction holds on a shaken support rides along through a run-up") {
+  using namespace mechanics;
+  const Node mass{NodeKind::mass, 0}, support{NodeKind::prescribed, 0};
+  const Network network{.masses = {"x"},
+                        .prescribed = {"y"},
+                        .elements = {{"spring", ElementType::spring, Node{}, mass},
+                                     {"grip", ElementType::coulomb, support, mass}},
+                        .excitations = {{ExcitationKind::motion, 0, 1}}};
+  const NetworkValues values{.mass = {1.0}, .element = {1.0, 50.0}, .excitation = {{1.0, 0.0}}};
+  const double from = 0.5, alpha = 0.1, to = 2.5;
+  const ForcedMotion motion =
+      forced_motion(network, always(values), {{1.0}, {0.0}},
+                    {.from = from, .sweep = {to, alpha}, .duration = (to - from) / alpha, .samples = 201});
+  REQUIRE(motion.failure.empty());
+  double error = 0.0;
+  for (std::size_t i = 0; i < 201; ++i) {
+    const double t = motion.history.time[i];
+    error = std::max(error,
+                     std::abs(motion.history.displacement[0][i] - std::cos(from * t + 0.5 * alpha * t * t)));
+  }
+  INFO("stairs " << motion.stairs << " stated " << motion.discretisation_error << " true " << error);
+  CHECK(motion.discretisation_error <= kRunUpTolerance);
+  CHECK(error <= motion.discretisation_error);
+  CHECK(motion.stops[0].size() == 1);
+}
+
 TEST_CASE("After a run-up the frequency is kept") {
   const mechanics::NetworkValues values = periodic::single_mass_values(1.0, 0.2, 0.0);
   const ForcedOptions options{.from = 0.2, .sweep = {0.7, 0.05}, .duration = 210.0, .samples = 421};
