@@ -1,5 +1,6 @@
 #include "solvers/transient/free_decay.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -60,10 +61,13 @@ DecayEnd march(const Decaying& decaying, double duration, Trajectory& trajectory
 }
 
 std::vector<double> log_decrements(const std::vector<Extremum>& extrema) {
+  constexpr double kZero = 1e-12;  // of the largest: an extremum that is zero but for rounding
+  double largest = 0.0;
+  for (const Extremum& extremum : extrema) largest = std::max(largest, std::abs(extremum.displacement));
   std::vector<double> result(extrema.size(), kNone);
   for (std::size_t i = 0; i + 2 < extrema.size(); ++i) {
-    const double ratio = std::abs(extrema[i].displacement / extrema[i + 2].displacement);
-    if (ratio > 0.0 && std::isfinite(ratio)) result[i] = std::log(ratio);
+    const double before = std::abs(extrema[i].displacement), after = std::abs(extrema[i + 2].displacement);
+    if (std::min(before, after) > kZero * largest) result[i] = std::log(before / after);
   }
   return result;
 }

@@ -33,7 +33,7 @@ enum class DecayEnd {
 
 struct DecayOfMass {
   std::vector<Extremum> extrema;
-  // ln |x_i / x_{i+2}|, a full cycle apart; NaN where there is no x_{i+2}, or no positive finite ratio.
+  // ln |x_i / x_{i+2}|, a full cycle apart; NaN where there is no x_{i+2}, or one of the two is zero.
   // Viscous damping alone: 2 pi zeta/s, the same for all i. Friction makes it grow from cycle to cycle, as
   // it takes the same 4 x_f from each.
   std::vector<double> log_decrement;
