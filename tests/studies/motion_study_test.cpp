@@ -12,7 +12,7 @@ using namespace frahm::studies;
 constexpr double rounding = 1e-14;  // a few roundings of double arithmetic
 
 const std::string network =
-    "[parameters]\nx_0 = { value = 30, unit = \"mm\" }\nomega = { value = 2, unit = \"Hz\" }\n"
+    "[parameters]\nx_0 = { value = 30, unit = \"mm\" }\nomega = { value = 120, unit = \"rpm\" }\n"
     "[[mass]]\nname = \"a\"\nmass = 2\n[[mass]]\nname = \"b\"\nmass = 1\n"
     "[[element]]\nname = \"spring\"\ntype = \"spring\"\nbetween = [\"ground\", \"a\"]\nstiffness = 800\n"
     "[[element]]\nname = \"link\"\ntype = \"hysteretic\"\nbetween = [\"a\", \"b\"]\nstiffness = 100\n"
