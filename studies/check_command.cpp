@@ -101,13 +101,10 @@ std::string seconds_text(const StudyFile& study, double seconds) {
 }
 
 void print_decay_choice(const StudyFile& study, const mechanics::NetworkValues& values, std::ostream& out) {
-  std::vector<double> parameters = study.parameters.nominal();
   const auto& duration = study.motion.duration;
-  fmt::print(
-      out, "decay      free vibration, {}\n",
-      duration
-          ? "for " + seconds_text(study, duration->expression.evaluate(std::span<const double>(parameters)))
-          : "until rest, or until its end is clear");
+  fmt::print(out, "decay      free vibration, {}\n",
+             duration ? "for " + seconds_text(study, stated(study, *duration))
+                      : "until rest, or until its end is clear");
   const auto& elements = study.network.elements;
   if (std::any_of(elements.begin(), elements.end(),
                   [](const auto& element) { return element.type == mechanics::ElementType::hysteretic; })) {

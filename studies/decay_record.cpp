@@ -15,11 +15,6 @@ namespace {
 
 using transient::DecayEnd, transient::Extremum, transient::FreeDecay;
 
-double nominal(const StudyFile& study, const StudyValue& value) {
-  const std::vector<double> parameters = study.parameters.nominal();
-  return value.expression.evaluate(std::span<const double>(parameters));
-}
-
 std::string ending(const StudyFile& study, const FreeDecay& decay) {
   const char* seconds = study.dimensionless ? "" : " s";
   switch (decay.end) {
@@ -42,13 +37,18 @@ std::string ending(const StudyFile& study, const FreeDecay& decay) {
 
 }  // namespace
 
+double stated(const StudyFile& study, const StudyValue& value) {
+  const std::vector<double> parameters = study.parameters.nominal();
+  return value.expression.evaluate(std::span<const double>(parameters));
+}
+
 mechanics::NetworkValues motion_values(const StudyFile& study) {
   mechanics::NetworkValues values;
   std::vector<double> parameters = study.parameters.nominal();
   evaluate(study.values, study.parameters, parameters, values);
   if (study.kind != StudyKind::decay) return values;
   if (study.motion.reference_frequency) {
-    values.hysteretic_omega = nominal(study, *study.motion.reference_frequency);
+    values.hysteretic_omega = stated(study, *study.motion.reference_frequency);
     return values;
   }
   try {
@@ -64,15 +64,15 @@ transient::InitialState initial_state(const StudyFile& study) {
   const std::size_t n = study.network.masses.size();
   transient::InitialState state{std::vector<double>(n, 0.0), std::vector<double>(n, 0.0)};
   for (const InitialValues& initial : study.motion.initial) {
-    state.displacement[initial.mass] = nominal(study, initial.displacement);
-    state.velocity[initial.mass] = nominal(study, initial.velocity);
+    state.displacement[initial.mass] = stated(study, initial.displacement);
+    state.velocity[initial.mass] = stated(study, initial.velocity);
   }
   return state;
 }
 
 FreeDecay solve_decay(const StudyFile& study) {
   const transient::DecayOptions options{
-      .duration = study.motion.duration ? nominal(study, *study.motion.duration) : 0.0,
+      .duration = study.motion.duration ? stated(study, *study.motion.duration) : 0.0,
       .samples = study.motion.samples};
   try {
     FreeDecay decay =

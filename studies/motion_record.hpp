@@ -13,6 +13,9 @@
 // record (results/FORMAT.md) and a short table of it.
 namespace frahm::studies {
 
+// A value as the study states it, in SI.
+double stated(const StudyFile& study, const StudyValue& value);
+
 // The numbers of the network as the study states them. Of a decay hysteretic_omega is that of its
 // reference_frequency, or the lowest undamped natural frequency. Throws StudyError for a network that cannot
 // move.

@@ -14,11 +14,6 @@ namespace {
 
 using transient::ForcedMotion, transient::Stop;
 
-double nominal(const StudyFile& study, const StudyValue& value) {
-  const std::vector<double> parameters = study.parameters.nominal();
-  return value.expression.evaluate(std::span<const double>(parameters));
-}
-
 // The network's values when the parameter that is the frequency, if there is one, takes another value.
 mechanics::NetworkValues values_at(const StudyFile& study, double omega) {
   std::vector<double> parameters = study.parameters.nominal();
@@ -50,9 +45,9 @@ std::vector<StopsOfElement> stops_of_elements(const StudyFile& study, const Forc
 
 transient::ForcedOptions forced_options(const StudyFile& study) {
   const MotionChoice& motion = study.motion;
-  transient::ForcedOptions options{.from = nominal(study, study.values.omega), .samples = motion.samples};
+  transient::ForcedOptions options{.from = stated(study, study.values.omega), .samples = motion.samples};
   if (motion.sweep_to) {
-    options.sweep = {nominal(study, *motion.sweep_to), nominal(study, *motion.sweep_rate)};
+    options.sweep = {stated(study, *motion.sweep_to), stated(study, *motion.sweep_rate)};
     if (options.sweep.to == options.from) {
       throw study.source.error_at(motion.sweep_to->position,
                                   fmt::format("{}: is the frequency at which the motion begins; leave out "
@@ -61,7 +56,7 @@ transient::ForcedOptions forced_options(const StudyFile& study) {
     }
     options.duration = std::abs(options.sweep.to - options.from) / options.sweep.rate;
   }
-  if (motion.duration) options.duration = nominal(study, *motion.duration);
+  if (motion.duration) options.duration = stated(study, *motion.duration);
   return options;
 }
 
