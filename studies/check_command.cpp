@@ -15,6 +15,7 @@
 #include "studies/map_plan.hpp"
 #include "studies/map_sample.hpp"
 #include "studies/modes_table.hpp"
+#include "studies/motion_record.hpp"
 #include "studies/settings.hpp"
 
 namespace frahm::studies {
@@ -95,6 +96,58 @@ void print_first_modes(const StudyFile& study, const Grid& grid, std::ostream& o
   }
 }
 
+std::string seconds_text(const StudyFile& study, double seconds) {
+  return fmt::format("{:.6g}{}", seconds, study.dimensionless ? "" : " s");
+}
+
+void print_decay_choice(const StudyFile& study, const mechanics::NetworkValues& values, std::ostream& out) {
+  const auto& duration = study.motion.duration;
+  fmt::print(out, "decay      free vibration, {}\n",
+             duration ? "for " + seconds_text(study, stated(study, *duration))
+                      : "until rest, or until its end is clear");
+  const auto& elements = study.network.elements;
+  if (std::any_of(elements.begin(), elements.end(),
+                  [](const auto& element) { return element.type == mechanics::ElementType::hysteretic; })) {
+    fmt::print(out, "reference  {:.6g}{}: the loss factors' frequency\n", values.hysteretic_omega,
+               study.dimensionless ? "" : " rad/s");
+  }
+}
+
+void print_transient_choice(const StudyFile& study, std::ostream& out) {
+  const transient::ForcedOptions options = forced_options(study);
+  const char* unit = study.dimensionless ? "" : " rad/s";
+  fmt::print(out, "transient  {} at {:.6g}{}", seconds_text(study, options.duration), options.from, unit);
+  if (options.sweep.rate > 0.0) {
+    fmt::print(out, ", running to {:.6g}{} at {:.6g}{} a second", options.sweep.to, unit, options.sweep.rate,
+               unit);
+  }
+  fmt::print(out, "\n");
+}
+
+// Of a decay or transient.
+int check_motion(const StudyFile& study, std::ostream& out) {
+  const mechanics::NetworkValues values = motion_values(study);
+  const transient::InitialState initial = initial_state(study);
+  fmt::print(out, "{} is a valid study{}{}\n\n", study.source.name, study.title.empty() ? "" : ": ",
+             study.title);
+  if (study.kind == StudyKind::decay) {
+    print_decay_choice(study, values, out);
+  } else {
+    print_transient_choice(study, out);
+  }
+  for (std::size_t i = 0; i < initial.displacement.size(); ++i) {
+    fmt::print(out, "initial    {}: {:.6g}{}, {:.6g}{}\n", study.network.masses[i], initial.displacement[i],
+               study.dimensionless ? "" : " m", initial.velocity[i], study.dimensionless ? "" : " m/s");
+  }
+  fmt::print(out, "samples    {}\n\n", study.motion.samples);
+  try {
+    print_modes(study, modes_at_point(study, values), out);
+  } catch (const mechanics::MechanicsError& error) {
+    throw StudyError(study.source.name + ": " + error.what());
+  }
+  return exit_code::done;
+}
+
 MapSample sample_of(const MapPlan& plan, double seconds) {
   try {
     return sample_map(plan, seconds);
@@ -107,7 +160,9 @@ MapSample sample_of(const MapPlan& plan, double seconds) {
 
 int check_command(const CheckOptions& options, std::ostream& out) {
   constexpr double sample_seconds = 1.0;
-  const MapPlan plan = plan_map(read_study_with(options.study, options.set), options.set);
+  StudyFile read = read_study_with(options.study, options.set);
+  if (read.kind != StudyKind::sweep) return check_motion(read, out);
+  const MapPlan plan = plan_map(std::move(read), options.set);
   const StudyFile& study = plan.study;
   const MapSample sample = sample_of(plan, sample_seconds);
   const double core_seconds =

@@ -86,18 +86,49 @@ void write_map(const results::MapReader& map, std::ostream& out) {
   }
 }
 
+// The columns of a group side by side, numbers in the first row, what is shorter or missing left empty.
+void write_columns(const std::vector<results::Column>& columns, std::ostream& out) {
+  std::size_t rows = 0;
+  std::string text;
+  for (const results::Column& column : columns) {
+    rows = std::max(rows, column.values.size());
+    const auto& [name, unit] = std::pair(column.variable.name, column.variable.unit);
+    text +=
+        (text.empty() ? "" : ",") + (unit.empty() || unit == "1" ? name : fmt::format("{} [{}]", name, unit));
+  }
+  out << text << '\n';
+  for (std::size_t row = 0; row < rows; ++row) {
+    text.clear();
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      const auto& [variable, dimension, values] = columns[c];
+      if (c > 0) text += ',';
+      if (row < values.size() && !is_missing(variable, values[row]))
+        fmt::format_to(std::back_inserter(text), "{:.17g}", values[row]);
+    }
+    out << text << '\n';
+  }
+}
+
+// The map, or of a file without one its motion.
+void write_table(const results::MapReader& map, std::ostream& out) {
+  for (const char* group : {"decay", "transient"}) {
+    if (map.layout().axes.empty() && map.has_group(group)) return write_columns(map.columns(group), out);
+  }
+  write_map(map, out);
+}
+
 }  // namespace
 
 int export_command(const ExportOptions& options, std::ostream& out) {
   const results::MapReader map(options.file);
   if (options.output == "-") {
-    write_map(map, out);
+    write_table(map, out);
     return 0;
   }
   const std::filesystem::path output =
       options.output.empty() ? std::filesystem::path(options.file).replace_extension(".csv") : options.output;
   check_output_is_not_input(output, options.file);
-  write_whole_file(output, [&](std::ostream& file) { write_map(map, file); });
+  write_whole_file(output, [&](std::ostream& file) { write_table(map, file); });
   fmt::print(out, "{}\n", output.string());
   return 0;
 }

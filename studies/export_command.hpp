@@ -12,7 +12,8 @@ struct ExportOptions {
 };
 
 // Writes a map as CSV: a row a point, coordinates first, then variables, numbers to 17 significant digits,
-// what was not computed as an empty field (0 in flags). Points in the order of the map. Returns 0.
+// what was not computed as an empty field (0 in flags). Points in the order of the map. Of a decay or
+// transient the columns of its group side by side, the shorter ones filled with empty fields. Returns 0.
 // Throws results::StoreError, engine::IoError.
 int export_command(const ExportOptions& options, std::ostream& out);
 

@@ -80,6 +80,23 @@ void add_network(const StudyFile& study, CanonicalText& text) {
   text.line("reference order {}", network.reference_order);
 }
 
+// What tells a decay or transient from another of the same network. A sweep has none of it.
+void add_motion(const StudyFile& study, CanonicalText& text) {
+  if (study.kind == StudyKind::sweep) return;
+  const auto names = study.parameters.names();
+  text.line("kind {}", kind_name(study.kind));
+  const auto add = [&](const char* what, const std::optional<StudyValue>& value) {
+    if (value) text.line("{} {}", what, value->expression.canonical_text(names));
+  };
+  add("reference frequency", study.motion.reference_frequency);
+  add("sweep to", study.motion.sweep_to);
+  add("sweep rate", study.motion.sweep_rate);
+  for (const InitialValues& initial : study.motion.initial) {
+    text.line("initial {} {} {}", initial.mass, initial.displacement.expression.canonical_text(names),
+              initial.velocity.expression.canonical_text(names));
+  }
+}
+
 std::string physics_hash(const StudyFile& study, std::span<const periodic::Quantity> quantities) {
   CanonicalText text;
   text.line("solver {}", solver_version);
@@ -87,6 +104,7 @@ std::string physics_hash(const StudyFile& study, std::span<const periodic::Quant
   text.line("units {}", study.dimensionless ? "dimensionless" : "SI");
   add_parameters(study, text);
   add_network(study, text);
+  add_motion(study, text);
   for (const periodic::Quantity& quantity : quantities) {
     text.line("quantity {}", periodic::describe(quantity, study.network, study.dimensionless).name);
   }
@@ -107,6 +125,10 @@ std::string grid_hash(const StudyFile& study, const Grid& grid) {
     text.line("orbit ends");
   }
   text.line("resonances {}", fmt::join(study.output.resonances, " "));
+  if (study.kind != StudyKind::sweep) text.line("samples {}", study.motion.samples);
+  if (study.motion.duration) {
+    text.line("duration {}", study.motion.duration->expression.canonical_text(study.parameters.names()));
+  }
   text.line("order {}", fmt::join(grid.order, " "));
   text.line("tile {}", fmt::join(grid.tile, " "));
   return text.hash();

@@ -31,6 +31,7 @@ std::vector<Checked> all_checked(const StudyFile& study) {
     for (const StudyValue& value : *list) add(value);
   }
   for (const DerivedCoordinate& coordinate : study.coordinates) add(coordinate.value);
+  for (const StudyValue* value : study.motion.values()) add(*value);
   return all;
 }
 

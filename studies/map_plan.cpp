@@ -30,11 +30,21 @@ void refuse_axes(const StudyFile& study, const std::vector<std::string>& set) {
 }  // namespace
 
 MapPlan plan_map(StudyFile study, std::vector<std::string> set) {
+  if (study.kind != StudyKind::sweep)
+    throw StudyError(
+        fmt::format("{}: a {} is one motion, not a map", study.source.name, kind_name(study.kind)));
   refuse_axes(study, set);
   MapPlan plan{
       .study = std::move(study), .set = std::move(set), .grid = {}, .quantities = {}, .fingerprint = {}};
   plan.grid = grid_of(plan.study);
   plan.quantities = output_quantities(plan.study);
+  plan.fingerprint = fingerprint(plan.study, plan.grid, plan.quantities);
+  return plan;
+}
+
+MapPlan plan_motion(StudyFile study, std::vector<std::string> set) {
+  MapPlan plan{
+      .study = std::move(study), .set = std::move(set), .grid = {}, .quantities = {}, .fingerprint = {}};
   plan.fingerprint = fingerprint(plan.study, plan.grid, plan.quantities);
   return plan;
 }

@@ -22,8 +22,11 @@ struct MapPlan {
   engine::LogHeader log_header() const { return {.fingerprint = fingerprint, .tiles = grid.tiles()}; }
 };
 
-// Throws StudyError for what stands wrong in the study.
+// Throws StudyError for what stands wrong in the study, and for one that is no sweep.
 MapPlan plan_map(StudyFile study, std::vector<std::string> set);
+
+// The same of a decay or transient: a plan without a grid and without quantities.
+MapPlan plan_motion(StudyFile study, std::vector<std::string> set);
 
 // The work of a plan, which must outlive it.
 engine::Job job_of(const MapPlan& plan);

@@ -35,6 +35,10 @@ int point_command(const PointOptions& options, std::ostream& out) {
     throw StudyError("--history \"-\": the report goes to standard output; name a file for the history");
   }
   const StudyFile study = read_study_with(options.study, options.set);
+  if (study.kind != StudyKind::sweep) {
+    throw StudyError(fmt::format("{}: a {} has no periodic response to tell; frahm run computes its motion",
+                                 study.source.name, kind_name(study.kind)));
+  }
   const std::vector<double> parameters = parameters_at(study, options.at);
   if (options.history) check_output_is_not_input(*options.history, options.study);
   const PointReport report = tell_point(study, parameters, options.history ? intervals_a_period + 1 : 0);

@@ -43,6 +43,7 @@ Examples:
   frahm run rig_atlas.toml                    into rig_atlas.h5, on all processors
   frahm run rig_atlas.toml --set "K=8200 N/m" -o stiffer.h5
   frahm run rig_atlas.toml --time-budget 50m  stops in time; the same command goes on
+  frahm run rig_decay_main.toml               one motion: a free decay, or a transient
   sbatch --array=0-15 --wrap "frahm run rig_atlas.toml"    then: frahm merge rig_atlas.h5)";
 
 constexpr const char* check_examples = R"(
@@ -94,8 +95,8 @@ struct RunTexts {
 };
 
 void add_run(CLI::App& program, RunTexts& texts, Action& action) {
-  CLI::App* run =
-      add_command(program, "run", "compute the map of a study, or what is left of it", run_examples);
+  CLI::App* run = add_command(
+      program, "run", "compute the map of a study, or what is left of it; or its one motion", run_examples);
   auto& [options, shard, budget] = texts;
   add_study(*run, options.study);
   run->add_option("-o,--output", options.run.output, "result file; else the study's name with .h5, here");
@@ -158,7 +159,8 @@ void add_merge(CLI::App& program, MergeOptions& options, Action& action) {
 }
 
 void add_export(CLI::App& program, ExportOptions& options, Action& action) {
-  CLI::App* command = add_command(program, "export", "write a map as CSV, a row a point", export_examples);
+  CLI::App* command = add_command(
+      program, "export", "write a map as CSV, a row a point; or the columns of a motion", export_examples);
   command->add_option("FILE", options.file, "result file")->required();
   command->add_flag("--csv", options.csv, "the only form there is, and the default");
   command->add_option("-o,--output", options.output, "CSV file, - for stdout; else FILE with .csv");

@@ -14,6 +14,25 @@
 namespace frahm::studies {
 namespace {
 
+// A file without a map holds one motion: its single numbers, and how many rows its other columns have.
+void print_motion(const results::MapReader& map, std::ostream& out) {
+  for (const char* group : {"decay", "transient"}) {
+    if (!map.has_group(group)) continue;
+    fmt::print(out, "{:<22} {}\n", "motion", group);
+    std::vector<std::string> told;
+    for (const results::Column& column : map.columns(group)) {
+      const std::string& unit = column.variable.unit;
+      if (column.dimension.empty()) {
+        fmt::print(out, "{:<22} {:.10g}{}\n", column.variable.name, column.values.front(),
+                   unit == "1" ? "" : " " + unit);
+      } else if (std::find(told.begin(), told.end(), column.dimension) == told.end()) {
+        told.push_back(column.dimension);
+        fmt::print(out, "{:<22} {} rows\n", column.dimension, column.values.size());
+      }
+    }
+  }
+}
+
 void print_file(const std::filesystem::path& file, std::ostream& out) {
   const results::MapReader map(file);
   const results::MapLayout& layout = map.layout();
@@ -22,8 +41,12 @@ void print_file(const std::filesystem::path& file, std::ostream& out) {
   for (const results::Axis& axis : layout.axes) {
     fmt::print(out, "{:<22} {}: {} points\n", "axis", axis.name, axis.size);
   }
-  fmt::print(out, "{:<22} {}\n{:<22} {}\n", "points", points, "variables", layout.variables.size());
-  print_flags(count_flags(map), points, out);
+  if (layout.axes.empty()) {
+    print_motion(map, out);
+  } else {
+    fmt::print(out, "{:<22} {}\n{:<22} {}\n", "points", points, "variables", layout.variables.size());
+    print_flags(count_flags(map), points, out);
+  }
   if (!map.has_group("provenance")) return;
   for (const auto& [name, text] : map.texts("provenance")) {
     if (name != "study" && name != "failed_points" && !text.empty())

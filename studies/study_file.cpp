@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -16,29 +17,47 @@ namespace {
 
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // some editors begin a UTF-8 file with it
 
-const std::vector<std::string> sweep_keys{"study",      "parameters", "mass",       "element",
-                                          "excitation", "axis",       "coordinate", "output"};
-const std::vector<std::string> reserved_keys{"tune",  "design",    "constraint", "identify",
-                                             "decay", "transient", "initial"};
+// The sections of each kind of study, in the order of StudyKind.
+const std::array<std::vector<std::string>, 3> sections_of_kind{
+    {{"study", "parameters", "mass", "element", "excitation", "axis", "coordinate", "output"},
+     {"study", "parameters", "mass", "element", "decay", "initial"},
+     {"study", "parameters", "mass", "element", "excitation", "transient", "initial"}}};
+const std::vector<std::string> reserved_keys{"tune", "design", "constraint", "identify"};
+
+const std::vector<std::string>& sections(StudyKind kind) {
+  return sections_of_kind[static_cast<std::size_t>(kind)];
+}
+
+bool contains(const std::vector<std::string>& words, const std::string& word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
 
 void check_top_keys(const StudySource& source, const TomlValue& root) {
-  std::vector<std::string> known = sweep_keys;
-  known.insert(known.end(), reserved_keys.begin(), reserved_keys.end());
+  std::vector<std::string> known = reserved_keys;
+  for (const auto& words : sections_of_kind) known.insert(known.end(), words.begin(), words.end());
   for (const TomlEntry& entry : *root.as<TomlTable>()) {
-    if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
-    throw source.error_at(entry.position, fmt::format("unknown section \"{}\"{}", entry.key,
-                                                      suggestion(entry.key, sweep_keys)));
+    if (contains(known, entry.key)) continue;
+    throw source.error_at(entry.position,
+                          fmt::format("unknown section \"{}\"{}", entry.key, suggestion(entry.key, known)));
   }
 }
 
-// Other kinds of study have sections of their own, which would be silently without effect here.
-void check_no_reserved_keys(const StudySource& source, const TomlValue& root) {
+// Why a kind of study does without a section that others have.
+std::string_view why_without(StudyKind kind, const std::string& section) {
+  if (kind == StudyKind::sweep) return "";
+  if (section == "axis" || section == "coordinate" || section == "output")
+    return ": it computes one motion, not a map";
+  if (section == "excitation") return ": a free vibration starts from [[initial]] values and is not driven";
+  return "";
+}
+
+// What belongs to another kind of study would be silently without effect here.
+void check_sections_of_kind(const StudyFile& study, const TomlValue& root) {
   for (const TomlEntry& entry : *root.as<TomlTable>()) {
-    if (std::find(reserved_keys.begin(), reserved_keys.end(), entry.key) == reserved_keys.end()) continue;
-    throw source.error_at(entry.position,
-                          fmt::format("the section \"{}\" is not part of a sweep, and other kinds of "
-                                      "study are not available in this version",
-                                      entry.key));
+    if (contains(sections(study.kind), entry.key)) continue;
+    throw study.source.error_at(entry.position,
+                                fmt::format("the section \"{}\" is not part of a {}{}", entry.key,
+                                            kind_name(study.kind), why_without(study.kind, entry.key)));
   }
 }
 
@@ -54,8 +73,13 @@ void read_heading(const TomlValue& root, StudyFile& study) {
     section.fail("schema", fmt::format("{} is unknown; this version reads schema = 1", schema));
   section.require("kind");
   const std::string kind = section.choice_or("kind", {"sweep", "tune", "identify", "decay", "transient"});
-  if (kind != "sweep") {
-    section.fail("kind", fmt::format("\"{}\" is not available in this version; \"sweep\" is", kind));
+  if (kind == "tune" || kind == "identify") {
+    section.fail("kind", fmt::format("\"{}\" is not available in this version; \"sweep\", \"decay\" and "
+                                     "\"transient\" are",
+                                     kind));
+  }
+  for (const StudyKind each : {StudyKind::sweep, StudyKind::decay, StudyKind::transient}) {
+    if (kind == kind_name(each)) study.kind = each;
   }
   study.title = section.text_or("title", "");
   study.dimensionless = section.choice_or("units", {"SI", "dimensionless"}) == "dimensionless";
@@ -111,22 +135,49 @@ StudyFile parse_study(std::string text, const std::filesystem::path& name) {
   const TomlValue root = read_toml(study.source);
   check_top_keys(study.source, root);
   read_heading(root, study);
-  check_no_reserved_keys(study.source, root);
+  check_sections_of_kind(study, root);
 
   const UnitSystem units;
   const StudyContext context{study.source, units, study.dimensionless};
   study.parameters = read_parameters(context, root, name.parent_path());
-  auto [network, values] = read_network(context, root, study.parameters);
+  auto [network, values] = read_network(context, root, study.parameters, study.kind);
   study.network = std::move(network);
   study.values = std::move(values);
+  if (study.kind != StudyKind::sweep) read_motion(context, root, study);
   convert_parameters(context, study.parameters);
-  read_axes(context, root, study);
-  read_coordinates(context, root, study);
-  find_frequency_dimension(study);
-  read_output(context, root, study);
+  if (study.kind == StudyKind::sweep) {
+    read_axes(context, root, study);
+    read_coordinates(context, root, study);
+    find_frequency_dimension(study);
+    read_output(context, root, study);
+  }
   check_grid(study);
   set_crank_orders(study);
   return study;
+}
+
+std::string_view kind_name(StudyKind kind) {
+  switch (kind) {
+    case StudyKind::sweep:
+      return "sweep";
+    case StudyKind::decay:
+      return "decay";
+    case StudyKind::transient:
+      return "transient";
+  }
+  return "study";
+}
+
+std::vector<const StudyValue*> MotionChoice::values() const {
+  std::vector<const StudyValue*> all;
+  for (const auto* value : {&duration, &reference_frequency, &sweep_to, &sweep_rate}) {
+    if (*value) all.push_back(&**value);
+  }
+  for (const InitialValues& of_mass : initial) {
+    all.push_back(&of_mass.displacement);
+    all.push_back(&of_mass.velocity);
+  }
+  return all;
 }
 
 StudyFile with_parameters(StudyFile study, std::span<const Assignment> assignments) {

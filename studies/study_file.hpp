@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "solvers/mechanics/network.hpp"
@@ -61,16 +62,39 @@ struct OutputChoice {
   std::vector<std::size_t> resonances;          // masses whose resonance is sought along the frequency axis
 };
 
-// A study of kind "sweep", complete and checked: whatever stands here has a meaning for the solvers.
+enum class StudyKind { sweep, decay, transient };
+
+// A mass's initial values [m], [m/s].
+struct InitialValues {
+  std::size_t mass = 0;  // index in Network::masses
+  StudyValue displacement, velocity;
+};
+
+// [decay] or [transient], and [[initial]].
+struct MotionChoice {
+  std::optional<StudyValue> duration;             // [s]
+  int samples = 0;                                // of the history; 0: none
+  std::optional<StudyValue> reference_frequency;  // of a decay: omega_h [rad/s]
+  std::optional<StudyValue> sweep_to;             // of a run-up or run-down: the last frequency [rad/s]
+  std::optional<StudyValue> sweep_rate;           // its angular acceleration, without sign [rad/s2]
+  std::vector<InitialValues> initial;
+
+  std::vector<const StudyValue*> values() const;
+};
+
+// A study, complete and checked: whatever stands here has a meaning for the solvers.
 struct StudyFile {
   StudySource source;
   std::string title;  // "" if the study has none
+  StudyKind kind = StudyKind::sweep;
   bool dimensionless = false;
 
   Parameters parameters;
   mechanics::Network network;
-  StudyValues values;
+  StudyValues values;   // of a decay: its frequency and excitation mean nothing
+  MotionChoice motion;  // of a decay or transient
 
+  // Of a sweep; a decay or transient has none of these.
   std::vector<ParameterAxis> axes;
   std::vector<GridDimension> dimensions;  // the first varies slowest; at least one
   std::vector<DerivedCoordinate> coordinates;
@@ -92,6 +116,8 @@ StudyFile read_study(const std::filesystem::path& path);
 
 // The same for a text at hand; name: stands for the file in messages, and its folder for that of the tables.
 StudyFile parse_study(std::string text, const std::filesystem::path& name);
+
+std::string_view kind_name(StudyKind kind);  // as the study writes it
 
 // The study with some number parameters replaced, and checked again.
 StudyFile with_parameters(StudyFile study, std::span<const Assignment> assignments);

@@ -30,8 +30,13 @@ struct NetworkOfStudy {
   StudyValues values;
 };
 
-// [[mass]], [[element]] and [excitation]. Notes in `parameters` what they stand for.
-NetworkOfStudy read_network(const StudyContext& context, const TomlValue& root, Parameters& parameters);
+// [[mass]], [[element]] and, of a study that is not free of it, [excitation]. Notes in `parameters` what they
+// stand for.
+NetworkOfStudy read_network(const StudyContext& context, const TomlValue& root, Parameters& parameters,
+                            StudyKind kind);
+
+// [decay] or [transient] and [[initial]] into study.motion, after the network and as it does.
+void read_motion(const StudyContext& context, const TomlValue& root, StudyFile& study);
 
 // Every mass must be held: by a chain of springs from ground or a node of prescribed motion.
 // masses: their positions in the study.

@@ -18,7 +18,7 @@ struct QuantityEntry {
 };
 
 // In the order of Quantity.
-constexpr std::array<QuantityEntry, 12> quantities{{
+constexpr std::array<QuantityEntry, 13> quantities{{
     {"a pure number", "1", "1", "1 or %", {0, 0, 0}},
     {"a length", "m", "m", "m, mm or um", {1, 0, 0}},
     {"a mass", "kg", "kg", "kg, g or t", {0, 1, 0}},
@@ -31,6 +31,7 @@ constexpr std::array<QuantityEntry, 12> quantities{{
     {"a speed", "m s-1", "m/s", "m/s or mm/s", {1, 0, -1}},
     {"a time", "s", "s", "s, ms or min", {0, 0, 1}},
     {"an inverse speed", "s m-1", "s/m", "s/m or s/mm", {-1, 0, 1}},
+    {"an angular acceleration", "rad s-2", "rad/s2", "rad/s2, rpm/s or Hz/s", {0, 0, -2}},
 }};
 
 const QuantityEntry& entry(Quantity quantity) {
@@ -39,7 +40,8 @@ const QuantityEntry& entry(Quantity quantity) {
 
 bool has_dimension(const Unit& unit, Quantity quantity) {
   if (unit.foreign || unit.exponents != entry(quantity).exponents) return false;
-  if (quantity == Quantity::angle || quantity == Quantity::angular_frequency) {
+  if (quantity == Quantity::angle || quantity == Quantity::angular_frequency ||
+      quantity == Quantity::angular_acceleration) {
     return unit.radians == 0 || unit.radians == 1;
   }
   return unit.radians == 0;
@@ -132,7 +134,8 @@ double si_factor(const Unit& unit, Quantity expected) {
     throw UnitError(fmt::format("the unit \"{}\" is that of {}, but {} is expected (such as {})", unit.text,
                                 dimension_name(unit), wanted.name, wanted.examples));
   }
-  const bool cycles = expected == Quantity::angular_frequency && unit.counts_cycles();
+  const bool rotates = expected == Quantity::angular_frequency || expected == Quantity::angular_acceleration;
+  const bool cycles = rotates && unit.radians == 0;
   return cycles ? 2.0 * std::numbers::pi * unit.scale : unit.scale;
 }
 

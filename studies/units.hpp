@@ -10,18 +10,19 @@ namespace frahm::studies {
 
 // The kinds of quantity a study has, each with its SI unit.
 enum class Quantity {
-  number,             // 1
-  length,             // m
-  mass,               // kg
-  inertance,          // kg
-  force,              // N
-  stiffness,          // N/m
-  damping,            // N s/m
-  angle,              // rad
-  angular_frequency,  // rad/s
-  speed,              // m/s
-  time,               // s
-  inverse_speed,      // s/m
+  number,                // 1
+  length,                // m
+  mass,                  // kg
+  inertance,             // kg
+  force,                 // N
+  stiffness,             // N/m
+  damping,               // N s/m
+  angle,                 // rad
+  angular_frequency,     // rad/s
+  speed,                 // m/s
+  time,                  // s
+  inverse_speed,         // s/m
+  angular_acceleration,  // rad/s2
 };
 
 std::string_view quantity_name(Quantity quantity);    // with its article: "a stiffness"
@@ -47,9 +48,9 @@ struct Unit {
   bool counts_cycles() const;
 };
 
-// Value in SI = factor x value in this unit. Where an angular frequency is expected 1/s, Hz and 1/min count
-// cycles: 1 Hz = 60 rpm = 2 pi rad/s (UDUNITS alone takes 1 Hz = 1 rad/s). Throws UnitError for another
-// dimension.
+// Value in SI = factor x value in this unit. Where an angular frequency or acceleration is expected 1/s, Hz
+// and 1/min count cycles: 1 Hz = 60 rpm = 2 pi rad/s (UDUNITS alone takes 1 Hz = 1 rad/s). Throws UnitError
+// for another dimension.
 double si_factor(const Unit& unit, Quantity expected);
 
 // What a unit measures, in words: "a stiffness", else its dimension in base units: "m2 s-2".

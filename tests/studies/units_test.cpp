@@ -47,6 +47,15 @@ TEST_CASE("an angular frequency counts Hz, kHz, 1/s and 1/min as cycles") {
   check_si("degree/s", Quantity::angular_frequency, std::numbers::pi / 180.0);
 }
 
+TEST_CASE("an angular acceleration counts Hz/s and rpm/s as cycles too") {
+  const double cycle = 2.0 * std::numbers::pi;
+  check_si("Hz/s", Quantity::angular_acceleration, cycle);
+  check_si("rpm/s", Quantity::angular_acceleration, cycle / 60.0);
+  check_si("1/s2", Quantity::angular_acceleration, cycle);
+  check_si("rad/s2", Quantity::angular_acceleration, 1.0);
+  check_si("degree s-2", Quantity::angular_acceleration, std::numbers::pi / 180.0);
+}
+
 TEST_CASE("units of mechanics convert to SI") {
   check_si("kN/m", Quantity::stiffness, 1e3);
   check_si("N/mm", Quantity::stiffness, 1e3);

@@ -1,0 +1,212 @@
+#include "solvers/transient/forced_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+
+#include "solvers/transient/trajectory.hpp"
+
+namespace frahm::transient {
+namespace {
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
+constexpr int kMostStairs = 1 << 20;  // of the finest staircase: a minute or so for a few masses
+
+// How the frequency runs: the time to its end, and phase and frequency until then.
+struct Sweep {
+  double from = 0.0, alpha = 0.0, time = 0.0;  // [rad/s], [rad/s^2], [s]
+
+  double frequency(double t) const { return from + alpha * std::min(t, time); }
+  double phase(double t) const { return (from + 0.5 * alpha * t) * t; }  // t <= time
+};
+
+Sweep sweep_of(const ForcedOptions& options) {
+  if (options.sweep.rate == 0.0) return {.from = options.from};
+  const double change = options.sweep.to - options.from;
+  return {.from = options.from,
+          .alpha = std::copysign(options.sweep.rate, change),
+          .time = std::abs(change) / options.sweep.rate};
+}
+
+// The motion under an excitation that is given anew, at another frequency, from time to time.
+class Driven {
+ public:
+  Driven(const mechanics::Assembly& assembly, const ValuesAt& values_at, const InitialState& initial,
+         std::vector<double> times)
+      : trajectory(assembly, std::move(times)),
+        assembly_(assembly),
+        values_at_(values_at),
+        initial_(initial) {}
+
+  // From here on the excitation has frequency omega, which changes at the rate alpha, and its phase is
+  // `phase`.
+  void drive(double omega, double alpha, double phase) {
+    const mechanics::NetworkValues values = values_at_(omega);
+    const bool rebuild = !started_ || assembly_.matrices_depend_on_frequency() || values.mass != mass_ ||
+                         values.element != element_ || values.second != second_;
+    if (rebuild) {
+      assembly_.set_values(values, system_);
+      mass_ = values.mass;
+      element_ = values.element;
+      second_ = values.second;
+    }
+    assembly_.set_forcing(values, system_);
+    add_angular_acceleration(alpha);
+    if (rebuild) {
+      trajectory.set_system(system_, phase);
+    } else {
+      trajectory.set_forcing(system_, phase);
+    }
+    if (!started_) trajectory.start(initial_);
+    started_ = true;
+  }
+
+  Trajectory trajectory;
+
+ private:
+  // y'' = (i k alpha - (k omega)^2) Y_k e^{i k phi}: the supports exert -M_s y'' through inerters, of which
+  // the assembly has taken the second part.
+  void add_angular_acceleration(double alpha) {
+    if (alpha == 0.0 || system_.motion.rows() == 0) return;
+    for (std::size_t k = 0; k < system_.orders.size(); ++k) {
+      const auto column = static_cast<Eigen::Index>(k);
+      const std::complex<double> rate(0.0, system_.orders[k] * alpha);
+      system_.force.col(column) -= rate * (system_.M_support * system_.motion.col(column));
+    }
+  }
+
+  const mechanics::Assembly& assembly_;
+  const ValuesAt& values_at_;
+  const InitialState& initial_;
+  mechanics::LinearSystem system_;
+  std::vector<double> mass_, element_, second_;
+  bool started_ = false;
+};
+
+// At one frequency, period by period, so that the phase is exact however long the motion is.
+bool keep_frequency(Driven& driven, double omega, double phase, double until) {
+  const double period = kTurn / omega;
+  driven.drive(omega, 0.0, phase);
+  if (!driven.trajectory.can_last(until - driven.trajectory.time())) return false;
+  while (driven.trajectory.time() < until) {
+    const double left = until - driven.trajectory.time();
+    // What rounding leaves of the last period is no stretch of its own.
+    if (left <= 1e-12 * until) break;
+    if (!driven.trajectory.advance(std::min(period, left), phase)) return false;
+  }
+  return true;
+}
+
+// Through a range of frequencies on `count` stairs, to time `until` <= sweep.time.
+bool climb(Driven& driven, const Sweep& sweep, double until, int count) {
+  const double tau = until / count, lag = sweep.alpha * tau * tau / 12.0;
+  for (int i = 0; i < count; ++i) {
+    const double start = tau * i;
+    const double phase = std::remainder(sweep.phase(start) - lag, kTurn);
+    driven.drive(sweep.frequency(start + 0.5 * tau), sweep.alpha, phase);
+    if (!driven.trajectory.advance(tau, phase)) return false;
+  }
+  return true;
+}
+
+std::vector<Extremum> peaks_of(const Trajectory& trajectory, std::size_t masses,
+                               const InitialState& initial) {
+  std::vector<Extremum> peaks(masses);
+  for (std::size_t i = 0; i < masses; ++i) {
+    if (!initial.displacement.empty()) peaks[i] = {0.0, initial.displacement[i]};
+    std::vector<Extremum> candidates = trajectory.turning_points(i).extrema();
+    candidates.push_back({trajectory.time(), trajectory.displacements()[static_cast<Eigen::Index>(i)]});
+    for (const Extremum& candidate : candidates) {
+      if (std::abs(candidate.displacement) > std::abs(peaks[i].displacement)) peaks[i] = candidate;
+    }
+  }
+  return peaks;
+}
+
+struct Problem {
+  const mechanics::Assembly& assembly;
+  const ValuesAt& values_at;
+  const InitialState& initial;
+  const ForcedOptions& options;
+  Sweep sweep;
+};
+
+// The motion with so many stairs, 0 for one frequency.
+ForcedMotion run(const Problem& problem, int stairs) {
+  const ForcedOptions& options = problem.options;
+  const Sweep& sweep = problem.sweep;
+  Driven driven(problem.assembly, problem.values_at, problem.initial,
+                sample_times(options.duration, options.samples));
+  bool complete = true;
+  double phase = 0.0;
+  if (stairs > 0) {
+    const double until = std::min(options.duration, sweep.time);
+    complete = climb(driven, sweep, until, stairs);
+    phase = std::remainder(sweep.phase(until), kTurn);
+  }
+  if (complete && options.duration > sweep.time * (1.0 + 1e-12))
+    complete = keep_frequency(driven, sweep.frequency(sweep.time), phase, options.duration);
+  ForcedMotion motion;
+  motion.stairs = stairs;
+  motion.discretisation_error = std::numeric_limits<double>::quiet_NaN();
+  if (!complete) motion.failure = driven.trajectory.failure();
+  if (complete) driven.trajectory.finish();
+  motion.history = driven.trajectory.samples();
+  for (const double t : motion.history.time) motion.frequency.push_back(sweep.frequency(t));
+  motion.peaks = peaks_of(driven.trajectory, problem.assembly.network().masses.size(), problem.initial);
+  for (std::size_t j = 0; j < problem.assembly.contacts(); ++j)
+    motion.stops.push_back(driven.trajectory.stops(j));
+  return motion;
+}
+
+// The largest change of a sample or a peak [m].
+double largest_change(const ForcedMotion& coarse, const ForcedMotion& fine) {
+  double change = 0.0;
+  for (std::size_t i = 0; i < fine.peaks.size(); ++i) {
+    change = std::max(
+        change, std::abs(std::abs(coarse.peaks[i].displacement) - std::abs(fine.peaks[i].displacement)));
+    const auto &a = coarse.history.displacement[i], &b = fine.history.displacement[i];
+    for (std::size_t k = 0; k < b.size(); ++k) change = std::max(change, std::abs(a[k] - b[k]));
+  }
+  return change;
+}
+
+double largest_peak(const ForcedMotion& motion) {
+  double largest = 0.0;
+  for (const Extremum& peak : motion.peaks) largest = std::max(largest, std::abs(peak.displacement));
+  return largest;
+}
+
+// Stairs to begin with: a radian of the fastest excitation, and a phase that strays by a hundredth.
+int first_stairs(const Problem& problem) {
+  const Sweep& sweep = problem.sweep;
+  const double until = std::min(problem.options.duration, sweep.time);
+  const double radian = 1.0 / std::max(sweep.from, sweep.frequency(sweep.time));
+  const double strays = std::sqrt(0.12 / std::abs(sweep.alpha));
+  return static_cast<int>(std::clamp(until / std::min(radian, strays), 8.0, 0.25 * kMostStairs));
+}
+
+}  // namespace
+
+ForcedMotion forced_motion(const mechanics::Network& network, const ValuesAt& values_at,
+                           const InitialState& initial, const ForcedOptions& options) {
+  const mechanics::Assembly assembly(network);
+  const Problem problem{assembly, values_at, initial, options, sweep_of(options)};
+  if (problem.sweep.time == 0.0) return run(problem, 0);
+  int stairs = first_stairs(problem);
+  ForcedMotion coarse = run(problem, stairs);
+  while (coarse.failure.empty()) {
+    stairs *= 2;
+    ForcedMotion fine = run(problem, stairs);
+    if (!fine.failure.empty()) return fine;
+    fine.discretisation_error = largest_change(coarse, fine);
+    if (fine.discretisation_error <= kRunUpTolerance * largest_peak(fine) || 2 * stairs > kMostStairs)
+      return fine;
+    coarse = std::move(fine);
+  }
+  return coarse;
+}
+
+}  // namespace frahm::transient

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "solvers/mechanics/network.hpp"
+#include "solvers/transient/motion.hpp"
+
+// Forced motion from given initial values, at one frequency or running through a range of them.
+namespace frahm::transient {
+
+// The excitation's phase: omega t at constant frequency; in a run-up or run-down
+//   phi(t) = omega_0 t + alpha t^2 / 2  until the frequency has reached `to`, which is then kept.
+struct FrequencySweep {
+  double to = 0.0;    // [rad/s], > 0
+  double rate = 0.0;  // |alpha| [rad/s^2], > 0
+};
+
+struct ForcedOptions {
+  double from = 0.0;          // frequency at t = 0 [rad/s], > 0
+  FrequencySweep sweep = {};  // rate 0: none
+  double duration = 0.0;      // [s], > 0
+  int samples = 0;
+};
+
+// The values of the network at a frequency [rad/s]. In a run-up the amplitudes of forces may follow it, and
+// so may the elements; the amplitudes of prescribed motion must not.
+using ValuesAt = std::function<mechanics::NetworkValues(double omega)>;
+
+struct ForcedMotion {
+  std::string failure;  // why the motion could not be completed; empty: it is complete
+  Samples history;
+  std::vector<double> frequency;         // at the history's times [rad/s]
+  std::vector<Extremum> peaks;           // of each mass, the largest |displacement|
+  std::vector<std::vector<Stop>> stops;  // of each friction contact
+  // Of a run-up: the largest change of any sample [m] when the stairs were last halved; NaN otherwise. The
+  // error that remains is a fraction of it, as halving divides it by four or more.
+  double discretisation_error = 0.0;
+  int stairs = 0;  // of a run-up
+};
+
+// The flow is exact at constant frequency. A run-up is cut into stairs of constant frequency each, that of
+// their middle, so that the phase is exact at every stair's ends but for a constant,
+//   phi - phi_stair = alpha (t - t_a)(t - t_b) / 2 + alpha tau^2 / 12,
+// which makes its mean over each stair zero. Stairs are halved until the motion changes by less than
+// kRunUpTolerance of its largest peak. A prescribed motion has its acceleration's part from the changing
+// frequency too: y'' = (i alpha - omega^2) Y e^{i phi}.
+//
+// Throws mechanics::MechanicsError for values without a meaning.
+ForcedMotion forced_motion(const mechanics::Network& network, const ValuesAt& values_at,
+                           const InitialState& initial, const ForcedOptions& options);
+
+inline constexpr double kRunUpTolerance = 1e-6;  // of the largest peak: finer than any plot or sensor
+
+}  // namespace frahm::transient

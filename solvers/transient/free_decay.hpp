@@ -1,0 +1,60 @@
+#pragma once
+
+#include <vector>
+
+#include "solvers/mechanics/network.hpp"
+#include "solvers/transient/motion.hpp"
+
+// Free vibration from given initial values: exact, with every kind of damping and with Coulomb friction.
+//
+// One mass with x'' + 2 zeta omega_n x' + omega_n^2 x + (F/m) Sgn(x') = 0 and zeta < 1 turns every
+// pi / omega_d, at |x_{i+1}| = beta |x_i| - x_f (1 + beta), beta = exp(-pi zeta/s), s = sqrt(1 - zeta^2),
+// x_f = F/k, and rests at the first |x_i| <= x_f. With zeta >= 1 it creeps towards x_f and never arrives.
+namespace frahm::transient {
+
+struct DecayOptions {
+  // [s]; 0: until rest, else until the energy norm has fallen to kDecayed of its start, else kMostPeriods.
+  double duration = 0.0;
+  int samples = 0;  // of the history, 0: none
+};
+
+// A displacement a millionth of the first: below what any measurement of a decay resolves.
+inline constexpr double kDecayed = 1e-6;
+// Periods of the lowest mode after which a motion that will not end is left: undamped, or of zeta < 0.002.
+inline constexpr double kMostPeriods = 1000.0;
+
+enum class DecayEnd {
+  at_rest,   // stopped by friction
+  creeping,  // it tends to a place that friction holds, and never arrives
+  decayed,   // no friction slides any more, and the energy norm has fallen to kDecayed
+  cut_off,   // none of these within the duration and kMostPeriods
+  failed,
+};
+
+struct DecayOfMass {
+  std::vector<Extremum> extrema;
+  // ln |x_i / x_{i+2}|, a full cycle apart; NaN where there is no x_{i+2}, or one of the two is zero.
+  // Viscous damping alone: 2 pi zeta/s, the same for all i. Friction makes it grow from cycle to cycle, as
+  // it takes the same 4 x_f from each.
+  std::vector<double> log_decrement;
+  double rest = 0.0;  // where the mass rests or tends to [m]; NaN where that is not known: cut off, failed
+};
+
+struct FreeDecay {
+  DecayEnd end = DecayEnd::failed;
+  std::string reason;             // why it failed; empty otherwise
+  double duration = 0.0;          // [s] as given, or found
+  double stop_time = 0.0;         // [s]; NaN: it does not come to rest within the duration
+  double hysteretic_omega = 0.0;  // omega_h [rad/s] that was used
+  std::vector<DecayOfMass> masses;
+  Samples history;
+};
+
+// values: of the network without excitation; its omega is not used. hysteretic_omega [rad/s]: 0 stands for
+// the lowest undamped natural frequency.  Throws mechanics::MechanicsError for values without a meaning.
+//
+// A motion that ends more gently than kCreeping (turning_points.hpp) is not told from one that creeps.
+FreeDecay free_decay(const mechanics::Network& network, mechanics::NetworkValues values,
+                     const InitialState& initial, const DecayOptions& options);
+
+}  // namespace frahm::transient

@@ -1,0 +1,239 @@
+#include "solvers/transient/trajectory.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace frahm::transient {
+namespace {
+
+using Eigen::Index;
+using periodic::bit, periodic::contains, periodic::ContactMask;
+
+constexpr double kNever = std::numeric_limits<double>::quiet_NaN();
+constexpr double kStepsAtOnce = 256.0;  // in memory: a few hundred kilobytes for a few masses
+constexpr double kMostSteps = 1e7;      // some ten seconds of one core
+
+}  // namespace
+
+std::vector<double> sample_times(double duration, int count) {
+  std::vector<double> times;
+  for (int i = 0; i < count; ++i) times.push_back(count > 1 ? duration * i / (count - 1) : 0.0);
+  return times;
+}
+
+Trajectory::Trajectory(const mechanics::Assembly& assembly, std::vector<double> times)
+    : assembly_(assembly),
+      steps_(flow_),
+      held_since_(kNever),
+      turning_points_(assembly.network().masses.size()),
+      stops_(assembly.contacts()) {
+  samples_.time = std::move(times);
+  samples_.displacement.resize(turning_points_.size());
+  samples_.velocity.resize(turning_points_.size());
+}
+
+void Trajectory::set_system(const mechanics::LinearSystem& system, double phase) {
+  flow_.set_system(system);
+  set_forcing(system, phase);
+}
+
+void Trajectory::set_forcing(const mechanics::LinearSystem& system, double phase) {
+  const double old_step = flow_.equations().step;
+  flow_.set_forcing(system);
+  if (has_mode_) carry_over(old_step, phase);
+}
+
+void Trajectory::carry_over(double old_step, double phase) {
+  const Index n = flow_.equations().masses();
+  z_.segment(n, n) *= flow_.equations().step / old_step;
+  if (stuck_ != 0) z_ = flow_.brought_to_rest(z_, phase, stuck_);
+}
+
+void Trajectory::start(const InitialState& initial) {
+  const periodic::StepEquations<Eigen::Dynamic, Eigen::Dynamic>& eq = flow_.equations();
+  const Index n = eq.masses();
+  z_.setZero(eq.states());
+  const auto set = [&](const std::vector<double>& values, Index at, double factor, const char* what) {
+    if (values.empty()) return;
+    if (static_cast<Index>(values.size()) != n)
+      throw mechanics::MechanicsError(std::string("an initial ") + what + " must be given for each mass");
+    for (Index i = 0; i < n; ++i) {
+      const double value = values[static_cast<std::size_t>(i)];
+      if (!std::isfinite(value))
+        throw mechanics::MechanicsError(std::string("an initial ") + what + " is not finite");
+      z_[at + i] = factor * value;
+    }
+  };
+  set(initial.displacement, 0, 1.0, "displacement");
+  set(initial.velocity, n, eq.step, "velocity");
+  deceleration_.setZero(eq.contacts());
+}
+
+bool Trajectory::advance(double duration, double phase) {
+  const double length = duration / flow_.equations().step, start = time_;
+  if (!can_last(duration)) return false;
+  for (double done = 0.0; done < length && failure_ == nullptr;) {
+    const double part = std::min(length - done, kStepsAtOnce);
+    if (!pass(part, phase + done * flow_.fundamental_rate())) return false;
+    done += part;
+    time_ = start + done * flow_.equations().step;
+  }
+  if (failure_ == nullptr) time_ = start + duration;
+  return failure_ == nullptr;
+}
+
+bool Trajectory::can_last(double duration) {
+  if (failure_ == nullptr && steps_taken_ + duration / flow_.equations().step > kMostSteps) {
+    failure_ = "it takes more than 10 million steps of the fastest oscillation of system or excitation";
+  }
+  return failure_ == nullptr;
+}
+
+bool Trajectory::pass(double length, double phase) {
+  stretch_.section = phase;
+  flow_.pass(z_, phase, length, stretch_.passage);
+  steps_taken_ += length;
+  failure_ = stretch_.passage.failure;
+  if (failure_ != nullptr) return false;
+  energy_scale_ = std::max(flow_.equations().energy_norm(z_), flow_.static_norm());
+  steps_.lay_out(stretch_);
+  for (Step& step : steps_.steps()) follow(step);
+  z_ = stretch_.passage.end;
+  return true;
+}
+
+void Trajectory::follow(Step& step) {
+  const auto& eq = flow_.equations();
+  const Index n = eq.masses();
+  const double at = time_ + step.start * eq.step;
+  const auto& mode = flow_.mode(step.mode);
+  note_mode(mode, at, step.left.z);
+  const auto& x = steps_.expand(step);
+  for (Index i = 0; i < n; ++i) {
+    turning_points_[static_cast<std::size_t>(i)].follow(
+        {.start = at,
+         .step = eq.step,
+         .length = step.length,
+         .displacement = x.z.col(i),
+         .velocity = x.z.col(n + i),
+         .speed_scale = std::sqrt(2.0 * eq.M_inverse(i, i)) * energy_scale_});
+  }
+  keep_samples(step, at);
+  for (Index j = 0; j < eq.contacts(); ++j) {
+    if (!contains(mode.stuck, j)) deceleration_[j] = std::abs(flow_.sliding_speed(step.right, j).slope);
+  }
+}
+
+// The contacts that stick from here on, and those that no longer do.
+void Trajectory::note_mode(const periodic::Mode<Eigen::Dynamic, Eigen::Dynamic>& mode, double at,
+                           const State& z) {
+  if (has_mode_ && mode.stuck == stuck_ && mode.positive == positive_) return;
+  const auto& eq = flow_.equations();
+  const Eigen::VectorXd creeps_to = has_mode_ ? resting_place(z) : z.head(eq.masses()).eval();
+  const ContactMask stopped = mode.stuck & ~stuck_, released = stuck_ & ~mode.stuck;
+  for (Index j = 0; j < eq.contacts(); ++j) {
+    auto& stops = stops_[static_cast<std::size_t>(j)];
+    if (contains(released, j)) stops.back().release = at;
+    if (!contains(stopped, j)) continue;
+    stops.push_back({at, kNever});
+    const double scale = periodic::kStepRate * std::sqrt(2.0 * eq.compliance[j]) * energy_scale_;
+    if (has_mode_ && deceleration_[j] <= kCreeping * scale) {
+      crept_ = true;
+      creeps_to_ = creeps_to;
+    }
+  }
+  if (released != 0) crept_ = false;
+  const bool same_stuck = has_mode_ && mode.stuck == stuck_;
+  stuck_ = mode.stuck;
+  positive_ = mode.positive;
+  has_mode_ = true;
+  if (same_stuck) return;
+  find_free_directions();
+  const bool held = free_directions_.cols() == 0;
+  if (!held || std::isnan(held_since_)) held_since_ = held ? at : kNever;
+}
+
+// The directions in which the masses move while the contacts that stick do.
+void Trajectory::find_free_directions() {
+  const auto& eq = flow_.equations();
+  const Index n = eq.masses();
+  Eigen::MatrixXd constraints(0, n);
+  for (Index j = 0; j < eq.contacts(); ++j) {
+    if (!contains(stuck_, j)) continue;
+    constraints.conservativeResize(constraints.rows() + 1, n);
+    constraints.bottomRows(1) = eq.W.col(j).transpose();
+  }
+  free_directions_ = Eigen::MatrixXd::Identity(n, n);
+  if (constraints.rows() == 0) return;
+  const Eigen::FullPivLU<Eigen::MatrixXd> factor(constraints);
+  free_directions_ =
+      factor.dimensionOfKernel() > 0 ? Eigen::MatrixXd(factor.kernel()) : Eigen::MatrixXd(n, 0);
+}
+
+void Trajectory::keep_samples(Step& step, double at) {
+  const double h = flow_.equations().step, end = at + step.length * h;
+  for (; next_sample_ < samples_.time.size() && samples_.time[next_sample_] < end; ++next_sample_) {
+    State z;
+    Flow::evaluate(steps_.expand(step), std::max(0.0, (samples_.time[next_sample_] - at) / h), z);
+    keep_state(z);
+  }
+}
+
+void Trajectory::keep_state(const State& z) {
+  const Index n = flow_.equations().masses();
+  for (Index i = 0; i < n; ++i) {
+    const auto mass = static_cast<std::size_t>(i);
+    samples_.displacement[mass].push_back(z[i]);
+    samples_.velocity[mass].push_back(z[n + i] / flow_.equations().step);
+  }
+}
+
+void Trajectory::finish() {
+  for (; next_sample_ < samples_.time.size(); ++next_sample_) keep_state(z_);
+}
+
+// With q = q_0 + B y, B the free directions, the forces balance along them:
+//   B^T (K q - f_0 + W phi) = 0,  phi_j = sigma_j F_j of the contacts that slide.
+Eigen::VectorXd Trajectory::resting_place(const State& z) const {
+  const auto& eq = flow_.equations();
+  Eigen::VectorXd q = z.head(eq.masses());
+  if (free_directions_.cols() == 0) return q;
+  if (stuck_ == 0) q.setZero();
+  Eigen::VectorXd force = eq.force.col(0) - eq.K * q;
+  for (Index j = 0; j < eq.contacts(); ++j) {
+    if (!contains(stuck_, j)) force -= (contains(positive_, j) ? 1.0 : -1.0) * eq.limit[j] * eq.W.col(j);
+  }
+  if (stuck_ == 0) return q + eq.K_inverse * force;
+  const Eigen::MatrixXd& B = free_directions_;
+  q += B * (B.transpose() * eq.K * B).llt().solve(B.transpose() * force);
+  return q;
+}
+
+Eigen::VectorXd Trajectory::tends_to() const {
+  return crept_ ? creeps_to_ : resting_place(z_);
+}
+
+double Trajectory::distance_from_rest() const {
+  State offset = z_;
+  offset.head(flow_.equations().masses()) -= resting_place(z_);
+  return flow_.equations().energy_norm(offset);
+}
+
+bool Trajectory::friction_slides() const {
+  for (Index j = 0; j < flow_.equations().contacts(); ++j) {
+    if (!contains(stuck_, j) && flow_.equations().limit[j] > 0.0) return true;
+  }
+  return false;
+}
+
+// Held masses are released again only by forces that still change: those of Maxwell elements.
+bool Trajectory::is_at_rest() const {
+  const auto& eq = flow_.equations();
+  constexpr double kGone = 1e-12;
+  return has_mode_ && free_directions_.cols() == 0 &&
+         z_.tail(eq.states() - 2 * eq.masses()).norm() <= kGone * eq.limit.norm();
+}
+
+}  // namespace frahm::transient

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "solvers/periodic/orbit_steps.hpp"
+#include "solvers/transient/motion.hpp"
+#include "solvers/transient/turning_points.hpp"
+
+namespace frahm::transient {
+
+using Flow = periodic::Flow<Eigen::Dynamic, Eigen::Dynamic>;
+
+// A motion from given initial values on the exact flow, passage after passage, with all that is kept of it:
+// the extrema of each mass, the stops of each contact, the state at given times.
+class Trajectory {
+ public:
+  // times: at which the state is kept, ascending [s].  `assembly` must outlive the trajectory.
+  Trajectory(const mechanics::Assembly& assembly, std::vector<double> times);
+
+  // Matrices and forcing, or only another forcing, from now on. The state is carried over; what sticks,
+  // sticks on (a support whose velocity jumps takes it along). phase: omega t of the fundamental now [rad].
+  void set_system(const mechanics::LinearSystem& system, double phase);
+  void set_forcing(const mechanics::LinearSystem& system, double phase);
+
+  // To be called once, after set_system. Throws mechanics::MechanicsError for values that are not finite or
+  // not one for each mass.
+  void start(const InitialState& initial);
+
+  // Moves on by `duration` [s] > 0; `phase` as above. False: failure() says why, nothing moves any more.
+  bool advance(double duration, double phase);
+  // Whether `duration` [s] more is within what is computed in one go; false: as advance().
+  bool can_last(double duration);
+  const char* failure() const { return failure_; }
+
+  // Fills the samples that are left with the state now.
+  void finish();
+
+  double time() const { return time_; }  // [s]
+
+  Eigen::VectorXd displacements() const { return z_.head(flow_.equations().masses()); }  // [m]
+  double energy_norm() const { return flow_.equations().energy_norm(z_); }               // [sqrt(J)]
+  // The energy norm of the state's distance from where its mode would come to rest [sqrt(J)].
+  double distance_from_rest() const;
+  bool friction_slides() const;              // some contact with friction slides now
+  bool is_at_rest() const;                   // all masses are held, and nothing changes any more
+  bool has_crept() const { return crept_; }  // a contact's velocity died away without ever reaching zero
+  double held_since() const { return held_since_; }  // [s], of all masses; NaN: some mass is free
+
+  // Where the masses are at rest, or tend to while the contacts stick and slide as they do [m].
+  Eigen::VectorXd tends_to() const;
+
+  const TurningPoints& turning_points(std::size_t mass) const { return turning_points_[mass]; }
+  const std::vector<Stop>& stops(std::size_t contact) const { return stops_[contact]; }
+  const Samples& samples() const { return samples_; }
+
+ private:
+  using State = typename Flow::S::State;
+  using Step = periodic::OrbitStep<Eigen::Dynamic, Eigen::Dynamic>;
+
+  void carry_over(double old_step, double phase);
+  bool pass(double length, double phase);
+  void follow(Step& step);
+  void note_mode(const periodic::Mode<Eigen::Dynamic, Eigen::Dynamic>& mode, double at, const State& z);
+  void find_free_directions();
+  void keep_samples(Step& step, double at);
+  void keep_state(const State& z);
+  Eigen::VectorXd resting_place(const State& z) const;
+
+  const mechanics::Assembly& assembly_;
+  Flow flow_;
+  periodic::OrbitSteps<Eigen::Dynamic, Eigen::Dynamic> steps_;
+  periodic::Orbit<Eigen::Dynamic, Eigen::Dynamic> stretch_;  // the passage in hand
+  State z_;
+  double time_ = 0.0;
+  double steps_taken_ = 0.0;
+  const char* failure_ = nullptr;
+  double energy_scale_ = 0.0;  // [sqrt(J)] of the passage in hand
+
+  bool has_mode_ = false;
+  periodic::ContactMask stuck_ = 0, positive_ = 0;
+  Eigen::MatrixXd free_directions_;  // of the masses, while these contacts stick
+  Eigen::VectorXd deceleration_;     // of each sliding contact at the end of the step before [m a step^2]
+  bool crept_ = false;
+  Eigen::VectorXd creeps_to_;  // [m]
+  double held_since_;          // [s]
+
+  std::vector<TurningPoints> turning_points_;
+  std::vector<std::vector<Stop>> stops_;
+  std::size_t next_sample_ = 0;
+  Samples samples_;
+};
+
+}  // namespace frahm::transient
