@@ -31,10 +31,15 @@ void refuse_axes(const StudyFile& study, const std::vector<std::string>& set) {
 
 MapPlan plan_map(StudyFile study, std::vector<std::string> set) {
   refuse_axes(study, set);
-  MapPlan plan{
-      .study = std::move(study), .set = std::move(set), .grid = {}, .quantities = {}, .fingerprint = {}};
+  MapPlan plan{.study = std::move(study),
+               .set = std::move(set),
+               .grid = {},
+               .quantities = {},
+               .variables = {},
+               .fingerprint = {}};
   plan.grid = grid_of(plan.study);
   plan.quantities = output_quantities(plan.study);
+  plan.variables = output_variables(plan.study, plan.quantities);
   plan.fingerprint = fingerprint(plan.study, plan.grid, plan.quantities);
   return plan;
 }
@@ -51,7 +56,7 @@ engine::Job job_of(const MapPlan& plan) {
           .points = points,
           .failed =
               [&plan, points](std::uint64_t tile, std::span<const std::byte> record) {
-                return count_failed(record, points(tile) * plan.quantities.size());
+                return count_failed(record, points(tile) * plan.variables.size());
               }};
 }
 

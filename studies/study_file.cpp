@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // some editors begin a UTF-8 file with it
 
-const std::vector<std::string> sweep_keys{"study",      "parameters", "mass",       "element",
-                                          "excitation", "axis",       "coordinate", "output"};
+const std::vector<std::string> sweep_keys{"study", "parameters", "mass",   "element", "excitation",
+                                          "axis",  "coordinate", "output", "compare"};
 const std::vector<std::string> reserved_keys{"tune",  "design",    "constraint", "identify",
                                              "decay", "transient", "initial"};
 
@@ -75,6 +75,7 @@ std::vector<std::size_t> read_by_matrices(const StudyFile& study) {
     return element.type == mechanics::ElementType::hysteretic;  // whose damping is eta k / omega
   });
   if (hysteretic) add(study.values.omega);
+  if (study.comparison) add(study.comparison->slope);
   return reads;
 }
 
@@ -119,6 +120,7 @@ StudyFile parse_study(std::string text, const std::filesystem::path& name) {
   auto [network, values] = read_network(context, root, study.parameters);
   study.network = std::move(network);
   study.values = std::move(values);
+  read_comparison(context, root, study);
   convert_parameters(context, study.parameters);
   read_axes(context, root, study);
   read_coordinates(context, root, study);

@@ -15,7 +15,7 @@
 #include <numbers>
 #include <vector>
 
-#include "solvers/periodic/periodic_response.hpp"
+#include "solvers/response/periodic_response.hpp"
 
 namespace {
 

@@ -31,7 +31,7 @@ frahm::engine::Bytes bytes_of(MapKernel& kernel, std::uint64_t tile) {
 TileRecord tile_of(const MapPlan& plan, std::uint64_t tile) {
   MapKernel kernel(plan.study, plan.grid, plan.quantities);
   TileRecord record;
-  decode(bytes_of(kernel, tile), plan.grid.box(tile).points() * plan.quantities.size(), record);
+  decode(bytes_of(kernel, tile), plan.grid.box(tile).points() * plan.variables.size(), record);
   return record;
 }
 
