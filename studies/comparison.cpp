@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -20,6 +21,15 @@ std::string circumstance(const Comparison& comparison) {
 }
 
 }  // namespace
+
+bool meets_arctan_law(const StudyFile& study) {
+  const auto follows = [](const mechanics::Network& network) {
+    return std::any_of(network.elements.begin(), network.elements.end(), [](const mechanics::Element& each) {
+      return each.type == ElementType::coulomb && each.law == FrictionLaw::arctan;
+    });
+  };
+  return follows(study.network) || (study.comparison && follows(compared_network(study)));
+}
 
 mechanics::Network compared_network(const StudyFile& study) {
   const Comparison& comparison = *study.comparison;

@@ -6,11 +6,13 @@
 #include "solvers/periodic/quantity.hpp"
 #include "studies/study_file.hpp"
 
-// [compare]: the same points under another friction law or crank profile, beside the study's own. Each
-// function is of a study that has a comparison.
+// [compare]: the same points under another friction law or crank profile, beside the study's own.
 namespace frahm::studies {
 
-// The study's network and its numbers, as they are compared.
+// Whether the study or what it is compared with follows the arctan law.
+bool meets_arctan_law(const StudyFile& study);
+
+// The rest is of a study that has a comparison. Its network and numbers, as they are compared:
 mechanics::Network compared_network(const StudyFile& study);
 StudyValues compared_values(const StudyFile& study);
 
