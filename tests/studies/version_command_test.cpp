@@ -27,7 +27,8 @@ TEST_CASE("The version is a line of its own, and more is told when asked for") {
   CHECK(version_command(true, verbose) == 0);
   CHECK(brief.str() == "frahm " + build_facts().version + "\n");
   CHECK(verbose.str().starts_with(brief.str()));
-  for (const char* part : {"commit ", "compiler ", "flags ", "CPU ", "threads ", "Eigen 3.", "SUNDIALS 6.", "HDF5 1."}) {
+  for (const char* part :
+       {"commit ", "compiler ", "flags ", "CPU ", "threads ", "Eigen 3.", "SUNDIALS 6.", "HDF5 1."}) {
     INFO(part);
     CHECK(verbose.str().find(part) != std::string::npos);
   }
