@@ -22,8 +22,8 @@ class TileWriting {
   void write(std::uint64_t tile, std::span<const std::byte> bytes) {
     const MapBox box = plan_.grid.box(tile);
     const std::uint64_t points = box.points();
-    decode(bytes, points * plan_.quantities.size(), record_);
-    for (std::size_t q = 0; q < plan_.quantities.size(); ++q) {
+    decode(bytes, points * plan_.variables.size(), record_);
+    for (std::size_t q = 0; q < plan_.variables.size(); ++q) {
       writer_.write_block(q, box.start, box.count, std::span(record_.values).subspan(q * points, points));
     }
     for (const FailedPoint& point : record_.failed) tell(box, point);

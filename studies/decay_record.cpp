@@ -6,7 +6,7 @@
 #include <ostream>
 
 #include "solvers/mechanics/linear_system.hpp"
-#include "solvers/periodic/periodic_response.hpp"
+#include "solvers/response/periodic_response.hpp"
 #include "studies/motion_columns.hpp"
 #include "studies/motion_record.hpp"
 

@@ -97,6 +97,15 @@ void add_motion(const StudyFile& study, CanonicalText& text) {
   }
 }
 
+void add_comparison(const StudyFile& study, CanonicalText& text) {
+  if (!study.comparison) return;
+  const Comparison& comparison = *study.comparison;
+  text.line("compare law {} slope {} taylor order {}", static_cast<int>(comparison.law),
+            comparison.slope.expression.canonical_text(study.parameters.names()), comparison.taylor_order);
+  for (const periodic::Quantity& quantity : comparison.quantities)
+    text.line("compare {}", periodic::describe(quantity, study.network, study.dimensionless).name);
+}
+
 std::string physics_hash(const StudyFile& study, std::span<const periodic::Quantity> quantities) {
   CanonicalText text;
   text.line("solver {}", solver_version);
@@ -105,6 +114,7 @@ std::string physics_hash(const StudyFile& study, std::span<const periodic::Quant
   add_parameters(study, text);
   add_network(study, text);
   add_motion(study, text);
+  add_comparison(study, text);
   for (const periodic::Quantity& quantity : quantities) {
     text.line("quantity {}", periodic::describe(quantity, study.network, study.dimensionless).name);
   }

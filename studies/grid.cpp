@@ -4,13 +4,22 @@
 
 #include <algorithm>
 
+#include "studies/comparison.hpp"
+
 namespace frahm::studies {
 namespace {
 
-constexpr std::uint64_t longest_row = 4000;       // [points]; longer ones are cut
-constexpr std::uint64_t tile_points_least = 256;  // below it warm starts are lost for nothing
-constexpr std::uint64_t tile_points_most = 2048;  // some 20 ms of work: fine steps of progress and resume
-constexpr std::uint64_t tiles_wanted = 128;       // of a small map, for the threads to share
+// Sizes of tiles [points].
+struct TileSizes {
+  std::uint64_t longest_row;  // longer ones are cut
+  std::uint64_t least, most;
+};
+// Below the least warm starts are lost for nothing; the most is some 20 ms of work: fine steps of progress
+// and resume.
+constexpr TileSizes exact_tiles{.longest_row = 4000, .least = 256, .most = 2048};
+// Orbits of the arctan law take some 20 ms each and start from the exact ones, which are found beside them.
+constexpr TileSizes arctan_tiles{.longest_row = 64, .least = 16, .most = 64};
+constexpr std::uint64_t tiles_wanted = 128;               // of a small map, for the threads to share
 constexpr std::uint64_t chunk_points_wanted = 128 * 128;  // 128 KiB of doubles
 
 std::uint64_t product(const std::vector<std::uint64_t>& factors) {
@@ -33,11 +42,11 @@ std::uint64_t even_extent(std::uint64_t size, std::uint64_t most) {
   return best;
 }
 
-void cut_into_tiles(Grid& grid) {
-  const std::uint64_t wanted = std::clamp(grid.points() / tiles_wanted, tile_points_least, tile_points_most);
+void cut_into_tiles(const TileSizes& sizes, Grid& grid) {
+  const std::uint64_t wanted = std::clamp(grid.points() / tiles_wanted, sizes.least, sizes.most);
   grid.tile.assign(grid.shape.size(), 1);
   const std::size_t row = grid.order.back();
-  grid.tile[row] = even_extent(grid.shape[row], longest_row);
+  grid.tile[row] = even_extent(grid.shape[row], sizes.longest_row);
   std::uint64_t points = grid.tile[row];
   bool whole = points == grid.shape[row];
   for (auto d = grid.order.rbegin() + 1; d != grid.order.rend() && whole && 2 * points <= wanted; ++d) {
@@ -95,7 +104,7 @@ Grid grid_of(const StudyFile& study) {
     if (d != row) grid.order.push_back(d);
   }
   grid.order.push_back(row);
-  cut_into_tiles(grid);
+  cut_into_tiles(meets_arctan_law(study) ? arctan_tiles : exact_tiles, grid);
   join_into_chunks(grid);
   return grid;
 }

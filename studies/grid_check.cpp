@@ -30,6 +30,8 @@ std::vector<Checked> all_checked(const StudyFile& study) {
   for (const auto* list : values.lists()) {
     for (const StudyValue& value : *list) add(value);
   }
+  if (study.comparison && study.comparison->law == mechanics::FrictionLaw::arctan)
+    add(study.comparison->slope);
   for (const DerivedCoordinate& coordinate : study.coordinates) add(coordinate.value);
   for (const StudyValue* value : study.motion.values()) add(*value);
   return all;

@@ -1,29 +1,28 @@
 #include "studies/map_kernel.hpp"
 
-#include <limits>
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <utility>
 
-#include "solvers/mechanics/linear_system.hpp"
-#include "solvers/periodic/orbit.hpp"
+#include "studies/comparison.hpp"
 
 namespace frahm::studies {
 namespace {
 
-using periodic::QuantityKind;
-
-// What a point without a response has: a quantity of each kind, and the status `failed`.
-std::vector<double> values_of_failure(const StudyFile& study,
-                                      std::span<const periodic::Quantity> quantities) {
-  std::vector<double> values;
-  for (const periodic::Quantity& quantity : quantities) {
-    const QuantityKind kind = periodic::describe(quantity, study.network, study.dimensionless).kind;
-    const bool is_status = quantity.measure == periodic::Measure::status;
-    values.push_back(is_status                     ? static_cast<double>(periodic::Status::failed)
-                     : kind == QuantityKind::flag  ? 0.0
-                     : kind == QuantityKind::count ? -1.0
-                                                   : std::numeric_limits<double>::quiet_NaN());
+// What the study's own response is asked for: what it records, and what else is compared.
+std::vector<periodic::Quantity> asked_for(const StudyFile& study,
+                                          std::vector<periodic::Quantity> quantities) {
+  if (!study.comparison) return quantities;
+  for (const periodic::Quantity& compared : study.comparison->quantities) {
+    if (std::find(quantities.begin(), quantities.end(), compared) == quantities.end())
+      quantities.push_back(compared);
   }
-  return values;
+  return quantities;
+}
+
+bool matrices_change(const StudyFile& study) {
+  return !study.frequency_dimension || study.values_depend_on_frequency;
 }
 
 }  // namespace
@@ -31,17 +30,28 @@ std::vector<double> values_of_failure(const StudyFile& study,
 MapKernel::MapKernel(const StudyFile& study, const Grid& grid, std::vector<periodic::Quantity> quantities)
     : study_(study),
       grid_(grid),
-      missing_(values_of_failure(study, quantities)),
-      matrices_change_in_row_(!study.frequency_dimension || study.values_depend_on_frequency),
-      response_(study.network, std::move(quantities)),
+      quantities_(quantities.size()),
+      own_(study, study.network, study.values, asked_for(study, quantities), matrices_change(study)),
       parameters_(study.parameters.nominal()),
-      point_(missing_.size()) {}
+      point_(quantities.size()) {
+  if (!study.comparison) return;
+  const std::vector<periodic::Quantity> asked = asked_for(study, std::move(quantities));
+  for (const periodic::Quantity& compared : study.comparison->quantities) {
+    compared_.push_back(
+        static_cast<std::size_t>(std::find(asked.begin(), asked.end(), compared) - asked.begin()));
+  }
+  own_compared_.resize(compared_.size());
+  point_.resize(quantities_ + compared_variables(study).size());
+  other_.emplace(study, compared_network(study), compared_values(study), compared_quantities(study),
+                 matrices_change(study));
+}
 
 void MapKernel::operator()(std::uint64_t tile, engine::Bytes& out) {
   const MapBox box = grid_.box(tile);
-  record_.values.resize(missing_.size() * box.points());
+  record_.values.resize(point_.size() * box.points());
   record_.failed.clear();
-  response_.forget();
+  own_.forget();
+  if (other_) other_->forget();
 
   const auto rows = std::span(grid_.order).first(grid_.order.size() - 1);
   index_ = box.start;
@@ -60,12 +70,12 @@ void MapKernel::compute_row(const MapBox& box) {
     if (d > along) step *= box.count[d];
     if (d != along) studies::place(study_, d, index_[d], parameters_);
   }
-  matrices_set_ = false;
+  own_.begin_row();
+  if (other_) other_->begin_row();
   points_in_row_ = 0;
   const std::uint64_t points = box.points();
   for (std::uint64_t i = 0; i < box.count[along]; ++i) {
     studies::place(study_, along, box.start[along] + i, parameters_);
-    evaluate(study_.values, study_.parameters, parameters_, values_);
     compute_point();
     for (std::size_t q = 0; q < point_.size(); ++q) record_.values[q * points + place] = point_[q];
     if (!reason_.empty()) record_.failed.push_back({place, reason_});
@@ -75,41 +85,30 @@ void MapKernel::compute_row(const MapBox& box) {
 
 // Fills point_, and reason_ if the point fails.
 void MapKernel::compute_point() {
-  reason_.clear();
+  own_.place(parameters_);
   begin_row_where_frequency_turns();
-  try {
-    set_point();
-  } catch (const mechanics::MechanicsError& error) {
-    reason_ = error.what();
-    point_ = missing_;
-    matrices_set_ = false;
-    return;
-  }
-  const periodic::ResponseSummary& summary = response_.solve();
-  if (summary.status == periodic::Status::failed) reason_ = summary.reason;
-  response_.quantities(point_);
-}
-
-void MapKernel::set_point() {
-  if (matrices_set_ && !matrices_change_in_row_) {
-    response_.set_forcing(values_);
-  } else {
-    response_.set_values(values_);
-    matrices_set_ = true;
-  }
+  const std::span<const double> own = own_.solve(reason_);
+  std::copy_n(own.begin(), quantities_, point_.begin());
+  if (!other_) return;
+  for (std::size_t i = 0; i < compared_.size(); ++i) own_compared_[i] = own[compared_[i]];
+  std::string reason;
+  other_->place(parameters_);
+  compare(own_compared_, other_->solve(reason), std::span(point_).subspan(quantities_));
+  if (reason_.empty() && !reason.empty()) reason_ = fmt::format("compared: {}", reason);
 }
 
 // Along a row the solver extrapolates over the frequency, which has to go one way: axes that advance together
 // may turn back or stand still, and without a frequency axis it stands still always.
 void MapKernel::begin_row_where_frequency_turns() {
-  const double step = values_.omega - omega_;
+  const double step = own_.omega() - omega_;
   const bool onwards = points_in_row_ == 1 ? step != 0.0 : step * direction_ > 0.0;
   if (points_in_row_ == 0 || !onwards) {
-    response_.begin_row();
+    own_.turn();
+    if (other_) other_->turn();
     points_in_row_ = 0;
   }
   direction_ = step;
-  omega_ = values_.omega;
+  omega_ = own_.omega();
   ++points_in_row_;
 }
 

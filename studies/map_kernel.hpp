@@ -1,20 +1,21 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/bytes.hpp"
-#include "solvers/mechanics/network.hpp"
-#include "solvers/periodic/periodic_response.hpp"
 #include "studies/grid.hpp"
+#include "studies/row_solver.hpp"
 #include "studies/study_file.hpp"
 #include "studies/tile_record.hpp"
 
 namespace frahm::studies {
 
-// Computes the tiles of a study's map: of each point the quantities of its periodic response. A point without
-// one fails with a reason; it never ends the work. For one thread; each has its own.
+// Computes the tiles of a study's map: of each point the quantities of its periodic response, and of the one
+// it is compared with. A point without one fails with a reason; it never ends the work. For one thread; each
+// has its own.
 //
 // Each tile starts from nothing and goes through its rows in a fixed order, each point starting from the
 // orbits before it, so that the record of a tile depends on the tile alone.
@@ -29,26 +30,25 @@ class MapKernel {
  private:
   void compute_row(const MapBox& box);
   void compute_point();
-  void set_point();
   void begin_row_where_frequency_turns();
 
   const StudyFile& study_;
   const Grid& grid_;
-  std::vector<double> missing_;  // of each quantity: what a point has that failed before it was solved
-  bool matrices_change_in_row_;
-  periodic::PeriodicResponse response_;
+  std::size_t quantities_;             // of the study's own record
+  std::vector<std::size_t> compared_;  // where each compared quantity stands among those solved for
+  RowSolver own_;
+  std::optional<RowSolver> other_;
 
   // Workspace, of the tile, the row and the point in hand.
   TileRecord record_;
   std::vector<std::uint64_t> index_;  // of the row's first point
-  bool matrices_set_ = false;         // to the row's
   std::uint64_t points_in_row_ = 0;   // since the solver was told of a new one
   double omega_ = 0.0;                // of the point before [rad/s]
   double direction_ = 0.0;            // and the step to it
   std::vector<double> parameters_;    // SI
-  mechanics::NetworkValues values_;
-  std::vector<double> point_;  // its quantities
-  std::string reason_;         // why it failed; empty if it did not
+  std::vector<double> point_;         // its variables
+  std::vector<double> own_compared_;  // of the study's response, those that are compared
+  std::string reason_;                // why it failed; empty if it did not
 };
 
 }  // namespace frahm::studies

@@ -34,10 +34,15 @@ MapPlan plan_map(StudyFile study, std::vector<std::string> set) {
     throw StudyError(
         fmt::format("{}: a {} is one motion, not a map", study.source.name, kind_name(study.kind)));
   refuse_axes(study, set);
-  MapPlan plan{
-      .study = std::move(study), .set = std::move(set), .grid = {}, .quantities = {}, .fingerprint = {}};
+  MapPlan plan{.study = std::move(study),
+               .set = std::move(set),
+               .grid = {},
+               .quantities = {},
+               .variables = {},
+               .fingerprint = {}};
   plan.grid = grid_of(plan.study);
   plan.quantities = output_quantities(plan.study);
+  plan.variables = output_variables(plan.study, plan.quantities);
   plan.fingerprint = fingerprint(plan.study, plan.grid, plan.quantities);
   return plan;
 }
@@ -61,7 +66,7 @@ engine::Job job_of(const MapPlan& plan) {
           .points = points,
           .failed =
               [&plan, points](std::uint64_t tile, std::span<const std::byte> record) {
-                return count_failed(record, points(tile) * plan.quantities.size());
+                return count_failed(record, points(tile) * plan.variables.size());
               }};
 }
 

@@ -16,7 +16,8 @@ struct MapPlan {
   StudyFile study;               // with the values of --set
   std::vector<std::string> set;  // as given: name=value
   Grid grid;
-  std::vector<periodic::Quantity> quantities;
+  std::vector<periodic::Quantity> quantities;            // of the study's own response
+  std::vector<periodic::QuantityDescription> variables;  // those, and what a comparison adds
   engine::Fingerprint fingerprint;
 
   engine::LogHeader log_header() const { return {.fingerprint = fingerprint, .tiles = grid.tiles()}; }

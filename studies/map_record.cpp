@@ -43,8 +43,7 @@ std::vector<results::Axis> axes_of(const StudyFile& study) {
   return axes;
 }
 
-results::Variable variable_of(const StudyFile& study, const periodic::Quantity& quantity) {
-  const auto description = periodic::describe(quantity, study.network, study.dimensionless);
+results::Variable variable_of(const StudyFile& study, const periodic::QuantityDescription& description) {
   results::Variable variable{
       .name = description.name, .unit = description.unit, .long_name = description.long_name};
   if (description.kind == periodic::QuantityKind::count) variable.type = results::Type::int32;
@@ -74,9 +73,7 @@ results::MapLayout map_layout(const MapPlan& plan, const RunRecord& run) {
                             .axes = axes_of(study),
                             .chunk = plan.grid.chunk};
   if (layout.title.empty()) layout.title = std::filesystem::path(study.source.name).stem().string();
-  for (const periodic::Quantity& quantity : plan.quantities) {
-    layout.variables.push_back(variable_of(study, quantity));
-  }
+  for (const auto& variable : plan.variables) layout.variables.push_back(variable_of(study, variable));
   return layout;
 }
 

@@ -61,7 +61,7 @@ MapSample sample_map(const MapPlan& plan, double seconds) {
     const auto start = Clock::now();
     kernel(tile, bytes);
     sample.seconds += std::chrono::duration<double>(Clock::now() - start).count();
-    decode(bytes, plan.grid.box(tile).points() * plan.quantities.size(), record);
+    decode(bytes, plan.grid.box(tile).points() * plan.variables.size(), record);
     add(plan, tile, record, variables, sample);
   }
   return sample;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "solvers/periodic/periodic_response.hpp"
+#include "solvers/periodic/linear_modes.hpp"
 #include "studies/study_file.hpp"
 
 namespace frahm::studies {

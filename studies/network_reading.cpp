@@ -74,6 +74,21 @@ mechanics::FrictionLaw read_law(const TomlSection& section, const ElementKind& k
   return mechanics::FrictionLaw::exact;
 }
 
+// All coulomb elements follow one law.
+void check_one_law(const NetworkReading& reading, const TomlSection& section, mechanics::FrictionLaw law) {
+  const auto& elements = reading.result.network.elements;
+  const auto other = std::find_if(elements.begin(), elements.end(), [&](const auto& element) {
+    return element.type == ElementType::coulomb && element.law != law;
+  });
+  if (other == elements.end()) return;
+  const bool arctan = law == mechanics::FrictionLaw::arctan;
+  const std::string message = fmt::format(
+      "\"{}\"{}, but element \"{}\" follows \"{}\"; the coulomb elements of a study follow one law",
+      arctan ? "arctan" : "exact", section.find("law") ? "" : " is the law if none is named", other->name,
+      arctan ? "exact" : "arctan");
+  section.find("law") ? section.fail("law", message) : section.fail(message);
+}
+
 std::array<Node, 2> read_between(const NetworkReading& reading, const TomlSection& section) {
   const TomlValue& value = section.require("between");
   const auto* ends = value.as<TomlArray>();
@@ -122,6 +137,7 @@ void read_element(NetworkReading& reading, const TomlValue& table, std::size_t n
   check_keys_of_kind(section, kind);
   const auto [a, b] = read_between(reading, section);
   const mechanics::FrictionLaw law = read_law(section, kind);
+  if (kind.type == ElementType::coulomb) check_one_law(reading, section, law);
   reading.result.network.elements.push_back({name, kind.type, a, b, law});
   const auto read = [&](const ValueKey& value) {
     return read_value(reading, section, value.key, value.quantity, value.range);

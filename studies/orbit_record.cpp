@@ -2,7 +2,7 @@
 
 #include "solvers/mechanics/linear_system.hpp"
 #include "solvers/periodic/orbit.hpp"
-#include "solvers/periodic/periodic_response.hpp"
+#include "solvers/response/periodic_response.hpp"
 #include "studies/map_record.hpp"
 
 namespace frahm::studies {

@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "studies/comparison.hpp"
 #include "studies/spelling.hpp"
 
 namespace frahm::studies {
@@ -26,18 +27,6 @@ std::vector<periodic::Quantity> listed_quantities(const StudyFile& study) {
     result.push_back(*quantity);
   }
   return result;
-}
-
-std::vector<periodic::Quantity> chosen_quantities(const StudyFile& study) {
-  switch (study.output.quantities) {
-    case OutputChoice::Quantities::all:
-      return periodic::all_quantities(study.network);
-    case OutputChoice::Quantities::listed:
-      return listed_quantities(study);
-    case OutputChoice::Quantities::standard:
-      break;
-  }
-  return periodic::standard_quantities(study.network);
 }
 
 // A name of the record that the study chose, and where.
@@ -65,16 +54,34 @@ std::map<std::string, Taken> names_of_coordinates(const StudyFile& study) {
 }  // namespace
 
 std::vector<periodic::Quantity> output_quantities(const StudyFile& study) {
-  const std::vector<periodic::Quantity> result = chosen_quantities(study);
+  switch (study.output.quantities) {
+    case OutputChoice::Quantities::all:
+      return periodic::all_quantities(study.network);
+    case OutputChoice::Quantities::listed:
+      return listed_quantities(study);
+    case OutputChoice::Quantities::standard:
+      break;
+  }
+  return periodic::standard_quantities(study.network);
+}
+
+std::vector<periodic::QuantityDescription> output_variables(
+    const StudyFile& study, const std::vector<periodic::Quantity>& quantities) {
+  std::vector<periodic::QuantityDescription> result;
+  for (const periodic::Quantity& quantity : quantities)
+    result.push_back(periodic::describe(quantity, study.network, study.dimensionless));
+  if (study.comparison) {
+    const auto compared = compared_variables(study);
+    result.insert(result.end(), compared.begin(), compared.end());
+  }
   std::map<std::string, Taken> taken = names_of_coordinates(study);
-  for (const periodic::Quantity& quantity : result) {
-    const auto description = periodic::describe(quantity, study.network, study.dimensionless);
-    const auto [other, is_free] = taken.try_emplace(description.name, Taken{description.long_name, {}});
+  for (const auto& variable : result) {
+    const auto [other, is_free] = taken.try_emplace(variable.name, Taken{variable.long_name, {}});
     if (is_free) continue;
     throw study.source.error_at(
         other->second.position,
         fmt::format("\"{}\" is the name of {} and of a result ({}), which stand in one file; rename it",
-                    description.name, other->second.what, description.long_name));
+                    variable.name, other->second.what, variable.long_name));
   }
   return result;
 }

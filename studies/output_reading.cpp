@@ -22,21 +22,8 @@ void read_quantities(const TomlSection& section, OutputChoice& output) {
     output.quantities = word == "all" ? OutputChoice::Quantities::all : OutputChoice::Quantities::standard;
     return;
   }
-  const auto* items = value->as<TomlArray>();
-  if (!items || items->empty()) {
-    section.fail("quantities", fmt::format("expected \"standard\", \"all\" or an array of names, found {}",
-                                           items ? "an empty array" : described(*value)));
-  }
   output.quantities = OutputChoice::Quantities::listed;
-  const std::string where = fmt::format("{}: quantities", section.where());
-  for (const TomlValue& item : *items) {
-    const std::string name = read_identifier(section.source(), where, item);
-    const bool twice =
-        std::any_of(output.names.begin(), output.names.end(), [&](auto& n) { return n.text == name; });
-    if (twice)
-      throw section.source().error_at(item.position, fmt::format("{}: \"{}\" appears twice", where, name));
-    output.names.push_back({name, item.position});
-  }
+  output.names = read_quantity_names(section);
 }
 
 Assignment read_assignment(const StudyContext& context, const TomlEntry& entry, const StudyFile& study) {
@@ -107,6 +94,27 @@ void read_resonances(const StudyContext& context, const TomlSection& section, St
 }
 
 }  // namespace
+
+std::vector<OutputChoice::Name> read_quantity_names(const TomlSection& section) {
+  const TomlValue& value = section.require("quantities");
+  const auto* items = value.as<TomlArray>();
+  if (!items || items->empty()) {
+    const bool output = section.where() == "[output]";
+    section.fail("quantities", fmt::format("expected {}an array of names, found {}",
+                                           output ? "\"standard\", \"all\" or " : "",
+                                           items ? "an empty array" : described(value)));
+  }
+  std::vector<OutputChoice::Name> names;
+  const std::string where = fmt::format("{}: quantities", section.where());
+  for (const TomlValue& item : *items) {
+    const std::string name = read_identifier(section.source(), where, item);
+    const bool twice = std::any_of(names.begin(), names.end(), [&](auto& n) { return n.text == name; });
+    if (twice)
+      throw section.source().error_at(item.position, fmt::format("{}: \"{}\" appears twice", where, name));
+    names.push_back({name, item.position});
+  }
+  return names;
+}
 
 void read_output(const StudyContext& context, const TomlValue& root, StudyFile& study) {
   const TomlEntry* entry = find_entry(root, "output");

@@ -1,10 +1,14 @@
 #include "studies/point_report.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "solvers/mechanics/linear_system.hpp"
+#include "studies/comparison.hpp"
+#include "studies/row_solver.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -69,6 +73,25 @@ void solve(periodic::PeriodicResponse& response, PointReport& report) {
   for (std::size_t i = 0; i < values.size(); ++i) report.quantities[i].value = values[i];
 }
 
+// Adds what the study's comparison says of the point. parameters: complete.
+void add_comparison(const StudyFile& study, std::vector<double> parameters,
+                    const std::vector<periodic::Quantity>& quantities, PointReport& report) {
+  if (!study.comparison) return;
+  std::vector<double> own;
+  for (const periodic::Quantity& compared : study.comparison->quantities) {
+    const auto place = std::find(quantities.begin(), quantities.end(), compared) - quantities.begin();
+    own.push_back(report.quantities[static_cast<std::size_t>(place)].value);
+  }
+  RowSolver other(study, compared_network(study), compared_values(study), compared_quantities(study), true);
+  other.place(parameters);
+  const std::vector<periodic::QuantityDescription> variables = compared_variables(study);
+  std::vector<double> values(variables.size());
+  std::string reason;
+  compare(own, other.solve(reason), values);
+  for (std::size_t i = 0; i < values.size(); ++i) report.quantities.push_back({variables[i], values[i]});
+  if (report.reason.empty() && !reason.empty()) report.reason = fmt::format("compared: {}", reason);
+}
+
 std::string status_of(const PointReport& report) {
   for (const auto& [description, value] : report.quantities) {
     if (description.name == "status") return flag_meaning(description, value);
@@ -100,6 +123,7 @@ PointReport tell_point(const StudyFile& study, std::vector<double> parameters, s
   report.modes = modes_at_point(study, values);
   solve(response, report);
   report.status = status_of(report);
+  add_comparison(study, parameters, quantities, report);
   if (report.status == "ok" || report.status == "grazing") {
     report.stretches = response.stretches();
     if (history_samples > 0) report.history = response.history(history_samples);

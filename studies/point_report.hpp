@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "solvers/periodic/periodic_response.hpp"
 #include "solvers/periodic/quantity.hpp"
+#include "solvers/response/periodic_response.hpp"
 #include "studies/modes_table.hpp"
 #include "studies/settings.hpp"
 #include "studies/study_file.hpp"
@@ -30,7 +30,7 @@ struct PointReport {
   double residual = 0.0;              // 1
   int newton_iterations = 0;
   int passages = 0;                            // of the flow that the search took
-  std::vector<QuantityValue> quantities;       // all_quantities
+  std::vector<QuantityValue> quantities;       // all_quantities, and what a comparison adds
   std::vector<std::string> friction_elements;  // in the order of Stretch::contacts
   std::vector<periodic::Stretch> stretches;    // over the period; empty without a response
   std::optional<ModesAtPoint> modes;           // absent where the matrices have no meaning

@@ -4,8 +4,8 @@
 #include <map>
 
 #include "solvers/mechanics/linear_system.hpp"
-#include "solvers/periodic/periodic_response.hpp"
 #include "solvers/periodic/resonance_peak.hpp"
+#include "solvers/response/periodic_response.hpp"
 #include "studies/map_record.hpp"
 
 namespace frahm::studies {
@@ -75,8 +75,8 @@ std::vector<results::Column> columns_of(const StudyFile& study, std::size_t freq
   std::vector<results::Column> columns;
   const auto add = [&](const std::string& name, const std::string& unit, const std::string& long_name) {
     const bool pure = unit.empty() || study.dimensionless;
-    columns.push_back(
-        {.variable = {.name = name, .unit = pure ? "1" : unit, .long_name = long_name}, .dimension = "curve"});
+    columns.push_back({.variable = {.name = name, .unit = pure ? "1" : unit, .long_name = long_name},
+                       .dimension = "curve"});
   };
   for (std::size_t d = 0; d < study.dimensions.size(); ++d) {
     if (d == frequency_dimension) continue;

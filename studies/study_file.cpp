@@ -19,7 +19,7 @@ constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // some editors be
 
 // The sections of each kind of study, in the order of StudyKind.
 const std::array<std::vector<std::string>, 3> sections_of_kind{
-    {{"study", "parameters", "mass", "element", "excitation", "axis", "coordinate", "output"},
+    {{"study", "parameters", "mass", "element", "excitation", "axis", "coordinate", "output", "compare"},
      {"study", "parameters", "mass", "element", "decay", "initial"},
      {"study", "parameters", "mass", "element", "excitation", "transient", "initial"}}};
 const std::vector<std::string> reserved_keys{"tune", "design", "constraint", "identify"};
@@ -99,6 +99,7 @@ std::vector<std::size_t> read_by_matrices(const StudyFile& study) {
     return element.type == mechanics::ElementType::hysteretic;  // whose damping is eta k / omega
   });
   if (hysteretic) add(study.values.omega);
+  if (study.comparison) add(study.comparison->slope);
   return reads;
 }
 
@@ -143,7 +144,11 @@ StudyFile parse_study(std::string text, const std::filesystem::path& name) {
   auto [network, values] = read_network(context, root, study.parameters, study.kind);
   study.network = std::move(network);
   study.values = std::move(values);
-  if (study.kind != StudyKind::sweep) read_motion(context, root, study);
+  if (study.kind == StudyKind::sweep) {
+    read_comparison(context, root, study);
+  } else {
+    read_motion(context, root, study);
+  }
   convert_parameters(context, study.parameters);
   if (study.kind == StudyKind::sweep) {
     read_axes(context, root, study);

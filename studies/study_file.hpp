@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "solvers/mechanics/network.hpp"
+#include "solvers/periodic/quantity.hpp"
 #include "studies/parameters.hpp"
 #include "studies/study_source.hpp"
 #include "studies/study_values.hpp"
@@ -62,6 +63,15 @@ struct OutputChoice {
   std::vector<std::size_t> resonances;          // masses whose resonance is sought along the frequency axis
 };
 
+// The same points again under another friction law, or with the cranks' motion cut at another order; beside
+// the study's own.
+struct Comparison {
+  int taylor_order = 0;  // of every crank: 1, 2 or 4; 0: the law is what differs
+  mechanics::FrictionLaw law = mechanics::FrictionLaw::exact;  // of every coulomb element
+  StudyValue slope;                                            // of the arctan law
+  std::vector<periodic::Quantity> quantities;                  // real-valued, at least one
+};
+
 enum class StudyKind { sweep, decay, transient };
 
 // A mass's initial values [m], [m/s].
@@ -99,6 +109,7 @@ struct StudyFile {
   std::vector<GridDimension> dimensions;  // the first varies slowest; at least one
   std::vector<DerivedCoordinate> coordinates;
   OutputChoice output;
+  std::optional<Comparison> comparison;
 
   // The dimension along which the excitation frequency changes, which runs innermost in the computation; if
   // there are several, the last one along which the masses and elements stay the same, else the last.

@@ -38,6 +38,9 @@ NetworkOfStudy read_network(const StudyContext& context, const TomlValue& root, 
 // [decay] or [transient] and [[initial]] into study.motion, after the network and as it does.
 void read_motion(const StudyContext& context, const TomlValue& root, StudyFile& study);
 
+// [compare] into study.comparison, once the network is there. Notes in the parameters what a slope is.
+void read_comparison(const StudyContext& context, const TomlValue& root, StudyFile& study);
+
 // Every mass must be held: by a chain of springs from ground or a node of prescribed motion.
 // masses: their positions in the study.
 void check_masses_are_held(const StudyContext& context, const NetworkOfStudy& system,
@@ -47,6 +50,9 @@ void check_masses_are_held(const StudyContext& context, const NetworkOfStudy& sy
 void read_axes(const StudyContext& context, const TomlValue& root, StudyFile& study);
 void read_coordinates(const StudyContext& context, const TomlValue& root, StudyFile& study);
 void read_output(const StudyContext& context, const TomlValue& root, StudyFile& study);
+
+// The names in the array `quantities` of a section, each once.
+std::vector<OutputChoice::Name> read_quantity_names(const TomlSection& section);
 
 // Every value must be finite and within its range wherever the grid goes and at the orbits kept. A value is
 // tried on all points of the dimensions it depends on, or, where these are too many, on their corners.

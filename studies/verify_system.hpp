@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "solvers/mechanics/network.hpp"
-#include "solvers/periodic/periodic_response.hpp"
 #include "solvers/periodic/quantity.hpp"
+#include "solvers/response/periodic_response.hpp"
 
 // The systems of the classical papers as networks: a mass of 1 on a spring of 1 and a damper of 2 zeta, with
 // friction, so that time is omega_n t, displacements are in P/k (or in the base's amplitude) and forces in P

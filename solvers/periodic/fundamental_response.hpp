@@ -17,6 +17,10 @@ Eigen::VectorXd static_displacement(const mechanics::LinearSystem& system);
 // Amplitude [m] at the reference order of the one support that moves at it; 0 where none or several do.
 double support_amplitude(const mechanics::LinearSystem& system);
 
+// Amplitude of the force on all supports together over that of the applied forces, at the reference order;
+// NaN where no force is applied.  X: components [m] of the masses' displacements at that order.
+double force_transmissibility(const mechanics::LinearSystem& system, const Eigen::VectorXcd& X);
+
 // a / b, NaN where there is no b.
 double ratio(double a, double b);
 

@@ -1,8 +1,7 @@
+#include "solvers/periodic/linear_modes.hpp"
+
 #include <Eigen/Dense>
 #include <cmath>
-
-#include "solvers/periodic/observables.hpp"
-#include "solvers/periodic/periodic_response.hpp"
 
 namespace frahm::periodic {
 namespace {

@@ -11,6 +11,7 @@
 #include "solvers/periodic/extremes.hpp"
 #include "solvers/periodic/fundamental_response.hpp"
 #include "solvers/periodic/integrals.hpp"
+#include "solvers/periodic/linear_modes.hpp"
 #include "solvers/periodic/quantity.hpp"
 #include "solvers/periodic/resonance.hpp"
 
@@ -83,10 +84,6 @@ class Observables {
   const mechanics::LinearSystem* system_ = nullptr;
   double dissipated_ = 0.0;
 };
-
-// Undamped frequencies [rad/s], ascending, and phi^T C phi / (2 omega phi^T M phi) of each mode phi.
-void modes_of(const mechanics::LinearSystem& system, std::vector<double>& frequency,
-              std::vector<double>& damping);
 
 }  // namespace frahm::periodic
 

@@ -361,15 +361,11 @@ double Observables<N, H>::value_of_point(const Quantity& quantity) const {
     case Measure::error_bound:
       return orbit_->error_bound;
     case Measure::force_transmissibility: {
-      // What acts on the supports: P - sum_i m_i x_i'', at the reference order P + (n omega)^2 sum_i m_i X_i.
-      const std::complex<double> applied = system_->applied_force.col(reference_place(*system_)).sum();
-      const double rate = assembly_.network().reference_order * system_->omega;
-      std::complex<double> on_supports = applied;
-      for (std::size_t i = 0; i < mass_incidences_.size(); ++i) {
-        on_supports += rate * rate * system_->mass[static_cast<Eigen::Index>(i)] *
-                       reference_component(forms_.displacement(mass_incidences_[i]));
+      Eigen::VectorXcd X(system_->masses());
+      for (Eigen::Index i = 0; i < X.size(); ++i) {
+        X[i] = reference_component(forms_.displacement(mass_incidences_[static_cast<std::size_t>(i)]));
       }
-      return ratio(std::abs(on_supports), std::abs(applied));
+      return force_transmissibility(*system_, X);
     }
     case Measure::residual:
       return orbit_->residual;

@@ -2,6 +2,9 @@
 // friction law F (2/pi) arctan(1e5 v), integrated until the peak changes by less than 1e-4 from one period to the
 // next, which is how such maps are made today. Process CPU time, one thread, median of several repetitions.
 //
+// And what the smoothed law costs here: the arctan law by CVODES and shooting, to 1e-8 and better, beside the exact
+// law at the same points.
+//
 //   benchmark_orbits            everything
 //   benchmark_orbits --no-peer  Frahm only
 #include <fmt/format.h>
@@ -15,7 +18,7 @@
 #include <numbers>
 #include <vector>
 
-#include "solvers/periodic/periodic_response.hpp"
+#include "solvers/response/periodic_response.hpp"
 
 namespace {
 
@@ -194,6 +197,40 @@ void compare(const Work& work, double frahm) {
              work.name, peer, points, errors[errors.size() / 2], errors.back(), peer / frahm);
 }
 
+// Every 7th row, every 97th point: the exact orbit from nothing known, and that of the arctan law of slope 1e5.
+void compare_laws(const Work& work) {
+  Network smooth = work.network;
+  for (mechanics::Element& element : smooth.elements) {
+    if (element.type == ElementType::coulomb) element.law = mechanics::FrictionLaw::arctan;
+  }
+  const std::vector<periodic::Quantity> peak{{periodic::Measure::peak, 0}};
+  periodic::PeriodicResponse exact(work.network, peak), arctan(smooth, peak);
+  double exact_seconds = 0.0, arctan_seconds = 0.0, value = 0.0;
+  std::size_t points = 0, found = 0;
+  const auto timed = [&](periodic::PeriodicResponse& response, const NetworkValues& values, double& seconds) {
+    const double start = cpu_seconds();
+    response.forget();
+    response.set_values(values);
+    response.solve();
+    response.quantities({&value, 1});
+    seconds += cpu_seconds() - start;
+  };
+  for (std::size_t row = 1; row < work.rows.size(); row += 7) {
+    for (std::size_t k = 13; k < work.rows[row].size(); k += 97) {
+      NetworkValues values = work.rows[row][k];
+      timed(exact, values, exact_seconds);
+      values.second.assign(values.element.size(), 1e5);
+      timed(arctan, values, arctan_seconds);
+      ++points;
+      if (!std::isnan(value)) ++found;
+    }
+  }
+  const double per_point = 1.0 / static_cast<double>(points);
+  fmt::print("{:9} arctan law, slope 1e5, CVODES: {:.2e} s a point ({} of {} points found); exact law at the same points, each from nothing: {:.2e} s; ratio {:.0f}\n",
+             work.name, arctan_seconds * per_point, found, points, exact_seconds * per_point,
+             arctan_seconds / exact_seconds);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -206,6 +243,7 @@ int main(int argc, char** argv) {
     const double standard = frahm_seconds(work, periodic::standard_quantities(work.network), kRepetitions);
     fmt::print("{:9} peaks only: {:.3f} us an orbit, {:.0f} orbits/s a core; standard quantities: {:.3f} us, {:.0f} orbits/s\n",
                work.name, 1e6 * kernel, 1.0 / kernel, 1e6 * standard, 1.0 / standard);
+    compare_laws(work);
     if (with_peer) compare(work, kernel);
   }
 }

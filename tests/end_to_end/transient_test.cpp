@@ -5,7 +5,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "solvers/periodic/periodic_response.hpp"
+#include "solvers/response/periodic_response.hpp"
 #include "studies/study_file.hpp"
 #include "tests/end_to_end/motion_file.hpp"
 

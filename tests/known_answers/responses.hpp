@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "solvers/periodic/orbit.hpp"
-#include "solvers/periodic/periodic_response.hpp"
+#include "solvers/response/periodic_response.hpp"
 
 // Periodic responses of one network with their quantities by name, for tests.
 namespace frahm::periodic {

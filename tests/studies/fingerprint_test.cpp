@@ -74,4 +74,11 @@ TEST_CASE("the contents of a table are part of the physics") {
   std::filesystem::remove(path);
 }
 
+TEST_CASE("a comparison, its slope and its quantities are part of the physics") {
+  const std::string compare = "[compare]\nlaw = \"arctan\"\nslope = 1e3\n";
+  CHECK(of(base + compare).physics != of(base).physics);
+  CHECK(of(base + with(compare, "1e3", "1e4")).physics != of(base + compare).physics);
+  CHECK(of(base + compare + "quantities = [\"main_rms\"]\n").physics != of(base + compare).physics);
+}
+
 }  // namespace

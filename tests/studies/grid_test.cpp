@@ -78,4 +78,14 @@ TEST_CASE("a point is told as the option --at takes it, with its units") {
   CHECK(point_text(rig, std::vector<std::uint64_t>{41, 1, 400}) == "I=12.9 kg,FP=0.01,omega=350 rpm");
 }
 
+TEST_CASE("a map that meets the arctan law is cut into small tiles, as its points take long") {
+  const StudyFile study =
+      parse_study(small_studies::oscillator() + small_studies::axis("f", 0, 1, 10) +
+                      small_studies::axis("r", 0.5, 1.5, 41) + "[compare]\nlaw = \"arctan\"\nslope = 1e3\n",
+                  "small.toml");
+  const Grid grid = grid_of(study);
+  CHECK(grid.tile == std::vector<std::uint64_t>{1, 41});
+  CHECK(grid.tiles() == 10);
+}
+
 }  // namespace

@@ -31,7 +31,7 @@ frahm::engine::Bytes bytes_of(MapKernel& kernel, std::uint64_t tile) {
 TileRecord tile_of(const MapPlan& plan, std::uint64_t tile) {
   MapKernel kernel(plan.study, plan.grid, plan.quantities);
   TileRecord record;
-  decode(bytes_of(kernel, tile), plan.grid.box(tile).points() * plan.quantities.size(), record);
+  decode(bytes_of(kernel, tile), plan.grid.box(tile).points() * plan.variables.size(), record);
   return record;
 }
 
@@ -109,6 +109,94 @@ TEST_CASE("frequencies that stand still or turn back along a zip are computed li
     const double expected = frahm::periodic::non_stop_response(r[i], 0.05, f[i]).amplitude;
     CHECK_THAT(tile.values[i], Catch::WithinAbs(expected, closed_form_tolerance));
   }
+}
+
+const std::string compare_laws = "[compare]\nlaw = \"arctan\"\nslope = 1e3\n";
+
+// The kernel's values of a variable of a plan.
+std::vector<double> values_of(const MapPlan& plan, const TileRecord& tile, const std::string& name) {
+  const std::size_t points = tile.values.size() / plan.variables.size();
+  for (std::size_t v = 0; v < plan.variables.size(); ++v) {
+    if (plan.variables[v].name != name) continue;
+    const auto first = tile.values.begin() + static_cast<std::ptrdiff_t>(v * points);
+    return {first, first + static_cast<std::ptrdiff_t>(points)};
+  }
+  throw std::invalid_argument(name);
+}
+
+TEST_CASE("what is compared is what a study of the other law has itself") {
+  const std::string axes = axis("f", 0.1, 0.4, 3) + axis("r", 0.8, 1.2, 4);
+  const MapPlan both = plan_of(oscillator() + axes + peaks + compare_laws);
+  std::string text = oscillator();
+  text.insert(text.find("force = \"f\""), "law = \"arctan\"\nslope = 1e3\n");
+  const MapPlan other = plan_of(text + axes + peaks);
+  const TileRecord tile = tile_of(both, 0), alone = tile_of(other, 0);
+  CHECK(values_of(both, tile, "main_peak_compared") == values_of(other, alone, "main_peak"));
+  CHECK(values_of(both, tile, "status_compared") == std::vector<double>(12, 1.0));
+  const auto own = values_of(both, tile, "main_peak"), compared = values_of(both, tile, "main_peak_compared");
+  const auto difference = values_of(both, tile, "main_peak_difference");
+  for (std::size_t i = 0; i < own.size(); ++i)
+    CHECK(difference[i] == std::abs(own[i] - compared[i]) / own[i]);
+}
+
+TEST_CASE("a quantity can be compared that the study does not record itself") {
+  const MapPlan plan = plan_of(oscillator() + axis("r", 0.8, 1.2, 2) + peaks + compare_laws +
+                               "quantities = [\"main_rms\", \"main_peak\"]\n");
+  const TileRecord tile = tile_of(plan, 0);
+  REQUIRE(plan.variables.size() == 8);
+  CHECK(plan.variables[3].name == "main_rms_compared");
+  for (const double difference : values_of(plan, tile, "main_rms_difference")) CHECK(difference < 1e-3);
+}
+
+TEST_CASE("a slope may run along an axis") {
+  const MapPlan plan = plan_of(oscillator() + axis_of("k", "[1e2, 1e3, 1e4]") + axis_of("r", "[0.9, 1.2]") +
+                               peaks + "[compare]\nlaw = \"arctan\"\nslope = \"k\"\n");
+  const auto difference = values_of(plan, tile_of(plan, 0), "main_peak_difference");
+  CHECK(difference[2] < 0.3 * difference[0]);
+  CHECK(difference[5] < 0.3 * difference[3]);
+}
+
+TEST_CASE("cranks cut at another order are compared too") {
+  const auto crank = [](const std::string& cut) {
+    std::string text = oscillator();
+    const auto force = text.find("[[excitation.force]]");
+    text.replace(force, std::string::npos,
+                 "[[excitation.motion]]\nnode = \"base\"\nprofile = \"crank\"\ncrank = 1\nrod = 4\n" + cut);
+    return text.replace(text.find("[\"ground\", \"main\"]"), 18, "[\"base\", \"main\"]");
+  };
+  const std::string axes = axis("f", 0.1, 0.3, 2) + axis("r", 0.8, 1.2, 3);
+  const MapPlan both = plan_of(crank("") + axes + peaks + "[compare]\ntaylor_order = 1\n");
+  const MapPlan other = plan_of(crank("taylor_order = 1\n") + axes + peaks);
+  const auto compared = values_of(both, tile_of(both, 0), "main_peak_compared");
+  CHECK(compared == values_of(other, tile_of(other, 0), "main_peak"));
+  for (const double difference : values_of(both, tile_of(both, 0), "main_peak_difference")) {
+    CHECK(difference > 1e-3);
+    CHECK(difference < 0.3);
+  }
+}
+
+TEST_CASE("where only the compared law finds no orbit the point tells why and keeps its own values") {
+  // Damped so weakly that integration is not accurate enough for the orbit.
+  std::string text = oscillator();
+  text.replace(text.find("zeta = 0.05"), 11, "zeta = 1e-7");
+  const MapPlan plan = plan_of(text + axis_of("f", "[0, 0.9]") + axis_of("r", "[1]") + peaks + compare_laws);
+  const TileRecord tile = tile_of(plan, 0);
+  REQUIRE(tile.failed.size() == 1);
+  CHECK(tile.failed[0].place == 0);
+  CHECK_THAT(tile.failed[0].reason, Catch::StartsWith("compared: ") && Catch::Contains("estimated error"));
+  CHECK(values_of(plan, tile, "status")[0] == 1.0);
+  CHECK_THAT(values_of(plan, tile, "main_peak")[0], Catch::WithinRel(5e6, 1e-6));
+  CHECK(values_of(plan, tile, "status_compared")[0] == 4.0);
+  CHECK(std::isnan(values_of(plan, tile, "main_peak_compared")[0]));
+  CHECK(std::isnan(values_of(plan, tile, "main_peak_difference")[0]));
+}
+
+TEST_CASE("the bytes of a tile with a comparison do not depend on what its kernel did before") {
+  const MapPlan plan =
+      plan_of(oscillator() + axis("f", 0.1, 1, 3) + axis("r", 0.5, 1.2, 4) + peaks + compare_laws);
+  MapKernel busy(plan.study, plan.grid, plan.quantities), fresh(plan.study, plan.grid, plan.quantities);
+  bytes_of(busy, 0);
+  CHECK(bytes_of(busy, 0) == bytes_of(fresh, 0));
 }
 
 }  // namespace

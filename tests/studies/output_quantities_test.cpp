@@ -21,6 +21,11 @@ TEST_CASE("quantities are recorded in the order in which the study lists them") 
   CHECK(listed[1].measure == frahm::periodic::Measure::peak);
 }
 
+std::vector<frahm::periodic::QuantityDescription> variables_of(const std::string& text) {
+  const StudyFile study = parse_study(text, "small.toml");
+  return output_variables(study, output_quantities(study));
+}
+
 TEST_CASE("an unknown quantity is refused with its place and the nearest name") {
   CHECK_THROWS_WITH(of(base + "[output]\nquantities = [\"main_peek\"]\n"),
                     Catch::StartsWith("small.toml:40:15: ") && Catch::Contains("there is no \"main_peek\"") &&
@@ -29,8 +34,20 @@ TEST_CASE("an unknown quantity is refused with its place and the nearest name") 
 
 TEST_CASE("a coordinate may not have the name of a quantity that is recorded") {
   const std::string clash = "[[coordinate]]\nname = \"main_peak\"\nvalue = \"2*r\"\n";
-  CHECK_THROWS_WITH(of(base + clash), Catch::Contains("\"main_peak\" is the name of a coordinate"));
-  CHECK_NOTHROW(of(base + clash + "[output]\nquantities = [\"status\"]\n"));
+  CHECK_THROWS_WITH(variables_of(base + clash), Catch::Contains("\"main_peak\" is the name of a coordinate"));
+  CHECK_NOTHROW(variables_of(base + clash + "[output]\nquantities = [\"status\"]\n"));
+}
+
+TEST_CASE("the variables of a comparison follow the quantities, and clash with coordinates as they do") {
+  const std::string compare = "[compare]\nlaw = \"arctan\"\nslope = 1e3\n";
+  const auto variables = variables_of(base + "[output]\nquantities = [\"status\"]\n" + compare);
+  REQUIRE(variables.size() == 4);
+  CHECK(variables[1].name == "main_peak_compared");
+  CHECK(variables[2].name == "main_peak_difference");
+  CHECK(variables[3].name == "status_compared");
+  const std::string clash = "[[coordinate]]\nname = \"status_compared\"\nvalue = \"2*r\"\n";
+  CHECK_NOTHROW(variables_of(base + clash));
+  CHECK_THROWS_WITH(variables_of(base + clash + compare), Catch::Contains("is the name of a coordinate"));
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ TEST_CASE("The program knows how it was built") {
   CHECK(std::regex_match(facts.version, std::regex(R"(\d+\.\d+\.\d+)")));
   CHECK(std::regex_match(facts.commit, std::regex("unknown|[0-9a-f]{40}(-dirty)?")));
   CHECK(std::regex_search(facts.compiler, std::regex(R"([A-Za-z]+ \d+\.\d+)")));
-  REQUIRE(facts.libraries.size() == 10);
+  REQUIRE(facts.libraries.size() == 11);
   for (const std::string& library : facts.libraries) {
     INFO(library);
     CHECK(std::regex_search(library, std::regex(R"(^\S.* \d+\.\d+)")));
@@ -27,7 +27,8 @@ TEST_CASE("The version is a line of its own, and more is told when asked for") {
   CHECK(version_command(true, verbose) == 0);
   CHECK(brief.str() == "frahm " + build_facts().version + "\n");
   CHECK(verbose.str().starts_with(brief.str()));
-  for (const char* part : {"commit ", "compiler ", "flags ", "CPU ", "threads ", "Eigen 3.", "HDF5 1."}) {
+  for (const char* part :
+       {"commit ", "compiler ", "flags ", "CPU ", "threads ", "Eigen 3.", "SUNDIALS 6.", "HDF5 1."}) {
     INFO(part);
     CHECK(verbose.str().find(part) != std::string::npos);
   }

@@ -2,24 +2,10 @@
 
 #include "solvers/periodic/continuation.hpp"
 #include "solvers/periodic/observables.hpp"
-#include "solvers/periodic/periodic_response.hpp"
+#include "solvers/periodic/response.hpp"
 #include "solvers/periodic/rest_position.hpp"
 
 namespace frahm::periodic {
-
-// What PeriodicResponse does, for a network of any size.
-class ResponseSolver {
- public:
-  virtual ~ResponseSolver() = default;
-  virtual void set_values(const mechanics::NetworkValues& values) = 0;
-  virtual void set_forcing(const mechanics::NetworkValues& values) = 0;
-  virtual void forget() = 0;
-  virtual void begin_row() = 0;
-  virtual const ResponseSummary& solve() = 0;
-  virtual void quantities(std::span<double> out) = 0;
-  virtual History history(std::size_t samples) = 0;
-  virtual std::vector<Stretch> stretches() const = 0;
-};
 
 // N masses and H harmonics, or any number of either (Eigen::Dynamic).
 template <int N, int H>

@@ -1,24 +1,16 @@
-#include "solvers/periodic/periodic_response.hpp"
+#include "solvers/response/periodic_response.hpp"
 
-#include "solvers/periodic/response_solver.hpp"
+#include "solvers/periodic/exact_solver.hpp"
+#include "solvers/smooth/smooth_solver.hpp"
 
 namespace frahm::periodic {
 namespace {
 
-// A solver whose sizes are known at compile time where there is one for this network.
+// A solver of the network's law.
 std::unique_ptr<ResponseSolver> make_solver(const mechanics::Network& network,
                                             std::vector<Quantity> quantities) {
-  const mechanics::Assembly assembly(network);
-  const std::size_t masses = network.masses.size(), harmonics = assembly.orders().size();
-  if (assembly.contacts() <= Sizes<1, 1>::kMaxContacts && assembly.maxwell_elements() == 0) {
-    if (masses == 1 && harmonics == 1)
-      return std::make_unique<SizedSolver<1, 1>>(network, std::move(quantities));
-    if (masses == 1 && harmonics == 2)
-      return std::make_unique<SizedSolver<1, 2>>(network, std::move(quantities));
-    if (masses == 2 && harmonics == 1)
-      return std::make_unique<SizedSolver<2, 1>>(network, std::move(quantities));
-  }
-  return std::make_unique<SizedSolver<Eigen::Dynamic, Eigen::Dynamic>>(network, std::move(quantities));
+  if (smooth::is_smooth(network)) return smooth::make_solver(network, std::move(quantities));
+  return make_exact_solver(network, std::move(quantities));
 }
 
 }  // namespace

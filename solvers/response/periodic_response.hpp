@@ -2,42 +2,18 @@
 
 #include <memory>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "solvers/mechanics/network.hpp"
 #include "solvers/periodic/quantity.hpp"
+#include "solvers/periodic/response.hpp"
 
 namespace frahm::periodic {
 
-enum class Status;
-class ResponseSolver;
-
-// What is told of every response, whatever quantities were asked for.
-struct ResponseSummary {
-  Status status;
-  std::string reason;     // why it failed; empty otherwise
-  double residual = 0.0;  // 1
-  int newton_iterations = 0;
-  int passages = 0;  // periods (or half periods) of the flow that the search took
-};
-
-// One stretch of the response in one mode, for telling an orbit in full.
-struct Stretch {
-  double start = 0.0, length = 0.0;   // omega t [rad], from 0 to 2 pi
-  std::vector<std::string> contacts;  // per Coulomb element: "sticks", "slides +", "slides -"
-};
-
-// Sampled time history over one period, omega t from 0 to 2 pi inclusive. Rows are samples.
-struct History {
-  std::vector<double> time;        // [s]
-  std::vector<std::string> names;  // "main_displacement", "main_velocity", ..., "guide_force"
-  std::vector<std::string> units;
-  std::vector<std::vector<double>> columns;
-};
-
 // Periodic responses of one network, one point of a map after the other. Not for use by two threads at once;
-// each thread has its own.
+// each thread has its own. A network whose Coulomb elements follow the exact law is solved exactly
+// (periodic/), one with the arctan law by integration of its smooth equation (smooth/); one with both is
+// refused.
 //
 //   PeriodicResponse response(network, quantities);
 //   response.set_values(values);                  // matrices and forcing, e.g. at the first frequency of a
@@ -46,7 +22,7 @@ struct History {
 //   orbits before it
 class PeriodicResponse {
  public:
-  // Throws mechanics::MechanicsError for a network that cannot move.
+  // Throws mechanics::MechanicsError for a network that cannot move, or that mixes friction laws.
   PeriodicResponse(const mechanics::Network& network, std::vector<Quantity> quantities);
   ~PeriodicResponse();
   PeriodicResponse(PeriodicResponse&&) noexcept;
@@ -75,16 +51,7 @@ class PeriodicResponse {
   std::vector<Stretch> stretches() const;
 
  private:
-  std::unique_ptr<ResponseSolver> solver_;  // of the network's size
+  std::unique_ptr<ResponseSolver> solver_;  // of the network's law and size
 };
-
-// Modes of a network with all friction sliding, or with every contact stuck.
-struct LinearModes {
-  std::vector<double> frequency;           // undamped, ascending [rad/s]
-  std::vector<double> damping;             // ratio of each
-  std::vector<std::vector<double>> shape;  // displacement of each mass, largest 1
-};
-LinearModes linear_modes(const mechanics::Network& network, const mechanics::NetworkValues& values,
-                         bool all_stuck);
 
 }  // namespace frahm::periodic

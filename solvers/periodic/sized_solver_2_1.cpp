@@ -1,3 +1,3 @@
-#include "solvers/periodic/response_solver.hpp"
+#include "solvers/periodic/sized_solver.hpp"
 
 template class frahm::periodic::SizedSolver<2, 1>;

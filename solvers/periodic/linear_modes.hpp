@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "solvers/mechanics/linear_system.hpp"
+
+namespace frahm::periodic {
+
+// Modes of a network with all friction sliding, or with every contact stuck.
+struct LinearModes {
+  std::vector<double> frequency;           // undamped, ascending [rad/s]
+  std::vector<double> damping;             // ratio of each
+  std::vector<std::vector<double>> shape;  // displacement of each mass, largest 1
+};
+LinearModes linear_modes(const mechanics::Network& network, const mechanics::NetworkValues& values,
+                         bool all_stuck);
+
+// Undamped frequencies [rad/s], ascending, and phi^T C phi / (2 omega phi^T M phi) of each mode phi.
+void modes_of(const mechanics::LinearSystem& system, std::vector<double>& frequency,
+              std::vector<double>& damping);
+
+}  // namespace frahm::periodic

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "solvers/mechanics/network.hpp"
+
+// What is told of a periodic response, and the interface of what finds one.
+namespace frahm::periodic {
+
+enum class Status;
+
+// What is told of every response, whatever quantities were asked for.
+struct ResponseSummary {
+  Status status;
+  std::string reason;     // why it failed; empty otherwise
+  double residual = 0.0;  // 1
+  int newton_iterations = 0;
+  int passages = 0;  // periods (or half periods) of the flow that the search took
+};
+
+// One stretch of the response in one mode, for telling an orbit in full.
+struct Stretch {
+  double start = 0.0, length = 0.0;   // omega t [rad], from 0 to 2 pi
+  std::vector<std::string> contacts;  // per Coulomb element: "sticks", "slides +", "slides -"
+};
+
+// Sampled time history over one period, omega t from 0 to 2 pi inclusive. Rows are samples.
+struct History {
+  std::vector<double> time;        // [s]
+  std::vector<std::string> names;  // "main_displacement", "main_velocity", ..., "guide_force"
+  std::vector<std::string> units;
+  std::vector<std::vector<double>> columns;
+};
+
+// What PeriodicResponse (solvers/response/) does, for one kind of network; its comments say what is promised.
+class ResponseSolver {
+ public:
+  virtual ~ResponseSolver() = default;
+  virtual void set_values(const mechanics::NetworkValues& values) = 0;
+  virtual void set_forcing(const mechanics::NetworkValues& values) = 0;
+  virtual void forget() = 0;
+  virtual void begin_row() = 0;
+  virtual const ResponseSummary& solve() = 0;
+  virtual void quantities(std::span<double> out) = 0;
+  virtual History history(std::size_t samples) = 0;
+  virtual std::vector<Stretch> stretches() const = 0;
+};
+
+}  // namespace frahm::periodic

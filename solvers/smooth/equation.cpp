@@ -1,0 +1,190 @@
+#include "solvers/smooth/equation.hpp"
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+namespace frahm::smooth {
+
+using mechanics::ElementType;
+
+Equation::Equation(const mechanics::Assembly& assembly) : assembly_(assembly), orders_(assembly.orders()) {
+  const auto& network = assembly.network();
+  for (std::size_t e = 0; e < network.elements.size(); ++e) {
+    if (network.elements[e].type == ElementType::coulomb) elements_.push_back(e);
+  }
+  masses_ = static_cast<Eigen::Index>(network.masses.size());
+  size_ = 2 * masses_ + static_cast<Eigen::Index>(assembly.maxwell_elements());
+  u_.resize(oscillators());
+  v_.resize(terms());
+  friction_.resize(terms());
+  gain_.resize(terms());
+}
+
+double Equation::period() const {
+  return 2.0 * std::numbers::pi / omega_;
+}
+
+void Equation::set(const mechanics::LinearSystem& system, const mechanics::NetworkValues& values) {
+  omega_ = system.omega;
+  motion_ = rows_of(system.constant_motion, system.motion);
+  motion_velocity_ = differentiated(motion_);
+  motion_acceleration_ = differentiated(motion_velocity_);
+  applied_force_ = rows_of(system.constant_applied_force, system.applied_force);
+  set_linear_part(system);
+  set_friction(system, values);
+  energy_root_.setZero(size_, size_);
+  energy_root_.topLeftCorner(masses_, masses_) = system.K.llt().matrixU();
+  energy_root_.block(masses_, masses_, masses_, masses_) = system.M.llt().matrixU();
+  energy_root_.diagonal().tail(size_ - 2 * masses_) = system.maxwell_stiffness.cwiseSqrt().cwiseInverse();
+
+  // sqrt(1/2 sum_k f_k^H K^-1 f_k), as for the exact law
+  const Eigen::MatrixXd force = rows_of(system.constant_force, system.force);
+  const Eigen::MatrixXd yielding = system.K.llt().solve(force);
+  static_norm_ = std::sqrt(0.5 * force.cwiseProduct(yielding).sum());
+  static_displacement_ = yielding.cwiseAbs().rowwise().sum().maxCoeff();
+}
+
+// q'' = M^-1 (f(t) - C q' - K q - D s),   s_e' = k_e (d_e^T q' + p_e^T y') - (k_e/c_e) s_e
+void Equation::set_linear_part(const mechanics::LinearSystem& system) {
+  const Eigen::Index n = masses_, s = system.maxwell_elements();
+  const Eigen::LLT<Eigen::MatrixXd> mass(system.M);
+  A_.setZero(size_, size_);
+  A_.block(0, n, n, n).setIdentity();
+  A_.block(n, 0, n, n) = -mass.solve(system.K);
+  A_.block(n, n, n, n) = -mass.solve(system.C);
+  B_.setZero(size_, oscillators());
+  B_.middleRows(n, n) = mass.solve(rows_of(system.constant_force, system.force));
+  if (s == 0) return;
+  const auto stiffness = system.maxwell_stiffness.asDiagonal();
+  A_.block(n, 2 * n, n, s) = -mass.solve(system.D);
+  A_.block(2 * n, n, s, n) = stiffness * system.D.transpose();
+  A_.block(2 * n, 2 * n, s, s).diagonal() = -system.maxwell_rate;
+  B_.bottomRows(s) = stiffness * (system.D_support.transpose() * motion_velocity_);
+}
+
+void Equation::set_friction(const mechanics::LinearSystem& system, const mechanics::NetworkValues& values) {
+  const Eigen::LLT<Eigen::MatrixXd> mass(system.M);
+  G_.setZero(size_, terms());
+  W_.resize(terms(), masses_);
+  support_.resize(terms(), oscillators());
+  limit_.resize(terms());
+  slope_.resize(terms());
+  for (Eigen::Index j = 0; j < terms(); ++j) {
+    const std::size_t element = elements_[static_cast<std::size_t>(j)];
+    const mechanics::Incidence& at = assembly_.incidences()[element];
+    G_.col(j).segment(masses_, masses_) = -mass.solve(at.w);
+    W_.row(j) = at.w.transpose();
+    support_.row(j) = at.p.transpose() * motion_velocity_;
+    limit_[j] = system.laws[element].friction;
+    slope_[j] = values.second[element];
+  }
+}
+
+void Equation::oscillate(double t) {
+  u_[0] = 1.0;
+  for (std::size_t k = 0; k < orders_.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    u_[1 + 2 * i] = std::cos(orders_[k] * omega_ * t);
+    u_[2 + 2 * i] = std::sin(orders_[k] * omega_ * t);
+  }
+}
+
+const Eigen::VectorXd& Equation::speeds(double t, const Eigen::Ref<const Eigen::VectorXd>& z) {
+  oscillate(t);
+  v_.noalias() = W_ * z.segment(masses_, masses_);
+  v_.noalias() += support_ * u_;
+  return v_;
+}
+
+void Equation::rates(double t, const Eigen::Ref<const Eigen::VectorXd>& z, Eigen::Ref<Eigen::VectorXd> dz) {
+  speeds(t, z);
+  for (Eigen::Index j = 0; j < terms(); ++j) {
+    // F (2/pi) arctan(slope v)
+    friction_[j] = limit_[j] * (2.0 / std::numbers::pi) * std::atan(slope_[j] * v_[j]);
+  }
+  dz.noalias() = A_ * z;
+  dz.noalias() += B_ * u_;
+  dz.noalias() += G_ * friction_;
+}
+
+void Equation::jacobian(double t, const Eigen::Ref<const Eigen::VectorXd>& z, Eigen::Ref<Eigen::MatrixXd> J) {
+  speeds(t, z);
+  J = A_;
+  for (Eigen::Index j = 0; j < terms(); ++j) {
+    // d/dv F (2/pi) arctan(slope v) = F (2/pi) slope / (1 + (slope v)^2)
+    const double steepness = slope_[j] * v_[j];
+    gain_[j] = limit_[j] * (2.0 / std::numbers::pi) * slope_[j] / (1.0 + steepness * steepness);
+    J.middleCols(masses_, masses_).noalias() += gain_[j] * G_.col(j) * W_.row(j);
+  }
+}
+
+void Equation::look(double t, const Eigen::Ref<const Eigen::VectorXd>& z, Instant& instant) {
+  instant.z = z;
+  instant.dz.resize(size_);
+  rates(t, z, instant.dz);
+  instant.u = u_;
+  instant.friction = friction_;
+  instant.du.setZero(oscillators());
+  for (std::size_t k = 0; k < orders_.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    instant.du[1 + 2 * i] = -orders_[k] * omega_ * u_[2 + 2 * i];
+    instant.du[2 + 2 * i] = orders_[k] * omega_ * u_[1 + 2 * i];
+  }
+  instant.rate.resize(terms());
+  for (Eigen::Index j = 0; j < terms(); ++j) {
+    const double steepness = slope_[j] * v_[j];
+    const double gain = limit_[j] * (2.0 / std::numbers::pi) * slope_[j] / (1.0 + steepness * steepness);
+    instant.rate[j] =
+        gain * (W_.row(j).dot(instant.dz.segment(masses_, masses_)) + support_.row(j).dot(instant.du));
+  }
+}
+
+// Of each harmonic (i Omega - A) Z = b, and A Z = -b of the constant.
+Eigen::VectorXd Equation::response_without_friction(double t) const {
+  Eigen::VectorXd z = A_.partialPivLu().solve(-B_.col(0));
+  for (std::size_t k = 0; k < orders_.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    const double rate = orders_[k] * omega_;
+    Eigen::MatrixXcd resolvent = -A_.cast<std::complex<double>>();
+    resolvent.diagonal().array() += std::complex<double>(0.0, rate);
+    Eigen::VectorXcd b(size_);
+    b.real() = B_.col(1 + 2 * i);
+    b.imag() = -B_.col(2 + 2 * i);
+    z += (resolvent.partialPivLu().solve(b) * std::polar(1.0, rate * t)).real();
+  }
+  return z;
+}
+
+double Equation::energy_norm(const Eigen::VectorXd& z) const {
+  return std::sqrt(0.5) * (energy_root_ * z).norm();
+}
+
+// ||A||_E = ||R A R^-1||_2
+double Equation::energy_norm_of_map(const Eigen::MatrixXd& map) const {
+  return energy_root_.triangularView<Eigen::Upper>().solve<Eigen::OnTheRight>(energy_root_ * map).norm();
+}
+
+// Re(c e^{i theta}) = Re c cos(theta) - Im c sin(theta)
+Eigen::MatrixXd Equation::rows_of(const Eigen::VectorXd& constant, const Eigen::MatrixXcd& harmonics) const {
+  Eigen::MatrixXd rows(constant.size(), oscillators());
+  rows.col(0) = constant;
+  for (Eigen::Index k = 0; k < harmonics.cols(); ++k) {
+    rows.col(1 + 2 * k) = harmonics.col(k).real();
+    rows.col(2 + 2 * k) = -harmonics.col(k).imag();
+  }
+  return rows;
+}
+
+Eigen::MatrixXd Equation::differentiated(const Eigen::MatrixXd& rows) const {
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(rows.rows(), rows.cols());
+  for (std::size_t k = 0; k < orders_.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    result.col(1 + 2 * i) = orders_[k] * omega_ * rows.col(2 + 2 * i);
+    result.col(2 + 2 * i) = -orders_[k] * omega_ * rows.col(1 + 2 * i);
+  }
+  return result;
+}
+
+}  // namespace frahm::smooth

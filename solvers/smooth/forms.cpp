@@ -1,0 +1,66 @@
+#include "solvers/smooth/forms.hpp"
+
+#include <algorithm>
+
+namespace frahm::smooth {
+
+Form Forms::zero() const {
+  return {Eigen::VectorXd::Zero(equation_.size()), Eigen::VectorXd::Zero(equation_.oscillators()),
+          Eigen::VectorXd::Zero(equation_.terms())};
+}
+
+Form Forms::displacement(const mechanics::Incidence& at) const {
+  Form form = zero();
+  form.z.head(at.w.size()) = at.w;
+  form.u = equation_.motion().transpose() * at.p;
+  return form;
+}
+
+Form Forms::velocity(const mechanics::Incidence& at) const {
+  Form form = zero();
+  form.z.segment(at.w.size(), at.w.size()) = at.w;
+  form.u = equation_.motion_velocity().transpose() * at.p;
+  return form;
+}
+
+// w^T q'' from the equation's rows of the velocities.
+Form Forms::acceleration(const mechanics::Incidence& at) const {
+  const Eigen::Index n = equation_.masses();
+  Form form = zero();
+  form.z = equation_.A().middleRows(n, n).transpose() * at.w;
+  form.u = equation_.B().middleRows(n, n).transpose() * at.w;
+  form.u += equation_.motion_acceleration().transpose() * at.p;
+  form.f = equation_.G().middleRows(n, n).transpose() * at.w;
+  return form;
+}
+
+Form Forms::element_force(std::size_t element, const mechanics::ElementLaw& law) const {
+  const mechanics::Incidence& at = assembly_.incidences()[element];
+  Form form = zero();
+  if (law.stiffness != 0.0) form.add(law.stiffness, displacement(at));
+  if (law.damping != 0.0) form.add(law.damping, velocity(at));
+  if (law.inertance != 0.0) form.add(law.inertance, acceleration(at));
+  if (law.maxwell >= 0) form.z[2 * equation_.masses() + law.maxwell] += 1.0;
+  const auto& rubbing = equation_.elements();
+  const auto term = std::find(rubbing.begin(), rubbing.end(), element);
+  if (term != rubbing.end()) form.f[term - rubbing.begin()] += 1.0;
+  return form;
+}
+
+Form Forms::node_force(const mechanics::Node& node, const std::vector<mechanics::ElementLaw>& laws) const {
+  Form sum = zero();
+  const auto& elements = assembly_.network().elements;
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    if (elements[e].b == node) sum.add(+1.0, element_force(e, laws[e]));
+    if (elements[e].a == node) sum.add(-1.0, element_force(e, laws[e]));
+  }
+  return sum;
+}
+
+Form Forms::applied_force(std::size_t mass) const {
+  Form form = zero();
+  form.u = equation_.applied_force().row(static_cast<Eigen::Index>(mass)).transpose();
+  return form;
+}
+
+}  // namespace frahm::smooth

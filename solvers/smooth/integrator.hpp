@@ -1,0 +1,52 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "solvers/smooth/equation.hpp"
+#include "solvers/smooth/trajectory.hpp"
+
+namespace frahm::smooth {
+
+struct IntegratorOptions {
+  // Local error of a step, relative to the state and to its scale: near what rounding allows, as the errors
+  // of some thousand steps a period add up, and a weakly damped orbit has them many times over.
+  double tolerance = 1e-13;
+  // Of the sensitivities, whose columns are scaled to order 1: Newton's method forgives, and the Floquet
+  // multipliers are wanted to 1e-6 or so.
+  double sensitivity_tolerance = 1e-8;
+  long most_steps = 200000;  // of one passage: some ten times what two stops a period take at a slope of 1e6
+};
+
+// What a passage came to.
+struct Passage {
+  Eigen::VectorXd end;
+  Eigen::MatrixXd tangent;  // d end / d start
+  Trajectory trajectory;
+  double local_errors = 0.0;  // sum of the energy norms of the steps' estimated errors [sqrt(J)]
+  long steps = 0;
+  const char* failure = nullptr;  // why it did not reach its end
+};
+
+// Passages of an equation by SUNDIALS CVODES: BDF of variable order and step, Newton's method with the
+// analytic Jacobian, forward sensitivities by the start (staggered corrector). One object is for one thread;
+// objects share nothing.  Source: A. C. Hindmarsh et al., SUNDIALS, ACM Trans. Math. Softw. 31 (2005).
+class Integrator {
+ public:
+  // The equation must outlive the integrator. Throws std::runtime_error where CVODES cannot be set up.
+  explicit Integrator(Equation& equation, const IntegratorOptions& options = {});
+  ~Integrator();
+  Integrator(const Integrator&) = delete;
+  Integrator& operator=(const Integrator&) = delete;
+
+  // From the state `start` at time t [s] over `duration` [s].  scale: size N, > 0, what the components count
+  // as small against.
+  void pass(const Eigen::VectorXd& start, double t, double duration, const Eigen::VectorXd& scale,
+            Passage& passage);
+
+ private:
+  class Cvodes;
+  std::unique_ptr<Cvodes> cvodes_;
+};
+
+}  // namespace frahm::smooth

@@ -1,0 +1,116 @@
+#include "solvers/smooth/shooting.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <limits>
+#include <sstream>
+
+#include "solvers/periodic/stability.hpp"
+
+namespace frahm::smooth {
+namespace {
+
+std::string no_convergence(const Orbit& orbit) {
+  std::ostringstream reason;
+  reason.precision(2);
+  reason << "no convergence: after " << orbit.passages << " passages of the smooth motion the residual is "
+         << orbit.residual;
+  return reason.str();
+}
+
+std::string too_inaccurate(double error) {
+  std::ostringstream reason;
+  reason.precision(2);
+  reason << "the motion is damped too weakly for the accuracy of the integrator: the estimated error of the "
+            "orbit is "
+         << error;
+  return reason.str();
+}
+
+}  // namespace
+
+double Orbit::floquet_radius() const {
+  const double radius = periodic::spectral_radius(passage.tangent);
+  return half_period ? radius * radius : radius;
+}
+
+void Shooting::find(const Eigen::VectorXd& scale, Orbit& orbit) {
+  orbit.status = Status::failed;
+  orbit.reason.clear();
+  orbit.newton_iterations = orbit.passages = 0;
+  apply_map(scale, orbit);
+  int maps = 1;
+  while (may_go_on(orbit) && orbit.residual > options_.tolerance) {
+    if (newton(scale, orbit)) continue;
+    if (orbit.residual <= options_.good_enough) break;
+    march(scale, maps, orbit);
+    maps = 2 * maps;
+  }
+  if (orbit.passage.failure != nullptr) {
+    orbit.reason = orbit.passage.failure;
+    orbit.residual = std::numeric_limits<double>::quiet_NaN();
+  } else if (!(orbit.residual <= options_.good_enough)) {
+    orbit.reason = no_convergence(orbit);
+  } else if (const double error = estimated_error(orbit); !(error <= options_.largest_error)) {
+    orbit.reason = too_inaccurate(error);
+  } else {
+    orbit.status = Status::ok;
+  }
+}
+
+// ||z - z*||_E / ||z||_E to first order: (1 -+ dg/dz) (z - z*) = r + the errors of the steps, which the flow
+// does not expand.
+double Shooting::estimated_error(const Orbit& orbit) const {
+  const Eigen::Index size = equation_.size();
+  const Eigen::MatrixXd jacobian =
+      Eigen::MatrixXd::Identity(size, size) - orbit.sign() * orbit.passage.tangent;
+  const double scale = std::max(equation_.energy_norm(orbit.z), equation_.static_norm());
+  if (!(scale > 0.0)) return 0.0;
+  const double defect = orbit.residual + orbit.passage.local_errors / scale;
+  return equation_.energy_norm_of_map(jacobian.inverse()) * defect;
+}
+
+// residual_ = +-g(z) - z.
+void Shooting::apply_map(const Eigen::VectorXd& scale, Orbit& orbit) {
+  const double duration = equation_.period() * (orbit.half_period ? 0.5 : 1.0);
+  integrator_.pass(orbit.z, orbit.section, duration, scale, orbit.passage);
+  ++orbit.passages;
+  if (orbit.passage.failure != nullptr) return;
+  residual_ = orbit.sign() * orbit.passage.end - orbit.z;
+  const double size = std::max(equation_.energy_norm(orbit.z), equation_.static_norm());
+  const double norm = equation_.energy_norm(residual_);
+  orbit.residual = size > 0.0 ? norm / size : norm;
+}
+
+// One step of Newton's method, (1 -+ dg/dz) step = r, shortened until it pays. False if no length does; the
+// orbit is then as it was.
+bool Shooting::newton(const Eigen::VectorXd& scale, Orbit& orbit) {
+  const Eigen::Index size = equation_.size();
+  const Eigen::MatrixXd jacobian =
+      Eigen::MatrixXd::Identity(size, size) - orbit.sign() * orbit.passage.tangent;
+  const Eigen::VectorXd step = jacobian.partialPivLu().solve(residual_), z = orbit.z;
+  const double before = orbit.residual;
+  double share = 1.0;
+  const auto may_try = [&] { return step.allFinite() && orbit.passages < options_.most_passages; };
+  for (int rejected = 0; may_try() && rejected <= options_.most_rejections; ++rejected) {
+    orbit.z = z + share * step;
+    ++orbit.newton_iterations;
+    apply_map(scale, orbit);
+    constexpr double kPays = 0.9;
+    if (orbit.passage.failure == nullptr && orbit.residual < kPays * before) return true;
+    if (before <= options_.good_enough) break;  // what is left is the integrator's error
+    share *= 0.25;
+  }
+  orbit.z = z;
+  apply_map(scale, orbit);
+  return false;
+}
+
+void Shooting::march(const Eigen::VectorXd& scale, int maps, Orbit& orbit) {
+  for (int i = 0; i < maps && may_go_on(orbit) && orbit.residual > options_.tolerance; ++i) {
+    orbit.z = orbit.sign() * orbit.passage.end;
+    apply_map(scale, orbit);
+  }
+}
+
+}  // namespace frahm::smooth

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "solvers/periodic/orbit.hpp"
+#include "solvers/smooth/integrator.hpp"
+
+namespace frahm::smooth {
+
+using periodic::Status;
+
+// A periodic motion, known over a period from its section, or over half a period where it repeats with the
+// opposite sign, z(t + T/2) = -z(t).
+struct Orbit {
+  Status status = Status::not_computed;  // ok, unbounded or failed; a smooth law does not graze
+  std::string reason;                    // why it failed
+  Eigen::VectorXd z;                     // state at the section
+  double section = 0.0;                  // time [s] from omega t = 0
+  bool half_period = false;
+  Passage passage;
+  double residual = 0.0;  // of the periodic condition, relative, energy norm
+  int newton_iterations = 0;
+  int passages = 0;
+
+  double sign() const { return half_period ? -1.0 : 1.0; }
+  // Largest modulus of the Floquet multipliers of the full period.
+  double floquet_radius() const;
+};
+
+struct ShootingOptions {
+  double tolerance = 1e-11;     // of the relative residual: near what the integrator's tolerance leaves of it
+  double good_enough = 1e-9;    // accepted where that keeps it from falling further
+  double largest_error = 1e-6;  // estimated, of the orbit, relative, energy norm: a larger one is a failure
+  int most_passages = 60;       // each some hundredths of a second
+  int most_rejections = 3;      // halvings of a Newton step before the map itself is applied
+};
+
+// The periodic orbit as a fixed point of the period map, by Newton's method with the integrator's
+// sensitivities. The arctan law is monotone as the exact law is, so the map expands no distance in the energy
+// norm: where Newton's steps do not pay, the map itself is applied.
+class Shooting {
+ public:
+  // Both must outlive the shooting.
+  Shooting(const Equation& equation, Integrator& integrator, const ShootingOptions& options = {})
+      : equation_(equation), integrator_(integrator), options_(options) {}
+
+  // From the guess in orbit.z at orbit.section; orbit.half_period says which map. Fills the rest of `orbit`.
+  // scale: what each component counts as small against.
+  void find(const Eigen::VectorXd& scale, Orbit& orbit);
+
+ private:
+  void apply_map(const Eigen::VectorXd& scale, Orbit& orbit);
+  bool newton(const Eigen::VectorXd& scale, Orbit& orbit);
+  double estimated_error(const Orbit& orbit) const;
+  void march(const Eigen::VectorXd& scale, int maps, Orbit& orbit);
+  bool may_go_on(const Orbit& orbit) const {
+    return orbit.passage.failure == nullptr && orbit.passages < options_.most_passages;
+  }
+
+  const Equation& equation_;
+  Integrator& integrator_;
+  ShootingOptions options_;
+  Eigen::VectorXd residual_;
+};
+
+}  // namespace frahm::smooth
