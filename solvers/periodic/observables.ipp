@@ -376,10 +376,11 @@ double Observables<N, H>::value_of_point(const Quantity& quantity) const {
     case Measure::energy_input:
       return integrals_.input();
     case Measure::energy_balance: {
-      // Where nothing moves both are rounding of the forcing's energy, and where nothing that moves is
-      // strained of the orbit's.
+      // Where nothing moves both are rounding of the forcing's energy; where nothing that moves is strained
+      // they are what the orbit's own energy fails to close by.
       const double forcing = flow_.static_norm(), moving = flow_.equations().energy_norm(orbit_->z);
-      const double rounding = std::max(1e-11 * forcing * forcing, 1e-13 * moving * moving);
+      const double closing = 1e-13 + 100.0 * orbit_->residual;
+      const double rounding = std::max(1e-11 * forcing * forcing, closing * moving * moving);
       const double size = std::max(integrals_.input_size(), dissipated_);
       return size > rounding ? std::abs(integrals_.input() - dissipated_) / size : 0.0;
     }

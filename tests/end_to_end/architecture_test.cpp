@@ -80,14 +80,15 @@ TEST_CASE("each foreign library is known to one file, and to no header") {
   // HDF5's two files are two halves of one adapter, which share a header of their own.
   const std::map<std::string, std::set<std::string>> adapters{
       {"hdf5", {"results/hdf5.cpp", "results/hdf5_dataset.cpp", "results/hdf5_call.hpp"}},
-      {"toml\\+\\+|toml", {"studies/toml_reading.cpp"}},
-      {"CLI", {"studies/program.cpp"}},
-      {"udunits2", {"studies/units.cpp"}},
+      {"toml\\+\\+|toml", {"studies/reading/toml_reading.cpp"}},
+      {"CLI", {"studies/program/program.cpp"}},
+      {"udunits2", {"studies/reading/units.cpp"}},
       {"isa-l/crc", {"engine/checksum.cpp"}},
       {"isa-l/igzip_lib", {"results/chunk_codec.cpp"}},
       {"cvodes|nvector|sundials|sunlinsol|sunmatrix", {"solvers/smooth/cvodes.cpp"}},
-      {"xxhash", {"studies/fingerprint.cpp"}},
-      {"nlohmann", {"studies/point_json.cpp"}}};
+      {"boost", {"solvers/periodic/resonance_peak.cpp"}},
+      {"xxhash", {"studies/map/fingerprint.cpp"}},
+      {"nlohmann", {"studies/program/point_json.cpp"}}};
   std::map<std::string, std::set<std::string>> found;
   for (const Include& include : all_includes()) {
     for (const auto& [library, files] : adapters) {

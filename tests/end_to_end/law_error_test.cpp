@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "studies/grid.hpp"
+#include "studies/map/grid.hpp"
 #include "tests/end_to_end/runs.hpp"
 
 namespace {

@@ -10,7 +10,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "studies/program.hpp"
+#include "studies/program/program.hpp"
 
 namespace runs {
 namespace {

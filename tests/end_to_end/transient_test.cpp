@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "solvers/response/periodic_response.hpp"
-#include "studies/study_file.hpp"
+#include "studies/reading/study_file.hpp"
 #include "tests/end_to_end/motion_file.hpp"
 
 namespace {

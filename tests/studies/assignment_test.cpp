@@ -1,4 +1,4 @@
-#include "studies/assignment.hpp"
+#include "studies/reading/assignment.hpp"
 
 #include <catch2/catch.hpp>
 #include <numbers>

@@ -1,11 +1,11 @@
-#include "studies/check_command.hpp"
+#include "studies/program/check_command.hpp"
 
 #include <catch2/catch.hpp>
 #include <sstream>
 #include <string>
 
-#include "studies/map_sample.hpp"
-#include "studies/settings.hpp"
+#include "studies/map/map_sample.hpp"
+#include "studies/reading/settings.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "studies/expression.hpp"
+#include "studies/reading/expression.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

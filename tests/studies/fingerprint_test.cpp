@@ -1,10 +1,10 @@
-#include "studies/fingerprint.hpp"
+#include "studies/map/fingerprint.hpp"
 
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
 
-#include "studies/map_plan.hpp"
+#include "studies/map/map_plan.hpp"
 #include "tests/studies/small_studies.hpp"
 
 namespace {

@@ -1,4 +1,4 @@
-#include "studies/grid.hpp"
+#include "studies/map/grid.hpp"
 
 #include <catch2/catch.hpp>
 #include <numeric>

@@ -1,11 +1,11 @@
-#include "studies/lookup_table.hpp"
+#include "studies/reading/lookup_table.hpp"
 
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
-#include "studies/study_source.hpp"
+#include "studies/reading/study_source.hpp"
 
 namespace {
 

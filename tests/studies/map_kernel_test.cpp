@@ -1,10 +1,10 @@
-#include "studies/map_kernel.hpp"
+#include "studies/map/map_kernel.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "solvers/periodic/closed_forms.hpp"
-#include "studies/map_plan.hpp"
+#include "studies/map/map_plan.hpp"
 #include "tests/studies/small_studies.hpp"
 
 namespace {

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "studies/map_plan.hpp"
-#include "studies/motion_record.hpp"
-#include "studies/study_file.hpp"
+#include "studies/map/map_plan.hpp"
+#include "studies/motion/motion_record.hpp"
+#include "studies/reading/study_file.hpp"
 
 namespace {
 

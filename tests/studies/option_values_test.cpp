@@ -1,10 +1,10 @@
-#include "studies/option_values.hpp"
+#include "studies/program/option_values.hpp"
 
 #include <catch2/catch.hpp>
 #include <map>
 #include <string>
 
-#include "studies/study_source.hpp"
+#include "studies/reading/study_source.hpp"
 
 namespace {
 

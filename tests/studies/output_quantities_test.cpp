@@ -1,4 +1,4 @@
-#include "studies/output_quantities.hpp"
+#include "studies/map/output_quantities.hpp"
 
 #include <catch2/catch.hpp>
 

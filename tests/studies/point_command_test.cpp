@@ -1,4 +1,4 @@
-#include "studies/point_command.hpp"
+#include "studies/program/point_command.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -11,7 +11,7 @@
 
 #include "engine/io_error.hpp"
 #include "solvers/periodic/closed_forms.hpp"
-#include "studies/study_file.hpp"
+#include "studies/reading/study_file.hpp"
 #include "tests/results/temporary_directory.hpp"
 
 namespace {

@@ -1,4 +1,4 @@
-#include "studies/study_file.hpp"
+#include "studies/reading/study_file.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,11 +1,11 @@
-#include "studies/study_values.hpp"
+#include "studies/reading/study_values.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <string>
 #include <vector>
 
-#include "studies/study_file.hpp"
+#include "studies/reading/study_file.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "studies/tile_record.hpp"
+#include "studies/map/tile_record.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

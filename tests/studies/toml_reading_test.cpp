@@ -1,4 +1,4 @@
-#include "studies/toml_reading.hpp"
+#include "studies/reading/toml_reading.hpp"
 
 #include <catch2/catch.hpp>
 #include <string>

@@ -1,4 +1,4 @@
-#include "studies/units.hpp"
+#include "studies/reading/units.hpp"
 
 #include <catch2/catch.hpp>
 #include <numbers>

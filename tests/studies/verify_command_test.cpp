@@ -1,11 +1,11 @@
-#include "studies/verify_command.hpp"
+#include "studies/program/verify_command.hpp"
 
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <limits>
 #include <sstream>
 
-#include "studies/verify_cases.hpp"
+#include "studies/program/verify_cases.hpp"
 
 namespace {
 

@@ -1,0 +1,99 @@
+#include "studies/map/comparison.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace frahm::studies {
+namespace {
+
+using mechanics::ElementType;
+using mechanics::FrictionLaw;
+using periodic::QuantityDescription;
+
+// "under the arctan law", for the long names of variables.
+std::string circumstance(const Comparison& comparison) {
+  if (comparison.taylor_order > 0)
+    return fmt::format("with the crank cut at order {}", comparison.taylor_order);
+  return comparison.law == FrictionLaw::arctan ? "under the arctan law" : "under the exact law";
+}
+
+}  // namespace
+
+bool meets_arctan_law(const StudyFile& study) {
+  const auto follows = [](const mechanics::Network& network) {
+    return std::any_of(network.elements.begin(), network.elements.end(), [](const mechanics::Element& each) {
+      return each.type == ElementType::coulomb && each.law == FrictionLaw::arctan;
+    });
+  };
+  return follows(study.network) || (study.comparison && follows(compared_network(study)));
+}
+
+mechanics::Network compared_network(const StudyFile& study) {
+  const Comparison& comparison = *study.comparison;
+  mechanics::Network network = study.network;
+  if (comparison.taylor_order == 0) {
+    for (mechanics::Element& element : network.elements) {
+      if (element.type == ElementType::coulomb) element.law = comparison.law;
+    }
+    return network;
+  }
+  for (mechanics::Excitation& excitation : network.excitations) {
+    if (excitation.kind != mechanics::ExcitationKind::crank) continue;
+    excitation.taylor_order = comparison.taylor_order;
+    excitation.even_orders = comparison.taylor_order / 2;
+  }
+  return network;
+}
+
+StudyValues compared_values(const StudyFile& study) {
+  const Comparison& comparison = *study.comparison;
+  StudyValues values = study.values;
+  if (comparison.taylor_order > 0 || comparison.law == FrictionLaw::exact) return values;
+  for (std::size_t e = 0; e < study.network.elements.size(); ++e) {
+    if (study.network.elements[e].type == ElementType::coulomb) values.second[e] = comparison.slope;
+  }
+  return values;
+}
+
+std::vector<periodic::Quantity> compared_quantities(const StudyFile& study) {
+  std::vector<periodic::Quantity> result = study.comparison->quantities;
+  result.push_back({periodic::Measure::status, 0});
+  return result;
+}
+
+std::vector<QuantityDescription> compared_variables(const StudyFile& study) {
+  const std::string how = circumstance(*study.comparison);
+  std::vector<QuantityDescription> result;
+  for (const periodic::Quantity& quantity : study.comparison->quantities) {
+    const QuantityDescription own = periodic::describe(quantity, study.network, study.dimensionless);
+    result.push_back({.name = fmt::format("{}_compared", own.name),
+                      .unit = own.unit,
+                      .long_name = fmt::format("{}, {}", own.long_name, how),
+                      .flags = {}});
+    result.push_back({.name = fmt::format("{}_difference", own.name),
+                      .unit = "1",
+                      .long_name = fmt::format("relative difference of {} {}", own.name, how),
+                      .flags = {}});
+  }
+  QuantityDescription status =
+      periodic::describe({periodic::Measure::status, 0}, study.network, study.dimensionless);
+  status.name = fmt::format("{}_compared", status.name);
+  status.long_name = fmt::format("{}, {}", status.long_name, how);
+  result.push_back(status);
+  return result;
+}
+
+void compare(std::span<const double> own, std::span<const double> other, std::span<double> variables) {
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    const double size = std::abs(own[i]);
+    variables[2 * i] = other[i];
+    variables[2 * i + 1] =
+        size > 0.0 ? std::abs(own[i] - other[i]) / size : std::numeric_limits<double>::quiet_NaN();
+  }
+  variables.back() = other.back();
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,154 @@
+#include "studies/map/fingerprint.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <xxhash.h>
+
+#include <algorithm>
+
+namespace frahm::studies {
+namespace {
+
+// Raised with every change of the solvers that changes a result by more than the last bits.
+constexpr int solver_version = 2;
+
+// The text that is hashed: a line for each thing, every number in its shortest exact form.
+class CanonicalText {
+ public:
+  template <typename... Args>
+  void line(fmt::format_string<Args...> form, Args&&... args) {
+    fmt::format_to(std::back_inserter(text_), form, std::forward<Args>(args)...);
+    text_ += '\n';
+  }
+
+  std::string hash() const {
+    const XXH128_hash_t hash = XXH3_128bits(text_.data(), text_.size());
+    return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+  }
+
+ private:
+  std::string text_;
+};
+
+void add_parameters(const StudyFile& study, CanonicalText& text) {
+  const auto on_axis = [&](std::size_t i) {
+    return std::ranges::any_of(study.axes, [&](const ParameterAxis& axis) { return axis.parameter == i; });
+  };
+  const auto names = study.parameters.names();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto& definition = study.parameters.list[i].definition;
+    if (on_axis(i)) {
+      text.line("parameter {} axis", names[i]);
+    } else if (const auto* number = std::get_if<double>(&definition)) {
+      text.line("parameter {} number {}", names[i], *number);
+    } else if (const auto* expression = std::get_if<Expression>(&definition)) {
+      text.line("parameter {} expression {}", names[i], expression->canonical_text(names));
+    } else {
+      const TableOf& table = std::get<TableOf>(definition);
+      text.line("parameter {} table of {} x {} y {}", names[i], names[table.of],
+                fmt::join(table.table.x, " "), fmt::join(table.table.y, " "));
+    }
+  }
+}
+
+std::string node_text(const mechanics::Node& node) {
+  return fmt::format("{}:{}", static_cast<int>(node.kind), node.index);
+}
+
+void add_network(const StudyFile& study, CanonicalText& text) {
+  const mechanics::Network& network = study.network;
+  const StudyValues& values = study.values;
+  const auto names = study.parameters.names();
+  const auto value = [&](const StudyValue& each) { return each.expression.canonical_text(names); };
+  for (std::size_t i = 0; i < network.masses.size(); ++i) {
+    text.line("mass {} {}", network.masses[i], value(values.mass[i]));
+  }
+  text.line("prescribed {}", fmt::join(network.prescribed, " "));
+  for (std::size_t i = 0; i < network.elements.size(); ++i) {
+    const mechanics::Element& element = network.elements[i];
+    text.line("element {} {} {} {} {} {} {}", element.name, static_cast<int>(element.type),
+              node_text(element.a), node_text(element.b), value(values.element[i]),
+              static_cast<int>(element.law), value(values.second[i]));
+  }
+  text.line("frequency {}", value(values.omega));
+  for (std::size_t i = 0; i < network.excitations.size(); ++i) {
+    const mechanics::Excitation& excitation = network.excitations[i];
+    text.line("excitation {} {} {} {} {} {} {} {}", static_cast<int>(excitation.kind), excitation.node,
+              excitation.order, value(values.amplitude[i]), value(values.phase[i]), value(values.rod[i]),
+              excitation.taylor_order, excitation.even_orders);
+  }
+  text.line("reference order {}", network.reference_order);
+}
+
+// What tells a decay or transient from another of the same network. A sweep has none of it.
+void add_motion(const StudyFile& study, CanonicalText& text) {
+  if (study.kind == StudyKind::sweep) return;
+  const auto names = study.parameters.names();
+  text.line("kind {}", kind_name(study.kind));
+  const auto add = [&](const char* what, const std::optional<StudyValue>& value) {
+    if (value) text.line("{} {}", what, value->expression.canonical_text(names));
+  };
+  add("reference frequency", study.motion.reference_frequency);
+  add("sweep to", study.motion.sweep_to);
+  add("sweep rate", study.motion.sweep_rate);
+  for (const InitialValues& initial : study.motion.initial) {
+    text.line("initial {} {} {}", initial.mass, initial.displacement.expression.canonical_text(names),
+              initial.velocity.expression.canonical_text(names));
+  }
+}
+
+void add_comparison(const StudyFile& study, CanonicalText& text) {
+  if (!study.comparison) return;
+  const Comparison& comparison = *study.comparison;
+  text.line("compare law {} slope {} taylor order {}", static_cast<int>(comparison.law),
+            comparison.slope.expression.canonical_text(study.parameters.names()), comparison.taylor_order);
+  for (const periodic::Quantity& quantity : comparison.quantities)
+    text.line("compare {}", periodic::describe(quantity, study.network, study.dimensionless).name);
+}
+
+std::string physics_hash(const StudyFile& study, std::span<const periodic::Quantity> quantities) {
+  CanonicalText text;
+  text.line("solver {}", solver_version);
+  text.line("precision {}", study.output.single_precision ? "single" : "double");
+  text.line("units {}", study.dimensionless ? "dimensionless" : "SI");
+  add_parameters(study, text);
+  add_network(study, text);
+  add_motion(study, text);
+  add_comparison(study, text);
+  for (const periodic::Quantity& quantity : quantities) {
+    text.line("quantity {}", periodic::describe(quantity, study.network, study.dimensionless).name);
+  }
+  return text.hash();
+}
+
+std::string grid_hash(const StudyFile& study, const Grid& grid) {
+  CanonicalText text;
+  for (const GridDimension& dimension : study.dimensions) {
+    text.line("dimension {}", dimension.size);
+    for (const std::size_t a : dimension.axes) {
+      const ParameterAxis& axis = study.axes[a];
+      text.line("axis {} {}", study.parameters.list[axis.parameter].name, fmt::join(axis.si_values, " "));
+    }
+  }
+  for (const auto& orbit : study.output.orbits) {
+    for (const Assignment& at : orbit) text.line("orbit {} {}", at.parameter, at.value);
+    text.line("orbit ends");
+  }
+  text.line("resonances {}", fmt::join(study.output.resonances, " "));
+  if (study.kind != StudyKind::sweep) text.line("samples {}", study.motion.samples);
+  if (study.motion.duration) {
+    text.line("duration {}", study.motion.duration->expression.canonical_text(study.parameters.names()));
+  }
+  text.line("order {}", fmt::join(grid.order, " "));
+  text.line("tile {}", fmt::join(grid.tile, " "));
+  return text.hash();
+}
+
+}  // namespace
+
+engine::Fingerprint fingerprint(const StudyFile& study, const Grid& grid,
+                                std::span<const periodic::Quantity> quantities) {
+  return {.physics = physics_hash(study, quantities), .grid = grid_hash(study, grid)};
+}
+
+}  // namespace frahm::studies

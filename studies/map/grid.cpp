@@ -1,0 +1,137 @@
+#include "studies/map/grid.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "studies/map/comparison.hpp"
+
+namespace frahm::studies {
+namespace {
+
+// Sizes of tiles [points].
+struct TileSizes {
+  std::uint64_t longest_row;  // longer ones are cut
+  std::uint64_t least, most;
+};
+// Below the least warm starts are lost for nothing; the most is some 20 ms of work: fine steps of progress
+// and resume.
+constexpr TileSizes exact_tiles{.longest_row = 4000, .least = 256, .most = 2048};
+// Orbits of the arctan law take some 20 ms each and start from the exact ones, which are found beside them.
+constexpr TileSizes arctan_tiles{.longest_row = 64, .least = 16, .most = 64};
+constexpr std::uint64_t tiles_wanted = 128;               // of a small map, for the threads to share
+constexpr std::uint64_t chunk_points_wanted = 128 * 128;  // 128 KiB of doubles
+
+std::uint64_t product(const std::vector<std::uint64_t>& factors) {
+  std::uint64_t result = 1;
+  for (const std::uint64_t factor : factors) result *= factor;
+  return result;
+}
+
+std::uint64_t pieces(std::uint64_t size, std::uint64_t extent) {
+  return (size + extent - 1) / extent;
+}
+
+// The extent of at most `most`, and at least half of it, whose pieces cut `size` most evenly.
+std::uint64_t even_extent(std::uint64_t size, std::uint64_t most) {
+  if (size <= most) return size;
+  std::uint64_t best = most;
+  for (std::uint64_t extent = most; 2 * extent > most; --extent) {
+    if (pieces(size, extent) * extent < pieces(size, best) * best) best = extent;
+  }
+  return best;
+}
+
+void cut_into_tiles(const TileSizes& sizes, Grid& grid) {
+  const std::uint64_t wanted = std::clamp(grid.points() / tiles_wanted, sizes.least, sizes.most);
+  grid.tile.assign(grid.shape.size(), 1);
+  const std::size_t row = grid.order.back();
+  grid.tile[row] = even_extent(grid.shape[row], sizes.longest_row);
+  std::uint64_t points = grid.tile[row];
+  bool whole = points == grid.shape[row];
+  for (auto d = grid.order.rbegin() + 1; d != grid.order.rend() && whole && 2 * points <= wanted; ++d) {
+    grid.tile[*d] = even_extent(grid.shape[*d], wanted / points);
+    points *= grid.tile[*d];
+    whole = grid.tile[*d] == grid.shape[*d];
+  }
+}
+
+// Tiles that follow each other are joined, so that few chunks are unfinished at a time when tiles come in
+// order.
+void join_into_chunks(Grid& grid) {
+  grid.chunk = grid.tile;
+  for (auto d = grid.order.rbegin(); d != grid.order.rend(); ++d) {
+    const std::uint64_t most = pieces(grid.shape[*d], grid.tile[*d]);
+    const std::uint64_t wanted = std::min(most, pieces(chunk_points_wanted, product(grid.chunk)));
+    const std::uint64_t joined = pieces(most, pieces(most, wanted));  // no more chunks, of more even size
+    grid.chunk[*d] = std::min(grid.shape[*d], grid.tile[*d] * joined);
+    if (joined < most) return;
+  }
+}
+
+}  // namespace
+
+std::uint64_t MapBox::points() const {
+  return product(count);
+}
+
+std::uint64_t Grid::points() const {
+  return product(shape);
+}
+
+std::uint64_t Grid::tiles() const {
+  std::uint64_t result = 1;
+  for (std::size_t d = 0; d < shape.size(); ++d) result *= pieces(shape[d], tile[d]);
+  return result;
+}
+
+MapBox Grid::box(std::uint64_t number) const {
+  MapBox result{std::vector<std::uint64_t>(shape.size()), std::vector<std::uint64_t>(shape.size())};
+  for (auto d = order.rbegin(); d != order.rend(); ++d) {
+    const std::uint64_t along = pieces(shape[*d], tile[*d]);
+    result.start[*d] = number % along * tile[*d];
+    result.count[*d] = std::min(tile[*d], shape[*d] - result.start[*d]);
+    number /= along;
+  }
+  return result;
+}
+
+Grid grid_of(const StudyFile& study) {
+  Grid grid;
+  for (const GridDimension& dimension : study.dimensions) grid.shape.push_back(dimension.size);
+  const std::size_t row = study.frequency_dimension.value_or(study.dimensions.size() - 1);
+  for (std::size_t d = 0; d < study.dimensions.size(); ++d) {
+    if (d != row) grid.order.push_back(d);
+  }
+  grid.order.push_back(row);
+  cut_into_tiles(meets_arctan_law(study) ? arctan_tiles : exact_tiles, grid);
+  join_into_chunks(grid);
+  return grid;
+}
+
+bool next_point(const MapBox& box, std::span<const std::size_t> dimensions,
+                std::vector<std::uint64_t>& index) {
+  for (auto d = dimensions.rbegin(); d != dimensions.rend(); ++d) {
+    if (++index[*d] < box.start[*d] + box.count[*d]) return true;
+    index[*d] = box.start[*d];
+  }
+  return false;
+}
+
+std::string with_unit(double value, const std::string& unit) {
+  return unit.empty() || unit == "1" ? fmt::format("{}", value) : fmt::format("{} {}", value, unit);
+}
+
+std::string point_text(const StudyFile& study, std::span<const std::uint64_t> index) {
+  std::string text;
+  for (std::size_t d = 0; d < study.dimensions.size(); ++d) {
+    for (const std::size_t a : study.dimensions[d].axes) {
+      const ParameterAxis& axis = study.axes[a];
+      text += fmt::format("{}{}={}", text.empty() ? "" : ",", study.parameters.list[axis.parameter].name,
+                          with_unit(axis.values[index[d]], axis.unit));
+    }
+  }
+  return text;
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "studies/reading/study_file.hpp"
+
+// The points of a map, and how they are cut into the tiles that are computed and kept as a whole. All of it
+// depends on the study alone, never on who computes it.
+namespace frahm::studies {
+
+// The points start <= index < start + count along each dimension of the map, slowest first.
+struct MapBox {
+  std::vector<std::uint64_t> start, count;
+
+  std::uint64_t points() const;
+};
+
+struct Grid {
+  // One number for each dimension of the map, slowest first:
+  std::vector<std::uint64_t> shape;  // points
+  std::vector<std::uint64_t> tile;   // points of a tile; the last ones are cut off at the map's edge
+  std::vector<std::uint64_t> chunk;  // points of a chunk of the record, a union of whole tiles
+
+  // The dimensions in the order of computation: the last one, the frequency where there is one, runs
+  // innermost and is a row.
+  std::vector<std::size_t> order;
+
+  std::uint64_t points() const;
+  std::uint64_t tiles() const;
+
+  // The points of a tile. Tiles are numbered in the order of computation.  tile: below tiles().
+  MapBox box(std::uint64_t tile) const;
+};
+
+// A tile holds whole rows, as many as make a few hundred to two thousand points; rows longer than 4000 are
+// cut.
+Grid grid_of(const StudyFile& study);
+
+// Moves `index` to the next point of the box along `dimensions`, the last of which runs fastest; false, and
+// back at the start, after its last point.
+bool next_point(const MapBox& box, std::span<const std::size_t> dimensions,
+                std::vector<std::uint64_t>& index);
+
+// A point as the option --at takes it, each value in the unit of its axis: "I=4.72 kg,FP=0.1,omega=250 rpm".
+// index: one number for each dimension of the map.
+std::string point_text(const StudyFile& study, std::span<const std::uint64_t> index);
+
+// "250 rpm"; a unit of "" or "1" is left out.
+std::string with_unit(double value, const std::string& unit);
+
+}  // namespace frahm::studies

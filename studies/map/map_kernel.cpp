@@ -1,0 +1,115 @@
+#include "studies/map/map_kernel.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "studies/map/comparison.hpp"
+
+namespace frahm::studies {
+namespace {
+
+// What the study's own response is asked for: what it records, and what else is compared.
+std::vector<periodic::Quantity> asked_for(const StudyFile& study,
+                                          std::vector<periodic::Quantity> quantities) {
+  if (!study.comparison) return quantities;
+  for (const periodic::Quantity& compared : study.comparison->quantities) {
+    if (std::find(quantities.begin(), quantities.end(), compared) == quantities.end())
+      quantities.push_back(compared);
+  }
+  return quantities;
+}
+
+bool matrices_change(const StudyFile& study) {
+  return !study.frequency_dimension || study.values_depend_on_frequency;
+}
+
+}  // namespace
+
+MapKernel::MapKernel(const StudyFile& study, const Grid& grid, std::vector<periodic::Quantity> quantities)
+    : study_(study),
+      grid_(grid),
+      quantities_(quantities.size()),
+      own_(study, study.network, study.values, asked_for(study, quantities), matrices_change(study)),
+      parameters_(study.parameters.nominal()),
+      point_(quantities.size()) {
+  if (!study.comparison) return;
+  const std::vector<periodic::Quantity> asked = asked_for(study, std::move(quantities));
+  for (const periodic::Quantity& compared : study.comparison->quantities) {
+    compared_.push_back(
+        static_cast<std::size_t>(std::find(asked.begin(), asked.end(), compared) - asked.begin()));
+  }
+  own_compared_.resize(compared_.size());
+  point_.resize(quantities_ + compared_variables(study).size());
+  other_.emplace(study, compared_network(study), compared_values(study), compared_quantities(study),
+                 matrices_change(study));
+}
+
+void MapKernel::operator()(std::uint64_t tile, engine::Bytes& out) {
+  const MapBox box = grid_.box(tile);
+  record_.values.resize(point_.size() * box.points());
+  record_.failed.clear();
+  own_.forget();
+  if (other_) other_->forget();
+
+  const auto rows = std::span(grid_.order).first(grid_.order.size() - 1);
+  index_ = box.start;
+  do {
+    compute_row(box);
+  } while (next_point(box, rows, index_));
+  encode(record_, out);
+}
+
+// The points of the row that begins at index_, along the last dimension in the order of computation.
+void MapKernel::compute_row(const MapBox& box) {
+  const std::size_t along = grid_.order.back();
+  std::uint64_t place = 0, step = 1;  // of the row's first point in the record; from one to the next
+  for (std::size_t d = 0; d < index_.size(); ++d) {
+    place = place * box.count[d] + (index_[d] - box.start[d]);
+    if (d > along) step *= box.count[d];
+    if (d != along) studies::place(study_, d, index_[d], parameters_);
+  }
+  own_.begin_row();
+  if (other_) other_->begin_row();
+  points_in_row_ = 0;
+  const std::uint64_t points = box.points();
+  for (std::uint64_t i = 0; i < box.count[along]; ++i) {
+    studies::place(study_, along, box.start[along] + i, parameters_);
+    compute_point();
+    for (std::size_t q = 0; q < point_.size(); ++q) record_.values[q * points + place] = point_[q];
+    if (!reason_.empty()) record_.failed.push_back({place, reason_});
+    place += step;
+  }
+}
+
+// Fills point_, and reason_ if the point fails.
+void MapKernel::compute_point() {
+  own_.place(parameters_);
+  begin_row_where_frequency_turns();
+  const std::span<const double> own = own_.solve(reason_);
+  std::copy_n(own.begin(), quantities_, point_.begin());
+  if (!other_) return;
+  for (std::size_t i = 0; i < compared_.size(); ++i) own_compared_[i] = own[compared_[i]];
+  std::string reason;
+  other_->place(parameters_);
+  compare(own_compared_, other_->solve(reason), std::span(point_).subspan(quantities_));
+  if (reason_.empty() && !reason.empty()) reason_ = fmt::format("compared: {}", reason);
+}
+
+// Along a row the solver extrapolates over the frequency, which has to go one way: axes that advance together
+// may turn back or stand still, and without a frequency axis it stands still always.
+void MapKernel::begin_row_where_frequency_turns() {
+  const double step = own_.omega() - omega_;
+  const bool onwards = points_in_row_ == 1 ? step != 0.0 : step * direction_ > 0.0;
+  if (points_in_row_ == 0 || !onwards) {
+    own_.turn();
+    if (other_) other_->turn();
+    points_in_row_ = 0;
+  }
+  direction_ = step;
+  omega_ = own_.omega();
+  ++points_in_row_;
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/bytes.hpp"
+#include "studies/map/grid.hpp"
+#include "studies/map/row_solver.hpp"
+#include "studies/map/tile_record.hpp"
+#include "studies/reading/study_file.hpp"
+
+namespace frahm::studies {
+
+// Computes the tiles of a study's map: of each point the quantities of its periodic response, and of the one
+// it is compared with. A point without one fails with a reason; it never ends the work. For one thread; each
+// has its own.
+//
+// Each tile starts from nothing and goes through its rows in a fixed order, each point starting from the
+// orbits before it, so that the record of a tile depends on the tile alone.
+class MapKernel {
+ public:
+  // study, grid: must outlive the kernel.
+  MapKernel(const StudyFile& study, const Grid& grid, std::vector<periodic::Quantity> quantities);
+
+  // Appends the record of a tile (tile_record.hpp) to `out`.
+  void operator()(std::uint64_t tile, engine::Bytes& out);
+
+ private:
+  void compute_row(const MapBox& box);
+  void compute_point();
+  void begin_row_where_frequency_turns();
+
+  const StudyFile& study_;
+  const Grid& grid_;
+  std::size_t quantities_;             // of the study's own record
+  std::vector<std::size_t> compared_;  // where each compared quantity stands among those solved for
+  RowSolver own_;
+  std::optional<RowSolver> other_;
+
+  // Workspace, of the tile, the row and the point in hand.
+  TileRecord record_;
+  std::vector<std::uint64_t> index_;  // of the row's first point
+  std::uint64_t points_in_row_ = 0;   // since the solver was told of a new one
+  double omega_ = 0.0;                // of the point before [rad/s]
+  double direction_ = 0.0;            // and the step to it
+  std::vector<double> parameters_;    // SI
+  std::vector<double> point_;         // its variables
+  std::vector<double> own_compared_;  // of the study's response, those that are compared
+  std::string reason_;                // why it failed; empty if it did not
+};
+
+}  // namespace frahm::studies

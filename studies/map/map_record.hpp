@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "results/layout.hpp"
+#include "results/map_writer.hpp"
+#include "studies/map/map_plan.hpp"
+
+// What a result file says of a map (results/FORMAT.md).
+namespace frahm::studies {
+
+// How the map came about.
+struct RunRecord {
+  std::string command;  // "frahm run rig_atlas.toml"
+  int threads = 0;      // of the last run
+  std::string started;  // of the last run, ISO 8601 in UTC
+};
+
+// The time now: "2026-11-21T12:34:56Z".
+std::string utc_now();
+
+// Axes with the user's units, coordinates and variables, without a point.
+results::MapLayout map_layout(const MapPlan& plan, const RunRecord& run);
+
+// The texts of /provenance. failed: lines "<point as --at takes it>: <reason>".
+std::vector<results::Text> provenance(const MapPlan& plan, const RunRecord& run,
+                                      const std::vector<std::string>& failed);
+
+// The time histories of the points that the study lists, solved and written to /orbits; nothing if it lists
+// none. An orbit that does not exist has a row without samples.
+void write_orbits(const MapPlan& plan, results::MapWriter& writer);
+
+// Resonance and half-power frequencies of the masses that the study lists, solved for each point of the axes
+// other than the frequency, a curve of /resonance each; nothing if it lists none.
+void write_resonances(const MapPlan& plan, results::MapWriter& writer);
+
+}  // namespace frahm::studies

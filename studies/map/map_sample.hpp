@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "studies/map/map_plan.hpp"
+
+namespace frahm::studies {
+
+// What some tiles, evenly spread over a map, tell of the whole.
+struct MapSample {
+  std::uint64_t points = 0;        // computed, >= 1
+  double seconds = 0.0;            // of one thread
+  std::uint64_t raw_bytes = 0;     // of their values in the record
+  std::uint64_t stored_bytes = 0;  // the same, compressed
+  std::uint64_t failed = 0;        // points
+  std::string failed_at, reason;   // of the first that failed; its place as --at takes it
+};
+
+// Computes tiles of the map until `seconds` have passed or all are done; at least one.
+// Throws mechanics::MechanicsError for a network that cannot move at any values.
+MapSample sample_map(const MapPlan& plan, double seconds);
+
+}  // namespace frahm::studies

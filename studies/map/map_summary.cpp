@@ -1,0 +1,123 @@
+#include "studies/map/map_summary.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "studies/map/grid.hpp"
+#include "studies/map/map_chunks.hpp"
+
+namespace frahm::studies {
+namespace {
+
+constexpr std::size_t most_rows = 12;
+
+FlagCounts count_flag(const results::MapReader& map, std::size_t variable) {
+  std::vector<std::uint64_t> counts(128);
+  for_each_chunk(map.layout(), [&](const MapBox& box) {
+    for (const double value : map.read(variable, box.start, box.count))
+      ++counts[static_cast<std::size_t>(value)];
+  });
+  const results::Variable& flag = map.layout().variables[variable];
+  FlagCounts result{.variable = flag.name, .counts = {}};
+  for (const results::Flag& each : flag.flags) {
+    const std::uint64_t count = counts[static_cast<std::size_t>(each.value)];
+    if (count > 0) result.counts.emplace_back(each.meaning, count);
+  }
+  return result;
+}
+
+double to_six_digits(double value) {
+  return std::stod(fmt::format("{:.6g}", value));
+}
+
+// "omega=238.5 rpm"; of axes that advance together the index: "design=3".
+std::string place_text(const results::Axis& axis, std::uint64_t index) {
+  for (const results::Coordinate& coordinate : axis.coordinates) {
+    if (coordinate.name == axis.name) {
+      return fmt::format("{}={}", axis.name,
+                         with_unit(to_six_digits(coordinate.values[index]), coordinate.unit));
+    }
+  }
+  return fmt::format("{}={}", axis.name, index);
+}
+
+}  // namespace
+
+std::uint64_t FlagCounts::of(const std::string& meaning) const {
+  const auto found = std::ranges::find(counts, meaning, &std::pair<std::string, std::uint64_t>::first);
+  return found == counts.end() ? 0 : found->second;
+}
+
+std::uint64_t points_of(const results::MapLayout& layout) {
+  std::uint64_t points = 1;
+  for (const results::Axis& axis : layout.axes) points *= axis.size;
+  return points;
+}
+
+std::vector<FlagCounts> count_flags(const results::MapReader& map) {
+  std::vector<FlagCounts> result;
+  const auto& variables = map.layout().variables;
+  for (std::size_t v = 0; v < variables.size(); ++v) {
+    if (variables[v].type == results::Type::flag) result.push_back(count_flag(map, v));
+  }
+  return result;
+}
+
+WorstAlongAxis worst_along_slowest_axis(const results::MapReader& map, std::size_t variable) {
+  WorstAlongAxis result{.variable = variable, .rows = {}};
+  result.rows.resize(map.layout().axes.front().size, {std::numeric_limits<double>::quiet_NaN(), {}});
+  std::vector<std::size_t> dimensions(map.layout().axes.size());
+  for (std::size_t d = 0; d < dimensions.size(); ++d) dimensions[d] = d;
+  for_each_chunk(map.layout(), [&](const MapBox& box) {
+    const std::vector<double> values = map.read(variable, box.start, box.count);
+    std::vector<std::uint64_t> index = box.start;
+    for (const double value : values) {
+      WorstAlongAxis::Row& row = result.rows[index.front()];
+      if (value > row.worst || (std::isnan(row.worst) && !std::isnan(value))) row = {value, index};
+      next_point(box, dimensions, index);
+    }
+  });
+  return result;
+}
+
+void print_flags(const std::vector<FlagCounts>& flags, std::uint64_t points, std::ostream& out) {
+  for (const FlagCounts& flag : flags) {
+    fmt::print(out, "{:<22}", flag.variable);
+    std::string text;
+    for (const auto& [meaning, count] : flag.counts) {
+      const double share = 100.0 * static_cast<double>(count) / static_cast<double>(points);
+      text += fmt::format("{}{} {} ({:.3g} %)", text.empty() ? "" : ", ", meaning, count, share);
+    }
+    fmt::print(out, " {}\n", text);
+  }
+}
+
+void print_worst(const results::MapReader& map, const WorstAlongAxis& worst, std::ostream& out) {
+  const results::MapLayout& layout = map.layout();
+  const results::Variable& variable = layout.variables[worst.variable];
+  const std::size_t rows = worst.rows.size(), shown = std::min(rows, most_rows);
+  fmt::print(out, "worst {} along {}", variable.name, layout.axes.front().name);
+  if (shown < rows) fmt::print(out, " ({} of {} rows, evenly chosen)", shown, rows);
+  fmt::print(out, "\n");
+  for (std::size_t i = 0; i < shown; ++i) {
+    const std::size_t at = shown > 1 ? (i * (rows - 1) + (shown - 1) / 2) / (shown - 1) : 0;
+    const WorstAlongAxis::Row& row = worst.rows[at];
+    fmt::print(out, "  {:<20}", place_text(layout.axes.front(), at));
+    if (std::isnan(row.worst)) {
+      fmt::print(out, " no value\n");
+      continue;
+    }
+    fmt::print(out, " {:<14}", with_unit(to_six_digits(row.worst), variable.unit));
+    for (std::size_t d = 1; d < layout.axes.size(); ++d) {
+      fmt::print(out, " {} {}", d == 1 ? "at" : "  ", place_text(layout.axes[d], row.index[d]));
+    }
+    fmt::print(out, "\n");
+  }
+}
+
+}  // namespace frahm::studies

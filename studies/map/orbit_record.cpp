@@ -1,0 +1,93 @@
+#include <fmt/format.h>
+
+#include "solvers/mechanics/linear_system.hpp"
+#include "solvers/periodic/orbit.hpp"
+#include "solvers/response/periodic_response.hpp"
+#include "studies/map/map_record.hpp"
+
+namespace frahm::studies {
+namespace {
+
+constexpr std::size_t samples_in_period = 512;
+
+// One listed point: its parameters, and the history of its orbit, empty if it has none.
+struct KeptOrbit {
+  std::vector<double> parameters;  // SI
+  periodic::History history;
+};
+
+KeptOrbit keep_orbit(const MapPlan& plan, const std::vector<Assignment>& point) {
+  const StudyFile& study = plan.study;
+  KeptOrbit orbit{.parameters = study.parameters.nominal(), .history = {}};
+  for (const Assignment& assignment : point) orbit.parameters[assignment.parameter] = assignment.value;
+  mechanics::NetworkValues values;
+  evaluate(study.values, study.parameters, orbit.parameters, values);
+  periodic::PeriodicResponse response(study.network, plan.quantities);
+  try {
+    response.set_values(values);
+  } catch (const mechanics::MechanicsError&) {
+    return orbit;  // the point fails as it would in the map
+  }
+  const periodic::Status status = response.solve().status;
+  if (status == periodic::Status::ok || status == periodic::Status::grazing) {
+    orbit.history = response.history(samples_in_period);
+  }
+  return orbit;
+}
+
+// Names and units of the samples, which a point without an orbit does not tell.
+std::vector<results::Variable> sample_variables(const StudyFile& study) {
+  std::vector<results::Variable> variables;
+  const auto add = [&](const std::string& name, const char* unit, const std::string& long_name) {
+    variables.push_back({.name = name, .unit = study.dimensionless ? "1" : unit, .long_name = long_name});
+  };
+  add("time", "s", "time within the period, from omega t = 0");
+  for (const std::string& mass : study.network.masses) {
+    add(mass + "_displacement", "m", "displacement of " + mass);
+    add(mass + "_velocity", "m s-1", "velocity of " + mass);
+  }
+  for (const auto& element : study.network.elements)
+    add(element.name + "_force", "N", "force of " + element.name);
+  return variables;
+}
+
+std::vector<results::Variable> row_variables(const StudyFile& study) {
+  std::vector<results::Variable> variables;
+  for (const ParameterAxis& axis : study.axes) {
+    const std::string& name = study.parameters.list[axis.parameter].name;
+    variables.push_back({.name = name,
+                         .unit = axis.unit.empty() ? "1" : axis.unit,
+                         .long_name = fmt::format("parameter {}", name)});
+  }
+  return variables;
+}
+
+std::vector<std::vector<double>> samples_of(const KeptOrbit& orbit, std::size_t variables) {
+  if (orbit.history.time.empty()) return std::vector<std::vector<double>>(variables);
+  std::vector<std::vector<double>> samples{orbit.history.time};
+  samples.insert(samples.end(), orbit.history.columns.begin(), orbit.history.columns.end());
+  return samples;
+}
+
+}  // namespace
+
+void write_orbits(const MapPlan& plan, results::MapWriter& writer) {
+  const StudyFile& study = plan.study;
+  if (study.output.orbits.empty()) return;
+  const results::RaggedLayout layout{.group = "orbits",
+                                     .row = "orbit",
+                                     .row_variables = row_variables(study),
+                                     .sample = "sample",
+                                     .sample_variables = sample_variables(study)};
+  const std::size_t table = writer.create_ragged(layout);
+  for (const auto& point : study.output.orbits) {
+    const KeptOrbit orbit = keep_orbit(plan, point);
+    std::vector<double> row;
+    for (const ParameterAxis& axis : study.axes) {
+      row.push_back(orbit.parameters[axis.parameter] / axis.si_factor);
+    }
+    writer.append_ragged(table, row, samples_of(orbit, layout.sample_variables.size()));
+  }
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,143 @@
+#include <fmt/format.h>
+
+#include <limits>
+#include <map>
+
+#include "solvers/mechanics/linear_system.hpp"
+#include "solvers/periodic/resonance_peak.hpp"
+#include "solvers/response/periodic_response.hpp"
+#include "studies/map/map_record.hpp"
+
+namespace frahm::studies {
+namespace {
+
+// Response curves of some masses along the frequency axis, the other parameters held: amplitudes at the
+// reference order over the axis's parameter.
+class ResponseCurves {
+ public:
+  ResponseCurves(const StudyFile& study, std::size_t parameter)
+      : study_(study), parameter_(parameter), response_(study.network, harmonics(study)) {}
+
+  void begin(std::vector<double> parameters) {
+    parameters_ = std::move(parameters);
+    known_.clear();
+    response_.forget();
+  }
+
+  // NaN where the point has no response.
+  double amplitude(std::size_t curve, double at) {
+    const auto [known, is_new] = known_.try_emplace(at);
+    if (is_new) known->second = solve(at);
+    return known->second[curve];
+  }
+
+  double angular_frequency(double at) {
+    set(at);
+    return values_.omega;
+  }
+
+ private:
+  static std::vector<periodic::Quantity> harmonics(const StudyFile& study) {
+    std::vector<periodic::Quantity> quantities;
+    for (const std::size_t mass : study.output.resonances)
+      quantities.push_back({periodic::Measure::harmonic, mass});
+    return quantities;
+  }
+
+  void set(double at) {
+    parameters_[parameter_] = at;
+    evaluate(study_.values, study_.parameters, parameters_, values_);
+  }
+
+  std::vector<double> solve(double at) {
+    std::vector<double> amplitudes(study_.output.resonances.size(), std::numeric_limits<double>::quiet_NaN());
+    set(at);
+    try {
+      response_.set_values(values_);
+    } catch (const mechanics::MechanicsError&) {
+      return amplitudes;  // such a point of the map has failed, with its reason
+    }
+    response_.solve();
+    response_.quantities(amplitudes);
+    return amplitudes;
+  }
+
+  const StudyFile& study_;
+  std::size_t parameter_;
+  periodic::PeriodicResponse response_;
+  std::vector<double> parameters_;
+  mechanics::NetworkValues values_;
+  std::map<double, std::vector<double>> known_;  // by the value of the parameter
+};
+
+// The coordinates of the rows, and of each mass its resonance.
+std::vector<results::Column> columns_of(const StudyFile& study, std::size_t frequency_dimension) {
+  std::vector<results::Column> columns;
+  const auto add = [&](const std::string& name, const std::string& unit, const std::string& long_name) {
+    const bool pure = unit.empty() || study.dimensionless;
+    columns.push_back({.variable = {.name = name, .unit = pure ? "1" : unit, .long_name = long_name},
+                       .dimension = "curve"});
+  };
+  for (std::size_t d = 0; d < study.dimensions.size(); ++d) {
+    if (d == frequency_dimension) continue;
+    for (const std::size_t a : study.dimensions[d].axes) {
+      const std::string& name = study.parameters.list[study.axes[a].parameter].name;
+      add(name, study.axes[a].unit, "parameter " + name);
+    }
+  }
+  for (const std::size_t mass : study.output.resonances) {
+    const std::string& name = study.network.masses[mass];
+    add(name + "_resonance_frequency", "rad s-1", "angular frequency at which " + name + " moves most");
+    add(name + "_resonance_amplitude", "m", "amplitude of " + name + " at the reference order there");
+    add(name + "_half_power_low", "rad s-1", "below it, where the amplitude is 1/sqrt(2) of that");
+    add(name + "_half_power_high", "rad s-1", "above it, where the amplitude is 1/sqrt(2) of that");
+    add(name + "_half_power_damping", "1", "(high - low) / (2 resonance frequency)");
+  }
+  return columns;
+}
+
+// The next row of the counter over all dimensions but one; false after the last.
+bool next_row(const StudyFile& study, std::size_t left_out, std::vector<std::size_t>& index) {
+  for (std::size_t d = index.size(); d-- > 0;) {
+    if (d == left_out) continue;
+    if (++index[d] < study.dimensions[d].size) return true;
+    index[d] = 0;
+  }
+  return false;
+}
+
+}  // namespace
+
+void write_resonances(const MapPlan& plan, results::MapWriter& writer) {
+  const StudyFile& study = plan.study;
+  if (study.output.resonances.empty()) return;
+  const std::size_t along = *study.frequency_dimension;
+  const ParameterAxis& axis = study.axes[study.dimensions[along].axes.front()];
+  ResponseCurves curves(study, axis.parameter);
+  std::vector<results::Column> columns = columns_of(study, along);
+  std::vector<std::size_t> index(study.dimensions.size(), 0);
+  do {
+    std::vector<double> parameters = study.parameters.nominal();
+    std::size_t column = 0;
+    for (std::size_t d = 0; d < index.size(); ++d) {
+      if (d == along) continue;
+      place(study, d, index[d], parameters);
+      for (const std::size_t a : study.dimensions[d].axes)
+        columns[column++].values.push_back(study.axes[a].values[index[d]]);
+    }
+    curves.begin(std::move(parameters));
+    for (std::size_t curve = 0; curve < study.output.resonances.size(); ++curve) {
+      const auto peak = periodic::find_resonance_peak([&](double at) { return curves.amplitude(curve, at); },
+                                                      axis.si_values);
+      const double resonance = curves.angular_frequency(peak.at);
+      double low = curves.angular_frequency(peak.half_power_low),
+             high = curves.angular_frequency(peak.half_power_high);
+      if (low > high) std::swap(low, high);
+      for (const double value : {resonance, peak.value, low, high, (high - low) / (2.0 * resonance)})
+        columns[column++].values.push_back(value);
+    }
+  } while (next_row(study, along, index));
+  writer.write_columns("resonance", columns);
+}
+
+}  // namespace frahm::studies

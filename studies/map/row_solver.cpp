@@ -1,0 +1,68 @@
+#include "studies/map/row_solver.hpp"
+
+#include <limits>
+#include <utility>
+
+#include "solvers/mechanics/linear_system.hpp"
+#include "solvers/periodic/orbit.hpp"
+
+namespace frahm::studies {
+namespace {
+
+using periodic::QuantityKind;
+
+// What a point without a response has: a quantity of each kind, and the status `failed`.
+std::vector<double> values_of_failure(const mechanics::Network& network,
+                                      std::span<const periodic::Quantity> quantities) {
+  std::vector<double> values;
+  for (const periodic::Quantity& quantity : quantities) {
+    const QuantityKind kind = periodic::describe(quantity, network, false).kind;
+    const bool is_status = quantity.measure == periodic::Measure::status;
+    values.push_back(is_status                     ? static_cast<double>(periodic::Status::failed)
+                     : kind == QuantityKind::flag  ? 0.0
+                     : kind == QuantityKind::count ? -1.0
+                                                   : std::numeric_limits<double>::quiet_NaN());
+  }
+  return values;
+}
+
+}  // namespace
+
+RowSolver::RowSolver(const StudyFile& study, const mechanics::Network& network, StudyValues values,
+                     std::vector<periodic::Quantity> quantities, bool matrices_change)
+    : parameters_(study.parameters),
+      values_(std::move(values)),
+      missing_(values_of_failure(network, quantities)),
+      matrices_change_(matrices_change),
+      response_(network, std::move(quantities)),
+      point_(missing_.size()) {}
+
+void RowSolver::place(std::span<double> parameters) {
+  evaluate(values_, parameters_, parameters, numbers_);
+}
+
+std::span<const double> RowSolver::solve(std::string& reason) {
+  reason.clear();
+  try {
+    set_point();
+  } catch (const mechanics::MechanicsError& error) {
+    reason = error.what();
+    matrices_set_ = false;
+    return missing_;
+  }
+  const periodic::ResponseSummary& summary = response_.solve();
+  if (summary.status == periodic::Status::failed) reason = summary.reason;
+  response_.quantities(point_);
+  return point_;
+}
+
+void RowSolver::set_point() {
+  if (matrices_set_ && !matrices_change_) {
+    response_.set_forcing(numbers_);
+  } else {
+    response_.set_values(numbers_);
+    matrices_set_ = true;
+  }
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,138 @@
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+
+#include "solvers/mechanics/linear_system.hpp"
+#include "solvers/periodic/linear_modes.hpp"
+#include "solvers/response/periodic_response.hpp"
+#include "studies/motion/motion_columns.hpp"
+#include "studies/motion/motion_record.hpp"
+
+namespace frahm::studies {
+namespace {
+
+using transient::DecayEnd, transient::Extremum, transient::FreeDecay;
+
+std::string ending(const StudyFile& study, const FreeDecay& decay) {
+  const char* seconds = study.dimensionless ? "" : " s";
+  switch (decay.end) {
+    case DecayEnd::at_rest:
+      return std::isnan(decay.stop_time)
+                 ? fmt::format("still moving after {:.10g}{}", decay.duration, seconds)
+                 : fmt::format("comes to rest at {:.10g}{}", decay.stop_time, seconds);
+    case DecayEnd::creeping:
+      return "creeps towards its rest and never arrives";
+    case DecayEnd::decayed:
+      return fmt::format("never stops; its energy norm is {} of the first, or less, after {:.6g}{}",
+                         transient::kDecayed, decay.duration, seconds);
+    case DecayEnd::cut_off:
+      return fmt::format("still moving after {:.6g}{}", decay.duration, seconds);
+    case DecayEnd::failed:
+      break;
+  }
+  return decay.reason;
+}
+
+}  // namespace
+
+double stated(const StudyFile& study, const StudyValue& value) {
+  const std::vector<double> parameters = study.parameters.nominal();
+  return value.expression.evaluate(std::span<const double>(parameters));
+}
+
+mechanics::NetworkValues motion_values(const StudyFile& study) {
+  mechanics::NetworkValues values;
+  std::vector<double> parameters = study.parameters.nominal();
+  evaluate(study.values, study.parameters, parameters, values);
+  if (study.kind != StudyKind::decay) return values;
+  if (study.motion.reference_frequency) {
+    values.hysteretic_omega = stated(study, *study.motion.reference_frequency);
+    return values;
+  }
+  try {
+    values.hysteretic_omega = 1.0;  // the natural frequencies do not depend on it
+    values.hysteretic_omega = periodic::linear_modes(study.network, values, false).frequency.front();
+  } catch (const mechanics::MechanicsError& error) {
+    throw StudyError(study.source.name + ": " + error.what());
+  }
+  return values;
+}
+
+transient::InitialState initial_state(const StudyFile& study) {
+  const std::size_t n = study.network.masses.size();
+  transient::InitialState state{std::vector<double>(n, 0.0), std::vector<double>(n, 0.0)};
+  for (const InitialValues& initial : study.motion.initial) {
+    state.displacement[initial.mass] = stated(study, initial.displacement);
+    state.velocity[initial.mass] = stated(study, initial.velocity);
+  }
+  return state;
+}
+
+FreeDecay solve_decay(const StudyFile& study) {
+  const transient::DecayOptions options{
+      .duration = study.motion.duration ? stated(study, *study.motion.duration) : 0.0,
+      .samples = study.motion.samples};
+  try {
+    FreeDecay decay =
+        transient::free_decay(study.network, motion_values(study), initial_state(study), options);
+    if (decay.end == DecayEnd::failed)
+      throw StudyError(study.source.name + ": the motion is not computed: " + decay.reason);
+    return decay;
+  } catch (const mechanics::MechanicsError& error) {
+    throw StudyError(study.source.name + ": " + error.what());
+  }
+}
+
+std::vector<results::Column> decay_columns(const StudyFile& study, const FreeDecay& decay) {
+  MotionColumns columns(study);
+  std::size_t rows = 1;
+  for (const auto& mass : decay.masses) rows = std::max(rows, mass.extrema.size());
+  for (std::size_t i = 0; i < decay.masses.size(); ++i) {
+    const std::string& name = study.network.masses[i];
+    std::vector<double> times, values;
+    for (const Extremum& extremum : decay.masses[i].extrema) {
+      times.push_back(extremum.time);
+      values.push_back(extremum.displacement);
+    }
+    columns.add(name + "_extremum_time", "s", "times at which the velocity of " + name + " is zero",
+                "extremum", times, rows);
+    columns.add(name + "_extremum", "m", "displacement of " + name + " at its extrema", "extremum", values,
+                rows);
+    columns.add(name + "_log_decrement", "1", "ln abs(x_i / x_(i+2)) of the extrema of " + name, "extremum",
+                decay.masses[i].log_decrement, rows);
+    columns.add_number(name + "_rest", "m", "displacement at which " + name + " rests, or to which it tends",
+                       decay.masses[i].rest);
+  }
+  columns.add_number("stop_time", "s", "time from which nothing moves any more", decay.stop_time);
+  columns.add_number("duration", "s", "time until which the motion is recorded", decay.duration);
+  columns.add_number("reference_frequency", "rad s-1", "angular frequency of the loss factors",
+                     decay.hysteretic_omega);
+  if (!decay.history.time.empty()) columns.add_samples(decay.history);
+  return columns.take();
+}
+
+void print_decay(const StudyFile& study, const FreeDecay& decay, std::ostream& out) {
+  constexpr std::size_t most_rows = 12;
+  fmt::print(out, "free decay: {}\n", ending(study, decay));
+  for (std::size_t i = 0; i < decay.masses.size(); ++i) {
+    const auto& [extrema, decrement, rest] = decay.masses[i];
+    fmt::print(out, "\n{}: {} extrema", study.network.masses[i], extrema.size());
+    if (!std::isnan(rest)) {
+      const bool stopped = decay.end == DecayEnd::at_rest;
+      fmt::print(out, ", {} {:.10g}{}", stopped ? "rests at" : "tends to", rest,
+                 study.dimensionless ? "" : " m");
+    }
+    fmt::print(out, "\n{:>6}{:>18}{:>18}{:>16}\n", "", study.dimensionless ? "time" : "time [s]",
+               study.dimensionless ? "extremum" : "extremum [m]", "log decrement");
+    for (std::size_t k = 0; k < std::min(most_rows, extrema.size()); ++k) {
+      fmt::print(out, "{:>6}{:>18.10g}{:>18.10g}", k, extrema[k].time, extrema[k].displacement);
+      fmt::print(out, "{}\n", std::isnan(decrement[k]) ? "" : fmt::format("{:>16.8g}", decrement[k]));
+    }
+    if (extrema.size() > most_rows) fmt::print(out, "{:>6}  and {} more\n", "", extrema.size() - most_rows);
+  }
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,31 @@
+#include "studies/motion/motion_columns.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace frahm::studies {
+
+void MotionColumns::add(const std::string& name, const char* unit, const std::string& long_name,
+                        const std::string& dimension, std::vector<double> values, std::size_t size) {
+  values.resize(std::max(size, values.size()), std::numeric_limits<double>::quiet_NaN());
+  columns_.push_back(
+      {.variable = {.name = name, .unit = study_.dimensionless ? "1" : unit, .long_name = long_name},
+       .dimension = dimension,
+       .values = std::move(values)});
+}
+
+void MotionColumns::add_number(const std::string& name, const char* unit, const std::string& long_name,
+                               double value) {
+  add(name, unit, long_name, "", {value});
+}
+
+void MotionColumns::add_samples(const transient::Samples& samples) {
+  add("time", "s", "time since the initial values", "time", samples.time);
+  for (std::size_t i = 0; i < study_.network.masses.size(); ++i) {
+    const std::string& mass = study_.network.masses[i];
+    add(mass + "_displacement", "m", "displacement of " + mass, "time", samples.displacement[i]);
+    add(mass + "_velocity", "m s-1", "velocity of " + mass, "time", samples.velocity[i]);
+  }
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "results/layout.hpp"
+#include "solvers/transient/motion.hpp"
+#include "studies/reading/study_file.hpp"
+
+namespace frahm::studies {
+
+// Columns of a group, with the units of the study.
+class MotionColumns {
+ public:
+  explicit MotionColumns(const StudyFile& study) : study_(study) {}
+
+  // dimension: "" for a single number.  values: padded with NaN to `size`.
+  void add(const std::string& name, const char* unit, const std::string& long_name,
+           const std::string& dimension, std::vector<double> values, std::size_t size = 0);
+  void add_number(const std::string& name, const char* unit, const std::string& long_name, double value);
+
+  // time, and displacement and velocity of each mass along it.
+  void add_samples(const transient::Samples& samples);
+
+  std::vector<results::Column> take() { return std::move(columns_); }
+
+ private:
+  const StudyFile& study_;
+  std::vector<results::Column> columns_;
+};
+
+}  // namespace frahm::studies

@@ -1,0 +1,127 @@
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+
+#include "solvers/mechanics/linear_system.hpp"
+#include "studies/motion/motion_columns.hpp"
+#include "studies/motion/motion_record.hpp"
+
+namespace frahm::studies {
+namespace {
+
+using transient::ForcedMotion, transient::Stop;
+
+// The network's values when the parameter that is the frequency, if there is one, takes another value.
+mechanics::NetworkValues values_at(const StudyFile& study, double omega) {
+  std::vector<double> parameters = study.parameters.nominal();
+  const auto running = study.values.omega.expression.sole_parameter();
+  if (running && study.motion.sweep_to) parameters[*running] = omega;
+  mechanics::NetworkValues values;
+  evaluate(study.values, study.parameters, parameters, values);
+  values.omega = omega;
+  return values;
+}
+
+// The stops of each Coulomb element: those of its contact. Elements are in the order of the network.
+struct StopsOfElement {
+  std::string name;
+  std::vector<Stop> stops;
+};
+std::vector<StopsOfElement> stops_of_elements(const StudyFile& study, const ForcedMotion& motion) {
+  const mechanics::Assembly assembly(study.network);
+  std::vector<StopsOfElement> result;
+  for (std::size_t e = 0; e < study.network.elements.size(); ++e) {
+    const mechanics::Element& element = study.network.elements[e];
+    if (element.type != mechanics::ElementType::coulomb) continue;
+    result.push_back({element.name, motion.stops[assembly.shares()[e].contact]});
+  }
+  return result;
+}
+
+}  // namespace
+
+transient::ForcedOptions forced_options(const StudyFile& study) {
+  const MotionChoice& motion = study.motion;
+  transient::ForcedOptions options{.from = stated(study, study.values.omega), .samples = motion.samples};
+  if (motion.sweep_to) {
+    options.sweep = {stated(study, *motion.sweep_to), stated(study, *motion.sweep_rate)};
+    if (options.sweep.to == options.from) {
+      throw study.source.error_at(motion.sweep_to->position,
+                                  fmt::format("{}: is the frequency at which the motion begins; leave out "
+                                              "sweep_to and sweep_rate for one frequency",
+                                              motion.sweep_to->where));
+    }
+    options.duration = std::abs(options.sweep.to - options.from) / options.sweep.rate;
+  }
+  if (motion.duration) options.duration = stated(study, *motion.duration);
+  return options;
+}
+
+ForcedMotion solve_transient(const StudyFile& study) {
+  try {
+    ForcedMotion motion = transient::forced_motion(
+        study.network, [&](double omega) { return values_at(study, omega); }, initial_state(study),
+        forced_options(study));
+    if (!motion.failure.empty())
+      throw StudyError(study.source.name + ": the motion is not computed: " + motion.failure);
+    return motion;
+  } catch (const mechanics::MechanicsError& error) {
+    throw StudyError(study.source.name + ": " + error.what());
+  }
+}
+
+std::vector<results::Column> transient_columns(const StudyFile& study, const ForcedMotion& motion) {
+  MotionColumns columns(study);
+  columns.add_samples(motion.history);
+  if (study.motion.sweep_to) {
+    columns.add("frequency", "rad s-1", "angular frequency of the excitation", "time", motion.frequency);
+    columns.add_number("discretisation_error", "m",
+                       "largest change of any displacement when the stairs of the run-up were last halved",
+                       motion.discretisation_error);
+  }
+  for (std::size_t i = 0; i < motion.peaks.size(); ++i) {
+    const std::string& name = study.network.masses[i];
+    columns.add_number(name + "_peak", "m", "largest displacement of " + name + ", either way",
+                       std::abs(motion.peaks[i].displacement));
+    columns.add_number(name + "_peak_time", "s", "time of the largest displacement of " + name,
+                       motion.peaks[i].time);
+  }
+  const auto elements = stops_of_elements(study, motion);
+  std::size_t rows = 1;
+  for (const auto& element : elements) rows = std::max(rows, element.stops.size());
+  for (const auto& [name, stops] : elements) {
+    std::vector<double> onsets, releases;
+    for (const Stop& stop : stops) {
+      onsets.push_back(stop.onset);
+      releases.push_back(stop.release);
+    }
+    columns.add(name + "_stop_onset", "s", "times from which " + name + " sticks", "stop", onsets, rows);
+    columns.add(name + "_release", "s", "times at which " + name + " lets go", "stop", releases, rows);
+  }
+  return columns.take();
+}
+
+void print_transient(const StudyFile& study, const ForcedMotion& motion, std::ostream& out) {
+  const bool si = !study.dimensionless;
+  fmt::print(out, "{:<16}{:>18}{:>18}\n", "", si ? "peak [m]" : "peak", si ? "at [s]" : "at");
+  for (std::size_t i = 0; i < motion.peaks.size(); ++i) {
+    fmt::print(out, "{:<16}{:>18.10g}{:>18.10g}\n", study.network.masses[i],
+               std::abs(motion.peaks[i].displacement), motion.peaks[i].time);
+  }
+  for (const auto& [name, stops] : stops_of_elements(study, motion)) {
+    fmt::print(out, "{}: {} stop{}", name, stops.size(), stops.size() == 1 ? "" : "s");
+    fmt::print(
+        out, "{}\n",
+        stops.empty() ? "" : fmt::format(", the last from {:.10g}{}", stops.back().onset, si ? " s" : ""));
+  }
+  if (!study.motion.sweep_to) return;
+  fmt::print(out,
+             "the run-up's frequency on {} stairs: no displacement changes by more than {:.2g}{} with half "
+             "as many\n",
+             motion.stairs, motion.discretisation_error, si ? " m" : "");
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,181 @@
+#include "studies/program/check_command.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <string_view>
+#include <thread>
+
+#include "engine/progress.hpp"
+#include "solvers/mechanics/linear_system.hpp"
+#include "studies/map/map_plan.hpp"
+#include "studies/map/map_sample.hpp"
+#include "studies/motion/motion_record.hpp"
+#include "studies/program/exit_code.hpp"
+#include "studies/program/modes_table.hpp"
+#include "studies/reading/settings.hpp"
+
+namespace frahm::studies {
+namespace {
+
+std::string readable_size(double bytes) {
+  for (const char* unit : {"bytes", "kB", "MB", "GB"}) {
+    if (bytes < 999.5) return fmt::format("{:.3g} {}", bytes, unit);
+    bytes /= 1000.0;
+  }
+  return fmt::format("{:.3g} TB", bytes);
+}
+
+// A word of a shell command.
+std::string shell_word(const std::string& word) {
+  const auto harmless = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) ||
+           std::string_view("._-/=+,").find(c) != std::string_view::npos;
+  };
+  if (!word.empty() && std::all_of(word.begin(), word.end(), harmless)) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+void print_grid(const StudyFile& study, const Grid& grid, std::ostream& out) {
+  fmt::print(out, "points  {} = ", grid.points());
+  for (std::size_t d = 0; d < study.dimensions.size(); ++d) {
+    fmt::print(out, "{}{} {}", d == 0 ? "" : " x ", grid.shape[d], study.dimensions[d].name);
+  }
+  fmt::print(out, "\ntiles   {} of {} points\n", grid.tiles(), grid.box(0).points());
+}
+
+void print_prediction(const Grid& grid, const MapSample& sample, int threads, std::ostream& out) {
+  const double share = static_cast<double>(grid.points()) / static_cast<double>(sample.points);
+  const double rate = static_cast<double>(sample.points) / sample.seconds;
+  fmt::print(out,
+             "time    about {} on {} thread{} of this machine ({:.3g} orbits/s on one, from {} points)\n",
+             engine::readable_time(sample.seconds * share / threads), threads, threads == 1 ? "" : "s", rate,
+             sample.points);
+  fmt::print(out, "file    about {} ({} before compression)\n",
+             readable_size(static_cast<double>(sample.stored_bytes) * share),
+             readable_size(static_cast<double>(sample.raw_bytes) * share));
+  if (sample.failed > 0) {
+    fmt::print(out, "failed  {} of the {} points tried, the first at {}: {}\n", sample.failed, sample.points,
+               sample.failed_at, sample.reason);
+  }
+}
+
+// How a cluster is asked for the same map: tasks of some ten minutes each on one core.
+void print_array(const CheckOptions& options, const Grid& grid, double core_seconds, std::ostream& out) {
+  constexpr double task_seconds = 600.0, most_tasks = 1000.0;
+  if (grid.tiles() == 1) {
+    fmt::print(out, "\nThe map is a single tile, which an array of tasks cannot share.\n");
+    return;
+  }
+  const double most = std::min(most_tasks, static_cast<double>(grid.tiles()));
+  const int tasks = static_cast<int>(std::clamp(std::ceil(core_seconds / task_seconds), 2.0, most));
+  const std::string output = shell_word(options.study.stem().string() + ".h5");
+  std::string run = "frahm run " + shell_word(options.study.string()) + " -o " + output;
+  for (const std::string& setting : options.set) run += " --set " + shell_word(setting);
+  fmt::print(out, "\nAs an array of {} tasks on a cluster, then one file of their shards:\n", tasks);
+  fmt::print(out, "  sbatch --array=0-{} --cpus-per-task=1 --wrap {}\n", tasks - 1, shell_word(run));
+  fmt::print(out, "  frahm merge {}\n", output);
+}
+
+void print_first_modes(const StudyFile& study, const Grid& grid, std::ostream& out) {
+  std::vector<double> parameters = study.parameters.nominal();
+  for (std::size_t d = 0; d < study.dimensions.size(); ++d) place(study, d, 0, parameters);
+  mechanics::NetworkValues values;
+  evaluate(study.values, study.parameters, parameters, values);
+  const std::vector<std::uint64_t> first(grid.shape.size(), 0);
+  fmt::print(out, "\nAt the first point of the grid, {}:\n", point_text(study, first));
+  try {
+    print_modes(study, modes_at_point(study, values), out);
+  } catch (const mechanics::MechanicsError& error) {
+    fmt::print(out, "No modes: {}\n", error.what());
+  }
+}
+
+std::string seconds_text(const StudyFile& study, double seconds) {
+  return fmt::format("{:.6g}{}", seconds, study.dimensionless ? "" : " s");
+}
+
+void print_decay_choice(const StudyFile& study, const mechanics::NetworkValues& values, std::ostream& out) {
+  const auto& duration = study.motion.duration;
+  fmt::print(out, "decay      free vibration, {}\n",
+             duration ? "for " + seconds_text(study, stated(study, *duration))
+                      : "until rest, or until its end is clear");
+  const auto& elements = study.network.elements;
+  if (std::any_of(elements.begin(), elements.end(),
+                  [](const auto& element) { return element.type == mechanics::ElementType::hysteretic; })) {
+    fmt::print(out, "reference  {:.6g}{}: the loss factors' frequency\n", values.hysteretic_omega,
+               study.dimensionless ? "" : " rad/s");
+  }
+}
+
+void print_transient_choice(const StudyFile& study, std::ostream& out) {
+  const transient::ForcedOptions options = forced_options(study);
+  const char* unit = study.dimensionless ? "" : " rad/s";
+  fmt::print(out, "transient  {} at {:.6g}{}", seconds_text(study, options.duration), options.from, unit);
+  if (options.sweep.rate > 0.0) {
+    fmt::print(out, ", running to {:.6g}{} at {:.6g}{} a second", options.sweep.to, unit, options.sweep.rate,
+               unit);
+  }
+  fmt::print(out, "\n");
+}
+
+// Of a decay or transient.
+int check_motion(const StudyFile& study, std::ostream& out) {
+  const mechanics::NetworkValues values = motion_values(study);
+  const transient::InitialState initial = initial_state(study);
+  fmt::print(out, "{} is a valid study{}{}\n\n", study.source.name, study.title.empty() ? "" : ": ",
+             study.title);
+  if (study.kind == StudyKind::decay) {
+    print_decay_choice(study, values, out);
+  } else {
+    print_transient_choice(study, out);
+  }
+  for (std::size_t i = 0; i < initial.displacement.size(); ++i) {
+    fmt::print(out, "initial    {}: {:.6g}{}, {:.6g}{}\n", study.network.masses[i], initial.displacement[i],
+               study.dimensionless ? "" : " m", initial.velocity[i], study.dimensionless ? "" : " m/s");
+  }
+  fmt::print(out, "samples    {}\n\n", study.motion.samples);
+  try {
+    print_modes(study, modes_at_point(study, values), out);
+  } catch (const mechanics::MechanicsError& error) {
+    throw StudyError(study.source.name + ": " + error.what());
+  }
+  return exit_code::done;
+}
+
+MapSample sample_of(const MapPlan& plan, double seconds) {
+  try {
+    return sample_map(plan, seconds);
+  } catch (const mechanics::MechanicsError& error) {
+    throw StudyError(plan.study.source.name + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+int check_command(const CheckOptions& options, std::ostream& out) {
+  constexpr double sample_seconds = 1.0;
+  StudyFile read = read_study_with(options.study, options.set);
+  if (read.kind != StudyKind::sweep) return check_motion(read, out);
+  const MapPlan plan = plan_map(std::move(read), options.set);
+  const StudyFile& study = plan.study;
+  const MapSample sample = sample_of(plan, sample_seconds);
+  const double core_seconds =
+      sample.seconds * static_cast<double>(plan.grid.points()) / static_cast<double>(sample.points);
+  const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+
+  fmt::print(out, "{} is a valid study{}{}\n\n", study.source.name, study.title.empty() ? "" : ": ",
+             study.title);
+  print_grid(study, plan.grid, out);
+  print_prediction(plan.grid, sample, options.threads > 0 ? options.threads : processors, out);
+  print_array(options, plan.grid, core_seconds, out);
+  print_first_modes(study, plan.grid, out);
+  return exit_code::done;
+}
+
+}  // namespace frahm::studies

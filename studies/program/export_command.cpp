@@ -1,0 +1,136 @@
+#include "studies/program/export_command.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <ostream>
+
+#include "results/map_reader.hpp"
+#include "studies/map/grid.hpp"
+#include "studies/program/whole_file.hpp"
+
+namespace frahm::studies {
+namespace {
+
+constexpr std::uint64_t points_at_once = 1 << 15;  // some megabytes of values
+
+std::string header(const results::MapLayout& layout) {
+  std::string text;
+  const auto add = [&](const std::string& name, const std::string& unit) {
+    text += text.empty() ? "" : ",";
+    text += unit.empty() || unit == "1" ? name : fmt::format("{} [{}]", name, unit);
+  };
+  for (const results::Axis& axis : layout.axes) {
+    for (const results::Coordinate& coordinate : axis.coordinates) add(coordinate.name, coordinate.unit);
+  }
+  for (const results::Variable& variable : layout.variables) add(variable.name, variable.unit);
+  return text + '\n';
+}
+
+bool is_missing(const results::Variable& variable, double value) {
+  return std::isnan(value) || (variable.type == results::Type::int32 && value == -1.0);
+}
+
+// Writes the points of one box, which lie together in the map's order.
+void write_box(const results::MapReader& map, const MapBox& box, std::ostream& out) {
+  const results::MapLayout& layout = map.layout();
+  std::vector<std::vector<double>> values;
+  for (std::size_t v = 0; v < layout.variables.size(); ++v)
+    values.push_back(map.read(v, box.start, box.count));
+  std::vector<std::size_t> dimensions(layout.axes.size());
+  for (std::size_t d = 0; d < dimensions.size(); ++d) dimensions[d] = d;
+
+  std::vector<std::uint64_t> index = box.start;
+  std::string text;
+  for (std::uint64_t point = 0; point < box.points(); ++point) {
+    for (std::size_t d = 0; d < dimensions.size(); ++d) {
+      for (const results::Coordinate& coordinate : layout.axes[d].coordinates) {
+        fmt::format_to(std::back_inserter(text), "{:.17g},", coordinate.values[index[d]]);
+      }
+    }
+    for (std::size_t v = 0; v < values.size(); ++v) {
+      if (!is_missing(layout.variables[v], values[v][point])) {
+        fmt::format_to(std::back_inserter(text), "{:.17g}", values[v][point]);
+      }
+      text += v + 1 < values.size() ? ',' : '\n';
+    }
+    next_point(box, dimensions, index);
+  }
+  out << text;
+}
+
+// The map cut into boxes of points that follow each other: along the first axis longer than what is read at
+// once holds, one index of all before it.
+void write_map(const results::MapReader& map, std::ostream& out) {
+  const results::MapLayout& layout = map.layout();
+  out << header(layout);
+  const std::size_t rank = layout.axes.size();
+  MapBox box{std::vector<std::uint64_t>(rank, 0), std::vector<std::uint64_t>(rank, 1)};
+  std::uint64_t inner = 1;  // points of one step along axis `cut`
+  std::size_t cut = rank;
+  while (cut > 0 && inner * layout.axes[cut - 1].size <= points_at_once) inner *= layout.axes[--cut].size;
+  for (std::size_t d = cut; d < rank; ++d) box.count[d] = layout.axes[d].size;
+  const std::uint64_t step = std::max<std::uint64_t>(1, points_at_once / inner);
+  for (bool more = true; more && out;) {
+    if (cut > 0) box.count[cut - 1] = std::min(step, layout.axes[cut - 1].size - box.start[cut - 1]);
+    write_box(map, box, out);
+    more = false;
+    for (std::size_t d = cut; d-- > 0 && !more;) {
+      box.start[d] += box.count[d];
+      more = box.start[d] < layout.axes[d].size;
+      if (!more) box.start[d] = 0;
+    }
+  }
+}
+
+// The columns of a group side by side, numbers in the first row, what is shorter or missing left empty.
+void write_columns(const std::vector<results::Column>& columns, std::ostream& out) {
+  std::size_t rows = 0;
+  std::string text;
+  for (const results::Column& column : columns) {
+    rows = std::max(rows, column.values.size());
+    const auto& [name, unit] = std::pair(column.variable.name, column.variable.unit);
+    text +=
+        (text.empty() ? "" : ",") + (unit.empty() || unit == "1" ? name : fmt::format("{} [{}]", name, unit));
+  }
+  out << text << '\n';
+  for (std::size_t row = 0; row < rows; ++row) {
+    text.clear();
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      const auto& [variable, dimension, values] = columns[c];
+      if (c > 0) text += ',';
+      if (row < values.size() && !is_missing(variable, values[row]))
+        fmt::format_to(std::back_inserter(text), "{:.17g}", values[row]);
+    }
+    out << text << '\n';
+  }
+}
+
+// The map, or of a file without one its motion.
+void write_table(const results::MapReader& map, std::ostream& out) {
+  for (const char* group : {"decay", "transient"}) {
+    if (map.layout().axes.empty() && map.has_group(group)) return write_columns(map.columns(group), out);
+  }
+  write_map(map, out);
+}
+
+}  // namespace
+
+int export_command(const ExportOptions& options, std::ostream& out) {
+  const results::MapReader map(options.file);
+  if (options.output == "-") {
+    write_table(map, out);
+    return 0;
+  }
+  const std::filesystem::path output =
+      options.output.empty() ? std::filesystem::path(options.file).replace_extension(".csv") : options.output;
+  check_output_is_not_input(output, options.file);
+  write_whole_file(output, [&](std::ostream& file) { write_table(map, file); });
+  fmt::print(out, "{}\n", output.string());
+  return 0;
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,80 @@
+#include "studies/program/map_table.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <algorithm>
+#include <iostream>
+#include <sstream>
+
+#include "engine/progress.hpp"
+#include "studies/map/finished_file.hpp"
+#include "studies/map/map_summary.hpp"
+#include "studies/program/exit_code.hpp"
+
+namespace frahm::studies {
+namespace {
+
+constexpr int most_failures_shown = 3;
+
+void print_effort(const Effort& effort, std::ostream& out) {
+  const auto points = static_cast<double>(effort.points);
+  fmt::print(out, "{:<22} {:.2f} s wall, {:.2f} s CPU on {} thread{}", "time", effort.seconds,
+             effort.cpu_seconds, effort.threads, effort.threads == 1 ? "" : "s");
+  if (effort.points > 0) {
+    fmt::print(out, "; {} orbits, {:.0f}/s, {:.0f} per CPU second", effort.points, points / effort.seconds,
+               points / effort.cpu_seconds);
+  }
+  fmt::print(out, "\n");
+}
+
+std::uint64_t failed_points(const std::vector<FlagCounts>& flags) {
+  const auto status = std::ranges::find(flags, "status", &FlagCounts::variable);
+  return status == flags.end() ? 0 : status->of("failed");
+}
+
+// The lines are those of provenance(): "<point as --at takes it>: <reason>".
+void print_failures(const MapPlan& plan, const std::filesystem::path& study, const std::string& lines,
+                    std::uint64_t failed) {
+  std::istringstream told(lines);
+  std::string line;
+  if (failed > 0) {
+    fmt::print(std::cerr, "{} points failed; the first of them:\n", failed);
+  } else {
+    fmt::print(std::cerr, "some points failed; the first of them:\n");
+  }
+  for (int i = 0; i < most_failures_shown && std::getline(told, line); ++i) {
+    const std::size_t colon = line.find(": ");
+    fmt::print(std::cerr, "  {}\n    frahm point {} --at \"{}\"", line, study.string(),
+               line.substr(0, colon));
+    for (const std::string& set : plan.set) fmt::print(std::cerr, " --set \"{}\"", set);
+    fmt::print(std::cerr, "\n");
+  }
+}
+
+}  // namespace
+
+int print_map_table(const MapPlan& plan, const std::filesystem::path& study,
+                    const std::filesystem::path& file, const std::optional<Effort>& effort,
+                    std::ostream& out) {
+  const results::MapReader map(file);
+  const auto& variables = map.layout().variables;
+  const std::uint64_t points = points_of(map.layout());
+  const auto peak =
+      std::ranges::find(variables, plan.study.network.masses.front() + "_peak", &results::Variable::name);
+  if (peak != variables.end()) {
+    print_worst(map, worst_along_slowest_axis(map, static_cast<std::size_t>(peak - variables.begin())), out);
+  }
+  const std::vector<FlagCounts> flags = count_flags(map);
+  print_flags(flags, points, out);
+  if (effort) print_effort(*effort, out);
+  fmt::print(out, "{:<22} {} ({} points, {} variables, {:.1f} MB)\n", "file", file.string(), points,
+             variables.size(), static_cast<double>(std::filesystem::file_size(file)) / 1e6);
+
+  const std::string lines = provenance_text(map, "failed_points");
+  if (lines.empty()) return exit_code::done;
+  print_failures(plan, study, lines, failed_points(flags));
+  return exit_code::some_failed;
+}
+
+}  // namespace frahm::studies

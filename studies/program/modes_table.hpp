@@ -1,0 +1,25 @@
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "solvers/periodic/linear_modes.hpp"
+#include "studies/reading/study_file.hpp"
+
+namespace frahm::studies {
+
+// The linear modes of a network at one point: of all friction sliding, and of every contact stuck.
+struct ModesAtPoint {
+  periodic::LinearModes sliding;
+  periodic::LinearModes stuck;  // no modes where nothing is left to move
+  bool friction = false;        // without it the two are the same
+};
+
+// Throws mechanics::MechanicsError where the matrices have no meaning.
+ModesAtPoint modes_at_point(const StudyFile& study, const mechanics::NetworkValues& values);
+
+// Frequencies (rad/s, Hz and rpm, or one number in a dimensionless study), damping ratios, shapes.
+void print_modes(const StudyFile& study, const ModesAtPoint& modes, std::ostream& out);
+
+}  // namespace frahm::studies

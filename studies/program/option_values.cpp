@@ -1,0 +1,69 @@
+#include "studies/program/option_values.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "studies/reading/study_source.hpp"
+
+namespace frahm::studies {
+namespace {
+
+std::optional<std::uint64_t> whole_number(std::string_view text) {
+  std::uint64_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+}  // namespace
+
+engine::Shard shard_of(std::string_view text) {
+  const std::size_t slash = text.find('/');
+  if (slash != std::string_view::npos) {
+    const auto index = whole_number(text.substr(0, slash)), count = whole_number(text.substr(slash + 1));
+    if (index && count && *index < *count) return {.index = *index, .count = *count};
+  }
+  throw StudyError(
+      fmt::format("--shard \"{}\": write i/n, such as 0/16 to 15/16: i is below n, from 0 on", text));
+}
+
+engine::Shard shard_of_array_task(const std::function<const char*(const char*)>& variable) {
+  if (!variable("SLURM_ARRAY_TASK_ID")) return {};
+  const auto read = [&](const char* name, std::uint64_t otherwise) {
+    const char* text = variable(name);
+    if (!text) return otherwise;
+    if (const auto number = whole_number(text)) return *number;
+    throw StudyError(fmt::format(
+        "the environment has {} = \"{}\", which is no whole number; give --shard i/n", name, text));
+  };
+  const std::uint64_t id = read("SLURM_ARRAY_TASK_ID", 0), first = read("SLURM_ARRAY_TASK_MIN", 0);
+  const std::uint64_t step = read("SLURM_ARRAY_TASK_STEP", 1), count = read("SLURM_ARRAY_TASK_COUNT", 1);
+  if (step == 0 || id < first || (id - first) % step != 0 || (id - first) / step >= count) {
+    throw StudyError(
+        fmt::format("array task {} does not fit tasks from {} in steps of {}, {} of them (environment "
+                    "SLURM_ARRAY_TASK_*); give --shard i/n",
+                    id, first, step, count));
+  }
+  return {.index = (id - first) / step, .count = count};
+}
+
+std::chrono::duration<double> time_span_of(std::string_view option, std::string_view text) {
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const std::string_view unit = text.substr(static_cast<std::size_t>(end - text.data()));
+  const double seconds = unit == "s"   ? 1.0
+                         : unit == "m" ? 60.0
+                         : unit == "h" ? 3600.0
+                         : unit == "d" ? 86400.0
+                                       : 0.0;
+  if (error != std::errc{} || !(number * seconds > 0.0) || !std::isfinite(number * seconds)) {
+    throw StudyError(
+        fmt::format("{} \"{}\": write a time above 0 with its unit: 90s, 50m, 2h or 1d", option, text));
+  }
+  return std::chrono::duration<double>(number * seconds);
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,55 @@
+#include "studies/program/point_command.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <iterator>
+
+#include "studies/program/exit_code.hpp"
+#include "studies/program/point_report.hpp"
+#include "studies/program/whole_file.hpp"
+#include "studies/reading/settings.hpp"
+
+namespace frahm::studies {
+namespace {
+
+constexpr std::size_t intervals_a_period = 512;  // of a history; smooth to the eye with dozens of stops
+
+// A line of names, a line of units, then a line for each sample with all its digits.
+std::string csv(const periodic::History& history, bool dimensionless) {
+  std::string text = fmt::format("time,{}\n", fmt::join(history.names, ","));
+  fmt::format_to(std::back_inserter(text), "{}", dimensionless ? "1" : "s");
+  for (const std::string& unit : history.units) text += "," + (dimensionless ? "1" : unit);
+  for (std::size_t row = 0; row < history.time.size(); ++row) {
+    fmt::format_to(std::back_inserter(text), "\n{:.17g}", history.time[row]);
+    for (const auto& column : history.columns)
+      fmt::format_to(std::back_inserter(text), ",{:.17g}", column[row]);
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+int point_command(const PointOptions& options, std::ostream& out) {
+  if (options.history == "-") {
+    throw StudyError("--history \"-\": the report goes to standard output; name a file for the history");
+  }
+  const StudyFile study = read_study_with(options.study, options.set);
+  if (study.kind != StudyKind::sweep) {
+    throw StudyError(fmt::format("{}: a {} has no periodic response to tell; frahm run computes its motion",
+                                 study.source.name, kind_name(study.kind)));
+  }
+  const std::vector<double> parameters = parameters_at(study, options.at);
+  if (options.history) check_output_is_not_input(*options.history, options.study);
+  const PointReport report = tell_point(study, parameters, options.history ? intervals_a_period + 1 : 0);
+  options.json ? print_point_json(study, report, out) : print_point(study, report, out);
+  if (report.status == "failed") return exit_code::some_failed;
+  if (options.history && !report.history) {
+    throw StudyError(fmt::format("--history {}: the point is {} and has no time history: {}",
+                                 options.history->string(), report.status, report.reason));
+  }
+  if (options.history) write_whole_file(*options.history, csv(*report.history, study.dimensionless));
+  return exit_code::done;
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,71 @@
+#include <nlohmann/json.hpp>
+#include <ostream>
+
+#include "studies/program/point_report.hpp"
+
+namespace frahm::studies {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json quantity_json(const PointReport::QuantityValue& quantity) {
+  const auto& [description, value] = quantity;
+  Json json{{"value", has_value(quantity) ? Json(value) : Json()}, {"unit", description.unit}};
+  if (has_value(quantity) && description.kind != periodic::QuantityKind::real)
+    json["value"] = static_cast<int>(value);
+  if (description.kind == periodic::QuantityKind::flag) json["meaning"] = flag_meaning(description, value);
+  json["long_name"] = description.long_name;
+  return json;
+}
+
+Json stretches_json(const PointReport& report) {
+  Json list = Json::array();
+  for (const periodic::Stretch& stretch : report.stretches) {
+    Json contacts = Json::object();
+    for (std::size_t i = 0; i < report.friction_elements.size(); ++i) {
+      contacts[report.friction_elements[i]] = stretch.contacts[i];
+    }
+    list.push_back({{"start", stretch.start}, {"length", stretch.length}, {"contacts", contacts}});
+  }
+  return list;
+}
+
+Json modes_json(const StudyFile& study, const periodic::LinearModes& modes) {
+  Json list = Json::array();
+  for (std::size_t k = 0; k < modes.frequency.size(); ++k) {
+    Json shape = Json::object();
+    for (std::size_t i = 0; i < study.network.masses.size(); ++i)
+      shape[study.network.masses[i]] = modes.shape[k][i];
+    list.push_back({{"frequency", modes.frequency[k]},
+                    {"unit", study.dimensionless ? "1" : "rad s-1"},
+                    {"damping", modes.damping[k]},
+                    {"shape", shape}});
+  }
+  return list;
+}
+
+}  // namespace
+
+void print_point_json(const StudyFile& study, const PointReport& report, std::ostream& out) {
+  Json json{{"study", study.source.name}, {"title", study.title}};
+  for (const auto& [name, spoken] : report.parameters) {
+    json["parameters"][name] = {{"value", spoken.value}, {"unit", spoken.unit.empty() ? "1" : spoken.unit}};
+  }
+  json["status"] = report.status;
+  json["reason"] = report.reason;
+  json["residual"] = report.residual;
+  json["newton_iterations"] = report.newton_iterations;
+  json["passages"] = report.passages;
+  for (const PointReport::QuantityValue& quantity : report.quantities) {
+    json["quantities"][quantity.description.name] = quantity_json(quantity);
+  }
+  json["stretches"] = stretches_json(report);
+  if (report.modes) {
+    json["modes"]["sliding"] = modes_json(study, report.modes->sliding);
+    json["modes"]["stuck"] = modes_json(study, report.modes->stuck);
+  }
+  // A path need not be UTF-8, which JSON must be.
+  out << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+}
+
+}  // namespace frahm::studies

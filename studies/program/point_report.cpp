@@ -1,0 +1,146 @@
+#include "studies/program/point_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solvers/mechanics/linear_system.hpp"
+#include "studies/map/comparison.hpp"
+#include "studies/map/row_solver.hpp"
+
+namespace frahm::studies {
+namespace {
+
+using periodic::QuantityKind;
+
+std::vector<PointReport::Parameter> numbers_of(const StudyFile& study,
+                                               const std::vector<double>& parameters) {
+  std::vector<PointReport::Parameter> numbers;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const Parameter& parameter = study.parameters.list[i];
+    if (parameter.is_number()) numbers.push_back({parameter.name, spoken_value(study, i, parameters[i])});
+  }
+  return numbers;
+}
+
+std::vector<std::string> friction_elements(const mechanics::Network& network) {
+  std::vector<std::string> names;
+  for (const mechanics::Element& element : network.elements) {
+    if (element.type == mechanics::ElementType::coulomb) names.push_back(element.name);
+  }
+  return names;
+}
+
+// What stands for a quantity of a point that could not be set up.
+double missing(const periodic::QuantityDescription& description) {
+  if (description.name == "status") {
+    const auto& flags = description.flags;
+    return std::find_if(flags.begin(), flags.end(), [](auto& flag) { return flag.first == "failed"; })
+        ->second;
+  }
+  if (description.kind == QuantityKind::flag) return 0.0;
+  return description.kind == QuantityKind::count ? -1.0 : std::numeric_limits<double>::quiet_NaN();
+}
+
+periodic::PeriodicResponse response_of(const StudyFile& study,
+                                       const std::vector<periodic::Quantity>& quantities) {
+  try {
+    return {study.network, quantities};
+  } catch (const mechanics::MechanicsError& error) {
+    throw StudyError(study.source.name + ": " + error.what());
+  }
+}
+
+void describe_all(const StudyFile& study, const std::vector<periodic::Quantity>& quantities,
+                  PointReport& report) {
+  for (const periodic::Quantity& quantity : quantities) {
+    report.quantities.push_back({periodic::describe(quantity, study.network, study.dimensionless)});
+    report.quantities.back().value = missing(report.quantities.back().description);
+  }
+}
+
+// Of a response whose values are set.
+void solve(periodic::PeriodicResponse& response, PointReport& report) {
+  const periodic::ResponseSummary& summary = response.solve();
+  report.reason = summary.reason;
+  report.residual = summary.residual;
+  report.newton_iterations = summary.newton_iterations;
+  report.passages = summary.passages;
+  std::vector<double> values(report.quantities.size());
+  response.quantities(values);
+  for (std::size_t i = 0; i < values.size(); ++i) report.quantities[i].value = values[i];
+}
+
+// Adds what the study's comparison says of the point. parameters: complete.
+void add_comparison(const StudyFile& study, std::vector<double> parameters,
+                    const std::vector<periodic::Quantity>& quantities, PointReport& report) {
+  if (!study.comparison) return;
+  std::vector<double> own;
+  for (const periodic::Quantity& compared : study.comparison->quantities) {
+    const auto place = std::find(quantities.begin(), quantities.end(), compared) - quantities.begin();
+    own.push_back(report.quantities[static_cast<std::size_t>(place)].value);
+  }
+  RowSolver other(study, compared_network(study), compared_values(study), compared_quantities(study), true);
+  other.place(parameters);
+  const std::vector<periodic::QuantityDescription> variables = compared_variables(study);
+  std::vector<double> values(variables.size());
+  std::string reason;
+  compare(own, other.solve(reason), values);
+  for (std::size_t i = 0; i < values.size(); ++i) report.quantities.push_back({variables[i], values[i]});
+  if (report.reason.empty() && !reason.empty()) report.reason = fmt::format("compared: {}", reason);
+}
+
+std::string status_of(const PointReport& report) {
+  for (const auto& [description, value] : report.quantities) {
+    if (description.name == "status") return flag_meaning(description, value);
+  }
+  return "";
+}
+
+}  // namespace
+
+PointReport tell_point(const StudyFile& study, std::vector<double> parameters, std::size_t history_samples) {
+  PointReport report;
+  mechanics::NetworkValues values;
+  evaluate(study.values, study.parameters, parameters, values);
+  report.parameters = numbers_of(study, parameters);
+  report.friction_elements = friction_elements(study.network);
+  const std::vector<periodic::Quantity> quantities = periodic::all_quantities(study.network);
+  describe_all(study, quantities, report);
+
+  periodic::PeriodicResponse response = response_of(study, quantities);
+  try {
+    response.set_values(values);
+  } catch (const mechanics::MechanicsError& error) {
+    // As in a map: such a point is one that failed.
+    report.reason = error.what();
+    report.residual = std::numeric_limits<double>::quiet_NaN();
+    report.status = status_of(report);
+    return report;
+  }
+  report.modes = modes_at_point(study, values);
+  solve(response, report);
+  report.status = status_of(report);
+  add_comparison(study, parameters, quantities, report);
+  if (report.status == "ok" || report.status == "grazing") {
+    report.stretches = response.stretches();
+    if (history_samples > 0) report.history = response.history(history_samples);
+  }
+  return report;
+}
+
+std::string flag_meaning(const periodic::QuantityDescription& description, double value) {
+  for (const auto& [meaning, number] : description.flags) {
+    if (number == value) return meaning;
+  }
+  return "";
+}
+
+bool has_value(const PointReport::QuantityValue& quantity) {
+  if (quantity.description.kind == QuantityKind::count) return quantity.value >= 0.0;
+  return !std::isnan(quantity.value);
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "solvers/periodic/quantity.hpp"
+#include "solvers/response/periodic_response.hpp"
+#include "studies/program/modes_table.hpp"
+#include "studies/reading/settings.hpp"
+#include "studies/reading/study_file.hpp"
+
+namespace frahm::studies {
+
+// One point told in full.
+struct PointReport {
+  struct Parameter {
+    std::string name;
+    SpokenValue value;
+  };
+  struct QuantityValue {
+    periodic::QuantityDescription description;
+    double value = 0.0;  // NaN, -1 of a count: there is none
+  };
+
+  std::vector<Parameter> parameters;  // the numbers of the study
+  std::string status;                 // meaning of the flag: "ok", "grazing", "unbounded", "failed"
+  std::string reason;                 // why there is no response; else empty
+  double residual = 0.0;              // 1
+  int newton_iterations = 0;
+  int passages = 0;                            // of the flow that the search took
+  std::vector<QuantityValue> quantities;       // all_quantities, and what a comparison adds
+  std::vector<std::string> friction_elements;  // in the order of Stretch::contacts
+  std::vector<periodic::Stretch> stretches;    // over the period; empty without a response
+  std::optional<ModesAtPoint> modes;           // absent where the matrices have no meaning
+  std::optional<periodic::History> history;    // if asked for and there is a response
+};
+
+// Solves a point from nothing known. parameters: SI values of all parameters, complete.
+// history_samples: of the time history, both ends of the period included; 0: none is wanted.
+// Throws StudyError for a network that cannot move at any values.
+PointReport tell_point(const StudyFile& study, std::vector<double> parameters, std::size_t history_samples);
+
+// The value of a flag in words: "one_stop"; what is no flag has no meaning.
+std::string flag_meaning(const periodic::QuantityDescription& description, double value);
+// Whether a quantity has a value at the point: not NaN, and no count of -1.
+bool has_value(const PointReport::QuantityValue& quantity);
+
+// For readers.
+void print_point(const StudyFile& study, const PointReport& report, std::ostream& out);
+// One JSON object; what has no value is null. Angles in rad, the rest with its unit beside it.
+void print_point_json(const StudyFile& study, const PointReport& report, std::ostream& out);
+
+}  // namespace frahm::studies

@@ -1,0 +1,67 @@
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "studies/program/point_report.hpp"
+
+namespace frahm::studies {
+namespace {
+
+std::string value_text(const PointReport::QuantityValue& quantity) {
+  if (!has_value(quantity)) return "-";
+  if (quantity.description.kind == periodic::QuantityKind::flag) {
+    return flag_meaning(quantity.description, quantity.value);
+  }
+  return fmt::format("{:.10g}", quantity.value);
+}
+
+void print_heading(const StudyFile& study, const PointReport& report, std::ostream& out) {
+  fmt::print(out, "{}{}{}\n", study.title, study.title.empty() ? "" : "  ", study.source.name);
+  for (const auto& [name, value] : report.parameters) {
+    fmt::print(out, "  {} = {:.12g}{}{}\n", name, value.value, value.unit.empty() ? "" : " ", value.unit);
+  }
+  fmt::print(out, "\nstatus {}", report.status);
+  if (!report.reason.empty()) fmt::print(out, ": {}", report.reason);
+  fmt::print(out, "\n");
+  if (!std::isnan(report.residual)) {
+    fmt::print(out, "residual {:.2g} after {} Newton steps, {} passages of the flow\n", report.residual,
+               report.newton_iterations, report.passages);
+  }
+  fmt::print(out, "\n");
+}
+
+void print_quantities(const PointReport& report, std::ostream& out) {
+  for (const PointReport::QuantityValue& quantity : report.quantities) {
+    const auto& [description, value] = quantity;
+    const std::string unit = description.unit == "1" ? "" : description.unit;
+    fmt::print(out, "{:<28}{:>18} {:<7} {}\n", description.name, value_text(quantity), unit,
+               description.long_name);
+  }
+}
+
+void print_stretches(const PointReport& report, std::ostream& out) {
+  if (report.stretches.empty() || report.friction_elements.empty()) return;
+  constexpr double degree = std::numbers::pi / 180.0;
+  fmt::print(out, "\nModes over the period, omega t in degrees\n{:>12}{:>12}", "from", "length");
+  for (const std::string& element : report.friction_elements) fmt::print(out, "  {:<14}", element);
+  for (const periodic::Stretch& stretch : report.stretches) {
+    fmt::print(out, "\n{:>12.4f}{:>12.4f}", stretch.start / degree, stretch.length / degree);
+    for (const std::string& contact : stretch.contacts) fmt::print(out, "  {:<14}", contact);
+  }
+  fmt::print(out, "\n");
+}
+
+}  // namespace
+
+void print_point(const StudyFile& study, const PointReport& report, std::ostream& out) {
+  print_heading(study, report, out);
+  print_quantities(report, out);
+  print_stretches(report, out);
+  if (!report.modes) return;
+  fmt::print(out, "\n");
+  print_modes(study, *report.modes, out);
+}
+
+}  // namespace frahm::studies

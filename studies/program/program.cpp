@@ -1,0 +1,247 @@
+#include "studies/program/program.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <functional>
+#include <iostream>
+#include <map>
+
+#include "engine/fingerprint.hpp"
+#include "engine/io_error.hpp"
+#include "results/store_error.hpp"
+#include "studies/program/check_command.hpp"
+#include "studies/program/exit_code.hpp"
+#include "studies/program/export_command.hpp"
+#include "studies/program/merge_command.hpp"
+#include "studies/program/option_values.hpp"
+#include "studies/program/point_command.hpp"
+#include "studies/program/run_command.hpp"
+#include "studies/program/status_command.hpp"
+#include "studies/program/verify_command.hpp"
+#include "studies/program/version_command.hpp"
+#include "studies/reading/study_source.hpp"
+
+namespace frahm::studies {
+namespace {
+
+constexpr const char* overview =
+    "Periodic responses of vibrating systems with dry friction and inerters, over whole maps of parameters.";
+
+constexpr const char* first_steps = R"(
+A study file describes a system and the axes of a map. From there:
+  frahm check study.toml                      is it right, how long will it take
+  frahm point study.toml --at r=0.9,f=0.1     one response, told in full
+  frahm run study.toml                        the whole map, into study.h5; run again to resume
+  frahm status study.h5                       what is in a file, or how far it is
+Every command has its own help: frahm run --help
+
+Exit codes: 0 done, 1 internal error, 2 wrong usage or study, 3 some points failed, 4 stopped (run again to
+resume), 5 refused to mix results of different studies, 6 input or output failed, 8 self-check failed)";
+
+constexpr const char* run_examples = R"(
+Examples:
+  frahm run rig_atlas.toml                    into rig_atlas.h5, on all processors
+  frahm run rig_atlas.toml --set "K=8200 N/m" -o stiffer.h5
+  frahm run rig_atlas.toml --time-budget 50m  stops in time; the same command goes on
+  frahm run rig_decay_main.toml               one motion: a free decay, or a transient
+  sbatch --array=0-15 --wrap "frahm run rig_atlas.toml"    then: frahm merge rig_atlas.h5)";
+
+constexpr const char* check_examples = R"(
+Example:
+  frahm check rig_atlas.toml --set "A=20 mm")";
+
+constexpr const char* point_examples = R"(
+Examples (a bare number is in the unit in which the study speaks of the parameter):
+  frahm point den_hartog.toml --at r=0.9,f=0.1
+  frahm point rig_atlas.toml --at "omega=250 rpm,I=6.36 kg" --history orbit.csv
+  frahm point rig_atlas.toml --at omega=250 --json)";
+
+constexpr const char* merge_examples = R"(
+Examples:
+  frahm merge rig_atlas.h5                    all shard logs beside it
+  frahm merge rig_atlas.h5 node1/rig_atlas.h5.*.frahm-log node2/rig_atlas.h5.*.frahm-log
+  frahm merge rig_atlas.h5 --partial          what there is; the logs are kept)";
+
+constexpr const char* export_examples = R"(
+Examples:
+  frahm export rig_atlas.h5                   into rig_atlas.csv, a row a point
+  frahm export rig_atlas.h5 -o - | head)";
+
+using Action = std::function<int(std::ostream&)>;  // of the command that was given
+
+CLI::App* add_command(CLI::App& program, const char* name, const char* what, const char* examples) {
+  CLI::App* command = program.add_subcommand(name, what);
+  command->footer(examples);
+  return command;
+}
+
+void add_study(CLI::App& command, std::filesystem::path& study) {
+  command.add_option("STUDY", study, "study file (TOML)")->required();
+}
+
+void add_set(CLI::App& command, std::vector<std::string>& set) {
+  command.add_option("--set", set, "replace a parameter: name=value or \"name=value unit\"; repeatable")
+      ->allow_extra_args(false);
+}
+
+void add_threads(CLI::App& command, int& threads) {
+  command.add_option("--threads", threads, "0: one on each processor")->check(CLI::Range(0, 4096));
+}
+
+// What `run` is given as texts, to be read when the whole line is known.
+struct RunTexts {
+  RunCommandOptions options;
+  std::string shard, budget;
+};
+
+void add_run(CLI::App& program, RunTexts& texts, Action& action) {
+  CLI::App* run = add_command(
+      program, "run", "compute the map of a study, or what is left of it; or its one motion", run_examples);
+  auto& [options, shard, budget] = texts;
+  add_study(*run, options.study);
+  run->add_option("-o,--output", options.run.output, "result file; else the study's name with .h5, here");
+  add_threads(*run, options.run.threads);
+  run->add_option(
+      "--shard", shard,
+      "i/n: compute every n-th tile from i on, i from 0; in an array task of Slurm its own share");
+  run->add_flag("--fresh", options.run.fresh, "discard what earlier runs have left");
+  run->add_option("--time-budget", budget, "stop after 90s, 50m, 2h or 1d");
+  add_set(*run, options.set);
+  const std::map<std::string, engine::ProgressStyle> styles{{"auto", engine::ProgressStyle::automatic},
+                                                            {"plain", engine::ProgressStyle::plain},
+                                                            {"json", engine::ProgressStyle::json},
+                                                            {"none", engine::ProgressStyle::none}};
+  run->add_option("--progress", options.run.progress, "auto, plain, json or none")
+      ->transform(CLI::Transformer(styles))
+      ->type_name("STYLE");
+  run->callback([&] {
+    action = [&](std::ostream& out) {
+      options.run.shard = shard.empty() ? shard_of_array_task(std::getenv) : shard_of(shard);
+      if (!budget.empty()) options.run.time_budget = time_span_of("--time-budget", budget);
+      return run_command(options, out);
+    };
+  });
+}
+
+void add_check(CLI::App& program, CheckOptions& options, Action& action) {
+  CLI::App* check =
+      add_command(program, "check", "validate a study and tell what running it means", check_examples);
+  add_study(*check, options.study);
+  add_set(*check, options.set);
+  add_threads(*check, options.threads);
+  check->callback([&] { action = [&](std::ostream& out) { return check_command(options, out); }; });
+}
+
+void add_point(CLI::App& program, PointOptions& options, Action& action) {
+  CLI::App* point = add_command(program, "point", "one response, told in full", point_examples);
+  add_study(*point, options.study);
+  point->add_option("--at", options.at, "name=value,...; the rest as the study states it")
+      ->allow_extra_args(false);
+  add_set(*point, options.set);
+  point->add_option("--history", options.history, "write the motion over one period to this CSV file");
+  point->add_flag("--json", options.json, "the report as one JSON object");
+  point->callback([&] { action = [&](std::ostream& out) { return point_command(options, out); }; });
+}
+
+void add_status(CLI::App& program, std::filesystem::path& file, Action& action) {
+  CLI::App* status = program.add_subcommand("status", "what a result file holds, or how far it is");
+  status->add_option("FILE", file, "result file, finished or not")->required();
+  status->callback([&] { action = [&](std::ostream& out) { return status_command(file, out); }; });
+}
+
+void add_merge(CLI::App& program, MergeOptions& options, Action& action) {
+  CLI::App* merge =
+      add_command(program, "merge", "make the result file from the logs of shards", merge_examples);
+  merge->add_option("FILE", options.output, "result file to make")->required();
+  merge->add_option("SHARD", options.logs, "shard logs (*.frahm-log); else those beside FILE");
+  merge->add_flag("--partial", options.partial, "although tiles are missing; keeps the logs");
+  merge->callback([&] { action = [&](std::ostream& out) { return merge_command(options, out); }; });
+}
+
+void add_export(CLI::App& program, ExportOptions& options, Action& action) {
+  CLI::App* command = add_command(
+      program, "export", "write a map as CSV, a row a point; or the columns of a motion", export_examples);
+  command->add_option("FILE", options.file, "result file")->required();
+  command->add_flag("--csv", options.csv, "the only form there is, and the default");
+  command->add_option("-o,--output", options.output, "CSV file, - for stdout; else FILE with .csv");
+  command->callback([&] { action = [&](std::ostream& out) { return export_command(options, out); }; });
+}
+
+// Everything the command line can give a value to.
+struct CommandLine {
+  RunTexts run;
+  CheckOptions check;
+  PointOptions point;
+  std::filesystem::path status;
+  MergeOptions merge;
+  ExportOptions table;
+  bool version = false, verbose = false;
+  Action action;
+};
+
+void describe(CLI::App& program, CommandLine& line) {
+  program.footer(first_steps);
+  program.require_subcommand(0, 1);
+  auto* version = program.add_flag("--version", line.version, "print the version");
+  program.add_flag("--verbose", line.verbose, "with --version: compiler, libraries, processor")
+      ->needs(version);
+  add_run(program, line.run, line.action);
+  add_check(program, line.check, line.action);
+  add_point(program, line.point, line.action);
+  add_status(program, line.status, line.action);
+  add_merge(program, line.merge, line.action);
+  add_export(program, line.table, line.action);
+  program
+      .add_subcommand("verify",
+                      "solve the classical cases on this machine and compare with their closed forms")
+      ->callback([&line] { line.action = [](std::ostream& out) { return verify_command(out); }; });
+}
+
+// What went wrong, and the exit code for it.
+int complain(const std::string& message, int code) {
+  std::cerr << "frahm: " << message << '\n';
+  return code;
+}
+
+int carry_out(const Action& action, std::ostream& out) {
+  try {
+    const int code = action(out);
+    out.flush();
+    return out ? code : complain("the output could not be written", exit_code::input_output);
+  } catch (const StudyError& error) {
+    return complain(error.what(), exit_code::wrong_input);
+  } catch (const engine::ResumeRefused& error) {
+    return complain(
+        std::string(error.what()) + "\nname another file with -o, or discard what is there with --fresh",
+        exit_code::resume_refused);
+  } catch (const engine::IoError& error) {
+    return complain(error.what(), exit_code::input_output);
+  } catch (const results::StoreError& error) {
+    return complain(error.what(), exit_code::input_output);
+  } catch (const std::filesystem::filesystem_error& error) {
+    return complain(error.what(), exit_code::input_output);
+  } catch (const std::bad_alloc&) {
+    return complain("there is not enough memory", exit_code::input_output);
+  }
+}
+
+}  // namespace
+
+int run_program(int argc, const char* const* argv, std::ostream& out) {
+  CLI::App program(overview, "frahm");
+  CommandLine line;
+  describe(program, line);
+  for (int i = 0; i < argc; ++i) line.run.options.command += (i == 0 ? "frahm" : std::string(" ") + argv[i]);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error, out, std::cerr) == 0 ? exit_code::done : exit_code::wrong_input;
+  }
+  if (line.version)
+    return carry_out([&](std::ostream& to) { return version_command(line.verbose, to); }, out);
+  if (line.action) return carry_out(line.action, out);
+  std::cerr << program.help();
+  return exit_code::wrong_input;
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,19 @@
+#include "studies/program/run_command.hpp"
+
+#include "studies/program/run_map.hpp"
+#include "studies/program/run_motion.hpp"
+#include "studies/reading/settings.hpp"
+
+namespace frahm::studies {
+
+std::filesystem::path default_output(const std::filesystem::path& study) {
+  return study.stem().string() + ".h5";
+}
+
+int run_command(const RunCommandOptions& options, std::ostream& out) {
+  StudyFile study = read_study_with(options.study, options.set);
+  if (study.kind == StudyKind::sweep) return run_map(options, std::move(study), out);
+  return run_motion(options, std::move(study), out);
+}
+
+}  // namespace frahm::studies

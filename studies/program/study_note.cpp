@@ -1,0 +1,104 @@
+#include "studies/program/study_note.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <random>
+#include <system_error>
+#include <utility>
+
+#include "engine/file.hpp"
+#include "engine/io_error.hpp"
+#include "studies/program/whole_file.hpp"
+#include "studies/reading/assignment.hpp"
+
+namespace frahm::studies {
+namespace {
+
+constexpr std::string_view note_suffix = ".frahm-study";
+
+std::filesystem::path note_path(const std::filesystem::path& output, const engine::Fingerprint& fingerprint) {
+  return fmt::format("{}.{}-{}{}", output.string(), fingerprint.physics.substr(0, 16),
+                     fingerprint.grid.substr(0, 16), note_suffix);
+}
+
+struct StudyNote {
+  std::filesystem::path study;
+  std::vector<std::string> set;
+  std::string text;
+};
+
+std::optional<StudyNote> read_note(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return std::nullopt;
+  StudyNote note;
+  std::string line;
+  std::getline(file, line);
+  note.study = line;
+  std::size_t overrides = 0;
+  file >> overrides;
+  file.ignore();
+  for (std::size_t i = 0; i < overrides && std::getline(file, line); ++i) note.set.push_back(line);
+  if (!file) throw engine::IoError(path, "this note of a study is damaged; run the study again to mend it");
+  note.text.assign(std::istreambuf_iterator<char>(file), {});
+  return note;
+}
+
+}  // namespace
+
+void write_study_note(const std::filesystem::path& output, const MapPlan& plan) {
+  std::string text =
+      fmt::format("{}\n{}\n", std::filesystem::absolute(plan.study.source.name).string(), plan.set.size());
+  for (const std::string& set : plan.set) text += set + '\n';
+  text += plan.study.source.text;
+  const std::filesystem::path path = note_path(output, plan.fingerprint);
+  // Other shards may be writing the same note at this moment: each writes its own and puts it in place whole.
+  const std::filesystem::path own = fmt::format("{}-{:08x}", path.string(), std::random_device()());
+  write_whole_file(own, text);
+  std::error_code error;
+  std::filesystem::rename(own, path, error);
+  if (error) throw engine::IoError(path, "write", error.value());
+}
+
+MapPlan plan_from_note(const std::vector<std::filesystem::path>& outputs, const engine::LogHeader& header) {
+  for (const auto& output : outputs) {
+    const auto note = read_note(note_path(output, header.fingerprint));
+    if (!note) continue;
+    StudyFile study = parse_study(note->text, note->study);
+    for (const std::string& set : note->set) {
+      const std::vector<Assignment> assignments = parse_assignments(study, "--set", set);
+      study = with_parameters(std::move(study), assignments);
+    }
+    MapPlan plan = plan_map(std::move(study), note->set);
+    if (plan.log_header() != header) {
+      throw engine::IoError(
+          note_path(output, header.fingerprint),
+          "the study kept here no longer gives what the logs were made from: a table it reads, "
+          "or this program, has changed");
+    }
+    return plan;
+  }
+  throw engine::IoError(note_path(outputs.front(), header.fingerprint),
+                        "the study of the shard logs is not kept here; `frahm run` with it writes it");
+}
+
+void remove_study_note(const std::filesystem::path& output, const engine::Fingerprint& fingerprint) {
+  std::error_code ignored;  // a note left behind is harmless
+  std::filesystem::remove(note_path(output, fingerprint), ignored);
+}
+
+void remove_study_notes(const std::filesystem::path& output) {
+  const std::string prefix = output.filename().string() + ".";
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(engine::directory_of(output), error)) {
+    const std::string name = entry.path().filename().string();
+    // Behind the suffix stand the names of notes that a kill left half written.
+    if (name.starts_with(prefix) && name.find(note_suffix) != std::string::npos) {
+      std::filesystem::remove(entry.path(), error);
+    }
+  }
+}
+
+}  // namespace frahm::studies

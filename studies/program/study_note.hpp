@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/fingerprint.hpp"
+#include "studies/map/map_plan.hpp"
+
+// The note beside an unfinished output that keeps the study its shard logs belong to, so that they can be
+// merged without it: `<output>.<fingerprint>.frahm-study`. Its lines: the path of the study, the number of
+// overrides, each override; then the text of the study.
+namespace frahm::studies {
+
+// Throws engine::IoError.
+void write_study_note(const std::filesystem::path& output, const MapPlan& plan);
+
+// The plan of the study that the logs with this header belong to. outputs: files beside which its note may
+// lie. Throws engine::IoError if it is beside none, StudyError if tables it reads have changed so
+// that it can no longer be read.
+MapPlan plan_from_note(const std::vector<std::filesystem::path>& outputs, const engine::LogHeader& header);
+
+// Removes the note of one study.
+void remove_study_note(const std::filesystem::path& output, const engine::Fingerprint& fingerprint);
+
+// Removes the notes of an output, whatever their study.
+void remove_study_notes(const std::filesystem::path& output);
+
+}  // namespace frahm::studies

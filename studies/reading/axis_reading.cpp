@@ -1,0 +1,239 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "studies/reading/spelling.hpp"
+#include "studies/reading/study_reading.hpp"
+
+namespace frahm::studies {
+namespace {
+
+constexpr std::int64_t most_points = 1'000'000;  // on one axis
+constexpr double most_grid_points = 1e12;        // ages of computing, and far from overflow
+
+const std::vector<std::string> axis_keys{"parameter", "unit",    "from",   "to",
+                                         "points",    "spacing", "values", "zip"};
+
+std::size_t read_axis_parameter(const TomlSection& section, const StudyFile& study) {
+  const std::string name = section.text("parameter");
+  const auto index = study.parameters.find(name);
+  if (!index) {
+    section.fail("parameter", fmt::format("no parameter is called \"{}\"{}", name,
+                                          suggestion(name, study.parameters.names())));
+  }
+  if (!study.parameters.list[*index].is_number()) {
+    section.fail("parameter",
+                 fmt::format("\"{}\" is computed from other parameters; an axis needs one that is a "
+                             "number",
+                             name));
+  }
+  for (const ParameterAxis& other : study.axes) {
+    if (other.parameter != *index) continue;
+    section.fail("parameter", fmt::format("\"{}\" has an axis already (line {})", name, other.position.line));
+  }
+  return *index;
+}
+
+// Without a unit the values are SI, like every bare number; where the parameter itself is given in another
+// unit that is too easily overlooked to be allowed.
+void read_axis_unit(const StudyContext& context, const TomlSection& section, const Parameter& parameter,
+                    ParameterAxis& axis) {
+  if (context.dimensionless) {
+    axis.unit = si_unit(Quantity::number);
+    if (const TomlValue* unit = section.find("unit")) read_unit(context, section.where(), *unit);
+    return;
+  }
+  if (const TomlValue* value = section.find("unit")) {
+    const auto unit = read_unit(context, section.where(), *value);
+    try {
+      axis.si_factor = si_factor(parameter, *unit);
+    } catch (const UnitError& error) {
+      section.fail("unit", error.what());
+    }
+    axis.unit = unit->text;
+  } else if (parameter.unit) {
+    if (si_factor(parameter, *parameter.unit) != 1.0) {
+      section.fail(
+          fmt::format("the parameter is given in \"{0}\" and its axis in no unit; add unit = \"{0}\" or "
+                      "another",
+                      parameter.unit->text));
+    }
+    axis.unit = parameter.unit->text;
+  } else if (parameter.quantity) {
+    axis.unit = si_unit(*parameter.quantity);
+  }
+}
+
+// n values from a to b, both exactly; equal steps or equal ratios.
+std::vector<double> spaced(double from, double to, std::size_t points, bool logarithmic) {
+  std::vector<double> values(points);
+  for (std::size_t i = 0; i < points; ++i) {
+    const double part = static_cast<double>(i) / static_cast<double>(points - 1);
+    values[i] = logarithmic ? from * std::pow(to / from, part) : std::lerp(from, to, part);
+  }
+  values.back() = to;
+  return values;
+}
+
+std::vector<double> read_range(const TomlSection& section) {
+  const double from = section.number("from");
+  const double to = section.number("to");
+  section.require("points");
+  const std::int64_t points = section.integer_or("points", 0);
+  if (points < 1 || points > most_points) {
+    section.fail("points",
+                 fmt::format("{} is out of range: a whole number from 2 to {}", points, most_points));
+  }
+  if (points == 1)
+    section.fail("points", "one point does not reach from \"from\" to \"to\"; write values = [...]");
+  if (from == to)
+    section.fail("to", fmt::format("\"from\" and \"to\" are the same, {}; write values = [...]", to));
+  const bool logarithmic = section.choice_or("spacing", {"linear", "log"}) == "log";
+  for (const char* end : {"from", "to"}) {
+    if (logarithmic && !(section.number(end) > 0.0)) {
+      section.fail(end, fmt::format("{} is not possible with spacing = \"log\": both ends must be > 0",
+                                    section.number(end)));
+    }
+  }
+  return spaced(from, to, static_cast<std::size_t>(points), logarithmic);
+}
+
+std::vector<double> read_listed(const TomlSection& section) {
+  for (const char* key : {"from", "to", "points", "spacing"}) {
+    if (section.find(key))
+      section.fail(key, "does not go with \"values\": give either values or from, to and points");
+  }
+  const TomlValue& list = section.require("values");
+  const auto* items = list.as<TomlArray>();
+  if (!items) section.fail("values", fmt::format("expected an array of numbers, found {}", described(list)));
+  if (items->empty()) section.fail("values", "the array is empty; an axis needs at least one value");
+  std::vector<double> values;
+  for (const TomlValue& item : *items) {
+    values.push_back(read_number(section.source(), fmt::format("{}: values", section.where()), item));
+  }
+  return values;
+}
+
+// A value twice is a mistake, except in a zip, where the other axes tell the points apart.
+void check_values_differ(const TomlSection& section, const ParameterAxis& axis) {
+  std::vector<double> sorted = axis.values;
+  std::sort(sorted.begin(), sorted.end());
+  const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+  if (twice != sorted.end() && axis.zip.empty()) {
+    section.fail(section.find("values") ? "values" : "points", fmt::format("{} appears twice", *twice));
+  }
+}
+
+void convert_axis(const TomlSection& section, ParameterAxis& axis) {
+  for (const double value : axis.values) {
+    axis.si_values.push_back(value * axis.si_factor);
+    if (!std::isfinite(axis.si_values.back()))
+      section.fail(fmt::format("{} is out of range in SI units", value));
+  }
+}
+
+// Adds the axis to the dimension of its zip, or as a new dimension.
+void add_to_grid(const TomlSection& section, StudyFile& study) {
+  const ParameterAxis& axis = study.axes.back();
+  const std::size_t index = study.axes.size() - 1;
+  for (GridDimension& dimension : study.dimensions) {
+    const ParameterAxis& other = study.axes[dimension.axes.front()];
+    if (axis.zip.empty() || other.zip != axis.zip) continue;
+    if (axis.values.size() != dimension.size) {
+      section.fail(
+          "zip", fmt::format("{} values cannot advance together with the {} of axis \"{}\" (line {})",
+                             axis.values.size(), dimension.size, study.parameters.list[other.parameter].name,
+                             other.position.line));
+    }
+    dimension.axes.push_back(index);
+    return;
+  }
+  const std::string& name = axis.zip.empty() ? study.parameters.list[axis.parameter].name : axis.zip;
+  study.dimensions.push_back({name, {index}, axis.values.size()});
+}
+
+void read_axis(const StudyContext& context, const TomlValue& table, std::size_t number, StudyFile& study) {
+  const TomlSection section(context.source, table, label(table, "axis", "parameter", "axis", number),
+                            axis_keys);
+  ParameterAxis axis;
+  axis.position = section.position();
+  axis.parameter = read_axis_parameter(section, study);
+  const Parameter& parameter = study.parameters.list[axis.parameter];
+  read_axis_unit(context, section, parameter, axis);
+  if (!section.find("values") && !section.find("from")) {
+    section.fail("its values are missing: give values = [...] or from, to and points");
+  }
+  axis.values = section.find("values") ? read_listed(section) : read_range(section);
+  if (section.find("zip")) axis.zip = section.identifier("zip");
+  convert_axis(section, axis);
+  check_values_differ(section, axis);
+  study.axes.push_back(std::move(axis));
+  add_to_grid(section, study);
+}
+
+// Dimensions, axes and coordinates share the names of the record.
+void check_zip_names(const StudyContext& context, const StudyFile& study) {
+  for (const ParameterAxis& zipped : study.axes) {
+    for (const ParameterAxis& axis : study.axes) {
+      if (zipped.zip != study.parameters.list[axis.parameter].name) continue;
+      throw context.source.error_at(zipped.position,
+                                    fmt::format("axis \"{}\": zip: \"{}\" is the name of a parameter "
+                                                "on an axis; give the zip a name of its own",
+                                                study.parameters.list[zipped.parameter].name, zipped.zip));
+    }
+  }
+}
+
+}  // namespace
+
+void read_axes(const StudyContext& context, const TomlValue& root, StudyFile& study) {
+  const auto tables = read_tables(context.source, root, "axis");
+  if (tables.empty())
+    throw context.source.error_at(root.position, "the study has no [[axis]]: a sweep needs one");
+  for (std::size_t i = 0; i < tables.size(); ++i) read_axis(context, *tables[i], i + 1, study);
+  check_zip_names(context, study);
+  double points = 1.0;
+  for (const GridDimension& dimension : study.dimensions) points *= static_cast<double>(dimension.size);
+  if (points > most_grid_points) {
+    throw context.source.error_at(
+        tables.back()->position,
+        fmt::format("the grid has {:.3g} points, more than the {:.0e} allowed", points, most_grid_points));
+  }
+}
+
+void read_coordinates(const StudyContext& context, const TomlValue& root, StudyFile& study) {
+  std::size_t number = 0;
+  for (const TomlValue* table : read_tables(context.source, root, "coordinate")) {
+    const TomlSection section(context.source, *table,
+                              label(*table, "coordinate", "name", "coordinate", ++number),
+                              {"name", "value", "unit", "long_name"});
+    DerivedCoordinate coordinate;
+    coordinate.name = section.identifier("name");
+    std::vector<std::string> taken = study.parameters.names();
+    for (const GridDimension& dimension : study.dimensions) taken.push_back(dimension.name);
+    for (const DerivedCoordinate& other : study.coordinates) taken.push_back(other.name);
+    if (std::find(taken.begin(), taken.end(), coordinate.name) != taken.end()) {
+      section.fail("name", "the name is taken by a parameter, a zip or another coordinate");
+    }
+    const TomlValue& value = section.require("value");
+    coordinate.value.where = fmt::format("{}: value", section.where());
+    coordinate.value.position = value.position;
+    coordinate.value.expression = read_expression(context, study.parameters, coordinate.value.where, value);
+    coordinate.long_name = section.text_or("long_name", "");
+    if (const TomlValue* unit = section.find("unit")) {
+      if (const auto read = read_unit(context, section.where(), *unit)) coordinate.unit = read->text;
+    }
+    const auto moving = dimensions_moving(study, coordinate.value.expression.reads());
+    if (moving.size() != 1) {
+      section.fail("value",
+                   fmt::format("depends on {}; a coordinate depends on the parameters of one axis (or of one "
+                               "zip)",
+                               moving.empty() ? "no axis" : "several axes"));
+    }
+    coordinate.dimension = moving.front();
+    study.coordinates.push_back(std::move(coordinate));
+  }
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,95 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "studies/reading/network_reading.hpp"
+#include "studies/reading/spelling.hpp"
+
+namespace frahm::studies {
+namespace {
+
+using mechanics::ElementType;
+using mechanics::ExcitationKind;
+using mechanics::FrictionLaw;
+
+void read_compared_law(NetworkReading& reading, const TomlSection& section, const StudyFile& study,
+                       Comparison& comparison) {
+  const auto& elements = study.network.elements;
+  const auto rubbing = std::find_if(elements.begin(), elements.end(),
+                                    [](const auto& each) { return each.type == ElementType::coulomb; });
+  if (rubbing == elements.end()) section.fail("law", "the study has no coulomb element that could follow it");
+  const bool arctan = section.choice_or("law", {"exact", "arctan"}) == "arctan";
+  comparison.law = arctan ? FrictionLaw::arctan : FrictionLaw::exact;
+  if (arctan) {
+    comparison.slope = read_value(reading, section, "slope", Quantity::inverse_speed, Range::positive);
+    return;
+  }
+  if (section.find("slope")) section.fail("slope", "only the law \"arctan\" has a slope");
+  if (rubbing->law == FrictionLaw::exact)
+    section.fail("law", "the study follows the exact law itself; compare it with \"arctan\"");
+}
+
+void read_compared_profile(const TomlSection& section, const StudyFile& study, Comparison& comparison) {
+  if (section.find("slope")) section.fail("slope", "belongs to a compared law, not to a compared profile");
+  const std::int64_t order = section.integer_or("taylor_order", 0);
+  if (order != 1 && order != 2 && order != 4)
+    section.fail("taylor_order", fmt::format("{} is not possible; write 1, 2 or 4", order));
+  comparison.taylor_order = static_cast<int>(order);
+  const auto& excitations = study.network.excitations;
+  const auto differs = [&](const mechanics::Excitation& each) {
+    return each.kind == ExcitationKind::crank && each.taylor_order != comparison.taylor_order;
+  };
+  if (std::any_of(excitations.begin(), excitations.end(), differs)) return;
+  const bool none = std::none_of(excitations.begin(), excitations.end(),
+                                 [](const auto& each) { return each.kind == ExcitationKind::crank; });
+  section.fail("taylor_order", none ? "the study has no motion of the profile \"crank\" to be cut"
+                                    : "the study's cranks are cut at this order themselves");
+}
+
+// A real-valued quantity of the study by its name.
+periodic::Quantity read_quantity(const TomlSection& section, const OutputChoice::Name& name,
+                                 const StudyFile& study) {
+  const auto fail = [&](const std::string& message) {
+    throw section.source().error_at(
+        name.position, fmt::format("{}: quantities: \"{}\"{}", section.where(), name.text, message));
+  };
+  const auto describe = [&](const periodic::Quantity& quantity) {
+    return periodic::describe(quantity, study.network, study.dimensionless);
+  };
+  const auto quantity = periodic::find_quantity(name.text, study.network);
+  if (!quantity) {
+    std::vector<std::string> known;
+    for (const auto& each : periodic::all_quantities(study.network)) known.push_back(describe(each).name);
+    fail(" is no quantity of the study" + suggestion(name.text, known));
+  }
+  if (describe(*quantity).kind != periodic::QuantityKind::real)
+    fail(" is a count or a flag; a relative difference is of numbers that vary continuously");
+  return *quantity;
+}
+
+}  // namespace
+
+void read_comparison(const StudyContext& context, const TomlValue& root, StudyFile& study) {
+  const TomlEntry* entry = find_entry(root, "compare");
+  if (!entry) return;
+  const TomlSection section(context.source, entry->value, "[compare]",
+                            {"law", "slope", "taylor_order", "quantities"});
+  if ((section.find("law") != nullptr) == (section.find("taylor_order") != nullptr))
+    section.fail("needs either \"law\", another friction law, or \"taylor_order\", another crank profile");
+  Comparison comparison;
+  NetworkReading reading(context, study.parameters);
+  if (section.find("law")) {
+    read_compared_law(reading, section, study, comparison);
+  } else {
+    read_compared_profile(section, study, comparison);
+  }
+  if (section.find("quantities")) {
+    for (const OutputChoice::Name& name : read_quantity_names(section))
+      comparison.quantities.push_back(read_quantity(section, name, study));
+  } else {
+    comparison.quantities = {{periodic::Measure::peak, 0}};
+  }
+  study.comparison = std::move(comparison);
+}
+
+}  // namespace frahm::studies

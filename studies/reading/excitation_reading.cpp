@@ -1,0 +1,199 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "studies/reading/network_reading.hpp"
+#include "studies/reading/spelling.hpp"
+
+namespace frahm::studies {
+namespace {
+
+using mechanics::Excitation;
+using mechanics::ExcitationKind;
+using mechanics::Node;
+using mechanics::NodeKind;
+
+// The highest harmonic of the fundamental: events are searched on samples of the highest one over a whole
+// period.
+constexpr std::int64_t highest_order = 1000;
+
+const std::string force_path = "excitation.force";
+const std::string motion_path = "excitation.motion";
+const std::vector<std::string> excitation_keys{"frequency", "reference_order", "force", "motion"};
+
+// A component's keys; those of the other profile are known so that the message can be about the profile.
+const std::vector<std::string> force_keys{"on", "node", "profile", "amplitude", "order", "phase"};
+const std::vector<std::string> motion_keys{"node",  "profile", "amplitude", "order",
+                                           "phase", "crank",   "rod",       "taylor_order"};
+
+int read_order(const TomlSection& section, const std::string& key, std::int64_t least) {
+  const std::int64_t order = section.integer_or(key, 1);
+  if (order < least || order > highest_order) {
+    section.fail(
+        key, fmt::format("{} is out of range: a whole number from {} to {}", order, least, highest_order));
+  }
+  return static_cast<int>(order);
+}
+
+enum class Profile { harmonic, crank };
+
+Profile read_profile(const TomlSection& section, const std::vector<std::string>& profiles) {
+  const bool crank = section.choice_or("profile", profiles) == "crank";
+  if (crank) {
+    for (const char* key : {"amplitude", "order"}) {
+      if (section.find(key)) section.fail(key, "belongs to the profile \"harmonic\", not to \"crank\"");
+    }
+    return Profile::crank;
+  }
+  for (const char* key : {"crank", "rod", "taylor_order"}) {
+    if (section.find(key)) section.fail(key, "belongs to the profile \"crank\", not to \"harmonic\"");
+  }
+  return Profile::harmonic;
+}
+
+void read_component(NetworkReading& reading, const TomlSection& section, Excitation component) {
+  auto& [network, values] = reading.result;
+  const bool is_force = component.kind == ExcitationKind::force;
+  component.order = read_order(section, "order", 0);
+  network.excitations.push_back(component);
+  values.amplitude.push_back(read_value(reading, section, "amplitude",
+                                        is_force ? Quantity::force : Quantity::length, Range::finite));
+  values.phase.push_back(read_value(reading, section, "phase", Quantity::angle, Range::finite, 0.0));
+  values.rod.push_back({});
+}
+
+// How many of its even orders are kept depends on crank/rod over the whole study: set_crank_orders().
+void read_crank(NetworkReading& reading, const TomlSection& section, Excitation component) {
+  auto& [network, values] = reading.result;
+  const std::int64_t taylor_order = section.integer_or("taylor_order", 0);
+  if (section.find("taylor_order") && taylor_order != 1 && taylor_order != 2 && taylor_order != 4) {
+    section.fail("taylor_order", fmt::format("{} is not possible; write 1, 2 or 4, or leave it out for the "
+                                             "crank's full Fourier series",
+                                             taylor_order));
+  }
+  component.taylor_order = static_cast<int>(taylor_order);
+  component.even_orders = component.taylor_order / 2;
+  network.excitations.push_back(component);
+  values.amplitude.push_back(read_value(reading, section, "crank", Quantity::length, Range::not_negative));
+  values.rod.push_back(read_value(reading, section, "rod", Quantity::length, Range::positive));
+  values.phase.push_back(read_value(reading, section, "phase", Quantity::angle, Range::finite, 0.0));
+}
+
+void read_force(NetworkReading& reading, const TomlValue& table, std::size_t number) {
+  const std::string named = find_entry(table, "node") ? "node" : "on";
+  const TomlSection section(reading.context.source, table,
+                            label(table, "force on", named, force_path, number), force_keys);
+  if (section.find("on") && section.find("node"))
+    section.fail("node", "the mass is named twice, by \"on\" and \"node\"");
+  const std::string name = section.text(named);
+  const auto& network = reading.result.network;
+  const auto node = find_node(network, name);
+  if (!node) {
+    section.fail(named, fmt::format("no mass is called \"{}\"{}", name, suggestion(name, network.masses)));
+  }
+  if (node->kind != NodeKind::mass) {
+    section.fail(named,
+                 fmt::format("a force acts on a mass, and \"{}\" is {}", name,
+                             node->kind == NodeKind::ground ? "fixed" : "a node of prescribed motion"));
+  }
+  read_profile(section, {"harmonic"});
+  read_component(reading, section, {ExcitationKind::force, node->index});
+}
+
+TomlSection motion_section(const NetworkReading& reading, const TomlValue& table, std::size_t number) {
+  return {reading.context.source, table, label(table, "motion of", "node", motion_path, number), motion_keys};
+}
+
+void read_motion(NetworkReading& reading, const TomlValue& table, std::size_t number) {
+  const TomlSection section = motion_section(reading, table, number);
+  const auto node = find_node(reading.result.network, section.identifier("node"));
+  if (read_profile(section, {"harmonic", "crank"}) == Profile::crank) {
+    read_crank(reading, section, {ExcitationKind::crank, node->index});
+  } else {
+    read_component(reading, section, {ExcitationKind::motion, node->index});
+  }
+}
+
+// The frequency, and with it which parameters are angular frequencies or ratios of them.
+void read_frequency(NetworkReading& reading, const TomlSection& section) {
+  auto& omega = reading.result.values.omega;
+  omega = read_value(reading, section, "frequency", Quantity::angular_frequency, Range::positive);
+  for (const std::size_t i : reading.parameters.inputs_of(omega.expression.reads())) {
+    reading.parameters.list[i].in_frequency = true;
+  }
+}
+
+int lowest_order(const NetworkReading& reading, const TomlSection& section) {
+  int lowest = std::numeric_limits<int>::max();
+  for (const Excitation& component : reading.result.network.excitations) {
+    if (component.order > 0) lowest = std::min(lowest, component.order);
+  }
+  if (lowest == std::numeric_limits<int>::max()) {
+    section.fail(
+        "needs a [[excitation.force]] or [[excitation.motion]] of order 1 or more: nothing shakes the "
+        "system");
+  }
+  return lowest;
+}
+
+// A hysteretic element has its damping at one frequency only, omega_h.
+void check_hysteretic_frequency(const NetworkReading& reading, const TomlSection& section) {
+  const auto& network = reading.result.network;
+  const auto hysteretic =
+      std::find_if(network.elements.begin(), network.elements.end(),
+                   [](const auto& element) { return element.type == mechanics::ElementType::hysteretic; });
+  if (hysteretic == network.elements.end() || section.find("reference_order")) return;
+  std::vector<int> orders;
+  for (const Excitation& component : network.excitations) {
+    if (component.order > 0) orders.push_back(component.order);
+    if (component.kind == ExcitationKind::crank && component.taylor_order != 1) orders.push_back(2);
+  }
+  if (std::all_of(orders.begin(), orders.end(), [&](int order) { return order == orders.front(); })) return;
+  section.fail(
+      fmt::format("the key \"reference_order\" is missing: the excitation has several orders, and "
+                  "the hysteretic element \"{}\" has its loss factor at reference_order x frequency",
+                  hysteretic->name));
+}
+
+}  // namespace
+
+void read_prescribed_nodes(NetworkReading& reading, const TomlValue& excitation) {
+  std::size_t number = 0;
+  auto& network = reading.result.network;
+  for (const TomlValue* table : read_tables(reading.context.source, excitation, motion_path)) {
+    const TomlSection section = motion_section(reading, *table, ++number);
+    const std::string name = section.identifier("node");
+    const auto node = find_node(network, name);
+    if (!node) {
+      network.prescribed.push_back(name);
+      reading.names.push_back({name, fmt::format("the node \"{}\" of prescribed motion", name)});
+    } else if (node->kind == NodeKind::ground) {
+      section.fail("node", "\"ground\" is fixed; give the moving support a name of its own");
+    } else if (node->kind == NodeKind::mass) {
+      section.fail("node",
+                   fmt::format("\"{}\" is a mass, whose motion is sought; a node of prescribed motion has a "
+                               "name of its own",
+                               name));
+    }
+  }
+}
+
+void read_excitation(NetworkReading& reading, const TomlValue& excitation) {
+  const TomlSection section(reading.context.source, excitation, "[excitation]", excitation_keys);
+  read_frequency(reading, section);
+  std::size_t number = 0;
+  for (const TomlValue* table : read_tables(section.source(), excitation, force_path)) {
+    read_force(reading, *table, ++number);
+  }
+  number = 0;
+  for (const TomlValue* table : read_tables(section.source(), excitation, motion_path)) {
+    read_motion(reading, *table, ++number);
+  }
+  const int lowest = lowest_order(reading, section);
+  auto& reference = reading.result.network.reference_order;
+  reference = section.find("reference_order") ? read_order(section, "reference_order", 1) : lowest;
+  check_hysteretic_frequency(reading, section);
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,173 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "solvers/mechanics/crank.hpp"
+#include "studies/reading/study_reading.hpp"
+
+namespace frahm::studies {
+namespace {
+
+constexpr std::size_t most_points_tried = 100'000;  // for one value: some milliseconds
+
+// Something to check: a value of the network, a derived coordinate, or a derived parameter.
+struct Checked {
+  const StudyValue* value = nullptr;     // or
+  const Parameter* parameter = nullptr;  // with its index
+  std::vector<std::size_t> reads;        // parameters
+};
+
+std::vector<Checked> all_checked(const StudyFile& study) {
+  std::vector<Checked> all;
+  for (const std::size_t i : study.parameters.derived)
+    all.push_back({nullptr, &study.parameters.list[i], {i}});
+  const auto add = [&](const StudyValue& value) {
+    all.push_back({&value, nullptr, value.expression.reads()});
+  };
+  const StudyValues& values = study.values;
+  add(values.omega);
+  for (const auto* list : values.lists()) {
+    for (const StudyValue& value : *list) add(value);
+  }
+  if (study.comparison && study.comparison->law == mechanics::FrictionLaw::arctan)
+    add(study.comparison->slope);
+  for (const DerivedCoordinate& coordinate : study.coordinates) add(coordinate.value);
+  for (const StudyValue* value : study.motion.values()) add(*value);
+  return all;
+}
+
+// " at omega = 400 rpm, I = 6.36 kg": the numbers on which it depends.
+std::string place_name(const StudyFile& study, const Checked& checked, std::span<const double> parameters) {
+  std::string text;
+  for (const std::size_t i : study.parameters.inputs_of(checked.reads)) {
+    const UsualUnit unit = usual_unit(study, i);
+    const bool shown = !unit.text.empty() && unit.text != "1";
+    text += fmt::format("{} {} = {:.6g}{}{}", text.empty() ? " at" : ",", study.parameters.list[i].name,
+                        parameters[i] / unit.si_factor, shown ? " " : "", shown ? unit.text : "");
+  }
+  return text;
+}
+
+[[noreturn]] void fail(const StudyFile& study, const Checked& checked, std::span<const double> parameters,
+                       const std::string& problem, const std::string& rule) {
+  const Position position = checked.value ? checked.value->position : checked.parameter->position;
+  const std::string where =
+      checked.value ? checked.value->where : fmt::format("parameter \"{}\"", checked.parameter->name);
+  throw study.source.error_at(
+      position, fmt::format("{}: {}{}; {}", where, problem, place_name(study, checked, parameters), rule));
+}
+
+void check_derived(const StudyFile& study, const Checked& checked, std::span<const double> parameters) {
+  const double value = parameters[checked.reads.front()];
+  if (std::isfinite(value)) return;
+  if (const auto* table = std::get_if<TableOf>(&checked.parameter->definition)) {
+    const double of = parameters[table->of];
+    fail(study, checked, parameters, fmt::format("the table \"{}\" has no value", table->file),
+         fmt::format("it covers {} from {} to {} (SI), here {:.6g}", study.parameters.list[table->of].name,
+                     table->table.x.front(), table->table.x.back(), of));
+  }
+  fail(study, checked, parameters, "has no value", "must be a finite number");
+}
+
+void check_value(const StudyFile& study, const Checked& checked, std::span<const double> parameters) {
+  const double value = checked.value->expression.evaluate(parameters);
+  const bool pure = study.dimensionless || checked.value->quantity == Quantity::number;
+  const auto is = [&] {
+    return fmt::format("is {:.6g}{}{}", value, pure ? "" : " ",
+                       pure ? "" : written_si_unit(checked.value->quantity));
+  };
+  if (!std::isfinite(value)) fail(study, checked, parameters, "has no value", "must be a finite number");
+  if (checked.value->range == Range::not_negative && value < 0.0) {
+    fail(study, checked, parameters, is(), "must be >= 0");
+  }
+  if (checked.value->range == Range::positive && value <= 0.0)
+    fail(study, checked, parameters, is(), "must be > 0");
+}
+
+void check(const StudyFile& study, const Checked& checked, std::span<double> parameters) {
+  study.parameters.complete(parameters);
+  if (checked.value) {
+    check_value(study, checked, parameters);
+  } else {
+    check_derived(study, checked, parameters);
+  }
+}
+
+// Walks over the product of the dimensions along which `reads` change, all points or only the corners.
+// visit(): at each, with `parameters` placed there but not completed.
+template <class Visit>
+void walk(const StudyFile& study, std::span<const std::size_t> reads, std::vector<double>& parameters,
+          const Visit& visit) {
+  const auto moving = dimensions_moving(study, reads);
+  std::size_t points = 1;
+  for (const std::size_t d : moving) {
+    if (points <= most_points_tried) points *= study.dimensions[d].size;
+  }
+  const bool corners = points > most_points_tried;
+  std::vector<std::size_t> index(moving.size(), 0);
+  std::size_t turned = 0;
+  do {
+    for (std::size_t i = 0; i < moving.size(); ++i) place(study, moving[i], index[i], parameters);
+    visit();
+    // The next index, like the digits of a counter.
+    for (turned = 0; turned < moving.size(); ++turned) {
+      const std::size_t last = study.dimensions[moving[turned]].size - 1;
+      if (index[turned] < last) {
+        index[turned] = corners ? last : index[turned] + 1;
+        break;
+      }
+      index[turned] = 0;
+    }
+  } while (turned < moving.size());
+}
+
+// The largest crank/rod of an excitation on the grid.
+double largest_crank_ratio(const StudyFile& study, std::size_t excitation) {
+  const StudyValue &crank = study.values.amplitude[excitation], &rod = study.values.rod[excitation];
+  std::vector<std::size_t> reads = crank.expression.reads();
+  reads.insert(reads.end(), rod.expression.reads().begin(), rod.expression.reads().end());
+  std::vector<double> parameters = study.parameters.nominal();
+  double largest = 0.0;
+  walk(study, reads, parameters, [&] {
+    study.parameters.complete(std::span<double>(parameters));
+    const std::span<const double> at(parameters);
+    const double ratio = crank.expression.evaluate(at) / rod.expression.evaluate(at);
+    if (ratio > mechanics::kLargestCrankRatio) {
+      fail(study, {&crank, nullptr, reads}, parameters, fmt::format("is {:.6g} times the rod", ratio),
+           fmt::format("must be at most {} times the rod", mechanics::kLargestCrankRatio));
+    }
+    largest = std::max(largest, ratio);
+  });
+  return largest;
+}
+
+}  // namespace
+
+void set_crank_orders(StudyFile& study) {
+  for (std::size_t i = 0; i < study.network.excitations.size(); ++i) {
+    mechanics::Excitation& excitation = study.network.excitations[i];
+    if (excitation.kind != mechanics::ExcitationKind::crank) continue;
+    const double ratio = largest_crank_ratio(study, i);
+    if (excitation.taylor_order == 0) excitation.even_orders = mechanics::crank_orders_needed(ratio);
+  }
+}
+
+void check_point(const StudyFile& study, std::span<double> parameters) {
+  for (const Checked& checked : all_checked(study)) check(study, checked, parameters);
+}
+
+void check_grid(const StudyFile& study) {
+  const std::vector<double> nominal = study.parameters.nominal();
+  for (const Checked& checked : all_checked(study)) {
+    std::vector<double> parameters = nominal;
+    walk(study, checked.reads, parameters, [&] { check(study, checked, parameters); });
+  }
+  for (const auto& orbit : study.output.orbits) {
+    std::vector<double> parameters = nominal;
+    for (const Assignment& assignment : orbit) parameters[assignment.parameter] = assignment.value;
+    check_point(study, parameters);
+  }
+}
+
+}  // namespace frahm::studies

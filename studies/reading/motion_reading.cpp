@@ -1,0 +1,161 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "studies/reading/network_reading.hpp"
+#include "studies/reading/spelling.hpp"
+
+namespace frahm::studies {
+namespace {
+
+using mechanics::NodeKind;
+
+constexpr std::int64_t most_samples = 10'000'000;      // of a history: some hundred megabytes
+constexpr std::int64_t samples_of_a_transient = 1001;  // smooth to the eye over dozens of periods
+
+std::optional<StudyValue> read_optional(NetworkReading& reading, const TomlSection& section,
+                                        const std::string& key, Quantity quantity) {
+  if (!section.find(key)) return std::nullopt;
+  StudyValue value = read_value(reading, section, key, quantity, Range::positive);
+  if (quantity != Quantity::angular_frequency) return value;
+  for (const std::size_t i : reading.parameters.inputs_of(value.expression.reads())) {
+    reading.parameters.list[i].in_frequency = true;
+  }
+  return value;
+}
+
+int read_samples(const TomlSection& section, std::int64_t otherwise) {
+  const std::int64_t samples = section.integer_or("samples", otherwise);
+  const bool none = samples == 0 && otherwise == 0;
+  if (!none && (samples < 2 || samples > most_samples)) {
+    section.fail("samples", fmt::format("{} is out of range: a whole number from 2 to {}{}", samples,
+                                        most_samples, otherwise == 0 ? ", or 0 for no history" : ""));
+  }
+  return static_cast<int>(samples);
+}
+
+InitialValues read_initial_values(NetworkReading& reading, const TomlValue& table, std::size_t number) {
+  const TomlSection section(reading.context.source, table,
+                            label(table, "initial values of", "node", "initial", number),
+                            {"node", "displacement", "velocity"});
+  const std::string name = section.text("node");
+  const auto& network = reading.result.network;
+  const auto node = find_node(network, name);
+  if (!node) {
+    section.fail("node", fmt::format("no mass is called \"{}\"{}", name, suggestion(name, network.masses)));
+  }
+  if (node->kind != NodeKind::mass) {
+    section.fail("node",
+                 fmt::format("\"{}\" is {}; only a mass has initial values", name,
+                             node->kind == NodeKind::ground ? "fixed" : "a node of prescribed motion"));
+  }
+  if (!section.find("displacement") && !section.find("velocity"))
+    section.fail("a displacement, a velocity or both are needed");
+  return {node->index, read_value(reading, section, "displacement", Quantity::length, Range::finite, 0.0),
+          read_value(reading, section, "velocity", Quantity::speed, Range::finite, 0.0)};
+}
+
+void read_initial(NetworkReading& reading, const TomlValue& root, MotionChoice& motion) {
+  std::size_t number = 0;
+  for (const TomlValue* table : read_tables(reading.context.source, root, "initial")) {
+    InitialValues values = read_initial_values(reading, *table, ++number);
+    const bool twice = std::any_of(motion.initial.begin(), motion.initial.end(),
+                                   [&](const InitialValues& other) { return other.mass == values.mass; });
+    if (twice) {
+      throw reading.context.source.error_at(table->position,
+                                            fmt::format("initial values of \"{}\": are given twice",
+                                                        reading.result.network.masses[values.mass]));
+    }
+    motion.initial.push_back(std::move(values));
+  }
+}
+
+void read_decay(NetworkReading& reading, const TomlValue& root, MotionChoice& motion) {
+  static const TomlValue nothing{{}, TomlTable{}};
+  const TomlEntry* entry = find_entry(root, "decay");
+  const TomlSection section(reading.context.source, entry ? entry->value : nothing, "[decay]",
+                            {"duration", "samples", "reference_frequency"});
+  motion.duration = read_optional(reading, section, "duration", Quantity::time);
+  motion.samples = read_samples(section, 0);
+  motion.reference_frequency =
+      read_optional(reading, section, "reference_frequency", Quantity::angular_frequency);
+  if (motion.initial.empty()) {
+    throw reading.context.source.error_at(
+        root.position, "the study has no [[initial]]: nothing moves that is not displaced or set in motion");
+  }
+}
+
+// In a run-up the frequency is put in the place of the parameter that it is, for all that follows it.
+void check_run_up(const NetworkReading& reading, const TomlSection& section) {
+  const Parameters& parameters = reading.parameters;
+  const Expression& frequency = reading.result.values.omega.expression;
+  const auto sole = frequency.sole_parameter();
+  const bool is_parameter = sole && parameters.list[*sole].is_number();
+  if (!is_parameter && !frequency.reads().empty()) {
+    section.fail("sweep_to",
+                 "the excitation's frequency is computed from parameters; in a run-up it must be a "
+                 "number or one parameter, which then runs");
+  }
+  if (!is_parameter) return;
+  const auto& [network, values] = reading.result;
+  for (std::size_t i = 0; i < network.excitations.size(); ++i) {
+    if (network.excitations[i].kind == mechanics::ExcitationKind::force) continue;
+    for (const StudyValue* value : {&values.amplitude[i], &values.phase[i], &values.rod[i]}) {
+      const auto inputs = parameters.inputs_of(value->expression.reads());
+      if (std::find(inputs.begin(), inputs.end(), *sole) == inputs.end()) continue;
+      throw section.source().error_at(
+          value->position,
+          fmt::format("{}: depends on \"{}\", which runs from the frequency to sweep_to; only "
+                      "the motion's frequency may change in a run-up",
+                      value->where, parameters.list[*sole].name));
+    }
+  }
+}
+
+void read_transient(NetworkReading& reading, const TomlValue& root, MotionChoice& motion) {
+  const TomlEntry* entry = find_entry(root, "transient");
+  if (!entry)
+    throw reading.context.source.error_at(root.position, "the study has no [transient] with its duration");
+  const TomlSection section(reading.context.source, entry->value, "[transient]",
+                            {"duration", "samples", "sweep_to", "sweep_rate"});
+  motion.duration = read_optional(reading, section, "duration", Quantity::time);
+  motion.samples = read_samples(section, samples_of_a_transient);
+  motion.sweep_to = read_optional(reading, section, "sweep_to", Quantity::angular_frequency);
+  motion.sweep_rate = read_optional(reading, section, "sweep_rate", Quantity::angular_acceleration);
+  if (motion.sweep_to.has_value() != motion.sweep_rate.has_value()) {
+    section.fail(
+        fmt::format("the key \"{}\" is missing: a run-up or run-down has both sweep_to and "
+                    "sweep_rate",
+                    motion.sweep_to ? "sweep_rate" : "sweep_to"));
+  }
+  if (motion.sweep_to) check_run_up(reading, section);
+  if (!motion.duration && !motion.sweep_to) section.fail("the key \"duration\" is missing (a time, s)");
+}
+
+// The motion is followed on the exact flow, which has no smooth friction.
+void refuse_smooth_friction(const StudyFile& study) {
+  for (std::size_t e = 0; e < study.network.elements.size(); ++e) {
+    if (study.network.elements[e].law != mechanics::FrictionLaw::arctan) continue;
+    const StudyValue& slope = study.values.second[e];
+    throw study.source.error_at(slope.position,
+                                fmt::format("{}: a {} follows friction as it is; the law \"arctan\" is for a "
+                                            "sweep",
+                                            slope.where, kind_name(study.kind)));
+  }
+}
+
+}  // namespace
+
+void read_motion(const StudyContext& context, const TomlValue& root, StudyFile& study) {
+  refuse_smooth_friction(study);
+  NetworkReading reading(context, study.parameters);
+  reading.result = {study.network, study.values};
+  read_initial(reading, root, study.motion);
+  if (study.kind == StudyKind::decay) {
+    read_decay(reading, root, study.motion);
+  } else {
+    read_transient(reading, root, study.motion);
+  }
+}
+
+}  // namespace frahm::studies

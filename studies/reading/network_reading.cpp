@@ -1,0 +1,264 @@
+#include "studies/reading/network_reading.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "studies/reading/spelling.hpp"
+
+namespace frahm::studies {
+namespace {
+
+using mechanics::ElementType;
+using mechanics::Node;
+using mechanics::NodeKind;
+
+struct ValueKey {
+  std::string key;  // "" : none
+  Quantity quantity = Quantity::number;
+  Range range = Range::finite;
+};
+
+struct ElementKind {
+  std::string name;
+  ElementType type;
+  ValueKey value, second;
+};
+
+const std::array<ElementKind, 6>& element_kinds() {
+  static const std::array<ElementKind, 6> kinds{
+      {{"spring", ElementType::spring, {"stiffness", Quantity::stiffness}, {}},
+       {"damper", ElementType::damper, {"damping", Quantity::damping, Range::not_negative}, {}},
+       {"inerter", ElementType::inerter, {"inertance", Quantity::inertance, Range::not_negative}, {}},
+       {"coulomb", ElementType::coulomb, {"force", Quantity::force, Range::not_negative}, {}},
+       {"hysteretic",
+        ElementType::hysteretic,
+        {"stiffness", Quantity::stiffness, Range::not_negative},
+        {"loss_factor", Quantity::number, Range::not_negative}},
+       {"maxwell",
+        ElementType::maxwell,
+        {"stiffness", Quantity::stiffness, Range::positive},
+        {"damping", Quantity::damping, Range::positive}}}};
+  return kinds;
+}
+
+const ValueKey arctan_slope{"slope", Quantity::inverse_speed, Range::positive};
+
+const ElementKind& read_kind(const TomlSection& section) {
+  const std::string type = section.text("type");
+  std::vector<std::string> known;
+  for (const ElementKind& kind : element_kinds()) {
+    if (kind.name == type) return kind;
+    known.push_back(kind.name);
+  }
+  section.fail("type", fmt::format("no element is of type \"{}\"{}", type, suggestion(type, known)));
+}
+
+// Each type has its values and no key of another type.
+void check_keys_of_kind(const TomlSection& section, const ElementKind& kind) {
+  const bool rubs = kind.type == ElementType::coulomb;
+  for (const char* key : {"stiffness", "damping", "inertance", "force", "loss_factor", "law", "slope"}) {
+    const bool own = key == kind.value.key || key == kind.second.key;
+    if (own || !section.find(key) || (rubs && (key == std::string("law") || key == arctan_slope.key)))
+      continue;
+    const std::string second = kind.second.key.empty() ? "" : fmt::format(" and a {}", kind.second.key);
+    section.fail(key, fmt::format("a {} has a {}{}, no {}", kind.name, kind.value.key, second, key));
+  }
+}
+
+mechanics::FrictionLaw read_law(const TomlSection& section, const ElementKind& kind) {
+  if (kind.type != ElementType::coulomb) return mechanics::FrictionLaw::exact;
+  if (section.choice_or("law", {"exact", "arctan"}) == "arctan") return mechanics::FrictionLaw::arctan;
+  if (section.find("slope")) section.fail("slope", "only the law \"arctan\" has a slope");
+  return mechanics::FrictionLaw::exact;
+}
+
+// All coulomb elements follow one law.
+void check_one_law(const NetworkReading& reading, const TomlSection& section, mechanics::FrictionLaw law) {
+  const auto& elements = reading.result.network.elements;
+  const auto other = std::find_if(elements.begin(), elements.end(), [&](const auto& element) {
+    return element.type == ElementType::coulomb && element.law != law;
+  });
+  if (other == elements.end()) return;
+  const bool arctan = law == mechanics::FrictionLaw::arctan;
+  const std::string message = fmt::format(
+      "\"{}\"{}, but element \"{}\" follows \"{}\"; the coulomb elements of a study follow one law",
+      arctan ? "arctan" : "exact", section.find("law") ? "" : " is the law if none is named", other->name,
+      arctan ? "exact" : "arctan");
+  section.find("law") ? section.fail("law", message) : section.fail(message);
+}
+
+std::array<Node, 2> read_between(const NetworkReading& reading, const TomlSection& section) {
+  const TomlValue& value = section.require("between");
+  const auto* ends = value.as<TomlArray>();
+  if (!ends || ends->size() != 2)
+    section.fail("between", "two nodes are expected: between = [\"ground\", \"main\"]");
+  std::array<Node, 2> nodes;
+  std::array<std::string, 2> names;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::string where = fmt::format("{}: between", section.where());
+    names[i] = read_text(section.source(), where, (*ends)[i]);
+    const auto node = find_node(reading.result.network, names[i]);
+    if (!node) {
+      throw section.source().error_at((*ends)[i].position,
+                                      fmt::format("{}: no node is called \"{}\"{}", where, names[i],
+                                                  suggestion(names[i], node_names(reading.result.network))));
+    }
+    nodes[i] = *node;
+  }
+  if (nodes[0] == nodes[1]) section.fail("between", fmt::format("both ends are at \"{}\"", names[0]));
+  if (nodes[0].kind != NodeKind::mass && nodes[1].kind != NodeKind::mass) {
+    section.fail("between",
+                 fmt::format("neither \"{}\" nor \"{}\" is a mass, so nothing moves the element freely",
+                             names[0], names[1]));
+  }
+  return nodes;
+}
+
+void read_mass(NetworkReading& reading, const TomlValue& table, std::size_t number) {
+  const TomlSection section(reading.context.source, table, label(table, "mass", "name", "mass", number),
+                            {"name", "mass"});
+  const std::string name = section.identifier("name");
+  take_name(reading, section, name, section.where());
+  reading.result.network.masses.push_back(name);
+  reading.masses.push_back(section.position());
+  reading.result.values.mass.push_back(
+      read_value(reading, section, "mass", Quantity::mass, Range::not_negative));
+}
+
+void read_element(NetworkReading& reading, const TomlValue& table, std::size_t number) {
+  const TomlSection section(reading.context.source, table, label(table, "element", "name", "element", number),
+                            {"name", "type", "between", "stiffness", "damping", "inertance", "force", "law",
+                             "slope", "loss_factor"});
+  const std::string name = section.identifier("name");
+  take_name(reading, section, name, section.where());
+  const ElementKind& kind = read_kind(section);
+  check_keys_of_kind(section, kind);
+  const auto [a, b] = read_between(reading, section);
+  const mechanics::FrictionLaw law = read_law(section, kind);
+  if (kind.type == ElementType::coulomb) check_one_law(reading, section, law);
+  reading.result.network.elements.push_back({name, kind.type, a, b, law});
+  const auto read = [&](const ValueKey& value) {
+    return read_value(reading, section, value.key, value.quantity, value.range);
+  };
+  const ValueKey second = law == mechanics::FrictionLaw::arctan ? arctan_slope : kind.second;
+  reading.result.values.element.push_back(read(kind.value));
+  reading.result.values.second.push_back(second.key.empty() ? StudyValue{} : read(second));
+}
+
+// A value that is nothing but a parameter, perhaps through other names for it, tells what that parameter is.
+void note_quantity(Parameters& parameters, const StudyValue& value) {
+  auto parameter = value.expression.sole_parameter();
+  for (std::size_t steps = 0; parameter && steps <= parameters.list.size(); ++steps) {
+    Parameter& named = parameters.list[*parameter];
+    if (named.is_number()) {
+      if (named.quantity) return;
+      named.quantity = value.quantity;
+      named.used_as = value.where;
+      return;
+    }
+    const auto* expression = std::get_if<Expression>(&named.definition);
+    parameter = expression ? expression->sole_parameter() : std::nullopt;
+  }
+}
+
+void check_every_motion_is_felt(const NetworkReading& reading, const TomlValue& excitation) {
+  const auto& network = reading.result.network;
+  for (const TomlValue* table : read_tables(reading.context.source, excitation, "excitation.motion")) {
+    const std::string& name = *find_entry(*table, "node")->value.as<std::string>();
+    const Node node = *find_node(network, name);
+    const bool felt = std::any_of(network.elements.begin(), network.elements.end(), [&](const auto& element) {
+      return element.a == node || element.b == node;
+    });
+    if (felt) continue;
+    throw reading.context.source.error_at(
+        table->position, fmt::format("motion of \"{0}\": no element is attached to the node \"{0}\"", name));
+  }
+}
+
+}  // namespace
+
+void take_name(NetworkReading& reading, const TomlSection& section, const std::string& name,
+               const std::string& owner) {
+  for (const auto& taken : reading.names) {
+    if (taken.name != name) continue;
+    section.fail(
+        "name", fmt::format("the name is taken by {}; nodes and elements need different names", taken.owner));
+  }
+  reading.names.push_back({name, owner});
+}
+
+std::optional<Node> find_node(const mechanics::Network& network, const std::string& name) {
+  if (name == "ground") return Node{NodeKind::ground, 0};
+  const auto index_in = [&](const std::vector<std::string>& names) -> std::optional<std::size_t> {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - names.begin());
+  };
+  if (const auto index = index_in(network.masses)) return Node{NodeKind::mass, *index};
+  if (const auto index = index_in(network.prescribed)) return Node{NodeKind::prescribed, *index};
+  return std::nullopt;
+}
+
+std::vector<std::string> node_names(const mechanics::Network& network) {
+  std::vector<std::string> names{"ground"};
+  names.insert(names.end(), network.masses.begin(), network.masses.end());
+  names.insert(names.end(), network.prescribed.begin(), network.prescribed.end());
+  return names;
+}
+
+StudyValue read_value(NetworkReading& reading, const TomlSection& section, const std::string& key,
+                      Quantity quantity, Range range, std::optional<double> otherwise) {
+  StudyValue result;
+  result.quantity = quantity;
+  result.range = range;
+  result.where = fmt::format("{}: {}", section.where(), key);
+  result.position = section.position();
+  const TomlValue* value = section.find(key);
+  if (!value && otherwise) {
+    result.expression = Expression(*otherwise);
+    return result;
+  }
+  if (!value) {
+    section.fail(fmt::format("the key \"{}\" is missing ({}, {})", key, quantity_name(quantity),
+                             written_si_unit(quantity)));
+  }
+  result.position = value->position;
+  if (value->as<std::string>()) {
+    result.expression = read_expression(reading.context, reading.parameters, result.where, *value);
+    note_quantity(reading.parameters, result);
+    return result;
+  }
+  const NumberWithUnit number = read_number_with_unit(reading.context, result.where, *value);
+  try {
+    result.expression = Expression(number.value * (number.unit ? si_factor(*number.unit, quantity) : 1.0));
+  } catch (const UnitError& error) {
+    throw section.source().error_at(number.unit_position, fmt::format("{}: {}", result.where, error.what()));
+  }
+  return result;
+}
+
+NetworkOfStudy read_network(const StudyContext& context, const TomlValue& root, Parameters& parameters,
+                            StudyKind kind) {
+  const bool is_forced = kind != StudyKind::decay;
+  NetworkReading reading(context, parameters);
+  std::size_t number = 0;
+  for (const TomlValue* table : read_tables(context.source, root, "mass"))
+    read_mass(reading, *table, ++number);
+  if (number == 0) throw context.source.error_at(root.position, "the study has no [[mass]]: nothing moves");
+  const TomlEntry* excitation = find_entry(root, "excitation");
+  if (is_forced && !excitation) throw context.source.error_at(root.position, "the study has no [excitation]");
+  if (is_forced) read_prescribed_nodes(reading, excitation->value);
+  number = 0;
+  for (const TomlValue* table : read_tables(context.source, root, "element"))
+    read_element(reading, *table, ++number);
+  if (is_forced) {
+    read_excitation(reading, excitation->value);
+    check_every_motion_is_felt(reading, excitation->value);
+  }
+  check_masses_are_held(context, reading.result, reading.masses);
+  return std::move(reading.result);
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "studies/reading/study_reading.hpp"
+
+// Inside the reading of the network: what masses, elements and the excitation share.
+namespace frahm::studies {
+
+// The network as far as it is read.
+struct NetworkReading {
+  NetworkReading(const StudyContext& study, Parameters& read) : context(study), parameters(read) {}
+
+  const StudyContext& context;
+  Parameters& parameters;
+  NetworkOfStudy result;
+
+  // A name of a node or element, which are unique together, and what has it: `mass "main"`.
+  struct TakenName {
+    std::string name, owner;
+  };
+  std::vector<TakenName> names{{"ground", "the fixed node"}};
+  std::vector<Position> masses;  // of the tables of result.network.masses
+};
+
+// Refuses a name that something has already. key: of the name in the section.
+void take_name(NetworkReading& reading, const TomlSection& section, const std::string& name,
+               const std::string& owner);
+
+// The node of a name, or nothing.
+std::optional<mechanics::Node> find_node(const mechanics::Network& network, const std::string& name);
+
+// Names of all nodes, ground first.
+std::vector<std::string> node_names(const mechanics::Network& network);
+
+// A value of the network: a number, { value, unit } or an expression of parameters; `otherwise` if the key is
+// absent.
+StudyValue read_value(NetworkReading& reading, const TomlSection& section, const std::string& key,
+                      Quantity quantity, Range range, std::optional<double> otherwise = std::nullopt);
+
+// [[excitation.motion]] names the nodes of prescribed motion, so it comes before the elements. [excitation]
+// with its forces and the frequency comes after the masses.
+void read_prescribed_nodes(NetworkReading& reading, const TomlValue& excitation);
+void read_excitation(NetworkReading& reading, const TomlValue& excitation);
+
+}  // namespace frahm::studies

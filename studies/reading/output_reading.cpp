@@ -1,0 +1,132 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "studies/reading/spelling.hpp"
+#include "studies/reading/study_reading.hpp"
+
+namespace frahm::studies {
+namespace {
+
+void read_quantities(const TomlSection& section, OutputChoice& output) {
+  const TomlValue* value = section.find("quantities");
+  if (!value) return;
+  if (value->as<std::string>()) {
+    const std::string word = section.text("quantities");
+    if (word != "standard" && word != "all") {
+      section.fail("quantities",
+                   fmt::format("\"{0}\" is neither \"standard\" nor \"all\"; names stand in an array: "
+                               "[\"{0}\"]",
+                               word));
+    }
+    output.quantities = word == "all" ? OutputChoice::Quantities::all : OutputChoice::Quantities::standard;
+    return;
+  }
+  output.quantities = OutputChoice::Quantities::listed;
+  output.names = read_quantity_names(section);
+}
+
+Assignment read_assignment(const StudyContext& context, const TomlEntry& entry, const StudyFile& study) {
+  const auto index = study.parameters.find(entry.key);
+  const std::string where = fmt::format("[output]: orbits: {}", entry.key);
+  const auto fail = [&](Position position, const std::string& message) {
+    throw context.source.error_at(position, fmt::format("{}: {}", where, message));
+  };
+  if (!index)
+    fail(entry.position, "no parameter has this name" + suggestion(entry.key, study.parameters.names()));
+  const Parameter& parameter = study.parameters.list[*index];
+  if (!parameter.is_number()) fail(entry.position, "it is computed from other parameters; set those");
+  if (entry.value.as<std::string>()) {
+    fail(entry.value.position, fmt::format("expected a number, found {}", described(entry.value)));
+  }
+  const NumberWithUnit number = read_number_with_unit(context, where, entry.value);
+  double factor = usual_unit(study, *index).si_factor;
+  try {
+    if (number.unit) factor = si_factor(parameter, *number.unit);
+  } catch (const UnitError& error) {
+    fail(number.unit_position, error.what());
+  }
+  return {*index, number.value * factor};
+}
+
+void read_orbits(const StudyContext& context, const TomlSection& section, StudyFile& study) {
+  const TomlValue* value = section.find("orbits");
+  if (!value) return;
+  const auto* points = value->as<TomlArray>();
+  if (!points) section.fail("orbits", "expected an array of points such as [{ omega = 250, I = 6.36 }]");
+  for (const TomlValue& point : *points) {
+    const auto* entries = point.as<TomlTable>();
+    if (!entries) {
+      throw context.source.error_at(
+          point.position, fmt::format("[output]: orbits: a point is a table such as {{ omega = 250 }}, found "
+                                      "{}",
+                                      described(point)));
+    }
+    std::vector<Assignment> assignments;
+    for (const TomlEntry& entry : *entries) assignments.push_back(read_assignment(context, entry, study));
+    study.output.orbits.push_back(std::move(assignments));
+  }
+}
+
+void read_resonances(const StudyContext& context, const TomlSection& section, StudyFile& study) {
+  const TomlValue* value = section.find("resonances");
+  if (!value) return;
+  const auto* names = value->as<TomlArray>();
+  if (!names) section.fail("resonances", "expected an array of masses such as [\"main\"]");
+  const std::string where = fmt::format("{}: resonances", section.where());
+  const auto& masses = study.network.masses;
+  for (const TomlValue& item : *names) {
+    const std::string name = read_text(context.source, where, item);
+    const auto mass = std::find(masses.begin(), masses.end(), name);
+    if (mass == masses.end()) {
+      throw context.source.error_at(item.position, fmt::format("{}: no mass is called \"{}\"{}", where, name,
+                                                               suggestion(name, masses)));
+    }
+    study.output.resonances.push_back(static_cast<std::size_t>(mass - masses.begin()));
+  }
+  const auto dimension = study.frequency_dimension;
+  if (!dimension || study.dimensions[*dimension].axes.size() > 1 || study.dimensions[*dimension].size < 3) {
+    section.fail(
+        "resonances",
+        "a resonance is sought along an axis of the excitation frequency: one that is zipped with no "
+        "other and has at least 3 points");
+  }
+}
+
+}  // namespace
+
+std::vector<OutputChoice::Name> read_quantity_names(const TomlSection& section) {
+  const TomlValue& value = section.require("quantities");
+  const auto* items = value.as<TomlArray>();
+  if (!items || items->empty()) {
+    const bool output = section.where() == "[output]";
+    section.fail("quantities", fmt::format("expected {}an array of names, found {}",
+                                           output ? "\"standard\", \"all\" or " : "",
+                                           items ? "an empty array" : described(value)));
+  }
+  std::vector<OutputChoice::Name> names;
+  const std::string where = fmt::format("{}: quantities", section.where());
+  for (const TomlValue& item : *items) {
+    const std::string name = read_identifier(section.source(), where, item);
+    const bool twice = std::any_of(names.begin(), names.end(), [&](auto& n) { return n.text == name; });
+    if (twice)
+      throw section.source().error_at(item.position, fmt::format("{}: \"{}\" appears twice", where, name));
+    names.push_back({name, item.position});
+  }
+  return names;
+}
+
+void read_output(const StudyContext& context, const TomlValue& root, StudyFile& study) {
+  const TomlEntry* entry = find_entry(root, "output");
+  if (!entry) return;
+  const TomlSection section(context.source, entry->value, "[output]",
+                            {"quantities", "precision", "borders", "orbits", "resonances"});
+  read_quantities(section, study.output);
+  study.output.single_precision = section.choice_or("precision", {"double", "single"}) == "single";
+  if (section.boolean_or("borders", false))
+    section.fail("borders", "borders are not available in this version");
+  read_orbits(context, section, study);
+  read_resonances(context, section, study);
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,197 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "studies/reading/spelling.hpp"
+#include "studies/reading/study_reading.hpp"
+
+namespace frahm::studies {
+namespace {
+
+std::string where_is(const std::string& name) {
+  return fmt::format("parameter \"{}\"", name);
+}
+
+Parameter named_parameter(const StudyContext& context, const TomlEntry& entry) {
+  const auto fail = [&](std::string_view rule) {
+    throw context.source.error_at(entry.position, fmt::format("[parameters]: \"{}\" {}", entry.key, rule));
+  };
+  if (!is_identifier(entry.key)) fail("is not a name: names are a letter followed by letters, digits and _");
+  const auto& reserved = Expression::reserved_names();
+  if (std::find(reserved.begin(), reserved.end(), entry.key) != reserved.end()) {
+    fail("has a meaning in expressions already; choose another name");
+  }
+  Parameter parameter;
+  parameter.name = entry.key;
+  parameter.position = entry.value.position;
+  return parameter;
+}
+
+TableOf read_table(const StudyContext& context, const Parameters& parameters, const std::string& where,
+                   const TomlValue& value, const std::filesystem::path& folder) {
+  const TomlSection section(context.source, value, where, {"table", "of"});
+  TableOf table;
+  table.file = section.text("table");
+  const std::string of = section.identifier("of");
+  const auto index = parameters.find(of);
+  if (!index) {
+    section.fail("of",
+                 fmt::format("no parameter is called \"{}\"{}", of, suggestion(of, parameters.names())));
+  }
+  table.of = *index;
+  try {
+    table.table = read_lookup_table(folder / table.file);
+  } catch (const StudyError& error) {
+    section.fail("table", error.what());
+  }
+  return table;
+}
+
+void read_definition(const StudyContext& context, const TomlValue& value, const std::filesystem::path& folder,
+                     Parameters& parameters, Parameter& parameter) {
+  const std::string where = where_is(parameter.name);
+  if (value.as<std::string>()) {
+    parameter.definition = read_expression(context, parameters, where, value);
+  } else if (find_entry(value, "table") || find_entry(value, "of")) {
+    parameter.definition = read_table(context, parameters, where, value, folder);
+  } else {
+    const NumberWithUnit number = read_number_with_unit(context, where, value);
+    parameter.definition = number.value;
+    parameter.unit = number.unit;
+    parameter.unit_position = number.unit_position;
+  }
+}
+
+std::vector<std::size_t> read_by(const Parameter& parameter) {
+  if (const auto* expression = std::get_if<Expression>(&parameter.definition)) return expression->reads();
+  if (const auto* table = std::get_if<TableOf>(&parameter.definition)) return {table->of};
+  return {};
+}
+
+// Follows what is unresolved from a parameter until it meets itself again: "a -> b -> a".
+std::string circle_through(const Parameters& parameters, const std::vector<bool>& resolved,
+                           std::size_t start) {
+  std::vector<std::size_t> path;
+  for (std::size_t i = start; std::find(path.begin(), path.end(), i) == path.end();) {
+    path.push_back(i);
+    for (const std::size_t j : read_by(parameters.list[i])) {
+      if (!resolved[j]) i = j;
+    }
+    start = i;
+  }
+  std::string text;
+  for (auto i = std::find(path.begin(), path.end(), start); i != path.end(); ++i) {
+    text += parameters.list[*i].name + " -> ";
+  }
+  return text + parameters.list[start].name;
+}
+
+// Puts each derived parameter after everything it reads (Kahn's algorithm); a circle is an error.
+void order_derived(const StudyContext& context, Parameters& parameters) {
+  const std::size_t count = parameters.list.size();
+  std::vector<std::vector<std::size_t>> readers(count);
+  std::vector<std::size_t> missing(count), ready;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto reads = read_by(parameters.list[i]);
+    missing[i] = reads.size();
+    for (const std::size_t j : reads) readers[j].push_back(i);
+    if (reads.empty()) ready.push_back(i);
+  }
+  std::vector<bool> resolved(count, false);
+  for (std::size_t next = 0; next < ready.size(); ++next) {
+    const std::size_t i = ready[next];
+    resolved[i] = true;
+    if (!parameters.list[i].is_number()) parameters.derived.push_back(i);
+    for (const std::size_t reader : readers[i]) {
+      if (--missing[reader] == 0) ready.push_back(reader);
+    }
+  }
+  const auto stuck = std::find(resolved.begin(), resolved.end(), false);
+  if (stuck == resolved.end()) return;
+  const auto i = static_cast<std::size_t>(stuck - resolved.begin());
+  throw context.source.error_at(
+      parameters.list[i].position,
+      fmt::format("{}: its definition runs in a circle: {}", where_is(parameters.list[i].name),
+                  circle_through(parameters, resolved, i)));
+}
+
+}  // namespace
+
+Parameters read_parameters(const StudyContext& context, const TomlValue& root,
+                           const std::filesystem::path& folder) {
+  Parameters parameters;
+  const TomlEntry* section = find_entry(root, "parameters");
+  if (!section) return parameters;
+  const auto* entries = section->value.as<TomlTable>();
+  if (!entries) {
+    throw context.source.error_at(section->position, fmt::format("[parameters]: expected a table, found {}",
+                                                                 described(section->value)));
+  }
+  for (const TomlEntry& entry : *entries) parameters.list.push_back(named_parameter(context, entry));
+  for (std::size_t i = 0; i < entries->size(); ++i) {
+    read_definition(context, (*entries)[i].value, folder, parameters, parameters.list[i]);
+  }
+  order_derived(context, parameters);
+  return parameters;
+}
+
+void convert_parameters(const StudyContext& context, Parameters& parameters) {
+  for (Parameter& parameter : parameters.list) {
+    if (!parameter.unit) continue;
+    try {
+      auto& value = std::get<double>(parameter.definition);
+      value *= si_factor(parameter, *parameter.unit);
+      if (!std::isfinite(value)) throw UnitError("the value in SI units is out of range");
+    } catch (const UnitError& error) {
+      throw context.source.error_at(parameter.unit_position,
+                                    fmt::format("{}: {}", where_is(parameter.name), error.what()));
+    }
+  }
+}
+
+NumberWithUnit read_number_with_unit(const StudyContext& context, const std::string& where,
+                                     const TomlValue& value) {
+  if (is_number(value)) return {read_number(context.source, where, value), std::nullopt, value.position};
+  if (!value.as<TomlTable>()) {
+    throw context.source.error_at(
+        value.position, fmt::format("{}: expected a number, {{ value, unit }} or an expression in quotes, "
+                                    "found {}",
+                                    where, described(value)));
+  }
+  const TomlSection section(context.source, value, where, {"value", "unit"});
+  const double number = section.number("value");
+  const TomlValue* unit = section.find("unit");
+  if (!unit) return {number, std::nullopt, value.position};
+  return {number, read_unit(context, where, *unit), unit->position};
+}
+
+std::optional<Unit> read_unit(const StudyContext& context, const std::string& where, const TomlValue& value) {
+  const std::string text = read_text(context.source, fmt::format("{}: unit", where), value);
+  const auto fail = [&](std::string_view message) {
+    throw context.source.error_at(value.position, fmt::format("{}: unit: {}", where, message));
+  };
+  if (context.dimensionless) {
+    if (text != "1")
+      fail(fmt::format("\"{}\" has no meaning in a dimensionless study; leave it out or write \"1\"", text));
+    return std::nullopt;
+  }
+  try {
+    return context.units.parse(text);
+  } catch (const UnitError& error) {
+    fail(error.what());
+  }
+  return std::nullopt;
+}
+
+Expression read_expression(const StudyContext& context, const Parameters& parameters,
+                           const std::string& where, const TomlValue& value) {
+  const std::string text = read_text(context.source, where, value);
+  try {
+    return Expression::parse(text, parameters.names());
+  } catch (const ExpressionError& error) {
+    throw context.source.error_at(context.source.inside_string(value.position, error.column() - 1),
+                                  fmt::format("{}: {}", where, error.what()));
+  }
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "studies/reading/expression.hpp"
+#include "studies/reading/lookup_table.hpp"
+#include "studies/reading/study_source.hpp"
+#include "studies/reading/units.hpp"
+
+namespace frahm::studies {
+
+// A parameter read from a table of another parameter.
+struct TableOf {
+  std::string file;  // as the study names it
+  LookupTable table;
+  std::size_t of = 0;  // index of the other parameter
+};
+
+// A named parameter of a study: a number [SI], an expression of others, or a table over one.
+struct Parameter {
+  std::string name;
+  Position position;  // of its value in the study
+  std::variant<double, Expression, TableOf> definition = 0.0;
+
+  // Of numbers only:
+  std::optional<Unit> unit;  // as the study gives it
+  Position unit_position;
+  std::optional<Quantity> quantity;  // known when some value of the network is this parameter alone:
+  std::string used_as;               // that value, for messages
+  bool in_frequency = false;         // the excitation frequency depends on it: its 1/s, Hz are cycles
+
+  bool is_number() const { return std::holds_alternative<double>(definition); }
+};
+
+struct Parameters {
+  std::vector<Parameter> list;       // in the order of the file
+  std::vector<std::size_t> derived;  // the expressions and tables, each after everything it reads
+
+  std::optional<std::size_t> find(std::string_view name) const;
+  std::vector<std::string> names() const;
+
+  // SI values of all parameters as the study states them, in the order of `list`.
+  std::vector<double> nominal() const;
+
+  // The numbers (indices, ascending) on which what reads these parameters depends, through expressions and
+  // tables.
+  std::vector<std::size_t> inputs_of(std::span<const std::size_t> reads) const;
+
+  // Recomputes the expressions and tables. values: SI, one per parameter, in the order of `list`; the entries
+  // of `derived` are overwritten (NaN outside a table). No allocation.
+  template <class Number>
+  void complete(std::span<Number> values) const;
+};
+
+template <class Number>
+void Parameters::complete(std::span<Number> values) const {
+  for (const std::size_t i : derived) {
+    if (const auto* expression = std::get_if<Expression>(&list[i].definition)) {
+      values[i] = expression->evaluate(std::span<const Number>(values));
+    } else {
+      const auto& lookup = std::get<TableOf>(list[i].definition);
+      values[i] = lookup.table.at(values[lookup.of]);
+    }
+  }
+}
+
+// Factor from a unit given for a number parameter (in [parameters], on an axis or on the command line) to SI.
+// Throws UnitError where the unit has not the dimension the parameter is known to have, or where 1/s, Hz or
+// 1/min could count cycles or not.
+double si_factor(const Parameter& parameter, const Unit& unit);
+
+}  // namespace frahm::studies

@@ -1,0 +1,39 @@
+#include "studies/reading/settings.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "studies/reading/assignment.hpp"
+
+namespace frahm::studies {
+
+StudyFile read_study_with(const std::filesystem::path& path, const std::vector<std::string>& set) {
+  StudyFile study = read_study(path);
+  if (set.empty()) return study;
+  const std::vector<Assignment> assignments =
+      parse_assignments(study, "--set", fmt::format("{}", fmt::join(set, ",")));
+  return with_parameters(std::move(study), assignments);
+}
+
+std::vector<double> parameters_at(const StudyFile& study, const std::vector<std::string>& at) {
+  std::vector<double> parameters = study.parameters.nominal();
+  if (!at.empty()) {
+    for (const Assignment& assignment :
+         parse_assignments(study, "--at", fmt::format("{}", fmt::join(at, ",")))) {
+      parameters[assignment.parameter] = assignment.value;
+    }
+  }
+  check_point(study, parameters);
+  return parameters;
+}
+
+SpokenValue spoken_value(const StudyFile& study, std::size_t parameter, double si) {
+  const UsualUnit usual = usual_unit(study, parameter);
+  SpokenValue spoken{si / usual.si_factor, usual.text};
+  const Parameter& definition = study.parameters.list[parameter];
+  if (spoken.unit.empty() && definition.quantity) spoken.unit = written_si_unit(*definition.quantity);
+  if (study.dimensionless || spoken.unit == "1") spoken.unit.clear();
+  return spoken;
+}
+
+}  // namespace frahm::studies

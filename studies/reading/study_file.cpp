@@ -1,0 +1,236 @@
+#include "studies/reading/study_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+#include "studies/reading/spelling.hpp"
+#include "studies/reading/study_reading.hpp"
+
+namespace frahm::studies {
+namespace {
+
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // some editors begin a UTF-8 file with it
+
+// The sections of each kind of study, in the order of StudyKind.
+const std::array<std::vector<std::string>, 3> sections_of_kind{
+    {{"study", "parameters", "mass", "element", "excitation", "axis", "coordinate", "output", "compare"},
+     {"study", "parameters", "mass", "element", "decay", "initial"},
+     {"study", "parameters", "mass", "element", "excitation", "transient", "initial"}}};
+const std::vector<std::string> reserved_keys{"tune", "design", "constraint", "identify"};
+
+const std::vector<std::string>& sections(StudyKind kind) {
+  return sections_of_kind[static_cast<std::size_t>(kind)];
+}
+
+bool contains(const std::vector<std::string>& words, const std::string& word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+void check_top_keys(const StudySource& source, const TomlValue& root) {
+  std::vector<std::string> known = reserved_keys;
+  for (const auto& words : sections_of_kind) known.insert(known.end(), words.begin(), words.end());
+  for (const TomlEntry& entry : *root.as<TomlTable>()) {
+    if (contains(known, entry.key)) continue;
+    throw source.error_at(entry.position,
+                          fmt::format("unknown section \"{}\"{}", entry.key, suggestion(entry.key, known)));
+  }
+}
+
+// Why a kind of study does without a section that others have.
+std::string_view why_without(StudyKind kind, const std::string& section) {
+  if (kind == StudyKind::sweep) return "";
+  if (section == "axis" || section == "coordinate" || section == "output")
+    return ": it computes one motion, not a map";
+  if (section == "excitation") return ": a free vibration starts from [[initial]] values and is not driven";
+  return "";
+}
+
+// What belongs to another kind of study would be silently without effect here.
+void check_sections_of_kind(const StudyFile& study, const TomlValue& root) {
+  for (const TomlEntry& entry : *root.as<TomlTable>()) {
+    if (contains(sections(study.kind), entry.key)) continue;
+    throw study.source.error_at(entry.position,
+                                fmt::format("the section \"{}\" is not part of a {}{}", entry.key,
+                                            kind_name(study.kind), why_without(study.kind, entry.key)));
+  }
+}
+
+void read_heading(const TomlValue& root, StudyFile& study) {
+  const TomlEntry* heading = find_entry(root, "study");
+  if (!heading)
+    throw study.source.error_at(root.position,
+                                "the study does not begin: [study] with schema and kind is missing");
+  const TomlSection section(study.source, heading->value, "[study]", {"schema", "kind", "title", "units"});
+  section.require("schema");
+  const std::int64_t schema = section.integer_or("schema", 1);
+  if (schema != 1)
+    section.fail("schema", fmt::format("{} is unknown; this version reads schema = 1", schema));
+  section.require("kind");
+  const std::string kind = section.choice_or("kind", {"sweep", "tune", "identify", "decay", "transient"});
+  if (kind == "tune" || kind == "identify") {
+    section.fail("kind", fmt::format("\"{}\" is not available in this version; \"sweep\", \"decay\" and "
+                                     "\"transient\" are",
+                                     kind));
+  }
+  for (const StudyKind each : {StudyKind::sweep, StudyKind::decay, StudyKind::transient}) {
+    if (kind == kind_name(each)) study.kind = each;
+  }
+  study.title = section.text_or("title", "");
+  study.dimensionless = section.choice_or("units", {"SI", "dimensionless"}) == "dimensionless";
+}
+
+// What the masses and elements read.
+std::vector<std::size_t> read_by_matrices(const StudyFile& study) {
+  std::vector<std::size_t> reads;
+  const auto add = [&](const StudyValue& value) {
+    reads.insert(reads.end(), value.expression.reads().begin(), value.expression.reads().end());
+  };
+  for (const auto* values : {&study.values.mass, &study.values.element, &study.values.second}) {
+    for (const StudyValue& value : *values) add(value);
+  }
+  const auto& elements = study.network.elements;
+  const bool hysteretic = std::any_of(elements.begin(), elements.end(), [](const auto& element) {
+    return element.type == mechanics::ElementType::hysteretic;  // whose damping is eta k / omega
+  });
+  if (hysteretic) add(study.values.omega);
+  if (study.comparison) add(study.comparison->slope);
+  return reads;
+}
+
+void find_frequency_dimension(StudyFile& study) {
+  const auto moving = dimensions_moving(study, study.values.omega.expression.reads());
+  if (moving.empty()) return;
+  const auto matrices = dimensions_moving(study, read_by_matrices(study));
+  const auto moves_matrices = [&](std::size_t d) {
+    return std::find(matrices.begin(), matrices.end(), d) != matrices.end();
+  };
+  const auto still = std::find_if_not(moving.rbegin(), moving.rend(), moves_matrices);
+  study.values_depend_on_frequency = still == moving.rend();
+  study.frequency_dimension = study.values_depend_on_frequency ? moving.back() : *still;
+}
+
+}  // namespace
+
+StudyFile read_study(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file || std::filesystem::is_directory(path)) {
+    throw StudyError(fmt::format("{}: the study cannot be read: {}", path.string(),
+                                 file ? "it is a directory" : std::strerror(errno)));
+  }
+  std::string text(std::istreambuf_iterator<char>(file), {});
+  if (file.bad())
+    throw StudyError(fmt::format("{}: the study cannot be read: {}", path.string(), std::strerror(errno)));
+  return parse_study(std::move(text), path);
+}
+
+StudyFile parse_study(std::string text, const std::filesystem::path& name) {
+  StudyFile study;
+  if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
+  study.source = {name.string(), std::move(text)};
+  const TomlValue root = read_toml(study.source);
+  check_top_keys(study.source, root);
+  read_heading(root, study);
+  check_sections_of_kind(study, root);
+
+  const UnitSystem units;
+  const StudyContext context{study.source, units, study.dimensionless};
+  study.parameters = read_parameters(context, root, name.parent_path());
+  auto [network, values] = read_network(context, root, study.parameters, study.kind);
+  study.network = std::move(network);
+  study.values = std::move(values);
+  if (study.kind == StudyKind::sweep) {
+    read_comparison(context, root, study);
+  } else {
+    read_motion(context, root, study);
+  }
+  convert_parameters(context, study.parameters);
+  if (study.kind == StudyKind::sweep) {
+    read_axes(context, root, study);
+    read_coordinates(context, root, study);
+    find_frequency_dimension(study);
+    read_output(context, root, study);
+  }
+  check_grid(study);
+  set_crank_orders(study);
+  return study;
+}
+
+std::string_view kind_name(StudyKind kind) {
+  switch (kind) {
+    case StudyKind::sweep:
+      return "sweep";
+    case StudyKind::decay:
+      return "decay";
+    case StudyKind::transient:
+      return "transient";
+  }
+  return "study";
+}
+
+std::vector<const StudyValue*> MotionChoice::values() const {
+  std::vector<const StudyValue*> all;
+  for (const auto* value : {&duration, &reference_frequency, &sweep_to, &sweep_rate}) {
+    if (*value) all.push_back(&**value);
+  }
+  for (const InitialValues& of_mass : initial) {
+    all.push_back(&of_mass.displacement);
+    all.push_back(&of_mass.velocity);
+  }
+  return all;
+}
+
+StudyFile with_parameters(StudyFile study, std::span<const Assignment> assignments) {
+  for (const Assignment& assignment : assignments) {
+    study.parameters.list[assignment.parameter].definition = assignment.value;
+  }
+  check_grid(study);
+  set_crank_orders(study);
+  return study;
+}
+
+void place(const StudyFile& study, std::size_t dimension, std::size_t index, std::span<double> parameters) {
+  for (const std::size_t axis : study.dimensions[dimension].axes) {
+    parameters[study.axes[axis].parameter] = study.axes[axis].si_values[index];
+  }
+}
+
+std::vector<double> coordinate_values(const StudyFile& study, const DerivedCoordinate& coordinate) {
+  std::vector<double> parameters = study.parameters.nominal();
+  std::vector<double> values(study.dimensions[coordinate.dimension].size);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    place(study, coordinate.dimension, i, parameters);
+    study.parameters.complete(std::span<double>(parameters));
+    values[i] = coordinate.value.expression.evaluate(std::span<const double>(parameters));
+  }
+  return values;
+}
+
+std::vector<std::size_t> dimensions_moving(const StudyFile& study, std::span<const std::size_t> reads) {
+  const auto inputs = study.parameters.inputs_of(reads);
+  const auto is_input = [&](std::size_t axis) {
+    return std::find(inputs.begin(), inputs.end(), study.axes[axis].parameter) != inputs.end();
+  };
+  std::vector<std::size_t> moving;
+  for (std::size_t d = 0; d < study.dimensions.size(); ++d) {
+    const auto& axes = study.dimensions[d].axes;
+    if (std::any_of(axes.begin(), axes.end(), is_input)) moving.push_back(d);
+  }
+  return moving;
+}
+
+UsualUnit usual_unit(const StudyFile& study, std::size_t parameter) {
+  for (const ParameterAxis& axis : study.axes) {
+    if (axis.parameter == parameter) return {axis.unit, axis.si_factor};
+  }
+  const Parameter& definition = study.parameters.list[parameter];
+  if (!definition.unit) return {};
+  return {definition.unit->text, si_factor(definition, *definition.unit)};
+}
+
+}  // namespace frahm::studies

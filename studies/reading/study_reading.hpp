@@ -1,0 +1,81 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "studies/reading/study_file.hpp"
+#include "studies/reading/toml_section.hpp"
+#include "studies/reading/units.hpp"
+
+// The parts of reading a study, in the order in which parse_study() calls them. Each throws StudyError.
+namespace frahm::studies {
+
+// What every part needs: where the text is, what units mean and whether units are allowed at all.
+struct StudyContext {
+  const StudySource& source;
+  const UnitSystem& units;
+  bool dimensionless = false;
+};
+
+// [parameters]. Numbers are still in their own unit: convert_parameters() comes after the network, which
+// tells what they stand for. folder: of the tables.
+Parameters read_parameters(const StudyContext& context, const TomlValue& root,
+                           const std::filesystem::path& folder);
+void convert_parameters(const StudyContext& context, Parameters& parameters);
+
+struct NetworkOfStudy {
+  mechanics::Network network;
+  StudyValues values;
+};
+
+// [[mass]], [[element]] and, of a study that is not free of it, [excitation]. Notes in `parameters` what they
+// stand for.
+NetworkOfStudy read_network(const StudyContext& context, const TomlValue& root, Parameters& parameters,
+                            StudyKind kind);
+
+// [decay] or [transient] and [[initial]] into study.motion, after the network and as it does.
+void read_motion(const StudyContext& context, const TomlValue& root, StudyFile& study);
+
+// [compare] into study.comparison, once the network is there. Notes in the parameters what a slope is.
+void read_comparison(const StudyContext& context, const TomlValue& root, StudyFile& study);
+
+// Every mass must be held: by a chain of springs from ground or a node of prescribed motion.
+// masses: their positions in the study.
+void check_masses_are_held(const StudyContext& context, const NetworkOfStudy& system,
+                           const std::vector<Position>& masses);
+
+// [[axis]] into study.axes and study.dimensions; [[coordinate]]; [output].
+void read_axes(const StudyContext& context, const TomlValue& root, StudyFile& study);
+void read_coordinates(const StudyContext& context, const TomlValue& root, StudyFile& study);
+void read_output(const StudyContext& context, const TomlValue& root, StudyFile& study);
+
+// The names in the array `quantities` of a section, each once.
+std::vector<OutputChoice::Name> read_quantity_names(const TomlSection& section);
+
+// Every value must be finite and within its range wherever the grid goes and at the orbits kept. A value is
+// tried on all points of the dimensions it depends on, or, where these are too many, on their corners.
+void check_grid(const StudyFile& study);
+
+// How many even orders each crank needs for its largest crank/rod on the grid; refuses cranks that cannot
+// turn.
+void set_crank_orders(StudyFile& study);
+
+// A number in the unit given beside it, as { value, unit } or as a bare number (no unit then).
+struct NumberWithUnit {
+  double value = 0.0;
+  std::optional<Unit> unit;  // none in a dimensionless study
+  Position unit_position;
+};
+NumberWithUnit read_number_with_unit(const StudyContext& context, const std::string& where,
+                                     const TomlValue& value);
+
+// The unit of a key; none in a dimensionless study, where only "1" is allowed.
+std::optional<Unit> read_unit(const StudyContext& context, const std::string& where, const TomlValue& value);
+
+// An expression of the parameters.
+Expression read_expression(const StudyContext& context, const Parameters& parameters,
+                           const std::string& where, const TomlValue& value);
+
+}  // namespace frahm::studies

@@ -1,0 +1,42 @@
+#include "studies/reading/study_values.hpp"
+
+namespace frahm::studies {
+namespace {
+
+// What `part` makes of each value (the value itself, or its derivative), in the layout of NetworkValues.
+template <class Number, class Part>
+void fill(const StudyValues& values, std::span<const Number> parameters, Part part,
+          mechanics::NetworkValues& out) {
+  const auto at = [&](const StudyValue& value) { return part(value.expression.evaluate(parameters)); };
+  out.mass.resize(values.mass.size());
+  out.element.resize(values.element.size());
+  out.second.resize(values.second.size());
+  for (std::size_t i = 0; i < out.second.size(); ++i) out.second[i] = at(values.second[i]);
+  out.excitation.resize(values.amplitude.size());
+  out.omega = at(values.omega);
+  for (std::size_t i = 0; i < out.mass.size(); ++i) out.mass[i] = at(values.mass[i]);
+  for (std::size_t i = 0; i < out.element.size(); ++i) out.element[i] = at(values.element[i]);
+  for (std::size_t i = 0; i < out.excitation.size(); ++i) {
+    out.excitation[i] = {at(values.amplitude[i]), at(values.phase[i]), at(values.rod[i])};
+  }
+}
+
+}  // namespace
+
+void evaluate(const StudyValues& values, const Parameters& definitions, std::span<double> parameters,
+              mechanics::NetworkValues& out) {
+  definitions.complete(parameters);
+  fill(
+      values, std::span<const double>(parameters), [](double value) { return value; }, out);
+}
+
+void differentiate(const StudyValues& values, const Parameters& definitions,
+                   std::span<const double> parameters, std::size_t by, mechanics::NetworkValues& out) {
+  std::vector<Dual> duals(parameters.size());
+  for (std::size_t i = 0; i < duals.size(); ++i) duals[i] = {parameters[i], i == by ? 1.0 : 0.0};
+  definitions.complete(std::span<Dual>(duals));
+  fill(
+      values, std::span<const Dual>(duals), [](const Dual& value) { return value.derivative; }, out);
+}
+
+}  // namespace frahm::studies

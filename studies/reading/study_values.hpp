@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "solvers/mechanics/network.hpp"
+#include "studies/reading/expression.hpp"
+#include "studies/reading/parameters.hpp"
+#include "studies/reading/study_source.hpp"
+#include "studies/reading/units.hpp"
+
+namespace frahm::studies {
+
+enum class Range { finite, not_negative, positive };
+
+// A number of the network as the study gives it: a constant or an expression of the parameters, in SI.
+struct StudyValue {
+  Expression expression{0.0};
+  Quantity quantity = Quantity::number;
+  Range range = Range::finite;
+  std::string where;  // for messages: `element "guide": force`
+  Position position;
+};
+
+// All numbers of a network, in the order of mechanics::NetworkValues.
+struct StudyValues {
+  StudyValue omega;
+  std::vector<StudyValue> mass, element, amplitude, phase;
+  std::vector<StudyValue> second;  // of each element, the constant 0 where it has none
+  std::vector<StudyValue> rod;     // of each excitation, the constant 0 where it is no crank
+
+  // All but the frequency.
+  std::array<const std::vector<StudyValue>*, 6> lists() const {
+    return {&mass, &element, &second, &amplitude, &phase, &rod};
+  }
+};
+
+// The numbers of the network at one point of the map.
+// parameters: SI values of all parameters in the order of Parameters::list; those of expressions and tables
+// are recomputed in place.  out: resized at the first call, no allocation after it.  Outside a table, or
+// where an expression has no value, the results are not finite: the solver gives such a point the status
+// `failed`.
+void evaluate(const StudyValues& values, const Parameters& definitions, std::span<double> parameters,
+              mechanics::NetworkValues& out);
+
+// The exact derivative of the numbers of the network by one number parameter (SI both), the others held:
+// a column of the Jacobian, laid out as evaluate() lays out the values. Allocates one dual per parameter.
+void differentiate(const StudyValues& values, const Parameters& definitions,
+                   std::span<const double> parameters, std::size_t by, mechanics::NetworkValues& out);
+
+}  // namespace frahm::studies

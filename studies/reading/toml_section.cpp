@@ -1,0 +1,166 @@
+#include "studies/reading/toml_section.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "studies/reading/spelling.hpp"
+
+namespace frahm::studies {
+namespace {
+
+constexpr std::size_t longest_label = 40;  // bytes of a name shown in a message
+
+[[noreturn]] void fail_at(const StudySource& source, const TomlValue& value, const std::string& where,
+                          std::string_view message) {
+  throw source.error_at(value.position, fmt::format("{}: {}", where, message));
+}
+
+std::string key_of(const std::string& where, std::string_view key) {
+  return fmt::format("{}: {}", where, key);
+}
+
+std::vector<std::string> quoted(const std::vector<std::string>& words) {
+  std::vector<std::string> result;
+  for (const std::string& word : words) result.push_back(fmt::format("\"{}\"", word));
+  return result;
+}
+
+}  // namespace
+
+const TomlEntry* find_entry(const TomlValue& table, std::string_view key) {
+  const auto* entries = table.as<TomlTable>();
+  if (!entries) return nullptr;
+  const auto entry = std::find_if(entries->begin(), entries->end(), [&](auto& e) { return e.key == key; });
+  return entry == entries->end() ? nullptr : &*entry;
+}
+
+TomlSection::TomlSection(const StudySource& source, const TomlValue& table, std::string where,
+                         std::vector<std::string> keys)
+    : source_(&source), table_(&table), where_(std::move(where)) {
+  const auto* entries = table.as<TomlTable>();
+  if (!entries) fail_at(source, table, where_, fmt::format("expected a table, found {}", described(table)));
+  for (const TomlEntry& entry : *entries) {
+    if (std::find(keys.begin(), keys.end(), entry.key) != keys.end()) continue;
+    throw source.error_at(entry.position, fmt::format("{}: unknown key \"{}\"{}", where_, entry.key,
+                                                      suggestion(entry.key, keys)));
+  }
+}
+
+void TomlSection::fail(std::string_view message) const {
+  fail_at(*source_, *table_, where_, message);
+}
+
+void TomlSection::fail(std::string_view key, std::string_view message) const {
+  fail_at(*source_, require(key), key_of(where_, key), message);
+}
+
+const TomlValue* TomlSection::find(std::string_view key) const {
+  const TomlEntry* entry = find_entry(*table_, key);
+  return entry ? &entry->value : nullptr;
+}
+
+const TomlValue& TomlSection::require(std::string_view key) const {
+  const TomlValue* value = find(key);
+  if (!value) fail(fmt::format("the key \"{}\" is missing", key));
+  return *value;
+}
+
+std::string TomlSection::text(std::string_view key) const {
+  return read_text(*source_, key_of(where_, key), require(key));
+}
+
+std::string TomlSection::text_or(std::string_view key, std::string otherwise) const {
+  return find(key) ? text(key) : std::move(otherwise);
+}
+
+std::string TomlSection::identifier(std::string_view key) const {
+  return read_identifier(*source_, key_of(where_, key), require(key));
+}
+
+bool TomlSection::boolean_or(std::string_view key, bool otherwise) const {
+  const TomlValue* value = find(key);
+  if (!value) return otherwise;
+  if (!value->as<bool>()) fail(key, fmt::format("expected true or false, found {}", described(*value)));
+  return *value->as<bool>();
+}
+
+double TomlSection::number(std::string_view key) const {
+  return read_number(*source_, key_of(where_, key), require(key));
+}
+
+std::int64_t TomlSection::integer_or(std::string_view key, std::int64_t otherwise) const {
+  const TomlValue* value = find(key);
+  if (!value) return otherwise;
+  const auto* integer = value->as<std::int64_t>();
+  if (!integer) fail(key, fmt::format("expected a whole number, found {}", described(*value)));
+  return *integer;
+}
+
+std::string TomlSection::choice_or(std::string_view key, const std::vector<std::string>& choices) const {
+  if (!find(key)) return choices.front();
+  const std::string word = text(key);
+  if (std::find(choices.begin(), choices.end(), word) == choices.end()) {
+    fail(key, fmt::format("\"{}\" is not possible here; write {}", word, listed(quoted(choices), " or ")));
+  }
+  return word;
+}
+
+std::string read_text(const StudySource& source, const std::string& where, const TomlValue& value) {
+  const auto* text = value.as<std::string>();
+  if (!text) fail_at(source, value, where, fmt::format("expected a text, found {}", described(value)));
+  if (text->empty()) fail_at(source, value, where, "the text is empty");
+  const bool control = std::any_of(text->begin(), text->end(), [](char c) {
+    return static_cast<unsigned char>(c) < 0x20U && c != '\n' && c != '\t';
+  });
+  if (control) fail_at(source, value, where, "control characters are not allowed");
+  return *text;
+}
+
+std::string read_identifier(const StudySource& source, const std::string& where, const TomlValue& value) {
+  const std::string name = read_text(source, where, value);
+  if (!is_identifier(name)) {
+    fail_at(source, value, where,
+            fmt::format("\"{}\" is not a name: names are a letter followed by letters, digits and _", name));
+  }
+  return name;
+}
+
+bool is_number(const TomlValue& value) {
+  return value.as<double>() || value.as<std::int64_t>();
+}
+
+double read_number(const StudySource& source, const std::string& where, const TomlValue& value) {
+  if (const auto* integer = value.as<std::int64_t>()) return static_cast<double>(*integer);
+  const auto* number = value.as<double>();
+  if (!number) fail_at(source, value, where, fmt::format("expected a number, found {}", described(value)));
+  if (!std::isfinite(*number))
+    fail_at(source, value, where, fmt::format("{} is not a finite number", *number));
+  return *number;
+}
+
+std::vector<const TomlValue*> read_tables(const StudySource& source, const TomlValue& parent,
+                                          const std::string& path) {
+  std::vector<const TomlValue*> tables;
+  const std::size_t dot = path.rfind('.');
+  const TomlEntry* entry = find_entry(parent, dot == std::string::npos ? path : path.substr(dot + 1));
+  if (!entry) return tables;
+  const auto* array = entry->value.as<TomlArray>();
+  if (!array) {
+    throw source.error_at(entry->position, fmt::format("expected [[{}]], as there can be several, found {}",
+                                                       path, described(entry->value)));
+  }
+  for (const TomlValue& table : *array) tables.push_back(&table);
+  return tables;
+}
+
+std::string label(const TomlValue& table, std::string_view kind, std::string_view naming_key,
+                  std::string_view path, std::size_t number) {
+  const TomlEntry* entry = find_entry(table, naming_key);
+  const auto* name = entry ? entry->value.as<std::string>() : nullptr;
+  if (!name || name->empty() || name->size() > longest_label) return fmt::format("[[{}]] {}", path, number);
+  return fmt::format("{} \"{}\"", kind, *name);
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "studies/reading/toml_reading.hpp"
+
+namespace frahm::studies {
+
+// A table of the study with the keys it may have, and its values by type. Every function throws a StudyError
+// that says where, what was found and what is right.
+class TomlSection {
+ public:
+  // where: what messages call the table: `[study]`, `element "guide"`. keys: all it may have; the first other
+  // one is an error.
+  TomlSection(const StudySource& source, const TomlValue& table, std::string where,
+              std::vector<std::string> keys);
+
+  const StudySource& source() const { return *source_; }
+  Position position() const { return table_->position; }
+  const std::string& where() const { return where_; }
+
+  const TomlValue* find(std::string_view key) const;     // nullptr if absent
+  const TomlValue& require(std::string_view key) const;  // an error if absent
+  std::string text(std::string_view key) const;          // required, not empty, without control characters
+  std::string text_or(std::string_view key, std::string otherwise) const;
+  std::string identifier(std::string_view key) const;  // required, of the form [A-Za-z][A-Za-z0-9_]*
+  bool boolean_or(std::string_view key, bool otherwise) const;
+  double number(std::string_view key) const;  // required, finite
+  std::int64_t integer_or(std::string_view key, std::int64_t otherwise) const;
+  std::string choice_or(std::string_view key,
+                        const std::vector<std::string>& choices) const;  // default: the first
+
+  [[noreturn]] void fail(std::string_view message) const;                        // at the table
+  [[noreturn]] void fail(std::string_view key, std::string_view message) const;  // at the value of a key
+
+ private:
+  const StudySource* source_;
+  const TomlValue* table_;
+  std::string where_;
+};
+
+// The single forms of what TomlSection reads; `where` names the value in messages.
+std::string read_text(const StudySource& source, const std::string& where, const TomlValue& value);
+std::string read_identifier(const StudySource& source, const std::string& where, const TomlValue& value);
+double read_number(const StudySource& source, const std::string& where, const TomlValue& value);
+bool is_number(const TomlValue& value);
+
+// The tables of `[[path]]`, such as "mass" or "excitation.force", in the parent that holds its last part;
+// none if the key is absent.
+std::vector<const TomlValue*> read_tables(const StudySource& source, const TomlValue& parent,
+                                          const std::string& path);
+
+// What messages call one of several tables: `element "guide"` by the text of its naming key, else
+// `[[element]] 3`. number: from 1.
+std::string label(const TomlValue& table, std::string_view kind, std::string_view naming_key,
+                  std::string_view path, std::size_t number);
+
+// An entry of a table, nullptr if absent.
+const TomlEntry* find_entry(const TomlValue& table, std::string_view key);
+
+}  // namespace frahm::studies
