@@ -8,6 +8,7 @@
 #include "solvers/response/periodic_response.hpp"
 #include "studies/reading/study_file.hpp"
 #include "tests/end_to_end/motion_file.hpp"
+#include "tests/end_to_end/runs.hpp"
 
 namespace {
 
@@ -51,6 +52,21 @@ TEST_CASE("rig_forced_250rpm_*.toml: after 250 periods from rest the motion is t
     CHECK(file[sticking + "_stop_onset"][0] == 0.0);
     CHECK(file[sticking + "_release"][0] > 0.0);
     CHECK(std::isnan(file["guide_stop_onset"][0]) == crank);
+  }
+}
+
+TEST_CASE("rig_forced_250rpm_periodic.toml: both runs in the steady state, crank and harmonic") {
+  const runs::Map map = runs::run_study(runs::reduced("rig_forced_250rpm_periodic", {}));
+  const std::string names[] = {"rig_forced_250rpm_I6", "rig_forced_250rpm_I13"};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto harmonic = frahm::studies::read_study(studies + names[i] + ".toml");
+    const auto crank = frahm::studies::read_study(studies + names[i] + "_crank.toml");
+    for (const std::string peak : {"main_peak", "tmd_peak"}) {
+      INFO(names[i] << " " << peak);
+      CHECK_THAT(map[peak][i], Catch::WithinRel(periodic_peak(crank, peak), 1e-9));
+      CHECK_THAT(map[peak + "_compared"][i], Catch::WithinRel(periodic_peak(harmonic, peak), 1e-9));
+    }
+    CHECK_THAT(map["main_peak_difference"][i], Catch::WithinAbs(0.015, 0.001));
   }
 }
 
