@@ -18,6 +18,9 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 // periods, so that stops do not fall between two passages.
 constexpr double kPassagePeriods = 0.37;
 
+// What is left of a creeping motion, of the energy norm it started with, when it counts as arrived.
+constexpr double kArrived = 1e-12;
+
 struct Decaying {
   mechanics::LinearSystem system;
   double lowest = 0.0;  // natural frequency [rad/s]
@@ -52,8 +55,10 @@ DecayEnd march(const Decaying& decaying, double duration, Trajectory& trajectory
     // A phase has no meaning here: nothing is forced.
     if (!trajectory.advance(std::min(passage, left), 0.0)) return DecayEnd::failed;
     if (trajectory.is_at_rest()) return trajectory.has_crept() ? DecayEnd::creeping : DecayEnd::at_rest;
-    const bool decayed =
-        !trajectory.friction_slides() && trajectory.distance_from_rest() <= kDecayed * start_norm;
+    const double distance = trajectory.distance_from_rest();
+    // Still sliding, by less and less, where its own friction would hold it.
+    if (trajectory.friction_slides() && distance <= kArrived * start_norm) return DecayEnd::creeping;
+    const bool decayed = !trajectory.friction_slides() && distance <= kDecayed * start_norm;
     if (decayed && trajectory.time() >= duration)
       return trajectory.has_crept() ? DecayEnd::creeping : DecayEnd::decayed;
   }

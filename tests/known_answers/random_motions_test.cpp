@@ -52,6 +52,7 @@ TEST_CASE("Random networks let go decay as the independent integration says") {
   for (int trial = 0; trial < 60; ++trial) {
     RandomNetwork drawn = random_network({.masses = 1 + trial % 4,
                                           .contacts = trial / 4 % 6,
+                                          .maxwell_elements = trial % 3 == 2 ? 1 + trial % 2 : 0,
                                           .orders = {1},
                                           .shaken = false,
                                           .largest_friction = 0.4},
@@ -86,6 +87,8 @@ TEST_CASE("Random networks shaken from random initial values move as the indepen
     const RandomNetwork drawn =
         random_network({.masses = 1 + trial % 3,
                         .contacts = trial % 4,
+                        .maxwell_elements = trial / 4 % 2,
+                        .hysteretic = trial % 8 == 5,
                         .orders = trial % 5 == 0 ? std::vector{1, 2} : std::vector{1}},
                        random);
     const Start start = random_start(drawn.network.masses.size(), random);
