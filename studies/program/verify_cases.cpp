@@ -213,6 +213,7 @@ std::vector<VerifyCase> verify_cases() {
   add_moving_base(cases, energy);
   add_two_frequencies(cases, energy);
   cases.push_back(std::move(energy));
+  add_linear_cases(cases);
   return cases;
 }
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-// The classical systems with friction that have closed forms, solved by the general path.
+// The classical systems that have closed forms, solved by the general path.
 namespace frahm::studies {
 
 // One comparison over many points.
@@ -19,6 +19,9 @@ struct VerifyCase {
 
   bool passes() const { return points > 0 && wrong == 0 && worst <= allowed; }
 };
+
+// Materials under a harmonic force and free decays with friction, added to the cases.
+void add_linear_cases(std::vector<VerifyCase>& cases);
 
 // All of them, in order; takes less than a second of one core.
 std::vector<VerifyCase> verify_cases();
