@@ -56,4 +56,24 @@ bool settle_rest_position(const mechanics::Assembly& assembly, const Flow<N, H>&
   return true;
 }
 
+// Under symmetric forcing the rest positions have zero mean, so contacts to a fixed support that never slide
+// rest at zero: takes the rounding out of them, orthogonally in the norm of K.
+template <int N, int H>
+void centre_rest_position(const Flow<N, H>& flow, Orbit<N, H>& orbit) {
+  const StepEquations<N, H>& eq = flow.equations();
+  const Eigen::Index n = eq.masses();
+  Eigen::MatrixXd W(n, 0);
+  for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
+    if (!contains(orbit.stuck_throughout, j) || !eq.support_velocity.row(j).isZero(0.0)) continue;
+    W.conservativeResize(n, W.cols() + 1);
+    W.rightCols(1) = eq.W.col(j);
+  }
+  if (W.cols() == 0) return;
+  const typename Sizes<N, H>::Square off = projector_off(eq.K, W);
+  const auto centre = [&](typename Sizes<N, H>::State& z) { z.head(n) = (off * z.head(n)).eval(); };
+  centre(orbit.z);
+  centre(orbit.passage.end);
+  for (Segment<N, H>& segment : orbit.passage.segments) centre(segment.z);
+}
+
 }  // namespace frahm::periodic

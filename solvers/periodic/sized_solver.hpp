@@ -75,6 +75,8 @@ const ResponseSummary& SizedSolver<N, H>::solve() {
   } else {
     continuation_.find(system_.omega, system_.odd_forcing, orbit_);
     if (!orbit_.half_period) settle();
+    if (orbit_.half_period && has_response() && orbit_.stuck_throughout != 0)
+      centre_rest_position(flow_, orbit_);
     if (has_response() && observables_.needs_stability()) judge_stability(flow_, orbit_);
   }
   summary_.status = orbit_.status;

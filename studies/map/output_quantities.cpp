@@ -51,6 +51,26 @@ std::map<std::string, Taken> names_of_coordinates(const StudyFile& study) {
   return taken;
 }
 
+// Groups of the file and what stands in them beside the axes' own parameters.
+std::vector<std::pair<std::string, std::string>> names_of_groups(const StudyFile& study) {
+  std::vector<std::pair<std::string, std::string>> names{{"provenance", "a group of the file"}};
+  const auto add = [&](const std::string& name, const char* what) { names.emplace_back(name, what); };
+  if (!study.output.orbits.empty()) {
+    add("orbits", "a group of the file");
+    for (const char* name : {"orbit", "sample", "row_start", "time"})
+      add(name, "a variable of the orbits kept");
+  }
+  if (study.output.resonances.empty()) return names;
+  add("resonance", "a group of the file");
+  add("curve", "the index of the resonances");
+  for (const std::size_t mass : study.output.resonances) {
+    for (const char* suffix : {"_resonance_frequency", "_resonance_amplitude", "_half_power_low",
+                               "_half_power_high", "_half_power_damping"})
+      add(study.network.masses[mass] + suffix, "a variable of the resonances");
+  }
+  return names;
+}
+
 }  // namespace
 
 std::vector<periodic::Quantity> output_quantities(const StudyFile& study) {
@@ -75,6 +95,14 @@ std::vector<periodic::QuantityDescription> output_variables(
     result.insert(result.end(), compared.begin(), compared.end());
   }
   std::map<std::string, Taken> taken = names_of_coordinates(study);
+  for (const auto& [name, what] : names_of_groups(study)) {
+    const auto other = taken.find(name);
+    if (other == taken.end()) continue;
+    throw study.source.error_at(
+        other->second.position,
+        fmt::format("\"{}\" is the name of {} and of {}, which stand in one file; rename it", name,
+                    other->second.what, what));
+  }
   for (const auto& variable : result) {
     const auto [other, is_free] = taken.try_emplace(variable.name, Taken{variable.long_name, {}});
     if (is_free) continue;

@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <map>
 
 #include "solvers/mechanics/linear_system.hpp"
+#include "solvers/periodic/orbit.hpp"
 #include "solvers/periodic/resonance_peak.hpp"
 #include "solvers/response/periodic_response.hpp"
 #include "studies/map/map_record.hpp"
@@ -37,10 +39,13 @@ class ResponseCurves {
   }
 
  private:
+  // Of each mass the amplitude sought and the size of its motion.
   static std::vector<periodic::Quantity> harmonics(const StudyFile& study) {
     std::vector<periodic::Quantity> quantities;
-    for (const std::size_t mass : study.output.resonances)
+    for (const std::size_t mass : study.output.resonances) {
       quantities.push_back({periodic::Measure::harmonic, mass});
+      quantities.push_back({periodic::Measure::peak, mass});
+    }
     return quantities;
   }
 
@@ -57,8 +62,16 @@ class ResponseCurves {
     } catch (const mechanics::MechanicsError&) {
       return amplitudes;  // such a point of the map has failed, with its reason
     }
-    response_.solve();
-    response_.quantities(amplitudes);
+    if (response_.solve().status == periodic::Status::unbounded) {
+      std::fill(amplitudes.begin(), amplitudes.end(), std::numeric_limits<double>::infinity());
+      return amplitudes;
+    }
+    std::vector<double> found(2 * amplitudes.size());
+    response_.quantities(found);
+    for (std::size_t i = 0; i < amplitudes.size(); ++i) {
+      // A component that is rounding of the motion is none.
+      amplitudes[i] = found[2 * i] <= 1e-12 * found[2 * i + 1] ? 0.0 : found[2 * i];
+    }
     return amplitudes;
   }
 

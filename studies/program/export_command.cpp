@@ -109,8 +109,9 @@ void write_columns(const std::vector<results::Column>& columns, std::ostream& ou
   }
 }
 
-// The map, or of a file without one its motion.
-void write_table(const results::MapReader& map, std::ostream& out) {
+// A group asked for, else the map, or of a file without one its motion.
+void write_table(const results::MapReader& map, const std::string& asked, std::ostream& out) {
+  if (!asked.empty()) return write_columns(map.columns(asked), out);
   for (const char* group : {"decay", "transient"}) {
     if (map.layout().axes.empty() && map.has_group(group)) return write_columns(map.columns(group), out);
   }
@@ -122,13 +123,13 @@ void write_table(const results::MapReader& map, std::ostream& out) {
 int export_command(const ExportOptions& options, std::ostream& out) {
   const results::MapReader map(options.file);
   if (options.output == "-") {
-    write_table(map, out);
+    write_table(map, options.group, out);
     return 0;
   }
   const std::filesystem::path output =
       options.output.empty() ? std::filesystem::path(options.file).replace_extension(".csv") : options.output;
   check_output_is_not_input(output, options.file);
-  write_whole_file(output, [&](std::ostream& file) { write_table(map, file); });
+  write_whole_file(output, [&](std::ostream& file) { write_table(map, options.group, file); });
   fmt::print(out, "{}\n", output.string());
   return 0;
 }

@@ -34,12 +34,13 @@ int point_command(const PointOptions& options, std::ostream& out) {
   if (options.history == "-") {
     throw StudyError("--history \"-\": the report goes to standard output; name a file for the history");
   }
-  const StudyFile study = read_study_with(options.study, options.set);
+  StudyFile study = read_study_with(options.study, options.set);
   if (study.kind != StudyKind::sweep) {
     throw StudyError(fmt::format("{}: a {} has no periodic response to tell; frahm run computes its motion",
                                  study.source.name, kind_name(study.kind)));
   }
-  const std::vector<double> parameters = parameters_at(study, options.at);
+  std::vector<double> parameters = parameters_at(study, options.at);
+  set_crank_orders_at(study, parameters);
   if (options.history) check_output_is_not_input(*options.history, options.study);
   const PointReport report = tell_point(study, parameters, options.history ? intervals_a_period + 1 : 0);
   options.json ? print_point_json(study, report, out) : print_point(study, report, out);

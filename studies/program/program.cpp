@@ -65,7 +65,8 @@ Examples:
 constexpr const char* export_examples = R"(
 Examples:
   frahm export rig_atlas.h5                   into rig_atlas.csv, a row a point
-  frahm export rig_atlas.h5 -o - | head)";
+  frahm export rig_atlas.h5 -o - | head
+  frahm export curves.h5 --group resonance    the resonances the study asked for)";
 
 using Action = std::function<int(std::ostream&)>;  // of the command that was given
 
@@ -162,6 +163,7 @@ void add_export(CLI::App& program, ExportOptions& options, Action& action) {
   CLI::App* command = add_command(
       program, "export", "write a map as CSV, a row a point; or the columns of a motion", export_examples);
   command->add_option("FILE", options.file, "result file")->required();
+  command->add_option("--group", options.group, "a group instead of the map: resonance, orbits");
   command->add_flag("--csv", options.csv, "the only form there is, and the default");
   command->add_option("-o,--output", options.output, "CSV file, - for stdout; else FILE with .csv");
   command->callback([&] { action = [&](std::ostream& out) { return export_command(options, out); }; });

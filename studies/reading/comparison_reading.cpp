@@ -75,7 +75,10 @@ void read_comparison(const StudyContext& context, const TomlValue& root, StudyFi
   const TomlSection section(context.source, entry->value, "[compare]",
                             {"law", "slope", "taylor_order", "quantities"});
   if ((section.find("law") != nullptr) == (section.find("taylor_order") != nullptr))
-    section.fail("needs either \"law\", another friction law, or \"taylor_order\", another crank profile");
+    section.fail(
+        fmt::format("needs either \"law\", another friction law, or \"taylor_order\", another crank "
+                    "profile; it has {}",
+                    section.find("law") ? "both" : "neither"));
   Comparison comparison;
   NetworkReading reading(context, study.parameters);
   if (section.find("law")) {

@@ -122,34 +122,58 @@ void walk(const StudyFile& study, std::span<const std::size_t> reads, std::vecto
   } while (turned < moving.size());
 }
 
-// The largest crank/rod of an excitation on the grid.
+// crank/rod of an excitation at a point (SI values of all parameters, completed).
+double crank_ratio(const StudyFile& study, std::size_t excitation, std::span<const double> parameters) {
+  const StudyValue &crank = study.values.amplitude[excitation], &rod = study.values.rod[excitation];
+  const double ratio = crank.expression.evaluate(parameters) / rod.expression.evaluate(parameters);
+  if (ratio <= mechanics::kLargestCrankRatio) return ratio;
+  std::vector<std::size_t> reads = crank.expression.reads();
+  reads.insert(reads.end(), rod.expression.reads().begin(), rod.expression.reads().end());
+  fail(study, {&crank, nullptr, reads}, parameters, fmt::format("is {:.6g} times the rod", ratio),
+       fmt::format("must be at most {} times the rod, or its Fourier series is too long",
+                   mechanics::kLargestCrankRatio));
+}
+
+bool is_crank(const StudyFile& study, std::size_t excitation) {
+  return study.network.excitations[excitation].kind == mechanics::ExcitationKind::crank;
+}
+
+// The largest crank/rod of an excitation on the grid and at the orbits kept.
 double largest_crank_ratio(const StudyFile& study, std::size_t excitation) {
   const StudyValue &crank = study.values.amplitude[excitation], &rod = study.values.rod[excitation];
   std::vector<std::size_t> reads = crank.expression.reads();
   reads.insert(reads.end(), rod.expression.reads().begin(), rod.expression.reads().end());
   std::vector<double> parameters = study.parameters.nominal();
   double largest = 0.0;
-  walk(study, reads, parameters, [&] {
+  const auto visit = [&] {
     study.parameters.complete(std::span<double>(parameters));
-    const std::span<const double> at(parameters);
-    const double ratio = crank.expression.evaluate(at) / rod.expression.evaluate(at);
-    if (ratio > mechanics::kLargestCrankRatio) {
-      fail(study, {&crank, nullptr, reads}, parameters, fmt::format("is {:.6g} times the rod", ratio),
-           fmt::format("must be at most {} times the rod", mechanics::kLargestCrankRatio));
-    }
-    largest = std::max(largest, ratio);
-  });
+    largest = std::max(largest, crank_ratio(study, excitation, parameters));
+  };
+  walk(study, reads, parameters, visit);
+  for (const auto& orbit : study.output.orbits) {
+    parameters = study.parameters.nominal();
+    for (const Assignment& assignment : orbit) parameters[assignment.parameter] = assignment.value;
+    visit();
+  }
   return largest;
+}
+
+void keep_orders(mechanics::Excitation& crank, double ratio) {
+  if (crank.taylor_order == 0) crank.even_orders = mechanics::crank_orders_needed(ratio);
 }
 
 }  // namespace
 
 void set_crank_orders(StudyFile& study) {
   for (std::size_t i = 0; i < study.network.excitations.size(); ++i) {
-    mechanics::Excitation& excitation = study.network.excitations[i];
-    if (excitation.kind != mechanics::ExcitationKind::crank) continue;
-    const double ratio = largest_crank_ratio(study, i);
-    if (excitation.taylor_order == 0) excitation.even_orders = mechanics::crank_orders_needed(ratio);
+    if (is_crank(study, i)) keep_orders(study.network.excitations[i], largest_crank_ratio(study, i));
+  }
+}
+
+void set_crank_orders_at(StudyFile& study, std::span<double> parameters) {
+  study.parameters.complete(parameters);
+  for (std::size_t i = 0; i < study.network.excitations.size(); ++i) {
+    if (is_crank(study, i)) keep_orders(study.network.excitations[i], crank_ratio(study, i, parameters));
   }
 }
 

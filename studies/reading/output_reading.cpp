@@ -68,6 +68,22 @@ void read_orbits(const StudyContext& context, const TomlSection& section, StudyF
   }
 }
 
+// Whether each frequency along a dimension belongs to one place of it.
+bool frequencies_differ(const StudyFile& study, std::size_t dimension) {
+  std::vector<double> parameters = study.parameters.nominal(), omega;
+  for (std::size_t i = 0; i < study.dimensions[dimension].size; ++i) {
+    place(study, dimension, i, parameters);
+    study.parameters.complete(std::span<double>(parameters));
+    omega.push_back(study.values.omega.expression.evaluate(std::span<const double>(parameters)));
+  }
+  const auto& places = study.axes[study.dimensions[dimension].axes.front()].si_values;
+  for (std::size_t i = 2; i < omega.size(); ++i) {
+    const double before = (omega[i - 1] - omega[i - 2]) * (places[i - 1] - places[i - 2]);
+    if (before * (omega[i] - omega[i - 1]) * (places[i] - places[i - 1]) <= 0.0) return false;
+  }
+  return true;
+}
+
 void read_resonances(const StudyContext& context, const TomlSection& section, StudyFile& study) {
   const TomlValue* value = section.find("resonances");
   if (!value) return;
@@ -82,7 +98,11 @@ void read_resonances(const StudyContext& context, const TomlSection& section, St
       throw context.source.error_at(item.position, fmt::format("{}: no mass is called \"{}\"{}", where, name,
                                                                suggestion(name, masses)));
     }
-    study.output.resonances.push_back(static_cast<std::size_t>(mass - masses.begin()));
+    const auto index = static_cast<std::size_t>(mass - masses.begin());
+    auto& chosen = study.output.resonances;
+    if (std::find(chosen.begin(), chosen.end(), index) != chosen.end())
+      throw context.source.error_at(item.position, fmt::format("{}: \"{}\" appears twice", where, name));
+    chosen.push_back(index);
   }
   const auto dimension = study.frequency_dimension;
   if (!dimension || study.dimensions[*dimension].axes.size() > 1 || study.dimensions[*dimension].size < 3) {
@@ -91,6 +111,8 @@ void read_resonances(const StudyContext& context, const TomlSection& section, St
         "a resonance is sought along an axis of the excitation frequency: one that is zipped with no "
         "other and has at least 3 points");
   }
+  if (!frequencies_differ(study, *dimension))
+    section.fail("resonances", "the excitation frequency must rise, or fall, all along its axis");
 }
 
 }  // namespace

@@ -155,4 +155,7 @@ UsualUnit usual_unit(const StudyFile& study, std::size_t parameter);
 // parameters, the rule.
 void check_point(const StudyFile& study, std::span<double> parameters);
 
+// Gives each crank the even orders that its crank/rod at a point needs, which may be more than on the grid.
+void set_crank_orders_at(StudyFile& study, std::span<double> parameters);
+
 }  // namespace frahm::studies

@@ -58,8 +58,7 @@ std::vector<OutputChoice::Name> read_quantity_names(const TomlSection& section);
 // tried on all points of the dimensions it depends on, or, where these are too many, on their corners.
 void check_grid(const StudyFile& study);
 
-// How many even orders each crank needs for its largest crank/rod on the grid; refuses cranks that cannot
-// turn.
+// How many even orders each crank needs for its largest crank/rod on the grid and at the orbits kept.
 void set_crank_orders(StudyFile& study);
 
 // A number in the unit given beside it, as { value, unit } or as a bare number (no unit then).

@@ -1,4 +1,5 @@
 // Resonance and half-power frequencies along the frequency axis: [output] resonances.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
@@ -37,6 +38,17 @@ TEST_CASE("lecture_hysteretic.toml: the resonance is at omega_n exactly whatever
       CHECK_THAT(columns.at("main_half_power_low")[i], Catch::WithinAbs(std::sqrt(1.0 - eta[i]), solved));
     }
   }
+}
+
+TEST_CASE("The resonances are exported as a table of their own") {
+  const runs::Folder folder;
+  const std::string study = folder.write("study.toml", runs::reduced("lecture_hysteretic", {{"r", 20}}));
+  REQUIRE(runs::frahm({"run", study, "-o", folder / "study.h5"}).code == 0);
+  const runs::Outcome table = runs::frahm({"export", folder / "study.h5", "--group", "resonance", "-o", "-"});
+  CHECK(table.code == 0);
+  CHECK(table.out.starts_with("eta,main_resonance_frequency,main_resonance_amplitude,"));
+  CHECK(std::count(table.out.begin(), table.out.end(), '\n') == 7);
+  CHECK(runs::frahm({"export", folder / "study.h5", "--group", "orbits", "-o", "-"}).code == 6);
 }
 
 TEST_CASE("A viscous resonance is at sqrt(1 - 2 zeta^2), and there is none above zeta = 0.707") {
@@ -92,6 +104,27 @@ TEST_CASE("With friction the resonance is that of the harmonic component, below 
     CHECK(amplitude[i] < amplitude[i - 1]);
     CHECK(columns.at("main_half_power_low")[i] < columns.at("main_resonance_frequency")[i]);
     CHECK(columns.at("main_resonance_frequency")[i] < columns.at("main_half_power_high")[i]);
+  }
+}
+
+TEST_CASE("An unbounded resonance is infinite, has no half-power points, and friction above pi/4 bounds it") {
+  std::string text = runs::reduced("den_hartog", {});
+  text = text.substr(0, text.find("[[axis]]")) +
+         "[[axis]]\nparameter = \"zeta\"\nvalues = [0]\n"
+         "[[axis]]\nparameter = \"f\"\nvalues = [0, 0.5, 0.78, 0.79, 0.9]\n"
+         "[[axis]]\nparameter = \"r\"\nfrom = 0.3\nto = 3\npoints = 80\n"
+         "[output]\nresonances = [\"main\"]\n";
+  const Columns columns = resonances_of(text);
+  const auto& f = columns.at("f");
+  REQUIRE(f.size() == 5);
+  for (std::size_t i = 0; i < f.size(); ++i) {
+    INFO("f " << f[i] << ": " << columns.at("main_resonance_amplitude")[i]);
+    const bool unbounded = f[i] < 0.25 * 3.14159265358979;
+    // Friction just below pi/4: so close to the resonance nothing contracts, and no orbit is found.
+    CHECK(std::isfinite(columns.at("main_resonance_amplitude")[i]) != unbounded);
+    if (f[i] < 0.7) CHECK(std::isinf(columns.at("main_resonance_amplitude")[i]));
+    CHECK(std::isnan(columns.at("main_half_power_damping")[i]) == unbounded);
+    if (unbounded) CHECK_THAT(columns.at("main_resonance_frequency")[i], Catch::WithinAbs(1.0, 1e-6));
   }
 }
 

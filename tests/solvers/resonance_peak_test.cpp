@@ -83,5 +83,36 @@ TEST_CASE("places without a response are passed over, and a kink is met to the w
   CHECK_THAT(kink.at, WithinAbs(1.03, 1e-7));
 }
 
+TEST_CASE("a peak far narrower than the grid is met, down to damping ratios of 1e-10") {
+  for (const double zeta : {1e-5, 1e-7, 1e-8, 1e-9, 1e-10}) {
+    INFO("zeta " << zeta);
+    const auto peak = find_resonance_peak([&](double r) { return viscous(r, zeta); }, grid(0.105, 2.0, 97));
+    CHECK_THAT(peak.at, WithinAbs(std::sqrt(1.0 - 2.0 * zeta * zeta), 1e-11));
+    // 1 - r^2 is known to rounding, 1e-16 beside 2 zeta.
+    CHECK_THAT(peak.value * 2.0 * zeta, WithinAbs(1.0, 1e-12 + 1e-15 / zeta));
+    CHECK_THAT((peak.half_power_high - peak.half_power_low) / (2.0 * zeta),
+               WithinAbs(1.0, 1e-6 + 1e-15 / zeta));
+  }
+}
+
+TEST_CASE("without damping the peak is unbounded, whether or not the resonance is a place of the grid") {
+  const auto undamped = [](double r) { return 1.0 / std::abs(1.0 - r * r); };
+  for (const int points : {20, 21}) {
+    const auto peak = find_resonance_peak(undamped, grid(0.0, 2.0, points));
+    CHECK_THAT(peak.at, WithinAbs(1.0, 1e-11));
+    CHECK(std::isinf(peak.value));
+    CHECK(std::isnan(peak.half_power_low));
+    CHECK(std::isnan(peak.half_power_high));
+  }
+}
+
+TEST_CASE("a coarse grid does not choose between two modes of nearly one height") {
+  const auto two = [](double r) { return viscous(r, 0.005) + 0.98 * viscous(r / 1.5, 0.005); };
+  for (const int points : {11, 21, 41, 101, 1001}) {
+    INFO(points << " points");
+    CHECK_THAT(find_resonance_peak(two, grid(0.35, 2.2, points)).at, WithinAbs(1.0, 1e-3));
+  }
+}
+
 }  // namespace
 }  // namespace frahm::periodic

@@ -50,4 +50,21 @@ TEST_CASE("the variables of a comparison follow the quantities, and clash with c
   CHECK_THROWS_WITH(variables_of(base + clash + compare), Catch::Contains("is the name of a coordinate"));
 }
 
+TEST_CASE("a coordinate may not have the name of a group of the file, or of what stands in one") {
+  const auto clash = [](const std::string& name) {
+    return "[[coordinate]]\nname = \"" + name + "\"\nvalue = \"2*r\"\n";
+  };
+  CHECK_THROWS_WITH(variables_of(base + clash("provenance")), Catch::Contains("and of a group of the file"));
+  const std::string resonances = "[output]\nresonances = [\"main\"]\n";
+  for (const char* name : {"resonance", "curve", "main_half_power_low"}) {
+    CHECK_NOTHROW(variables_of(base + clash(name)));
+    CHECK_THROWS_WITH(variables_of(base + clash(name) + resonances), Catch::Contains("rename it"));
+  }
+  const std::string orbits = "[output]\norbits = [{ r = 0.5 }]\n";
+  for (const char* name : {"orbits", "time", "row_start"}) {
+    CHECK_NOTHROW(variables_of(base + clash(name)));
+    CHECK_THROWS_WITH(variables_of(base + clash(name) + orbits), Catch::Contains("rename it"));
+  }
+}
+
 }  // namespace

@@ -204,4 +204,14 @@ TEST_CASE("Wrong names, values and units of a point are told") {
   CHECK_THROWS_AS(tell({.study = studies + "no_such_study.toml"}), StudyError);
 }
 
+TEST_CASE("A crank longer than anywhere on the grid is as good at a point, up to the longest that can be") {
+  const auto at = [](const std::string& text) {
+    return tell({.study = studies + "rig_crank.toml", .at = {"omega=250 rpm,I=6.36 kg,FP=0", text}});
+  };
+  CHECK(at("L=32.9 mm").has("status ok"));
+  CHECK_THROWS_WITH(
+      at("L=32 mm"),
+      Catch::Contains("is 0.923438 times the rod at A = 29.55 mm, L = 32 mm; must be at most 0.9 times"));
+}
+
 }  // namespace
