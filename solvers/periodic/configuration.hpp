@@ -149,6 +149,8 @@ void Configuration<N, H>::set_system(const StepEquations<N, H>& equations, Conta
 
   reaction_ = MW * constraint_;
   P = S::Square::Identity(n, n) - reaction_ * equations.W.transpose();
+  // A projector's trace is its rank, so one without a large entry is zero: every mass is held.
+  if (P.cwiseAbs().maxCoeff() < 1e-12) P.setZero();
   Aq.noalias() = -(P * equations.M_inverse) * equations.K;
   Av.noalias() = -(P * equations.M_inverse) * equations.C;
   Af = -(P * MW);
