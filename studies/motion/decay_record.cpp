@@ -127,8 +127,8 @@ void print_decay(const StudyFile& study, const FreeDecay& decay, std::ostream& o
     fmt::print(out, "\n{}: {} {}", study.network.masses[i], extrema.size(),
                extrema.size() == 1 ? "extremum" : "extrema");
     if (!std::isnan(rest)) {
-      const bool stopped = decay.end == DecayEnd::at_rest;
-      fmt::print(out, ", {} {:.10g}{}", stopped ? "rests at" : "tends to", rest,
+      const char* stopped = std::isnan(decay.stop_time) ? "will rest at" : "rests at";
+      fmt::print(out, ", {} {:.10g}{}", decay.end == DecayEnd::at_rest ? stopped : "tends to", rest,
                  study.dimensionless ? "" : " m");
     }
     fmt::print(out, "\n{:>6}{:>18}{:>18}{:>16}\n", "", study.dimensionless ? "time" : "time [s]",
