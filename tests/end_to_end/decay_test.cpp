@@ -1,7 +1,10 @@
 // rig_decay_*.toml and lecture_free_vibration*.toml: whole runs against the closed-form recursion.
+#include <sys/wait.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 
 #include "tests/end_to_end/motion_file.hpp"
@@ -118,6 +121,18 @@ TEST_CASE("A time budget stops a motion with code 4 and leaves no file") {
   CHECK(outcome.code == 4);
   CHECK_THAT(outcome.err, Catch::Contains("time budget") && Catch::Contains("nothing is kept"));
   CHECK(folder.names() == std::vector<std::string>{"stiff.toml"});
+}
+
+TEST_CASE("SIGTERM stops a motion with code 4 and leaves no file") {
+  const runs::Folder folder;
+  // Some seconds of work, which the signal comes into.
+  const std::string study = folder.write("stiff.toml", one_mass("[decay]\nduration = 80\n"));
+  const std::string command = "timeout --preserve-status -s TERM 0.5 " FRAHM_PROGRAM " run " + study +
+                              " -o " + (folder / "decay.h5") + " --set c=100000 2> " + (folder / "said");
+  const int status = std::system(command.c_str());
+  REQUIRE(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 4);
+  CHECK(folder.names() == std::vector<std::string>{"said", "stiff.toml"});
 }
 
 TEST_CASE("A decay's file is exported, summed up, recomputed for its study and refused to another") {

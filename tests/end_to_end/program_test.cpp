@@ -147,6 +147,10 @@ TEST_CASE("shards are kept apart, merged when all are there, and give what one r
 
   std::filesystem::remove(parts);
   CHECK(run(study, parts, {"--shard", "1/3"}).code == 0);
+  folder.write("parts.h5", "my thesis");
+  CHECK_THAT(frahm({"merge", parts}).err, Catch::Contains("is not a result of frahm"));
+  CHECK(text_of(parts) == "my thesis");
+  std::filesystem::remove(parts);
   CHECK(frahm({"merge", parts}).code == 0);
   const runs::Map one = runs::read_map(folder / "one.h5"), merged = runs::read_map(parts);
   CHECK(one["main_peak"] == merged["main_peak"]);
