@@ -15,6 +15,16 @@ std::string difference(const LogHeader& kept, const LogHeader& wanted) {
       kept.fingerprint.grid, kept.tiles, wanted.fingerprint.grid, wanted.tiles);
 }
 
+std::string difference(const Fingerprint& kept, const Fingerprint& wanted) {
+  if (kept.physics != wanted.physics) {
+    return fmt::format("is the result of another physics ({}, this study has {})", kept.physics,
+                       wanted.physics);
+  }
+  return fmt::format(
+      "is the result of the same physics for another duration or other samples ({}, this study has {})",
+      kept.grid, wanted.grid);
+}
+
 }  // namespace
 
 ResumeRefused::ResumeRefused(const std::filesystem::path& log, const LogHeader& kept, const LogHeader& wanted)
@@ -23,5 +33,13 @@ ResumeRefused::ResumeRefused(const std::filesystem::path& log, const LogHeader& 
       log_(log),
       kept_(kept),
       wanted_(wanted) {}
+
+ResumeRefused::ResumeRefused(const std::filesystem::path& result, const Fingerprint& kept,
+                             const Fingerprint& wanted)
+    : std::runtime_error(
+          fmt::format("{} {}; it is not replaced unasked", result.string(), difference(kept, wanted))),
+      log_(result),
+      kept_({kept, 1}),
+      wanted_({wanted, 1}) {}
 
 }  // namespace frahm::engine

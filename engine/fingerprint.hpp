@@ -23,11 +23,13 @@ struct LogHeader {
   friend bool operator==(const LogHeader&, const LogHeader&) = default;
 };
 
-// Tiles of another study are kept beside the output; they are neither mixed with this one's nor discarded
-// unasked.
+// Tiles of another study are kept beside the output, or its result stands there; they are neither mixed with
+// this one's nor discarded unasked.
 class ResumeRefused : public std::runtime_error {
  public:
   ResumeRefused(const std::filesystem::path& log, const LogHeader& kept, const LogHeader& wanted);
+  // Of a result without tiles: a single answer.
+  ResumeRefused(const std::filesystem::path& result, const Fingerprint& kept, const Fingerprint& wanted);
 
   const std::filesystem::path& log() const { return log_; }
   const LogHeader& kept() const { return kept_; }      // in the log

@@ -34,8 +34,8 @@ Sweep sweep_of(const ForcedOptions& options) {
 class Driven {
  public:
   Driven(const mechanics::Assembly& assembly, const ValuesAt& values_at, const InitialState& initial,
-         std::vector<double> times)
-      : trajectory(assembly, std::move(times)),
+         std::vector<double> times, Watch watch)
+      : trajectory(assembly, std::move(times), std::move(watch)),
         assembly_(assembly),
         values_at_(values_at),
         initial_(initial) {}
@@ -138,7 +138,7 @@ ForcedMotion run(const Problem& problem, int stairs) {
   const ForcedOptions& options = problem.options;
   const Sweep& sweep = problem.sweep;
   Driven driven(problem.assembly, problem.values_at, problem.initial,
-                sample_times(options.duration, options.samples));
+                sample_times(options.duration, options.samples), options.watch);
   bool complete = true;
   double phase = 0.0;
   if (stairs > 0) {

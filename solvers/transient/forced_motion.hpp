@@ -21,6 +21,7 @@ struct ForcedOptions {
   FrequencySweep sweep = {};  // rate 0: none
   double duration = 0.0;      // [s], > 0
   int samples = 0;
+  Watch watch = {};
 };
 
 // The values of the network at a frequency [rad/s]. In a run-up the amplitudes of forces may follow it, and

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "solvers/periodic/observables.hpp"
 #include "solvers/periodic/resonance.hpp"
@@ -25,6 +26,8 @@ struct Decaying {
   mechanics::LinearSystem system;
   double lowest = 0.0;  // natural frequency [rad/s]
   bool all_damped = false;
+
+  double period() const { return 2.0 * std::numbers::pi / lowest; }  // [s]
 };
 
 Decaying set_up(const mechanics::Assembly& assembly, mechanics::NetworkValues& values) {
@@ -45,24 +48,74 @@ Decaying set_up(const mechanics::Assembly& assembly, mechanics::NetworkValues& v
   return decaying;
 }
 
-// Goes on beyond a given duration until it is clear how the motion ends.
-DecayEnd march(const Decaying& decaying, double duration, Trajectory& trajectory) {
-  const double period = 2.0 * std::numbers::pi / decaying.lowest, passage = kPassagePeriods * period;
-  const double most = std::max(duration, kMostPeriods * period);
-  const double start_norm = trajectory.energy_norm();
-  while (trajectory.time() < most) {
-    const double left = most - trajectory.time();
-    // A phase has no meaning here: nothing is forced.
-    if (!trajectory.advance(std::min(passage, left), 0.0)) return DecayEnd::failed;
-    if (trajectory.is_at_rest()) return trajectory.has_crept() ? DecayEnd::creeping : DecayEnd::at_rest;
-    const double distance = trajectory.distance_from_rest();
-    // Still sliding, by less and less, where its own friction would hold it.
-    if (trajectory.friction_slides() && distance <= kArrived * start_norm) return DecayEnd::creeping;
-    const bool decayed = !trajectory.friction_slides() && distance <= kDecayed * start_norm;
-    if (decayed && trajectory.time() >= duration)
-      return trajectory.has_crept() ? DecayEnd::creeping : DecayEnd::decayed;
+struct Ending {
+  DecayEnd end = DecayEnd::cut_off;
+  double remainder = kNone;  // FreeDecay::remainder
+};
+
+// [s] At most so far.
+double last_time(double duration, double period, double step) {
+  const double steps = duration > 0.0 ? kStepsBeyond : kStepsByDefault;
+  return std::max(duration, std::min(kMostPeriods * period, duration + steps * step));
+}
+
+bool has_reached(const Trajectory& trajectory, double time) {
+  constexpr double kRounding = 1e-12;
+  return trajectory.time() >= time * (1.0 - kRounding);
+}
+
+// How the motion ends if it is seen to, `left` of the energy norm at the start being there still.
+std::optional<DecayEnd> seen_end(const Trajectory& trajectory, double left) {
+  if (trajectory.is_at_rest()) return trajectory.has_crept() ? DecayEnd::creeping : DecayEnd::at_rest;
+  // Still sliding, by less and less, where its own friction would hold it.
+  if (trajectory.friction_slides()) {
+    if (left <= kArrived) return DecayEnd::creeping;
+  } else if (left <= kDecayed) {
+    return trajectory.has_crept() ? DecayEnd::creeping : DecayEnd::decayed;
   }
-  return DecayEnd::cut_off;
+  return std::nullopt;
+}
+
+// Follows the motion to a given duration, and beyond it for a while until it is clear how it ends.
+Ending march(const Decaying& decaying, double duration, Trajectory& trajectory) {
+  const double period = decaying.period(), last = last_time(duration, period, trajectory.step());
+  const double start_norm = trajectory.energy_norm();
+  Ending ending;
+  while (!has_reached(trajectory, last)) {
+    const bool within = !has_reached(trajectory, duration) || duration == 0.0;
+    const double next = within && duration > 0.0 ? duration : last;
+    // A phase has no meaning here: nothing is forced.
+    if (!trajectory.advance(std::min(kPassagePeriods * period, next - trajectory.time()), 0.0)) {
+      ending.end = within ? DecayEnd::failed : DecayEnd::cut_off;
+      return ending;
+    }
+    if (start_norm == 0.0) return {.end = DecayEnd::at_rest};
+    const double left = trajectory.distance_from_rest() / start_norm;
+    if (within) ending.remainder = left;
+    const std::optional<DecayEnd> end = seen_end(trajectory, left);
+    if (!end) continue;
+    ending.end = *end;
+    const bool gone = !trajectory.friction_slides() && left <= kGone;
+    if (gone) trajectory.come_to_rest();
+    const bool settled = trajectory.friction_slides() || trajectory.is_at_rest();
+    if (settled || gone || has_reached(trajectory, duration)) return ending;
+    ending.end = DecayEnd::cut_off;
+  }
+  return ending;
+}
+
+// The same motion once more, to a duration that it has shown it lasts.
+Samples history(const Decaying& decaying, const mechanics::Assembly& assembly, const InitialState& initial,
+                double duration, const DecayOptions& options) {
+  Trajectory trajectory(assembly, sample_times(duration, options.samples), options.watch);
+  trajectory.set_system(decaying.system, 0.0);
+  trajectory.start(initial);
+  while (!has_reached(trajectory, duration) && !trajectory.is_at_rest()) {
+    const double left = duration - trajectory.time();
+    if (!trajectory.advance(std::min(kPassagePeriods * decaying.period(), left), 0.0)) break;
+  }
+  trajectory.finish();
+  return trajectory.samples();
 }
 
 std::vector<double> log_decrements(const std::vector<Extremum>& extrema) {
@@ -89,11 +142,15 @@ void tell_masses(const Trajectory& trajectory, bool tends_somewhere, FreeDecay& 
   }
 }
 
-double found_duration(const Decaying& decaying, const Trajectory& trajectory, DecayEnd end) {
-  // Of a motion that never begins, one period.
-  if (end == DecayEnd::at_rest && trajectory.held_since() == 0.0)
-    return 2.0 * std::numbers::pi / decaying.lowest;
-  return end == DecayEnd::at_rest ? trajectory.held_since() : trajectory.time();
+// [s]; NaN: some mass is not held, and not everything has been at rest from the start.
+double rest_since(const Trajectory& trajectory, const Ending& ending) {
+  return std::isnan(ending.remainder) ? 0.0 : trajectory.held_since();
+}
+
+double found_duration(const Decaying& decaying, const Trajectory& trajectory, const Ending& ending) {
+  if (ending.end != DecayEnd::at_rest) return trajectory.time();
+  const double rest = rest_since(trajectory, ending);
+  return rest == 0.0 ? decaying.period() : rest;  // of a motion that never begins, one period
 }
 
 }  // namespace
@@ -106,27 +163,25 @@ FreeDecay free_decay(const mechanics::Network& network, mechanics::NetworkValues
   decay.hysteretic_omega = values.hysteretic_omega;
   decay.masses.resize(network.masses.size());
 
-  Trajectory trajectory(assembly, {});
+  const bool given = options.duration > 0.0;
+  Trajectory trajectory(assembly, sample_times(options.duration, given ? options.samples : 0), options.watch);
   trajectory.set_system(decaying.system, 0.0);
   trajectory.start(initial);
-  decay.end = march(decaying, options.duration, trajectory);
+  const Ending ending = march(decaying, options.duration, trajectory);
+  decay.end = ending.end;
+  decay.remainder = ending.remainder;
   if (decay.end == DecayEnd::failed) decay.reason = trajectory.failure();
-  decay.duration =
-      options.duration > 0.0 ? options.duration : found_duration(decaying, trajectory, decay.end);
-  const bool stopped = decay.end == DecayEnd::at_rest && trajectory.held_since() <= decay.duration;
-  decay.stop_time = stopped ? trajectory.held_since() : kNone;
+  decay.duration = given ? options.duration : found_duration(decaying, trajectory, ending);
+  const double rest = decay.end == DecayEnd::at_rest ? rest_since(trajectory, ending) : kNone;
+  decay.stop_time = rest <= decay.duration ? rest : kNone;
   const bool linear = assembly.contacts() == 0 || decaying.system.limit.isZero(0.0);
   const bool tends_somewhere =
       decay.end == DecayEnd::cut_off ? linear && decaying.all_damped : decay.end != DecayEnd::failed;
   tell_masses(trajectory, tends_somewhere, decay);
-  if (options.samples == 0) return decay;
-
-  Trajectory sampled(assembly, sample_times(decay.duration, options.samples));
-  sampled.set_system(decaying.system, 0.0);
-  sampled.start(initial);
-  march(decaying, decay.duration, sampled);
-  sampled.finish();
-  decay.history = sampled.samples();
+  if (options.samples == 0 || decay.end == DecayEnd::failed) return decay;
+  trajectory.finish();
+  decay.history =
+      given ? trajectory.samples() : history(decaying, assembly, initial, decay.duration, options);
   return decay;
 }
 

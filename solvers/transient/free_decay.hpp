@@ -13,9 +13,11 @@
 namespace frahm::transient {
 
 struct DecayOptions {
-  // [s]; 0: until rest, else until the energy norm has fallen to kDecayed of its start, else kMostPeriods.
+  // [s]; 0: until rest, else until the energy norm has fallen to kDecayed of its start, else kMostPeriods or
+  // kStepsByDefault, whichever comes first.
   double duration = 0.0;
   int samples = 0;  // of the history, 0: none
+  Watch watch = {};
 };
 
 // A displacement a millionth of the first: below what any measurement of a decay resolves.
@@ -23,11 +25,19 @@ inline constexpr double kDecayed = 1e-6;
 // Periods of the lowest mode after which a motion that will not end is left: undamped, or of zeta < 0.002.
 inline constexpr double kMostPeriods = 1000.0;
 
+// Steps of the fastest motion after which a decay without a given duration is left: a second or two for one
+// mass. A stiff or overdamped system comes to it first.
+inline constexpr double kStepsByDefault = 1e6;
+// Steps beyond a given duration, at most, in which the motion's end is sought: a tenth of a second or so.
+inline constexpr double kStepsBeyond = 1e5;
+// Of the energy norm at the start: what is left then is taken for nothing, and has no extrema any more.
+inline constexpr double kGone = 1e-100;
+
 enum class DecayEnd {
   at_rest,   // stopped by friction
   creeping,  // it tends to a place that friction holds, and never arrives
   decayed,   // no friction slides any more, and the energy norm has fallen to kDecayed
-  cut_off,   // none of these within the duration and kMostPeriods
+  cut_off,   // none of these, as far as it has been followed
   failed,
 };
 
@@ -37,14 +47,19 @@ struct DecayOfMass {
   // Viscous damping alone: 2 pi zeta/s, the same for all i. Friction makes it grow from cycle to cycle, as
   // it takes the same 4 x_f from each.
   std::vector<double> log_decrement;
-  double rest = 0.0;  // where the mass rests or tends to [m]; NaN where that is not known: cut off, failed
+  // Where the mass rests or tends to [m]; NaN where that is not known: failed, or cut off, unless nothing but
+  // damping in all modes is there, which leads to 0.
+  double rest = 0.0;
 };
 
 struct FreeDecay {
   DecayEnd end = DecayEnd::failed;
-  std::string reason;             // why it failed; empty otherwise
-  double duration = 0.0;          // [s] as given, or found
-  double stop_time = 0.0;         // [s]; NaN: it does not come to rest within the duration
+  std::string reason;      // why it failed; empty otherwise
+  double duration = 0.0;   // [s] as given, or found
+  double stop_time = 0.0;  // [s]; NaN: it does not come to rest within the duration
+  // At the duration, relative to the start: the energy norm of the distance from where the motion tends to as
+  // its contacts stick and slide then. NaN: nothing moved at the start.
+  double remainder = 0.0;
   double hysteretic_omega = 0.0;  // omega_h [rad/s] that was used
   std::vector<DecayOfMass> masses;
   Samples history;
@@ -52,6 +67,8 @@ struct FreeDecay {
 
 // values: of the network without excitation; its omega is not used. hysteretic_omega [rad/s]: 0 stands for
 // the lowest undamped natural frequency.  Throws mechanics::MechanicsError for values without a meaning.
+//
+// A given duration of more steps than the trajectory lasts (10 million) fails.
 //
 // A motion that ends more gently than kCreeping (turning_points.hpp) is not told from one that creeps.
 FreeDecay free_decay(const mechanics::Network& network, mechanics::NetworkValues values,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -7,6 +8,10 @@
 namespace frahm::transient {
 
 // At t = 0, of each mass: displacement [m] and velocity [m/s]. Empty: at rest where no spring is strained.
+// Each is zero or of a size from kSmallestInitial to kLargestInitial: far beyond anything that is built, and
+// the squares of a motion's energy norm stay within what a double holds, down to kGone (free_decay.hpp).
+inline constexpr double kSmallestInitial = 1e-50, kLargestInitial = 1e50;
+
 struct InitialState {
   std::vector<double> displacement, velocity;
 };
@@ -29,6 +34,10 @@ struct Samples {
   std::vector<double> time;                                 // [s]
   std::vector<std::vector<double>> displacement, velocity;  // of each mass, a value for each time
 };
+
+// Called every few hundred steps while a motion is followed; what it throws ends the motion and is passed on.
+// Empty: nothing is called.
+using Watch = std::function<void()>;
 
 // count times from 0 to duration [s], equally spaced; none for a count of 0.
 std::vector<double> sample_times(double duration, int count);

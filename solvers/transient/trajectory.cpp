@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 namespace frahm::transient {
 namespace {
@@ -15,6 +16,15 @@ constexpr double kNever = std::numeric_limits<double>::quiet_NaN();
 constexpr double kStepsAtOnce = 256.0;  // in memory: a few hundred kilobytes for a few masses
 constexpr double kMostSteps = 1e7;      // some ten seconds of one core
 
+void check_initial(double value, const char* what) {
+  const double size = std::abs(value);
+  if (std::isfinite(value) && (size == 0.0 || (size >= kSmallestInitial && size <= kLargestInitial))) return;
+  std::ostringstream message;
+  message << "an initial " << what << " is " << value << "; must be 0 or of a size from " << kSmallestInitial
+          << " to " << kLargestInitial;
+  throw mechanics::MechanicsError(message.str());
+}
+
 }  // namespace
 
 std::vector<double> sample_times(double duration, int count) {
@@ -23,12 +33,13 @@ std::vector<double> sample_times(double duration, int count) {
   return times;
 }
 
-Trajectory::Trajectory(const mechanics::Assembly& assembly, std::vector<double> times)
+Trajectory::Trajectory(const mechanics::Assembly& assembly, std::vector<double> times, Watch watch)
     : assembly_(assembly),
       steps_(flow_),
       held_since_(kNever),
       turning_points_(assembly.network().masses.size()),
-      stops_(assembly.contacts()) {
+      stops_(assembly.contacts()),
+      watch_(std::move(watch)) {
   samples_.time = std::move(times);
   samples_.displacement.resize(turning_points_.size());
   samples_.velocity.resize(turning_points_.size());
@@ -61,8 +72,7 @@ void Trajectory::start(const InitialState& initial) {
       throw mechanics::MechanicsError(std::string("an initial ") + what + " must be given for each mass");
     for (Index i = 0; i < n; ++i) {
       const double value = values[static_cast<std::size_t>(i)];
-      if (!std::isfinite(value))
-        throw mechanics::MechanicsError(std::string("an initial ") + what + " is not finite");
+      check_initial(value, what);
       z_[at + i] = factor * value;
     }
   };
@@ -75,6 +85,7 @@ bool Trajectory::advance(double duration, double phase) {
   const double length = duration / flow_.equations().step, start = time_;
   if (!can_last(duration)) return false;
   for (double done = 0.0; done < length && failure_ == nullptr;) {
+    if (watch_) watch_();
     const double part = std::min(length - done, kStepsAtOnce);
     if (!pass(part, phase + done * flow_.fundamental_rate())) return false;
     done += part;
@@ -188,6 +199,12 @@ void Trajectory::keep_state(const State& z) {
     samples_.displacement[mass].push_back(z[i]);
     samples_.velocity[mass].push_back(z[n + i] / flow_.equations().step);
   }
+}
+
+void Trajectory::come_to_rest() {
+  const Eigen::VectorXd place = tends_to();
+  z_.setZero();
+  z_.head(place.size()) = place;
 }
 
 void Trajectory::finish() {

@@ -16,15 +16,15 @@ using Flow = periodic::Flow<Eigen::Dynamic, Eigen::Dynamic>;
 class Trajectory {
  public:
   // times: at which the state is kept, ascending [s].  `assembly` must outlive the trajectory.
-  Trajectory(const mechanics::Assembly& assembly, std::vector<double> times);
+  Trajectory(const mechanics::Assembly& assembly, std::vector<double> times, Watch watch);
 
   // Matrices and forcing, or only another forcing, from now on. The state is carried over; what sticks,
   // sticks on (a support whose velocity jumps takes it along). phase: omega t of the fundamental now [rad].
   void set_system(const mechanics::LinearSystem& system, double phase);
   void set_forcing(const mechanics::LinearSystem& system, double phase);
 
-  // To be called once, after set_system. Throws mechanics::MechanicsError for values that are not finite or
-  // not one for each mass.
+  // To be called once, after set_system. Throws mechanics::MechanicsError for values that are not finite, out
+  // of the range of InitialState, or not one for each mass.
   void start(const InitialState& initial);
 
   // Moves on by `duration` [s] > 0; `phase` as above. False: failure() says why, nothing moves any more.
@@ -33,10 +33,14 @@ class Trajectory {
   bool can_last(double duration);
   const char* failure() const { return failure_; }
 
+  // From now on all masses are where they tend to, without velocity: of a motion of which nothing is left.
+  void come_to_rest();
+
   // Fills the samples that are left with the state now.
   void finish();
 
-  double time() const { return time_; }  // [s]
+  double time() const { return time_; }                   // [s]
+  double step() const { return flow_.equations().step; }  // [s]
 
   Eigen::VectorXd displacements() const { return z_.head(flow_.equations().masses()); }  // [m]
   double energy_norm() const { return flow_.equations().energy_norm(z_); }               // [sqrt(J)]
@@ -89,6 +93,7 @@ class Trajectory {
   std::vector<std::vector<Stop>> stops_;
   std::size_t next_sample_ = 0;
   Samples samples_;
+  Watch watch_;
 };
 
 }  // namespace frahm::transient

@@ -1,5 +1,10 @@
 #include "studies/map/finished_file.hpp"
 
+#include <fmt/format.h>
+
+#include "engine/io_error.hpp"
+#include "results/store_error.hpp"
+
 namespace frahm::studies {
 
 std::optional<engine::Fingerprint> fingerprint_of_file(const std::filesystem::path& path) {
@@ -7,6 +12,22 @@ std::optional<engine::Fingerprint> fingerprint_of_file(const std::filesystem::pa
   const results::MapReader map(path);
   return engine::Fingerprint{.physics = provenance_text(map, "fingerprint_physics"),
                              .grid = provenance_text(map, "fingerprint_grid")};
+}
+
+void check_result_place(const std::filesystem::path& output, const std::filesystem::path& study) {
+  std::error_code error;
+  if (!std::filesystem::exists(output, error)) return;
+  if (std::filesystem::equivalent(output, study, error))
+    throw engine::IoError(output, "is the study itself; give another -o");
+  if (!std::filesystem::is_regular_file(output, error))
+    throw engine::IoError(output,
+                          "is not a regular file, and a result is not written there; give another -o");
+  try {
+    const results::MapReader result(output);
+  } catch (const results::StoreError& reason) {
+    throw engine::IoError(
+        output, fmt::format("is not a result of frahm; give another -o, or remove it ({})", reason.what()));
+  }
 }
 
 std::string provenance_text(const results::MapReader& map, const std::string& name) {

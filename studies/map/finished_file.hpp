@@ -13,6 +13,11 @@ namespace frahm::studies {
 // Throws results::StoreError for a file that is no result of this program.
 std::optional<engine::Fingerprint> fingerprint_of_file(const std::filesystem::path& path);
 
+// A result may be written where nothing stands, or in the place of another result; never over a study, a
+// table, any other file, a folder or a device.  study: the file whose result it is; empty: not known.
+// Throws engine::IoError.
+void check_result_place(const std::filesystem::path& output, const std::filesystem::path& study);
+
 // A text of /provenance; empty if there is none of this name.
 std::string provenance_text(const results::MapReader& map, const std::string& name);
 

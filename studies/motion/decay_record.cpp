@@ -18,18 +18,22 @@ using transient::DecayEnd, transient::Extremum, transient::FreeDecay;
 
 std::string ending(const StudyFile& study, const FreeDecay& decay) {
   const char* seconds = study.dimensionless ? "" : " s";
+  const std::string left =
+      fmt::format("the energy norm of its distance from rest is {:.3g} of the first", decay.remainder);
   switch (decay.end) {
     case DecayEnd::at_rest:
+      if (decay.stop_time == 0.0) return "at rest from the start";
       return std::isnan(decay.stop_time)
-                 ? fmt::format("still moving after {:.10g}{}", decay.duration, seconds)
+                 ? fmt::format("still moving after {:.10g}{}; it will come to rest", decay.duration, seconds)
                  : fmt::format("comes to rest at {:.10g}{}", decay.stop_time, seconds);
     case DecayEnd::creeping:
       return "creeps towards its rest and never arrives";
     case DecayEnd::decayed:
-      return fmt::format("never stops; its energy norm is {} of the first, or less, after {:.6g}{}",
-                         transient::kDecayed, decay.duration, seconds);
+      return fmt::format("never stops; after {:.6g}{} {}", decay.duration, seconds, left);
     case DecayEnd::cut_off:
-      return fmt::format("still moving after {:.6g}{}", decay.duration, seconds);
+      return fmt::format(
+          "still moving after {:.6g}{}; {}{}", decay.duration, seconds, left,
+          study.motion.duration ? "" : "\nit is followed no further unless [decay] has a duration");
     case DecayEnd::failed:
       break;
   }
@@ -71,10 +75,11 @@ transient::InitialState initial_state(const StudyFile& study) {
   return state;
 }
 
-FreeDecay solve_decay(const StudyFile& study) {
+FreeDecay solve_decay(const StudyFile& study, const transient::Watch& watch) {
   const transient::DecayOptions options{
       .duration = study.motion.duration ? stated(study, *study.motion.duration) : 0.0,
-      .samples = study.motion.samples};
+      .samples = study.motion.samples,
+      .watch = watch};
   try {
     FreeDecay decay =
         transient::free_decay(study.network, motion_values(study), initial_state(study), options);
@@ -119,10 +124,11 @@ void print_decay(const StudyFile& study, const FreeDecay& decay, std::ostream& o
   fmt::print(out, "free decay: {}\n", ending(study, decay));
   for (std::size_t i = 0; i < decay.masses.size(); ++i) {
     const auto& [extrema, decrement, rest] = decay.masses[i];
-    fmt::print(out, "\n{}: {} extrema", study.network.masses[i], extrema.size());
+    fmt::print(out, "\n{}: {} {}", study.network.masses[i], extrema.size(),
+               extrema.size() == 1 ? "extremum" : "extrema");
     if (!std::isnan(rest)) {
-      const bool stopped = decay.end == DecayEnd::at_rest;
-      fmt::print(out, ", {} {:.10g}{}", stopped ? "rests at" : "tends to", rest,
+      const char* stopped = std::isnan(decay.stop_time) ? "will rest at" : "rests at";
+      fmt::print(out, ", {} {:.10g}{}", decay.end == DecayEnd::at_rest ? stopped : "tends to", rest,
                  study.dimensionless ? "" : " m");
     }
     fmt::print(out, "\n{:>6}{:>18}{:>18}{:>16}\n", "", study.dimensionless ? "time" : "time [s]",

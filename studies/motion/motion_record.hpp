@@ -23,8 +23,9 @@ mechanics::NetworkValues motion_values(const StudyFile& study);
 
 transient::InitialState initial_state(const StudyFile& study);
 
-// Throws StudyError for values without a meaning, and where the motion cannot be completed.
-transient::FreeDecay solve_decay(const StudyFile& study);
+// Throws StudyError for values without a meaning, and where the motion cannot be completed; what `watch`
+// throws is passed on.
+transient::FreeDecay solve_decay(const StudyFile& study, const transient::Watch& watch = {});
 std::vector<results::Column> decay_columns(const StudyFile& study, const transient::FreeDecay& decay);
 void print_decay(const StudyFile& study, const transient::FreeDecay& decay, std::ostream& out);
 
@@ -32,7 +33,7 @@ void print_decay(const StudyFile& study, const transient::FreeDecay& decay, std:
 transient::ForcedOptions forced_options(const StudyFile& study);
 
 // Throws StudyError as solve_decay().
-transient::ForcedMotion solve_transient(const StudyFile& study);
+transient::ForcedMotion solve_transient(const StudyFile& study, const transient::Watch& watch = {});
 std::vector<results::Column> transient_columns(const StudyFile& study, const transient::ForcedMotion& motion);
 void print_transient(const StudyFile& study, const transient::ForcedMotion& motion, std::ostream& out);
 

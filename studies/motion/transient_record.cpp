@@ -60,11 +60,12 @@ transient::ForcedOptions forced_options(const StudyFile& study) {
   return options;
 }
 
-ForcedMotion solve_transient(const StudyFile& study) {
+ForcedMotion solve_transient(const StudyFile& study, const transient::Watch& watch) {
+  transient::ForcedOptions options = forced_options(study);
+  options.watch = watch;
   try {
     ForcedMotion motion = transient::forced_motion(
-        study.network, [&](double omega) { return values_at(study, omega); }, initial_state(study),
-        forced_options(study));
+        study.network, [&](double omega) { return values_at(study, omega); }, initial_state(study), options);
     if (!motion.failure.empty())
       throw StudyError(study.source.name + ": the motion is not computed: " + motion.failure);
     return motion;

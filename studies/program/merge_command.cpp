@@ -10,6 +10,7 @@
 #include "engine/stop_signals.hpp"
 #include "engine/tile_index.hpp"
 #include "studies/map/assemble.hpp"
+#include "studies/map/finished_file.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/map_table.hpp"
 #include "studies/program/study_note.hpp"
@@ -43,6 +44,7 @@ int merge_command(const MergeOptions& options, std::ostream& out) {
   const MapPlan plan = plan_from_note(places_of_note(options, logs), study_of(logs, options.output));
   const RunRecord record{
       .command = fmt::format("frahm merge {}", options.output.string()), .threads = 1, .started = utc_now()};
+  check_result_place(options.output, {});
   const engine::StopSignals signals;
   const Assembly assembly = assemble(
       plan, record, {.output = options.output, .logs = logs, .partial = options.partial, .stop_asked = [&] {

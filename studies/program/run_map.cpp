@@ -81,6 +81,7 @@ int run_map(const RunCommandOptions& options, StudyFile study, std::ostream& out
   if (run.output.empty()) run.output = default_output(options.study);
   const MapPlan plan = plan_map(std::move(study), options.set);
 
+  check_result_place(run.output, options.study);
   if (!run.fresh && is_finished(plan, run.output)) {
     remove_leftovers(plan, run.output);
     fmt::print(out, "everything is computed already; --fresh computes it anew\n");

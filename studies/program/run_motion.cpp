@@ -3,7 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
+#include <chrono>
+#include <iostream>
+#include <string>
+
 #include "engine/fingerprint.hpp"
+#include "engine/stop_signals.hpp"
 #include "results/map_writer.hpp"
 #include "studies/map/finished_file.hpp"
 #include "studies/map/map_record.hpp"
@@ -12,6 +17,22 @@
 
 namespace frahm::studies {
 namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Why a motion has been stopped.
+struct Stopped {
+  std::string reason;
+};
+
+// Throws Stopped on a signal, or when the time budget is used up.
+transient::Watch watch_for_stop(const engine::StopSignals& signals, const engine::RunOptions& run) {
+  return [&signals, &run, start = Clock::now()] {
+    if (signals.received() != 0) throw Stopped{"stopped by " + engine::signal_name(signals.received())};
+    if (run.time_budget && Clock::now() - start >= *run.time_budget)
+      throw Stopped{fmt::format("the time budget of {} s is used up", run.time_budget->count())};
+  };
+}
 
 void refuse_sharing(const RunCommandOptions& options, const StudyFile& study) {
   if (options.run.shard.count <= 1) return;
@@ -22,7 +43,7 @@ void refuse_sharing(const RunCommandOptions& options, const StudyFile& study) {
 void refuse_another_study(const MapPlan& plan, const std::filesystem::path& output) {
   const auto kept = fingerprint_of_file(output);
   if (!kept || *kept == plan.fingerprint) return;
-  throw engine::ResumeRefused(output, {*kept, 1}, {plan.fingerprint, 1});
+  throw engine::ResumeRefused(output, *kept, plan.fingerprint);
 }
 
 void write_file(const MapPlan& plan, const RunRecord& record, const std::filesystem::path& output,
@@ -33,6 +54,19 @@ void write_file(const MapPlan& plan, const RunRecord& record, const std::filesys
   writer.finish();
 }
 
+void compute(const MapPlan& plan, const RunRecord& record, const std::filesystem::path& output,
+             const transient::Watch& watch, std::ostream& out) {
+  if (plan.study.kind == StudyKind::decay) {
+    const transient::FreeDecay decay = solve_decay(plan.study, watch);
+    write_file(plan, record, output, decay_columns(plan.study, decay));
+    print_decay(plan.study, decay, out);
+  } else {
+    const transient::ForcedMotion motion = solve_transient(plan.study, watch);
+    write_file(plan, record, output, transient_columns(plan.study, motion));
+    print_transient(plan.study, motion, out);
+  }
+}
+
 }  // namespace
 
 int run_motion(const RunCommandOptions& options, StudyFile study, std::ostream& out) {
@@ -41,16 +75,15 @@ int run_motion(const RunCommandOptions& options, StudyFile study, std::ostream& 
   const MapPlan plan = plan_motion(std::move(study), options.set);
   const std::filesystem::path output =
       options.run.output.empty() ? default_output(options.study) : options.run.output;
+  check_result_place(output, options.study);
   if (!options.run.fresh) refuse_another_study(plan, output);
 
-  if (plan.study.kind == StudyKind::decay) {
-    const transient::FreeDecay decay = solve_decay(plan.study);
-    write_file(plan, record, output, decay_columns(plan.study, decay));
-    print_decay(plan.study, decay, out);
-  } else {
-    const transient::ForcedMotion motion = solve_transient(plan.study);
-    write_file(plan, record, output, transient_columns(plan.study, motion));
-    print_transient(plan.study, motion, out);
+  try {
+    const engine::StopSignals signals;
+    compute(plan, record, output, watch_for_stop(signals, options.run), out);
+  } catch (const Stopped& stopped) {
+    fmt::print(std::cerr, "{}: nothing is kept of a single motion, which begins anew\n", stopped.reason);
+    return exit_code::stopped;
   }
   fmt::print(out, "\n{}\n", output.string());
   return exit_code::done;

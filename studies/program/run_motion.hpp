@@ -9,7 +9,8 @@ namespace frahm::studies {
 
 // Computes the motion of a study of kind "decay" or "transient", writes its file and prints a short table.
 // It takes seconds at most, so nothing is kept in between and a file of the same study is written anew.
-// Returns 0. Throws as run_command().
+// A signal or the time budget stops it: then it leaves no file. Returns 0; 4 if stopped. Throws as
+// run_command().
 int run_motion(const RunCommandOptions& options, StudyFile study, std::ostream& out);
 
 }  // namespace frahm::studies

@@ -124,12 +124,14 @@ void read_frequency(NetworkReading& reading, const TomlSection& section) {
   }
 }
 
-int lowest_order(const NetworkReading& reading, const TomlSection& section) {
+// 1 if there are constant forces alone, where they will do.
+int lowest_order(const NetworkReading& reading, const TomlSection& section, bool constant_will_do) {
   int lowest = std::numeric_limits<int>::max();
   for (const Excitation& component : reading.result.network.excitations) {
     if (component.order > 0) lowest = std::min(lowest, component.order);
   }
   if (lowest == std::numeric_limits<int>::max()) {
+    if (constant_will_do && !reading.result.network.excitations.empty()) return 1;
     section.fail(
         "needs a [[excitation.force]] or [[excitation.motion]] of order 1 or more: nothing shakes the "
         "system");
@@ -179,7 +181,7 @@ void read_prescribed_nodes(NetworkReading& reading, const TomlValue& excitation)
   }
 }
 
-void read_excitation(NetworkReading& reading, const TomlValue& excitation) {
+void read_excitation(NetworkReading& reading, const TomlValue& excitation, bool constant_will_do) {
   const TomlSection section(reading.context.source, excitation, "[excitation]", excitation_keys);
   read_frequency(reading, section);
   std::size_t number = 0;
@@ -190,7 +192,7 @@ void read_excitation(NetworkReading& reading, const TomlValue& excitation) {
   for (const TomlValue* table : read_tables(section.source(), excitation, motion_path)) {
     read_motion(reading, *table, ++number);
   }
-  const int lowest = lowest_order(reading, section);
+  const int lowest = lowest_order(reading, section, constant_will_do);
   auto& reference = reading.result.network.reference_order;
   reference = section.find("reference_order") ? read_order(section, "reference_order", 1) : lowest;
   check_hysteretic_frequency(reading, section);

@@ -81,8 +81,11 @@ void check_value(const StudyFile& study, const Checked& checked, std::span<const
   if (checked.value->range == Range::not_negative && value < 0.0) {
     fail(study, checked, parameters, is(), "must be >= 0");
   }
-  if (checked.value->range == Range::positive && value <= 0.0)
-    fail(study, checked, parameters, is(), "must be > 0");
+  if (checked.value->range != Range::positive || value > 0.0) return;
+  // The only one is sweep_rate.
+  const bool is_rate = checked.value->quantity == Quantity::angular_acceleration;
+  fail(study, checked, parameters, is(),
+       is_rate ? "must be > 0; the direction follows from sweep_to" : "must be > 0");
 }
 
 void check(const StudyFile& study, const Checked& checked, std::span<double> parameters) {

@@ -88,6 +88,9 @@ void read_decay(NetworkReading& reading, const TomlValue& root, MotionChoice& mo
 // In a run-up the frequency is put in the place of the parameter that it is, for all that follows it.
 void check_run_up(const NetworkReading& reading, const TomlSection& section) {
   const Parameters& parameters = reading.parameters;
+  const auto& forces = reading.result.network.excitations;
+  if (std::all_of(forces.begin(), forces.end(), [](const auto& force) { return force.order == 0; }))
+    section.fail("sweep_to", "the excitation is constant and has no frequency that could run");
   const Expression& frequency = reading.result.values.omega.expression;
   const auto sole = frequency.sole_parameter();
   const bool is_parameter = sole && parameters.list[*sole].is_number();

@@ -254,7 +254,7 @@ NetworkOfStudy read_network(const StudyContext& context, const TomlValue& root, 
   for (const TomlValue* table : read_tables(context.source, root, "element"))
     read_element(reading, *table, ++number);
   if (is_forced) {
-    read_excitation(reading, excitation->value);
+    read_excitation(reading, excitation->value, kind == StudyKind::transient);
     check_every_motion_is_felt(reading, excitation->value);
   }
   check_masses_are_held(context, reading.result, reading.masses);

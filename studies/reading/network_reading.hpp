@@ -41,8 +41,9 @@ StudyValue read_value(NetworkReading& reading, const TomlSection& section, const
                       Quantity quantity, Range range, std::optional<double> otherwise = std::nullopt);
 
 // [[excitation.motion]] names the nodes of prescribed motion, so it comes before the elements. [excitation]
-// with its forces and the frequency comes after the masses.
+// with its forces and the frequency comes after the masses. Constant forces alone are refused unless
+// constant_will_do: they shake nothing in a periodic response, but a load suddenly applied has a motion.
 void read_prescribed_nodes(NetworkReading& reading, const TomlValue& excitation);
-void read_excitation(NetworkReading& reading, const TomlValue& excitation);
+void read_excitation(NetworkReading& reading, const TomlValue& excitation, bool constant_will_do);
 
 }  // namespace frahm::studies

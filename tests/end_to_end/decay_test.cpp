@@ -1,7 +1,10 @@
 // rig_decay_*.toml and lecture_free_vibration*.toml: whole runs against the closed-form recursion.
+#include <sys/wait.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 
 #include "tests/end_to_end/motion_file.hpp"
@@ -79,6 +82,59 @@ TEST_CASE(
   }
 }
 
+std::string one_mass(const std::string& more) {
+  return "[study]\nschema = 1\nkind = \"decay\"\n[parameters]\nc = 0.4\n[[mass]]\nname = \"a\"\nmass = 1\n"
+         "[[element]]\nname = \"spring\"\ntype = \"spring\"\nbetween = [\"ground\", \"a\"]\nstiffness = 4\n"
+         "[[element]]\nname = \"damper\"\ntype = \"damper\"\nbetween = [\"ground\", \"a\"]\ndamping = \"c\"\n"
+         "[[initial]]\nnode = \"a\"\ndisplacement = 0.1\n" +
+         more;
+}
+
+TEST_CASE("The table of a decay says how it ends: what is left, cut off, at rest from the start") {
+  const runs::Folder folder;
+  const std::string file = folder / "decay.h5";
+  const std::string cut = folder.write("cut.toml", one_mass("[decay]\nduration = 0.5\n"));
+  const auto out = [&](const std::string& study, const std::string& set) {
+    const runs::Outcome outcome = runs::frahm({"run", study, "-o", file, "--fresh", "--set", set});
+    INFO(outcome.err);
+    CHECK(outcome.code == 0);
+    return outcome.out;
+  };
+  const std::string short_one = out(cut, "c=0.4");
+  CHECK_THAT(short_one, Catch::Contains("after 0.5 s") && Catch::Contains("is 0.9") &&
+                            Catch::Contains("1 extremum,") && !Catch::Contains("1e-06"));
+  const std::string whole = folder.write("whole.toml", one_mass(""));
+  CHECK_THAT(out(whole, "c=0.4"),
+             Catch::Contains("never stops; after") && Catch::Contains("e-07 of the first"));
+  CHECK_THAT(out(whole, "c=40000"),
+             Catch::Contains("still moving after") && Catch::Contains("unless [decay] has a duration"));
+  const std::string still =
+      folder.write("still.toml", runs::replaced(one_mass(""), "displacement = 0.1", "displacement = 0"));
+  CHECK_THAT(out(still, "c=0.4"), Catch::Contains("at rest from the start"));
+}
+
+TEST_CASE("A time budget stops a motion with code 4 and leaves no file") {
+  const runs::Folder folder;
+  const std::string study = folder.write("stiff.toml", one_mass("[decay]\nduration = 100\n"));
+  const runs::Outcome outcome =
+      runs::frahm({"run", study, "-o", folder / "decay.h5", "--set", "c=40000", "--time-budget", "0.01s"});
+  CHECK(outcome.code == 4);
+  CHECK_THAT(outcome.err, Catch::Contains("time budget") && Catch::Contains("nothing is kept"));
+  CHECK(folder.names() == std::vector<std::string>{"stiff.toml"});
+}
+
+TEST_CASE("SIGTERM stops a motion with code 4 and leaves no file") {
+  const runs::Folder folder;
+  // Some seconds of work, which the signal comes into.
+  const std::string study = folder.write("stiff.toml", one_mass("[decay]\nduration = 80\n"));
+  const std::string command = "timeout --preserve-status -s TERM 0.5 " FRAHM_PROGRAM " run " + study +
+                              " -o " + (folder / "decay.h5") + " --set c=100000 2> " + (folder / "said");
+  const int status = std::system(command.c_str());
+  REQUIRE(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 4);
+  CHECK(folder.names() == std::vector<std::string>{"said", "stiff.toml"});
+}
+
 TEST_CASE("A decay's file is exported, summed up, recomputed for its study and refused to another") {
   const runs::Folder folder;
   const std::string study = studies + "lecture_free_vibration_friction.toml", file = folder / "decay.h5";
@@ -86,7 +142,9 @@ TEST_CASE("A decay's file is exported, summed up, recomputed for its study and r
   CHECK(first.code == 0);
   CHECK_THAT(first.out, Catch::Contains("comes to rest at 1.570796327 s"));
   CHECK(runs::frahm({"run", study, "-o", file}).code == 0);
-  CHECK(runs::frahm({"run", study, "-o", file, "--set", "F=3 N"}).code == 5);
+  const runs::Outcome other = runs::frahm({"run", study, "-o", file, "--set", "F=3 N"});
+  CHECK(other.code == 5);
+  CHECK_THAT(other.err, Catch::Contains("is the result of another physics") && !Catch::Contains("tiles"));
   CHECK(runs::frahm({"run", studies + "lecture_free_vibration.toml", "-o", file}).code == 5);
   CHECK_THAT(runs::frahm({"status", file}).out, Catch::Contains("stop_time"));
   const runs::Outcome table = runs::frahm({"export", file, "-o", "-"});

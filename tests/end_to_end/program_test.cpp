@@ -95,12 +95,37 @@ TEST_CASE("a finished run is not repeated, and a file of another study is not ov
   CHECK(folder.names() == Names{"small.h5", "small.toml"});
 }
 
-TEST_CASE("a file that is no result is not overwritten") {
-  const Folder folder;
-  const std::string study = folder.write("small.toml", small),
-                    output = folder.write("thesis.h5", "my thesis");
-  CHECK(run(study, output).code == 6);
-  CHECK(std::filesystem::file_size(output) == 9);
+std::string text_of(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST_CASE(
+    "what is no result is not overwritten, --fresh or not: a foreign file, the study, a folder, a device") {
+  const std::string decay = text_of(FRAHM_SOURCE_DIR "/studies/lecture_free_vibration_friction.toml");
+  for (const std::string& text : {small, decay}) {
+    const Folder folder;
+    const std::string study = folder.write("small.toml", text);
+    const std::string thesis = folder.write("thesis.h5", "my thesis"), empty = folder.write("empty.h5", "");
+    const std::string link = folder / "link.h5";
+    std::filesystem::create_symlink(study, link);
+    for (const Names& more : {Names{}, Names{"--fresh"}}) {
+      const auto refused = run(study, thesis, more);
+      CHECK(refused.code == 6);
+      CHECK_THAT(refused.err, Catch::Contains("is not a result of frahm; give another -o"));
+      CHECK(run(study, empty, more).code == 6);
+      const auto itself = run(study, link, more);
+      CHECK(itself.code == 6);
+      CHECK_THAT(itself.err, Catch::Contains("is the study itself"));
+      CHECK(run(study, study, more).code == 6);
+      CHECK_THAT(run(study, "/dev/null", more).err, Catch::Contains("is not a regular file"));
+      CHECK(run(study, folder / ".", more).code == 6);
+    }
+    CHECK(text_of(thesis) == "my thesis");
+    CHECK(text_of(study) == text);
+    CHECK(std::filesystem::is_symlink(link));
+    CHECK(folder.names() == Names{"empty.h5", "link.h5", "small.toml", "thesis.h5"});
+  }
 }
 
 TEST_CASE("shards are kept apart, merged when all are there, and give what one run gives") {
@@ -122,6 +147,10 @@ TEST_CASE("shards are kept apart, merged when all are there, and give what one r
 
   std::filesystem::remove(parts);
   CHECK(run(study, parts, {"--shard", "1/3"}).code == 0);
+  folder.write("parts.h5", "my thesis");
+  CHECK_THAT(frahm({"merge", parts}).err, Catch::Contains("is not a result of frahm"));
+  CHECK(text_of(parts) == "my thesis");
+  std::filesystem::remove(parts);
   CHECK(frahm({"merge", parts}).code == 0);
   const runs::Map one = runs::read_map(folder / "one.h5"), merged = runs::read_map(parts);
   CHECK(one["main_peak"] == merged["main_peak"]);

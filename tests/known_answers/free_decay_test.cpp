@@ -177,7 +177,8 @@ TEST_CASE("A decay cut short keeps what happens until then, and still knows wher
       decay_of(oscillator, 1.0, {.duration = 5.5 * oscillator.half_period(), .samples = 12});
   CHECK(cut.masses[0].extrema.size() == 6);
   CHECK(std::isnan(cut.stop_time));
-  CHECK(cut.masses[0].rest == whole.masses[0].rest);
+  // The given duration ends a passage of its own, which leaves a rounding.
+  CHECK_THAT(cut.masses[0].rest, WithinAbs(whole.masses[0].rest, kExact));
   CHECK(cut.history.time.back() == cut.duration);
 }
 

@@ -84,6 +84,15 @@ TEST_CASE("initial values and sweeps are physics, duration and samples are not")
                             .physics);
 }
 
+TEST_CASE("a constant force alone is an excitation of a transient") {
+  const std::string constant =
+      "[excitation]\nfrequency = \"omega\"\n[[excitation.force]]\non = \"b\"\namplitude = 3\norder = 0\n";
+  const StudyFile study = parse(transient_heading + network + constant + "[transient]\nduration = 3\n");
+  REQUIRE(study.network.excitations.size() == 1);
+  CHECK(study.network.reference_order == 1);
+  CHECK(solve_transient(study).peaks[1].displacement > 0.0);
+}
+
 TEST_CASE("a decay and a transient are no maps") {
   CHECK_THROWS_WITH(plan_map(parse(decay_heading + network + initial), {}), Catch::Contains("one motion"));
 }
