@@ -15,8 +15,8 @@ struct ResonancePeak {
 
 // response(x): the amplitude at x, x >= 0; infinite where none is large enough, NaN where there is none.
 // grid: places in any order. Every local maximum of the grid's inner places is solved and the highest taken,
-// so that a coarse grid does not choose between two modes. A curve that is highest at an end of the grid has no
-// peak, one with places without a response about its peak no height.
+// so that a coarse grid does not choose between two modes. A curve that is highest at an end of the grid has
+// no peak, one with places without a response about its peak no height.
 //
 // Solved, not sampled: where the curve is smooth the peak is a root of the slope of 1/response^2, to about
 // 1e-11 of the width between the half-power points. Peaks narrower than kNarrowest of x cannot be told from

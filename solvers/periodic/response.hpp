@@ -32,6 +32,22 @@ struct History {
   std::vector<std::string> names;  // "main_displacement", "main_velocity", ..., "guide_force"
   std::vector<std::string> units;
   std::vector<std::vector<double>> columns;
+
+  // Without samples: displacement and velocity of each mass, force of each element.
+  static History of(const mechanics::Network& network) {
+    History history;
+    const auto add_column = [&](const std::string& name, const char* unit) {
+      history.names.push_back(name);
+      history.units.push_back(unit);
+      history.columns.emplace_back();
+    };
+    for (const std::string& mass : network.masses) {
+      add_column(mass + "_displacement", "m");
+      add_column(mass + "_velocity", "m s-1");
+    }
+    for (const auto& element : network.elements) add_column(element.name + "_force", "N");
+    return history;
+  }
 };
 
 // What PeriodicResponse (solvers/response/) does, for one kind of network; its comments say what is promised.

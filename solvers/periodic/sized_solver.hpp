@@ -128,18 +128,7 @@ void SizedSolver<N, H>::settle() {
 template <int N, int H>
 History SizedSolver<N, H>::history(std::size_t samples) {
   const auto& network = assembly_.network();
-  History result;
-  const auto add_column = [&](const std::string& name, const char* unit) {
-    result.names.push_back(name);
-    result.units.push_back(unit);
-    result.columns.emplace_back();
-  };
-  for (const std::string& mass : network.masses) {
-    add_column(mass + "_displacement", "m");
-    add_column(mass + "_velocity", "m s-1");
-  }
-  for (const auto& element : network.elements) add_column(element.name + "_force", "N");
-
+  History result = History::of(network);
   const Forms<N, H> forms(assembly_, flow_);
   const Eigen::Index n = flow_.equations().masses();
   const double turn = 2.0 * std::numbers::pi, seconds_per_turn = turn / system_.omega;

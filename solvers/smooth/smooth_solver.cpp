@@ -202,19 +202,9 @@ void SmoothSolver::state_at(double phase, Eigen::VectorXd& z) const {
 History SmoothSolver::history(std::size_t samples) {
   const Network& network = assembly_.network();
   const Forms forms(assembly_, equation_);
-  History result;
-  const auto add_column = [&](const std::string& name, const char* unit) {
-    result.names.push_back(name);
-    result.units.push_back(unit);
-    result.columns.emplace_back();
-  };
-  for (const std::string& mass : network.masses) {
-    add_column(mass + "_displacement", "m");
-    add_column(mass + "_velocity", "m s-1");
-  }
+  History result = History::of(network);
   std::vector<Form> element_forces;
   for (std::size_t e = 0; e < network.elements.size(); ++e) {
-    add_column(network.elements[e].name + "_force", "N");
     element_forces.push_back(forms.element_force(e, system_.laws[e]));
   }
   Instant instant;
