@@ -81,7 +81,7 @@ class Curve {
     bool has_gap = false;
     const auto f = [&](double x) {
       const double value = response_(x);
-      has_gap = has_gap || std::isnan(value);
+      has_gap = has_gap || (std::isnan(value) && left <= x && x <= right);
       return std::isnan(value) ? kInfinite : 1.0 / (value * value);
     };
     std::uintmax_t evaluations = kMostEvaluations;
@@ -92,9 +92,9 @@ class Curve {
     for (double h = (right - left) / 64.0;; h *= 0.25) {
       const auto [low, high] = half_power_points(at, value);
       const double width = std::fmin(high - at, at - low);
-      const double smallest = std::max(width / 64.0, 1e-15 * at);
-      const bool last = !(h > smallest);
-      if (last && width > 0.0) h = smallest;
+      // A peak without half-power points in the band is so flat that the first differences serve.
+      const bool last = !(width > 0.0) || h <= width / 64.0;
+      if (width > 0.0) h = std::max(h, width / 64.0);
       const double solved = root([&](double x) { return slope(f, x, h); }, std::max(left, at - 8.0 * h),
                                  std::min(right, at + 8.0 * h));
       if (!std::isnan(solved) && f(solved) <= value * (1.0 + 1e-9))

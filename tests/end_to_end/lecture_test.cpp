@@ -56,6 +56,9 @@ TEST_CASE("lecture_unbalance.toml: the force m_e e omega^2 gives r^2 V, and m_e 
       const double expected = at_infinity * r * r * std::abs(magnification(r, zeta));
       INFO("zeta " << zeta << ", r " << r);
       CHECK_THAT(map["machine_peak"][point], Catch::WithinRel(expected, tolerance));
+      CHECK_THAT(
+          map["force_transmissibility"][point],
+          Catch::WithinRel(std::abs(Complex(1.0, 2.0 * zeta * r) * magnification(r, zeta)), tolerance));
       if (map["machine_peak"][point] > map["machine_peak"][highest]) highest = point;
       ++point;
     }

@@ -51,6 +51,22 @@ TEST_CASE("a viscous curve has no peak above zeta = 1/sqrt(2), and one just belo
   CHECK(std::isnan(flat.half_power_low));  // the static response is above 1/sqrt(2) of so low a peak
 }
 
+TEST_CASE("so flat a peak as that of zeta just below 1/sqrt(2) is met too") {
+  for (const double zeta : {0.7, 0.706, 0.70705}) {
+    for (const int points : {100, 500}) {
+      INFO("zeta " << zeta << " points " << points);
+      if (points == 100 && zeta > 0.707) continue;  // the peak lies between the first two places
+      const auto peak =
+          find_resonance_peak([&](double r) { return viscous(r, zeta); }, grid(0.001, 2.0, points));
+      // 1/|X|^2 = const + (r^2 - r_0^2)^2, whose curvature there is 8 r_0^2 of 1: rounding moves the root by
+      // that.
+      const double resonance = std::sqrt(1.0 - 2.0 * zeta * zeta);
+      CHECK_THAT(peak.at, WithinAbs(resonance, 1e-12 / (resonance * resonance)));
+      CHECK_THAT(peak.value, WithinAbs(viscous(resonance, zeta), 1e-12));
+    }
+  }
+}
+
 TEST_CASE("a hysteretic peak stands at the natural frequency and is 1/eta high") {
   for (const double eta : {0.002, 0.05, 0.3}) {
     const auto peak =
