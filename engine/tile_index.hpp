@@ -82,4 +82,8 @@ class AssemblyLock {
   File file_;
 };
 
+// Removes the lock file of an assembly that was killed, if there is one. Throws Locked if one is at work,
+// IoError.
+void remove_assembly_lock(const std::filesystem::path& output);
+
 }  // namespace frahm::engine

@@ -27,6 +27,7 @@ void remove_leftovers(const MapPlan& plan, const std::filesystem::path& output) 
   std::vector<std::filesystem::path> logs = engine::find_logs(output);
   std::erase_if(logs, [&](const auto& log) { return engine::study_of_log(log) != plan.log_header(); });
   engine::remove_logs(logs);
+  engine::remove_assembly_lock(output);
   if (engine::find_logs(output).empty()) remove_study_notes(output);
 }
 

@@ -87,6 +87,9 @@ TEST_CASE("a finished run is not repeated, and a file of another study is not ov
   const auto again = run(study, output);
   CHECK(again.code == 0);
   CHECK_THAT(again.out, Catch::Contains("computed already"));
+  folder.write("small.h5.frahm-lock", "of an assembly that was killed when its file was in place");
+  CHECK(run(study, output).code == 0);
+  CHECK(folder.names() == Names{"small.h5", "small.toml"});
   const auto other = run(study, output, {"--set", "zeta=0.1"});
   CHECK(other.code == 5);
   CHECK_THAT(other.err, Catch::Contains("another physics") && Catch::Contains("--fresh"));
