@@ -39,6 +39,11 @@ double root(const AnyFunction& f, double a, double b) {
   return 0.5 * (left + right);
 }
 
+// Infinite where there is no response.
+double inverse_square(double response) {
+  return std::isnan(response) ? kInfinite : 1.0 / (response * response);
+}
+
 // A response curve on its places, ascending; its inverse square is smooth through the sharpest peak (of one
 // mass it is a polynomial of x^2), zero where the response is infinite.
 class Curve {
@@ -46,12 +51,7 @@ class Curve {
   Curve(const Function& response, std::span<const double> grid)
       : response_(response), places_(grid.begin(), grid.end()) {
     std::sort(places_.begin(), places_.end());
-    for (const double place : places_) values_.push_back(inverse_square(place));
-  }
-
-  double inverse_square(double x) const {
-    const double value = response_(x);
-    return std::isnan(value) ? kInfinite : 1.0 / (value * value);
+    for (const double place : places_) values_.push_back(inverse_square(response_(place)));
   }
 
   // The inner local maxima of the response, highest first.
@@ -82,7 +82,7 @@ class Curve {
     const auto f = [&](double x) {
       const double value = response_(x);
       has_gap = has_gap || (std::isnan(value) && left <= x && x <= right);
-      return std::isnan(value) ? kInfinite : 1.0 / (value * value);
+      return inverse_square(value);
     };
     std::uintmax_t evaluations = kMostEvaluations;
     auto [at, value] = boost::math::tools::brent_find_minima(f, left, right, 50, evaluations);
@@ -97,8 +97,8 @@ class Curve {
       if (width > 0.0) h = std::max(h, width / 64.0);
       const double solved = root([&](double x) { return slope(f, x, h); }, std::max(left, at - 8.0 * h),
                                  std::min(right, at + 8.0 * h));
-      if (!std::isnan(solved) && f(solved) <= value * (1.0 + 1e-9))
-        std::tie(at, value) = std::pair(solved, f(solved));
+      const double at_solved = std::isnan(solved) ? kInfinite : f(solved);
+      if (at_solved <= value * (1.0 + 1e-9)) std::tie(at, value) = std::pair(solved, at_solved);
       if (last) break;
     }
     return {at, value, !has_gap};

@@ -125,14 +125,21 @@ void walk(const StudyFile& study, std::span<const std::size_t> reads, std::vecto
   } while (turned < moving.size());
 }
 
+// The parameters that an excitation's crank and rod read.
+std::vector<std::size_t> reads_of_crank(const StudyFile& study, std::size_t excitation) {
+  std::vector<std::size_t> reads = study.values.amplitude[excitation].expression.reads();
+  const auto& of_rod = study.values.rod[excitation].expression.reads();
+  reads.insert(reads.end(), of_rod.begin(), of_rod.end());
+  return reads;
+}
+
 // crank/rod of an excitation at a point (SI values of all parameters, completed).
 double crank_ratio(const StudyFile& study, std::size_t excitation, std::span<const double> parameters) {
   const StudyValue &crank = study.values.amplitude[excitation], &rod = study.values.rod[excitation];
   const double ratio = crank.expression.evaluate(parameters) / rod.expression.evaluate(parameters);
   if (ratio <= mechanics::kLargestCrankRatio) return ratio;
-  std::vector<std::size_t> reads = crank.expression.reads();
-  reads.insert(reads.end(), rod.expression.reads().begin(), rod.expression.reads().end());
-  fail(study, {&crank, nullptr, reads}, parameters, fmt::format("is {:.6g} times the rod", ratio),
+  fail(study, {&crank, nullptr, reads_of_crank(study, excitation)}, parameters,
+       fmt::format("is {:.6g} times the rod", ratio),
        fmt::format("must be at most {} times the rod, or its Fourier series is too long",
                    mechanics::kLargestCrankRatio));
 }
@@ -143,16 +150,13 @@ bool is_crank(const StudyFile& study, std::size_t excitation) {
 
 // The largest crank/rod of an excitation on the grid and at the orbits kept.
 double largest_crank_ratio(const StudyFile& study, std::size_t excitation) {
-  const StudyValue &crank = study.values.amplitude[excitation], &rod = study.values.rod[excitation];
-  std::vector<std::size_t> reads = crank.expression.reads();
-  reads.insert(reads.end(), rod.expression.reads().begin(), rod.expression.reads().end());
   std::vector<double> parameters = study.parameters.nominal();
   double largest = 0.0;
   const auto visit = [&] {
     study.parameters.complete(std::span<double>(parameters));
     largest = std::max(largest, crank_ratio(study, excitation, parameters));
   };
-  walk(study, reads, parameters, visit);
+  walk(study, reads_of_crank(study, excitation), parameters, visit);
   for (const auto& orbit : study.output.orbits) {
     parameters = study.parameters.nominal();
     for (const Assignment& assignment : orbit) parameters[assignment.parameter] = assignment.value;

@@ -33,6 +33,14 @@ Start random_start(std::size_t masses, std::mt19937& random) {
   return start;
 }
 
+mechanics::LinearSystem system_of(const RandomNetwork& drawn) {
+  const mechanics::Assembly assembly(drawn.network);
+  mechanics::LinearSystem system;
+  assembly.set_values(drawn.values, system);
+  assembly.set_forcing(drawn.values, system);
+  return system;
+}
+
 // The largest difference to the reference at the history's times.
 double largest_error(const Samples& history, periodic::EventIntegrator& reference) {
   double error = 0.0;
@@ -66,10 +74,7 @@ TEST_CASE("Random networks let go decay as the independent integration says") {
     REQUIRE(decay.end != DecayEnd::failed);
     CHECK(decay.end != DecayEnd::cut_off);  // every mass is damped
     at_rest += decay.end == DecayEnd::at_rest;
-    const mechanics::Assembly assembly(drawn.network);
-    mechanics::LinearSystem system;
-    assembly.set_values(drawn.values, system);
-    assembly.set_forcing(drawn.values, system);
+    const mechanics::LinearSystem system = system_of(drawn);
     periodic::EventIntegrator reference(system);
     reference.start(0.0, start.q, start.v);
     CHECK(largest_error(decay.history, reference) < kIntegrated);
@@ -98,10 +103,7 @@ TEST_CASE("Random networks shaken from random initial values move as the indepen
                       {.from = drawn.values.omega, .duration = duration, .samples = 21});
     INFO("trial " << trial);
     REQUIRE(motion.failure.empty());
-    const mechanics::Assembly assembly(drawn.network);
-    mechanics::LinearSystem system;
-    assembly.set_values(drawn.values, system);
-    assembly.set_forcing(drawn.values, system);
+    const mechanics::LinearSystem system = system_of(drawn);
     periodic::EventIntegrator reference(system);
     reference.start(0.0, start.q, start.v);
     CHECK(largest_error(motion.history, reference) <
