@@ -1,0 +1,105 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "solvers/tuning/task.hpp"
+
+namespace frahm::tuning {
+
+enum class Outcome {
+  converged,      // the certificate gap and the KKT residual are below their tolerances
+  not_converged,  // they are not; the design is the best found
+  infeasible,     // no design met the limits; the design violates them least
+  unbounded,      // the response has no bound at some frequency of the band
+  failed,         // the response could not be computed; see reason
+  stopped,        // by the caller
+};
+
+// A design parameter at the optimum [SI]. One entry each of a constant, one per knot of a schedule.
+struct TunedParameter {
+  std::vector<double> value;
+  std::vector<double> lower_multiplier,
+      upper_multiplier;  // fall of the objective per unit by which the bound is moved outwards, >= 0
+};
+
+// A local maximum of the weighted quantity over the band.
+struct Peak {
+  std::size_t scenario = 0;
+  double at = 0.0;     // band parameter [SI]
+  double value = 0.0;  // weighted
+  double multiplier =
+      0.0;  // its share in what holds the optimum; shares of a minimax sum to 1. 0: not active
+  std::vector<double>
+      sensitivity;  // d value / d parameter, of the design parameters and of their schedules as a whole
+};
+
+// A limit at the optimum, where it is nearest to being broken.
+struct LimitState {
+  double value = 0.0;  // of the quantity
+  double at = 0.0;     // band parameter [SI]
+  std::size_t scenario = 0;
+  double multiplier = 0.0;  // how much the objective falls per unit by which the limit is relaxed, >= 0
+};
+
+// One exchange: the problem over the active frequencies solved, then the true maxima found.
+struct Round {
+  std::size_t active = 0;  // frequencies
+  int iterations = 0;      // of the optimiser
+  double bound = 0.0;      // objective of the problem over the active frequencies
+  double worst = 0.0;      // true objective of its design
+  double violation = 0.0;  // of the limits, relative
+};
+
+struct Optimum {
+  Outcome outcome = Outcome::failed;
+  std::string reason;                      // a sentence: why the work ended
+  double trade_off = 0.0;                  // the limit of the trade-off this belongs to
+  std::vector<TunedParameter> parameters;  // Task::parameters order
+  double objective = 0.0;  // true: worst peak found over the whole band; mean square; variance
+  double certificate_gap =
+      0.0;  // (objective - bound) / objective: what no active frequency has seen; minimax only, else NaN
+  double kkt_residual = 0.0;        // relative; of the problem over the active frequencies
+  double violation = 0.0;           // largest, of the limits, relative
+  double constant_objective = 0.0;  // of the best constant design, where a parameter is scheduled, else NaN
+  std::vector<double> constant;     // that design, Task::parameters order; empty where nothing is scheduled
+  std::vector<Peak> peaks;          // ascending in scenario, then frequency
+  std::vector<LimitState> limits;   // Task::limits order, then the trade-off's
+  std::vector<Round> rounds;
+  int iterations = 0;
+  std::uint64_t orbits = 0, gradients = 0;  // periodic responses and derivatives that it took
+};
+
+// Solves the task from one of its starts: one optimum, or one for each limit of the trade-off. Depends on the
+// task and the start alone, to the last bit. Never throws for what the numbers bring; throws
+// mechanics::MechanicsError for a task without meaning (NaN or reversed bounds, a quantity without
+// derivative).
+std::vector<Optimum> tune(const Task& task, std::size_t start, const std::function<bool()>& stop_asked);
+
+// How good a design is beside others, and how sure: for the record and the report.
+struct Detuning {
+  std::vector<double> change;  // relative: -0.1 ... 0.1
+  std::vector<std::vector<double>>
+      growth;  // [parameter][change]: worst objective over that at the optimum, less 1
+};
+
+struct Curve {
+  std::string name;                        // "before", "after", "constant", "rule"
+  std::vector<std::vector<double>> value;  // [scenario][frequency], weighted quantity; NaN where it has none
+  double worst = 0.0;                      // true maximum over band and scenarios
+};
+
+struct Assessment {
+  std::vector<double> band;  // SI, where the curves are sampled: the peaks among them
+  std::vector<Curve> curves;
+  Detuning detuning;
+};
+
+// rule: values of the scheduled parameters over the band by another rule (already clipped), one function per
+// parameter, empty for those that have none.
+using Rule = std::function<double(double band)>;
+Assessment assess(const Task& task, const Optimum& optimum, const std::vector<Rule>& rules);
+
+}  // namespace frahm::tuning

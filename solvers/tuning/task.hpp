@@ -1,0 +1,110 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "solvers/mechanics/network.hpp"
+#include "solvers/periodic/quantity.hpp"
+
+// What is to be tuned: a network whose numbers depend on design parameters, a band of frequencies, and what
+// is wanted of the response over it.
+namespace frahm::tuning {
+
+// A range of the band parameter, which sets the excitation's frequency [its SI unit]; from <= to.
+struct Band {
+  double from = 0.0, to = 0.0;
+};
+
+// A design parameter that runs over the band: piecewise linear between knots.
+struct Schedule {
+  std::vector<double>
+      knots;  // of the band parameter, ascending, at least two, from one end of the band to the other
+  double max_slope =
+      std::numeric_limits<double>::infinity();  // of the parameter over the band parameter, either way
+};
+
+struct DesignParameter {
+  std::string name;
+  double lower = 0.0, upper = 0.0;   // [SI], finite, lower <= upper
+  double nominal = 0.0;              // as the study states it [SI]; may lie outside the bounds
+  std::optional<Schedule> schedule;  // absent: one constant
+};
+
+// The numbers of the network of a scenario.
+// at: SI values of the design parameters (Task::parameters order), then of the band parameter.
+// derivatives: if not null, one for each entry of `at`: the derivative of the values by it, others held.
+using NetworkAt =
+    std::function<void(std::size_t scenario, std::span<const double> at, mechanics::NetworkValues& values,
+                       std::vector<mechanics::NetworkValues>* derivatives)>;
+
+// A factor on the response and its derivative by the band parameter.
+struct Weight {
+  double value = 1.0, slope = 0.0;
+};
+
+// A quantity of the response held within limits over a band.
+struct QuantityLimit {
+  std::string name;  // of the quantity
+  periodic::Quantity quantity;
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  std::optional<Band> band;  // absent: the task's
+};
+
+enum class Objective {
+  minimax,      // least maximum over the band of the weighted quantity, worst scenario
+  mean_square,  // least mean over the band of its square, mean over the scenarios
+  variance,     // least mean square under white noise (H2), mean over the scenarios
+};
+
+// White noise of two-sided spectral density `intensity` [unit^2 s / rad] as a force [N] on a mass, or as the
+// acceleration [m/s^2] of a prescribed node.
+struct Noise {
+  enum class Kind { force_on, acceleration_of };
+  Kind kind = Kind::force_on;
+  std::size_t node = 0;  // in Network::masses (force) or Network::prescribed (acceleration)
+  double intensity = 1.0;
+};
+
+enum class Start {
+  given,   // the nominal values, clipped to the bounds
+  global,  // a global search of the bounds first (NLopt)
+  many,    // start 0 as given, start i > 0 at the i-th point of a low-discrepancy sequence over the bounds
+};
+
+// The same problem solved along a list of limits of one quantity, each from the optimum before it.
+struct TradeOff {
+  std::string name;
+  periodic::Quantity quantity;
+  std::vector<double> limits;  // upper limits [SI]
+};
+
+struct Task {
+  mechanics::Network network;
+  NetworkAt network_at;
+  std::vector<std::string> scenarios;       // names, at least one
+  std::vector<DesignParameter> parameters;  // at least one
+  Band band;
+  Objective objective = Objective::minimax;
+  periodic::Quantity quantity;
+  std::function<Weight(double band)> weight;  // empty: 1
+  std::vector<QuantityLimit> limits;
+  std::optional<TradeOff> trade_off;
+  Noise noise;  // of Objective::variance
+  // Scheduled parameters only: the response is at no frequency above that of the best constant.
+  bool dominate_constant = false;
+
+  std::string solver = "ipopt";        // or a local algorithm of NLopt
+  std::string global_solver = "crs2";  // of Start::global
+  Start start = Start::given;
+  std::size_t starts = 1;  // of Start::many
+  double tolerance =
+      1e-6;  // of the certificate gap, relative: work goes on until it is below or falls no more
+  int most_rounds = 60;
+};
+
+}  // namespace frahm::tuning
