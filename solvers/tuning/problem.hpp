@@ -1,0 +1,129 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+// An optimisation problem in plain terms, and the solvers that take it:
+//
+//   minimise f(x)   subject to   lower_i <= x_i <= upper_i,   lower_j <= g_j(x) <= upper_j
+//
+// Bounds may be infinite; equal bounds fix a variable or make a constraint an equality.
+namespace frahm::tuning {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct Variable {
+  std::string name;
+  double lower = -kInfinity, upper = kInfinity;
+  double start = 0.0;  // moved to the nearer bound where it is outside
+  double scale = 1.0;  // typical size, > 0: the solvers work in x / scale
+};
+
+struct Constraint {
+  std::string name;
+  double lower = -kInfinity, upper = kInfinity;
+  double scale = 1.0;  // typical size of its values, > 0
+};
+
+// Place of one derivative d g_constraint / d x_variable that may differ from zero.
+struct JacobianEntry {
+  std::size_t constraint = 0, variable = 0;
+};
+
+// What is to be minimised. The lists are fixed during a solve. A point may be asked for first without and
+// then with derivatives. Exceptions of the functions end the solve and leave it as they are.
+class Problem {
+ public:
+  virtual ~Problem() = default;
+
+  std::vector<Variable> variables;
+  std::vector<Constraint> constraints;
+  std::vector<JacobianEntry> jacobian;  // structure, each place once
+  double objective_scale = 1.0;         // typical size of the objective, > 0
+
+  // Objective at x (size of variables); its gradient (the same size) is filled unless empty.
+  // May return NaN: not defined there. The solvers then take a shorter step.
+  virtual double objective(std::span<const double> x, std::span<double> gradient) = 0;
+
+  // Constraint values (size of constraints); derivatives (size of jacobian, in its order) are filled unless
+  // empty. NaN as above.
+  virtual void constrain(std::span<const double> x, std::span<double> values, std::span<double> entries) = 0;
+
+  // Asked at every evaluation: true ends the solve with the best point so far.
+  virtual bool stop_asked() { return false; }
+};
+
+// How a solve ended. The first two are decided by our KKT residual, whatever the library says.
+enum class Ending {
+  converged,        // KKT residual within the tolerance, constraints within the feasibility
+  acceptable,       // feasible, and the KKT residual within kAcceptable tolerances
+  infeasible,       // no feasible point was found; x is where the constraints are violated least
+  iteration_limit,  // the iterations allowed were used up; the normal ending of a global search
+  diverging,        // the objective falls, or x grows, without limit
+  failed,           // the library could not go on, see the reason
+  stopped,          // stop_asked
+};
+inline constexpr double kAcceptable = 1e3;
+const char* name(Ending ending);
+
+struct IterationRecord {
+  int iteration = 0;
+  double objective = 0.0;
+  double infeasibility = 0.0;
+  double optimality = 0.0;  // the library's own measure; NaN where it has none
+};
+
+// Multipliers are those of L = f + sum lambda_j g_j + sum (upper_i - lower_i multiplier) x_i, so that
+//   d f* / d (bound of constraint j)     = -constraint_multipliers[j]   (> 0: upper bound active, < 0: lower)
+//   d f* / d (upper bound of variable i) = -upper_multipliers[i],   d f* / d (lower bound) =
+//   lower_multipliers[i].
+struct Solution {
+  Ending ending = Ending::failed;
+  std::string reason;  // a sentence: why it ended so
+  std::vector<double>
+      x;  // size of variables; the best feasible point met, or the solver's last where converged
+  double objective = 0.0;  // at x
+  double kkt_residual =
+      0.0;  // of kkt.hpp, relative to the scales; computed by us in the same way for every solver
+  double infeasibility = 0.0;  // largest violation of a constraint, relative to its scale
+  std::vector<double> lower_multipliers, upper_multipliers;  // of each variable, >= 0
+  std::vector<double> constraint_multipliers;                // of each constraint
+  int iterations = 0;   // of NLopt's algorithms: improvements of the best point
+  int evaluations = 0;  // points at which objective and constraints were asked for
+  std::vector<IterationRecord> history;
+};
+
+struct SolverOptions {
+  double tolerance = 1e-9;     // of the KKT residual
+  int most_iterations = 500;   // a global algorithm may use 10 (variables + 1) evaluations for each
+  double feasibility = 1e-10;  // largest violation of a constraint, relative to its scale
+};
+
+// All of these throw std::invalid_argument where the problem makes no sense (an empty interval, a scale that
+// is not positive, a start that is not finite), and let exceptions of the problem's functions through.
+
+// Interior-point method with exact gradients and a limited-memory Hessian. Re-entrant: solves in several
+// threads take turns inside Ipopt, whose linear solver is not thread-safe, and run side by side in the
+// problem's functions. Source: A. Waechter, L. T. Biegler, Math. Program. 106 (2006) 25-57.
+Solution solve_with_ipopt(Problem& problem, const SolverOptions& options = {});
+
+struct Algorithm {
+  std::string name;
+  bool global = false;        // searches the whole box, which must be finite
+  bool inequalities = false;  // takes constraints
+  bool equalities = false;    // takes constraints with equal bounds
+  bool gradients = false;     // uses derivatives
+};
+
+// slsqp, mma (local); mlsl, isres, direct, crs2 (global).
+const std::vector<Algorithm>& nlopt_algorithms();
+
+// One of nlopt_algorithms() by name. Equal calls give equal results in any thread.
+// Throws std::invalid_argument for another name, for constraints the algorithm does not take and, where it is
+// global, for an infinite bound.
+Solution solve_with_nlopt(Problem& problem, const std::string& algorithm, const SolverOptions& options = {});
+
+}  // namespace frahm::tuning
