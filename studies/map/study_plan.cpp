@@ -15,6 +15,15 @@ std::string overruled_by(const StudyFile& study, std::size_t parameter) {
   for (const ParameterAxis& axis : study.axes) {
     if (axis.parameter == parameter) return "runs along an axis of the map; change the axis";
   }
+  if (!study.tune) return "";
+  if (study.tune->band && study.tune->band->parameter == parameter)
+    return "runs over the band of the tuning; change the band";
+  for (const ScenarioChoice& scenario : study.tune->scenarios) {
+    for (const Assignment& assignment : scenario.set) {
+      if (assignment.parameter == parameter)
+        return fmt::format("is set by the scenario \"{}\"; change that", scenario.name);
+    }
+  }
   return "";
 }
 
