@@ -87,6 +87,8 @@ TEST_CASE("each foreign library is known to one file, and to no header") {
       {"isa-l/igzip_lib", {"results/chunk_codec.cpp"}},
       {"cvodes|nvector|sundials|sunlinsol|sunmatrix", {"solvers/smooth/cvodes.cpp"}},
       {"boost", {"solvers/periodic/resonance_peak.cpp"}},
+      {"Ip.*", {"solvers/tuning/ipopt.cpp"}},
+      {"nlopt", {"solvers/tuning/nlopt.cpp"}},
       {"xxhash", {"studies/map/fingerprint.cpp"}},
       {"nlohmann", {"studies/program/point_json.cpp"}}};
   std::map<std::string, std::set<std::string>> found;
