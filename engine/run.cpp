@@ -87,16 +87,20 @@ struct Work {
 };
 
 // What each thread does: takes the next tile, computes it and keeps it, until none is left or give_up().
-void compute_tiles(Work& work, const std::function<bool()>& give_up) {
+void compute_tiles(Work& work, const StopAsked& give_up) {
   const Job& job = work.job;
-  const Kernel kernel = job.make_kernel();
+  const Kernel kernel = job.make_kernel(give_up);
   Bytes record;
   while (!give_up()) {
     const std::size_t taken = work.next++;
     if (taken >= work.tiles.size()) return;
     const std::uint64_t tile = work.tiles[taken];
     record.clear();
-    kernel(tile, record);
+    try {
+      kernel(tile, record);
+    } catch (const GivenUp&) {
+      return;
+    }
     work.log.append(tile, record);
     if (job.failed) work.failed_points += job.failed(tile, record);
     work.finished_points += job.points(tile);

@@ -24,11 +24,17 @@ namespace frahm::engine {
 // the tile alone. A kernel is used by one thread and may keep its workspace.
 using Kernel = std::function<void(std::uint64_t tile, Bytes& out)>;
 
+// Whether the run has been asked to stop: by a signal, the time budget, or an error in another thread. A
+// kernel whose tiles take long looks at it and gives its tile up by throwing GivenUp: nothing is kept of it.
+using StopAsked = std::function<bool()>;
+struct GivenUp {};
+
 struct Job {
   std::uint64_t tiles = 0;
   Fingerprint fingerprint;
   // The functions below are called from several threads at once.
-  std::function<Kernel()> make_kernel;                      // once in each thread
+  // Once in each thread; what it is given may be kept by the kernel.
+  std::function<Kernel(const StopAsked& stop_asked)> make_kernel;
   std::function<std::uint64_t(std::uint64_t tile)> points;  // points of a tile
   // Points of a finished tile that failed; may be empty: none ever do.
   std::function<std::uint64_t(std::uint64_t tile, std::span<const std::byte> record)> failed;
@@ -70,11 +76,11 @@ struct Summary {
 };
 
 // Computes the tiles of the shard that are in no log beside the output yet. On SIGTERM, SIGINT, SIGUSR1 or at
-// the end of the time budget the tiles in hand are finished; at the end, however it comes, what is finished
-// is on the disk. One run at a time in a process. Throws std::invalid_argument for options outside their
-// range, ResumeRefused when tiles of another study are kept beside the output (unless fresh), Locked when
-// another process computes this shard, IoError, and, when the tiles in hand are kept, the first exception of
-// a kernel.
+// the end of the time budget the tiles in hand are finished or given up by their kernels; at the end, however
+// it comes, what is finished is on the disk. One run at a time in a process. Throws std::invalid_argument for
+// options outside their range, ResumeRefused when tiles of another study are kept beside the output (unless
+// fresh), Locked when another process computes this shard, IoError, and, when the tiles in hand are kept, the
+// first exception of a kernel.
 Summary run(const Job& job, const RunOptions& options);
 
 }  // namespace frahm::engine

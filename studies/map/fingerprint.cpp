@@ -32,6 +32,7 @@ class CanonicalText {
 
 void add_parameters(const StudyFile& study, CanonicalText& text) {
   const auto on_axis = [&](std::size_t i) {
+    if (study.tune && study.tune->band && study.tune->band->parameter == i) return true;
     return std::ranges::any_of(study.axes, [&](const ParameterAxis& axis) { return axis.parameter == i; });
   };
   const auto names = study.parameters.names();
@@ -80,9 +81,9 @@ void add_network(const StudyFile& study, CanonicalText& text) {
   text.line("reference order {}", network.reference_order);
 }
 
-// What tells a decay or transient from another of the same network. A sweep has none of it.
+// What tells a decay or transient from another of the same network.
 void add_motion(const StudyFile& study, CanonicalText& text) {
-  if (study.kind == StudyKind::sweep) return;
+  if (study.kind == StudyKind::sweep || study.tune) return;
   const auto names = study.parameters.names();
   text.line("kind {}", kind_name(study.kind));
   const auto add = [&](const char* what, const std::optional<StudyValue>& value) {
@@ -106,6 +107,48 @@ void add_comparison(const StudyFile& study, CanonicalText& text) {
     text.line("compare {}", periodic::describe(quantity, study.network, study.dimensionless).name);
 }
 
+// What tells a tuning from another of the same network: whatever its optimum depends on.
+void add_tuning(const StudyFile& study, CanonicalText& text) {
+  if (!study.tune) return;
+  const TuneChoice& tune = *study.tune;
+  const auto names = study.parameters.names();
+  const auto band = [](const tuning::Band& range) { return fmt::format("{} {}", range.from, range.to); };
+  text.line("kind tune objective {} of {}", static_cast<int>(tune.objective), tune.quantity_name);
+  if (tune.band) text.line("band {} {}", names[tune.band->parameter], band(tune.band->range));
+  text.line("solver {} start {} global {} tolerance {}", tune.solver, static_cast<int>(tune.start),
+            tune.start == tuning::Start::global ? tune.global_solver : "", tune.tolerance);
+  if (tune.weight) text.line("weight {}", tune.weight->expression.canonical_text(names));
+  if (tune.objective == tuning::Objective::variance)
+    text.line("noise {} {} {}", static_cast<int>(tune.noise.kind), tune.noise.node, tune.noise.intensity);
+  if (tune.dominate_constant) text.line("dominates its constant");
+  for (const DesignChoice& design : tune.designs)
+    text.line("design {} {} {} knots {} slope {}", names[design.parameter], design.lower, design.upper,
+              fmt::join(design.knots, " "), design.max_slope);
+  for (const LimitChoice& limit : tune.limits)
+    text.line("limit {} {} {} over {}", limit.name, limit.lower, limit.upper,
+              limit.band ? band(*limit.band) : "all");
+  if (tune.trade_off)
+    text.line("trade off {} {}", tune.trade_off->name, fmt::join(tune.trade_off->limits, " "));
+  for (const ScenarioChoice& scenario : tune.scenarios) {
+    for (const Assignment& at : scenario.set) text.line("scenario {} {}", names[at.parameter], at.value);
+    text.line("scenario ends");
+  }
+}
+
+// What a tuning's file holds beside its optimum, and how many starts it has.
+void add_assessment(const StudyFile& study, CanonicalText& text) {
+  if (!study.tune) return;
+  const auto names = study.parameters.names();
+  text.line("starts {}", study.tune->starts);
+  for (const DesignChoice& design : study.tune->designs) {
+    if (design.rule) text.line("rule {}", design.rule->expression.canonical_text(names));
+  }
+  for (const ColumnChoice& column : study.tune->columns)
+    text.line("column {} {} {} {}", column.name, column.value.expression.canonical_text(names), column.lower,
+              column.upper);
+  for (const ScenarioChoice& scenario : study.tune->scenarios) text.line("named {}", scenario.name);
+}
+
 std::string physics_hash(const StudyFile& study, std::span<const periodic::Quantity> quantities) {
   CanonicalText text;
   text.line("solver {}", solver_version);
@@ -114,6 +157,7 @@ std::string physics_hash(const StudyFile& study, std::span<const periodic::Quant
   add_parameters(study, text);
   add_network(study, text);
   add_motion(study, text);
+  add_tuning(study, text);
   add_comparison(study, text);
   for (const periodic::Quantity& quantity : quantities) {
     text.line("quantity {}", periodic::describe(quantity, study.network, study.dimensionless).name);
@@ -135,10 +179,11 @@ std::string grid_hash(const StudyFile& study, const Grid& grid) {
     text.line("orbit ends");
   }
   text.line("resonances {}", fmt::join(study.output.resonances, " "));
-  if (study.kind != StudyKind::sweep) text.line("samples {}", study.motion.samples);
+  if (study.kind != StudyKind::sweep && !study.tune) text.line("samples {}", study.motion.samples);
   if (study.motion.duration) {
     text.line("duration {}", study.motion.duration->expression.canonical_text(study.parameters.names()));
   }
+  add_assessment(study, text);
   text.line("order {}", fmt::join(grid.order, " "));
   text.line("tile {}", fmt::join(grid.tile, " "));
   return text.hash();

@@ -65,19 +65,24 @@ std::string utc_now() {
   return fmt::format("{:%Y-%m-%dT%H:%M:%S}Z", now);
 }
 
-results::MapLayout map_layout(const MapPlan& plan, const RunRecord& run) {
+results::MapLayout file_layout(const StudyPlan& plan, const RunRecord& run) {
   const StudyFile& study = plan.study;
   results::MapLayout layout{.title = study.title,
                             .source = fmt::format("frahm {}", build_facts().version),
-                            .history = fmt::format("{} {}", run.started, run.command),
-                            .axes = axes_of(study),
-                            .chunk = plan.grid.chunk};
+                            .history = fmt::format("{} {}", run.started, run.command)};
   if (layout.title.empty()) layout.title = std::filesystem::path(study.source.name).stem().string();
-  for (const auto& variable : plan.variables) layout.variables.push_back(variable_of(study, variable));
   return layout;
 }
 
-std::vector<results::Text> provenance(const MapPlan& plan, const RunRecord& run,
+results::MapLayout map_layout(const MapPlan& plan, const RunRecord& run) {
+  results::MapLayout layout = file_layout(plan, run);
+  layout.axes = axes_of(plan.study);
+  layout.chunk = plan.grid.chunk;
+  for (const auto& variable : plan.variables) layout.variables.push_back(variable_of(plan.study, variable));
+  return layout;
+}
+
+std::vector<results::Text> provenance(const StudyPlan& plan, const RunRecord& run,
                                       const std::vector<std::string>& failed) {
   const BuildFacts facts = build_facts();
   std::vector<results::Text> texts{

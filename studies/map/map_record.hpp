@@ -7,10 +7,10 @@
 #include "results/map_writer.hpp"
 #include "studies/map/map_plan.hpp"
 
-// What a result file says of a map (results/FORMAT.md).
+// What a result file says of a map, and of how it came about (results/FORMAT.md).
 namespace frahm::studies {
 
-// How the map came about.
+// How a result came about.
 struct RunRecord {
   std::string command;  // "frahm run rig_atlas.toml"
   int threads = 0;      // of the last run
@@ -20,11 +20,14 @@ struct RunRecord {
 // The time now: "2026-11-21T12:34:56Z".
 std::string utc_now();
 
-// Axes with the user's units, coordinates and variables, without a point.
+// Title, source and history of a file without a map.
+results::MapLayout file_layout(const StudyPlan& plan, const RunRecord& run);
+
+// The same with the axes in the user's units, coordinates and variables, without a point.
 results::MapLayout map_layout(const MapPlan& plan, const RunRecord& run);
 
 // The texts of /provenance. failed: lines "<point as --at takes it>: <reason>".
-std::vector<results::Text> provenance(const MapPlan& plan, const RunRecord& run,
+std::vector<results::Text> provenance(const StudyPlan& plan, const RunRecord& run,
                                       const std::vector<std::string>& failed);
 
 // The time histories of the points that the study lists, solved and written to /orbits; nothing if it lists

@@ -50,7 +50,7 @@ void add(const MapPlan& plan, std::uint64_t tile, const TileRecord& record,
 MapSample sample_map(const MapPlan& plan, double seconds) {
   using Clock = std::chrono::steady_clock;
   const std::vector<results::Variable> variables = map_layout(plan, {}).variables;
-  const engine::Kernel kernel = job_of(plan).make_kernel();
+  const engine::Kernel kernel = job_of(plan).make_kernel({});
   const std::uint64_t tiles = plan.grid.tiles(), stride = spreading_stride(tiles);
   MapSample sample;
   TileRecord record;

@@ -41,7 +41,10 @@ std::vector<std::filesystem::path> places_of_note(const MergeOptions& options,
 
 int merge_command(const MergeOptions& options, std::ostream& out) {
   const auto logs = options.logs.empty() ? engine::find_logs(options.output) : options.logs;
-  const MapPlan plan = plan_from_note(places_of_note(options, logs), study_of(logs, options.output));
+  const engine::LogHeader header = study_of(logs, options.output);
+  NotedStudy noted = study_from_note(places_of_note(options, logs), header);
+  const MapPlan plan = plan_map(std::move(noted.study), noted.set);
+  check_note_gives(plan, noted, header);
   const RunRecord record{
       .command = fmt::format("frahm merge {}", options.output.string()), .threads = 1, .started = utc_now()};
   check_result_place(options.output, {});

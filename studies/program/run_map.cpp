@@ -36,7 +36,7 @@ bool is_finished(const MapPlan& plan, const std::filesystem::path& output) {
   const auto kept = fingerprint_of_file(output);
   if (!kept) return false;
   if (*kept == plan.fingerprint) return true;
-  throw engine::ResumeRefused(output, {*kept, plan.grid.tiles()}, plan.log_header());
+  throw engine::ResumeRefused(output, {*kept, plan.tiles}, plan.log_header());
 }
 
 engine::Summary compute(const MapPlan& plan, const engine::RunOptions& run) {

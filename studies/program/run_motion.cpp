@@ -11,6 +11,7 @@
 #include "engine/stop_signals.hpp"
 #include "results/map_writer.hpp"
 #include "studies/map/finished_file.hpp"
+#include "studies/map/map_plan.hpp"
 #include "studies/map/map_record.hpp"
 #include "studies/motion/motion_record.hpp"
 #include "studies/program/exit_code.hpp"
@@ -40,21 +41,21 @@ void refuse_sharing(const RunCommandOptions& options, const StudyFile& study) {
                                study.source.name, kind_name(study.kind)));
 }
 
-void refuse_another_study(const MapPlan& plan, const std::filesystem::path& output) {
+void refuse_another_study(const StudyPlan& plan, const std::filesystem::path& output) {
   const auto kept = fingerprint_of_file(output);
   if (!kept || *kept == plan.fingerprint) return;
   throw engine::ResumeRefused(output, *kept, plan.fingerprint);
 }
 
-void write_file(const MapPlan& plan, const RunRecord& record, const std::filesystem::path& output,
+void write_file(const StudyPlan& plan, const RunRecord& record, const std::filesystem::path& output,
                 const std::vector<results::Column>& columns) {
-  results::MapWriter writer(output, map_layout(plan, record));
+  results::MapWriter writer(output, file_layout(plan, record));
   writer.write_columns(std::string(kind_name(plan.study.kind)), columns);
   writer.write_texts("provenance", provenance(plan, record, {}));
   writer.finish();
 }
 
-void compute(const MapPlan& plan, const RunRecord& record, const std::filesystem::path& output,
+void compute(const StudyPlan& plan, const RunRecord& record, const std::filesystem::path& output,
              const transient::Watch& watch, std::ostream& out) {
   if (plan.study.kind == StudyKind::decay) {
     const transient::FreeDecay decay = solve_decay(plan.study, watch);
@@ -72,7 +73,7 @@ void compute(const MapPlan& plan, const RunRecord& record, const std::filesystem
 int run_motion(const RunCommandOptions& options, StudyFile study, std::ostream& out) {
   refuse_sharing(options, study);
   const RunRecord record{.command = options.command, .threads = 1, .started = utc_now()};
-  const MapPlan plan = plan_motion(std::move(study), options.set);
+  const StudyPlan plan = plan_motion(std::move(study), options.set);
   const std::filesystem::path output =
       options.run.output.empty() ? default_output(options.study) : options.run.output;
   check_result_place(output, options.study);

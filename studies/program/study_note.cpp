@@ -48,7 +48,7 @@ std::optional<StudyNote> read_note(const std::filesystem::path& path) {
 
 }  // namespace
 
-void write_study_note(const std::filesystem::path& output, const MapPlan& plan) {
+void write_study_note(const std::filesystem::path& output, const StudyPlan& plan) {
   std::string text =
       fmt::format("{}\n{}\n", std::filesystem::absolute(plan.study.source.name).string(), plan.set.size());
   for (const std::string& set : plan.set) text += set + '\n';
@@ -62,26 +62,28 @@ void write_study_note(const std::filesystem::path& output, const MapPlan& plan) 
   if (error) throw engine::IoError(path, "write", error.value());
 }
 
-MapPlan plan_from_note(const std::vector<std::filesystem::path>& outputs, const engine::LogHeader& header) {
+NotedStudy study_from_note(const std::vector<std::filesystem::path>& outputs,
+                           const engine::LogHeader& header) {
   for (const auto& output : outputs) {
-    const auto note = read_note(note_path(output, header.fingerprint));
+    const std::filesystem::path path = note_path(output, header.fingerprint);
+    const auto note = read_note(path);
     if (!note) continue;
     StudyFile study = parse_study(note->text, note->study);
     for (const std::string& set : note->set) {
       const std::vector<Assignment> assignments = parse_assignments(study, "--set", set);
       study = with_parameters(std::move(study), assignments);
     }
-    MapPlan plan = plan_map(std::move(study), note->set);
-    if (plan.log_header() != header) {
-      throw engine::IoError(
-          note_path(output, header.fingerprint),
-          "the study kept here no longer gives what the logs were made from: a table it reads, "
-          "or this program, has changed");
-    }
-    return plan;
+    return {std::move(study), note->set, path};
   }
   throw engine::IoError(note_path(outputs.front(), header.fingerprint),
                         "the study of the shard logs is not kept here; `frahm run` with it writes it");
+}
+
+void check_note_gives(const StudyPlan& plan, const NotedStudy& noted, const engine::LogHeader& header) {
+  if (plan.log_header() == header) return;
+  throw engine::IoError(noted.note,
+                        "the study kept here no longer gives what the logs were made from: a table it reads, "
+                        "or this program, has changed");
 }
 
 void remove_study_note(const std::filesystem::path& output, const engine::Fingerprint& fingerprint) {

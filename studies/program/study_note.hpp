@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/fingerprint.hpp"
-#include "studies/map/map_plan.hpp"
+#include "studies/map/study_plan.hpp"
 
 // The note beside an unfinished output that keeps the study its shard logs belong to, so that they can be
 // merged without it: `<output>.<fingerprint>.frahm-study`. Its lines: the path of the study, the number of
@@ -13,12 +13,23 @@
 namespace frahm::studies {
 
 // Throws engine::IoError.
-void write_study_note(const std::filesystem::path& output, const MapPlan& plan);
+void write_study_note(const std::filesystem::path& output, const StudyPlan& plan);
 
-// The plan of the study that the logs with this header belong to. outputs: files beside which its note may
-// lie. Throws engine::IoError if it is beside none, StudyError if tables it reads have changed so
-// that it can no longer be read.
-MapPlan plan_from_note(const std::vector<std::filesystem::path>& outputs, const engine::LogHeader& header);
+// A study as its note keeps it.
+struct NotedStudy {
+  StudyFile study;               // with the overrides
+  std::vector<std::string> set;  // these, as given
+  std::filesystem::path note;
+};
+
+// The study that the logs with this header belong to. outputs: files beside which its note may lie. Throws
+// engine::IoError if it is beside none, StudyError if tables it reads have changed so that it can no longer
+// be read.
+NotedStudy study_from_note(const std::vector<std::filesystem::path>& outputs,
+                           const engine::LogHeader& header);
+
+// Throws engine::IoError if the plan made of the study is not that of the logs any more.
+void check_note_gives(const StudyPlan& plan, const NotedStudy& noted, const engine::LogHeader& header);
 
 // Removes the note of one study.
 void remove_study_note(const std::filesystem::path& output, const engine::Fingerprint& fingerprint);

@@ -177,6 +177,16 @@ void set_crank_orders(StudyFile& study) {
   }
 }
 
+void add_crank_orders_at(StudyFile& study, std::span<const double> parameters) {
+  for (std::size_t i = 0; i < study.network.excitations.size(); ++i) {
+    if (!is_crank(study, i)) continue;
+    mechanics::Excitation& crank = study.network.excitations[i];
+    const int before = crank.even_orders;
+    keep_orders(crank, crank_ratio(study, i, parameters));
+    crank.even_orders = std::max(crank.even_orders, before);
+  }
+}
+
 void set_crank_orders_at(StudyFile& study, std::span<double> parameters) {
   study.parameters.complete(parameters);
   for (std::size_t i = 0; i < study.network.excitations.size(); ++i) {

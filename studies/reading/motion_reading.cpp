@@ -135,7 +135,8 @@ void read_transient(NetworkReading& reading, const TomlValue& root, MotionChoice
   if (!motion.duration && !motion.sweep_to) section.fail("the key \"duration\" is missing (a time, s)");
 }
 
-// The motion is followed on the exact flow, which has no smooth friction.
+}  // namespace
+
 void refuse_smooth_friction(const StudyFile& study) {
   for (std::size_t e = 0; e < study.network.elements.size(); ++e) {
     if (study.network.elements[e].law != mechanics::FrictionLaw::arctan) continue;
@@ -143,11 +144,9 @@ void refuse_smooth_friction(const StudyFile& study) {
     throw study.source.error_at(slope.position,
                                 fmt::format("{}: a {} follows friction as it is; the law \"arctan\" is for a "
                                             "sweep",
-                                            slope.where, kind_name(study.kind)));
+                                            slope.where, kind_noun(study.kind)));
   }
 }
-
-}  // namespace
 
 void read_motion(const StudyContext& context, const TomlValue& root, StudyFile& study) {
   refuse_smooth_friction(study);

@@ -38,6 +38,18 @@ struct Parameter {
   bool is_number() const { return std::holds_alternative<double>(definition); }
 };
 
+// A parameter set to a value: part of a point of the map, or an override of the study.
+struct Assignment {
+  std::size_t parameter = 0;  // index in Parameters::list, of a number
+  double value = 0.0;         // SI
+};
+
+// A unit in which a parameter or a quantity is spoken of.
+struct UsualUnit {
+  std::string text;        // in a form UDUNITS reads; "" for SI
+  double si_factor = 1.0;  // SI value = si_factor x value
+};
+
 struct Parameters {
   std::vector<Parameter> list;       // in the order of the file
   std::vector<std::size_t> derived;  // the expressions and tables, each after everything it reads

@@ -18,11 +18,13 @@ namespace {
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // some editors begin a UTF-8 file with it
 
 // The sections of each kind of study, in the order of StudyKind.
-const std::array<std::vector<std::string>, 3> sections_of_kind{
+const std::array<std::vector<std::string>, 4> sections_of_kind{
     {{"study", "parameters", "mass", "element", "excitation", "axis", "coordinate", "output", "compare"},
      {"study", "parameters", "mass", "element", "decay", "initial"},
-     {"study", "parameters", "mass", "element", "excitation", "transient", "initial"}}};
-const std::vector<std::string> reserved_keys{"tune", "design", "constraint", "identify"};
+     {"study", "parameters", "mass", "element", "excitation", "transient", "initial"},
+     {"study", "parameters", "mass", "element", "excitation", "tune", "design", "constraint", "scenario",
+      "column"}}};
+const std::vector<std::string> reserved_keys{"identify"};
 
 const std::vector<std::string>& sections(StudyKind kind) {
   return sections_of_kind[static_cast<std::size_t>(kind)];
@@ -45,6 +47,10 @@ void check_top_keys(const StudySource& source, const TomlValue& root) {
 // Why a kind of study does without a section that others have.
 std::string_view why_without(StudyKind kind, const std::string& section) {
   if (kind == StudyKind::sweep) return "";
+  if (kind == StudyKind::tune) {
+    const bool of_a_map = section == "axis" || section == "coordinate" || section == "output";
+    return of_a_map ? ": the band of [tune] and the bounds of [[design]] are its ranges" : "";
+  }
   if (section == "axis" || section == "coordinate" || section == "output")
     return ": it computes one motion, not a map";
   if (section == "excitation") return ": a free vibration starts from [[initial]] values and is not driven";
@@ -57,7 +63,7 @@ void check_sections_of_kind(const StudyFile& study, const TomlValue& root) {
     if (contains(sections(study.kind), entry.key)) continue;
     throw study.source.error_at(entry.position,
                                 fmt::format("the section \"{}\" is not part of a {}{}", entry.key,
-                                            kind_name(study.kind), why_without(study.kind, entry.key)));
+                                            kind_noun(study.kind), why_without(study.kind, entry.key)));
   }
 }
 
@@ -73,12 +79,12 @@ void read_heading(const TomlValue& root, StudyFile& study) {
     section.fail("schema", fmt::format("{} is unknown; this version reads schema = 1", schema));
   section.require("kind");
   const std::string kind = section.choice_or("kind", {"sweep", "tune", "identify", "decay", "transient"});
-  if (kind == "tune" || kind == "identify") {
-    section.fail("kind", fmt::format("\"{}\" is not available in this version; \"sweep\", \"decay\" and "
-                                     "\"transient\" are",
-                                     kind));
+  if (kind == "identify") {
+    section.fail("kind",
+                 "\"identify\" is not available in this version; \"sweep\", \"tune\", \"decay\" and "
+                 "\"transient\" are");
   }
-  for (const StudyKind each : {StudyKind::sweep, StudyKind::decay, StudyKind::transient}) {
+  for (const StudyKind each : {StudyKind::sweep, StudyKind::decay, StudyKind::transient, StudyKind::tune}) {
     if (kind == kind_name(each)) study.kind = each;
   }
   study.title = section.text_or("title", "");
@@ -115,6 +121,13 @@ void find_frequency_dimension(StudyFile& study) {
   study.frequency_dimension = study.values_depend_on_frequency ? moving.back() : *still;
 }
 
+// That every value has a meaning wherever the study goes.
+void check_whole(StudyFile& study) {
+  check_grid(study);
+  set_crank_orders(study);
+  if (study.tune) check_tuning(study);
+}
+
 }  // namespace
 
 StudyFile read_study(const std::filesystem::path& path) {
@@ -146,7 +159,7 @@ StudyFile parse_study(std::string text, const std::filesystem::path& name) {
   study.values = std::move(values);
   if (study.kind == StudyKind::sweep) {
     read_comparison(context, root, study);
-  } else {
+  } else if (study.kind != StudyKind::tune) {
     read_motion(context, root, study);
   }
   convert_parameters(context, study.parameters);
@@ -155,9 +168,10 @@ StudyFile parse_study(std::string text, const std::filesystem::path& name) {
     read_coordinates(context, root, study);
     find_frequency_dimension(study);
     read_output(context, root, study);
+  } else if (study.kind == StudyKind::tune) {
+    read_tuning(context, root, study);
   }
-  check_grid(study);
-  set_crank_orders(study);
+  check_whole(study);
   return study;
 }
 
@@ -169,8 +183,14 @@ std::string_view kind_name(StudyKind kind) {
       return "decay";
     case StudyKind::transient:
       return "transient";
+    case StudyKind::tune:
+      return "tune";
   }
   return "study";
+}
+
+std::string_view kind_noun(StudyKind kind) {
+  return kind == StudyKind::tune ? "tuning" : kind_name(kind);
 }
 
 std::vector<const StudyValue*> MotionChoice::values() const {
@@ -189,8 +209,7 @@ StudyFile with_parameters(StudyFile study, std::span<const Assignment> assignmen
   for (const Assignment& assignment : assignments) {
     study.parameters.list[assignment.parameter].definition = assignment.value;
   }
-  check_grid(study);
-  set_crank_orders(study);
+  check_whole(study);
   return study;
 }
 
@@ -227,6 +246,12 @@ std::vector<std::size_t> dimensions_moving(const StudyFile& study, std::span<con
 UsualUnit usual_unit(const StudyFile& study, std::size_t parameter) {
   for (const ParameterAxis& axis : study.axes) {
     if (axis.parameter == parameter) return {axis.unit, axis.si_factor};
+  }
+  if (study.tune) {
+    if (study.tune->band && study.tune->band->parameter == parameter) return study.tune->band->unit;
+    for (const DesignChoice& design : study.tune->designs) {
+      if (design.parameter == parameter) return design.unit;
+    }
   }
   const Parameter& definition = study.parameters.list[parameter];
   if (!definition.unit) return {};

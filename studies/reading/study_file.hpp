@@ -13,6 +13,7 @@
 #include "studies/reading/parameters.hpp"
 #include "studies/reading/study_source.hpp"
 #include "studies/reading/study_values.hpp"
+#include "studies/reading/tune_choice.hpp"
 
 namespace frahm::studies {
 
@@ -43,12 +44,6 @@ struct DerivedCoordinate {
   std::size_t dimension = 0;  // index in StudyFile::dimensions
 };
 
-// A parameter set to a value: part of a point of the map, or an override of the study.
-struct Assignment {
-  std::size_t parameter = 0;  // index in Parameters::list, of a number
-  double value = 0.0;         // SI
-};
-
 struct OutputChoice {
   enum class Quantities { standard, all, listed };
   struct Name {
@@ -72,7 +67,7 @@ struct Comparison {
   std::vector<periodic::Quantity> quantities;                  // real-valued, at least one
 };
 
-enum class StudyKind { sweep, decay, transient };
+enum class StudyKind { sweep, decay, transient, tune };
 
 // A mass's initial values [m], [m/s].
 struct InitialValues {
@@ -101,10 +96,11 @@ struct StudyFile {
 
   Parameters parameters;
   mechanics::Network network;
-  StudyValues values;   // of a decay: its frequency and excitation mean nothing
-  MotionChoice motion;  // of a decay or transient
+  StudyValues values;              // of a decay: its frequency and excitation mean nothing
+  MotionChoice motion;             // of a decay or transient
+  std::optional<TuneChoice> tune;  // of a tuning
 
-  // Of a sweep; a decay or transient has none of these.
+  // Of a sweep; the other kinds have none of these.
   std::vector<ParameterAxis> axes;
   std::vector<GridDimension> dimensions;  // the first varies slowest; at least one
   std::vector<DerivedCoordinate> coordinates;
@@ -129,6 +125,7 @@ StudyFile read_study(const std::filesystem::path& path);
 StudyFile parse_study(std::string text, const std::filesystem::path& name);
 
 std::string_view kind_name(StudyKind kind);  // as the study writes it
+std::string_view kind_noun(StudyKind kind);  // as sentences say it: "tuning"
 
 // The study with some number parameters replaced, and checked again.
 StudyFile with_parameters(StudyFile study, std::span<const Assignment> assignments);
@@ -143,11 +140,7 @@ std::vector<double> coordinate_values(const StudyFile& study, const DerivedCoord
 std::vector<std::size_t> dimensions_moving(const StudyFile& study, std::span<const std::size_t> reads);
 
 // The unit in which a number parameter is spoken of (a bare number in an orbit, --at and --set; messages):
-// that of its axis, else that of its definition, else "" for SI; and its factor to SI.
-struct UsualUnit {
-  std::string text;
-  double si_factor = 1.0;
-};
+// that of its axis, band or bounds, else that of its definition, else "" for SI; and its factor to SI.
 UsualUnit usual_unit(const StudyFile& study, std::size_t parameter);
 
 // Refuses a point (SI values of all parameters; derived ones are recomputed) at which some value is not

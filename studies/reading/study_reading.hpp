@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,16 @@ void read_motion(const StudyContext& context, const TomlValue& root, StudyFile& 
 // [compare] into study.comparison, once the network is there. Notes in the parameters what a slope is.
 void read_comparison(const StudyContext& context, const TomlValue& root, StudyFile& study);
 
+// [tune], [[design]], [[constraint]], [[scenario]] and [[column]] into study.tune, once units are converted.
+void read_tuning(const StudyContext& context, const TomlValue& root, StudyFile& study);
+
+// Refuses what has no meaning at some corner of the bounds, of the scenarios and of the band, and gives each
+// crank the even orders that it needs there.
+void check_tuning(StudyFile& study);
+
+// What follows friction as it is has no use for its smoothed law.
+void refuse_smooth_friction(const StudyFile& study);
+
 // Every mass must be held: by a chain of springs from ground or a node of prescribed motion.
 // masses: their positions in the study.
 void check_masses_are_held(const StudyContext& context, const NetworkOfStudy& system,
@@ -60,6 +71,8 @@ void check_grid(const StudyFile& study);
 
 // How many even orders each crank needs for its largest crank/rod on the grid and at the orbits kept.
 void set_crank_orders(StudyFile& study);
+// Adds those that it needs at a point more (SI values of all parameters, completed).
+void add_crank_orders_at(StudyFile& study, std::span<const double> parameters);
 
 // A number in the unit given beside it, as { value, unit } or as a bare number (no unit then).
 struct NumberWithUnit {

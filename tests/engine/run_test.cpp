@@ -81,9 +81,9 @@ TEST_CASE("each thread makes one kernel of its own") {
   const Scratch scratch;
   Job job = sample_job(50);
   std::atomic<int> made = 0;
-  job.make_kernel = [&made, make = job.make_kernel] {
+  job.make_kernel = [&made, make = job.make_kernel](const StopAsked& stop_asked) {
     ++made;
-    return make();
+    return make(stop_asked);
   };
   run(job, quiet(scratch, 3));
   CHECK(made == 3);
@@ -162,7 +162,7 @@ TEST_CASE("an exception of a kernel is thrown on when the finished tiles are kep
 TEST_CASE("an exception while a kernel is made is thrown on") {
   const Scratch scratch;
   Job job = sample_job(5);
-  job.make_kernel = []() -> Kernel { throw std::domain_error("no kernel"); };
+  job.make_kernel = [](const StopAsked&) -> Kernel { throw std::domain_error("no kernel"); };
   CHECK_THROWS_AS(run(job, quiet(scratch)), std::domain_error);
 }
 

@@ -67,7 +67,7 @@ inline Job sample_job(
   return {.tiles = tiles,
           .fingerprint = {.physics = "9a3f", .grid = "77c0"},
           .make_kernel =
-              [before] {
+              [before](const StopAsked&) {
                 return [before](std::uint64_t tile, Bytes& out) {
                   before(tile);
                   write_sample(tile, out);

@@ -65,6 +65,25 @@ TEST_CASE("a run that is stopped again and again ends with the bytes of an unint
   CHECK(kept_tiles(scratch.output(), study_of(job)) == expected_tiles(50));
 }
 
+TEST_CASE("a kernel that is asked to stop gives its tile up, and nothing is kept of it") {
+  const Scratch scratch;
+  Job patient = sample_job(8);
+  patient.make_kernel = [](const StopAsked& stop_asked) -> Kernel {
+    return [stop_asked](std::uint64_t tile, Bytes& out) {
+      write_sample(tile, out);
+      if (tile < 5) return;
+      std::raise(SIGTERM);
+      while (!stop_asked()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      throw GivenUp{};
+    };
+  };
+  const Summary stopped = run(patient, quiet(scratch, 1));
+  CHECK(stopped.outcome == Outcome::stopped);
+  CHECK_THAT(stopped.reason, Contains("SIGTERM"));
+  CHECK(stopped.tiles_computed == 5);
+  CHECK(kept_tiles(scratch.output(), study_of(patient)) == expected_tiles(5));
+}
+
 TEST_CASE("the time budget stops the run") {
   const Scratch scratch;
   const Job slow = sample_job(1000, [](auto) { std::this_thread::sleep_for(std::chrono::milliseconds(5)); });

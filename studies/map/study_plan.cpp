@@ -1,0 +1,43 @@
+#include "studies/map/study_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "studies/reading/assignment.hpp"
+
+namespace frahm::studies {
+namespace {
+
+// What the study itself does with a parameter, so that no value of the command line can count; empty if
+// nothing.
+std::string overruled_by(const StudyFile& study, std::size_t parameter) {
+  for (const ParameterAxis& axis : study.axes) {
+    if (axis.parameter == parameter) return "runs along an axis of the map; change the axis";
+  }
+  if (!study.tune) return "";
+  if (study.tune->band && study.tune->band->parameter == parameter)
+    return "runs over the band of the tuning; change the band";
+  for (const ScenarioChoice& scenario : study.tune->scenarios) {
+    for (const Assignment& assignment : scenario.set) {
+      if (assignment.parameter == parameter)
+        return fmt::format("is set by the scenario \"{}\"; change that", scenario.name);
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+void refuse_overruled(const StudyFile& study, const std::vector<std::string>& set) {
+  for (const std::string& text : set) {
+    for (const Assignment& assignment : parse_assignments(study, "--set", text)) {
+      const std::string why = overruled_by(study, assignment.parameter);
+      if (why.empty()) continue;
+      throw StudyError(fmt::format("--set \"{}\": \"{}\" {}", text,
+                                   study.parameters.list[assignment.parameter].name, why));
+    }
+  }
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,231 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "studies/reading/spelling.hpp"
+#include "studies/reading/tune_reading.hpp"
+
+namespace frahm::studies {
+namespace {
+
+constexpr std::int64_t most_knots = 10'000;
+
+// Bounds in the unit given, to SI; what is absent is `otherwise`.
+double read_bound(const TomlSection& section, const char* key, double si_factor, double otherwise) {
+  return section.find(key) ? section.number(key) * si_factor : otherwise;
+}
+
+void check_bounds(const TomlSection& section, double lower, double upper) {
+  if (lower <= upper) return;
+  section.fail("upper", fmt::format("{} is below \"lower\" = {}; bounds go from the lower to the upper",
+                                    section.number("upper"), section.number("lower")));
+}
+
+std::size_t read_design_parameter(const TuneReading& reading, const TomlSection& section) {
+  const std::size_t parameter = read_number_parameter(reading, section, "parameter", "a design parameter");
+  const std::string& name = reading.study.parameters.list[parameter].name;
+  const auto& designs = reading.choice.designs;
+  const auto twice = std::find_if(designs.begin(), designs.end(),
+                                  [&](const DesignChoice& other) { return other.parameter == parameter; });
+  if (twice != designs.end())
+    section.fail("parameter",
+                 fmt::format("\"{}\" is a design parameter already (line {})", name, twice->position.line));
+  const auto& band = reading.choice.band;
+  if (band && band->parameter == parameter)
+    section.fail("parameter", fmt::format("\"{}\" runs over the band; it cannot be tuned", name));
+  if (!network_depends_on(reading.study, parameter))
+    section.fail("parameter", fmt::format("no value of the network depends on \"{}\"", name));
+  return parameter;
+}
+
+std::vector<double> even_knots(const tuning::Band& band, std::size_t count) {
+  std::vector<double> knots(count);
+  for (std::size_t i = 0; i < count; ++i)
+    knots[i] = std::lerp(band.from, band.to, static_cast<double>(i) / static_cast<double>(count - 1));
+  knots.back() = band.to;
+  return knots;
+}
+
+// Knots in the unit of the band: how many, evenly spaced, or where.
+std::vector<double> read_knots(const TomlSection& section, const BandChoice& band) {
+  const TomlValue& value = section.require("knots");
+  if (!value.as<TomlArray>()) {
+    const std::int64_t count = section.integer_or("knots", 0);
+    if (count < 2 || count > most_knots)
+      section.fail("knots", fmt::format("{} is out of range: a whole number from 2 to {}, or an array of "
+                                        "places",
+                                        count, most_knots));
+    return even_knots(band.range, static_cast<std::size_t>(count));
+  }
+  std::vector<double> knots = read_numbers(section, "knots");
+  for (double& knot : knots) knot *= band.unit.si_factor;
+  const auto falls = std::adjacent_find(knots.begin(), knots.end(), std::greater_equal<>());
+  if (falls != knots.end())
+    section.fail("knots", fmt::format("{} follows {}; knots rise from one end of the band to the other",
+                                      falls[1] / band.unit.si_factor, falls[0] / band.unit.si_factor));
+  if (knots.size() < 2 || knots.front() != band.range.from || knots.back() != band.range.to)
+    section.fail("knots",
+                 fmt::format("the first and the last knot are the ends of the band, {} and {}",
+                             band.range.from / band.unit.si_factor, band.range.to / band.unit.si_factor));
+  return knots;
+}
+
+// max_slope is in the unit of the bounds over that of the band.
+void read_schedule(const TuneReading& reading, const TomlSection& section, DesignChoice& design) {
+  const TomlValue* value = section.find("schedule");
+  if (!value) return;
+  const auto& band = reading.choice.band;
+  if (reading.choice.objective == tuning::Objective::variance || !band)
+    section.fail("schedule", "a variance is that of one system for all frequencies; leave the schedule out");
+  if (!(band->range.from < band->range.to))
+    section.fail("schedule", "the band is a single frequency; leave the schedule out");
+  const TomlSection schedule(reading.context.source, *value, fmt::format("{}: schedule", section.where()),
+                             {"knots", "max_slope"});
+  design.knots = read_knots(schedule, *band);
+  if (!schedule.find("max_slope")) return;
+  design.max_slope = schedule.number("max_slope");
+  if (!(design.max_slope > 0.0))
+    schedule.fail("max_slope", fmt::format("{} is not possible; must be > 0", design.max_slope));
+  design.max_slope *= design.unit.si_factor / band->unit.si_factor;
+}
+
+void read_design(TuneReading& reading, const TomlValue& table, std::size_t number) {
+  const TomlSection section(reading.context.source, table,
+                            label(table, "design", "parameter", "design", number),
+                            {"parameter", "lower", "upper", "unit", "schedule", "rule"});
+  DesignChoice design;
+  design.position = section.position();
+  design.parameter = read_design_parameter(reading, section);
+  design.unit = read_parameter_unit(reading, section, design.parameter);
+  design.lower = section.number("lower") * design.unit.si_factor;
+  design.upper = section.number("upper") * design.unit.si_factor;
+  check_bounds(section, design.lower, design.upper);
+  read_schedule(reading, section, design);
+  if (section.find("rule")) {
+    if (!design.is_scheduled())
+      section.fail("rule", "is another schedule to compare with; a constant has none");
+    design.rule = read_formula(reading, section, "rule");
+  }
+  reading.choice.designs.push_back(std::move(design));
+}
+
+void read_limit(TuneReading& reading, const TomlValue& table, std::size_t number) {
+  const TomlSection section(reading.context.source, table,
+                            label(table, "constraint", "quantity", "constraint", number),
+                            {"quantity", "lower", "upper", "unit", "band"});
+  LimitChoice limit;
+  limit.quantity = read_real_quantity(reading, section, "quantity");
+  limit.name = section.text("quantity");
+  limit.unit = read_quantity_unit(reading, section, limit.quantity);
+  if (!section.find("lower") && !section.find("upper")) section.fail("needs \"lower\", \"upper\" or both");
+  limit.lower = read_bound(section, "lower", limit.unit.si_factor, limit.lower);
+  limit.upper = read_bound(section, "upper", limit.unit.si_factor, limit.upper);
+  check_bounds(section, limit.lower, limit.upper);
+  if (const TomlValue* value = section.find("band")) {
+    const TomlSection range(reading.context.source, *value, fmt::format("{}: band", section.where()),
+                            {"from", "to"});
+    limit.band = read_range(range, reading.choice.band ? reading.choice.band->unit.si_factor : 1.0);
+  }
+  reading.choice.limits.push_back(std::move(limit));
+}
+
+Assignment read_setting(const TuneReading& reading, const TomlSection& scenario, const TomlEntry& entry) {
+  const StudyFile& study = reading.study;
+  const std::string where = fmt::format("{}: set: {}", scenario.where(), entry.key);
+  const auto fail = [&](Position position, const std::string& message) {
+    throw reading.context.source.error_at(position, fmt::format("{}: {}", where, message));
+  };
+  const auto index = study.parameters.find(entry.key);
+  if (!index)
+    fail(entry.position, "no parameter has this name" + suggestion(entry.key, study.parameters.names()));
+  const Parameter& parameter = study.parameters.list[*index];
+  if (!parameter.is_number()) fail(entry.position, "it is computed from other parameters; set those");
+  for (const DesignChoice& design : reading.choice.designs) {
+    if (design.parameter == *index) fail(entry.position, "it is tuned; a scenario cannot set it");
+  }
+  if (reading.choice.band && reading.choice.band->parameter == *index)
+    fail(entry.position, "it runs over the band; a scenario cannot set it");
+  const NumberWithUnit number = read_number_with_unit(reading.context, where, entry.value);
+  double factor = usual_unit(study, *index).si_factor;
+  try {
+    if (number.unit) factor = si_factor(parameter, *number.unit);
+  } catch (const UnitError& error) {
+    fail(number.unit_position, error.what());
+  }
+  return {*index, number.value * factor};
+}
+
+void read_scenario(TuneReading& reading, const TomlValue& table, std::size_t number) {
+  const TomlSection section(reading.context.source, table,
+                            label(table, "scenario", "name", "scenario", number), {"name", "set"});
+  ScenarioChoice scenario;
+  scenario.name = section.identifier("name");
+  for (const ScenarioChoice& other : reading.choice.scenarios) {
+    if (other.name == scenario.name) section.fail("name", fmt::format("\"{}\" is taken", scenario.name));
+  }
+  const TomlValue& set = section.require("set");
+  const auto* entries = set.as<TomlTable>();
+  if (!entries)
+    section.fail("set", fmt::format("expected a table such as {{ FP = 0.1 }}, found {}", described(set)));
+  for (const TomlEntry& entry : *entries) scenario.set.push_back(read_setting(reading, section, entry));
+  reading.choice.scenarios.push_back(std::move(scenario));
+}
+
+void read_column(TuneReading& reading, const TomlValue& table, std::size_t number) {
+  const TomlSection section(reading.context.source, table, label(table, "column", "name", "column", number),
+                            {"name", "value", "unit", "lower", "upper"});
+  ColumnChoice column;
+  column.name = section.identifier("name");
+  column.value = read_formula(reading, section, "value");
+  if (const TomlValue* value = section.find("unit")) {
+    if (const auto unit = read_unit(reading.context, section.where(), *value)) column.unit = unit->text;
+  }
+  column.lower = read_bound(section, "lower", 1.0, column.lower);
+  column.upper = read_bound(section, "upper", 1.0, column.upper);
+  check_bounds(section, column.lower, column.upper);
+  if (!reading.choice.band)
+    section.fail("a column lies beside the schedule over a band, and there is no band");
+  reading.choice.columns.push_back(std::move(column));
+}
+
+// Reads each of the tables [[path]]; how many there are.
+template <class Read>
+std::size_t read_each(TuneReading& reading, const std::string& path, const Read& read) {
+  std::size_t number = 0;
+  for (const TomlValue* table : read_tables(reading.context.source, reading.root, path))
+    read(reading, *table, ++number);
+  return number;
+}
+
+}  // namespace
+
+bool network_depends_on(const StudyFile& study, std::size_t parameter) {
+  std::vector<std::size_t> reads = study.values.omega.expression.reads();
+  for (const auto* list : study.values.lists()) {
+    for (const StudyValue& value : *list)
+      reads.insert(reads.end(), value.expression.reads().begin(), value.expression.reads().end());
+  }
+  const auto inputs = study.parameters.inputs_of(reads);
+  return std::find(inputs.begin(), inputs.end(), parameter) != inputs.end();
+}
+
+void read_designs(TuneReading& reading) {
+  if (read_each(reading, "design", read_design) == 0)
+    throw reading.context.source.error_at(reading.root.position,
+                                          "the study has no [[design]]: a tuning needs a parameter to tune");
+}
+
+void read_limits(TuneReading& reading) {
+  read_each(reading, "constraint", read_limit);
+}
+
+void read_scenarios(TuneReading& reading) {
+  read_each(reading, "scenario", read_scenario);
+}
+
+void read_columns(TuneReading& reading) {
+  read_each(reading, "column", read_column);
+}
+
+}  // namespace frahm::studies

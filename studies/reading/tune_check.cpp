@@ -1,0 +1,120 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "studies/reading/study_reading.hpp"
+
+namespace frahm::studies {
+namespace {
+
+constexpr std::size_t most_corner_parameters = 10;  // more are tried one by one: 2^10 corners are enough
+constexpr std::size_t places_over_band = 9;
+constexpr std::size_t places_of_weight = 1001;
+
+// SI values of all parameters in each scenario, as the study states them.
+std::vector<std::vector<double>> scenarios_of(const StudyFile& study) {
+  const std::vector<double> nominal = study.parameters.nominal();
+  if (study.tune->scenarios.empty()) return {nominal};
+  std::vector<std::vector<double>> scenarios;
+  for (const ScenarioChoice& scenario : study.tune->scenarios) {
+    scenarios.push_back(nominal);
+    for (const Assignment& assignment : scenario.set)
+      scenarios.back()[assignment.parameter] = assignment.value;
+  }
+  return scenarios;
+}
+
+std::vector<double> places_of(const TuneChoice& tune, std::size_t count) {
+  if (!tune.band) return {};
+  const tuning::Band& range = tune.band->range;
+  if (range.from == range.to) return {range.from};
+  std::vector<double> places(count);
+  for (std::size_t i = 0; i < count; ++i)
+    places[i] = std::lerp(range.from, range.to, static_cast<double>(i) / static_cast<double>(count - 1));
+  return places;
+}
+
+// Each corner of the bounds, as which design parameters are at their upper one.
+std::vector<std::vector<bool>> corners_of(const TuneChoice& tune) {
+  const std::size_t n = tune.designs.size();
+  std::vector<std::vector<bool>> corners;
+  if (n > most_corner_parameters) {
+    corners = {std::vector<bool>(n, false), std::vector<bool>(n, true)};
+    for (std::size_t i = 0; i < n; ++i) {
+      for (const bool base : {false, true}) {
+        corners.emplace_back(n, base);
+        corners.back()[i] = !base;
+      }
+    }
+    return corners;
+  }
+  for (std::size_t bits = 0; bits < std::size_t{1} << n; ++bits) {
+    corners.emplace_back(n, false);
+    for (std::size_t i = 0; i < n; ++i) corners.back()[i] = (bits >> i & 1U) != 0;
+  }
+  return corners;
+}
+
+// At each place of the band.
+void check_over_band(StudyFile& study, std::vector<double>& parameters) {
+  const auto check = [&] {
+    check_point(study, parameters);
+    add_crank_orders_at(study, parameters);
+  };
+  const std::vector<double> places = places_of(*study.tune, places_over_band);
+  if (places.empty()) check();
+  for (const double place : places) {
+    parameters[study.tune->band->parameter] = place;
+    check();
+  }
+}
+
+[[noreturn]] void refuse(const StudyFile& study, const StudyValue& value, double found, double at,
+                         const char* rule) {
+  const BandChoice& band = *study.tune->band;
+  const std::string& unit = band.unit.text;
+  throw study.source.error_at(
+      value.position, fmt::format("{}: {} at {} = {:.6g}{}; {}", value.where,
+                                  std::isfinite(found) ? fmt::format("is {:.6g}", found) : "has no value",
+                                  study.parameters.list[band.parameter].name, at / band.unit.si_factor,
+                                  unit.empty() || unit == "1" ? "" : " " + unit, rule));
+}
+
+void check_weight_and_rules(const StudyFile& study, std::vector<double> parameters) {
+  const TuneChoice& tune = *study.tune;
+  const auto at = [&](const StudyValue& value, double place) {
+    parameters[tune.band->parameter] = place;
+    study.parameters.complete(std::span<double>(parameters));
+    return value.expression.evaluate(std::span<const double>(parameters));
+  };
+  for (const double place : places_of(tune, places_of_weight)) {
+    if (tune.weight) {
+      const double weight = at(*tune.weight, place);
+      if (!(weight > 0.0 && std::isfinite(weight)))
+        refuse(study, *tune.weight, weight, place, "a weight must be positive over the band");
+    }
+    for (const DesignChoice& design : tune.designs) {
+      if (!design.rule) continue;
+      const double value = at(*design.rule, place);
+      if (!std::isfinite(value))
+        refuse(study, *design.rule, value, place, "must be a finite number over the band");
+    }
+  }
+}
+
+}  // namespace
+
+void check_tuning(StudyFile& study) {
+  const TuneChoice& tune = *study.tune;
+  for (const std::vector<double>& scenario : scenarios_of(study)) {
+    for (const std::vector<bool>& corner : corners_of(tune)) {
+      std::vector<double> parameters = scenario;
+      for (std::size_t i = 0; i < corner.size(); ++i)
+        parameters[tune.designs[i].parameter] = corner[i] ? tune.designs[i].upper : tune.designs[i].lower;
+      check_over_band(study, parameters);
+    }
+    check_weight_and_rules(study, scenario);
+  }
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "solvers/periodic/quantity.hpp"
+#include "solvers/tuning/task.hpp"
+#include "studies/reading/parameters.hpp"
+#include "studies/reading/study_values.hpp"
+
+// What a study of kind "tune" asks for. Numbers are SI unless they say otherwise.
+namespace frahm::studies {
+
+// The range of frequencies over which the response counts.
+struct BandChoice {
+  std::size_t parameter = 0;  // index in Parameters::list, of a number on which the frequency depends
+  UsualUnit unit;             // in which the study speaks of it
+  tuning::Band range;
+  Position position;
+};
+
+// [[design]]
+struct DesignChoice {
+  std::size_t parameter = 0;  // index in Parameters::list, of a number
+  UsualUnit unit;
+  double lower = 0.0, upper = 0.0;
+  std::vector<double> knots;  // of its schedule over the band parameter; empty: one constant
+  double max_slope = std::numeric_limits<double>::infinity();  // of the schedule, either way
+  std::optional<StudyValue> rule;  // another schedule to compare with, over parameters and the band
+  Position position;
+
+  bool is_scheduled() const { return !knots.empty(); }
+};
+
+// [[constraint]]
+struct LimitChoice {
+  std::string name;  // of the quantity
+  periodic::Quantity quantity;
+  UsualUnit unit;
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  std::optional<tuning::Band> band;
+};
+
+// The problem solved again for each upper limit of a quantity.
+struct TradeOffChoice {
+  std::string name;  // of the quantity
+  periodic::Quantity quantity;
+  UsualUnit unit;
+  std::vector<double> limits;  // at least one
+};
+
+// [[scenario]]
+struct ScenarioChoice {
+  std::string name;
+  std::vector<Assignment> set;
+};
+
+// [[column]]: a number beside the schedule, such as the ratio of a gear that sets it.
+struct ColumnChoice {
+  std::string name;
+  StudyValue value;
+  std::string unit = "1";  // of the number the expression gives; not converted
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+};
+
+// [tune] and what belongs to it.
+struct TuneChoice {
+  tuning::Objective objective = tuning::Objective::minimax;
+  std::string quantity_name;
+  periodic::Quantity quantity;
+  std::optional<BandChoice> band;  // only a variance without limits has none
+  std::string solver = "ipopt";
+  std::string global_solver = "crs2";
+  tuning::Start start = tuning::Start::given;
+  std::size_t starts = 1;
+  double tolerance = 1e-6;
+  std::optional<StudyValue> weight;
+  bool dominate_constant = false;
+  std::optional<TradeOffChoice> trade_off;
+  tuning::Noise noise;
+  std::vector<DesignChoice> designs;  // at least one
+  std::vector<LimitChoice> limits;
+  std::vector<ScenarioChoice> scenarios;  // none: the study as it stands
+  std::vector<ColumnChoice> columns;
+
+  bool has_schedule() const;
+};
+
+}  // namespace frahm::studies

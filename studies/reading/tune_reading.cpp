@@ -1,0 +1,318 @@
+#include "studies/reading/tune_reading.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "studies/reading/spelling.hpp"
+
+namespace frahm::studies {
+namespace {
+
+using periodic::Measure;
+using tuning::Objective;
+
+constexpr std::int64_t most_starts = 100'000;
+constexpr double largest_tolerance = 0.1;  // of the certificate: above it nothing is certified
+
+void read_objective(const TomlSection& section, TuneChoice& choice) {
+  section.require("objective");
+  const std::string word = section.choice_or("objective", {"minimax", "mean_square", "variance"});
+  choice.objective = word == "minimax"       ? Objective::minimax
+                     : word == "mean_square" ? Objective::mean_square
+                                             : Objective::variance;
+}
+
+// Under white noise the motion is known by its variance alone, and that of a linear system of one stiffness
+// and damping for all frequencies.
+void check_variance(const TuneReading& reading, const TomlSection& section) {
+  const Measure measure = reading.choice.quantity.measure;
+  if (measure != Measure::rms && measure != Measure::stroke) {
+    section.fail("quantity",
+                 fmt::format("\"{}\" has no variance; under white noise it is a mass's <mass>_rms or an "
+                             "element's <element>_stroke (its rms)",
+                             reading.choice.quantity_name));
+  }
+  for (const mechanics::Element& element : reading.study.network.elements) {
+    const bool rubs = element.type == mechanics::ElementType::coulomb;
+    if (!rubs && element.type != mechanics::ElementType::hysteretic) continue;
+    section.fail("objective",
+                 fmt::format("a variance is that of a linear system under white noise, and element \"{}\" is "
+                             "{}; write \"minimax\" or \"mean_square\"",
+                             element.name, rubs ? "a coulomb" : "a hysteretic"));
+  }
+}
+
+void read_noise(TuneReading& reading, const TomlSection& section) {
+  const TomlValue* value = section.find("noise");
+  const bool wanted = reading.choice.objective == Objective::variance;
+  if (!value && wanted)
+    section.fail(
+        "the key \"noise\" is missing: a variance needs noise = { force_on = \"<mass>\" } or "
+        "{ acceleration_of = \"<node>\" }");
+  if (!value) return;
+  if (!wanted) section.fail("noise", "belongs to objective = \"variance\"");
+  const TomlSection noise(reading.context.source, *value, "[tune]: noise",
+                          {"force_on", "acceleration_of", "intensity"});
+  const bool force = noise.find("force_on") != nullptr;
+  if (force == (noise.find("acceleration_of") != nullptr))
+    noise.fail("needs either \"force_on\", a mass, or \"acceleration_of\", a node of prescribed motion");
+  const auto& network = reading.study.network;
+  const char* key = force ? "force_on" : "acceleration_of";
+  const auto& names = force ? network.masses : network.prescribed;
+  const std::string name = noise.text(key);
+  const auto node = std::find(names.begin(), names.end(), name);
+  if (node == names.end()) {
+    noise.fail(key, fmt::format("no {} is called \"{}\"{}", force ? "mass" : "node of prescribed motion",
+                                name, suggestion(name, names)));
+  }
+  reading.choice.noise.kind = force ? tuning::Noise::Kind::force_on : tuning::Noise::Kind::acceleration_of;
+  reading.choice.noise.node = static_cast<std::size_t>(node - names.begin());
+  if (noise.find("intensity")) reading.choice.noise.intensity = noise.number("intensity");
+  if (!(reading.choice.noise.intensity > 0.0))
+    noise.fail("intensity", fmt::format("{} is not possible; must be > 0", reading.choice.noise.intensity));
+}
+
+// As with an axis, a range without a unit is SI, and refused where the parameter is given in another.
+UsualUnit read_band_unit(const TuneReading& reading, const TomlSection& section, std::size_t parameter) {
+  UsualUnit unit = read_parameter_unit(reading, section, parameter);
+  if (!section.find("unit") && unit.si_factor != 1.0) {
+    section.fail(fmt::format(
+        "the parameter is given in \"{0}\" and its band in no unit; add unit = \"{0}\" or another",
+        unit.text));
+  }
+  return unit;
+}
+
+void read_band(TuneReading& reading, const TomlSection& section) {
+  const TomlValue* value = section.find("band");
+  if (!value) return;
+  const TomlSection band(reading.context.source, *value, "[tune]: band", {"parameter", "from", "to", "unit"});
+  BandChoice choice;
+  choice.position = band.position();
+  choice.parameter = read_number_parameter(reading, band, "parameter", "a band");
+  const StudyFile& study = reading.study;
+  const auto inputs = study.parameters.inputs_of(study.values.omega.expression.reads());
+  if (std::find(inputs.begin(), inputs.end(), choice.parameter) == inputs.end()) {
+    band.fail("parameter", fmt::format("the excitation frequency does not depend on \"{}\"",
+                                       study.parameters.list[choice.parameter].name));
+  }
+  choice.unit = read_band_unit(reading, band, choice.parameter);
+  choice.range = read_range(band, choice.unit.si_factor);
+  reading.choice.band = choice;
+}
+
+void require_band(const TuneReading& reading, const TomlSection& section) {
+  const TuneChoice& choice = reading.choice;
+  if (choice.band) return;
+  if (choice.objective != Objective::variance)
+    section.fail("the key \"band\" is missing: band = { parameter = \"omega\", from = 15.0, to = 35.0 }");
+  if (!choice.limits.empty() || choice.trade_off)
+    section.fail("the key \"band\" is missing: limits hold over a band of frequencies");
+}
+
+void read_start(const TomlSection& section, TuneChoice& choice) {
+  const TomlValue* value = section.find("start");
+  if (value && value->as<std::int64_t>()) {
+    const std::int64_t starts = section.integer_or("start", 1);
+    if (starts < 1 || starts > most_starts)
+      section.fail("start", fmt::format("{} is out of range: a whole number from 1 to {}, \"given\" or "
+                                        "\"nlopt\"",
+                                        starts, most_starts));
+    choice.start = tuning::Start::many;
+    choice.starts = static_cast<std::size_t>(starts);
+  } else if (value && !value->as<std::string>()) {
+    section.fail("start", fmt::format("expected \"given\", \"nlopt\" or a number of starts, found {}",
+                                      described(*value)));
+  } else if (section.choice_or("start", {"given", "nlopt"}) == "nlopt") {
+    choice.start = tuning::Start::global;
+  }
+  if (section.find("global") && choice.start != tuning::Start::global)
+    section.fail("global", "is the search of start = \"nlopt\", and the start is another");
+  choice.global_solver = section.choice_or("global", {"crs2", "isres", "direct", "mlsl"});
+}
+
+void read_tolerance(const TomlSection& section, TuneChoice& choice) {
+  if (!section.find("tolerance")) return;
+  choice.tolerance = section.number("tolerance");
+  if (!(choice.tolerance > 0.0 && choice.tolerance < largest_tolerance))
+    section.fail("tolerance", fmt::format("{} is out of range: above 0 and below {}", choice.tolerance,
+                                          largest_tolerance));
+}
+
+void read_trade_off(TuneReading& reading, const TomlSection& section) {
+  const TomlValue* value = section.find("trade_off");
+  if (!value) return;
+  const TomlSection table(reading.context.source, *value, "[tune]: trade_off",
+                          {"quantity", "values", "unit"});
+  TradeOffChoice trade_off;
+  trade_off.quantity = read_real_quantity(reading, table, "quantity");
+  trade_off.name = table.text("quantity");
+  trade_off.unit = read_quantity_unit(reading, table, trade_off.quantity);
+  for (const double limit : read_numbers(table, "values"))
+    trade_off.limits.push_back(limit * trade_off.unit.si_factor);
+  reading.choice.trade_off = std::move(trade_off);
+}
+
+// A weight is a function of the band alone: of no design parameter and of nothing that scenarios change.
+void check_weight(const TuneReading& reading, const TomlSection& section) {
+  const TuneChoice& choice = reading.choice;
+  if (!choice.weight) return;
+  if (choice.objective == Objective::variance)
+    section.fail("weight", "a variance has no weight over frequencies");
+  const Parameters& parameters = reading.study.parameters;
+  for (const std::size_t input : parameters.inputs_of(choice.weight->expression.reads())) {
+    const bool designed = std::any_of(choice.designs.begin(), choice.designs.end(),
+                                      [&](const DesignChoice& design) { return design.parameter == input; });
+    bool set = false;
+    for (const ScenarioChoice& scenario : choice.scenarios) {
+      for (const Assignment& assignment : scenario.set) set = set || assignment.parameter == input;
+    }
+    if (designed || set)
+      section.fail("weight", fmt::format("depends on \"{}\", which the {}; a weight is of the band alone",
+                                         parameters.list[input].name,
+                                         designed ? "tuning changes" : "scenarios change"));
+  }
+}
+
+void check_dominate(const TuneReading& reading, const TomlSection& section) {
+  if (!section.find("dominate")) return;
+  section.choice_or("dominate", {"constant"});
+  if (!reading.choice.has_schedule())
+    section.fail("dominate", "needs a [[design]] with a schedule, which is to be nowhere above its constant");
+}
+
+}  // namespace
+
+periodic::Quantity read_real_quantity(const TuneReading& reading, const TomlSection& section,
+                                      const std::string& key) {
+  const std::string name = section.text(key);
+  const mechanics::Network& network = reading.study.network;
+  const auto describe = [&](const periodic::Quantity& quantity) {
+    return periodic::describe(quantity, network, reading.study.dimensionless);
+  };
+  const auto quantity = periodic::find_quantity(name, network);
+  if (!quantity) {
+    std::vector<std::string> known;
+    for (const auto& each : periodic::all_quantities(network)) known.push_back(describe(each).name);
+    section.fail(key, fmt::format("\"{}\" is no quantity of the study{}", name, suggestion(name, known)));
+  }
+  if (describe(*quantity).kind != periodic::QuantityKind::real)
+    section.fail(key, fmt::format("\"{}\" is a count or a flag; a tuning needs a number that varies "
+                                  "continuously",
+                                  name));
+  return *quantity;
+}
+
+UsualUnit read_quantity_unit(const TuneReading& reading, const TomlSection& section,
+                             const periodic::Quantity& quantity) {
+  const auto description = periodic::describe(quantity, reading.study.network, reading.study.dimensionless);
+  const TomlValue* value = section.find("unit");
+  if (!value) return {description.unit, 1.0};
+  const auto unit = read_unit(reading.context, section.where(), *value);
+  if (!unit) return {"1", 1.0};
+  const Unit own = reading.context.units.parse(description.unit);
+  if (own.exponents != unit->exponents || unit->foreign)
+    section.fail("unit", fmt::format("\"{}\" is the unit of {}, but {} is in {}", unit->text,
+                                     dimension_name(*unit), description.name, description.unit));
+  if (description.unit == si_unit(Quantity::angular_frequency))
+    return {unit->text, si_factor(*unit, Quantity::angular_frequency)};
+  return {unit->text, unit->scale / own.scale};
+}
+
+UsualUnit read_parameter_unit(const TuneReading& reading, const TomlSection& section, std::size_t parameter) {
+  const Parameter& definition = reading.study.parameters.list[parameter];
+  UsualUnit usual = usual_unit(reading.study, parameter);
+  if (const TomlValue* value = section.find("unit")) {
+    const auto unit = read_unit(reading.context, section.where(), *value);
+    try {
+      if (unit) usual = {unit->text, si_factor(definition, *unit)};
+    } catch (const UnitError& error) {
+      section.fail("unit", error.what());
+    }
+  }
+  if (reading.study.dimensionless) return {"1", 1.0};
+  if (usual.text.empty() && definition.quantity) usual.text = si_unit(*definition.quantity);
+  return usual;
+}
+
+std::size_t read_number_parameter(const TuneReading& reading, const TomlSection& section,
+                                  const std::string& key, const char* role) {
+  const Parameters& parameters = reading.study.parameters;
+  const std::string name = section.text(key);
+  const auto index = parameters.find(name);
+  if (!index)
+    section.fail(key,
+                 fmt::format("no parameter is called \"{}\"{}", name, suggestion(name, parameters.names())));
+  if (!parameters.list[*index].is_number())
+    section.fail(key, fmt::format("\"{}\" is computed from other parameters; {} needs one that is a number",
+                                  name, role));
+  return *index;
+}
+
+std::vector<double> read_numbers(const TomlSection& section, const std::string& key) {
+  const TomlValue& list = section.require(key);
+  const auto* items = list.as<TomlArray>();
+  if (!items || items->empty())
+    section.fail(key, fmt::format("expected an array of numbers, found {}",
+                                  items ? "an empty array" : described(list)));
+  std::vector<double> values;
+  for (const TomlValue& item : *items)
+    values.push_back(read_number(section.source(), fmt::format("{}: {}", section.where(), key), item));
+  return values;
+}
+
+tuning::Band read_range(const TomlSection& section, double si_factor) {
+  const double from = section.number("from"), to = section.number("to");
+  if (!(from <= to))
+    section.fail("to", fmt::format("{} is below \"from\" = {}; a band goes from the lower end to the upper",
+                                   to, from));
+  return {from * si_factor, to * si_factor};
+}
+
+StudyValue read_formula(const TuneReading& reading, const TomlSection& section, const std::string& key) {
+  const TomlValue& value = section.require(key);
+  StudyValue formula;
+  formula.where = fmt::format("{}: {}", section.where(), key);
+  formula.position = value.position;
+  formula.expression = read_expression(reading.context, reading.study.parameters, formula.where, value);
+  return formula;
+}
+
+void read_tuning(const StudyContext& context, const TomlValue& root, StudyFile& study) {
+  refuse_smooth_friction(study);
+  const TomlEntry* entry = find_entry(root, "tune");
+  if (!entry) throw context.source.error_at(root.position, "the study has no [tune] with its objective");
+  const TomlSection section(context.source, entry->value, "[tune]",
+                            {"objective", "quantity", "band", "solver", "start", "global", "tolerance",
+                             "weight", "dominate", "trade_off", "noise"});
+  TuneReading reading{context, root, study};
+  TuneChoice& choice = reading.choice;
+  read_objective(section, choice);
+  choice.quantity = read_real_quantity(reading, section, "quantity");
+  choice.quantity_name = section.text("quantity");
+  if (choice.objective == Objective::variance) check_variance(reading, section);
+  read_noise(reading, section);
+  read_band(reading, section);
+  choice.solver = section.choice_or("solver", {"ipopt", "slsqp", "mma"});
+  read_start(section, choice);
+  read_tolerance(section, choice);
+  read_trade_off(reading, section);
+  read_designs(reading);
+  read_limits(reading);
+  read_scenarios(reading);
+  read_columns(reading);
+  require_band(reading, section);
+  if (section.find("weight")) choice.weight = read_formula(reading, section, "weight");
+  check_weight(reading, section);
+  check_dominate(reading, section);
+  choice.dominate_constant = section.find("dominate") != nullptr;
+  study.tune = std::move(choice);
+}
+
+bool TuneChoice::has_schedule() const {
+  return std::any_of(designs.begin(), designs.end(),
+                     [](const DesignChoice& design) { return design.is_scheduled(); });
+}
+
+}  // namespace frahm::studies

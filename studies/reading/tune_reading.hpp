@@ -1,0 +1,52 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studies/reading/study_reading.hpp"
+
+// Inside the reading of a tuning: what [tune] and its tables share.
+namespace frahm::studies {
+
+// The tuning as far as it is read.
+struct TuneReading {
+  const StudyContext& context;
+  const TomlValue& root;
+  StudyFile& study;
+  TuneChoice choice = {};
+};
+
+// A real-valued quantity of the network, by its name at a key.
+periodic::Quantity read_real_quantity(const TuneReading& reading, const TomlSection& section,
+                                      const std::string& key);
+
+// Unit of a quantity's limits: that of the key "unit", else the quantity's own, which is SI.
+UsualUnit read_quantity_unit(const TuneReading& reading, const TomlSection& section,
+                             const periodic::Quantity& quantity);
+
+// Unit of a parameter's numbers: that of the key "unit", else the usual one.
+UsualUnit read_parameter_unit(const TuneReading& reading, const TomlSection& section, std::size_t parameter);
+
+// A parameter that is a number, by its name at a key. role: "a design parameter", for messages.
+std::size_t read_number_parameter(const TuneReading& reading, const TomlSection& section,
+                                  const std::string& key, const char* role);
+
+// An array of numbers, at least one.
+std::vector<double> read_numbers(const TomlSection& section, const std::string& key);
+
+// from <= to in the unit given, to SI.
+tuning::Band read_range(const TomlSection& section, double si_factor);
+
+// An expression of the parameters in quotes.
+StudyValue read_formula(const TuneReading& reading, const TomlSection& section, const std::string& key);
+
+// Whether the numbers of the network depend on a parameter.
+bool network_depends_on(const StudyFile& study, std::size_t parameter);
+
+// The tables of a tuning, in this order, once its band is known.
+void read_designs(TuneReading& reading);
+void read_limits(TuneReading& reading);
+void read_scenarios(TuneReading& reading);
+void read_columns(TuneReading& reading);
+
+}  // namespace frahm::studies

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine/bytes.hpp"
+#include "solvers/tuning/optimum.hpp"
+
+// The record of one start of a tuning, as the shard logs keep it: its optima, to the last bit.
+namespace frahm::studies {
+
+// Appends the record to `out`.
+void encode(const std::vector<tuning::Optimum>& optima, engine::Bytes& out);
+
+// Throws std::runtime_error for bytes that encode() has not written.
+std::vector<tuning::Optimum> decode_optima(std::span<const std::byte> bytes);
+
+}  // namespace frahm::studies

@@ -1,0 +1,64 @@
+#include "studies/tuning/tuned_design.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace frahm::studies {
+
+DesignValues design_values(const tuning::Optimum& optimum) {
+  DesignValues values;
+  for (const tuning::TunedParameter& parameter : optimum.parameters) values.push_back(parameter.value);
+  return values;
+}
+
+double value_at(const DesignChoice& design, std::span<const double> values, double band) {
+  if (!design.is_scheduled()) return values.front();
+  const auto& knots = design.knots;
+  const auto right = std::upper_bound(knots.begin() + 1, knots.end() - 1, band);
+  const auto i = static_cast<std::size_t>(right - knots.begin());
+  const double part = std::clamp((band - knots[i - 1]) / (knots[i] - knots[i - 1]), 0.0, 1.0);
+  return std::lerp(values[i - 1], values[i], part);
+}
+
+std::vector<double> parameters_in_scenario(const StudyFile& study, std::size_t scenario) {
+  std::vector<double> parameters = study.parameters.nominal();
+  const auto& scenarios = study.tune->scenarios;
+  if (scenarios.empty()) return parameters;
+  for (const Assignment& assignment : scenarios[scenario].set)
+    parameters[assignment.parameter] = assignment.value;
+  return parameters;
+}
+
+std::vector<double> parameters_of(const StudyFile& study, const DesignValues& design, std::size_t scenario,
+                                  double band) {
+  const TuneChoice& tune = *study.tune;
+  std::vector<double> parameters = parameters_in_scenario(study, scenario);
+  if (tune.band) parameters[tune.band->parameter] = band;
+  for (std::size_t i = 0; i < tune.designs.size(); ++i)
+    parameters[tune.designs[i].parameter] = value_at(tune.designs[i], design[i], band);
+  study.parameters.complete(std::span<double>(parameters));
+  return parameters;
+}
+
+std::vector<tuning::Rule> rules_of(const StudyFile& study, const DesignValues& design) {
+  std::vector<tuning::Rule> rules;
+  for (const DesignChoice& choice : study.tune->designs) {
+    rules.emplace_back();
+    if (!choice.rule) continue;
+    rules.back() = [&study, &choice, design](double band) {
+      const std::vector<double> parameters = parameters_of(study, design, 0, band);
+      const double value = choice.rule->expression.evaluate(std::span<const double>(parameters));
+      return std::clamp(value, choice.lower, choice.upper);
+    };
+  }
+  return rules;
+}
+
+std::vector<std::string> scenario_names(const StudyFile& study) {
+  if (study.tune->scenarios.empty()) return {"study"};
+  std::vector<std::string> names;
+  for (const ScenarioChoice& scenario : study.tune->scenarios) names.push_back(scenario.name);
+  return names;
+}
+
+}  // namespace frahm::studies

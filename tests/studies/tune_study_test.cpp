@@ -1,0 +1,184 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "studies/reading/study_file.hpp"
+#include "studies/tuning/tuned_design.hpp"
+#include "studies/tuning/tuning_task.hpp"
+#include "tests/studies/small_tunings.hpp"
+
+namespace {
+
+using namespace frahm::studies;
+using namespace small_tunings;
+using frahm::tuning::Objective;
+using frahm::tuning::Start;
+constexpr double rounding = 1e-14;  // a few roundings of double arithmetic
+
+StudyFile parse(const std::string& text) {
+  return parse_study(text, "tuning.toml");
+}
+
+// The rig with its exciter in rpm, reduced to what a schedule needs.
+const std::string rig =
+    "[study]\nschema = 1\nkind = \"tune\"\n"
+    "[parameters]\nomega = { value = 250, unit = \"rpm\" }\nI = 6\nk = { value = 11, unit = \"kN/m\" }\n"
+    "A = { value = 30, unit = \"mm\" }\nL = 0.12\n"
+    "[[mass]]\nname = \"main\"\nmass = 102.66\n[[mass]]\nname = \"tmd\"\nmass = 12.82\n"
+    "[[element]]\nname = \"drive\"\ntype = \"spring\"\nbetween = [\"exciter\", \"main\"]\nstiffness = 57e3\n"
+    "[[element]]\nname = \"tmd_spring\"\ntype = \"spring\"\nbetween = [\"main\", \"tmd\"]\nstiffness = "
+    "\"k\"\n"
+    "[[element]]\nname = \"damper\"\ntype = \"damper\"\nbetween = [\"main\", \"tmd\"]\n"
+    "damping = \"26.5 + 0.5*I\"\n"
+    "[[element]]\nname = \"inerter\"\ntype = \"inerter\"\nbetween = [\"main\", \"tmd\"]\ninertance = \"I\"\n"
+    "[excitation]\nfrequency = \"omega\"\n[[excitation.motion]]\nnode = \"exciter\"\nprofile = \"crank\"\n"
+    "crank = \"A\"\nrod = \"L\"\n"
+    "[tune]\nobjective = \"minimax\"\nquantity = \"main_peak\"\n"
+    "band = { parameter = \"omega\", from = 150, to = 350, unit = \"rpm\" }\n";
+const std::string scheduled =
+    "[[design]]\nparameter = \"I\"\nlower = 4.72\nupper = 12.9\n"
+    "schedule = { knots = 5, max_slope = 0.2 }\nrule = \"k/omega^2 - 12.82\"\n"
+    "[[design]]\nparameter = \"k\"\nlower = 5\nupper = 20\n";
+
+TEST_CASE("a tuning has its defaults, and its choices where they are made") {
+  const StudyFile plain = parse(classical);
+  REQUIRE(plain.tune);
+  CHECK(plain.kind == StudyKind::tune);
+  CHECK(plain.tune->objective == Objective::minimax);
+  CHECK(plain.tune->solver == "ipopt");
+  CHECK(plain.tune->start == Start::given);
+  CHECK(plain.tune->starts == 1);
+  CHECK(plain.tune->tolerance == 1e-6);
+  CHECK_FALSE(plain.tune->dominate_constant);
+  const StudyFile chosen =
+      parse(heading + absorber + minimax + "solver = \"mma\"\nstart = 32\ntolerance = 1e-8\n" + of_f);
+  CHECK(chosen.tune->solver == "mma");
+  CHECK(chosen.tune->start == Start::many);
+  CHECK(chosen.tune->starts == 32);
+  CHECK(chosen.tune->tolerance == 1e-8);
+  const StudyFile global =
+      parse(heading + absorber + minimax + "start = \"nlopt\"\nglobal = \"isres\"\n" + of_f);
+  CHECK(global.tune->start == Start::global);
+  CHECK(global.tune->global_solver == "isres");
+}
+
+TEST_CASE("bands, bounds, knots and slopes are in the units the study gives, SI within") {
+  const StudyFile study = parse(rig + scheduled);
+  const double rpm = std::numbers::pi / 30.0;
+  const TuneChoice& tune = *study.tune;
+  CHECK_THAT(tune.band->range.from, Catch::WithinRel(150.0 * rpm, rounding));
+  CHECK_THAT(tune.band->range.to, Catch::WithinRel(350.0 * rpm, rounding));
+  CHECK(tune.designs[0].lower == 4.72);
+  REQUIRE(tune.designs[0].knots.size() == 5);
+  CHECK_THAT(tune.designs[0].knots[1], Catch::WithinRel(200.0 * rpm, rounding));
+  CHECK(tune.designs[0].knots[4] == tune.band->range.to);
+  CHECK_THAT(tune.designs[0].max_slope, Catch::WithinRel(0.2 / rpm, rounding));
+  CHECK_THAT(tune.designs[1].upper, Catch::WithinRel(2e4, rounding));
+  CHECK_FALSE(tune.designs[1].is_scheduled());
+  const UsualUnit unit = usual_unit(study, *study.parameters.find("omega"));
+  CHECK(unit.text == "rpm");
+}
+
+TEST_CASE("limits, a trade-off, scenarios and columns are read in their units") {
+  const StudyFile study = parse(
+      rig + "trade_off = { quantity = \"main_acceleration_peak\", values = [3, 2] }\n" + scheduled +
+      "[[constraint]]\nquantity = \"tmd_spring_stroke\"\nupper = 80\nunit = \"mm\"\n"
+      "band = { from = 200, to = 300 }\n"
+      "[[scenario]]\nname = \"small\"\nset = { A = 20 }\n"
+      "[[scenario]]\nname = \"large\"\nset = { A = { value = 4, unit = \"cm\" } }\n"
+      "[[column]]\nname = \"ratio\"\nvalue = \"sqrt((I*0.0009 - 0.0036)/0.0027)\"\nlower = 0.58\nupper = "
+      "1.76\n");
+  const TuneChoice& tune = *study.tune;
+  REQUIRE(tune.limits.size() == 1);
+  CHECK_THAT(tune.limits[0].upper, Catch::WithinRel(0.08, rounding));
+  CHECK_THAT(tune.limits[0].band->from, Catch::WithinRel(200.0 * std::numbers::pi / 30.0, rounding));
+  CHECK(tune.trade_off->limits == std::vector<double>{3.0, 2.0});
+  REQUIRE(tune.scenarios.size() == 2);
+  CHECK_THAT(tune.scenarios[0].set[0].value, Catch::WithinRel(0.02, rounding));
+  CHECK_THAT(tune.scenarios[1].set[0].value, Catch::WithinRel(0.04, rounding));
+  CHECK(tune.columns[0].upper == 1.76);
+  CHECK(scenario_names(study) == std::vector<std::string>{"small", "large"});
+}
+
+TEST_CASE("a crank has the orders that the largest one of the bounds and scenarios needs") {
+  const StudyFile small = parse(rig + scheduled);
+  const StudyFile designed =
+      parse(rig + scheduled + "[[design]]\nparameter = \"A\"\nlower = 10\nupper = 100\n");
+  const StudyFile in_scenario =
+      parse(rig + scheduled + "[[scenario]]\nname = \"large\"\nset = { A = 100 }\n");
+  CHECK(designed.network.excitations[0].even_orders > small.network.excitations[0].even_orders);
+  CHECK(designed.network.excitations[0].even_orders == in_scenario.network.excitations[0].even_orders);
+}
+
+TEST_CASE("the task's network and its derivatives are those of the expressions, in every scenario") {
+  const StudyFile study = parse(rig + scheduled +
+                                "[[scenario]]\nname = \"small\"\nset = { A = 20 }\n"
+                                "[[scenario]]\nname = \"large\"\nset = { A = 40 }\n");
+  const frahm::tuning::Task task = tuning_task(study);
+  CHECK(task.parameters[0].name == "I");
+  CHECK(task.parameters[0].nominal == 6.0);
+  REQUIRE(task.parameters[0].schedule);
+  CHECK_THAT(task.parameters[1].nominal, Catch::WithinRel(11e3, rounding));
+  const std::vector<double> at{7.0, 12e3, 25.0};
+  frahm::mechanics::NetworkValues values;
+  std::vector<frahm::mechanics::NetworkValues> slopes;
+  task.network_at(1, at, values, &slopes);
+  CHECK(values.omega == 25.0);
+  CHECK(values.element == std::vector<double>{57e3, 12e3, 30.0, 7.0});
+  CHECK_THAT(values.excitation[0].amplitude, Catch::WithinRel(0.04, rounding));
+  REQUIRE(slopes.size() == 3);
+  CHECK(slopes[0].element == std::vector<double>{0.0, 0.0, 0.5, 1.0});
+  CHECK(slopes[1].element == std::vector<double>{0.0, 1.0, 0.0, 0.0});
+  CHECK(slopes[2].omega == 1.0);
+  task.network_at(0, at, values, nullptr);
+  CHECK_THAT(values.excitation[0].amplitude, Catch::WithinRel(0.02, rounding));
+}
+
+TEST_CASE("a weight has its slope over the band") {
+  const StudyFile study = parse(heading + absorber + minimax + "weight = \"P/r^2\"\n" + of_f);
+  const auto weight = tuning_task(study).weight(0.8);
+  CHECK_THAT(weight.value, Catch::WithinRel(1.0 / 0.64, rounding));
+  CHECK_THAT(weight.slope, Catch::WithinRel(-2.0 / 0.512, rounding));
+}
+
+TEST_CASE("a variance without limits needs no band, and its task no frequency") {
+  const StudyFile study = parse(
+      heading + absorber +
+      "[tune]\nobjective = \"variance\"\nquantity = \"main_rms\"\nnoise = { force_on = \"main\" }\n" + of_f);
+  CHECK_FALSE(study.tune->band);
+  const auto task = tuning_task(study);
+  std::vector<frahm::mechanics::NetworkValues> slopes;
+  frahm::mechanics::NetworkValues values;
+  task.network_at(0, std::vector<double>{1.1, 1.0}, values, &slopes);
+  REQUIRE(slopes.size() == 2);
+  CHECK_THAT(slopes[0].element[1], Catch::WithinRel(0.05 * 2.2, rounding));
+  CHECK(slopes[1].omega == 0.0);
+  CHECK(slopes[1].element == std::vector<double>(3, 0.0));
+}
+
+TEST_CASE("a rule follows the rest of the design and stays within the bounds") {
+  const StudyFile study = parse(rig + scheduled);
+  const DesignValues design{{5, 6, 7, 8, 9}, {15e3}};
+  const auto rules = rules_of(study, design);
+  REQUIRE(rules[0]);
+  CHECK_FALSE(rules[1]);
+  CHECK_THAT(rules[0](26.0), Catch::WithinRel(15e3 / 676.0 - 12.82, rounding));
+  CHECK(rules[0](16.0) == 12.9);
+  CHECK(rules[0](36.0) == 4.72);
+}
+
+TEST_CASE("a schedule is linear between its knots and ends with them") {
+  const StudyFile study = parse(rig + scheduled);
+  const DesignChoice& design = study.tune->designs[0];
+  const std::vector<double> values{5, 6, 8, 8, 9};
+  CHECK(value_at(design, values, design.knots[0]) == 5.0);
+  CHECK(value_at(design, values, design.knots[4]) == 9.0);
+  CHECK_THAT(value_at(design, values, 0.5 * (design.knots[1] + design.knots[2])),
+             Catch::WithinRel(7.0, rounding));
+  CHECK(value_at(design, values, 1.0) == 5.0);
+  const auto parameters = parameters_of(study, {values, {15e3}}, 0, design.knots[1]);
+  CHECK_THAT(parameters[*study.parameters.find("I")], Catch::WithinRel(6.0, rounding));
+  CHECK(parameters[*study.parameters.find("k")] == 15e3);
+}
+
+}  // namespace
