@@ -79,7 +79,7 @@ const char* Gradient<N, H>::differentiate_all(std::span<const mechanics::Network
     const auto form = [&](const Mode<N, H>& mode) {
       return form_of(traces_[i], forms_, system_->laws, mode);
     };
-    find_candidates(steps_, flow_, orbit_->section, form, candidates_[i]);
+    find_candidates(steps_, flow_, orbit_->section, orbit_->sign(), form, candidates_[i]);
   }
   if (needs_integrals_) {
     integrals_.integrate(steps_, flow_, orbit_->half_period,
@@ -241,10 +241,13 @@ double Gradient<N, H>::extreme(std::size_t i, Side side) {
   if (orbit_->half_period) side = Side::either;  // both sides are alike
   double smallest = std::numeric_limits<double>::infinity(), largest = -smallest;
   for (const auto& candidate : candidates_[trace]) {
-    const bool at_most = side == Side::either ? candidate.value >= magnitude - tie
-                                              : side == Side::most && candidate.value >= found.most - tie;
-    const bool at_least = side == Side::either ? candidate.value <= tie - magnitude
-                                               : side == Side::least && candidate.value <= found.least + tie;
+    const bool at_most = candidate.can_be_most &&
+                         (side == Side::either ? candidate.value >= magnitude - tie
+                                               : side == Side::most && candidate.value >= found.most - tie);
+    const bool at_least =
+        candidate.can_be_least &&
+        (side == Side::either ? candidate.value <= tie - magnitude
+                              : side == Side::least && candidate.value <= found.least + tie);
     if (!at_most && !at_least) continue;
     const double by = at_candidate(trace, candidate);
     if (at_most) {

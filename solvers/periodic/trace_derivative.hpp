@@ -22,6 +22,8 @@ struct Candidate {
   std::ptrdiff_t change = -1;  // of mode, whose limit it is; -1: none
   bool stationary = true;      // within a segment
   bool reached = true;         // arrived at here, not held from before
+  bool can_be_most = true;     // a local maximum of the trace; so is every stationary value that counts
+  bool can_be_least = true;    // a local minimum
   Instant<N, H> at{};
 };
 
@@ -50,18 +52,36 @@ class CandidateCollector {
   double start_ = 0.0;
 };
 
+// The limits on either side of a change of mode, or of the section, which of them can be extremes: where the
+// trace is continuous there, both or neither; where it jumps, that which it rises to, and that which it falls
+// from. sign: of the trace beyond the section of half a period.
+template <int N, int H>
+void judge_limits(Candidate<N, H>& end, Candidate<N, H>& start, double sign, double magnitude) {
+  constexpr double kFlat = 1e-10, kContinuous = 1e-12;
+  const double flat = kFlat * magnitude;
+  const bool continuous = std::abs(end.value - sign * start.value) <= kContinuous * magnitude;
+  const bool rises_in = end.slope >= -flat, falls_in = end.slope <= flat;
+  const bool falls_out = sign * start.slope <= flat, rises_out = sign * start.slope >= -flat;
+  end.can_be_most = rises_in && (falls_out || !continuous);
+  end.can_be_least = falls_in && (rises_out || !continuous);
+  const bool most = falls_out && (rises_in || !continuous), least = rises_out && (falls_in || !continuous);
+  start.can_be_most = sign > 0.0 ? most : least;
+  start.can_be_least = sign > 0.0 ? least : most;
+}
+
 // Candidates within this part of the largest magnitude are the same extreme, or tie for it.
 inline constexpr double kTiedExtremes = 1e-10;
 
 // The candidates for the largest and for the least value; `changes` in the order of the segments.
 template <int N, int H, class FormOf>
-void find_candidates(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow, double section, const FormOf& form_of,
-                     std::vector<Candidate<N, H>>& list) {
+void find_candidates(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow, double section, double section_sign,
+                     const FormOf& form_of, std::vector<Candidate<N, H>>& list) {
   CandidateCollector<N, H> collector(list);
   LinearForm<N, H> form;
   bool starts_segment = true;
   double at_segment_start = 0.0;
   std::ptrdiff_t change = -1;
+  std::vector<std::size_t> limits;  // places in the list of each segment's start and end
   const auto steps = orbit.steps();
   for (std::size_t i = 0; i < steps.size(); ++i) {
     OrbitStep<N, H>& step = steps[i];
@@ -69,7 +89,8 @@ void find_candidates(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow, double sec
     const ValueAndSlope left = form.at(step.left), right = form.at(step.right);
     if (starts_segment) {
       at_segment_start = left.value;
-      collector.add({left.value, left.slope, i, 0.0, change, false, false, step.left});
+      collector.add({left.value, left.slope, i, 0.0, change, false, false, true, true, step.left});
+      limits.push_back(list.size() - 1);
     }
     collector.begin_step(i, step.start);
     consider_interior(orbit, step, form, left, right, collector);
@@ -78,14 +99,21 @@ void find_candidates(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow, double sec
       const bool held = std::abs(right.value - at_segment_start) <= 1e-13 * std::abs(right.value);
       ++change;
       collector.add({right.value, right.slope, i, step.length, is_section ? -1 : change, false,
-                     !held && !is_section, step.right});
+                     !held && !is_section, true, true, step.right});
+      limits.push_back(list.size() - 1);
     }
     starts_segment = step.ends_segment;
   }
   const Extremes& extremes = collector.extremes();
   const double tie = kTiedExtremes * extremes.magnitude();
+  for (std::size_t k = 0; k + 1 < limits.size(); k += 2) {
+    const bool is_section = k + 2 == limits.size();
+    judge_limits(list[limits[k + 1]], list[limits[is_section ? 0 : k + 2]], is_section ? section_sign : 1.0,
+                 extremes.magnitude());
+  }
   const auto is_below = [&](const Candidate<N, H>& c) {
-    const bool highest = c.value >= extremes.most - tie, lowest = c.value <= extremes.least + tie;
+    const bool highest = c.can_be_most && c.value >= extremes.most - tie;
+    const bool lowest = c.can_be_least && c.value <= extremes.least + tie;
     return !highest && !lowest;
   };
   list.erase(std::remove_if(list.begin(), list.end(), is_below), list.end());
