@@ -22,6 +22,43 @@ double rod_part(double radius, double rod, double theta, int taylor_order) {
   }
 }
 
+// Its derivative. With g(c) = sqrt(L^2 - c^2) - L:  dg/dc = -c / sqrt(L^2 - c^2),  dg/dL = c^2 / (sqrt(L^2 -
+// c^2) (L + sqrt(L^2 - c^2))).
+double rod_part_derivative(double radius, double rod, double radius_by, double rod_by, double theta,
+                           int taylor_order) {
+  const double c = radius * std::cos(theta), c_by = radius_by * std::cos(theta);
+  const double L2 = rod * rod;
+  switch (taylor_order) {
+    case 1:
+      return 0.0;
+    case 2:
+      return -c * c_by / rod + c * c * rod_by / (2.0 * L2);
+    case 4:
+      return -c * c_by / rod * (1.0 + c * c / (2.0 * L2)) +
+             c * c * rod_by / (2.0 * L2) * (1.0 + 3.0 * c * c / (4.0 * L2));
+    default: {
+      const double root = std::sqrt((rod - c) * (rod + c));
+      return -c * c_by / root + c * c * rod_by / (root * (rod + root));
+    }
+  }
+}
+
+// The first even cosine coefficients of an even function of period pi, by the trapezoidal rule: samples over
+// half a turn, enough that what folds back onto the orders kept is as small as what is cut.
+template <class Function>
+std::vector<double> even_cosines(int count, const Function& f) {
+  const int samples = 2 * count + 2 * kMostEvenOrders;
+  std::vector<double> even(static_cast<std::size_t>(count) + 1, 0.0);
+  for (int i = 0; i < samples; ++i) {
+    const double theta = std::numbers::pi * i / samples;
+    const double value = f(theta) / samples;
+    for (int m = 0; m <= count; ++m) {
+      even[static_cast<std::size_t>(m)] += (m == 0 ? 1.0 : 2.0) * value * std::cos(2.0 * m * theta);
+    }
+  }
+  return even;
+}
+
 }  // namespace
 
 double crank_displacement(double radius, double rod, double theta) {
@@ -29,17 +66,14 @@ double crank_displacement(double radius, double rod, double theta) {
 }
 
 std::vector<double> crank_even_orders(double radius, double rod, int count, int taylor_order) {
-  // Samples over half a turn, enough that what folds back onto the orders kept is as small as what is cut.
-  const int samples = 2 * count + 2 * kMostEvenOrders;
-  std::vector<double> even(static_cast<std::size_t>(count) + 1, 0.0);
-  for (int i = 0; i < samples; ++i) {
-    const double theta = std::numbers::pi * i / samples;
-    const double value = rod_part(radius, rod, theta, taylor_order) / samples;
-    for (int m = 0; m <= count; ++m) {
-      even[static_cast<std::size_t>(m)] += (m == 0 ? 1.0 : 2.0) * value * std::cos(2.0 * m * theta);
-    }
-  }
-  return even;
+  return even_cosines(count, [&](double theta) { return rod_part(radius, rod, theta, taylor_order); });
+}
+
+std::vector<double> crank_even_orders_derivative(double radius, double rod, double radius_by, double rod_by,
+                                                 int count, int taylor_order) {
+  return even_cosines(count, [&](double theta) {
+    return rod_part_derivative(radius, rod, radius_by, rod_by, theta, taylor_order);
+  });
 }
 
 int crank_orders_needed(double ratio) {

@@ -18,6 +18,10 @@ double crank_displacement(double radius, double rod, double theta);
 //   a = R sin(theta) - R^2 cos^2(theta) / (2 L) - R^4 cos^4(theta) / (8 L^3);   0: exact.
 std::vector<double> crank_even_orders(double radius, double rod, int count, int taylor_order = 0);
 
+// The derivative of crank_even_orders along a change of radius and rod by radius_by and rod_by [m per unit].
+std::vector<double> crank_even_orders_derivative(double radius, double rod, double radius_by, double rod_by,
+                                                 int count, int taylor_order = 0);
+
 // How many even orders it takes until the rest is below 1e-15 R, at most kMostEvenOrders, which serve up to
 // kLargestCrankRatio.  ratio = R/L in (0, 1).
 int crank_orders_needed(double ratio);

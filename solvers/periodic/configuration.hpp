@@ -58,15 +58,18 @@ struct Configuration {
         reaction_ * (equations.W.transpose() * z.segment(n, n) + equations.support_velocity * u);
   }
 
+  // What meets the stuck contacts' constraint w_j^T q'' = -p_j^T y'', G = W^T M^-1 W over the stuck contacts:
+  const typename S::ContactSquare& constraint() const { return constraint_; }  // G^+
+  const typename S::VectorByContacts& reaction() const { return reaction_; }   // M^-1 W G^+
+
   // Matrices that do not depend on the forcing.
   void set_system(const StepEquations<N, H>& equations, ContactMask stuck_contacts);
   // Those that do; after set_system.
   void set_forcing(const StepEquations<N, H>& equations);
 
  private:
-  // Velocities and forces after the stuck contacts' constraint w_j^T q'' = -p_j^T y'' has been met.
-  typename S::ContactSquare constraint_;   // G_S^+, zero rows and columns for sliding contacts
-  typename S::VectorByContacts reaction_;  // M^-1 W G_S^+ : accelerations per unit of relative acceleration
+  typename S::ContactSquare constraint_;   // zero rows and columns for sliding contacts
+  typename S::VectorByContacts reaction_;  // accelerations per unit of relative acceleration
   void propagate_homogeneous(const StepEquations<N, H>& equations);
 
   // Columns of solutions, and of what drives them.

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "solvers/periodic/quantity.hpp"
+
 // The largest and least value of a quantity over a period, gathered from candidates.
 namespace frahm::periodic {
 
@@ -16,6 +18,9 @@ struct Extremes {
   double least_phase = std::numeric_limits<double>::quiet_NaN();
 
   double magnitude() const { return std::max(std::abs(most), std::abs(least)); }
+  double peak(Side side) const {
+    return side == Side::most ? most : side == Side::least ? -least : magnitude();
+  }
 };
 
 // The angle in [0, 2 pi); an angle within 1e-9 of 2 pi is 0.

@@ -12,9 +12,9 @@
 namespace frahm::periodic {
 
 // Interior stationary values of a form over one step, where they could matter.
-template <int N, int H>
+template <int N, int H, class Collector>
 void consider_interior(const OrbitSteps<N, H>& orbit, OrbitStep<N, H>& step, const LinearForm<N, H>& form,
-                       ValueAndSlope left, ValueAndSlope right, ExtremeCollector& collector) {
+                       ValueAndSlope left, ValueAndSlope right, Collector& collector) {
   // Bernstein coefficients of the cubic Hermite interpolant bound it; the fourth derivative adds less than
   // `slack`.
   const double b1 = left.value + left.slope * step.length / 3.0,

@@ -60,16 +60,6 @@ void Flow<N, H>::set_forcing(const mechanics::LinearSystem& system) {
       rotation_series_[place + 1][i] = i % 2 == 1 ? signed_term : 0.0;
     }
   }
-  // Re(f e^{i phi}) = Re f cos phi - Im f sin phi.
-  const auto on_oscillators = [&](const Eigen::VectorXd& constant, const Eigen::MatrixXcd& harmonic,
-                                  auto& rows) {
-    rows.resize(constant.size(), 1 + 2 * harmonics);
-    rows.col(0) = constant;
-    for (Eigen::Index k = 0; k < harmonics; ++k) {
-      rows.col(1 + 2 * k) = harmonic.col(k).real();
-      rows.col(2 + 2 * k) = -harmonic.col(k).imag();
-    }
-  };
   on_oscillators(system.constant_force, system.force, eq.force);
   on_oscillators(system.constant_applied_force, system.applied_force, eq.applied_force);
   on_oscillators(system.constant_motion, system.motion, eq.motion);

@@ -5,6 +5,24 @@
 #include <limits>
 
 namespace frahm::periodic {
+namespace {
+
+Eigen::VectorXcd static_load(const mechanics::LinearSystem& system) {
+  const Eigen::Index place = reference_place(system);
+  Eigen::VectorXcd load = system.applied_force.col(place);
+  if (system.motion.rows() > 0) load -= system.K_support * system.motion.col(place);
+  return load;
+}
+
+Eigen::VectorXcd static_solution(const mechanics::LinearSystem& system, const Eigen::VectorXcd& load) {
+  const Eigen::LLT<Eigen::MatrixXd> stiffness(system.K);
+  Eigen::VectorXcd displacement(load.size());
+  displacement.real() = stiffness.solve(load.real());
+  displacement.imag() = stiffness.solve(load.imag());
+  return displacement;
+}
+
+}  // namespace
 
 Eigen::Index reference_place(const mechanics::LinearSystem& system) {
   return std::find(system.orders.begin(), system.orders.end(), system.reference_order) -
@@ -12,19 +30,34 @@ Eigen::Index reference_place(const mechanics::LinearSystem& system) {
 }
 
 Eigen::VectorXd static_displacement(const mechanics::LinearSystem& system) {
+  return static_solution(system, static_load(system)).cwiseAbs();
+}
+
+// K dx = d(f - K_support Y) - dK x
+Eigen::VectorXd static_displacement_derivative(const mechanics::LinearSystem& system,
+                                               const mechanics::LinearSystem& by) {
   const Eigen::Index place = reference_place(system);
-  Eigen::VectorXcd force = system.applied_force.col(place);
-  if (system.motion.rows() > 0) force -= system.K_support * system.motion.col(place);
-  const Eigen::LLT<Eigen::MatrixXd> stiffness(system.K);
-  Eigen::VectorXcd displacement(force.size());
-  displacement.real() = stiffness.solve(force.real());
-  displacement.imag() = stiffness.solve(force.imag());
-  return displacement.cwiseAbs();
+  const Eigen::VectorXcd x = static_solution(system, static_load(system));
+  Eigen::VectorXcd load = by.applied_force.col(place) - by.K * x;
+  if (system.motion.rows() > 0)
+    load -= by.K_support * system.motion.col(place) + system.K_support * by.motion.col(place);
+  const Eigen::VectorXcd x_by = static_solution(system, load);
+  Eigen::VectorXd result(x.size());
+  for (Eigen::Index i = 0; i < x.size(); ++i) result[i] = modulus_derivative(x[i], x_by[i]);
+  return result;
 }
 
 double support_amplitude(const mechanics::LinearSystem& system) {
   const Eigen::VectorXd amplitude = system.motion.col(reference_place(system)).cwiseAbs();
   return (amplitude.array() > 0.0).count() == 1 ? amplitude.maxCoeff() : 0.0;
+}
+
+double support_amplitude_derivative(const mechanics::LinearSystem& system,
+                                    const mechanics::LinearSystem& by) {
+  const Eigen::Index place = reference_place(system);
+  Eigen::Index support = 0;
+  system.motion.col(place).cwiseAbs().maxCoeff(&support);
+  return modulus_derivative(system.motion(support, place), by.motion(support, place));
 }
 
 double force_transmissibility(const mechanics::LinearSystem& system, const Eigen::VectorXcd& X) {
@@ -34,6 +67,29 @@ double force_transmissibility(const mechanics::LinearSystem& system, const Eigen
   const std::complex<double> on_supports =
       applied + rate * rate * system.mass.cast<std::complex<double>>().dot(X);
   return ratio(std::abs(on_supports), std::abs(applied));
+}
+
+double force_transmissibility_derivative(const mechanics::LinearSystem& system,
+                                         const mechanics::LinearSystem& by, const Eigen::VectorXcd& X,
+                                         const Eigen::VectorXcd& X_by) {
+  const Eigen::Index place = reference_place(system);
+  const std::complex<double> applied = system.applied_force.col(place).sum();
+  const std::complex<double> applied_by = by.applied_force.col(place).sum();
+  const double n = system.reference_order, rate = n * system.omega;
+  const Eigen::VectorXcd mass = system.mass.cast<std::complex<double>>();
+  const std::complex<double> moved = mass.dot(X);
+  const std::complex<double> moved_by = mass.dot(X_by) + by.mass.cast<std::complex<double>>().dot(X);
+  const std::complex<double> on_supports = applied + rate * rate * moved;
+  const std::complex<double> on_supports_by =
+      applied_by + rate * rate * moved_by + 2.0 * rate * n * by.omega * moved;
+  const double above = std::abs(on_supports), below = std::abs(applied);
+  return modulus_derivative(on_supports, on_supports_by) / below -
+         above / (below * below) * modulus_derivative(applied, applied_by);
+}
+
+// d|z| = Re(conj(z) dz) / |z|
+double modulus_derivative(std::complex<double> z, std::complex<double> z_by) {
+  return ratio((std::conj(z) * z_by).real(), std::abs(z));
 }
 
 double ratio(double a, double b) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <complex>
 
 #include "solvers/mechanics/linear_system.hpp"
 
@@ -20,6 +21,18 @@ double support_amplitude(const mechanics::LinearSystem& system);
 // Amplitude of the force on all supports together over that of the applied forces, at the reference order;
 // NaN where no force is applied.  X: components [m] of the masses' displacements at that order.
 double force_transmissibility(const mechanics::LinearSystem& system, const Eigen::VectorXcd& X);
+
+// Derivatives of the three above along `by`, the derivative of the system (mechanics/system_derivative.hpp),
+// and X_by, that of X.
+Eigen::VectorXd static_displacement_derivative(const mechanics::LinearSystem& system,
+                                               const mechanics::LinearSystem& by);
+double support_amplitude_derivative(const mechanics::LinearSystem& system, const mechanics::LinearSystem& by);
+double force_transmissibility_derivative(const mechanics::LinearSystem& system,
+                                         const mechanics::LinearSystem& by, const Eigen::VectorXcd& X,
+                                         const Eigen::VectorXcd& X_by);
+
+// The derivative of |z| where z changes by z_by; NaN at zero.
+double modulus_derivative(std::complex<double> z, std::complex<double> z_by);
 
 // a / b, NaN where there is no b.
 double ratio(double a, double b);

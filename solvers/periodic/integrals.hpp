@@ -41,18 +41,18 @@ class Integrals {
   double product(const LinearForm<N, H>& f, const LinearForm<N, H>& g) const {
     return joined(f).dot(gram_ * joined(g));
   }
-  const Gram& gram() const { return gram_; }         // [units of the state x s]
-  double input() const { return input_; }            // [J] in a period
-  double input_size() const { return input_size_; }  // integral of |power| [J], to quadrature accuracy
-
- private:
+  // A form's factors of y.
   using Joined = Eigen::Matrix<double, kSize, 1>;
   static Joined joined(const LinearForm<N, H>& form) {
     Joined c(form.z.size() + form.u.size());
     c << form.z, form.u;
     return c;
   }
+  const Gram& gram() const { return gram_; }         // [units of the state x s]
+  double input() const { return input_; }            // [J] in a period
+  double input_size() const { return input_size_; }  // integral of |power| [J], to quadrature accuracy
 
+ private:
   Gram gram_;
   std::vector<Power> powers_;  // of the mode in hand
   std::vector<std::pair<Joined, Joined>> joined_powers_;

@@ -14,6 +14,7 @@
 #include "solvers/periodic/linear_modes.hpp"
 #include "solvers/periodic/quantity.hpp"
 #include "solvers/periodic/resonance.hpp"
+#include "solvers/periodic/trace.hpp"
 
 // From an orbit to the quantities asked for, and to no others.
 namespace frahm::periodic {
@@ -39,19 +40,7 @@ class Observables {
   void fill_missing(Status status, std::span<double> out) const;
 
  private:
-  // A quantity whose extremes are wanted.
-  struct Trace {
-    Measure measure;  // amplitude (displacements of masses and elements), velocity_peak, acceleration_peak,
-                      // force_peak, transmitted_force
-    mechanics::Incidence at;
-    std::size_t element = 0;
-    mechanics::Node node;
-    Extremes extremes;
-  };
-
   void plan(const Quantity& quantity);
-  std::size_t trace_of(Trace trace);
-  Form form_of(const Trace& trace, const Mode<N, H>& mode) const;
   void integrate(const Orbit<N, H>& orbit);
   void balance_energy();
   std::complex<double> reference_component(const Form& form) const;
@@ -73,6 +62,7 @@ class Observables {
   std::vector<Quantity> quantities_;
   std::vector<std::size_t> trace_index_;  // of each quantity
   std::vector<Trace> traces_;
+  std::vector<Extremes> extremes_;  // of each trace
   bool needs_integrals_ = false, needs_histories_ = false, needs_stability_ = false, needs_modes_ = false;
   std::vector<double> natural_frequency_, modal_damping_;
 

@@ -17,53 +17,14 @@ Observables<N, H>::Observables(const mechanics::Assembly& assembly, const Flow<N
   for (const Quantity& quantity : quantities_) plan(quantity);
 }
 
-template <int N, int H>
-std::size_t Observables<N, H>::trace_of(Trace trace) {
-  for (std::size_t i = 0; i < traces_.size(); ++i) {
-    const Trace& other = traces_[i];
-    if (other.measure == trace.measure && other.at.w == trace.at.w && other.at.p == trace.at.p &&
-        other.element == trace.element && other.node == trace.node) {
-      return i;
-    }
-  }
-  traces_.push_back(std::move(trace));
-  return traces_.size() - 1;
-}
-
 // What has to be worked out for a quantity.
 template <int N, int H>
 void Observables<N, H>::plan(const Quantity& quantity) {
-  std::size_t trace = 0;
+  const std::optional<Trace> trace = trace_of(quantity, assembly_);
+  trace_index_.push_back(trace ? place_of(*trace, traces_) : 0);
   switch (quantity.measure) {
-    case Measure::amplitude:
-    case Measure::peak:
-    case Measure::peak_phase:
-      trace = trace_of({Measure::amplitude, mass_incidences_[quantity.index], 0, {}, {}});
-      break;
-    case Measure::velocity_peak:
-    case Measure::acceleration_peak:
-      trace = trace_of({quantity.measure, mass_incidences_[quantity.index], 0, {}, {}});
-      break;
-    case Measure::stroke:
-      trace = trace_of({Measure::amplitude, assembly_.incidences()[quantity.index], 0, {}, {}});
-      break;
-    case Measure::force_peak:
-      trace = trace_of({quantity.measure, {}, quantity.index, {}, {}});
-      break;
-    case Measure::transmitted_force: {
-      mechanics::Node node;
-      if (quantity.index > 0) node = {mechanics::NodeKind::prescribed, quantity.index - 1};
-      trace = trace_of({quantity.measure, {}, 0, node, {}});
-      break;
-    }
     case Measure::phase:
-      trace = trace_of({Measure::amplitude, mass_incidences_[quantity.index], 0, {}, {}});
-      needs_integrals_ = true;
-      break;
     case Measure::element_phase:
-      trace = trace_of({Measure::amplitude, assembly_.incidences()[quantity.index], 0, {}, {}});
-      needs_integrals_ = true;
-      break;
     case Measure::mean:
     case Measure::rms:
     case Measure::harmonic:
@@ -92,34 +53,14 @@ void Observables<N, H>::plan(const Quantity& quantity) {
     case Measure::modal_damping:
       needs_modes_ = true;
       break;
-    case Measure::status:
-    case Measure::residual:
-    case Measure::newton_iterations:
-    case Measure::events:
+    default:
       break;
   }
-  trace_index_.push_back(trace);
 }
 
 template <int N, int H>
 void Observables<N, H>::set_system(const mechanics::LinearSystem& system) {
   if (needs_modes_) modes_of(system, natural_frequency_, modal_damping_);
-}
-
-template <int N, int H>
-LinearForm<N, H> Observables<N, H>::form_of(const Trace& trace, const Mode<N, H>& mode) const {
-  switch (trace.measure) {
-    case Measure::velocity_peak:
-      return forms_.velocity(trace.at);
-    case Measure::acceleration_peak:
-      return forms_.acceleration(trace.at, mode);
-    case Measure::force_peak:
-      return forms_.element_force(trace.element, system_->laws[trace.element], mode);
-    case Measure::transmitted_force:
-      return forms_.node_force(trace.node, system_->laws, mode);
-    default:
-      return forms_.displacement(trace.at);
-  }
 }
 
 template <int N, int H>
@@ -129,10 +70,12 @@ void Observables<N, H>::evaluate(const Orbit<N, H>& orbit, const mechanics::Line
   system_ = &system;
   steps_.lay_out(orbit);
   if (needs_integrals_) integrate(orbit);
-  for (Trace& trace : traces_) {
-    const Extremes found = find_extremes(steps_, flow_, orbit.section,
-                                         [&](const Mode<N, H>& mode) { return form_of(trace, mode); });
-    trace.extremes = orbit.half_period ? mirrored(found) : found;
+  extremes_.resize(traces_.size());
+  for (std::size_t i = 0; i < traces_.size(); ++i) {
+    const Extremes found = find_extremes(steps_, flow_, orbit.section, [&](const Mode<N, H>& mode) {
+      return form_of(traces_[i], forms_, system.laws, mode);
+    });
+    extremes_[i] = orbit.half_period ? mirrored(found) : found;
   }
   if (needs_histories_) {
     histories_.resize(assembly_.contacts());
@@ -281,7 +224,7 @@ double Observables<N, H>::value_of(std::size_t i) const {
     case Measure::regime:
       return value_of_element(i);
     case Measure::transmitted_force:
-      return traces_[trace_index_[i]].extremes.magnitude();
+      return extremes_[trace_index_[i]].peak(quantity.side);
     default:
       return value_of_point(quantity);
   }
@@ -291,7 +234,7 @@ template <int N, int H>
 double Observables<N, H>::value_of_mass(std::size_t i) const {
   const Quantity& quantity = quantities_[i];
   const auto mass = static_cast<Eigen::Index>(quantity.index);
-  const Extremes extremes = traces_.empty() ? Extremes{} : traces_[trace_index_[i]].extremes;
+  const Extremes extremes = traces_.empty() ? Extremes{} : extremes_[trace_index_[i]];
   const double period = flow_.equations().period * flow_.equations().step;  // [s]
   switch (quantity.measure) {
     case Measure::amplitude:
@@ -313,7 +256,7 @@ double Observables<N, H>::value_of_mass(std::size_t i) const {
     case Measure::transmissibility:
       return ratio(harmonic_of(quantity.index), support_amplitude(*system_));
     default:
-      return extremes.magnitude();  // peaks
+      return extremes.peak(quantity.side);
   }
 }
 
@@ -331,10 +274,10 @@ double Observables<N, H>::value_of_element(std::size_t i) const {
     }
     case Measure::element_phase:
       return phase_of(forms_.displacement(assembly_.incidences()[element]),
-                      traces_[trace_index_[i]].extremes.magnitude());
+                      extremes_[trace_index_[i]].magnitude());
     case Measure::stroke:
     case Measure::force_peak:
-      return traces_[trace_index_[i]].extremes.magnitude();
+      return extremes_[trace_index_[i]].peak(quantity.side);
     default:
       break;
   }

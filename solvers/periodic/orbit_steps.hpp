@@ -61,6 +61,7 @@ class OrbitSteps {
   }
 
   std::span<OrbitStep<N, H>> steps() { return {steps_.data(), count_}; }
+  std::span<const OrbitStep<N, H>> steps() const { return {steps_.data(), count_}; }
 
  private:
   OrbitStep<N, H>& next() {

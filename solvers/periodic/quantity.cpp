@@ -186,6 +186,18 @@ std::vector<Quantity> standard_quantities(const Network& network) {
   return result;
 }
 
+bool is_differentiable(Measure measure) {
+  switch (measure) {
+    case Measure::floquet_radius:
+    case Measure::energy_balance:
+    case Measure::residual:
+    case Measure::error_bound:
+      return false;
+    default:
+      return row_of(measure).kind == QuantityKind::real;
+  }
+}
+
 std::optional<Quantity> find_quantity(const std::string& name, const Network& network) {
   for (const Quantity& quantity : all_quantities(network)) {
     if (name_of(row_of(quantity.measure), quantity.index, network) == name) return quantity;

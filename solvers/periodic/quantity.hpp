@@ -58,10 +58,17 @@ enum class Regime {
   stuck = 5
 };
 
+// Of a peak: the larger of both, the largest value, or the least with its sign turned. One side alone is for
+// an optimiser, for which the larger of both has a kink; it has no name of its own, and all_quantities() does
+// not list it.
+enum class Side { either, most, least };
+
 struct Quantity {
   Measure measure = Measure::status;
   // Of the mass or element; of a mode from 0; for transmitted_force 0 = ground, 1 + s = prescribed node s.
   std::size_t index = 0;
+  // Of peak, stroke, velocity_peak, acceleration_peak, force_peak, transmitted_force.
+  Side side = Side::either;
 
   friend bool operator==(const Quantity&, const Quantity&) = default;
 };
@@ -87,6 +94,11 @@ std::vector<Quantity> all_quantities(const mechanics::Network& network);
 // fraction, regime and energy of each Coulomb element; status, floquet_radius, energy_balance, residual,
 // error_bound, transmitted_force.
 std::vector<Quantity> standard_quantities(const mechanics::Network& network);
+
+// Whether a quantity is one that PeriodicResponse::gradient() differentiates: no count, flag or figure of the
+// computation itself (residual, error_bound, energy_balance), nor floquet_radius, which would take the second
+// derivative of the period map.
+bool is_differentiable(Measure measure);
 
 std::optional<Quantity> find_quantity(const std::string& name, const mechanics::Network& network);
 

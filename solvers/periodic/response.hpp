@@ -17,7 +17,8 @@ struct ResponseSummary {
   std::string reason;     // why it failed; empty otherwise
   double residual = 0.0;  // 1
   int newton_iterations = 0;
-  int passages = 0;  // periods (or half periods) of the flow that the search took
+  int passages = 0;          // periods (or half periods) of the flow that the search took
+  bool half_period = false;  // the response repeats with the opposite sign: x(t + T/2) = -x(t)
 };
 
 // One stretch of the response in one mode, for telling an orbit in full.
@@ -60,6 +61,9 @@ class ResponseSolver {
   virtual void begin_row() = 0;
   virtual const ResponseSummary& solve() = 0;
   virtual void quantities(std::span<double> out) = 0;
+  virtual const char* gradient(std::span<const mechanics::NetworkValues> directions,
+                               std::span<double> out) = 0;
+  virtual const char* why_no_derivative(std::size_t quantity) const = 0;
   virtual History history(std::size_t samples) = 0;
   virtual std::vector<Stretch> stretches() const = 0;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "solvers/periodic/continuation.hpp"
+#include "solvers/periodic/gradient.hpp"
 #include "solvers/periodic/observables.hpp"
 #include "solvers/periodic/response.hpp"
 #include "solvers/periodic/rest_position.hpp"
@@ -14,10 +15,12 @@ class SizedSolver final : public ResponseSolver {
   SizedSolver(const mechanics::Network& network, std::vector<Quantity> quantities)
       : assembly_(network),
         continuation_(flow_),
-        observables_(assembly_, flow_, std::move(quantities)),
+        observables_(assembly_, flow_, quantities),
+        gradient_(assembly_, flow_, std::move(quantities)),
         steps_(flow_) {}
 
   void set_values(const mechanics::NetworkValues& values) override {
+    values_ = values;
     assembly_.set_values(values, system_);
     assembly_.set_forcing(values, system_);
     flow_.set_system(system_);
@@ -28,6 +31,7 @@ class SizedSolver final : public ResponseSolver {
 
   void set_forcing(const mechanics::NetworkValues& values) override {
     if (assembly_.matrices_depend_on_frequency()) return set_values(values);
+    values_ = values;
     assembly_.set_forcing(values, system_);
     flow_.set_forcing(system_);
   }
@@ -43,6 +47,11 @@ class SizedSolver final : public ResponseSolver {
       observables_.fill_missing(orbit_.status, out);
   }
 
+  const char* gradient(std::span<const mechanics::NetworkValues> directions, std::span<double> out) override {
+    return gradient_.evaluate(orbit_, system_, values_, directions, out);
+  }
+  const char* why_no_derivative(std::size_t quantity) const override { return gradient_.why_none(quantity); }
+
   History history(std::size_t samples) override;
   std::vector<Stretch> stretches() const override;
 
@@ -53,11 +62,13 @@ class SizedSolver final : public ResponseSolver {
   ContactMask barely_sliding() const;
 
   mechanics::Assembly assembly_;
+  mechanics::NetworkValues values_;  // of the system
   mechanics::LinearSystem system_;
   std::vector<UndampedMode> undamped_modes_;
   Flow<N, H> flow_;
   Continuation<N, H> continuation_;
   Observables<N, H> observables_;
+  Gradient<N, H> gradient_;
   OrbitSteps<N, H> steps_;
   Integrals<N, H> integrals_;
   Orbit<N, H> orbit_;
@@ -84,6 +95,7 @@ const ResponseSummary& SizedSolver<N, H>::solve() {
   summary_.residual = orbit_.residual;
   summary_.newton_iterations = orbit_.newton_iterations;
   summary_.passages = orbit_.passages;
+  summary_.half_period = orbit_.half_period;
   return summary_;
 }
 

@@ -58,6 +58,18 @@ struct Sizes {
   using OscillatorPolynomials = Eigen::Matrix<double, kTerms, kOscillators>;
 };
 
+// Rows with row * u(t) = Re(constant + sum_k harmonic_k e^{i phi_k}):  Re(f e^{i phi}) = Re f cos phi - Im f
+// sin phi.
+template <class Rows>
+void on_oscillators(const Eigen::VectorXd& constant, const Eigen::MatrixXcd& harmonic, Rows& rows) {
+  rows.resize(constant.size(), 1 + 2 * harmonic.cols());
+  rows.col(0) = constant;
+  for (Eigen::Index k = 0; k < harmonic.cols(); ++k) {
+    rows.col(1 + 2 * k) = harmonic.col(k).real();
+    rows.col(2 + 2 * k) = -harmonic.col(k).imag();
+  }
+}
+
 // The equation of motion with time counted in steps of length h, so that velocities are displacements a step:
 //   (M/h^2) q'' + (C/h) q' + K q + D s = f(t) - W lambda,  s' = k (D^T q' + p^T y') - (rate h) s  (Maxwell)
 // Energies and forces keep their units [J, N].

@@ -39,6 +39,13 @@ const ResponseSummary& PeriodicResponse::solve() {
 void PeriodicResponse::quantities(std::span<double> out) {
   solver_->quantities(out);
 }
+std::string PeriodicResponse::gradient(std::span<const mechanics::NetworkValues> directions,
+                                       std::span<double> out) {
+  return solver_->gradient(directions, out);
+}
+std::string PeriodicResponse::why_no_derivative(std::size_t quantity) const {
+  return solver_->why_no_derivative(quantity);
+}
 History PeriodicResponse::history(std::size_t samples) {
   return solver_->history(samples);
 }

@@ -46,6 +46,18 @@ class PeriodicResponse {
   // unbounded or failed. `out` has their number of places.
   void quantities(std::span<double> out);
 
+  // The exact derivatives of the quantities along changes of the network's values, at the response last
+  // solved; through every event of the orbit, not by differences.
+  // directions[d]: the derivative of the values (layout of NetworkValues, .omega and .hysteretic_omega
+  // included) by parameter d.  out: directions x quantities, row d from out[d * quantities]; in the unit of
+  // the quantity per that of the parameter, NaN where a quantity has no derivative.
+  // Returns "", or why the response has none at all, and then every place is NaN: it is grazing (an event
+  // only just happens, and the derivative differs on both sides), unbounded or failed, of the arctan law, or
+  // several contacts come to rest at one instant.
+  std::string gradient(std::span<const mechanics::NetworkValues> directions, std::span<double> out);
+  // Why a quantity of the last gradient() has none; "" where it has.
+  std::string why_no_derivative(std::size_t quantity) const;
+
   // Of a response that is ok or grazing.
   History history(std::size_t samples);
   std::vector<Stretch> stretches() const;

@@ -284,7 +284,7 @@ double Observables::value_of(const Quantity& quantity) {
     case Measure::stroke:
     case Measure::force_peak:
     case Measure::transmitted_force:
-      return extremes_of(form_of(quantity), *orbit_).magnitude();
+      return extremes_of(form_of(quantity), *orbit_).peak(quantity.side);
     case Measure::phase:
     case Measure::element_phase: {
       const Form form = form_of(quantity);

@@ -74,6 +74,14 @@ class SmoothSolver final : public periodic::ResponseSolver {
       observables_.fill_missing(orbit_.status, out);
   }
 
+  const char* gradient(std::span<const mechanics::NetworkValues>, std::span<double> out) override {
+    std::fill(out.begin(), out.end(), std::numeric_limits<double>::quiet_NaN());
+    return why_no_derivative(0);
+  }
+  const char* why_no_derivative(std::size_t) const override {
+    return "a response under the arctan law is integrated, and has no exact derivative";
+  }
+
   History history(std::size_t samples) override;
   std::vector<periodic::Stretch> stretches() const override { return {}; }  // nothing ever sticks
 
@@ -112,7 +120,8 @@ const periodic::ResponseSummary& SmoothSolver::solve() {
       orbit_.reason = error.what();
     }
   }
-  summary_ = {orbit_.status, orbit_.reason, orbit_.residual, orbit_.newton_iterations, orbit_.passages};
+  summary_ = {orbit_.status,   orbit_.reason,     orbit_.residual, orbit_.newton_iterations,
+              orbit_.passages, orbit_.half_period};
   return summary_;
 }
 

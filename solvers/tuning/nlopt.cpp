@@ -12,9 +12,11 @@ namespace {
 constexpr unsigned long kSeed = 1909;  // of the random numbers of global searches, the same in every solve
 constexpr double kSteps =
     1e-15;  // relative: what a local search ends at where it does not reach the tolerance
-constexpr double kSettled = 1e-8;  // relative spread at which a global search ends
-constexpr int kRestarts = 20;      // of a local search from the best point; each must halve the KKT residual
-constexpr int kPopulation = 10;    // evaluations of a global search per iteration and (variables + 1)
+constexpr double kSettled = 1e-8;  // relative steps at which the local searches of a global one end
+constexpr double kDualEvaluations =
+    1000;                        // of MMA's inner problem, which else loses itself in its last digits
+constexpr int kRestarts = 20;    // of a local search from the best point; each must halve the KKT residual
+constexpr int kPopulation = 10;  // evaluations of a global search per iteration and (variables + 1)
 
 struct NamedAlgorithm {
   Algorithm algorithm;
@@ -79,7 +81,8 @@ struct Side {
 // NLopt's view of a ScaledProblem.
 class Program {
  public:
-  Program(ScaledProblem& problem, const NamedAlgorithm& named) : problem_(problem), named_(named) {
+  Program(ScaledProblem& problem, const NamedAlgorithm& named, const SolverOptions& options)
+      : problem_(problem), named_(named), tolerance_(options.tolerance), feasibility_(options.feasibility) {
     for (std::size_t j = 0; j < problem.constraints(); ++j) {
       const double lower = problem.constraint_lower(j), upper = problem.constraint_upper(j);
       if (lower == upper) {
@@ -92,7 +95,7 @@ class Program {
   }
 
   // From x, to where NLopt ends.
-  nlopt_result run(std::vector<double>& x, const SolverOptions& options, int most_evaluations);
+  nlopt_result run(std::vector<double>& x, int most_evaluations);
 
  private:
   using Solver = std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)>;
@@ -111,12 +114,15 @@ class Program {
     return false;
   }
 
+  // A local search is over at an optimum, which NLopt itself does not recognise.
   void record_improvement() {
     int& recorded = problem_.record().iterations;
     if (problem_.improvements() == recorded) return;
     recorded = problem_.improvements();
-    constexpr double no_measure = std::numeric_limits<double>::quiet_NaN();
-    problem_.record_iteration(recorded, problem_.best_infeasibility(), no_measure, problem_.objective());
+    const bool local = !named_.algorithm.global;
+    const double residual = local ? problem_.best_residual() : std::numeric_limits<double>::quiet_NaN();
+    problem_.record_iteration(recorded, problem_.best_infeasibility(), residual, problem_.objective());
+    if (residual <= tolerance_ && problem_.best_infeasibility() <= feasibility_) nlopt_force_stop(solver_);
   }
 
   static double objective(unsigned n, const double* x, double* gradient, void* self) {
@@ -155,25 +161,26 @@ class Program {
     program.constrain(program.equal_, values, n, x, gradients);
   }
 
-  void add_constraints(nlopt_opt solver, double feasibility);
+  void add_constraints();
 
   ScaledProblem& problem_;
   const NamedAlgorithm& named_;
+  double tolerance_, feasibility_;
   std::vector<Side> unequal_, equal_;
   nlopt_opt solver_ = nullptr;
 };
 
-void Program::add_constraints(nlopt_opt solver, double feasibility) {
+void Program::add_constraints() {
   const auto add = [&](auto function, auto constraint, const std::vector<Side>& sides) {
     if (sides.empty()) return;
-    const std::vector<double> tolerances(sides.size(), feasibility);
-    function(solver, static_cast<unsigned>(sides.size()), constraint, this, tolerances.data());
+    const std::vector<double> tolerances(sides.size(), feasibility_);
+    function(solver_, static_cast<unsigned>(sides.size()), constraint, this, tolerances.data());
   };
   add(nlopt_add_inequality_mconstraint, &Program::constrain_unequal, unequal_);
   add(nlopt_add_equality_mconstraint, &Program::constrain_equal, equal_);
 }
 
-nlopt_result Program::run(std::vector<double>& x, const SolverOptions& options, int most_evaluations) {
+nlopt_result Program::run(std::vector<double>& x, int most_evaluations) {
   const auto n = static_cast<unsigned>(problem_.size());
   const Solver solver(nlopt_create(named_.code, n), &nlopt_destroy);
   if (!solver) throw std::bad_alloc();
@@ -184,9 +191,8 @@ nlopt_result Program::run(std::vector<double>& x, const SolverOptions& options, 
   nlopt_set_min_objective(solver_, &Program::objective, this);
   nlopt_set_lower_bounds(solver_, lower.data());
   nlopt_set_upper_bounds(solver_, upper.data());
-  add_constraints(solver_, options.feasibility);
-  const double settled = named_.algorithm.global ? kSettled : kSteps;
-  nlopt_set_xtol_rel(solver_, settled);
+  add_constraints();
+  if (!named_.algorithm.global) nlopt_set_xtol_rel(solver_, kSteps);
   nlopt_set_maxeval(solver_, most_evaluations);
   if (named_.code == NLOPT_G_MLSL_LDS) {
     const Solver local(nlopt_create(NLOPT_LD_SLSQP, n), &nlopt_destroy);
@@ -194,6 +200,7 @@ nlopt_result Program::run(std::vector<double>& x, const SolverOptions& options, 
     nlopt_set_ftol_rel(local.get(), kSettled);
     nlopt_set_local_optimizer(solver_, local.get());
   }
+  nlopt_set_param(solver_, "dual_maxeval", kDualEvaluations);
   nlopt_srand(kSeed);  // its generator belongs to the thread
   double value = 0.0;
   return nlopt_optimize(solver_, x.data(), &value);
@@ -222,9 +229,9 @@ Solution descend(Program& program, ScaledProblem& scaled, const SolverOptions& o
   std::vector<double> x = scaled.start();
   double residual = kInfinity;
   for (int restart = 0;; ++restart) {
-    const nlopt_result result = program.run(x, options, options.most_iterations - scaled.evaluations());
+    const nlopt_result result = program.run(x, options.most_iterations - scaled.evaluations());
     scaled.record().reason = reason_of(result);
-    const bool used_up = scaled.evaluations() >= options.most_iterations;
+    const bool used_up = result == NLOPT_MAXEVAL_REACHED || scaled.evaluations() >= options.most_iterations;
     const Solution solution = scaled.finish(used_up ? Ending::iteration_limit : Ending::failed);
     const bool gains = solution.kkt_residual < 0.5 * residual;
     if (solution.ending == Ending::converged || used_up || scaled.ends() || !gains || restart == kRestarts) {
@@ -238,7 +245,7 @@ Solution descend(Program& program, ScaledProblem& scaled, const SolverOptions& o
 Solution search(Program& program, ScaledProblem& scaled, const SolverOptions& options) {
   const int population = kPopulation * (static_cast<int>(scaled.size()) + 1);
   std::vector<double> x = scaled.start();
-  scaled.record().reason = reason_of(program.run(x, options, population * options.most_iterations));
+  scaled.record().reason = reason_of(program.run(x, population * options.most_iterations));
   return scaled.finish(Ending::iteration_limit);
 }
 
@@ -260,7 +267,7 @@ Solution solve_with_nlopt(Problem& problem, const std::string& algorithm, const 
   ScaledProblem scaled(problem, options, named.algorithm.gradients);
   const bool defined = scaled.can_start();
   if (scaled.size() == 0 || scaled.ends()) return scaled.finish(Ending::failed);
-  Program program(scaled, named);
+  Program program(scaled, named, options);
   if (named.algorithm.global) return search(program, scaled, options);
   return defined ? descend(program, scaled, options) : scaled.finish(Ending::failed);
 }

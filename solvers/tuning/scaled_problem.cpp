@@ -81,6 +81,11 @@ double ScaledProblem::derivative(std::size_t e) const {
   return at_.entries[entry_[e]] * variable(i).scale / problem_.constraints[j].scale;
 }
 
+// With multipliers by least squares.
+double ScaledProblem::residual() const {
+  return kkt_residual(problem_, at_, least_squares_multipliers(problem_, at_));
+}
+
 std::vector<double> ScaledProblem::best() const {
   if (!best_) return start();
   std::vector<double> x(size());
@@ -140,15 +145,22 @@ bool ScaledProblem::is_defined() const {
   return !with_derivatives_ || (all_finite(at_.gradient) && all_finite(at_.entries));
 }
 
+// A feasible point before others, the lower before the higher; where the objective no longer tells two
+// feasible points apart, that of the smaller KKT residual.
+bool ScaledProblem::is_better(const Best& one, const Best& other) const {
+  const bool feasible = one.infeasibility <= options_.feasibility;
+  if (!feasible || other.infeasibility > options_.feasibility) return one.infeasibility < other.infeasibility;
+  const double gain = (other.objective - one.objective) / problem_.objective_scale;
+  return std::abs(gain) <= options_.tolerance && with_derivatives_ ? one.residual < other.residual
+                                                                   : gain > 0.0;
+}
+
 void ScaledProblem::note_point() {
   worst_ = std::max(worst_, objective());
-  const double violation = infeasibility(problem_, at_.values);
-  const bool feasible = violation <= options_.feasibility;
-  const bool better =
-      !best_ || (best_->infeasibility <= options_.feasibility ? feasible && at_.objective <= best_->objective
-                                                              : violation < best_->infeasibility);
-  if (better) {
-    best_ = Best{at_.x, at_.objective, violation};
+  const Best here{at_.x, at_.objective, infeasibility(problem_, at_.values),
+                  with_derivatives_ ? residual() : kInfinity};
+  if (!best_ || is_better(here, *best_)) {
+    best_ = here;
     ++improvements_;
   }
   diverging_ = objective() < -kRunaway;

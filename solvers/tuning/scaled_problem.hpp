@@ -45,6 +45,7 @@ class ScaledProblem {
   double worst_objective() const { return worst_; }   // largest met
   int improvements() const { return improvements_; }  // of the best point
   double best_infeasibility() const { return best_ ? best_->infeasibility : kInfinity; }
+  double best_residual() const { return best_ ? best_->residual : kInfinity; }
   std::vector<double> best() const;         // feasible, and of these least in the objective
   Solution& record() { return solution_; }  // where an adapter writes history, iterations, reason
   void record_iteration(int iteration, double infeasibility, double optimality, double objective);
@@ -59,9 +60,12 @@ class ScaledProblem {
 
  private:
   struct Best {
-    std::vector<double> x;  // as at_
+    std::vector<double> x;  // in the problem's units, as the objective
     double objective = 0.0, infeasibility = 0.0;
+    double residual = kInfinity;  // of the KKT conditions
   };
+  double residual() const;
+  bool is_better(const Best& one, const Best& other) const;
   const Variable& variable(std::size_t i) const { return problem_.variables[free_[i]]; }
   std::vector<double> unscaled(std::span<const double> x) const;
   bool evaluate(const std::vector<double>& x);

@@ -15,7 +15,8 @@ struct PointOptions {
   std::vector<std::string> set = {};  // applied to the study before
   // CSV file of the time history; "-" is refused, as `out` has the report.
   std::optional<std::filesystem::path> history = {};
-  bool json = false;  // the report as one JSON object
+  bool gradient = false;  // derivatives too: exact, by differences, and how far they are apart
+  bool json = false;      // the report as one JSON object
 };
 
 // Tells the periodic response of one point in full: status, every quantity, the sequence of modes over the

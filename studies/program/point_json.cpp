@@ -1,3 +1,4 @@
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <ostream>
 
@@ -44,6 +45,28 @@ Json modes_json(const StudyFile& study, const periodic::LinearModes& modes) {
   return list;
 }
 
+Json number_json(double value) {
+  return std::isnan(value) ? Json() : Json(value);
+}
+
+Json gradient_json(const PointGradient& gradient) {
+  Json by = Json::object();
+  for (const auto& [parameter, unit, derivatives] : gradient.by) {
+    Json quantities = Json::object();
+    for (std::size_t i = 0; i < derivatives.size(); ++i) {
+      const periodic::DerivativeCheck& check = derivatives[i];
+      Json json{{"exact", number_json(check.exact)},
+                {"difference", number_json(check.difference)},
+                {"relative_difference", number_json(check.relative_difference())},
+                {"uncertainty_of_difference", number_json(check.uncertainty)}};
+      if (!check.why_none.empty()) json["reason"] = check.why_none;
+      quantities[gradient.quantities[i].name] = json;
+    }
+    by[parameter] = {{"unit", unit}, {"quantities", quantities}};
+  }
+  return {{"reason", gradient.reason}, {"by", by}};
+}
+
 }  // namespace
 
 void print_point_json(const StudyFile& study, const PointReport& report, std::ostream& out) {
@@ -64,6 +87,7 @@ void print_point_json(const StudyFile& study, const PointReport& report, std::os
     json["modes"]["sliding"] = modes_json(study, report.modes->sliding);
     json["modes"]["stuck"] = modes_json(study, report.modes->stuck);
   }
+  if (report.gradient) json["gradient"] = gradient_json(*report.gradient);
   // A path need not be UTF-8, which JSON must be.
   out << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
 }

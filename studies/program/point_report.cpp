@@ -101,7 +101,8 @@ std::string status_of(const PointReport& report) {
 
 }  // namespace
 
-PointReport tell_point(const StudyFile& study, std::vector<double> parameters, std::size_t history_samples) {
+PointReport tell_point(const StudyFile& study, std::vector<double> parameters, std::size_t history_samples,
+                       bool gradient) {
   PointReport report;
   mechanics::NetworkValues values;
   evaluate(study.values, study.parameters, parameters, values);
@@ -118,6 +119,7 @@ PointReport tell_point(const StudyFile& study, std::vector<double> parameters, s
     report.reason = error.what();
     report.residual = std::numeric_limits<double>::quiet_NaN();
     report.status = status_of(report);
+    if (gradient) report.gradient = PointGradient{"there is no response", {}, {}};
     return report;
   }
   report.modes = modes_at_point(study, values);
@@ -128,6 +130,7 @@ PointReport tell_point(const StudyFile& study, std::vector<double> parameters, s
     report.stretches = response.stretches();
     if (history_samples > 0) report.history = response.history(history_samples);
   }
+  if (gradient) report.gradient = gradient_at(study, parameters);
   return report;
 }
 

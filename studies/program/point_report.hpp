@@ -8,6 +8,7 @@
 #include "solvers/periodic/quantity.hpp"
 #include "solvers/response/periodic_response.hpp"
 #include "studies/program/modes_table.hpp"
+#include "studies/program/point_gradient.hpp"
 #include "studies/reading/settings.hpp"
 #include "studies/reading/study_file.hpp"
 
@@ -35,12 +36,15 @@ struct PointReport {
   std::vector<periodic::Stretch> stretches;    // over the period; empty without a response
   std::optional<ModesAtPoint> modes;           // absent where the matrices have no meaning
   std::optional<periodic::History> history;    // if asked for and there is a response
+  std::optional<PointGradient> gradient;       // if asked for
 };
 
 // Solves a point from nothing known. parameters: SI values of all parameters, complete.
-// history_samples: of the time history, both ends of the period included; 0: none is wanted.
+// history_samples: of the time history, both ends of the period included; 0: none is wanted. gradient: exact
+// derivatives beside differences are.
 // Throws StudyError for a network that cannot move at any values.
-PointReport tell_point(const StudyFile& study, std::vector<double> parameters, std::size_t history_samples);
+PointReport tell_point(const StudyFile& study, std::vector<double> parameters, std::size_t history_samples,
+                       bool gradient);
 
 // The value of a flag in words: "one_stop"; what is no flag has no meaning.
 std::string flag_meaning(const periodic::QuantityDescription& description, double value);

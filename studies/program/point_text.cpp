@@ -53,15 +53,42 @@ void print_stretches(const PointReport& report, std::ostream& out) {
   fmt::print(out, "\n");
 }
 
+// A number, or "-" where there is none.
+std::string number_text(double value, int digits) {
+  return std::isnan(value) ? "-" : fmt::format("{:.{}g}", value, digits);
+}
+
+void print_gradient(const PointGradient& gradient, std::ostream& out) {
+  fmt::print(out, "\nDerivatives by parameters in SI units\n");
+  if (!gradient.reason.empty()) {
+    fmt::print(out, "  none: {}\n", gradient.reason);
+    return;
+  }
+  for (const PointGradient::By& by : gradient.by) {
+    fmt::print(out, "\n{:<28}{:>20}{:>20}{:>14}\n",
+               fmt::format("by {}{}", by.parameter, by.unit == "1" ? "" : fmt::format(" [{}]", by.unit)),
+               "exact", "by differences", "relative");
+    for (std::size_t i = 0; i < by.derivatives.size(); ++i) {
+      const periodic::DerivativeCheck& check = by.derivatives[i];
+      fmt::print(out, "{:<28}{:>20}{:>20}{:>14}{}{}\n", gradient.quantities[i].name,
+                 number_text(check.exact, 12), number_text(check.difference, 12),
+                 number_text(check.relative_difference(), 2), check.why_none.empty() ? "" : "  ",
+                 check.why_none);
+    }
+  }
+}
+
 }  // namespace
 
 void print_point(const StudyFile& study, const PointReport& report, std::ostream& out) {
   print_heading(study, report, out);
   print_quantities(report, out);
   print_stretches(report, out);
-  if (!report.modes) return;
-  fmt::print(out, "\n");
-  print_modes(study, *report.modes, out);
+  if (report.modes) {
+    fmt::print(out, "\n");
+    print_modes(study, *report.modes, out);
+  }
+  if (report.gradient) print_gradient(*report.gradient, out);
 }
 
 }  // namespace frahm::studies

@@ -56,7 +56,8 @@ constexpr const char* point_examples = R"(
 Examples (a bare number is in the unit in which the study speaks of the parameter):
   frahm point den_hartog.toml --at r=0.9,f=0.1
   frahm point rig_atlas.toml --at "omega=250 rpm,I=6.36 kg" --history orbit.csv
-  frahm point rig_atlas.toml --at omega=250 --json)";
+  frahm point rig_atlas.toml --at omega=250 --json
+  frahm point rig_atlas.toml --at omega=250 --gradient)";
 
 constexpr const char* merge_examples = R"(
 Examples:
@@ -145,6 +146,8 @@ void add_point(CLI::App& program, PointOptions& options, Action& action) {
       ->allow_extra_args(false);
   add_set(*point, options.set);
   point->add_option("--history", options.history, "write the motion over one period to this CSV file");
+  point->add_flag("--gradient", options.gradient,
+                  "exact derivatives by the parameters, beside central differences");
   point->add_flag("--json", options.json, "the report as one JSON object");
   point->callback([&] { action = [&](std::ostream& out) { return point_command(options, out); }; });
 }

@@ -9,7 +9,8 @@
 // Problems whose optima and multipliers are known.
 namespace frahm::tuning {
 
-// x_2 = x_1^2 valley; minimum 0 at (1, 1). H. H. Rosenbrock, Comput. J. 3 (1960) 175. Not defined where |x| > reach.
+// x_2 = x_1^2 valley; minimum 0 at (1, 1). H. H. Rosenbrock, Comput. J. 3 (1960) 175. Not defined where |x| >
+// reach.
 class Rosenbrock : public Problem {
  public:
   explicit Rosenbrock(double reach = kInfinity) : reach_(reach) {
@@ -35,9 +36,10 @@ class Rosenbrock : public Problem {
 class HockSchittkowski71 : public Problem {
  public:
   HockSchittkowski71() {
-    for (const double start : {1.0, 5.0, 5.0, 1.0}) {
-      variables.push_back({.name = "x" + std::to_string(variables.size() + 1), .lower = 1, .upper = 5, .start = start});
-    }
+    variables = {{.name = "x1", .lower = 1.0, .upper = 5.0, .start = 1.0},
+                 {.name = "x2", .lower = 1.0, .upper = 5.0, .start = 5.0},
+                 {.name = "x3", .lower = 1.0, .upper = 5.0, .start = 5.0},
+                 {.name = "x4", .lower = 1.0, .upper = 5.0, .start = 1.0}};
     constraints = {{.name = "product", .lower = 25.0}, {.name = "squares", .lower = 40.0, .upper = 40.0}};
     for (std::size_t j = 0; j < 2; ++j) {
       for (std::size_t i = 0; i < 4; ++i) jacobian.push_back({j, i});
@@ -66,7 +68,8 @@ class HockSchittkowski71 : public Problem {
 };
 
 // min over (u, v) of max(u + v, u - 2 v, -u) in epigraph form: variables u, v, t; t - each line >= 0.
-// With multipliers a, b, c of the lines: a + b + c = 1, a + b = c, a = 2 b; so (1/3, 1/6, 1/2), and t = u = v = 0.
+// With multipliers a, b, c of the lines: a + b + c = 1, a + b = c, a = 2 b; so (1/3, 1/6, 1/2), and t = u = v
+// = 0.
 class LinearMinimax : public Problem {
  public:
   explicit LinearMinimax(double scale = 1.0) {
@@ -105,7 +108,9 @@ class GivenProblem : public Problem {
   Constraining constraining;
   std::function<bool()> stopping = [] { return false; };
 
-  double objective(std::span<const double> x, std::span<double> gradient) override { return given(x, gradient); }
+  double objective(std::span<const double> x, std::span<double> gradient) override {
+    return given(x, gradient);
+  }
   void constrain(std::span<const double> x, std::span<double> values, std::span<double> entries) override {
     constraining(x, values, entries);
   }

@@ -1,0 +1,182 @@
+#include "solvers/mechanics/system_derivative.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "solvers/mechanics/crank.hpp"
+
+namespace frahm::mechanics {
+namespace {
+
+double second_of(const NetworkValues& values, std::size_t element) {
+  return element < values.second.size() ? values.second[element] : 0.0;
+}
+
+// A number and its derivative.
+struct Change {
+  double value, by;
+};
+
+ElementLaw law_derivative(ElementType type, Change value, Change second, Change omega_h) {
+  switch (type) {
+    case ElementType::spring:
+      return {.stiffness = value.by};
+    case ElementType::damper:
+      return {.damping = value.by};
+    case ElementType::inerter:
+      return {.inertance = value.by};
+    case ElementType::coulomb:
+      return {.friction = value.by};
+    case ElementType::hysteretic: {
+      // c = eta k / omega_h:  dc = (d eta k + eta dk - c d omega_h) / omega_h
+      const double c = second.value * value.value / omega_h.value;
+      return {
+          .stiffness = value.by,
+          .damping = (second.by * value.value + second.value * value.by - c * omega_h.by) / omega_h.value};
+    }
+    case ElementType::maxwell:
+      return {.maxwell_damping = second.by};
+  }
+  return {};
+}
+
+void resize(const LinearSystem& system, const NetworkValues& direction, LinearSystem& d) {
+  const Eigen::Index n = system.masses(), p = system.W_support.rows();
+  d.omega = direction.omega;
+  d.orders = system.orders;
+  d.reference_order = system.reference_order;
+  d.mass = Eigen::Map<const Eigen::VectorXd>(direction.mass.data(), n);
+  d.M.setZero(n, n);
+  d.C.setZero(n, n);
+  d.K.setZero(n, n);
+  d.M_support.setZero(n, p);
+  d.C_support.setZero(n, p);
+  d.K_support.setZero(n, p);
+  d.limit.setZero(system.contacts());
+  d.maxwell_stiffness.setZero(system.maxwell_elements());
+  d.maxwell_rate.setZero(system.maxwell_elements());
+  d.laws.resize(system.laws.size());
+  d.constant_force.setZero(n);
+  d.constant_motion.setZero(p);
+  d.force.setZero(n, system.force.cols());
+  d.motion.setZero(p, system.motion.cols());
+  d.M.diagonal() = d.mass;
+}
+
+void differentiate_elements(const Assembly& assembly, const NetworkValues& values,
+                            const NetworkValues& direction, const LinearSystem& system, LinearSystem& d) {
+  const Network& network = assembly.network();
+  const double reference = network.reference_order;
+  const Change omega_h = values.hysteretic_omega > 0.0
+                             ? Change{values.hysteretic_omega, direction.hysteretic_omega}
+                             : Change{reference * values.omega, reference * direction.omega};
+  const auto add = [](Eigen::MatrixXd& block, Eigen::MatrixXd& support, const Incidence& at, double by) {
+    if (by == 0.0) return;
+    block.noalias() += by * at.w * at.w.transpose();
+    support.noalias() += by * at.w * at.p.transpose();
+  };
+  for (std::size_t e = 0; e < network.elements.size(); ++e) {
+    const Change value{values.element[e], direction.element[e]};
+    const Change second{second_of(values, e), second_of(direction, e)};
+    const Incidence& at = assembly.incidences()[e];
+    ElementLaw& law = d.laws[e];
+    law = law_derivative(network.elements[e].type, value, second, omega_h);
+    add(d.K, d.K_support, at, law.stiffness);
+    add(d.C, d.C_support, at, law.damping);
+    add(d.M, d.M_support, at, law.inertance);
+    if (network.elements[e].type == ElementType::coulomb) {
+      d.limit[static_cast<Eigen::Index>(assembly.shares()[e].contact)] += law.friction;
+    }
+    if (const Eigen::Index place = system.laws[e].maxwell; place >= 0) {
+      law.maxwell = place;
+      d.maxwell_stiffness[place] = value.by;
+      d.maxwell_rate[place] = (value.by - system.maxwell_rate[place] * second.by) / second.value;  // of k/c
+    }
+  }
+}
+
+// d [A e^{i turns phase}] = (dA + i turns A dphase) e^{i turns phase}
+std::complex<double> phasor_derivative(Change amplitude, Change phase, double turns) {
+  return std::complex<double>(amplitude.by, turns * amplitude.value * phase.by) *
+         std::polar(1.0, turns * phase.value);
+}
+
+void differentiate_crank(const Excitation& excitation, const ExcitationValue& value,
+                         const ExcitationValue& by, const std::vector<int>& orders, LinearSystem& d) {
+  const auto node = static_cast<Eigen::Index>(excitation.node);
+  const auto place = [&](int order) {
+    return std::lower_bound(orders.begin(), orders.end(), order) - orders.begin();
+  };
+  const Change radius{value.amplitude, by.amplitude};
+  const double quarter = 0.5 * std::numbers::pi;
+  d.motion(node, place(1)) += phasor_derivative(radius, {value.phase - quarter, by.phase}, 1.0);
+
+  const int count = excitation.taylor_order == 1 ? 0 : excitation.even_orders;
+  const auto even = crank_even_orders(value.amplitude, value.rod, count, excitation.taylor_order);
+  const auto even_by = crank_even_orders_derivative(value.amplitude, value.rod, by.amplitude, by.rod, count,
+                                                    excitation.taylor_order);
+  d.constant_motion[node] += even_by[0];
+  for (int m = 1; m <= count; ++m) {
+    const auto i = static_cast<std::size_t>(m);
+    d.motion(node, place(2 * m)) +=
+        phasor_derivative({even[i], even_by[i]}, {value.phase, by.phase}, 2.0 * m);
+  }
+}
+
+void differentiate_excitation(const Assembly& assembly, const NetworkValues& values,
+                              const NetworkValues& direction, LinearSystem& d) {
+  const std::vector<int>& orders = assembly.orders();
+  for (std::size_t k = 0; k < assembly.network().excitations.size(); ++k) {
+    const Excitation& excitation = assembly.network().excitations[k];
+    const ExcitationValue &value = values.excitation[k], &by = direction.excitation[k];
+    if (excitation.kind == ExcitationKind::crank) {
+      differentiate_crank(excitation, value, by, orders, d);
+      continue;
+    }
+    const auto node = static_cast<Eigen::Index>(excitation.node);
+    const bool is_force = excitation.kind == ExcitationKind::force;
+    const std::complex<double> change =
+        phasor_derivative({value.amplitude, by.amplitude}, {value.phase, by.phase}, 1.0);
+    if (excitation.order == 0) {
+      (is_force ? d.constant_force : d.constant_motion)[node] += change.real();
+      continue;
+    }
+    const auto place = std::lower_bound(orders.begin(), orders.end(), excitation.order) - orders.begin();
+    (is_force ? d.force : d.motion)(node, place) += change;
+  }
+}
+
+// f_k -= Z_k Y_k with Z_k = K_s + i n omega C_s - (n omega)^2 M_s:  d(Z Y) = dZ Y + Z dY.
+void differentiate_support_forces(const LinearSystem& system, LinearSystem& d) {
+  d.constant_force -= d.K_support * system.constant_motion + system.K_support * d.constant_motion;
+  for (Eigen::Index k = 0; k < system.force.cols(); ++k) {
+    const double n = system.orders[static_cast<std::size_t>(k)];
+    const std::complex<double> i_omega(0.0, n * system.omega), i_omega_by(0.0, n * d.omega);
+    for (Eigen::Index row = 0; row < system.masses(); ++row) {
+      for (Eigen::Index s = 0; s < system.motion.rows(); ++s) {
+        const double C = system.C_support(row, s), M = system.M_support(row, s);
+        const std::complex<double> Z = system.K_support(row, s) + i_omega * (C + i_omega * M);
+        const std::complex<double> Z_by = d.K_support(row, s) +
+                                          i_omega * (d.C_support(row, s) + i_omega * d.M_support(row, s)) +
+                                          i_omega_by * (C + 2.0 * i_omega * M);
+        d.force(row, k) -= Z_by * system.motion(s, k) + Z * d.motion(s, k);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void differentiate(const Assembly& assembly, const NetworkValues& values, const NetworkValues& direction,
+                   const LinearSystem& system, LinearSystem& derivative) {
+  resize(system, direction, derivative);
+  differentiate_elements(assembly, values, direction, system, derivative);
+  differentiate_excitation(assembly, values, direction, derivative);
+  derivative.constant_applied_force = derivative.constant_force;
+  derivative.applied_force = derivative.force;
+  if (system.motion.rows() > 0) differentiate_support_forces(system, derivative);
+}
+
+}  // namespace frahm::mechanics

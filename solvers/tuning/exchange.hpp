@@ -1,0 +1,99 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "solvers/tuning/active_problem.hpp"
+#include "solvers/tuning/band_maxima.hpp"
+#include "solvers/tuning/optimum.hpp"
+
+namespace frahm::tuning {
+
+// All true local maxima of the curves of one design over their bands.
+struct Scan {
+  struct Maximum {
+    std::size_t curve = 0;
+    double at = 0.0, value = 0.0;
+    std::size_t sides = 1;
+  };
+  struct Place {
+    double at = 0.0, value = -kInfinity;
+  };
+  std::vector<Maximum> maxima;  // by curve, then place
+  std::vector<Place> tightest;  // of each curve, where it is highest, however low that is
+  double worst = 0.0;           // of the objective's curves; infinite where the response has no bound
+  double violation = 0.0;       // by which the other curves exceed 1
+  bool failed = false, unbounded = false;
+  double at = 0.0;     // where it failed or is unbounded
+  std::string reason;  // why
+};
+
+// The design problem over the whole band by exchange: solved over finitely many active frequencies, then the
+// true local maxima of its design are found and join them, until the two agree (Remez 1934; R. Hettich,
+// K. O. Kortanek, SIAM Review 35 (1993) 380, sec. 7).
+class Exchange {
+ public:
+  // All must outlive the exchange.
+  Exchange(const Task& task, const DesignSpace& space, const std::vector<CurveKind>& curves, Effort& effort,
+           const std::function<bool()>& stop_asked);
+
+  // The problem over the active frequencies, solved.
+  struct Step {
+    Solution solution;
+    std::vector<double> x;            // the design alone
+    std::vector<ActivePoint> active;  // whose problem it was
+    std::vector<double> values;       // of the constraints: those of the active points first
+    double objective_again = 0.0;     // an integral with the nodes that suit the new design
+  };
+
+  struct Result {
+    Outcome outcome = Outcome::failed;
+    std::vector<double> x;  // the best design
+    Scan scan;              // of it
+    bool has_step = false;
+    Step step;         // whose solution it is
+    double gap = 0.0;  // see Optimum::certificate_gap; of an integral, what new nodes change
+    std::vector<Round> rounds;
+
+    void take(const Step& from, const Scan& found, double its_gap) {
+      x = from.x;
+      scan = found;
+      has_step = true;
+      step = from;
+      gap = its_gap;
+    }
+  };
+  Result run(const Goal& goal, std::vector<double> x);
+
+  // The goal's integral or variance at a design; NaN: it has none there.
+  double integral(const Goal& goal, std::span<const double> x);
+
+  // floor, accuracy: see find_band_maxima.
+  Scan scan(std::span<const double> x, double floor, double accuracy);
+
+ private:
+  Step solve(const Goal& goal, std::span<const double> x, const std::vector<ActivePoint>& active,
+             const SolverOptions& options);
+  void scan_curve(std::span<const double> x, std::size_t curve, double floor, double accuracy, Scan& scan);
+  std::vector<double> places(std::span<const double> x, std::size_t curve, int intervals);
+  std::vector<QuadratureNode> quadrature(const Goal& goal, std::span<const double> x);
+  bool is_bounded(const Goal& goal, std::size_t curve) const;
+  std::vector<ActivePoint> first_active(const Goal& goal, const Scan& scan) const;
+  void join(const Goal& goal, const Scan& scan, bool follow, std::vector<ActivePoint>& active) const;
+  bool can_follow(const Scan& scan, std::size_t maximum, const std::vector<double>& knots,
+                  ActivePoint& point) const;
+  void drop_idle(const Goal& goal, const Step& step, std::vector<ActivePoint>& active) const;
+  static double gap_of(const Goal& goal, const Step& step, const Scan& scan);
+  void conclude(bool gap_closed, Result& result) const;
+
+  const Task& task_;
+  const DesignSpace& space_;
+  const std::vector<CurveKind>& curves_;
+  Effort& effort_;
+  const std::function<bool()>& stop_asked_;
+  std::vector<std::unique_ptr<BandCurve>> responses_;  // of each curve
+};
+
+}  // namespace frahm::tuning

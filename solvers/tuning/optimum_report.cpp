@@ -1,0 +1,161 @@
+#include "solvers/tuning/optimum_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace frahm::tuning {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+std::string sentence(Outcome outcome, const Stages& stages) {
+  const auto number = [](double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", value);
+    return std::string(text);
+  };
+  const Scan& scan = stages.best.scan;
+  switch (outcome) {
+    case Outcome::converged:
+      return "the certificate gap and the KKT residual are below their tolerances";
+    case Outcome::not_converged:
+      return "the rounds of exchange no longer close the gap: " + stages.best.step.solution.reason;
+    case Outcome::infeasible:
+      return "no design was found that meets the limits: the best breaks one by " +
+             number(100.0 * scan.violation) + " %";
+    case Outcome::unbounded:
+      return "the response has no bound at " + number(scan.at) + " of the band: " + scan.reason;
+    case Outcome::failed:
+      return "the response could not be computed at " + number(scan.at) + " of the band: " + scan.reason;
+    case Outcome::stopped:
+      break;
+  }
+  return "stopped before the end";
+}
+
+// The largest multiplier a row of the problem has, in the sense that relaxing its bound lowers the objective.
+double multiplier_of_row(const Exchange::Step& step, std::size_t row) {
+  return std::max(0.0, step.solution.constraint_multipliers[row]);
+}
+
+class Report {
+ public:
+  Report(const Task& task, DesignTuning& tuning, const Stages& stages, Effort& effort)
+      : task_(task),
+        tuning_(tuning),
+        stages_(stages),
+        effort_(effort),
+        on_constants_(stages.best.x.size() != tuning.space().variables()) {}
+
+  Optimum written() {
+    Optimum optimum;
+    optimum.outcome = stages_.best.outcome;
+    optimum.reason = sentence(optimum.outcome, stages_);
+    optimum.rounds = stages_.rounds;
+    for (const Round& round : optimum.rounds) optimum.iterations += round.iterations;
+    x_ = on_constants_ ? tuning_.space().constant_design(stages_.best.x) : stages_.best.x;
+    write_parameters(optimum);
+    optimum.constant_objective = stages_.constant.has_step ? stages_.constant.scan.worst : kNone;
+    optimum.constant = stages_.constant_value;
+    optimum.certificate_gap = optimum.kkt_residual = optimum.objective = kNone;
+    if (!stages_.best.has_step) return optimum;
+    scan_ = tuning_.full_scan(x_);
+    optimum.violation = std::max(0.0, scan_.violation);
+    optimum.kkt_residual = stages_.decisive.solution.kkt_residual;
+    if (task_.objective == Objective::minimax) {
+      optimum.objective = scan_.worst;
+      optimum.certificate_gap = (scan_.worst - stages_.bound) / scan_.worst;
+    } else {
+      optimum.objective = stages_.decisive.objective_again;
+    }
+    write_peaks(optimum);
+    write_limits(optimum);
+    return optimum;
+  }
+
+ private:
+  void write_parameters(Optimum& optimum) const {
+    const DesignSpace& space = tuning_.space();
+    const Solution& solution = stages_.decisive.solution;
+    const bool has_multipliers = solution.lower_multipliers.size() >= space.variables();
+    for (std::size_t p = 0; p < space.parameters(); ++p) {
+      TunedParameter tuned;
+      for (std::size_t i = space.first(p); i < space.first(p) + space.count(p); ++i) {
+        tuned.value.push_back(x_[i]);
+        tuned.lower_multiplier.push_back(has_multipliers ? solution.lower_multipliers[i] : 0.0);
+        tuned.upper_multiplier.push_back(has_multipliers ? solution.upper_multipliers[i] : 0.0);
+      }
+      optimum.parameters.push_back(std::move(tuned));
+    }
+  }
+
+  // Each maximum of the objective, with the multipliers of the active points nearest to it.
+  void write_peaks(Optimum& optimum) {
+    for (const Scan::Maximum& maximum : scan_.maxima) {
+      const CurveKind& kind = tuning_.curves()[maximum.curve];
+      if (kind.of != CurveKind::Of::objective) continue;
+      BandCurve curve(task_, tuning_.space(), kind, effort_);
+      Peak peak{.scenario = kind.scenario, .at = maximum.at, .value = maximum.value, .sensitivity = {}};
+      if (curve.solve(x_, maximum.at, true) == TunedResponse::State::solved) {
+        for (std::size_t p = 0; p < tuning_.space().parameters(); ++p)
+          peak.sensitivity.push_back(curve.derivative(BandCurve::larger, p));
+      }
+      optimum.peaks.push_back(peak);
+    }
+    const Exchange::Step& step = stages_.decisive;
+    for (std::size_t row = 0; row < step.active.size(); ++row) {
+      const ActivePoint& point = step.active[row];
+      const CurveKind& kind = tuning_.curves()[std::min(point.curve, tuning_.curves().size() - 1)];
+      if (point.curve >= tuning_.curves().size() || kind.of != CurveKind::Of::objective) continue;
+      Peak* nearest = nullptr;
+      for (Peak& peak : optimum.peaks) {
+        if (peak.scenario != kind.scenario) continue;
+        if (!nearest || std::abs(peak.at - point.at) < std::abs(nearest->at - point.at)) nearest = &peak;
+      }
+      if (nearest) nearest->multiplier += multiplier_of_row(step, row);
+    }
+  }
+
+  void write_limits(Optimum& optimum) {
+    optimum.limits.resize(tuning_.limits().size());
+    std::vector<double> tightest(optimum.limits.size(), -std::numeric_limits<double>::infinity());
+    for (std::size_t c = 0; c < tuning_.curves().size(); ++c) {
+      const CurveKind& kind = tuning_.curves()[c];
+      if (kind.of == CurveKind::Of::objective) continue;
+      const Scan::Place& place = scan_.tightest[c];
+      if (place.value <= tightest[kind.limit]) continue;
+      tightest[kind.limit] = place.value;
+      BandCurve curve(task_, tuning_.space(), kind, effort_);
+      LimitState& state = optimum.limits[kind.limit];
+      state.at = place.at;
+      state.scenario = kind.scenario;
+      if (curve.solve(x_, place.at, false) == TunedResponse::State::solved)
+        state.value = curve.quantity(BandCurve::larger);
+    }
+    const Exchange::Step& step = stages_.decisive;
+    for (std::size_t row = 0; row < step.active.size(); ++row) {
+      const std::size_t c = step.active[row].curve;
+      if (c >= tuning_.curves().size() || tuning_.curves()[c].of == CurveKind::Of::objective) continue;
+      // The row's bound 1 is the limit over its size.
+      const double size = tuning_.curves()[c].bound != 0.0 ? std::abs(tuning_.curves()[c].bound) : 1.0;
+      optimum.limits[tuning_.curves()[c].limit].multiplier += multiplier_of_row(step, row) / size;
+    }
+  }
+
+  const Task& task_;
+  DesignTuning& tuning_;
+  const Stages& stages_;
+  Effort& effort_;
+  const bool on_constants_;  // the design is one of constants only
+  std::vector<double> x_;
+  Scan scan_;
+};
+
+}  // namespace
+
+Optimum report_optimum(const Task& task, DesignTuning& tuning, const Stages& stages, Effort& effort) {
+  return Report(task, tuning, stages, effort).written();
+}
+
+}  // namespace frahm::tuning

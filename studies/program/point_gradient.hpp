@@ -1,0 +1,29 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "solvers/response/gradient_check.hpp"
+#include "studies/reading/study_file.hpp"
+
+namespace frahm::studies {
+
+// The derivatives of the standard quantities that have any, by each number parameter on which the network
+// depends; by the excitation's frequency itself where no parameter sets it.
+struct PointGradient {
+  struct By {
+    std::string parameter;
+    std::string unit;  // SI, of the parameter; "1" where it has none or none is known
+    std::vector<periodic::DerivativeCheck> derivatives;  // of each quantity
+  };
+  std::string reason;  // why the point has none; else empty
+  std::vector<periodic::QuantityDescription> quantities;
+  std::vector<By> by;  // empty where there is a reason
+};
+
+// parameters: SI values of all parameters, complete. Throws mechanics::MechanicsError where the network's
+// values there are out of range.
+PointGradient gradient_at(const StudyFile& study, std::span<const double> parameters);
+
+}  // namespace frahm::studies

@@ -1,0 +1,155 @@
+// Tuned designs against closed forms: the classical damper, with and without an inerter to the ground.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <complex>
+
+#include "solvers/tuning/optimum.hpp"
+
+namespace {
+
+using namespace frahm;
+using tuning::Optimum;
+using tuning::Task;
+
+constexpr double tolerance = 1e-6;           // of f, zeta and the peak, as promised
+constexpr double closed_form_error = 1e-12;  // of the reference itself
+
+struct ClosedForm {
+  double f, zeta, peak;
+};
+
+// O. Nishihara, T. Asami, J. Vib. Acoust. 124 (2002) 576: exact H-infinity optimum.
+ClosedForm nishihara_asami(double mu) {
+  const double q = std::sqrt(4.0 + 3.0 * mu);
+  ClosedForm form{};
+  form.f = 2.0 / (1.0 + mu) *
+           std::sqrt(2.0 * (16.0 + 23.0 * mu + 9.0 * mu * mu + 2.0 * (2.0 + mu) * q) /
+                     (3.0 * (64.0 + 80.0 * mu + 27.0 * mu * mu)));
+  form.zeta = 0.25 * std::sqrt((8.0 + 9.0 * mu - 4.0 * q) / (1.0 + mu));
+  form.peak = 1.0 / (3.0 * mu) *
+              std::sqrt((std::pow(8.0 + 9.0 * mu, 2) * (16.0 + 9.0 * mu) - 128.0 * q * q * q) /
+                        (3.0 * (32.0 + 27.0 * mu)));
+  return form;
+}
+
+// |X| of the main mass by hand: (K + i w C - w^2 M) X = (1, 0).
+double magnification(double mu, double beta, double f, double zeta, double w) {
+  const double ma = mu + beta, k = ma * f * f, c = 2.0 * zeta * ma * f;
+  const std::complex<double> s(0.0, w), link = k + s * c;
+  const std::complex<double> a = 1.0 - w * w + link, d = -ma * w * w + link;
+  return std::abs(d / (a * d - link * link));
+}
+
+double worst_magnification(double mu, double beta, double f, double zeta) {
+  double worst = 0.0;
+  for (int i = 0; i <= 200000; ++i)
+    worst = std::max(worst, magnification(mu, beta, f, zeta, 0.3 + 1.7e0 * i / 200000));
+  return worst;
+}
+
+// Main mass 1 on a spring of 1 under a force of 1; absorber mass mu with an inerter beta to the ground.
+Task absorber(double mu, double beta) {
+  Task task;
+  mechanics::Network& network = task.network;
+  using mechanics::ElementType;
+  const mechanics::Node ground{}, main{mechanics::NodeKind::mass, 0}, tmd{mechanics::NodeKind::mass, 1};
+  network.masses = {"main", "tmd"};
+  network.elements = {{"main_spring", ElementType::spring, ground, main},
+                      {"tmd_spring", ElementType::spring, main, tmd},
+                      {"tmd_damper", ElementType::damper, main, tmd},
+                      {"inerter", ElementType::inerter, ground, tmd}};
+  network.excitations = {{mechanics::ExcitationKind::force, 0}};
+  const double ma = mu + beta;
+  task.network_at = [=](std::size_t, std::span<const double> at, mechanics::NetworkValues& values,
+                        std::vector<mechanics::NetworkValues>* derivatives) {
+    const double f = at[0], zeta = at[1];
+    values = {.omega = at[2],
+              .mass = {1.0, mu},
+              .element = {1.0, ma * f * f, 2.0 * zeta * ma * f, beta},
+              .excitation = {{1.0, 0.0, 0.0}}};
+    if (!derivatives) return;
+    mechanics::NetworkValues zero{
+        .omega = 0.0, .mass = {0, 0}, .element = {0, 0, 0, 0}, .excitation = {{0.0, 0.0, 0.0}}};
+    derivatives->assign(3, zero);
+    (*derivatives)[0].element = {0.0, 2.0 * ma * f, 2.0 * zeta * ma, 0.0};
+    (*derivatives)[1].element = {0.0, 0.0, 2.0 * ma * f, 0.0};
+    (*derivatives)[2].omega = 1.0;
+  };
+  task.scenarios = {"study"};
+  task.parameters = {{"f", 0.3, 1.5, 0.8, {}}, {"zeta", 1e-3, 1.0, 0.3, {}}};
+  task.band = {0.3, 2.0};
+  task.quantity = {periodic::Measure::peak, 0};
+  return task;
+}
+
+Optimum tuned(const Task& task, std::size_t start = 0) {
+  return tuning::tune(task, start, [] { return false; }).at(0);
+}
+
+const double mass_ratios[] = {0.01, 0.02, 0.05, 0.1, 0.2, 0.5};
+
+TEST_CASE("the closed form of Nishihara and Asami is a minimum of the worst magnification") {
+  for (const double mu : mass_ratios) {
+    const ClosedForm form = nishihara_asami(mu);
+    INFO("mu = " << mu);
+    const double worst = worst_magnification(mu, 0.0, form.f, form.zeta);
+    CHECK(worst == Approx(form.peak).epsilon(1e-8));  // sampled at 200,000 places
+    for (const double step : {-1e-3, 1e-3}) {
+      CHECK(worst_magnification(mu, 0.0, form.f * (1.0 + step), form.zeta) > worst);
+      CHECK(worst_magnification(mu, 0.0, form.f, form.zeta * (1.0 + step)) >
+            worst * (1.0 - closed_form_error));
+    }
+  }
+}
+
+TEST_CASE(
+    "the classical damper is tuned to the exact H-infinity optimum at six mass ratios from poor starts") {
+  for (const double mu : mass_ratios) {
+    const ClosedForm form = nishihara_asami(mu);
+    for (const std::size_t start : {0, 1, 2, 3}) {
+      INFO("mu = " << mu << ", start " << start);
+      const Optimum optimum = tuned(absorber(mu, 0.0), start);
+      INFO(optimum.reason << ", gap " << optimum.certificate_gap << ", KKT " << optimum.kkt_residual << ", "
+                          << optimum.rounds.size() << " rounds, " << optimum.iterations << " iterations, "
+                          << optimum.orbits << " orbits");
+      CHECK(optimum.outcome == tuning::Outcome::converged);
+      CHECK(optimum.parameters[0].value[0] == Approx(form.f).epsilon(tolerance));
+      CHECK(optimum.parameters[1].value[0] == Approx(form.zeta).epsilon(tolerance));
+      CHECK(optimum.objective == Approx(form.peak).epsilon(tolerance));
+    }
+  }
+}
+
+TEST_CASE("an inerter from the absorber to the ground counts as absorber mass") {
+  for (const double beta : {0.01, 0.1, 0.3}) {
+    const double mu = 0.05;
+    const ClosedForm form = nishihara_asami(mu + beta);
+    INFO("beta = " << beta);
+    const Optimum optimum = tuned(absorber(mu, beta));
+    CHECK(optimum.parameters[0].value[0] == Approx(form.f).epsilon(tolerance));
+    CHECK(optimum.parameters[1].value[0] == Approx(form.zeta).epsilon(tolerance));
+    CHECK(optimum.objective == Approx(form.peak).epsilon(tolerance));
+  }
+}
+
+TEST_CASE("both peaks hold the optimum, and their shares make up the whole") {
+  const Optimum optimum = tuned(absorber(0.05, 0.0));
+  REQUIRE(optimum.peaks.size() == 2);
+  CHECK(optimum.peaks[0].value == Approx(optimum.peaks[1].value).epsilon(tolerance));
+  CHECK(optimum.peaks[0].multiplier + optimum.peaks[1].multiplier == Approx(1.0).epsilon(tolerance));
+  // KKT: the shares balance the sensitivities of the peaks.
+  for (std::size_t p = 0; p < 2; ++p) {
+    const double balance = optimum.peaks[0].multiplier * optimum.peaks[0].sensitivity[p] +
+                           optimum.peaks[1].multiplier * optimum.peaks[1].sensitivity[p];
+    CHECK(std::abs(balance) < 1e-5 * optimum.objective);
+  }
+}
+
+TEST_CASE("an optimum is the same to the last bit however often it is sought") {
+  const Optimum one = tuned(absorber(0.1, 0.0), 5), two = tuned(absorber(0.1, 0.0), 5);
+  CHECK(one.parameters[0].value == two.parameters[0].value);
+  CHECK(one.parameters[1].value == two.parameters[1].value);
+  CHECK(one.objective == two.objective);
+}
+
+}  // namespace
