@@ -17,6 +17,8 @@
 #include "studies/program/exit_code.hpp"
 #include "studies/program/modes_table.hpp"
 #include "studies/reading/settings.hpp"
+#include "studies/tuning/tuning_plan.hpp"
+#include "studies/tuning/tuning_table.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -148,6 +150,41 @@ int check_motion(const StudyFile& study, std::ostream& out) {
   return exit_code::done;
 }
 
+void print_design_range(const StudyFile& study, const DesignChoice& design, std::ostream& out) {
+  const double factor = design.unit.si_factor;
+  const bool has_unit = !design.unit.text.empty() && design.unit.text != "1";
+  fmt::print(out, "{:<22}{:.6g} .. {:.6g}{}{}, from {:.6g}", study.parameters.list[design.parameter].name,
+             design.lower / factor, design.upper / factor, has_unit ? " " : "",
+             has_unit ? design.unit.text : "", study.parameters.nominal()[design.parameter] / factor);
+  if (design.is_scheduled()) fmt::print(out, ", scheduled at {} knots", design.knots.size());
+  fmt::print(out, "{}\n", design.rule ? ", beside a rule" : "");
+}
+
+// Of a tuning.
+int check_tune(const CheckOptions& options, StudyFile read, std::ostream& out) {
+  const StudyPlan plan = plan_tuning(std::move(read), options.set);
+  const StudyFile& study = plan.study;
+  fmt::print(out, "{} is a valid study{}{}\n\n", study.source.name, study.title.empty() ? "" : ": ",
+             study.title);
+  print_task(study, out);
+  std::size_t variables = 0;
+  for (const DesignChoice& design : study.tune->designs) {
+    print_design_range(study, design, out);
+    variables += design.is_scheduled() ? design.knots.size() : 1;
+  }
+  fmt::print(out, "{:<22}{}\n{:<22}{}\n{:<22}{}\n\nAs the study states it:\n", "variables", variables,
+             "limits", study.tune->limits.size() + (study.tune->trade_off ? 1 : 0), "starts", plan.tiles);
+  std::vector<double> parameters = study.parameters.nominal();
+  mechanics::NetworkValues values;
+  evaluate(study.values, study.parameters, parameters, values);
+  try {
+    print_modes(study, modes_at_point(study, values), out);
+  } catch (const mechanics::MechanicsError& error) {
+    throw StudyError(study.source.name + ": " + error.what());
+  }
+  return exit_code::done;
+}
+
 MapSample sample_of(const MapPlan& plan, double seconds) {
   try {
     return sample_map(plan, seconds);
@@ -161,6 +198,7 @@ MapSample sample_of(const MapPlan& plan, double seconds) {
 int check_command(const CheckOptions& options, std::ostream& out) {
   constexpr double sample_seconds = 1.0;
   StudyFile read = read_study_with(options.study, options.set);
+  if (read.kind == StudyKind::tune) return check_tune(options, std::move(read), out);
   if (read.kind != StudyKind::sweep) return check_motion(read, out);
   const MapPlan plan = plan_map(std::move(read), options.set);
   const StudyFile& study = plan.study;

@@ -10,5 +10,6 @@ inline constexpr int some_failed = 3;  // finished; the points that failed are l
 inline constexpr int stopped = 4;      // by a signal or the time budget; the same command goes on
 inline constexpr int resume_refused = 5;
 inline constexpr int input_output = 6;
+inline constexpr int not_converged = 7;  // a tuning: its best design so far is in the file
 
 }  // namespace frahm::studies::exit_code

@@ -5,12 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <iterator>
 #include <ostream>
 
 #include "results/map_reader.hpp"
 #include "studies/map/grid.hpp"
 #include "studies/program/whole_file.hpp"
+#include "studies/tuning/schedule_table.hpp"
+#include "studies/tuning/sweep_study.hpp"
+#include "studies/tuning/tuning_record.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -109,27 +113,63 @@ void write_columns(const std::vector<results::Column>& columns, std::ostream& ou
   }
 }
 
-// A group asked for, else the map, or of a file without one its motion.
+// A group asked for, else the map, or of a file without one its motion or optimum.
 void write_table(const results::MapReader& map, const std::string& asked, std::ostream& out) {
   if (!asked.empty()) return write_columns(map.columns(asked), out);
-  for (const char* group : {"decay", "transient"}) {
+  for (const char* group : {"decay", "transient", optimum_group}) {
     if (map.layout().axes.empty() && map.has_group(group)) return write_columns(map.columns(group), out);
   }
   write_map(map, out);
 }
 
+void write_export(const ExportOptions& options, const results::MapReader& map, std::ostream& out) {
+  if (!options.schedule) return write_table(map, options.group, out);
+  out << schedule_table(read_stored_tuning(options.file), options.step);
+}
+
+// Replaces nothing but an earlier study of its own kind.
+void check_place_of_sweep(const std::filesystem::path& place) {
+  std::ifstream there(place);
+  std::string line;
+  if (!there || (std::getline(there, line) && line == sweep_mark)) return;
+  throw StudyError(
+      fmt::format("{}: is there already and not made by frahm export; name another file", place.string()));
+}
+
+int write_sweep(const ExportOptions& options, std::ostream& out) {
+  const std::filesystem::path& place = options.sweep;
+  if (place.extension() != ".toml")
+    throw StudyError(fmt::format("--sweep {}: a study is named .toml", place.string()));
+  check_place_of_sweep(place);
+  const SweepStudy sweep = sweep_study(read_stored_tuning(options.file), place.stem().string());
+  for (const auto& [name, csv] : sweep.tables) write_whole_file(place.parent_path() / name, csv);
+  write_whole_file(place, sweep.text);
+  fmt::print(out, "{}\n", place.string());
+  return 0;
+}
+
+void check_options(const ExportOptions& options) {
+  const int asked = int{!options.group.empty()} + int{options.schedule} + int{!options.sweep.empty()};
+  if (asked > 1) throw StudyError("--group, --schedule and --sweep: one of them at a time");
+  if (options.step && !options.schedule) throw StudyError("--step: belongs to --schedule");
+  if (!options.sweep.empty() && !options.output.empty())
+    throw StudyError("--output: --sweep names its own file");
+}
+
 }  // namespace
 
 int export_command(const ExportOptions& options, std::ostream& out) {
+  check_options(options);
+  if (!options.sweep.empty()) return write_sweep(options, out);
   const results::MapReader map(options.file);
   if (options.output == "-") {
-    write_table(map, options.group, out);
+    write_export(options, map, out);
     return 0;
   }
   const std::filesystem::path output =
       options.output.empty() ? std::filesystem::path(options.file).replace_extension(".csv") : options.output;
   check_output_is_not_input(output, options.file);
-  write_whole_file(output, [&](std::ostream& file) { write_table(map, options.group, file); });
+  write_whole_file(output, [&](std::ostream& file) { write_export(options, map, file); });
   fmt::print(out, "{}\n", output.string());
   return 0;
 }

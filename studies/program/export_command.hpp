@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <iosfwd>
+#include <optional>
 #include <string>
 
 namespace frahm::studies {
@@ -11,12 +12,17 @@ struct ExportOptions {
   std::filesystem::path output;  // "-": `out`; empty: the file's name with .csv
   std::string group = {};        // "resonance", "orbits", ...: its columns instead of the map; empty: the map
   bool csv = false;              // asked for by name; the only form there is
+  bool schedule = false;         // of a tuning: its schedule for a controller
+  std::optional<double> step = {};   // of that, in the unit of the band
+  std::filesystem::path sweep = {};  // of a tuning: the study of a sweep at the optimum, written here
 };
 
 // Writes a map as CSV: a row a point, coordinates first, then variables, numbers to 17 significant digits,
-// what was not computed as an empty field (0 in flags). Points in the order of the map. Of a decay or
-// transient, or where a group is asked for, the columns of the group side by side, the shorter ones filled with empty fields. Returns 0.
-// Throws results::StoreError, engine::IoError.
+// what was not computed as an empty field (0 in flags). Points in the order of the map. Of a decay, transient
+// or tuning, or where a group is asked for, the columns of the group side by side, the shorter ones filled
+// with empty fields. Of a tuning also its schedule (schedule_table.hpp), or a study of its response at the
+// optimum with the tables that it reads beside it (sweep_study.hpp). Returns 0. Throws StudyError for what a
+// file does not have, results::StoreError, engine::IoError.
 int export_command(const ExportOptions& options, std::ostream& out);
 
 }  // namespace frahm::studies

@@ -13,7 +13,10 @@
 #include "studies/map/finished_file.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/map_table.hpp"
+#include "studies/program/run_tuning.hpp"
 #include "studies/program/study_note.hpp"
+#include "studies/tuning/assemble_tuning.hpp"
+#include "studies/tuning/tuning_plan.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -37,33 +40,68 @@ std::vector<std::filesystem::path> places_of_note(const MergeOptions& options,
   return places;
 }
 
+RunRecord record_of(const MergeOptions& options) {
+  return {
+      .command = fmt::format("frahm merge {}", options.output.string()), .threads = 1, .started = utc_now()};
+}
+
+AssemblyOptions assembly_of(const MergeOptions& options, const std::vector<std::filesystem::path>& logs,
+                            const engine::StopSignals& signals) {
+  return {.output = options.output, .logs = logs, .partial = options.partial, .stop_asked = [&signals] {
+            return signals.received() != 0;
+          }};
+}
+
+int tell_stopped(const MergeOptions& options) {
+  fmt::print(std::cerr, "stopped; the shard logs are kept and {} is as it was\n", options.output.string());
+  return exit_code::stopped;
+}
+
+void remove_notes(const MergeOptions& options, const std::vector<std::filesystem::path>& logs) {
+  for (const auto& place : places_of_note(options, logs)) remove_study_notes(place);
+}
+
+int merge_map(const MergeOptions& options, const std::vector<std::filesystem::path>& logs,
+              const engine::LogHeader& header, NotedStudy noted, std::ostream& out) {
+  const MapPlan plan = plan_map(std::move(noted.study), noted.set);
+  check_note_gives(plan, noted, header);
+  const engine::StopSignals signals;
+  const Assembly assembly = assemble(plan, record_of(options), assembly_of(options, logs, signals));
+  if (!assembly.finished) return tell_stopped(options);
+  if (assembly.missing_tiles == 0) {
+    remove_notes(options, logs);
+  } else {
+    fmt::print(out, "{} of {} tiles are missing: their points are not computed; the logs are kept\n",
+               assembly.missing_tiles, assembly.tiles);
+  }
+  return print_map_table(plan, plan.study.source.name, options.output, std::nullopt, out);
+}
+
+int merge_tuning(const MergeOptions& options, const std::vector<std::filesystem::path>& logs,
+                 const engine::LogHeader& header, NotedStudy noted, std::ostream& out) {
+  const StudyPlan plan = plan_tuning(std::move(noted.study), noted.set);
+  check_note_gives(plan, noted, header);
+  const engine::StopSignals signals;
+  const auto result = assemble_tuning(plan, record_of(options), assembly_of(options, logs, signals));
+  if (!result) return tell_stopped(options);
+  const std::uint64_t missing = plan.tiles - result->starts.size();
+  if (missing == 0) {
+    remove_notes(options, logs);
+  } else {
+    fmt::print(out, "{} of {} starts are missing; the logs are kept\n", missing, plan.tiles);
+  }
+  return tell_tuning(plan, *result, options.output, out);
+}
+
 }  // namespace
 
 int merge_command(const MergeOptions& options, std::ostream& out) {
   const auto logs = options.logs.empty() ? engine::find_logs(options.output) : options.logs;
   const engine::LogHeader header = study_of(logs, options.output);
   NotedStudy noted = study_from_note(places_of_note(options, logs), header);
-  const MapPlan plan = plan_map(std::move(noted.study), noted.set);
-  check_note_gives(plan, noted, header);
-  const RunRecord record{
-      .command = fmt::format("frahm merge {}", options.output.string()), .threads = 1, .started = utc_now()};
   check_result_place(options.output, {});
-  const engine::StopSignals signals;
-  const Assembly assembly = assemble(
-      plan, record, {.output = options.output, .logs = logs, .partial = options.partial, .stop_asked = [&] {
-                       return signals.received() != 0;
-                     }});
-  if (!assembly.finished) {
-    fmt::print(std::cerr, "stopped; the shard logs are kept and {} is as it was\n", options.output.string());
-    return exit_code::stopped;
-  }
-  if (assembly.missing_tiles == 0) {
-    for (const auto& place : places_of_note(options, logs)) remove_study_notes(place);
-  } else {
-    fmt::print(out, "{} of {} tiles are missing: their points are not computed; the logs are kept\n",
-               assembly.missing_tiles, assembly.tiles);
-  }
-  return print_map_table(plan, plan.study.source.name, options.output, std::nullopt, out);
+  return noted.study.kind == StudyKind::tune ? merge_tuning(options, logs, header, std::move(noted), out)
+                                             : merge_map(options, logs, header, std::move(noted), out);
 }
 
 }  // namespace frahm::studies

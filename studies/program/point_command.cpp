@@ -35,7 +35,7 @@ int point_command(const PointOptions& options, std::ostream& out) {
     throw StudyError("--history \"-\": the report goes to standard output; name a file for the history");
   }
   StudyFile study = read_study_with(options.study, options.set);
-  if (study.kind != StudyKind::sweep) {
+  if (study.kind != StudyKind::sweep && study.kind != StudyKind::tune) {
     throw StudyError(fmt::format("{}: a {} has no periodic response to tell; frahm run computes its motion",
                                  study.source.name, kind_name(study.kind)));
   }

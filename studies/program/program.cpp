@@ -36,7 +36,8 @@ A study file describes a system and the axes of a map. From there:
 Every command has its own help: frahm run --help
 
 Exit codes: 0 done, 1 internal error, 2 wrong usage or study, 3 some points failed, 4 stopped (run again to
-resume), 5 refused to mix results of different studies, 6 input or output failed, 8 self-check failed)";
+resume), 5 refused to mix results of different studies, 6 input or output failed, 7 a tuning did not converge,
+8 self-check failed)";
 
 constexpr const char* run_examples = R"(
 Examples:
@@ -44,6 +45,7 @@ Examples:
   frahm run rig_atlas.toml --set "K=8200 N/m" -o stiffer.h5
   frahm run rig_atlas.toml --time-budget 50m  stops in time; the same command goes on
   frahm run rig_decay_main.toml               one motion: a free decay, or a transient
+  frahm run tmd_classical.toml                a tuning: an optimum from each of its starts
   sbatch --array=0-15 --wrap "frahm run rig_atlas.toml"    then: frahm merge rig_atlas.h5)";
 
 constexpr const char* check_examples = R"(
@@ -67,7 +69,9 @@ constexpr const char* export_examples = R"(
 Examples:
   frahm export rig_atlas.h5                   into rig_atlas.csv, a row a point
   frahm export rig_atlas.h5 -o - | head
-  frahm export curves.h5 --group resonance    the resonances the study asked for)";
+  frahm export curves.h5 --group resonance    the resonances the study asked for
+  frahm export tuned.h5 --schedule            a tuning's schedule for a controller, in steps of 1 rpm
+  frahm export tuned.h5 --sweep optimum.toml  a study of the response at its optimum; then frahm run it)";
 
 using Action = std::function<int(std::ostream&)>;  // of the command that was given
 
@@ -98,7 +102,8 @@ struct RunTexts {
 
 void add_run(CLI::App& program, RunTexts& texts, Action& action) {
   CLI::App* run = add_command(
-      program, "run", "compute the map of a study, or what is left of it; or its one motion", run_examples);
+      program, "run", "compute the map of a study or its optimum, or what is left of it; or its one motion",
+      run_examples);
   auto& [options, shard, budget] = texts;
   add_study(*run, options.study);
   run->add_option("-o,--output", options.run.output, "result file; else the study's name with .h5, here");
@@ -163,11 +168,15 @@ void add_merge(CLI::App& program, MergeOptions& options, Action& action) {
 }
 
 void add_export(CLI::App& program, ExportOptions& options, Action& action) {
-  CLI::App* command = add_command(
-      program, "export", "write a map as CSV, a row a point; or the columns of a motion", export_examples);
+  CLI::App* command =
+      add_command(program, "export",
+                  "write a map as CSV, a row a point; or the columns of a motion or tuning", export_examples);
   command->add_option("FILE", options.file, "result file")->required();
   command->add_option("--group", options.group, "a group instead of the map: resonance, orbits");
   command->add_flag("--csv", options.csv, "the only form there is, and the default");
+  command->add_flag("--schedule", options.schedule, "of a tuning: its schedule for a controller");
+  command->add_option("--step", options.step, "of the schedule, in the unit of the band; else 1 rpm");
+  command->add_option("--sweep", options.sweep, "of a tuning: a study that sweeps its optimum, to this file");
   command->add_option("-o,--output", options.output, "CSV file, - for stdout; else FILE with .csv");
   command->callback([&] { action = [&](std::ostream& out) { return export_command(options, out); }; });
 }

@@ -10,27 +10,43 @@
 #include "engine/tile_index.hpp"
 #include "studies/map/finished_file.hpp"
 #include "studies/map/map_summary.hpp"
+#include "studies/tuning/tuning_record.hpp"
 
 namespace frahm::studies {
 namespace {
 
-// A file without a map holds one motion: its single numbers, and how many rows its other columns have.
-void print_motion(const results::MapReader& map, std::ostream& out) {
+std::string number_text(const results::Column& column) {
+  const double value = column.values.front();
+  for (const results::Flag& flag : column.variable.flags) {
+    if (flag.value == value) return flag.meaning;
+  }
+  const std::string& unit = column.variable.unit;
+  return fmt::format("{:.10g}{}", value, unit == "1" ? "" : " " + unit);
+}
+
+// A file without a map holds one motion or optimum: its single numbers, and how many rows its other columns
+// have.
+void print_group(const results::MapReader& map, const std::string& group, std::ostream& out) {
+  std::vector<std::string> told;
+  for (const results::Column& column : map.columns(group)) {
+    if (column.dimension.empty()) {
+      fmt::print(out, "{:<22} {}\n", column.variable.name, number_text(column));
+    } else if (std::find(told.begin(), told.end(), column.dimension) == told.end()) {
+      told.push_back(column.dimension);
+      fmt::print(out, "{:<22} {} rows\n", column.dimension, column.values.size());
+    }
+  }
+}
+
+void print_groups(const results::MapReader& map, std::ostream& out) {
   for (const char* group : {"decay", "transient"}) {
     if (!map.has_group(group)) continue;
     fmt::print(out, "{:<22} {}\n", "motion", group);
-    std::vector<std::string> told;
-    for (const results::Column& column : map.columns(group)) {
-      const std::string& unit = column.variable.unit;
-      if (column.dimension.empty()) {
-        fmt::print(out, "{:<22} {:.10g}{}\n", column.variable.name, column.values.front(),
-                   unit == "1" ? "" : " " + unit);
-      } else if (std::find(told.begin(), told.end(), column.dimension) == told.end()) {
-        told.push_back(column.dimension);
-        fmt::print(out, "{:<22} {} rows\n", column.dimension, column.values.size());
-      }
-    }
+    print_group(map, group, out);
   }
+  if (!map.has_group(optimum_group)) return;
+  for (const auto& [name, text] : map.texts(optimum_group)) fmt::print(out, "{:<22} {}\n", name, text);
+  print_group(map, optimum_group, out);
 }
 
 void print_file(const std::filesystem::path& file, std::ostream& out) {
@@ -42,7 +58,7 @@ void print_file(const std::filesystem::path& file, std::ostream& out) {
     fmt::print(out, "{:<22} {}: {} points\n", "axis", axis.name, axis.size);
   }
   if (layout.axes.empty()) {
-    print_motion(map, out);
+    print_groups(map, out);
   } else {
     fmt::print(out, "{:<22} {}\n{:<22} {}\n", "points", points, "variables", layout.variables.size());
     print_flags(count_flags(map), points, out);

@@ -1,0 +1,64 @@
+#include "studies/program/logged_run.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <iostream>
+#include <vector>
+
+#include "engine/tile_index.hpp"
+#include "studies/map/finished_file.hpp"
+#include "studies/program/exit_code.hpp"
+#include "studies/program/study_note.hpp"
+
+namespace frahm::studies {
+
+void remove_leftovers(const StudyPlan& plan, const std::filesystem::path& output) {
+  std::vector<std::filesystem::path> logs = engine::find_logs(output);
+  std::erase_if(logs, [&](const auto& log) { return engine::study_of_log(log) != plan.log_header(); });
+  engine::remove_logs(logs);
+  engine::remove_assembly_lock(output);
+  if (engine::find_logs(output).empty()) remove_study_notes(output);
+}
+
+bool is_finished(const StudyPlan& plan, const std::filesystem::path& output) {
+  const auto kept = fingerprint_of_file(output);
+  if (!kept) return false;
+  if (*kept == plan.fingerprint) return true;
+  throw engine::ResumeRefused(output, {*kept, plan.tiles}, plan.log_header());
+}
+
+engine::Summary compute(const StudyPlan& plan, const engine::Job& job, const engine::RunOptions& run) {
+  write_study_note(run.output, plan);
+  try {
+    return engine::run(job, run);
+  } catch (const engine::ResumeRefused&) {
+    remove_study_note(run.output, plan.fingerprint);
+    throw;
+  }
+}
+
+void tell_unused(const engine::Summary& summary) {
+  for (const engine::UnusedBytes& unused : summary.unused) {
+    fmt::print(std::cerr, "note: {}: {} bytes from byte {} on are no whole tile and are computed again\n",
+               unused.log.string(), unused.bytes, unused.from);
+  }
+}
+
+int tell_stopped(const engine::Summary& summary, const std::filesystem::path& output) {
+  const double percent =
+      100.0 * static_cast<double>(summary.points.done) / static_cast<double>(summary.points.points);
+  fmt::print(std::cerr, "{}: {:.1f} % is done and kept beside {}; the same command goes on from there\n",
+             summary.reason, percent, output.string());
+  return exit_code::stopped;
+}
+
+int tell_shard(const engine::RunOptions& run, const engine::Summary& summary, std::ostream& out) {
+  fmt::print(out, "shard {}/{}: {} tiles are kept beside {}\nwhen all shards are done: frahm merge {}\n",
+             run.shard.index, run.shard.count, summary.tiles, run.output.string(), run.output.string());
+  if (summary.points.failed == 0) return exit_code::done;
+  fmt::print(std::cerr, "{} points failed; the merged file lists them\n", summary.points.failed);
+  return exit_code::some_failed;
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "studies/reading/toml_reading.hpp"
+
+namespace frahm::studies {
+
+// A document as text that read_toml() reads to the same values: tables and arrays of tables under their own
+// headings, two deep, the rest in line. root: a TomlTable without dates.
+std::string toml_text(const TomlValue& root);
+
+}  // namespace frahm::studies

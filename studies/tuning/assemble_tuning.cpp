@@ -1,0 +1,54 @@
+#include "studies/tuning/assemble_tuning.hpp"
+
+#include <fmt/format.h>
+
+#include "engine/io_error.hpp"
+#include "engine/tile_index.hpp"
+#include "results/map_writer.hpp"
+#include "studies/map/map_record.hpp"
+#include "studies/tuning/optimum_record.hpp"
+#include "studies/tuning/tuning_record.hpp"
+
+namespace frahm::studies {
+namespace {
+
+void refuse_gaps(const AssemblyOptions& options, std::uint64_t missing, std::uint64_t starts) {
+  if (missing == starts)
+    throw engine::IoError(options.output, fmt::format("none of its {} starts is in a shard log yet", starts));
+  if (missing == 0 || options.partial) return;
+  throw engine::IoError(options.output,
+                        fmt::format("{} of its {} starts are in no shard log yet", missing, starts));
+}
+
+void write_file(const StudyPlan& plan, const RunRecord& run, const std::filesystem::path& output,
+                const TuningResult& result) {
+  results::MapWriter writer(output, file_layout(plan, run));
+  writer.write_columns(optimum_group, optimum_columns(plan.study, result));
+  writer.write_texts(optimum_group, optimum_texts(plan.study, result));
+  if (plan.study.tune->trade_off) writer.write_columns(front_group, front_columns(plan.study, result));
+  writer.write_texts("provenance", provenance(plan, run, {}));
+  writer.finish();
+}
+
+}  // namespace
+
+std::optional<TuningResult> assemble_tuning(const StudyPlan& plan, const RunRecord& run,
+                                            const AssemblyOptions& options) {
+  const engine::AssemblyLock lock(options.output);
+  const engine::TileIndex index =
+      engine::index_tiles(options.logs, plan.log_header(), [](std::uint64_t, std::span<const std::byte>) {});
+  const std::uint64_t missing = engine::missing_tiles(index).size();
+  refuse_gaps(options, missing, plan.tiles);
+  std::vector<StartResult> starts;
+  engine::for_each_tile(index, [&](std::uint64_t start, std::span<const std::byte> bytes) {
+    starts.push_back({start, decode_optima(bytes)});
+  });
+  if (options.stop_asked()) return std::nullopt;
+  TuningResult result = tuning_result(plan.study, std::move(starts));
+  if (options.stop_asked()) return std::nullopt;
+  write_file(plan, run, options.output, result);
+  if (missing == 0) engine::remove_logs(options.logs);
+  return result;
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <optional>
+
+#include "studies/map/assemble.hpp"
+#include "studies/tuning/tuning_result.hpp"
+
+namespace frahm::studies {
+
+// Makes the result file of a tuning from the starts in the logs, whoever computed them, and then removes
+// these logs; nothing if it was stopped, with the output as it was. Throws as assemble() does, StudyError
+// for a task without meaning.
+std::optional<TuningResult> assemble_tuning(const StudyPlan& plan, const RunRecord& run,
+                                            const AssemblyOptions& options);
+
+}  // namespace frahm::studies

@@ -1,0 +1,129 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+
+#include "studies/tuning/tuned_design.hpp"
+#include "studies/tuning/tuning_about.hpp"
+
+namespace frahm::studies {
+namespace {
+
+std::string squared(const std::string& unit) {
+  return unit == "1" ? unit : fmt::format("({})2", unit);
+}
+
+// A result with one number wherever there can be one: all names of the record.
+TuningResult example_of(const StudyFile& study) {
+  const TuneChoice& tune = *study.tune;
+  tuning::Optimum optimum;
+  for (const DesignChoice& design : tune.designs) {
+    const std::vector<double> zeros(design.is_scheduled() ? design.knots.size() : 1, 0.0);
+    optimum.parameters.push_back({zeros, zeros, zeros});
+  }
+  optimum.peaks.emplace_back();
+  optimum.rounds.emplace_back();
+  TuningResult result{.starts = {{0, {optimum}}}, .best = {0}, .assessment = {}};
+  tuning::Assessment& assessment = result.assessment;
+  if (tune.band) assessment.band = {tune.band->range.from};
+  const std::vector<std::vector<double>> curve(scenario_names(study).size(), {0.0});
+  for (const char* name : {"before", "after", "constant", "rule"})
+    assessment.curves.push_back({name, curve, 0.0});
+  assessment.detuning = {{0.0}, std::vector<std::vector<double>>(tune.designs.size(), {0.0})};
+  return result;
+}
+
+std::string start_text(const TuneChoice& tune) {
+  switch (tune.start) {
+    case tuning::Start::given:
+      return "given";
+    case tuning::Start::global:
+      return "nlopt " + tune.global_solver;
+    case tuning::Start::many:
+      break;
+  }
+  return fmt::format("{}", tune.starts);
+}
+
+const char* objective_name(tuning::Objective objective) {
+  switch (objective) {
+    case tuning::Objective::minimax:
+      return "minimax";
+    case tuning::Objective::mean_square:
+      return "mean_square";
+    case tuning::Objective::variance:
+      break;
+  }
+  return "variance";
+}
+
+}  // namespace
+
+TuningAbout::TuningAbout(const StudyFile& of_study, const TuningResult& of_result)
+    : study(of_study), tune(*of_study.tune), result(of_result), optimum(of_result.optimum()) {
+  for (const DesignChoice& design : tune.designs) {
+    const std::string& unit = design.unit.text;
+    designs.push_back({design, study.parameters.list[design.parameter].name, unit.empty() ? "1" : unit});
+  }
+  if (!tune.band) return;
+  band = study.parameters.list[tune.band->parameter].name;
+  if (!tune.band->unit.text.empty()) band_unit = tune.band->unit.text;
+}
+
+std::vector<NamedLimit> named_limits(const StudyFile& study, double trade_off) {
+  std::map<std::string, int> seen;
+  const auto named = [&](const std::string& quantity) {
+    const int number = ++seen[quantity];
+    return number == 1 ? quantity : fmt::format("{}_{}", quantity, number);
+  };
+  std::vector<NamedLimit> limits;
+  for (const LimitChoice& limit : study.tune->limits)
+    limits.push_back({named(limit.name), limit.unit, limit.lower, limit.upper});
+  if (const auto& choice = study.tune->trade_off)
+    limits.push_back(
+        {named(choice->name), choice->unit, -std::numeric_limits<double>::infinity(), trade_off});
+  return limits;
+}
+
+std::string quantity_unit(const StudyFile& study) {
+  return periodic::describe(study.tune->quantity, study.network, study.dimensionless).unit;
+}
+
+std::string objective_unit(const StudyFile& study) {
+  const std::string unit = quantity_unit(study);
+  return study.tune->objective == tuning::Objective::minimax ? unit : squared(unit);
+}
+
+std::vector<results::Text> optimum_texts(const StudyFile& study, const TuningResult& result) {
+  const TuneChoice& tune = *study.tune;
+  const TuningAbout about(study, result);
+  std::vector<std::string> designs, limits;
+  for (const NamedDesign& design : about.designs) designs.push_back(design.name);
+  for (const NamedLimit& limit : named_limits(study, 0.0)) limits.push_back(limit.name);
+  return {{"reason", about.optimum.reason},
+          {"objective_kind", objective_name(tune.objective)},
+          {"quantity", tune.quantity_name},
+          {"band_parameter", about.band},
+          {"parameters", fmt::format("{}", fmt::join(designs, ","))},
+          {"scenarios", fmt::format("{}", fmt::join(scenario_names(study), ","))},
+          {"limits", fmt::format("{}", fmt::join(limits, ","))},
+          {"solver", tune.solver},
+          {"start", start_text(tune)}};
+}
+
+void check_record_names(const StudyFile& study) {
+  const TuningResult example = example_of(study);
+  try {
+    results::check(optimum_columns(study, example));
+    results::check(front_columns(study, example));
+  } catch (const std::invalid_argument& error) {
+    throw StudyError(
+        fmt::format("{}: the record of this tuning would need one name twice; rename a "
+                    "parameter, a column or a scenario: {}",
+                    study.source.name, error.what()));
+  }
+}
+
+}  // namespace frahm::studies

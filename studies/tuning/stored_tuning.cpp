@@ -1,0 +1,52 @@
+#include "studies/tuning/stored_tuning.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "results/map_reader.hpp"
+#include "studies/map/finished_file.hpp"
+#include "studies/reading/assignment.hpp"
+#include "studies/tuning/tuning_record.hpp"
+
+namespace frahm::studies {
+namespace {
+
+std::vector<double> values_of(const std::vector<results::Column>& columns, const std::string& name) {
+  const auto column = std::find_if(columns.begin(), columns.end(),
+                                   [&](const results::Column& each) { return each.variable.name == name; });
+  return column == columns.end() ? std::vector<double>{} : column->values;
+}
+
+}  // namespace
+
+StoredTuning read_stored_tuning(const std::filesystem::path& file) {
+  const results::MapReader result(file);
+  if (!result.has_group(optimum_group))
+    throw StudyError(fmt::format("{}: is not the result of a tuning", file.string()));
+  const std::filesystem::path study_file = provenance_text(result, "study_file");
+  StoredTuning stored;
+  stored.study = parse_study(provenance_text(result, "study"), file.parent_path() / study_file);
+  const std::string overrides = provenance_text(result, "overrides");
+  if (!overrides.empty()) {
+    stored.overrides = parse_assignments(stored.study, "--set", overrides);
+    stored.study = with_parameters(std::move(stored.study), stored.overrides);
+  }
+  const StudyFile& study = stored.study;
+  const auto columns = result.columns(optimum_group);
+  for (const DesignChoice& design : study.tune->designs) {
+    const std::string& name = study.parameters.list[design.parameter].name;
+    std::vector<double> values = values_of(columns, name);
+    const bool known = !values.empty() && std::none_of(values.begin(), values.end(),
+                                                       [](double value) { return std::isnan(value); });
+    if (!known) throw StudyError(fmt::format("{}: has no design: {} is missing", file.string(), name));
+    for (double& value : values) value *= design.unit.si_factor;
+    stored.design.push_back(std::move(values));
+  }
+  if (study.tune->band)
+    stored.band = values_of(columns, study.parameters.list[study.tune->band->parameter].name);
+  return stored;
+}
+
+}  // namespace frahm::studies

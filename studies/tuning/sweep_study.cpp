@@ -1,0 +1,142 @@
+#include "studies/tuning/sweep_study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "studies/reading/settings.hpp"
+#include "studies/reading/toml_reading.hpp"
+#include "studies/reading/toml_section.hpp"
+#include "studies/reading/toml_writing.hpp"
+
+namespace frahm::studies {
+namespace {
+
+TomlValue number(double value) {
+  return {{}, value};
+}
+
+TomlValue text(const std::string& value) {
+  return {{}, value};
+}
+
+TomlEntry* find(TomlTable& table, const std::string& key) {
+  const auto entry = std::find_if(table.begin(), table.end(), [&](auto& each) { return each.key == key; });
+  return entry == table.end() ? nullptr : &*entry;
+}
+
+// The unit in which the sweep speaks of a parameter; empty for none.
+std::string unit_of(const StudyFile& study, std::size_t parameter) {
+  return spoken_value(study, parameter, 0.0).unit;
+}
+
+TomlValue with_unit(const StudyFile& study, std::size_t parameter, double si) {
+  const SpokenValue spoken = spoken_value(study, parameter, si);
+  if (spoken.unit.empty()) return number(spoken.value);
+  return {{}, TomlTable{{"value", {}, number(spoken.value)}, {"unit", {}, text(spoken.unit)}}};
+}
+
+TomlValue axis_of(const StudyFile& study, std::size_t parameter, const std::vector<double>& values,
+                  const std::string& zip) {
+  TomlArray list;
+  for (const double value : values) list.push_back(number(value));
+  TomlTable axis{{"parameter", {}, text(study.parameters.list[parameter].name)}};
+  const std::string unit = unit_of(study, parameter);
+  if (!unit.empty()) axis.push_back({"unit", {}, text(unit)});
+  axis.push_back({"values", {}, {{}, std::move(list)}});
+  if (!zip.empty()) axis.push_back({"zip", {}, text(zip)});
+  return {{}, std::move(axis)};
+}
+
+// The parameters that scenarios set, each as an axis of one zip; none where there are no scenarios.
+void add_scenario_axes(const StudyFile& study, TomlArray& axes) {
+  const auto& scenarios = study.tune->scenarios;
+  std::vector<std::size_t> set;
+  for (const ScenarioChoice& scenario : scenarios) {
+    for (const Assignment& assignment : scenario.set) set.push_back(assignment.parameter);
+  }
+  std::sort(set.begin(), set.end());
+  set.erase(std::unique(set.begin(), set.end()), set.end());
+  std::string zip = "scenario";
+  while (study.parameters.find(zip)) zip += "_";
+  for (const std::size_t parameter : set) {
+    std::vector<double> values;
+    for (std::size_t s = 0; s < scenarios.size(); ++s)
+      values.push_back(spoken_value(study, parameter, parameters_in_scenario(study, s)[parameter]).value);
+    axes.push_back(axis_of(study, parameter, values, zip));
+  }
+}
+
+// A schedule in SI. Its ends reach a hair beyond the band, since a value turned from one unit into another
+// and back may lie a rounding outside.
+std::string schedule_csv(const StudyFile& study, const DesignChoice& design,
+                         const std::vector<double>& values) {
+  constexpr double hair = 1e-9;
+  const std::string& of = study.parameters.list[study.tune->band->parameter].name;
+  std::string csv = fmt::format("{},{}\n", of, study.parameters.list[design.parameter].name);
+  const double reach = hair * (design.knots.back() - design.knots.front());
+  csv += fmt::format("{},{}\n", design.knots.front() - reach, values.front());
+  for (std::size_t k = 0; k < values.size(); ++k) csv += fmt::format("{},{}\n", design.knots[k], values[k]);
+  return csv + fmt::format("{},{}\n", design.knots.back() + reach, values.back());
+}
+
+void set_parameters(const StoredTuning& stored, const std::string& stem, TomlTable& parameters,
+                    SweepStudy& sweep) {
+  const StudyFile& study = stored.study;
+  const auto put = [&](std::size_t parameter, TomlValue value) {
+    find(parameters, study.parameters.list[parameter].name)->value = std::move(value);
+  };
+  for (const Assignment& assignment : stored.overrides)
+    put(assignment.parameter, with_unit(study, assignment.parameter, assignment.value));
+  for (std::size_t i = 0; i < stored.design.size(); ++i) {
+    const DesignChoice& design = study.tune->designs[i];
+    if (!design.is_scheduled()) {
+      put(design.parameter, with_unit(study, design.parameter, stored.design[i].front()));
+      continue;
+    }
+    const std::string& name = study.parameters.list[design.parameter].name;
+    const std::string file = fmt::format("{}_{}.csv", stem, name);
+    sweep.tables.emplace_back(file, schedule_csv(study, design, stored.design[i]));
+    const std::string& of = study.parameters.list[study.tune->band->parameter].name;
+    put(design.parameter, {{}, TomlTable{{"table", {}, text(file)}, {"of", {}, text(of)}}});
+  }
+}
+
+TomlValue output_of(const StudyFile& study) {
+  std::vector<std::string> names{study.tune->quantity_name};
+  for (const LimitChoice& limit : study.tune->limits) names.push_back(limit.name);
+  if (study.tune->trade_off) names.push_back(study.tune->trade_off->name);
+  names.emplace_back("status");
+  TomlArray list;
+  for (auto name = names.begin(); name != names.end(); ++name) {
+    if (std::find(names.begin(), name, *name) == name) list.push_back(text(*name));
+  }
+  return {{}, TomlTable{{"quantities", {}, {{}, std::move(list)}}}};
+}
+
+}  // namespace
+
+SweepStudy sweep_study(const StoredTuning& stored, const std::string& stem) {
+  const StudyFile& study = stored.study;
+  if (!study.tune->band || stored.band.empty())
+    throw StudyError(fmt::format("{}: a tuning without a band has no response to sweep", study.source.name));
+  TomlValue root = read_toml(study.source);
+  TomlTable& sections = std::get<TomlTable>(root.content);
+  std::erase_if(sections, [](const TomlEntry& entry) {
+    return entry.key == "tune" || entry.key == "design" || entry.key == "constraint" ||
+           entry.key == "scenario" || entry.key == "column";
+  });
+  find(std::get<TomlTable>(find(sections, "study")->value.content), "kind")->value = text("sweep");
+  SweepStudy sweep;
+  set_parameters(stored, stem, std::get<TomlTable>(find(sections, "parameters")->value.content), sweep);
+  TomlArray axes;
+  add_scenario_axes(study, axes);
+  axes.push_back(axis_of(study, study.tune->band->parameter, stored.band, ""));
+  sections.push_back({"axis", {}, {{}, std::move(axes)}});
+  sections.push_back({"output", {}, output_of(study)});
+  sweep.text = std::string(sweep_mark) + "\n" + toml_text(root);
+  return sweep;
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studies/tuning/group_columns.hpp"
+#include "studies/tuning/tuning_record.hpp"
+
+// Inside the record of a tuning: what its parts are made from.
+namespace frahm::studies {
+
+// A design parameter with its name and unit.
+struct NamedDesign {
+  const DesignChoice& choice;
+  std::string name, unit;
+};
+
+// A result and the words in which the study speaks of it. study and result: must outlive it.
+struct TuningAbout {
+  TuningAbout(const StudyFile& of_study, const TuningResult& of_result);
+
+  double spoken_band(double si) const { return tune.band ? si / tune.band->unit.si_factor : si; }
+
+  const StudyFile& study;
+  const TuneChoice& tune;
+  const TuningResult& result;
+  const tuning::Optimum& optimum;
+  std::vector<NamedDesign> designs;
+  std::string band, band_unit = "1";
+};
+
+// Everything along the band: the responses, the schedule and what stands beside it.
+void add_band(const TuningAbout& about, GroupColumns& columns);
+
+// Every design parameter of several optima, a column for each knot of a schedule. prefix: of the names;
+// what: for the long names.
+void add_designs(const TuningAbout& about, const std::string& prefix, const std::string& what,
+                 const std::string& dimension, const std::vector<const tuning::Optimum*>& optima,
+                 GroupColumns& columns);
+
+}  // namespace frahm::studies

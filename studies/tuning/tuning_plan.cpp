@@ -1,0 +1,61 @@
+#include "studies/tuning/tuning_plan.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "solvers/mechanics/linear_system.hpp"
+#include "studies/map/fingerprint.hpp"
+#include "studies/tuning/optimum_record.hpp"
+#include "studies/tuning/tuning_record.hpp"
+#include "studies/tuning/tuning_task.hpp"
+
+namespace frahm::studies {
+namespace {
+
+std::vector<tuning::Optimum> tune(const StudyFile& study, const tuning::Task& task, std::size_t start,
+                                  const engine::StopAsked& stop_asked) {
+  try {
+    return tuning::tune(task, start, stop_asked);
+  } catch (const mechanics::MechanicsError& error) {
+    throw StudyError(study.source.name + ": " + error.what());
+  }
+}
+
+void compute_start(const StudyFile& study, const tuning::Task& task, std::uint64_t start,
+                   const engine::StopAsked& stop_asked, engine::Bytes& out) {
+  const std::vector<tuning::Optimum> optima = tune(study, task, start, stop_asked);
+  const bool stopped = std::any_of(optima.begin(), optima.end(), [](const tuning::Optimum& optimum) {
+    return optimum.outcome == tuning::Outcome::stopped;
+  });
+  if (stopped) throw engine::GivenUp{};
+  encode(optima, out);
+}
+
+}  // namespace
+
+StudyPlan plan_tuning(StudyFile study, std::vector<std::string> set) {
+  refuse_overruled(study, set);
+  check_record_names(study);
+  StudyPlan plan{.study = std::move(study), .set = std::move(set)};
+  plan.tiles = plan.study.tune->starts;
+  plan.fingerprint = fingerprint(plan.study, {}, {});
+  return plan;
+}
+
+engine::Job job_of_tuning(const StudyPlan& plan) {
+  const auto make_kernel = [&plan](const engine::StopAsked& stop_asked) -> engine::Kernel {
+    // Shared, as an engine::Kernel has to be copyable.
+    auto task = std::make_shared<const tuning::Task>(tuning_task(plan.study));
+    return [&plan, task, stop_asked](std::uint64_t tile, engine::Bytes& out) {
+      compute_start(plan.study, *task, tile, stop_asked, out);
+    };
+  };
+  return {.tiles = plan.tiles,
+          .fingerprint = plan.fingerprint,
+          .make_kernel = make_kernel,
+          .points = [](std::uint64_t) { return std::uint64_t{1}; },
+          .failed = {}};
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/run.hpp"
+#include "studies/map/study_plan.hpp"
+
+namespace frahm::studies {
+
+// A study of kind "tune" ready to be computed: a tile is one start, its record the optima found from it.
+// Throws StudyError for names that cannot stand in one record, and for --set of what the study overrules.
+StudyPlan plan_tuning(StudyFile study, std::vector<std::string> set);
+
+// The work of such a plan, which must outlive it. A start that is asked to stop is given up. Its kernels
+// throw StudyError for a task without meaning.
+engine::Job job_of_tuning(const StudyPlan& plan);
+
+}  // namespace frahm::studies

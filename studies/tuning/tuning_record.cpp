@@ -1,0 +1,245 @@
+#include "studies/tuning/tuning_record.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "studies/tuning/tuning_about.hpp"
+
+namespace frahm::studies {
+namespace {
+
+using results::Type;
+using tuning::Optimum;
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+
+void add_numbers(const TuningAbout& about, GroupColumns& columns) {
+  const std::string unit = objective_unit(about.study);
+  columns.add_number("objective", unit, "objective of the optimum, over the whole band",
+                     about.optimum.objective);
+  if (about.tune.has_schedule())
+    columns.add_number("constant_objective", unit, "objective of the best constant design",
+                       about.optimum.constant_objective);
+  columns.add_number("certificate_gap", "1",
+                     "(objective - bound) / objective: what no active frequency has seen",
+                     about.optimum.certificate_gap);
+  columns.add_number("kkt_residual", "1", "residual of the conditions of a local optimum",
+                     about.optimum.kkt_residual);
+  columns.add_number("violation", "1", "largest violation of a limit, relative", about.optimum.violation);
+  columns.add_outcomes("outcome", "how the tuning ended", "", {about.optimum.outcome});
+  if (about.tune.trade_off)
+    columns.add_number("trade_off", about.tune.trade_off->unit.text,
+                       "limit of " + about.tune.trade_off->name + " that this is the optimum of",
+                       about.optimum.trade_off / about.tune.trade_off->unit.si_factor);
+  columns.add_count("iterations", "iterations of the optimiser", "",
+                    {static_cast<double>(about.optimum.iterations)});
+  columns.add("orbits", "1", "periodic responses that it took", "",
+              {static_cast<double>(about.optimum.orbits)}, Type::int64);
+  columns.add("gradients", "1", "derivatives of responses that it took", "",
+              {static_cast<double>(about.optimum.gradients)}, Type::int64);
+  columns.add_count("best_start", "the start that this was found from", "",
+                    {static_cast<double>(about.result.starts[about.result.best.back()].number)});
+}
+
+void add_design(const TuningAbout& about, GroupColumns& columns, std::size_t i) {
+  const auto& [choice, name, unit] = about.designs[i];
+  const double factor = choice.unit.si_factor;
+  const std::string along = choice.is_scheduled() ? "knots_" + name : "";
+  const bool known = has_design(about.study, about.optimum);
+  const std::size_t size = choice.is_scheduled() ? choice.knots.size() : 1;
+  const auto spoken = [&](std::vector<double> values, double by) {
+    values.resize(size, missing);
+    for (double& value : values) value *= by;
+    return values;
+  };
+  if (choice.is_scheduled()) {
+    std::vector<double> knots;
+    for (const double knot : choice.knots) knots.push_back(about.spoken_band(knot));
+    columns.add(along, about.band_unit, "knots of the schedule of " + name, along, knots);
+  }
+  const tuning::TunedParameter none;
+  const tuning::TunedParameter& tuned = known ? about.optimum.parameters[i] : none;
+  columns.add(name, unit, "optimum of the parameter " + name, along, spoken(tuned.value, 1.0 / factor));
+  columns.add_number(name + "_lower", unit, "lower bound of " + name, choice.lower / factor);
+  columns.add_number(name + "_upper", unit, "upper bound of " + name, choice.upper / factor);
+  const double nominal = about.study.parameters.nominal()[choice.parameter];
+  columns.add_number(name + "_before", unit, name + " as the study states it", nominal / factor);
+  const std::string price = per_unit(objective_unit(about.study), unit);
+  columns.add(name + "_lower_multiplier", price,
+              "fall of the objective per unit by which the lower bound of " + name + " is moved down", along,
+              spoken(tuned.lower_multiplier, factor));
+  columns.add(name + "_upper_multiplier", price,
+              "fall of the objective per unit by which the upper bound of " + name + " is moved up", along,
+              spoken(tuned.upper_multiplier, factor));
+  if (!about.tune.has_schedule()) return;
+  const double constant = i < about.optimum.constant.size() ? about.optimum.constant[i] : missing;
+  columns.add_number(name + "_constant", unit, name + " of the best constant design", constant / factor);
+}
+
+void add_peaks(const TuningAbout& about, GroupColumns& columns) {
+  std::vector<double> at, values, scenarios, multipliers;
+  for (const tuning::Peak& peak : about.optimum.peaks) {
+    at.push_back(about.spoken_band(peak.at));
+    values.push_back(peak.value);
+    scenarios.push_back(static_cast<double>(peak.scenario));
+    multipliers.push_back(peak.multiplier);
+  }
+  if (at.empty()) return;
+  const std::string unit = quantity_unit(about.study);
+  columns.add("peak_" + about.band, about.band_unit, about.band + " of the local maxima of the response",
+              "peak", at);
+  columns.add("peak_value", unit, "weighted response there", "peak", values);
+  columns.add_count("peak_scenario", "scenario, from 0", "peak", scenarios);
+  columns.add("peak_multiplier", "1", "share of the maximum in what holds the optimum", "peak", multipliers);
+  for (std::size_t i = 0; i < about.designs.size(); ++i) {
+    const double factor = about.designs[i].choice.unit.si_factor;
+    std::vector<double> slopes;
+    for (const tuning::Peak& peak : about.optimum.peaks)
+      slopes.push_back(i < peak.sensitivity.size() ? peak.sensitivity[i] * factor : missing);
+    columns.add(about.designs[i].name + "_sensitivity", per_unit(unit, about.designs[i].unit),
+                "derivative of the maximum by " + about.designs[i].name + " as a whole", "peak", slopes);
+  }
+}
+
+void add_limits(const TuningAbout& about, GroupColumns& columns) {
+  const std::vector<NamedLimit> limits = named_limits(about.study, about.optimum.trade_off);
+  for (std::size_t i = 0; i < limits.size(); ++i) {
+    const auto& [name, usual, lower, upper] = limits[i];
+    const double factor = usual.si_factor;
+    const std::string unit = usual.text;
+    const bool known = i < about.optimum.limits.size();
+    const tuning::LimitState state = known ? about.optimum.limits[i] : tuning::LimitState{};
+    columns.add_number(name + "_limited", unit, name + " where it is nearest to its limit",
+                       known ? state.value / factor : missing);
+    columns.add_number(name + "_lower_limit", unit, "lower limit of " + name,
+                       std::isfinite(lower) ? lower / factor : missing);
+    columns.add_number(name + "_upper_limit", unit, "upper limit of " + name,
+                       std::isfinite(upper) ? upper / factor : missing);
+    columns.add_number(name + "_limited_at", about.band_unit, about.band + " there",
+                       known ? about.spoken_band(state.at) : missing);
+    columns.add_count(name + "_limited_scenario", "scenario there, from 0", "",
+                      {known ? static_cast<double>(state.scenario) : -1.0});
+    columns.add_number(name + "_limit_multiplier", per_unit(objective_unit(about.study), unit),
+                       "fall of the objective per unit by which the limit is relaxed",
+                       known ? state.multiplier * factor : missing);
+  }
+}
+
+void add_detuning(const TuningAbout& about, GroupColumns& columns) {
+  const tuning::Detuning& detuning = about.result.assessment.detuning;
+  if (detuning.change.empty()) return;
+  columns.add("change", "1", "relative change of one parameter", "change", detuning.change);
+  for (std::size_t i = 0; i < about.designs.size() && i < detuning.growth.size(); ++i)
+    columns.add(about.designs[i].name + "_detuning", "1",
+                "objective with " + about.designs[i].name + " so changed over that of the optimum, less 1",
+                "change", detuning.growth[i]);
+}
+
+void add_rounds(const TuningAbout& about, GroupColumns& columns) {
+  std::vector<double> active, iterations, bound, worst, violation;
+  for (const tuning::Round& round : about.optimum.rounds) {
+    active.push_back(static_cast<double>(round.active));
+    iterations.push_back(round.iterations);
+    bound.push_back(round.bound);
+    worst.push_back(round.worst);
+    violation.push_back(round.violation);
+  }
+  if (active.empty()) return;
+  const std::string unit = objective_unit(about.study);
+  columns.add_count("round_active", "active frequencies of a round", "round", active);
+  columns.add_count("round_iterations", "iterations of a round", "round", iterations);
+  columns.add("round_bound", unit, "objective over the active frequencies", "round", bound);
+  columns.add("round_worst", unit, "true objective of that design", "round", worst);
+  columns.add("round_violation", "1", "of the limits, relative", "round", violation);
+}
+
+void add_starts(const TuningAbout& about, GroupColumns& columns) {
+  const std::size_t limit = about.result.limits() - 1;
+  std::vector<double> numbers, objectives, residuals;
+  std::vector<tuning::Outcome> outcomes;
+  for (const StartResult& start : about.result.starts) {
+    numbers.push_back(static_cast<double>(start.number));
+    objectives.push_back(start.optima[limit].objective);
+    residuals.push_back(start.optima[limit].kkt_residual);
+    outcomes.push_back(start.optima[limit].outcome);
+  }
+  columns.add_count("start", "number of the start, from 0", "start", numbers);
+  columns.add("start_objective", objective_unit(about.study), "objective found from a start", "start",
+              objectives);
+  columns.add("start_kkt_residual", "1", "residual of the conditions of a local optimum", "start", residuals);
+  columns.add_outcomes("start_outcome", "how the start ended", "start", outcomes);
+  std::vector<const Optimum*> optima;
+  for (const StartResult& start : about.result.starts) optima.push_back(&start.optima[limit]);
+  add_designs(about, "start_", "found from a start", "start", optima, columns);
+}
+
+}  // namespace
+
+void add_designs(const TuningAbout& about, const std::string& prefix, const std::string& what,
+                 const std::string& dimension, const std::vector<const Optimum*>& optima,
+                 GroupColumns& columns) {
+  for (std::size_t i = 0; i < about.designs.size(); ++i) {
+    const auto& [choice, name, unit] = about.designs[i];
+    const std::size_t size = choice.is_scheduled() ? choice.knots.size() : 1;
+    for (std::size_t k = 0; k < size; ++k) {
+      std::vector<double> values;
+      for (const Optimum* optimum : optima)
+        values.push_back(has_design(about.study, *optimum)
+                             ? optimum->parameters[i].value[k] / choice.unit.si_factor
+                             : missing);
+      const std::string knot = choice.is_scheduled() ? fmt::format("_{}", k) : "";
+      columns.add(prefix + name + knot, unit,
+                  fmt::format("{}{} {}", name, knot.empty() ? "" : fmt::format(" at knot {}", k), what),
+                  dimension, values);
+    }
+  }
+}
+
+std::vector<results::Column> optimum_columns(const StudyFile& study, const TuningResult& result) {
+  const TuningAbout about(study, result);
+  GroupColumns columns;
+  add_numbers(about, columns);
+  for (std::size_t i = 0; i < about.designs.size(); ++i) add_design(about, columns, i);
+  add_peaks(about, columns);
+  add_limits(about, columns);
+  add_band(about, columns);
+  add_detuning(about, columns);
+  add_rounds(about, columns);
+  add_starts(about, columns);
+  return columns.take();
+}
+
+std::vector<results::Column> front_columns(const StudyFile& study, const TuningResult& result) {
+  if (!study.tune->trade_off) return {};
+  const TuningAbout about(study, result);
+  const TradeOffChoice& trade_off = *study.tune->trade_off;
+  GroupColumns columns;
+  std::vector<double> limits, objectives, gaps, residuals, violations, starts;
+  std::vector<tuning::Outcome> outcomes;
+  std::vector<const Optimum*> optima;
+  for (std::size_t i = 0; i < result.limits(); ++i) {
+    const Optimum& optimum = result.optimum(i);
+    optima.push_back(&optimum);
+    limits.push_back(optimum.trade_off / trade_off.unit.si_factor);
+    objectives.push_back(optimum.objective);
+    gaps.push_back(optimum.certificate_gap);
+    residuals.push_back(optimum.kkt_residual);
+    violations.push_back(optimum.violation);
+    outcomes.push_back(optimum.outcome);
+    starts.push_back(static_cast<double>(result.starts[result.best[i]].number));
+  }
+  columns.add("trade_off", trade_off.unit.text, "limit of " + trade_off.name, "trade_off", limits);
+  columns.add("objective", objective_unit(study), "objective of the optimum under that limit", "trade_off",
+              objectives);
+  columns.add("certificate_gap", "1", "(objective - bound) / objective", "trade_off", gaps);
+  columns.add("kkt_residual", "1", "residual of the conditions of a local optimum", "trade_off", residuals);
+  columns.add("violation", "1", "largest violation of a limit, relative", "trade_off", violations);
+  columns.add_outcomes("outcome", "how the tuning ended", "trade_off", outcomes);
+  columns.add_count("best_start", "the start that this was found from", "trade_off", starts);
+  add_designs(about, "", "under that limit", "trade_off", optima, columns);
+  return columns.take();
+}
+
+}  // namespace frahm::studies

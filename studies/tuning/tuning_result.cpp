@@ -1,0 +1,68 @@
+#include "studies/tuning/tuning_result.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+#include "solvers/mechanics/linear_system.hpp"
+#include "studies/tuning/tuned_design.hpp"
+#include "studies/tuning/tuning_task.hpp"
+
+namespace frahm::studies {
+namespace {
+
+using tuning::Optimum, tuning::Outcome;
+
+double or_worst(double value) {
+  return std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
+}
+
+// Less is better.
+std::tuple<int, double, double> rank(const Optimum& optimum) {
+  const double violation = optimum.outcome == Outcome::infeasible ? or_worst(optimum.violation) : 0.0;
+  return {static_cast<int>(optimum.outcome), violation, or_worst(optimum.objective)};
+}
+
+tuning::Assessment assess(const StudyFile& study, const Optimum& optimum) {
+  if (!has_design(study, optimum)) return {};
+  try {
+    return tuning::assess(tuning_task(study), optimum, rules_of(study, design_values(optimum)));
+  } catch (const mechanics::MechanicsError& error) {
+    throw StudyError(study.source.name + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+std::size_t best_of(const std::vector<const Optimum*>& optima) {
+  const auto best = std::min_element(optima.begin(), optima.end(),
+                                     [](const Optimum* a, const Optimum* b) { return rank(*a) < rank(*b); });
+  return static_cast<std::size_t>(best - optima.begin());
+}
+
+bool has_design(const StudyFile& study, const Optimum& optimum) {
+  const auto& designs = study.tune->designs;
+  if (optimum.parameters.size() != designs.size()) return false;
+  for (std::size_t i = 0; i < designs.size(); ++i) {
+    const std::size_t size = designs[i].is_scheduled() ? designs[i].knots.size() : 1;
+    if (optimum.parameters[i].value.size() != size) return false;
+  }
+  return true;
+}
+
+TuningResult tuning_result(const StudyFile& study, std::vector<StartResult> starts) {
+  TuningResult result{.starts = std::move(starts), .best = {}, .assessment = {}};
+  std::size_t limits = std::numeric_limits<std::size_t>::max();
+  for (const StartResult& start : result.starts) limits = std::min(limits, start.optima.size());
+  for (std::size_t limit = 0; limit < limits; ++limit) {
+    std::vector<const Optimum*> optima;
+    for (const StartResult& start : result.starts) optima.push_back(&start.optima[limit]);
+    result.best.push_back(best_of(optima));
+  }
+  result.assessment = assess(study, result.optimum());
+  return result;
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "solvers/tuning/optimum.hpp"
+#include "studies/reading/study_file.hpp"
+
+namespace frahm::studies {
+
+// One start and the optima found from it: one, or one for each limit of the trade-off.
+struct StartResult {
+  std::uint64_t number = 0;
+  std::vector<tuning::Optimum> optima;
+};
+
+// What a tuning has found.
+struct TuningResult {
+  std::vector<StartResult> starts;  // ascending in number, at least one
+  std::vector<std::size_t> best;    // the start chosen for each limit of the trade-off: index in `starts`
+  tuning::Assessment assessment;    // of optimum()
+
+  std::size_t limits() const { return best.size(); }
+  const tuning::Optimum& optimum(std::size_t limit) const { return starts[best[limit]].optima[limit]; }
+  // The last one of the trade-off, which is told in full.
+  const tuning::Optimum& optimum() const { return optimum(limits() - 1); }
+};
+
+// Which of several optima is best: a converged one first, then the least objective, then the first. Of
+// designs that break their limits the least violation counts. At least one.
+std::size_t best_of(const std::vector<const tuning::Optimum*>& optima);
+
+// Chooses among the starts and assesses the optimum. Throws StudyError for a task without meaning.
+TuningResult tuning_result(const StudyFile& study, std::vector<StartResult> starts);
+
+// Whether an optimum has a design, so that its response can be told.
+bool has_design(const StudyFile& study, const tuning::Optimum& optimum);
+
+}  // namespace frahm::studies

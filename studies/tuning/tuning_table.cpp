@@ -1,0 +1,211 @@
+#include "studies/tuning/tuning_table.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+
+#include "studies/tuning/tuned_design.hpp"
+#include "studies/tuning/tuning_about.hpp"
+
+namespace frahm::studies {
+namespace {
+
+using tuning::Optimum;
+
+std::string with_unit(double value, const std::string& unit) {
+  return fmt::format("{:.8g}{}", value, unit.empty() || unit == "1" ? "" : " " + unit);
+}
+
+std::string in_brackets(const std::string& name, const std::string& unit) {
+  return unit.empty() || unit == "1" ? name : fmt::format("{} [{}]", name, unit);
+}
+
+// The bound that holds a parameter, and what moving it by one unit would give.
+struct HeldBy {
+  std::string bound;
+  double multiplier = 0.0;
+};
+HeldBy held_by(const tuning::TunedParameter& tuned, std::size_t k) {
+  const double lower = k < tuned.lower_multiplier.size() ? tuned.lower_multiplier[k] : 0.0;
+  const double upper = k < tuned.upper_multiplier.size() ? tuned.upper_multiplier[k] : 0.0;
+  if (lower > 0.0 && lower >= upper) return {"lower", lower};
+  return upper > 0.0 ? HeldBy{"upper", upper} : HeldBy{};
+}
+
+void print_constant(const TuningAbout& about, std::size_t i, std::ostream& out) {
+  const auto& [choice, name, unit] = about.designs[i];
+  const double factor = choice.unit.si_factor;
+  const tuning::TunedParameter& tuned = about.optimum.parameters[i];
+  const double before = about.study.parameters.nominal()[choice.parameter];
+  fmt::print(out, "{:<22}{:>16.10g}{:>14.6g}{:>12.6g}{:>12.6g}", in_brackets(name, unit),
+             tuned.value[0] / factor, before / factor, choice.lower / factor, choice.upper / factor);
+  const HeldBy held = held_by(tuned, 0);
+  if (!held.bound.empty()) fmt::print(out, "  {} bound, {:.4g} a unit", held.bound, held.multiplier * factor);
+  fmt::print(out, "\n");
+}
+
+void print_schedule(const TuningAbout& about, std::size_t i, std::ostream& out) {
+  const auto& [choice, name, unit] = about.designs[i];
+  const double factor = choice.unit.si_factor;
+  const tuning::TunedParameter& tuned = about.optimum.parameters[i];
+  const auto [least, most] = std::minmax_element(tuned.value.begin(), tuned.value.end());
+  const double before = about.study.parameters.nominal()[choice.parameter];
+  fmt::print(out, "{:<22}{:>16}{:>14.6g}{:>12.6g}{:>12.6g}", in_brackets(name, unit),
+             fmt::format("{:.5g} .. {:.5g}", *least / factor, *most / factor), before / factor,
+             choice.lower / factor, choice.upper / factor);
+  std::size_t held = 0;
+  for (std::size_t k = 0; k < tuned.value.size(); ++k) held += !held_by(tuned, k).bound.empty();
+  fmt::print(out, "  {} knots over {}, {} held by bounds\n", choice.knots.size(), about.band, held);
+}
+
+void print_design(const TuningAbout& about, std::ostream& out) {
+  fmt::print(out, "\n{:<22}{:>16}{:>14}{:>12}{:>12}  held by\n", "parameter", "optimum", "before", "lower",
+             "upper");
+  for (std::size_t i = 0; i < about.designs.size(); ++i) {
+    about.designs[i].choice.is_scheduled() ? print_schedule(about, i, out) : print_constant(about, i, out);
+  }
+}
+
+void print_objective(const TuningAbout& about, std::ostream& out) {
+  const Optimum& optimum = about.optimum;
+  const std::string unit = objective_unit(about.study);
+  fmt::print(out, "\n{:<24}{}\n", "objective", with_unit(optimum.objective, unit));
+  for (const tuning::Curve& curve : about.result.assessment.curves) {
+    if (curve.name == "after") continue;
+    fmt::print(out, "  worst peak, {:<8}  {}\n", curve.name,
+               with_unit(curve.worst, quantity_unit(about.study)));
+  }
+  if (about.tune.has_schedule())
+    fmt::print(out, "  the best constant     {}\n", with_unit(optimum.constant_objective, unit));
+  if (!std::isnan(optimum.certificate_gap))
+    fmt::print(out, "{:<24}{:.3g} (relative)\n", "certificate gap", optimum.certificate_gap);
+  fmt::print(out, "{:<24}{:.3g}\n", "KKT residual", optimum.kkt_residual);
+  if (optimum.violation > 0.0) fmt::print(out, "{:<24}{:.3g}\n", "violation", optimum.violation);
+}
+
+void print_peaks(const TuningAbout& about, std::ostream& out) {
+  const auto is_active = [](const tuning::Peak& peak) { return peak.multiplier > 0.0; };
+  if (std::none_of(about.optimum.peaks.begin(), about.optimum.peaks.end(), is_active)) return;
+  const auto names = scenario_names(about.study);
+  fmt::print(out, "\nactive peaks\n{:>18}{:>18}{:>10}\n", in_brackets(about.band, about.band_unit),
+             in_brackets(about.tune.quantity_name, quantity_unit(about.study)), "share");
+  for (const tuning::Peak& peak : about.optimum.peaks) {
+    if (!is_active(peak)) continue;
+    fmt::print(out, "{:>18.8g}{:>18.8g}{:>10.4f}{}\n", about.spoken_band(peak.at), peak.value,
+               peak.multiplier, about.tune.scenarios.empty() ? "" : "  " + names.at(peak.scenario));
+  }
+}
+
+void print_limits(const TuningAbout& about, std::ostream& out) {
+  const std::vector<NamedLimit> limits = named_limits(about.study, about.optimum.trade_off);
+  if (limits.empty() || about.optimum.limits.size() != limits.size()) return;
+  fmt::print(out, "\n{:<34}{:>14}{:>12}{:>12}{:>14}\n", "limit", "value", "lower", "upper", "multiplier");
+  for (std::size_t i = 0; i < limits.size(); ++i) {
+    const auto& [name, unit, lower, upper] = limits[i];
+    const double factor = unit.si_factor;
+    const auto bound = [&](double value) {
+      return std::isfinite(value) ? fmt::format("{:.6g}", value / factor) : std::string("-");
+    };
+    fmt::print(out, "{:<34}{:>14.6g}{:>12}{:>12}{:>14.4g}\n", in_brackets(name, unit.text),
+               about.optimum.limits[i].value / factor, bound(lower), bound(upper),
+               about.optimum.limits[i].multiplier * factor);
+  }
+}
+
+void print_detuning(const TuningAbout& about, std::ostream& out) {
+  const tuning::Detuning& detuning = about.result.assessment.detuning;
+  if (detuning.change.empty() || detuning.growth.size() != about.designs.size()) return;
+  fmt::print(out, "\n{:<22}", "objective grows at");
+  for (const double change : detuning.change)
+    fmt::print(out, "{:>10}", fmt::format("{:+.0f} %", 100 * change));
+  fmt::print(out, "\n");
+  for (std::size_t i = 0; i < about.designs.size(); ++i) {
+    fmt::print(out, "{:<22}", about.designs[i].name);
+    for (const double growth : detuning.growth[i])
+      fmt::print(out, "{:>10}", fmt::format("{:+.2f} %", 100 * growth));
+    fmt::print(out, "\n");
+  }
+}
+
+void print_front(const TuningAbout& about, std::ostream& out) {
+  if (!about.tune.trade_off) return;
+  const TradeOffChoice& trade_off = *about.tune.trade_off;
+  fmt::print(out, "\ntrade-off\n{:>34}{:>18}{:>16}\n",
+             in_brackets(trade_off.name + " at most", trade_off.unit.text),
+             in_brackets("objective", objective_unit(about.study)), "outcome");
+  for (std::size_t i = 0; i < about.result.limits(); ++i) {
+    const Optimum& optimum = about.result.optimum(i);
+    fmt::print(out, "{:>34.6g}{:>18.8g}{:>16}\n", optimum.trade_off / trade_off.unit.si_factor,
+               optimum.objective, outcome_words().at(static_cast<std::size_t>(optimum.outcome)));
+  }
+}
+
+void print_effort(const TuningAbout& about, std::ostream& out) {
+  std::size_t converged = 0;
+  std::vector<double> objectives;
+  std::uint64_t orbits = 0, gradients = 0;
+  for (const StartResult& start : about.result.starts) {
+    const Optimum& last = start.optima[about.result.limits() - 1];
+    converged += last.outcome == tuning::Outcome::converged;
+    if (!std::isnan(last.objective)) objectives.push_back(last.objective);
+    for (const Optimum& optimum : start.optima) {
+      orbits += optimum.orbits;
+      gradients += optimum.gradients;
+    }
+  }
+  fmt::print(out, "\n");
+  if (about.result.starts.size() > 1 && !objectives.empty()) {
+    const auto [least, most] = std::minmax_element(objectives.begin(), objectives.end());
+    fmt::print(out, "{:<22}{}: {} converged, objectives {:.8g} .. {:.8g}; the best is start {}\n", "starts",
+               about.result.starts.size(), converged, *least, *most,
+               about.result.starts[about.result.best.back()].number);
+  }
+  fmt::print(out, "{:<22}{} responses, {} gradients, {} iterations, {} rounds of exchange\n", "effort",
+             orbits, gradients, about.optimum.iterations, about.optimum.rounds.size());
+  fmt::print(out, "{:<22}{}: {}\n", "outcome",
+             outcome_words().at(static_cast<std::size_t>(about.optimum.outcome)), about.optimum.reason);
+}
+
+}  // namespace
+
+void print_task(const StudyFile& study, std::ostream& out) {
+  const TuneChoice& tune = *study.tune;
+  const char* how = tune.objective == tuning::Objective::minimax       ? "least worst"
+                    : tune.objective == tuning::Objective::mean_square ? "least mean square of"
+                                                                       : "least variance of";
+  fmt::print(out, "{:<22}{} {}", "tuned for", how, tune.quantity_name);
+  if (tune.band) {
+    const BandChoice& band = *tune.band;
+    const double factor = band.unit.si_factor;
+    fmt::print(out, " over {} = {:.6g} .. {}", study.parameters.list[band.parameter].name,
+               band.range.from / factor, with_unit(band.range.to / factor, band.unit.text));
+  }
+  if (tune.objective == tuning::Objective::variance) {
+    const bool force = tune.noise.kind == tuning::Noise::Kind::force_on;
+    const auto& names = force ? study.network.masses : study.network.prescribed;
+    fmt::print(out, " under white noise, {} {}", force ? "a force on" : "the acceleration of",
+               names[tune.noise.node]);
+  }
+  fmt::print(out, "\n");
+  if (!tune.scenarios.empty())
+    fmt::print(out, "{:<22}{}\n", "scenarios", fmt::join(scenario_names(study), ", "));
+}
+
+void print_tuning(const StudyFile& study, const TuningResult& result, std::ostream& out) {
+  const TuningAbout about(study, result);
+  if (!study.title.empty()) fmt::print(out, "{}\n", study.title);
+  print_task(study, out);
+  if (has_design(study, about.optimum)) print_design(about, out);
+  print_objective(about, out);
+  print_front(about, out);
+  print_peaks(about, out);
+  print_limits(about, out);
+  print_detuning(about, out);
+  print_effort(about, out);
+}
+
+}  // namespace frahm::studies
