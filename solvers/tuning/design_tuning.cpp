@@ -21,7 +21,8 @@ std::vector<CurveKind> curves_of(const Task& task, const std::vector<QuantityLim
   using Of = CurveKind::Of;
   std::vector<CurveKind> curves;
   for (std::size_t s = 0; s < task.scenarios.size(); ++s) {
-    curves.push_back({Of::objective, s, 0, task.quantity, task.band, 0.0, {}});
+    if (task.objective != Objective::variance)
+      curves.push_back({Of::objective, s, 0, task.quantity, task.band, 0.0, {}});
     for (std::size_t i = 0; i < limits.size(); ++i) {
       const QuantityLimit& limit = limits[i];
       const Band band = limit.band.value_or(task.band);
