@@ -53,10 +53,10 @@ class CandidateCollector {
 // Candidates within this part of the largest magnitude are the same extreme, or tie for it.
 inline constexpr double kTiedExtremes = 1e-10;
 
-// The candidates for the largest and for the least value; `changes` in the order of the segments.
+// The candidates for the largest and for the least value; returns these. `form_of(mode)` is the trace's form.
 template <int N, int H, class FormOf>
-void find_candidates(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow, double section, const FormOf& form_of,
-                     std::vector<Candidate<N, H>>& list) {
+Extremes find_candidates(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow, double section,
+                         const FormOf& form_of, std::vector<Candidate<N, H>>& list) {
   CandidateCollector<N, H> collector(list);
   LinearForm<N, H> form;
   bool starts_segment = true;
@@ -82,7 +82,7 @@ void find_candidates(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow, double sec
     }
     starts_segment = step.ends_segment;
   }
-  const Extremes& extremes = collector.extremes();
+  const Extremes extremes = collector.extremes();
   const double tie = kTiedExtremes * extremes.magnitude();
   const auto is_below = [&](const Candidate<N, H>& c) {
     const bool highest = c.value >= extremes.most - tie, lowest = c.value <= extremes.least + tie;
@@ -96,6 +96,7 @@ void find_candidates(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow, double sec
     const double phase = section + (steps[c.step].start + c.s) * flow.fundamental_rate();
     flow.instant_at(z, phase, flow.mode(steps[c.step].mode), c.at);
   }
+  return extremes;
 }
 
 // The derivative of a trace at one instant, time held. `laws_by`: the derivative of `laws`.
