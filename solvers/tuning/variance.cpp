@@ -29,7 +29,6 @@ const char* refused_type(ElementType type) {
   return nullptr;
 }
 
-
 double along(const std::vector<double>& gradient, const std::vector<double>& direction) {
   double sum = 0.0;
   for (std::size_t i = 0; i < direction.size(); ++i) sum += gradient[i] * direction[i];
