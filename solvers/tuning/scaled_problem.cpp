@@ -9,6 +9,9 @@ namespace {
 constexpr double kRunaway =
     1e15;  // scaled: beyond it an objective or a variable is taken to grow without limit
 
+constexpr double kSettling =
+    1e-3;  // of the objective's scale: what the last steps to an optimum gain at most
+
 bool all_finite(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }
@@ -155,10 +158,16 @@ bool ScaledProblem::is_better(const Best& one, const Best& other) const {
                                                                    : gain > 0.0;
 }
 
+// Where it is worth while to look: an optimum is feasible, and the last steps to it gain little.
+bool ScaledProblem::may_be_optimal(const Best& here) const {
+  return best_ && here.infeasibility <= options_.feasibility &&
+         std::abs(here.objective - best_->objective) <= kSettling * problem_.objective_scale;
+}
+
 void ScaledProblem::note_point() {
   worst_ = std::max(worst_, objective());
-  const Best here{at_.x, at_.objective, infeasibility(problem_, at_.values),
-                  with_derivatives_ ? residual() : kInfinity};
+  Best here{at_.x, at_.objective, infeasibility(problem_, at_.values), kInfinity};
+  if (with_derivatives_ && may_be_optimal(here)) here.residual = residual();
   if (!best_ || is_better(here, *best_)) {
     best_ = here;
     ++improvements_;

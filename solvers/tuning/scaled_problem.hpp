@@ -62,9 +62,10 @@ class ScaledProblem {
   struct Best {
     std::vector<double> x;  // in the problem's units, as the objective
     double objective = 0.0, infeasibility = 0.0;
-    double residual = kInfinity;  // of the KKT conditions
+    double residual = kInfinity;  // of the KKT conditions; infinite where it was not looked at
   };
   double residual() const;
+  bool may_be_optimal(const Best& here) const;
   bool is_better(const Best& one, const Best& other) const;
   const Variable& variable(std::size_t i) const { return problem_.variables[free_[i]]; }
   std::vector<double> unscaled(std::span<const double> x) const;

@@ -185,8 +185,9 @@ TEST_CASE("both solvers tune the absorber to the known optima from poor starts")
         INFO(at.name << ", mu " << at.mu << ", beta " << at.beta << ", from " << f << ", " << zeta << " by "
                      << solver);
         AbsorberTuning problem(at, f, zeta);
-        const Solution solution =
-            solver == "ipopt" ? solve_with_ipopt(problem) : solve_with_nlopt(problem, solver);
+        const SolverOptions options{.tolerance = 1e-10};
+        const Solution solution = solver == "ipopt" ? solve_with_ipopt(problem, options)
+                                                    : solve_with_nlopt(problem, solver, options);
         INFO(name(solution.ending) << " " << solution.kkt_residual);
         CHECK(solution.ending <= Ending::acceptable);
         CHECK_THAT(std::exp(solution.x[0]), WithinAbs(at.known.f, kTuning));
