@@ -264,7 +264,8 @@ Solution solve_with_nlopt(Problem& problem, const std::string& algorithm, const 
   const NamedAlgorithm& named = find_algorithm(algorithm);
   check(problem);
   check_fit(problem, named.algorithm);
-  ScaledProblem scaled(problem, options, named.algorithm.gradients);
+  using Judging = ScaledProblem::Judging;
+  ScaledProblem scaled(problem, options, named.algorithm.gradients ? Judging::residuals : Judging::values);
   const bool defined = scaled.can_start();
   if (scaled.size() == 0 || scaled.ends()) return scaled.finish(Ending::failed);
   Program program(scaled, named, options);

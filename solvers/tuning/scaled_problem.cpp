@@ -33,8 +33,11 @@ std::string reason_of(Ending ending, const std::string& library) {
 
 }  // namespace
 
-ScaledProblem::ScaledProblem(Problem& problem, const SolverOptions& options, bool with_derivatives)
-    : problem_(problem), options_(options), with_derivatives_(with_derivatives) {
+ScaledProblem::ScaledProblem(Problem& problem, const SolverOptions& options, Judging judging)
+    : problem_(problem),
+      options_(options),
+      with_derivatives_(judging != Judging::values),
+      with_residuals_(judging == Judging::residuals) {
   check(problem);
   std::vector<std::size_t> place(problem.variables.size(), problem.variables.size());
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
@@ -154,7 +157,7 @@ bool ScaledProblem::is_better(const Best& one, const Best& other) const {
   const bool feasible = one.infeasibility <= options_.feasibility;
   if (!feasible || other.infeasibility > options_.feasibility) return one.infeasibility < other.infeasibility;
   const double gain = (other.objective - one.objective) / problem_.objective_scale;
-  return std::abs(gain) <= options_.tolerance && with_derivatives_ ? one.residual < other.residual
+  return std::abs(gain) <= options_.tolerance && with_residuals_ ? one.residual < other.residual
                                                                    : gain > 0.0;
 }
 
@@ -167,7 +170,7 @@ bool ScaledProblem::may_be_optimal(const Best& here) const {
 void ScaledProblem::note_point() {
   worst_ = std::max(worst_, objective());
   Best here{at_.x, at_.objective, infeasibility(problem_, at_.values), kInfinity};
-  if (with_derivatives_ && may_be_optimal(here)) here.residual = residual();
+  if (with_residuals_ && may_be_optimal(here)) here.residual = residual();
   if (!best_ || is_better(here, *best_)) {
     best_ = here;
     ++improvements_;

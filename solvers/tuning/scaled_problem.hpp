@@ -15,9 +15,12 @@ namespace frahm::tuning {
 // the library.
 class ScaledProblem {
  public:
-  // with_derivatives: a point without a gradient is taken as one where the problem is not defined.
+  // What is asked for at each point. With derivatives, a point without a gradient is taken as one where the
+  // problem is not defined; with residuals, the KKT residual tells points apart that the objective does not.
+  enum class Judging { values, derivatives, residuals };
+
   // Throws std::invalid_argument where the problem makes no sense.
-  ScaledProblem(Problem& problem, const SolverOptions& options, bool with_derivatives);
+  ScaledProblem(Problem& problem, const SolverOptions& options, Judging judging);
 
   std::size_t size() const { return free_.size(); }
   std::size_t constraints() const { return problem_.constraints.size(); }
@@ -78,7 +81,7 @@ class ScaledProblem {
 
   Problem& problem_;
   SolverOptions options_;
-  bool with_derivatives_;
+  bool with_derivatives_, with_residuals_;
   std::vector<std::size_t> free_, entry_;  // place in Problem::variables, in Problem::jacobian
   std::vector<JacobianEntry> jacobian_;
   Linearization at_;
