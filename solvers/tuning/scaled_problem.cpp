@@ -157,8 +157,8 @@ bool ScaledProblem::is_better(const Best& one, const Best& other) const {
   const bool feasible = one.infeasibility <= options_.feasibility;
   if (!feasible || other.infeasibility > options_.feasibility) return one.infeasibility < other.infeasibility;
   const double gain = (other.objective - one.objective) / problem_.objective_scale;
-  return std::abs(gain) <= options_.tolerance && with_residuals_ ? one.residual < other.residual
-                                                                   : gain > 0.0;
+  const bool level = std::abs(gain) <= options_.tolerance && std::isfinite(one.residual);
+  return level ? !(one.residual >= other.residual) : gain > 0.0;
 }
 
 // Where it is worth while to look: an optimum is feasible, and the last steps to it gain little.
@@ -169,7 +169,7 @@ bool ScaledProblem::may_be_optimal(const Best& here) const {
 
 void ScaledProblem::note_point() {
   worst_ = std::max(worst_, objective());
-  Best here{at_.x, at_.objective, infeasibility(problem_, at_.values), kInfinity};
+  Best here{at_.x, at_.objective, infeasibility(problem_, at_.values)};
   if (with_residuals_ && may_be_optimal(here)) here.residual = residual();
   if (!best_ || is_better(here, *best_)) {
     best_ = here;

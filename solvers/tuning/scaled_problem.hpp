@@ -65,7 +65,8 @@ class ScaledProblem {
   struct Best {
     std::vector<double> x;  // in the problem's units, as the objective
     double objective = 0.0, infeasibility = 0.0;
-    double residual = kInfinity;  // of the KKT conditions; infinite where it was not looked at
+    // Of the KKT conditions; NaN where it was not looked at.
+    double residual = std::numeric_limits<double>::quiet_NaN();
   };
   double residual() const;
   bool may_be_optimal(const Best& here) const;
