@@ -9,7 +9,7 @@ namespace {
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 // The last stage may raise the worst peak by this share of it, to have room to move in.
-constexpr double kRoom = 1e-6;
+constexpr double kRoom = 1e-7;
 
 std::vector<DesignParameter> without_schedules(std::vector<DesignParameter> parameters) {
   for (DesignParameter& parameter : parameters) parameter.schedule.reset();
