@@ -64,10 +64,17 @@ typename Gradient<N, H>::Component Gradient<N, H>::reference_component(const mec
   return {{real, -imaginary}, {real_by, -imaginary_by}};
 }
 
-// As for the phase itself: below, a component is rounding.
+// Below this part of what moves at its nodes, a component is rounding.
 template <int N, int H>
 bool Gradient<N, H>::has_component(std::size_t i, std::complex<double> component) const {
-  return std::abs(component) > 1e-12 * extremes_[trace_index_[i]].magnitude();
+  constexpr double kRounding = 1e-12;
+  const Trace& trace = traces_[trace_index_[i]];
+  const double period = flow_.equations().period * flow_.equations().step;
+  double moving = extremes_[trace_index_[i]].magnitude();
+  for (Eigen::Index mass = 0; mass < trace.at.w.size(); ++mass) {
+    moving = std::max(moving, std::abs(trace.at.w[mass]) * std::sqrt(integrals_.gram()(mass, mass) / period));
+  }
+  return std::abs(component) > kRounding * moving;
 }
 
 // The phase lag is -arg X:  d = -Im(conj(X) dX) / |X|^2

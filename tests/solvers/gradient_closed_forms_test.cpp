@@ -33,10 +33,10 @@ std::vector<double> single_mass_gradient(double r, double zeta, double f,
   return gradient;
 }
 
-// Of a closed form, by a sixth-order difference: good to 1e-11.
+// Of a closed form, by a sixth-order difference: good to 1e-10.
 template <class Function>
 double difference(const Function& f, double x) {
-  const double h = 2e-3;
+  const double h = 5e-4;
   return (45.0 * (f(x + h) - f(x - h)) - 9.0 * (f(x + 2 * h) - f(x - 2 * h)) + f(x + 3 * h) - f(x - 3 * h)) /
          (60.0 * h);
 }

@@ -21,11 +21,15 @@ using mechanics::NetworkValues;
 // over parameter: what changes by less than a thousandth of the parameter's own change is judged by that.
 constexpr double kDifference = 1e-6;
 constexpr double kSmallShare = 1e-3;
-// A difference that its own extrapolation knows no better than this, relative to the same, decides nothing:
-// an event is so near that only the smallest steps keep their events. Such differences are counted.
+// A difference that knows itself no better than this, relative to the same, decides nothing: an event is so
+// near that only the smallest steps keep their events, or the quantity is small beside its noise (the phase
+// of an absorber that hardly slips). Such differences are counted, and must still agree within their own
+// uncertainty.
 constexpr double kUndecided = 2e-7;
-// A quantity below this part of the largest of its kind is the rounding of zero.
-constexpr double kRoundingOfZero = 1e-9;
+constexpr double kUncertainties = 10.0;
+constexpr int kDecided = 50;  // differences that decide, for each that does not, at least
+// A quantity below this [SI], where motions are of 1e-2 and more, is the rounding of zero.
+constexpr double kRoundingOfZero = 1e-12;
 
 struct Tally {
   int compared = 0, undecided = 0;
@@ -54,26 +58,21 @@ Tally compare(const Network& network, const NetworkValues& values, const std::ve
   if (!tally.has_gradient) return tally;
   const std::vector<double> own = quantities_of(network, values, quantities);
   for (std::size_t i = 0; i < quantities.size(); ++i) {
-    double largest = 0.0;
-    for (std::size_t k = 0; k < quantities.size(); ++k) {
-      if (quantities[k].measure == quantities[i].measure) largest = std::max(largest, std::abs(own[k]));
-    }
-    if (!(std::abs(own[i]) > kRoundingOfZero * largest)) continue;
+    if (!(std::abs(own[i]) > kRoundingOfZero)) continue;
     for (std::size_t d = 0; d < named.size(); ++d) {
       const DerivativeCheck& by = check.columns[d][i];
       if (!by.why_none.empty()) continue;
       const double size =
           std::max(std::abs(by.exact), kSmallShare * std::abs(own[i] / named[d].parameter.value));
-      if (!(by.uncertainty <= kUndecided * size)) {
-        ++tally.undecided;
-        continue;
-      }
-      ++tally.compared;
-      tally.worst = std::max(tally.worst, std::abs(by.exact - by.difference) / size);
-      if (std::abs(by.exact - by.difference) <= kDifference * size) continue;
+      const double apart = std::abs(by.exact - by.difference);
+      const bool decides = by.uncertainty <= kUndecided * size;
+      ++(decides ? tally.compared : tally.undecided);
+      if (decides) tally.worst = std::max(tally.worst, apart / size);
+      const double allowed = decides ? kDifference * size : kUncertainties * by.uncertainty;
+      if (!(apart > allowed)) continue;
       INFO(describe(quantities[i], network, false).name << " = " << own[i] << " by " << named[d].name);
       INFO("exact " << by.exact << ", difference " << by.difference << " +- " << by.uncertainty);
-      CHECK(std::abs(by.exact - by.difference) <= kDifference * size);
+      CHECK(apart <= allowed);
     }
   }
   return tally;
@@ -106,7 +105,7 @@ TEST_CASE("The rig's derivatives by k, c, I, D, d and omega are those of differe
     const bool second = points % 2 == 1;
     const Network network = rig_with_harmonic(second);
     NetworkValues values =
-        rig_values(uniform(14.0, 36.0), uniform(4.7, 12.9), uniform(0.01, 0.4), uniform(1.0, 60.0));
+        rig_values(uniform(7.0, 36.0), uniform(4.7, 12.9), uniform(0.01, 0.7), uniform(1.0, 40.0));
     if (second) values.excitation.push_back({uniform(0.1, 0.6) * kRigCrank, uniform(0.0, 6.28)});
     const int stops = stops_of(network, values);
     if (stops > 4) continue;
@@ -134,7 +133,7 @@ TEST_CASE("The rig's derivatives by k, c, I, D, d and omega are those of differe
                    << ", worst relative " << worst);
   CHECK(stops_met == std::set<int>{0, 1, 2, 3, 4});
   CHECK(compared > 200 * 6 * 30);
-  CHECK(undecided < compared / 200);
+  CHECK(undecided < compared / kDecided);
   CHECK(grazing < 5);
 }
 
@@ -163,7 +162,7 @@ TEST_CASE("So are those of random networks by every number they have") {
   WARN("compared " << compared << ", undecided " << undecided << ", with gradient " << with_gradient
                    << ", worst relative " << worst);
   CHECK(with_gradient >= 57);
-  CHECK(undecided < compared / 200);
+  CHECK(undecided < compared / kDecided);
 }
 
 TEST_CASE("So are those of a mass shaken by a crank through a spring, by crank, rod and phase") {
@@ -181,7 +180,7 @@ TEST_CASE("So are those of a mass shaken by a crank through a spring, by crank, 
     const Tally tally = compare(network, values, all_parameters(network, values), all_quantities(network));
     CHECK(tally.has_gradient);
     CHECK(tally.compared > 100);
-    CHECK(tally.undecided == 0);
+    CHECK(tally.undecided < tally.compared / kDecided);
   }
 }
 
@@ -214,7 +213,7 @@ TEST_CASE(
   const Tally tally = compare(network, values, all_parameters(network, values), all_quantities(network));
   CHECK(tally.has_gradient);
   CHECK(tally.compared > 300);
-  CHECK(tally.undecided < 5);
+  CHECK(tally.undecided < tally.compared / kDecided);
 }
 
 TEST_CASE(
@@ -232,7 +231,7 @@ TEST_CASE(
   const Tally tally = compare(network, values, all_parameters(network, values), quantities);
   CHECK(tally.has_gradient);
   CHECK(tally.compared > 150);
-  CHECK(tally.undecided == 0);
+  CHECK(tally.undecided < tally.compared / kDecided);
   for (const Quantity& quantity : all_quantities(network)) CHECK(quantity.side == Side::either);
 }
 
