@@ -119,8 +119,9 @@ struct Algorithm {
 // slsqp, mma (local); mlsl, isres, direct, crs2 (global).
 const std::vector<Algorithm>& nlopt_algorithms();
 
-// One of nlopt_algorithms() by name. Equal calls give equal results in any thread.
-// Throws std::invalid_argument for another name, for constraints the algorithm does not take and, where it is
+// One of nlopt_algorithms() by name. Equal calls give equal results in any thread. slsqp and mma choose their
+// steps by values, whose rounding may end them at a KKT residual of 1e-9 to 1e-8: acceptable. Throws
+// std::invalid_argument for another name, for constraints the algorithm does not take and, where it is
 // global, for an infinite bound.
 Solution solve_with_nlopt(Problem& problem, const std::string& algorithm, const SolverOptions& options = {});
 
