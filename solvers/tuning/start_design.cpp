@@ -1,18 +1,26 @@
 #include "solvers/tuning/start_design.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "solvers/tuning/problem.hpp"
+#include "solvers/tuning/starts.hpp"
 
 namespace frahm::tuning {
 namespace {
 
-// The positive root of x^(d+1) = x + 1.
-double generalised_golden_ratio(std::size_t d) {
-  double x = 2.0;
-  for (int i = 0; i < 100; ++i) x = std::pow(1.0 + x, 1.0 / (static_cast<double>(d) + 1.0));
-  return x;
+// The parameters as variables of a box.
+std::vector<Variable> box(const DesignSpace& space) {
+  std::vector<Variable> variables;
+  for (std::size_t p = 0; p < space.parameters(); ++p) {
+    const DesignParameter& parameter = space.parameter(p);
+    const double range = parameter.upper - parameter.lower;
+    variables.push_back({.name = parameter.name,
+                         .lower = parameter.lower,
+                         .upper = parameter.upper,
+                         .start = std::clamp(parameter.nominal, parameter.lower, parameter.upper),
+                         .scale = range > 0.0 ? range : 1.0});
+  }
+  return variables;
 }
 
 // The box alone, and a value that needs no derivative.
@@ -21,13 +29,7 @@ class BoxProblem final : public Problem {
   BoxProblem(const DesignSpace& space, const std::function<double(std::span<const double>)>& worst_of,
              const std::function<bool()>& stop_asked)
       : worst_of_(worst_of), stop_asked_(stop_asked) {
-    const std::vector<double> start = start_design(space, 0);
-    for (std::size_t p = 0; p < space.parameters(); ++p) {
-      const DesignParameter& parameter = space.parameter(p);
-      const double range = parameter.upper - parameter.lower;
-      variables.push_back(
-          {parameter.name, parameter.lower, parameter.upper, start[p], range > 0.0 ? range : 1.0});
-    }
+    variables = box(space);
   }
   double objective(std::span<const double> x, std::span<double> gradient) override {
     std::fill(gradient.begin(), gradient.end(), 0.0);
@@ -44,20 +46,7 @@ class BoxProblem final : public Problem {
 }  // namespace
 
 std::vector<double> start_design(const DesignSpace& space, std::size_t start) {
-  const std::size_t d = space.parameters();
-  const double ratio = generalised_golden_ratio(d);
-  std::vector<double> value(d);
-  for (std::size_t p = 0; p < d; ++p) {
-    const DesignParameter& parameter = space.parameter(p);
-    value[p] = parameter.nominal;
-    if (start > 0) {
-      const double step = std::pow(ratio, -static_cast<double>(p + 1));
-      const double share = std::fmod(0.5 + static_cast<double>(start) * step, 1.0);
-      value[p] = parameter.lower + share * (parameter.upper - parameter.lower);
-    }
-    value[p] = std::clamp(value[p], parameter.lower, parameter.upper);
-  }
-  return value;
+  return start_point(box(space), start);
 }
 
 std::vector<double> global_design(const Task& task, const DesignSpace& space,

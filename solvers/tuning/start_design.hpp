@@ -8,8 +8,7 @@
 namespace frahm::tuning {
 
 // Parameter values (one per design parameter) that a start begins from: start 0 is the nominal design moved
-// into its bounds, start i > 0 the i-th point of an additive recurrence with irrational steps that fills the
-// box evenly (R_d of M. Roberts, The unreasonable effectiveness of quasirandom sequences, 2018).
+// into its bounds, start i > 0 the i-th point of a sequence that fills the box evenly (starts.hpp).
 std::vector<double> start_design(const DesignSpace& space, std::size_t start);
 
 // The best parameter values found by a global search of the bounds, schedules kept constant.
