@@ -56,6 +56,7 @@ class Gradient {
     std::complex<double> value, by;
   };
   Component reference_component(const mechanics::Incidence& at) const;
+  bool has_component(std::size_t quantity, std::complex<double> component) const;
   double phase(std::size_t quantity, const mechanics::Incidence& at);
   double harmonic_ratio(std::size_t quantity);
   double force_transmissibility_by(std::size_t quantity);
@@ -85,6 +86,7 @@ class Gradient {
   OrbitSensitivity<N, H> sensitivity_;
   Integrals<N, H> integrals_;
   std::vector<std::vector<Candidate<N, H>>> candidates_;  // of each trace
+  std::vector<Extremes> extremes_;                        // of each trace, over the passage
 
   // Of the direction in hand.
   mechanics::LinearSystem system_by_;
@@ -96,3 +98,4 @@ class Gradient {
 }  // namespace frahm::periodic
 
 #include "solvers/periodic/gradient.ipp"
+#include "solvers/periodic/gradient_integrals.ipp"

@@ -72,10 +72,10 @@ void judge_limits(Candidate<N, H>& end, Candidate<N, H>& start, double sign, dou
 // Candidates within this part of the largest magnitude are the same extreme, or tie for it.
 inline constexpr double kTiedExtremes = 1e-10;
 
-// The candidates for the largest and for the least value; `changes` in the order of the segments.
+// The candidates for the largest and for the least value; returns these. `form_of(mode)` is the trace's form.
 template <int N, int H, class FormOf>
-void find_candidates(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow, double section, double section_sign,
-                     const FormOf& form_of, std::vector<Candidate<N, H>>& list) {
+Extremes find_candidates(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow, double section, double section_sign,
+                         const FormOf& form_of, std::vector<Candidate<N, H>>& list) {
   CandidateCollector<N, H> collector(list);
   LinearForm<N, H> form;
   bool starts_segment = true;
@@ -104,7 +104,7 @@ void find_candidates(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow, double sec
     }
     starts_segment = step.ends_segment;
   }
-  const Extremes& extremes = collector.extremes();
+  const Extremes extremes = collector.extremes();
   const double tie = kTiedExtremes * extremes.magnitude();
   for (std::size_t k = 0; k + 1 < limits.size(); k += 2) {
     const bool is_section = k + 2 == limits.size();
@@ -124,6 +124,7 @@ void find_candidates(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow, double sec
     const double phase = section + (steps[c.step].start + c.s) * flow.fundamental_rate();
     flow.instant_at(z, phase, flow.mode(steps[c.step].mode), c.at);
   }
+  return extremes;
 }
 
 // The derivative of a trace at one instant, time held. `laws_by`: the derivative of `laws`.

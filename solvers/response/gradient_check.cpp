@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "solvers/mechanics/linear_system.hpp"
+#include "solvers/periodic/orbit.hpp"
 
 namespace frahm::periodic {
 namespace {
@@ -13,18 +14,36 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kFirstStep = 0.02;  // of the parameter: events of most orbits stay as they are
 constexpr int kSteps = 13;           // each half of the one before; the last 5e-6: rounding weighs 1e-7
 
-// The quantities of the response from nothing known; all NaN where the values are out of range.
-std::vector<double> quantities_at(PeriodicResponse& response, const mechanics::NetworkValues& values,
-                                  std::size_t count) {
+// What the contacts do one after the other over a period, wherever the period is taken to begin.
+using Sequence = std::vector<std::vector<std::string>>;
+Sequence sequence_of(const PeriodicResponse& response) {
+  Sequence sequence;
+  for (const Stretch& stretch : response.stretches()) {
+    if (sequence.empty() || stretch.contacts != sequence.back()) sequence.push_back(stretch.contacts);
+  }
+  if (sequence.size() > 1 && sequence.back() == sequence.front()) sequence.pop_back();
+  Sequence least = sequence;
+  for (std::size_t i = 1; i < sequence.size(); ++i) {
+    std::rotate(sequence.begin(), sequence.begin() + 1, sequence.end());
+    least = std::min(least, sequence);
+  }
+  return least;
+}
+
+// The quantities of the response; all NaN where the values are out of range, or other events occur than
+// `events`. Its search starts from nothing known where `anew`.
+std::vector<double> solve(PeriodicResponse& response, const mechanics::NetworkValues& values, bool anew,
+                          const Sequence& events, std::size_t count) {
   std::vector<double> result(count, kNone);
   try {
     response.set_values(values);
   } catch (const mechanics::MechanicsError&) {
     return result;
   }
-  response.forget();
-  response.solve();
-  response.quantities(result);
+  if (anew) response.forget();
+  const Status status = response.solve().status;
+  const bool found = status == Status::ok || status == Status::grazing;
+  if (found && sequence_of(response) == events) response.quantities(result);
   return result;
 }
 
@@ -35,17 +54,50 @@ double without_turns(double difference, Measure measure) {
   return is_angle ? std::remainder(difference, 2.0 * M_PI) : difference;
 }
 
-// Central differences at steps that halve, extrapolated by Neville's scheme in the square of the step; of all
-// entries that which differs least from its parents.
-void extrapolate(std::span<const double> differences, DerivativeCheck& check) {
+struct Difference {
+  double step, value;
+};
+// Of one quantity, at steps that halve.
+struct Differences {
+  std::vector<Difference> list;
+  double noise = 0.0;  // how far the quantity is from itself when its search starts elsewhere
+};
+
+// Of each quantity. own: the events at the parameter's own value.
+std::vector<Differences> central_differences(PeriodicResponse& response,
+                                             const std::vector<Quantity>& quantities, const Sequence& own,
+                                             const CheckedParameter& parameter) {
+  const std::size_t count = quantities.size();
+  const double at = parameter.value, scale = at == 0.0 ? 1.0 : std::abs(at);
+  std::vector<Differences> result(count);
+  for (int k = 0; k < kSteps; ++k) {
+    const double step = std::ldexp(kFirstStep * scale, -k), above = at + step, below = at - step;
+    const auto more = solve(response, parameter.values_at(above), true, own, count);
+    const auto less = solve(response, parameter.values_at(below), true, own, count);
+    const auto again = solve(response, parameter.values_at(above), false, own, count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double change = without_turns(more[i] - less[i], quantities[i].measure);
+      if (!std::isfinite(change)) continue;
+      result[i].list.push_back({step, change / (above - below)});
+      const double noise = std::abs(without_turns(more[i] - again[i], quantities[i].measure));
+      result[i].noise = std::max(result[i].noise, noise);
+    }
+  }
+  return result;
+}
+
+// Neville's scheme in the square of the step; of all entries that which differs least from its parents.
+// noise: of the quantity itself, which a difference over a short step magnifies.
+void extrapolate(std::span<const Difference> differences, double noise, DerivativeCheck& check) {
   check.difference = check.uncertainty = kNone;
   std::vector<double> before, now;
-  for (const double difference : differences) {
+  for (const auto& [step, difference] : differences) {
     now.assign(1, difference);
     double factor = 4.0;
     for (std::size_t j = 1; j <= before.size(); ++j, factor *= 4.0) {
       now.push_back((factor * now[j - 1] - before[j - 1]) / (factor - 1.0));
-      const double change = std::max(std::abs(now[j] - now[j - 1]), std::abs(now[j] - before[j - 1]));
+      const double change =
+          noise / step + std::max(std::abs(now[j] - now[j - 1]), std::abs(now[j] - before[j - 1]));
       if (std::isfinite(change) && !(change >= check.uncertainty)) {
         check.difference = now[j];
         check.uncertainty = change;
@@ -53,6 +105,18 @@ void extrapolate(std::span<const double> differences, DerivativeCheck& check) {
     }
     before = now;
   }
+}
+
+// What the differences over the shortest steps are off by is the noise of the quantity over the step.
+double noise_of(std::span<const Difference> differences, double derivative) {
+  constexpr std::size_t kShortest = 4;
+  double noise = 0.0;
+  const std::size_t from = differences.size() > kShortest ? differences.size() - kShortest : 0;
+  for (const auto& [step, difference] : differences.subspan(from)) {
+    const double off = step * std::abs(difference - derivative);
+    if (std::isfinite(off)) noise = std::max(noise, off);
+  }
+  return noise;
 }
 
 }  // namespace
@@ -75,27 +139,18 @@ GradientCheck check_gradient(const mechanics::Network& network, const std::vecto
   GradientCheck result{response.gradient(directions, exact), {}};
   if (!result.reason.empty()) return result;
 
+  const Sequence own = sequence_of(response);
   std::vector<std::string> why_none;
   for (std::size_t i = 0; i < count; ++i) why_none.push_back(response.why_no_derivative(i));
   for (std::size_t d = 0; d < parameters.size(); ++d) {
-    const double at = parameters[d].value, scale = at == 0.0 ? 1.0 : std::abs(at);
-    std::vector<std::vector<double>> differences(count);
-    for (int k = 0; k < kSteps; ++k) {
-      const double step = std::ldexp(kFirstStep * scale, -k);
-      const double above = at + step, below = at - step;
-      const auto more = quantities_at(response, parameters[d].values_at(above), count);
-      const auto less = quantities_at(response, parameters[d].values_at(below), count);
-      for (std::size_t i = 0; i < count; ++i) {
-        const double difference = without_turns(more[i] - less[i], quantities[i].measure);
-        differences[i].push_back(difference / (above - below));
-      }
-    }
+    const auto differences = central_differences(response, quantities, own, parameters[d]);
     std::vector<DerivativeCheck>& column = result.columns.emplace_back(count);
     for (std::size_t i = 0; i < count; ++i) {
-      column[i].exact = exact[d * count + i];
-      column[i].why_none = why_none[i];
-      if (why_none[i].empty()) extrapolate(differences[i], column[i]);
-      if (!why_none[i].empty()) column[i].difference = column[i].uncertainty = kNone;
+      column[i] = {exact[d * count + i], kNone, kNone, why_none[i]};
+      if (!why_none[i].empty()) continue;
+      const auto& [list, noise] = differences[i];
+      extrapolate(list, noise, column[i]);
+      extrapolate(list, std::max(noise, noise_of(list, column[i].difference)), column[i]);
     }
   }
   return result;

@@ -20,7 +20,7 @@ struct CheckedParameter {
 struct DerivativeCheck {
   double exact = 0.0;        // NaN: there is none, see why_none
   double difference = 0.0;   // by central differences; NaN: none could be taken
-  double uncertainty = 0.0;  // of the difference, by what its extrapolation last changed
+  double uncertainty = 0.0;  // of the difference: what its extrapolation last changed, and noise
   std::string why_none = {};
 
   // |exact - difference| over the larger of both; 0 where both are zero.
@@ -34,10 +34,10 @@ struct GradientCheck {
 
 // The exact derivatives of the quantities at the periodic response of `values`, and beside them central
 // differences of responses that are solved anew from nothing known on both sides, at steps from 2 % of the
-// parameter (of 1 where it is zero) down to 5e-6 of it, extrapolated to none (C. Ridders, Adv. Eng. Software
-// 4 (1982) 75). Differences are refused where the exact derivative is: at grazing a central difference is the
-// mean of two derivatives. Throws mechanics::MechanicsError where `values` are out of range; on either side
-// such a step is left out.
+// parameter (of 1 where it is zero) down to 5e-6 of it, extrapolated to none (C. Ridders, Adv. Eng.
+// Software 4 (1982) 75); steps at which other events occur are left out. Differences
+// are refused where the exact derivative is: at grazing a central difference is the mean of two derivatives.
+// Throws mechanics::MechanicsError where `values` are out of range; on either side such a step is left out.
 GradientCheck check_gradient(const mechanics::Network& network, const std::vector<Quantity>& quantities,
                              const mechanics::NetworkValues& values,
                              std::span<const CheckedParameter> parameters);

@@ -39,6 +39,11 @@ ActiveProblem::ActiveProblem(const Task& task, const DesignSpace& space, const G
     node_curves_.push_back({.scenario = s, .quantity = task.quantity, .band = task.band, .constant = {}});
   for (const QuadratureNode& node : nodes_)
     node_responses_.push_back(std::make_unique<BandCurve>(task, space, node_curves_[node.scenario], effort));
+  if (goal.of == Goal::Of::variance) {
+    const bool is_stroke = task.quantity.measure == periodic::Measure::stroke;
+    const NoisyKind kind = is_stroke ? NoisyKind::stroke : NoisyKind::displacement;
+    variance_.emplace(task.network, task.noise, NoisyQuantity{kind, task.quantity.index});
+  }
   name_variables();
   add_rows();
   add_slope_rows();
@@ -48,8 +53,11 @@ void ActiveProblem::name_variables() {
   for (std::size_t i = 0; i < space_.variables(); ++i) {
     const DesignParameter& parameter = space_.parameter(space_.parameter_of(i));
     Variable variable{.name = parameter.name, .lower = parameter.lower, .upper = parameter.upper};
-    if (parameter.schedule)
-      variable.name += "[" + std::to_string(i - space_.first(space_.parameter_of(i))) + "]";
+    if (parameter.schedule) {
+      variable.name.append(1, '[');
+      variable.name.append(std::to_string(i - space_.first(space_.parameter_of(i))));
+      variable.name.append(1, ']');
+    }
     const double range = parameter.upper - parameter.lower;
     const double size = std::max(std::abs(parameter.lower), std::abs(parameter.upper));
     variable.scale = range > 0.0 ? range : size > 0.0 ? size : 1.0;
@@ -116,24 +124,43 @@ double ActiveProblem::objective(std::span<const double> x, std::span<double> gra
     if (!gradient.empty()) gradient.back() = 1.0;
     return x.back();
   }
-  double sum = 0.0;
-  evaluate_integral(x, gradient, sum);
-  return sum;
+  return goal_.of == Goal::Of::variance ? variance(x, gradient) : integral(x, gradient);
 }
 
-void ActiveProblem::evaluate_integral(std::span<const double> x, std::span<double> gradient, double& sum) {
+double ActiveProblem::integral(std::span<const double> x, std::span<double> gradient) {
+  double sum = 0.0;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     BandCurve& curve = *node_responses_[i];
-    if (curve.solve(x, nodes_[i].at, !gradient.empty()) != TunedResponse::State::solved) {
-      sum = kNone;
-      return;
-    }
+    if (curve.solve(x, nodes_[i].at, !gradient.empty()) != TunedResponse::State::solved) return kNone;
     const double value = curve.value(BandCurve::larger), weight = nodes_[i].weight;
     const bool square = goal_.of == Goal::Of::mean_square;
     sum += weight * (square ? value * value : value);
     if (!gradient.empty())
       add_gradient(space_, curve, BandCurve::larger, weight * (square ? 2.0 * value : 1.0), gradient);
   }
+  return sum;
+}
+
+// The mean over the scenarios. There are no schedules, so each parameter is one variable.
+double ActiveProblem::variance(std::span<const double> x, std::span<double> gradient) {
+  std::vector<double> at(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(space_.parameters()));
+  at.push_back(task_.band.from);
+  mechanics::NetworkValues values;
+  std::vector<mechanics::NetworkValues> directions;
+  std::vector<double> slopes(at.size());
+  const double share = 1.0 / static_cast<double>(task_.scenarios.size());
+  double sum = 0.0;
+  try {
+    for (std::size_t s = 0; s < task_.scenarios.size(); ++s) {
+      task_.network_at(s, at, values, &directions);
+      sum += share * variance_->mean_square(values, directions, slopes);
+      for (std::size_t p = 0; p < space_.parameters() && !gradient.empty(); ++p)
+        gradient[p] += share * slopes[p];
+    }
+  } catch (const mechanics::MechanicsError&) {
+    return kNone;  // infinite, or a value out of range: the step is taken back
+  }
+  return sum;
 }
 
 void ActiveProblem::constrain(std::span<const double> x, std::span<double> values,

@@ -2,10 +2,12 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "solvers/tuning/band_curve.hpp"
 #include "solvers/tuning/problem.hpp"
+#include "solvers/tuning/variance.hpp"
 
 namespace frahm::tuning {
 
@@ -67,7 +69,8 @@ class ActiveProblem final : public Problem {
   void name_variables();
   void add_rows();
   void add_slope_rows();
-  void evaluate_integral(std::span<const double> x, std::span<double> gradient, double& sum);
+  double integral(std::span<const double> x, std::span<double> gradient);
+  double variance(std::span<const double> x, std::span<double> gradient);
 
   const Task& task_;
   const DesignSpace& space_;
@@ -79,6 +82,7 @@ class ActiveProblem final : public Problem {
   std::vector<std::unique_ptr<BandCurve>> responses_;  // of each active point
   std::vector<CurveKind> node_curves_;
   std::vector<std::unique_ptr<BandCurve>> node_responses_;
+  std::optional<Variance> variance_;
 };
 
 }  // namespace frahm::tuning

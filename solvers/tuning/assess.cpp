@@ -62,6 +62,7 @@ class Assessor {
   // An even grid and the peaks.
   std::vector<double> places() const {
     std::vector<double> band;
+    if (tuning_.curves().empty()) return band;  // white noise has none
     const double length = task_.band.to - task_.band.from;
     for (int i = 0; i <= (length > 0.0 ? kSamples : 0); ++i)
       band.push_back(task_.band.from + length * i / kSamples);
@@ -82,8 +83,7 @@ class Assessor {
         value.push_back(solved ? response.value(BandCurve::larger) : kNone);
       }
     }
-    const Scan scan = tuning.full_scan(x);
-    result.worst = scan.unbounded ? kInfinity : scan.failed ? kNone : scan.worst;
+    result.worst = worst(tuning, x);
     return result;
   }
 
@@ -112,25 +112,24 @@ class Assessor {
     return curve("rule", tuning, x, band);
   }
 
-  double worst(std::span<const double> x) {
-    if (task_.objective == Objective::minimax) {
-      const Scan scan = tuning_.full_scan(x);
-      return scan.unbounded ? kInfinity : scan.failed ? kNone : scan.worst;
-    }
-    return tuning_.objective_of(x);
+  // The task's objective at a design.
+  double worst(DesignTuning& tuning, std::span<const double> x) {
+    if (task_.objective != Objective::minimax) return tuning.objective_of(x);
+    const Scan scan = tuning.full_scan(x);
+    return scan.unbounded ? kInfinity : scan.failed ? kNone : scan.worst;
   }
 
   Detuning detuning() {
     Detuning result;
     result.change.assign(std::begin(kChanges), std::end(kChanges));
-    const double at_optimum = worst(x_);
+    const double at_optimum = worst(tuning_, x_);
     const DesignSpace& space = tuning_.space();
     for (std::size_t p = 0; p < space.parameters(); ++p) {
       std::vector<double>& growth = result.growth.emplace_back();
       for (const double change : kChanges) {
         std::vector<double> x = x_;
         for (std::size_t i = space.first(p); i < space.first(p) + space.count(p); ++i) x[i] *= 1.0 + change;
-        growth.push_back(worst(x) / at_optimum - 1.0);
+        growth.push_back(worst(tuning_, x) / at_optimum - 1.0);
       }
     }
     return result;

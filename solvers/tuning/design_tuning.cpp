@@ -9,7 +9,7 @@ namespace {
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 // The last stage may raise the worst peak by this share of it, to have room to move in.
-constexpr double kRoom = 1e-6;
+constexpr double kRoom = 1e-7;
 
 std::vector<DesignParameter> without_schedules(std::vector<DesignParameter> parameters) {
   for (DesignParameter& parameter : parameters) parameter.schedule.reset();
@@ -21,7 +21,8 @@ std::vector<CurveKind> curves_of(const Task& task, const std::vector<QuantityLim
   using Of = CurveKind::Of;
   std::vector<CurveKind> curves;
   for (std::size_t s = 0; s < task.scenarios.size(); ++s) {
-    curves.push_back({Of::objective, s, 0, task.quantity, task.band, 0.0, {}});
+    if (task.objective != Objective::variance)
+      curves.push_back({Of::objective, s, 0, task.quantity, task.band, 0.0, {}});
     for (std::size_t i = 0; i < limits.size(); ++i) {
       const QuantityLimit& limit = limits[i];
       const Band band = limit.band.value_or(task.band);

@@ -198,7 +198,7 @@ Run run(ScaledProblem& problem, const SolverOptions& options) {
 }  // namespace
 
 Solution solve_with_ipopt(Problem& problem, const SolverOptions& options) {
-  ScaledProblem scaled(problem, options, true);
+  ScaledProblem scaled(problem, options, ScaledProblem::Judging::derivatives);
   if (!scaled.can_start()) return scaled.finish(Ending::failed);
   const auto [end, optimum] = run(scaled, options);
   scaled.record().reason = end.reason;

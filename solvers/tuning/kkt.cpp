@@ -9,7 +9,9 @@
 namespace frahm::tuning {
 namespace {
 
-// One finite bound and how its multiplier enters: outward = +1 at an upper bound, -1 at a lower one.
+constexpr double kNear = 1e-3;  // of the scale: a bound further away than that is taken to have no multiplier
+
+// One bound and how its multiplier enters: outward = +1 at an upper bound, -1 at a lower one.
 struct Bound {
   std::size_t index = 0;  // of the variable or constraint
   bool of_variable = true;
@@ -17,27 +19,27 @@ struct Bound {
   double slack = 0.0;  // >= 0, relative to the scale
 };
 
-void add_bounds(double lower, double upper, double value, double scale, Bound bound,
-                std::vector<Bound>& bounds) {
-  if (std::isfinite(upper)) {
-    bound.outward = 1.0, bound.slack = std::max(0.0, (upper - value) / scale);
+void add_near_bounds(double lower, double upper, double value, double scale, Bound bound,
+                     std::vector<Bound>& bounds) {
+  const auto add = [&](double outward, double slack) {
+    if (!(slack <= kNear)) return;
+    bound.outward = outward;
+    bound.slack = std::max(0.0, slack);
     bounds.push_back(bound);
-  }
-  if (std::isfinite(lower)) {
-    bound.outward = -1.0, bound.slack = std::max(0.0, (value - lower) / scale);
-    bounds.push_back(bound);
-  }
+  };
+  add(+1.0, (upper - value) / scale);
+  add(-1.0, (value - lower) / scale);
 }
 
-std::vector<Bound> finite_bounds(const Problem& problem, const Linearization& at) {
+std::vector<Bound> near_bounds(const Problem& problem, const Linearization& at) {
   std::vector<Bound> bounds;
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
     const Variable& v = problem.variables[i];
-    add_bounds(v.lower, v.upper, at.x[i], v.scale, {i, true}, bounds);
+    add_near_bounds(v.lower, v.upper, at.x[i], v.scale, {i, true}, bounds);
   }
   for (std::size_t j = 0; j < problem.constraints.size(); ++j) {
     const Constraint& c = problem.constraints[j];
-    add_bounds(c.lower, c.upper, at.values[j], c.scale, {j, false}, bounds);
+    add_near_bounds(c.lower, c.upper, at.values[j], c.scale, {j, false}, bounds);
   }
   return bounds;
 }
@@ -101,11 +103,11 @@ double kkt_residual(const Problem& problem, const Linearization& at, const Multi
 //   sum_k mu_k a_k = -grad f        stationarity
 //   mu_k slack_k   = 0              complementarity
 Multipliers least_squares_multipliers(const Problem& problem, const Linearization& at) {
-  const std::vector<Bound> bounds = finite_bounds(problem, at);
+  const std::vector<Bound> bounds = near_bounds(problem, at);
   const Eigen::MatrixXd gradients = scaled_gradients(problem, at);
   const Eigen::Index n = gradients.rows(), count = Eigen::Index(bounds.size());
-  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n + count, count);
-  Eigen::VectorXd b = Eigen::VectorXd::Zero(n + count);
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, count);
+  Eigen::VectorXd b(n), slack(count);
   for (Eigen::Index i = 0; i < n; ++i) {
     b[i] = -at.gradient[std::size_t(i)] * problem.variables[std::size_t(i)].scale / problem.objective_scale;
   }
@@ -115,11 +117,11 @@ Multipliers least_squares_multipliers(const Problem& problem, const Linearizatio
     if (bound.of_variable) {
       A(index, k) = bound.outward;
     } else {
-      A.col(k).head(n) = bound.outward * gradients.col(index);
+      A.col(k) = bound.outward * gradients.col(index);
     }
-    A(n + k, k) = bound.slack;
+    slack[k] = bound.slack;
   }
-  const Eigen::VectorXd mu = nonnegative_least_squares(A, b) * problem.objective_scale;
+  const Eigen::VectorXd mu = nonnegative_least_squares(A, b, slack) * problem.objective_scale;
 
   Multipliers result{std::vector<double>(problem.variables.size()),
                      std::vector<double>(problem.variables.size()),

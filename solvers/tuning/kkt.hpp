@@ -32,7 +32,8 @@ double infeasibility(const Problem& problem, const std::vector<double>& values);
 //   |multiplier| x scale           of each multiplier that has no bound to belong to
 double kkt_residual(const Problem& problem, const Linearization& at, const Multipliers& multipliers);
 
-// The multipliers that come nearest to the conditions above, in the sense of least squares.
+// The multipliers of the bounds near x that come nearest to the conditions above, in the sense of least
+// squares.
 Multipliers least_squares_multipliers(const Problem& problem, const Linearization& at);
 
 }  // namespace frahm::tuning

@@ -9,14 +9,18 @@
 namespace frahm::tuning {
 namespace {
 
-constexpr unsigned long kSeed = 1909;  // of the random numbers of global searches, the same in every solve
-constexpr double kSteps =
-    1e-15;  // relative: what a local search ends at where it does not reach the tolerance
-constexpr double kSettled = 1e-8;  // relative steps at which the local searches of a global one end
-constexpr double kDualEvaluations =
-    1000;                        // of MMA's inner problem, which else loses itself in its last digits
-constexpr int kRestarts = 20;    // of a local search from the best point; each must halve the KKT residual
-constexpr int kPopulation = 10;  // evaluations of a global search per iteration and (variables + 1)
+// Of the random numbers of global searches, the same in every solve.
+constexpr unsigned long kSeed = 1909;
+// Relative steps at which a local search ends that does not reach the tolerance, and one within a global
+// search.
+constexpr double kSteps = 1e-15;
+constexpr double kSettled = 1e-8;
+// Of MMA's inner problem, which else loses itself in its last digits.
+constexpr double kDualEvaluations = 1000;
+// Of a local search from the best point; each must halve the KKT residual.
+constexpr int kRestarts = 20;
+// Evaluations of a global search per iteration and (variables + 1).
+constexpr int kPopulation = 10;
 
 struct NamedAlgorithm {
   Algorithm algorithm;
@@ -119,9 +123,9 @@ class Program {
     int& recorded = problem_.record().iterations;
     if (problem_.improvements() == recorded) return;
     recorded = problem_.improvements();
-    const bool local = !named_.algorithm.global;
-    const double residual = local ? problem_.best_residual() : std::numeric_limits<double>::quiet_NaN();
+    const double residual = problem_.best_residual();
     problem_.record_iteration(recorded, problem_.best_infeasibility(), residual, problem_.objective());
+    if (named_.algorithm.global) return;
     if (residual <= tolerance_ && problem_.best_infeasibility() <= feasibility_) nlopt_force_stop(solver_);
   }
 
@@ -229,7 +233,7 @@ Solution descend(Program& program, ScaledProblem& scaled, const SolverOptions& o
   std::vector<double> x = scaled.start();
   double residual = kInfinity;
   for (int restart = 0;; ++restart) {
-    const nlopt_result result = program.run(x, options.most_iterations - scaled.evaluations());
+    const nlopt_result result = program.run(x, std::max(1, options.most_iterations - scaled.evaluations()));
     scaled.record().reason = reason_of(result);
     const bool used_up = result == NLOPT_MAXEVAL_REACHED || scaled.evaluations() >= options.most_iterations;
     const Solution solution = scaled.finish(used_up ? Ending::iteration_limit : Ending::failed);
@@ -264,7 +268,8 @@ Solution solve_with_nlopt(Problem& problem, const std::string& algorithm, const 
   const NamedAlgorithm& named = find_algorithm(algorithm);
   check(problem);
   check_fit(problem, named.algorithm);
-  ScaledProblem scaled(problem, options, named.algorithm.gradients);
+  using Judging = ScaledProblem::Judging;
+  ScaledProblem scaled(problem, options, named.algorithm.gradients ? Judging::residuals : Judging::values);
   const bool defined = scaled.can_start();
   if (scaled.size() == 0 || scaled.ends()) return scaled.finish(Ending::failed);
   Program program(scaled, named, options);

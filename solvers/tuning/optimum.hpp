@@ -88,7 +88,7 @@ struct Detuning {
 struct Curve {
   std::string name;                        // "before", "after", "constant", "rule"
   std::vector<std::vector<double>> value;  // [scenario][frequency], weighted quantity; NaN where it has none
-  double worst = 0.0;                      // true maximum over band and scenarios
+  double worst = 0.0;  // the objective of the curve's design: true maximum, mean square, variance
 };
 
 struct Assessment {

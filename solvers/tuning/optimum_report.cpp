@@ -75,16 +75,23 @@ class Report {
   }
 
  private:
+  // Multipliers belong to bounds that are met: what an interior-point method leaves at others is its
+  // rounding.
   void write_parameters(Optimum& optimum) const {
+    constexpr double kMet = 1e-5;  // of the range
     const DesignSpace& space = tuning_.space();
     const Solution& solution = stages_.decisive.solution;
     const bool has_multipliers = solution.lower_multipliers.size() >= space.variables();
     for (std::size_t p = 0; p < space.parameters(); ++p) {
+      const DesignParameter& parameter = space.parameter(p);
+      const double near = kMet * (parameter.upper - parameter.lower);
       TunedParameter tuned;
       for (std::size_t i = space.first(p); i < space.first(p) + space.count(p); ++i) {
         tuned.value.push_back(x_[i]);
-        tuned.lower_multiplier.push_back(has_multipliers ? solution.lower_multipliers[i] : 0.0);
-        tuned.upper_multiplier.push_back(has_multipliers ? solution.upper_multipliers[i] : 0.0);
+        const bool at_lower = has_multipliers && x_[i] - parameter.lower <= near;
+        const bool at_upper = has_multipliers && parameter.upper - x_[i] <= near;
+        tuned.lower_multiplier.push_back(at_lower ? solution.lower_multipliers[i] : 0.0);
+        tuned.upper_multiplier.push_back(at_upper ? solution.upper_multipliers[i] : 0.0);
       }
       optimum.parameters.push_back(std::move(tuned));
     }

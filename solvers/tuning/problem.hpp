@@ -73,21 +73,19 @@ struct IterationRecord {
   int iteration = 0;
   double objective = 0.0;
   double infeasibility = 0.0;
-  double optimality = 0.0;  // the library's own measure; NaN where it has none
+  double optimality = 0.0;  // Ipopt's dual infeasibility, NLopt: our KKT residual; NaN: not looked at
 };
 
 // Multipliers are those of L = f + sum lambda_j g_j + sum (upper_i - lower_i multiplier) x_i, so that
 //   d f* / d (bound of constraint j)     = -constraint_multipliers[j]   (> 0: upper bound active, < 0: lower)
-//   d f* / d (upper bound of variable i) = -upper_multipliers[i],   d f* / d (lower bound) =
-//   lower_multipliers[i].
+//   d f* / d (upper bound of variable i) = -upper_multipliers[i]
+//   d f* / d (lower bound of variable i) = +lower_multipliers[i]
 struct Solution {
   Ending ending = Ending::failed;
-  std::string reason;  // a sentence: why it ended so
-  std::vector<double>
-      x;  // size of variables; the best feasible point met, or the solver's last where converged
-  double objective = 0.0;  // at x
-  double kkt_residual =
-      0.0;  // of kkt.hpp, relative to the scales; computed by us in the same way for every solver
+  std::string reason;          // a sentence: why it ended so
+  std::vector<double> x;       // size of variables: the optimum, else the best feasible point met
+  double objective = 0.0;      // at x
+  double kkt_residual = 0.0;   // of kkt.hpp, by the same computation for every solver; NaN: no gradient at x
   double infeasibility = 0.0;  // largest violation of a constraint, relative to its scale
   std::vector<double> lower_multipliers, upper_multipliers;  // of each variable, >= 0
   std::vector<double> constraint_multipliers;                // of each constraint
@@ -121,8 +119,9 @@ struct Algorithm {
 // slsqp, mma (local); mlsl, isres, direct, crs2 (global).
 const std::vector<Algorithm>& nlopt_algorithms();
 
-// One of nlopt_algorithms() by name. Equal calls give equal results in any thread.
-// Throws std::invalid_argument for another name, for constraints the algorithm does not take and, where it is
+// One of nlopt_algorithms() by name. Equal calls give equal results in any thread. slsqp and mma choose their
+// steps by values, whose rounding may end them at a KKT residual of 1e-9 to 1e-8: acceptable. Throws
+// std::invalid_argument for another name, for constraints the algorithm does not take and, where it is
 // global, for an infinite bound.
 Solution solve_with_nlopt(Problem& problem, const std::string& algorithm, const SolverOptions& options = {});
 

@@ -9,6 +9,9 @@ namespace {
 constexpr double kRunaway =
     1e15;  // scaled: beyond it an objective or a variable is taken to grow without limit
 
+constexpr double kSettling =
+    1e-3;  // of the objective's scale: what the last steps to an optimum gain at most
+
 bool all_finite(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }
@@ -30,8 +33,11 @@ std::string reason_of(Ending ending, const std::string& library) {
 
 }  // namespace
 
-ScaledProblem::ScaledProblem(Problem& problem, const SolverOptions& options, bool with_derivatives)
-    : problem_(problem), options_(options), with_derivatives_(with_derivatives) {
+ScaledProblem::ScaledProblem(Problem& problem, const SolverOptions& options, Judging judging)
+    : problem_(problem),
+      options_(options),
+      with_derivatives_(judging != Judging::values),
+      with_residuals_(judging == Judging::residuals) {
   check(problem);
   std::vector<std::size_t> place(problem.variables.size(), problem.variables.size());
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
@@ -151,14 +157,20 @@ bool ScaledProblem::is_better(const Best& one, const Best& other) const {
   const bool feasible = one.infeasibility <= options_.feasibility;
   if (!feasible || other.infeasibility > options_.feasibility) return one.infeasibility < other.infeasibility;
   const double gain = (other.objective - one.objective) / problem_.objective_scale;
-  return std::abs(gain) <= options_.tolerance && with_derivatives_ ? one.residual < other.residual
-                                                                   : gain > 0.0;
+  const bool level = std::abs(gain) <= options_.tolerance && std::isfinite(one.residual);
+  return level ? !(one.residual >= other.residual) : gain > 0.0;
+}
+
+// Where it is worth while to look: an optimum is feasible, and the last steps to it gain little.
+bool ScaledProblem::may_be_optimal(const Best& here) const {
+  return best_ && here.infeasibility <= options_.feasibility &&
+         std::abs(here.objective - best_->objective) <= kSettling * problem_.objective_scale;
 }
 
 void ScaledProblem::note_point() {
   worst_ = std::max(worst_, objective());
-  const Best here{at_.x, at_.objective, infeasibility(problem_, at_.values),
-                  with_derivatives_ ? residual() : kInfinity};
+  Best here{at_.x, at_.objective, infeasibility(problem_, at_.values)};
+  if (with_residuals_ && may_be_optimal(here)) here.residual = residual();
   if (!best_ || is_better(here, *best_)) {
     best_ = here;
     ++improvements_;

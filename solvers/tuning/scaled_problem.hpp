@@ -15,9 +15,12 @@ namespace frahm::tuning {
 // the library.
 class ScaledProblem {
  public:
-  // with_derivatives: a point without a gradient is taken as one where the problem is not defined.
+  // What is asked for at each point. With derivatives, a point without a gradient is taken as one where the
+  // problem is not defined; with residuals, the KKT residual tells points apart that the objective does not.
+  enum class Judging { values, derivatives, residuals };
+
   // Throws std::invalid_argument where the problem makes no sense.
-  ScaledProblem(Problem& problem, const SolverOptions& options, bool with_derivatives);
+  ScaledProblem(Problem& problem, const SolverOptions& options, Judging judging);
 
   std::size_t size() const { return free_.size(); }
   std::size_t constraints() const { return problem_.constraints.size(); }
@@ -62,9 +65,11 @@ class ScaledProblem {
   struct Best {
     std::vector<double> x;  // in the problem's units, as the objective
     double objective = 0.0, infeasibility = 0.0;
-    double residual = kInfinity;  // of the KKT conditions
+    // Of the KKT conditions; NaN where it was not looked at.
+    double residual = std::numeric_limits<double>::quiet_NaN();
   };
   double residual() const;
+  bool may_be_optimal(const Best& here) const;
   bool is_better(const Best& one, const Best& other) const;
   const Variable& variable(std::size_t i) const { return problem_.variables[free_[i]]; }
   std::vector<double> unscaled(std::span<const double> x) const;
@@ -77,7 +82,7 @@ class ScaledProblem {
 
   Problem& problem_;
   SolverOptions options_;
-  bool with_derivatives_;
+  bool with_derivatives_, with_residuals_;
   std::vector<std::size_t> free_, entry_;  // place in Problem::variables, in Problem::jacobian
   std::vector<JacobianEntry> jacobian_;
   Linearization at_;

@@ -9,6 +9,7 @@
 
 #include "solvers/mechanics/network.hpp"
 #include "solvers/periodic/quantity.hpp"
+#include "solvers/tuning/noise.hpp"
 
 // What is to be tuned: a network whose numbers depend on design parameters, a band of frequencies, and what
 // is wanted of the response over it.
@@ -59,15 +60,6 @@ enum class Objective {
   minimax,      // least maximum over the band of the weighted quantity, worst scenario
   mean_square,  // least mean over the band of its square, mean over the scenarios
   variance,     // least mean square under white noise (H2), mean over the scenarios
-};
-
-// White noise of two-sided spectral density `intensity` [unit^2 s / rad] as a force [N] on a mass, or as the
-// acceleration [m/s^2] of a prescribed node.
-struct Noise {
-  enum class Kind { force_on, acceleration_of };
-  Kind kind = Kind::force_on;
-  std::size_t node = 0;  // in Network::masses (force) or Network::prescribed (acceleration)
-  double intensity = 1.0;
 };
 
 enum class Start {

@@ -29,7 +29,6 @@ const char* refused_type(ElementType type) {
   return nullptr;
 }
 
-
 double along(const std::vector<double>& gradient, const std::vector<double>& direction) {
   double sum = 0.0;
   for (std::size_t i = 0; i < direction.size(); ++i) sum += gradient[i] * direction[i];
@@ -53,7 +52,7 @@ struct Variance::Gradient {
   std::vector<double> mass, element, second;
 };
 
-Variance::Variance(const mechanics::Network& network, const Noise& noise, const Measure& measure)
+Variance::Variance(const mechanics::Network& network, const Noise& noise, const NoisyQuantity& measure)
     : assembly_(network), noise_(noise), measure_(measure) {
   for (const Element& element : network.elements) {
     const char* type = refused_type(element.type);
@@ -78,7 +77,7 @@ void Variance::check_drift() const {
   const auto& elements = assembly_.network().elements;
   for (std::size_t e = 0; e < elements.size(); ++e) {
     if (drift(assembly_.incidences()[e]) == 0.0) continue;
-    const bool measured = measure_.kind == MeasureKind::stroke && measure_.index == e;
+    const bool measured = measure_.kind == NoisyKind::stroke && measure_.index == e;
     if (elements[e].type == ElementType::inerter && !measured) continue;
     throw MechanicsError("element '" + elements[e].name +
                          "' joins the ground or a support at rest, from which '" +
@@ -113,8 +112,8 @@ Variance::State Variance::state(const NetworkValues& values) const {
   VectorXd B = VectorXd::Zero(2 * n + s), h = VectorXd::Zero(2 * n + s);
   B.segment(n, n) = Mi * result.b;
   const auto index = Index(measure_.index);
-  h.head(n) = measure_.kind == MeasureKind::displacement ? VectorXd(VectorXd::Unit(n, index))
-                                                         : assembly_.incidences()[measure_.index].w;
+  h.head(n) = measure_.kind == NoisyKind::displacement ? VectorXd(VectorXd::Unit(n, index))
+                                                       : assembly_.incidences()[measure_.index].w;
 
   result.scale.resize(2 * n + s);
   result.scale << system.K.diagonal().cwiseSqrt().cwiseInverse(),

@@ -5,30 +5,17 @@
 #include <vector>
 
 #include "solvers/mechanics/linear_system.hpp"
+#include "solvers/tuning/noise.hpp"
 
 namespace frahm::tuning {
 
-enum class NoiseKind {
-  force_on,         // w(t) is a force on a mass [N]; the prescribed nodes rest
-  acceleration_of,  // w(t) is the acceleration of a prescribed node [m/s^2]; the others rest
-};
-
-// White noise w(t) as the only excitation. `intensity` is its two-sided spectral density S_0 over the angular
-// frequency, -infinity < omega < infinity [unit of w squared, per rad/s], so that E[w(t) w(t')] =
-// 2 pi S_0 delta(t - t'). (A one-sided density over the frequency in Hz is 4 pi S_0.)
-struct Noise {
-  NoiseKind kind = NoiseKind::force_on;
-  std::size_t node = 0;  // index into Network::masses or Network::prescribed
-  double intensity = 1.0;
-};
-
-enum class MeasureKind {
+enum class NoisyKind {
   displacement,  // of a mass, relative to the moving support under NoiseKind::acceleration_of
   stroke,        // relative displacement of an element's ends
 };
 
-struct Measure {
-  MeasureKind kind = MeasureKind::displacement;
+struct NoisyQuantity {
+  NoisyKind kind = NoisyKind::displacement;
   std::size_t index = 0;  // into Network::masses or Network::elements
 };
 
@@ -45,7 +32,7 @@ class Variance {
   // Throws MechanicsError for a coulomb or hysteretic element (not linear, or not causal), for one whose
   // force would depend on how far or how fast the moving support has drifted, and for the stroke of such an
   // inerter.
-  Variance(const mechanics::Network& network, const Noise& noise, const Measure& measure);
+  Variance(const mechanics::Network& network, const Noise& noise, const NoisyQuantity& measure);
 
   // Throws MechanicsError for a value out of range and where the mean square is infinite.
   double mean_square(const mechanics::NetworkValues& values) const;
@@ -66,7 +53,7 @@ class Variance {
 
   mechanics::Assembly assembly_;
   Noise noise_;
-  Measure measure_;
+  NoisyQuantity measure_;
 };
 
 }  // namespace frahm::tuning

@@ -66,7 +66,7 @@ void read_noise(TuneReading& reading, const TomlSection& section) {
     noise.fail(key, fmt::format("no {} is called \"{}\"{}", force ? "mass" : "node of prescribed motion",
                                 name, suggestion(name, names)));
   }
-  reading.choice.noise.kind = force ? tuning::Noise::Kind::force_on : tuning::Noise::Kind::acceleration_of;
+  reading.choice.noise.kind = force ? tuning::NoiseKind::force_on : tuning::NoiseKind::acceleration_of;
   reading.choice.noise.node = static_cast<std::size_t>(node - names.begin());
   if (noise.find("intensity")) reading.choice.noise.intensity = noise.number("intensity");
   if (!(reading.choice.noise.intensity > 0.0))

@@ -194,7 +194,7 @@ void print_task(const StudyFile& study, std::ostream& out) {
                band.range.from / factor, with_unit(band.range.to / factor, band.unit.text));
   }
   if (tune.objective == tuning::Objective::variance) {
-    const bool force = tune.noise.kind == tuning::Noise::Kind::force_on;
+    const bool force = tune.noise.kind == tuning::NoiseKind::force_on;
     const auto& names = force ? study.network.masses : study.network.prescribed;
     fmt::print(out, " under white noise, {} {}", force ? "a force on" : "the acceleration of",
                names[tune.noise.node]);

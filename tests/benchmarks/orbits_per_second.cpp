@@ -2,6 +2,8 @@
 // friction law F (2/pi) arctan(1e5 v), integrated until the peak changes by less than 1e-4 from one period to the
 // next, which is how such maps are made today. Process CPU time, one thread, median of several repetitions.
 //
+// What the exact derivatives of one peak by inertance (or damping), friction and frequency cost beside the orbit.
+//
 // And what the smoothed law costs here: the arctan law by CVODES and shooting, to 1e-8 and better, beside the exact
 // law at the same points.
 //
@@ -121,6 +123,39 @@ double frahm_seconds(const Work& work, const std::vector<periodic::Quantity>& qu
   }
   std::nth_element(seconds.begin(), seconds.begin() + repetitions / 2, seconds.end());
   return seconds[static_cast<std::size_t>(repetitions / 2)];
+}
+
+// Every orbit from its element values, as an optimiser asks for it, and three derivatives of one peak.
+void time_gradients(const Work& work) {
+  periodic::PeriodicResponse response(work.network, {{periodic::Measure::peak, 0}});
+  NetworkValues zero = work.rows[0][0];
+  zero.omega = 0.0;
+  for (double& mass : zero.mass) mass = 0.0;
+  for (double& element : zero.element) element = 0.0;
+  for (auto& excitation : zero.excitation) excitation = {};
+  std::vector<NetworkValues> directions(3, zero);
+  directions[0].element[work.network.masses.size() > 1 ? 6 : 1] = 1.0;
+  directions[1].element[2] = 1.0;
+  directions[2].omega = 1.0;
+  std::array<double, 3> gradient{};
+  double peak = 0.0, orbits = 0.0, derivatives = 0.0;
+  std::size_t points = 0;
+  for (std::size_t row = 1; row < work.rows.size(); row += 7) {
+    for (const NetworkValues& values : work.rows[row]) {
+      const double start = cpu_seconds();
+      response.set_values(values);
+      response.solve();
+      response.quantities({&peak, 1});
+      const double solved = cpu_seconds();
+      response.gradient(directions, gradient);
+      orbits += solved - start;
+      derivatives += cpu_seconds() - solved;
+      ++points;
+    }
+  }
+  const double per_point = 1e6 / static_cast<double>(points);
+  fmt::print("{:9} one peak, new element values each time: {:.2f} us an orbit; its derivatives by three parameters: {:.2f} us\n",
+             work.name, orbits * per_point, derivatives * per_point);
 }
 
 double smooth_sign(double v) { return 2.0 / pi * std::atan(1e5 * v); }
@@ -243,6 +278,7 @@ int main(int argc, char** argv) {
     const double standard = frahm_seconds(work, periodic::standard_quantities(work.network), kRepetitions);
     fmt::print("{:9} peaks only: {:.3f} us an orbit, {:.0f} orbits/s a core; standard quantities: {:.3f} us, {:.0f} orbits/s\n",
                work.name, 1e6 * kernel, 1.0 / kernel, 1e6 * standard, 1.0 / standard);
+    time_gradients(work);
     compare_laws(work);
     if (with_peer) compare(work, kernel);
   }

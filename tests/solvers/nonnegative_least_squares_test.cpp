@@ -16,9 +16,9 @@ MatrixXd random_matrix(Eigen::Index rows, Eigen::Index columns, std::mt19937& ge
   return MatrixXd::NullaryExpr(rows, columns, [&] { return normal(generator); });
 }
 
-// x >= 0, A^T (A x - b) >= 0, and one of the two zero in every component.
-void check_optimal(const MatrixXd& A, const VectorXd& b, const VectorXd& x) {
-  const VectorXd slope = A.transpose() * (A * x - b);
+// x >= 0, A^T (A x - b) + weight^2 x >= 0, and one of the two zero in every component.
+void check_optimal(const MatrixXd& A, const VectorXd& b, const VectorXd& weight, const VectorXd& x) {
+  const VectorXd slope = A.transpose() * (A * x - b) + weight.cwiseAbs2().cwiseProduct(x);
   CHECK(x.minCoeff() >= 0.0);
   CHECK(slope.minCoeff() >= -kOptimality);
   CHECK(x.cwiseProduct(slope).cwiseAbs().maxCoeff() <= kOptimality);
@@ -31,7 +31,9 @@ TEST_CASE("Non-negative least squares meets its optimality conditions on random 
     const MatrixXd A = random_matrix(rows, columns, generator);
     const VectorXd b = random_matrix(rows, 1, generator);
     INFO("trial " << trial << ", " << rows << " x " << columns);
-    check_optimal(A, b, nonnegative_least_squares(A, b));
+    const VectorXd none = VectorXd::Zero(columns), weight = random_matrix(columns, 1, generator).cwiseAbs();
+    check_optimal(A, b, none, nonnegative_least_squares(A, b, none));
+    check_optimal(A, b, weight, nonnegative_least_squares(A, b, weight));
   }
 }
 
@@ -44,14 +46,15 @@ TEST_CASE("Non-negative least squares finds a solution that exists, of any rank"
     A.col(5).setZero();
     const VectorXd x = random_matrix(12, 1, generator).cwiseAbs();
     const VectorXd b = A * x;
-    CHECK((A * nonnegative_least_squares(A, b) - b).norm() <= kOptimality * b.norm());
+    CHECK((A * nonnegative_least_squares(A, b, VectorXd::Zero(12)) - b).norm() <= kOptimality * b.norm());
   }
 }
 
 TEST_CASE("Non-negative least squares of nothing is nothing") {
-  CHECK(nonnegative_least_squares(MatrixXd(3, 0), VectorXd::Ones(3)).size() == 0);
-  CHECK(nonnegative_least_squares(MatrixXd::Identity(2, 2), -VectorXd::Ones(2)) == VectorXd::Zero(2));
-  CHECK(nonnegative_least_squares(MatrixXd::Zero(2, 2), VectorXd::Ones(2)) == VectorXd::Zero(2));
+  const VectorXd ones = VectorXd::Ones(2), none = VectorXd::Zero(2);
+  CHECK(nonnegative_least_squares(MatrixXd(2, 0), ones, VectorXd(0)).size() == 0);
+  CHECK(nonnegative_least_squares(MatrixXd::Identity(2, 2), -ones, none) == none);
+  CHECK(nonnegative_least_squares(MatrixXd::Zero(2, 2), ones, none) == none);
 }
 
 }  // namespace

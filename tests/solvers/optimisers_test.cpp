@@ -81,8 +81,10 @@ TEST_CASE("an active bound has the multiplier of what relaxing it gains") {
   }
 }
 
+// SLSQP's line search compares values: with equality constraints their rounding can end it above 1e-9, which
+// depends on the compiler's options.
 TEST_CASE("Hock and Schittkowski's problem 71 has its published optimum and multipliers") {
-  for (const Solver& solver : {Solver{"ipopt"}, Solver{"slsqp"}}) {
+  for (const Solver& solver : {Solver{"ipopt"}, Solver{"slsqp", {.tolerance = 1e-8}}}) {
     INFO(solver.name);
     HockSchittkowski71 problem;
     const Solution solution = solver.solve(problem);

@@ -63,7 +63,7 @@ TEST_CASE("one mass under white noise has the variance pi S0 / (c k), or pi S0 m
   Network moved = fixed;
   moved.prescribed = {"base"};
   for (Element& element : moved.elements) element.a = base;
-  const Variance of_base(moved, {NoiseKind::acceleration_of, 0, intensity}, {MeasureKind::stroke, 0});
+  const Variance of_base(moved, {NoiseKind::acceleration_of, 0, intensity}, {NoisyKind::stroke, 0});
   CHECK_THAT(of_base.mean_square(values), WithinRel(pi * intensity * m * m / (c * k), kExact));
 }
 
@@ -185,8 +185,9 @@ TEST_CASE("both solvers tune the absorber to the known optima from poor starts")
         INFO(at.name << ", mu " << at.mu << ", beta " << at.beta << ", from " << f << ", " << zeta << " by "
                      << solver);
         AbsorberTuning problem(at, f, zeta);
-        const Solution solution =
-            solver == "ipopt" ? solve_with_ipopt(problem) : solve_with_nlopt(problem, solver);
+        const SolverOptions options{.tolerance = 1e-10};
+        const Solution solution = solver == "ipopt" ? solve_with_ipopt(problem, options)
+                                                    : solve_with_nlopt(problem, solver, options);
         INFO(name(solution.ending) << " " << solution.kkt_residual);
         CHECK(solution.ending <= Ending::acceptable);
         CHECK_THAT(std::exp(solution.x[0]), WithinAbs(at.known.f, kTuning));
@@ -221,8 +222,8 @@ NetworkValues every_value() {
 
 // |u / w|^2 by the equation of motion at one frequency, in absolute coordinates with the base's displacement
 // y = -w / omega^2: nothing of the state-space form enters.
-double gain(const Network& network, const NetworkValues& values, const Noise& noise, const Measure& measure,
-            double omega) {
+double gain(const Network& network, const NetworkValues& values, const Noise& noise,
+            const NoisyQuantity& measure, double omega) {
   using Complex = std::complex<double>;
   const Complex i_omega(0.0, omega);
   const Eigen::Index n = Eigen::Index(network.masses.size());
@@ -245,7 +246,7 @@ double gain(const Network& network, const NetworkValues& values, const Noise& no
     if (moved) force -= stiffness * y * at.p[0] * at.w.cast<Complex>();
   }
   const Eigen::VectorXcd q = dynamic.partialPivLu().solve(force);
-  if (measure.kind == MeasureKind::displacement) return std::norm(q[Eigen::Index(measure.index)] - y);
+  if (measure.kind == NoisyKind::displacement) return std::norm(q[Eigen::Index(measure.index)] - y);
   const auto at = mechanics::incidence(network, network.elements[measure.index]);
   return std::norm(at.w.cast<Complex>().dot(q) + (moved ? y * at.p[0] : Complex(0.0)));
 }
@@ -253,7 +254,7 @@ double gain(const Network& network, const NetworkValues& values, const Noise& no
 // Integral of S0 |u/w|^2 over all omega = tan(angle): the trapezium rule, whose error falls exponentially for
 // a smooth periodic integrand.
 double integrate(const Network& network, const NetworkValues& values, const Noise& noise,
-                 const Measure& measure) {
+                 const NoisyQuantity& measure) {
   const int steps = 20000;
   const double unit = 3.0;  // rad/s, amid the resonances
   double sum = 0.0;
@@ -264,15 +265,15 @@ double integrate(const Network& network, const NetworkValues& values, const Nois
   return 2.0 * noise.intensity * sum * 0.5 * pi / steps;
 }
 
-std::vector<std::pair<Noise, Measure>> every_question() {
+std::vector<std::pair<Noise, NoisyQuantity>> every_question() {
   const Noise force{NoiseKind::force_on, 1, 0.3}, acceleration{NoiseKind::acceleration_of, 0, 1.7};
-  return {{force, {MeasureKind::displacement, 0}},
-          {force, {MeasureKind::stroke, 5}},
-          {force, {MeasureKind::stroke, 6}},
-          {force, {MeasureKind::stroke, 9}},
-          {acceleration, {MeasureKind::displacement, 2}},
-          {acceleration, {MeasureKind::stroke, 8}},
-          {acceleration, {MeasureKind::stroke, 7}}};
+  return {{force, {NoisyKind::displacement, 0}},
+          {force, {NoisyKind::stroke, 5}},
+          {force, {NoisyKind::stroke, 6}},
+          {force, {NoisyKind::stroke, 9}},
+          {acceleration, {NoisyKind::displacement, 2}},
+          {acceleration, {NoisyKind::stroke, 8}},
+          {acceleration, {NoisyKind::stroke, 7}}};
 }
 
 TEST_CASE(
@@ -351,7 +352,7 @@ TEST_CASE("a variance that is infinite, or of no linear system, is refused by na
   Network partly = moved;
   partly.elements[3].a = ground;  // the inerter alone may stand on the ground
   CHECK_NOTHROW(Variance(partly, acceleration, {}).mean_square(tmd_values(0.1, 0.1, 0.9, 0.1)));
-  CHECK_THROWS_WITH(Variance(partly, acceleration, {MeasureKind::stroke, 3}), Contains("'inerter'"));
+  CHECK_THROWS_WITH(Variance(partly, acceleration, {NoisyKind::stroke, 3}), Contains("'inerter'"));
   CHECK_THROWS_WITH(Variance(moved, force, {}).mean_square(tmd_values(0.1, 0.0, 0.9, 0.0)),
                     Contains("not damped"));
   for (const ElementType type : {ElementType::coulomb, ElementType::hysteretic}) {
