@@ -35,6 +35,9 @@ engine::Summary compute(const StudyPlan& plan, const engine::Job& job, const eng
   } catch (const engine::ResumeRefused&) {
     remove_study_note(run.output, plan.fingerprint);
     throw;
+  } catch (const StudyError&) {  // of the work itself: no log of this study will need the note
+    remove_study_note(run.output, plan.fingerprint);
+    throw;
   }
 }
 

@@ -1,11 +1,27 @@
+#include <dlfcn.h>
+
 #include <exception>
 #include <iostream>
 
 #include "studies/program/exit_code.hpp"
 #include "studies/program/program.hpp"
 
+namespace {
+
+// The BLAS under Ipopt's linear solver keeps to the thread that calls it: threads are ours to start. OpenBLAS
+// reads OPENBLAS_NUM_THREADS when it is loaded, before main(), so it is told by its own function; another
+// BLAS has none.
+void keep_blas_to_one_thread() {
+  using SetThreads = void (*)(int);
+  const auto set_threads = reinterpret_cast<SetThreads>(::dlsym(RTLD_DEFAULT, "openblas_set_num_threads"));
+  if (set_threads) set_threads(1);
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   try {
+    keep_blas_to_one_thread();
     return frahm::studies::run_program(argc, argv, std::cout);
   } catch (const std::exception& error) {
     std::cerr << "frahm: internal error, please report it: " << error.what() << '\n';

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -34,7 +35,7 @@ double range_flag(const ColumnChoice& column, double value) {
 void add_curves(const TuningAbout& about, GroupColumns& columns) {
   const auto names = scenario_names(about.study);
   for (const tuning::Curve& curve : about.result.assessment.curves) {
-    for (std::size_t s = 0; s < curve.value.size(); ++s) {
+    for (std::size_t s = 0; s < std::min(names.size(), curve.value.size()); ++s) {
       const std::string of = about.tune.scenarios.empty() ? "" : "_" + names[s];
       columns.add("response_" + curve.name + of, quantity_unit(about.study),
                   fmt::format("weighted {}, {}{}", about.tune.quantity_name, curve.name,
@@ -48,7 +49,7 @@ void add_curves(const TuningAbout& about, GroupColumns& columns) {
 
 void add_schedules(const TuningAbout& about, GroupColumns& columns) {
   const DesignValues design = design_values(about.optimum);
-  const auto rules = rules_of(about.study, design);
+  const auto rules = rules_of(about.study);
   for (std::size_t i = 0; i < about.designs.size(); ++i) {
     const auto& [choice, name, unit] = about.designs[i];
     if (!choice.is_scheduled()) continue;

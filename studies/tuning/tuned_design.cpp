@@ -40,13 +40,15 @@ std::vector<double> parameters_of(const StudyFile& study, const DesignValues& de
   return parameters;
 }
 
-std::vector<tuning::Rule> rules_of(const StudyFile& study, const DesignValues& design) {
+std::vector<tuning::Rule> rules_of(const StudyFile& study) {
   std::vector<tuning::Rule> rules;
   for (const DesignChoice& choice : study.tune->designs) {
     rules.emplace_back();
     if (!choice.rule) continue;
-    rules.back() = [&study, &choice, design](double band) {
-      const std::vector<double> parameters = parameters_of(study, design, 0, band);
+    rules.back() = [&study, &choice](double band) {
+      std::vector<double> parameters = parameters_in_scenario(study, 0);
+      parameters[study.tune->band->parameter] = band;
+      study.parameters.complete(std::span<double>(parameters));
       const double value = choice.rule->expression.evaluate(std::span<const double>(parameters));
       return std::clamp(value, choice.lower, choice.upper);
     };

@@ -24,9 +24,9 @@ std::vector<double> parameters_in_scenario(const StudyFile& study, std::size_t s
 std::vector<double> parameters_of(const StudyFile& study, const DesignValues& design, std::size_t scenario,
                                   double band);
 
-// Of each design parameter the schedule that its rule gives beside the rest of the design, clipped to its
-// bounds; an empty function where it has no rule. study: must outlive them.
-std::vector<tuning::Rule> rules_of(const StudyFile& study, const DesignValues& design);
+// Of each design parameter the schedule that its rule gives for the study as it stands, before anything is
+// tuned, clipped to the bounds; an empty function where it has no rule. study: must outlive them.
+std::vector<tuning::Rule> rules_of(const StudyFile& study);
 
 // The names of the scenarios; "study" where there are none.
 std::vector<std::string> scenario_names(const StudyFile& study);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <stdexcept>
 #include <utility>
 
 #include "solvers/mechanics/linear_system.hpp"
@@ -29,6 +30,7 @@ void compute_start(const StudyFile& study, const tuning::Task& task, std::uint64
     return optimum.outcome == tuning::Outcome::stopped;
   });
   if (stopped) throw engine::GivenUp{};
+  if (optima.empty()) throw std::logic_error("a start of a tuning has no optimum");
   encode(optima, out);
 }
 

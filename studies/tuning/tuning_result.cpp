@@ -28,7 +28,7 @@ std::tuple<int, double, double> rank(const Optimum& optimum) {
 tuning::Assessment assess(const StudyFile& study, const Optimum& optimum) {
   if (!has_design(study, optimum)) return {};
   try {
-    return tuning::assess(tuning_task(study), optimum, rules_of(study, design_values(optimum)));
+    return tuning::assess(tuning_task(study), optimum, rules_of(study));
   } catch (const mechanics::MechanicsError& error) {
     throw StudyError(study.source.name + ": " + error.what());
   }

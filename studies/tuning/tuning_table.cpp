@@ -24,16 +24,27 @@ std::string in_brackets(const std::string& name, const std::string& unit) {
   return unit.empty() || unit == "1" ? name : fmt::format("{} [{}]", name, unit);
 }
 
-// The bound that holds a parameter, and what moving it by one unit would give.
+// An optimiser of interior points ends this near to a bound, part of the range.
+constexpr double on_a_bound = 1e-6;
+
+// The bound on which a parameter lies, and what moving it by one unit would give; "" if it lies on none.
 struct HeldBy {
   std::string bound;
   double multiplier = 0.0;
 };
-HeldBy held_by(const tuning::TunedParameter& tuned, std::size_t k) {
-  const double lower = k < tuned.lower_multiplier.size() ? tuned.lower_multiplier[k] : 0.0;
-  const double upper = k < tuned.upper_multiplier.size() ? tuned.upper_multiplier[k] : 0.0;
-  if (lower > 0.0 && lower >= upper) return {"lower", lower};
-  return upper > 0.0 ? HeldBy{"upper", upper} : HeldBy{};
+HeldBy held_by(const DesignChoice& design, const tuning::TunedParameter& tuned, std::size_t k) {
+  const double near = on_a_bound * (design.upper - design.lower);
+  const auto multiplier = [&](const std::vector<double>& of) { return k < of.size() ? of[k] : 0.0; };
+  const HeldBy lower{"lower", multiplier(tuned.lower_multiplier)},
+      upper{"upper", multiplier(tuned.upper_multiplier)};
+  const bool at_lower = tuned.value[k] <= design.lower + near,
+             at_upper = tuned.value[k] >= design.upper - near;
+  if (at_lower && at_upper) return lower.multiplier >= upper.multiplier ? lower : upper;
+  return at_lower ? lower : at_upper ? upper : HeldBy{};
+}
+
+std::string percent(double part, const char* form) {
+  return std::isnan(part) ? "-" : fmt::format(fmt::runtime(form), 100.0 * part);
 }
 
 void print_constant(const TuningAbout& about, std::size_t i, std::ostream& out) {
@@ -43,7 +54,7 @@ void print_constant(const TuningAbout& about, std::size_t i, std::ostream& out) 
   const double before = about.study.parameters.nominal()[choice.parameter];
   fmt::print(out, "{:<22}{:>16.10g}{:>14.6g}{:>12.6g}{:>12.6g}", in_brackets(name, unit),
              tuned.value[0] / factor, before / factor, choice.lower / factor, choice.upper / factor);
-  const HeldBy held = held_by(tuned, 0);
+  const HeldBy held = held_by(choice, tuned, 0);
   if (!held.bound.empty()) fmt::print(out, "  {} bound, {:.4g} a unit", held.bound, held.multiplier * factor);
   fmt::print(out, "\n");
 }
@@ -58,7 +69,7 @@ void print_schedule(const TuningAbout& about, std::size_t i, std::ostream& out) 
              fmt::format("{:.5g} .. {:.5g}", *least / factor, *most / factor), before / factor,
              choice.lower / factor, choice.upper / factor);
   std::size_t held = 0;
-  for (std::size_t k = 0; k < tuned.value.size(); ++k) held += !held_by(tuned, k).bound.empty();
+  for (std::size_t k = 0; k < tuned.value.size(); ++k) held += !held_by(choice, tuned, k).bound.empty();
   fmt::print(out, "  {} knots over {}, {} held by bounds\n", choice.knots.size(), about.band, held);
 }
 
@@ -75,7 +86,7 @@ void print_objective(const TuningAbout& about, std::ostream& out) {
   const std::string unit = objective_unit(about.study);
   fmt::print(out, "\n{:<24}{}\n", "objective", with_unit(optimum.objective, unit));
   for (const tuning::Curve& curve : about.result.assessment.curves) {
-    if (curve.name == "after") continue;
+    if (curve.name == "after" || !about.tune.band) continue;
     fmt::print(out, "  worst peak, {:<8}  {}\n", curve.name,
                with_unit(curve.worst, quantity_unit(about.study)));
   }
@@ -120,13 +131,11 @@ void print_detuning(const TuningAbout& about, std::ostream& out) {
   const tuning::Detuning& detuning = about.result.assessment.detuning;
   if (detuning.change.empty() || detuning.growth.size() != about.designs.size()) return;
   fmt::print(out, "\n{:<22}", "objective grows at");
-  for (const double change : detuning.change)
-    fmt::print(out, "{:>10}", fmt::format("{:+.0f} %", 100 * change));
+  for (const double change : detuning.change) fmt::print(out, "{:>10}", percent(change, "{:+.0f} %"));
   fmt::print(out, "\n");
   for (std::size_t i = 0; i < about.designs.size(); ++i) {
     fmt::print(out, "{:<22}", about.designs[i].name);
-    for (const double growth : detuning.growth[i])
-      fmt::print(out, "{:>10}", fmt::format("{:+.2f} %", 100 * growth));
+    for (const double growth : detuning.growth[i]) fmt::print(out, "{:>10}", percent(growth, "{:+.2f} %"));
     fmt::print(out, "\n");
   }
 }

@@ -5,6 +5,7 @@ usage: same_bytes.py FRAHM SOURCE_DIR
 
 import os
 import random
+import re
 import shutil
 import signal
 import subprocess
@@ -74,9 +75,28 @@ class Runs:
         assert self.finish(output, *options) == expected, how
 
 
+def check_tuning(program, source):
+    """The starts of a tuning, as the points of a map."""
+    with open(os.path.join(source, "studies", "tune_classical.toml")) as file:
+        text = re.sub(r"(?m)^start .*\n", "", file.read())
+    assert text.count("[tune]\n") == 1
+    with tempfile.TemporaryDirectory() as folder:
+        study_path, output = os.path.join(folder, "study.toml"), os.path.join(folder, "optimum.h5")
+        with open(study_path, "w") as file:
+            file.write(text.replace("[tune]\n", "[tune]\nstart = 12\n"))
+        runs = Runs(program, folder, study_path)
+        one = runs.finish(output, "--threads", "1")
+        assert one["optimum/start_objective"][1] == (12,)
+        for _ in range(2):
+            assert runs.finish(output, "--threads", "2") == one
+        runs.killed(one, output, signal.SIGKILL, "--threads", "2")
+        runs.killed(one, output, signal.SIGTERM, "--threads", "1")
+
+
 def main():
     random.seed(2)
     program, source = sys.argv[1:]
+    check_tuning(program, source)
     with tempfile.TemporaryDirectory() as folder:
         study_path, output = os.path.join(folder, "study.toml"), os.path.join(folder, "map.h5")
         shutil.copy(os.path.join(source, "studies", "den_hartog.toml"), study_path)
@@ -87,7 +107,7 @@ def main():
             assert runs.finish(output, "--threads", threads) == one, threads
         runs.killed(one, output, signal.SIGKILL, "--threads", "2")
         runs.killed(one, output, signal.SIGTERM, "--threads", "1")
-    print("1, 2 and 5 threads, SIGKILL and SIGTERM: the same bytes in every dataset")
+    print("a map and a tuning on 1, 2 and more threads, SIGKILL and SIGTERM: the same bytes in every dataset")
 
 
 if __name__ == "__main__":

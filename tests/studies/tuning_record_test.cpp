@@ -1,0 +1,190 @@
+#include "studies/tuning/tuning_record.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+#include "studies/map/study_plan.hpp"
+#include "studies/reading/units.hpp"
+#include "studies/tuning/tuning_plan.hpp"
+#include "tests/studies/small_tunings.hpp"
+
+namespace {
+
+using namespace frahm;
+using namespace frahm::studies;
+using namespace small_tunings;
+constexpr double rounding = 1e-14;  // a few roundings of double arithmetic
+
+StudyFile parse(const std::string& text) {
+  return parse_study(text, "tuning.toml");
+}
+
+// A rig in engineer's units with a schedule over rpm.
+const std::string rig =
+    "[study]\nschema = 1\nkind = \"tune\"\n"
+    "[parameters]\nn = { value = 250, unit = \"rpm\" }\nI = 6\nk = { value = 11, unit = \"kN/m\" }\n"
+    "[[mass]]\nname = \"main\"\nmass = 102.66\n[[mass]]\nname = \"tmd\"\nmass = 12.82\n"
+    "[[element]]\nname = \"spring\"\ntype = \"spring\"\nbetween = [\"ground\", \"main\"]\nstiffness = 57e3\n"
+    "[[element]]\nname = \"tmd_spring\"\ntype = \"spring\"\nbetween = [\"main\", \"tmd\"]\nstiffness = "
+    "\"k\"\n"
+    "[[element]]\nname = \"inerter\"\ntype = \"inerter\"\nbetween = [\"main\", \"tmd\"]\ninertance = \"I\"\n"
+    "[excitation]\nfrequency = \"n\"\n[[excitation.force]]\non = \"main\"\namplitude = 240\n"
+    "[tune]\nobjective = \"minimax\"\nquantity = \"main_peak\"\n"
+    "band = { parameter = \"n\", from = 150, to = 350, unit = \"rpm\" }\n"
+    "[[design]]\nparameter = \"I\"\nlower = 4\nupper = 13\nschedule = { knots = [150, 200, 350] }\n"
+    "rule = \"k/n^2\"\n"
+    "[[design]]\nparameter = \"k\"\nlower = 5\nupper = 20\n"
+    "[[constraint]]\nquantity = \"tmd_spring_stroke\"\nupper = 80\nunit = \"mm\"\n"
+    "[[column]]\nname = \"ratio\"\nvalue = \"I/10\"\nlower = 0.5\nupper = 0.8\n";
+
+tuning::Optimum optimum_of(double objective, tuning::Outcome outcome = tuning::Outcome::converged) {
+  tuning::Optimum optimum;
+  optimum.outcome = outcome;
+  optimum.objective = objective;
+  return optimum;
+}
+
+// A result of the rig's shape, made up.
+TuningResult rig_result(const StudyFile& study) {
+  tuning::Optimum optimum = optimum_of(0.02);
+  optimum.parameters = {{{5, 9, 6}, {0, 0, 0}, {0, 1e-3, 0}}, {{12e3}, {0}, {2e-6}}};
+  const tuning::Band& band = study.tune->band->range;
+  optimum.peaks = {{0, band.from, 0.02, 1.0, {1e-3, 3e-6}}};
+  optimum.limits = {{0.07, band.to, 0, 0.25}};
+  optimum.constant = {8.0, 11e3};
+  TuningResult result{.starts = {{0, {optimum_of(0.03)}}, {1, {optimum}}}, .best = {1}, .assessment = {}};
+  result.assessment.band = {band.from, 0.5 * (band.from + band.to), band.to};
+  result.assessment.curves = {{"before", {{0.01, 0.03, 0.01}}, 0.03}, {"after", {{0.02, 0.01, 0.02}}, 0.02}};
+  return result;
+}
+
+const results::Column& named(const std::vector<results::Column>& columns, const std::string& name) {
+  for (const auto& column : columns) {
+    if (column.variable.name == name) return column;
+  }
+  throw std::out_of_range(name);
+}
+
+TEST_CASE("the record of a tuning is in the units of its study") {
+  const StudyFile study = parse(rig);
+  const auto columns = optimum_columns(study, rig_result(study));
+  results::check(columns);
+  const auto values = [&](const char* name) { return named(columns, name).values; };
+  const auto unit = [&](const char* name) { return named(columns, name).variable.unit; };
+  CHECK_THAT(values("k")[0], Catch::WithinRel(12.0, rounding));
+  CHECK(unit("k") == "kN/m");
+  CHECK_THAT(values("k_upper_multiplier")[0], Catch::WithinRel(2e-3, rounding));
+  CHECK(unit("k_upper_multiplier") == "m (kN/m)-1");
+  CHECK_THAT(values("k_before")[0], Catch::WithinRel(11.0, rounding));
+  CHECK(values("I") == std::vector<double>{5, 9, 6});
+  CHECK(named(columns, "I").dimension == "knots_I");
+  CHECK_THAT(values("knots_I")[1], Catch::WithinRel(200.0, rounding));
+  CHECK(unit("knots_I") == "rpm");
+  CHECK_THAT(values("k_sensitivity")[0], Catch::WithinRel(3e-3, rounding));
+  CHECK_THAT(values("peak_n")[0], Catch::WithinRel(150.0, rounding));
+  CHECK_THAT(values("tmd_spring_stroke_limited")[0], Catch::WithinRel(70.0, rounding));
+  CHECK_THAT(values("tmd_spring_stroke_limit_multiplier")[0], Catch::WithinRel(0.25e-3, rounding));
+  CHECK(std::isnan(values("tmd_spring_stroke_lower_limit")[0]));
+  CHECK(named(columns, "response_after").dimension == "n");
+  CHECK_THAT(values("I_schedule")[1], Catch::WithinRel(8.0, rounding));
+  CHECK(values("ratio_range") == std::vector<double>{1, 1, 1});
+  CHECK(values("outcome") == std::vector<double>{1});
+  CHECK(values("best_start") == std::vector<double>{1});
+  CHECK(values("start_objective") == std::vector<double>{0.03, 0.02});
+  CHECK(std::isnan(values("start_k")[0]));
+}
+
+TEST_CASE("every unit of the record is one that UDUNITS reads") {
+  const StudyFile study = parse(rig);
+  const UnitSystem units;
+  for (const auto& column : optimum_columns(study, rig_result(study))) {
+    INFO(column.variable.name << " [" << column.variable.unit << "]");
+    if (column.variable.type != results::Type::flag) CHECK_NOTHROW(units.parse(column.variable.unit));
+  }
+  std::string squared = rig;
+  squared.replace(squared.find("minimax"), 7, "mean_square");
+  squared.replace(squared.find("main_peak"), 9, "main_velocity_peak");
+  const StudyFile mean = parse(squared);
+  CHECK(objective_unit(mean) == "(m s-1)2");
+  const Unit unit = units.parse(objective_unit(mean));
+  CHECK(unit.exponents == std::array<int, 3>{2, 0, -2});
+}
+
+TEST_CASE("names that would stand twice in the record are refused, with the name") {
+  std::string text = classical;
+  for (std::size_t i = 0; (i = text.find("zeta", i)) != std::string::npos; i += 5)
+    text.replace(i, 4, "start");
+  CHECK_THROWS_WITH(plan_tuning(parse(text), {}),
+                    Catch::Contains("one name twice") && Catch::Contains("start"));
+  CHECK_THROWS_WITH(plan_tuning(parse(classical + "[[column]]\nname = \"f\"\nvalue = \"f\"\n"), {}),
+                    Catch::Contains("'f'"));
+  CHECK_NOTHROW(plan_tuning(parse(classical), {}));
+}
+
+TEST_CASE("a converged start comes before a lower one that is not, then the least, then the first") {
+  using tuning::Outcome;
+  const auto best = [](const std::vector<tuning::Optimum>& optima) {
+    std::vector<const tuning::Optimum*> all;
+    for (const auto& optimum : optima) all.push_back(&optimum);
+    return best_of(all);
+  };
+  CHECK(best({optimum_of(1.0, Outcome::not_converged), optimum_of(2.0), optimum_of(1.5), optimum_of(1.5)}) ==
+        2);
+  CHECK(best({optimum_of(std::nan("")), optimum_of(2.0)}) == 1);
+  tuning::Optimum near = optimum_of(3.0, Outcome::infeasible), far = optimum_of(1.0, Outcome::infeasible);
+  near.violation = 0.1;
+  far.violation = 0.2;
+  CHECK(best({far, near}) == 1);
+  CHECK(best({near, optimum_of(9.0, Outcome::not_converged)}) == 1);
+}
+
+TEST_CASE("what changes an optimum is physics; starts, rules and columns are not") {
+  const auto of = [](const std::string& text) { return plan_tuning(parse(text), {}).fingerprint; };
+  const auto base = of(rig);
+  const auto changed = [&](const std::string& passage, const std::string& by) {
+    std::string text = rig;
+    text.replace(text.find(passage), passage.size(), by);
+    return of(text);
+  };
+  for (const auto& [passage, by] : std::vector<std::pair<std::string, std::string>>{
+           {"to = 350", "to = 350.5"},
+           {"upper = 20", "upper = 21"},
+           {"knots = [150, 200, 350]", "knots = 3"},
+           {"[150, 200, 350]", "[150, 200, 350], max_slope = 1"},
+           {"upper = 80", "upper = 81"},
+           {"\"main_peak\"", "\"tmd_peak\""},
+           {"\"minimax\"", "\"mean_square\""},
+           {"k = { value = 11", "k = { value = 12"},
+           {"amplitude = 240", "amplitude = 241"},
+           {"[[design]]", "tolerance = 1e-5\n[[design]]"},
+           {"[[design]]", "solver = \"slsqp\"\n[[design]]"},
+           {"[[design]]", "weight = \"n\"\n[[design]]"},
+           {"[[design]]", "dominate = \"constant\"\n[[design]]"}}) {
+    INFO(passage << " -> " << by);
+    // The band's knots move with its end, which would be refused.
+    const std::string knots = passage == "to = 350" ? "from" : "";
+    if (knots.empty()) CHECK(changed(passage, by).physics != base.physics);
+  }
+  CHECK(changed("value = 250", "value = 260") == base);
+  for (const auto& [passage, by] :
+       std::vector<std::pair<std::string, std::string>>{{"k/n^2", "k/n^3"}, {"upper = 0.8", "upper = 0.9"}}) {
+    CHECK(changed(passage, by).physics == base.physics);
+    CHECK(changed(passage, by).grid != base.grid);
+  }
+  std::string more = rig;
+  more.replace(more.find("[[design]]"), 10, "start = 4\n[[design]]");
+  std::string most = rig;
+  most.replace(most.find("[[design]]"), 10, "start = 8\n[[design]]");
+  CHECK(of(more).physics == of(most).physics);
+  CHECK(of(more).grid != of(most).grid);
+}
+
+TEST_CASE("--set of the band or of what scenarios set is refused, as it would be without effect") {
+  CHECK_THROWS_WITH(plan_tuning(parse(rig), {"n=200"}), Catch::Contains("runs over the band"));
+  CHECK_THROWS_WITH(
+      plan_tuning(parse(classical + "[[scenario]]\nname = \"two\"\nset = { P = 2 }\n"), {"P=3"}),
+      Catch::Contains("is set by the scenario \"two\""));
+}
+
+}  // namespace
