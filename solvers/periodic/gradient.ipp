@@ -209,6 +209,7 @@ double Gradient<N, H>::at_candidate(std::size_t trace, const Candidate<N, H>& ca
 template <int N, int H>
 double Gradient<N, H>::extreme(std::size_t i, Side side) {
   constexpr double kAgree = 1e-7;  // of derivatives that are one but for rounding
+  double state_change = 0.0;       // of the orbit at the extremes, relative, a unit of the parameter
   const std::size_t trace = trace_index_[i];
   const Extremes& found = extremes_[trace];
   const double magnitude = found.magnitude(), tie = kTiedExtremes * magnitude;
@@ -224,6 +225,8 @@ double Gradient<N, H>::extreme(std::size_t i, Side side) {
                               : side == Side::least && candidate.value <= found.least + tie);
     if (!at_most && !at_least) continue;
     const double by = at_candidate(trace, candidate);
+    const InstantDerivative<N, H> d = sensitivity_.at(candidate.step, candidate.s, candidate.at);
+    state_change = std::max(state_change, d.z.norm() / candidate.at.z.norm());
     if (at_most) {
       smallest = std::min(smallest, by);
       largest = std::max(largest, by);
@@ -233,8 +236,9 @@ double Gradient<N, H>::extreme(std::size_t i, Side side) {
       largest = std::max(largest, -by);
     }
   }
-  if (largest - smallest > kAgree * std::max(std::abs(largest), std::abs(smallest)))
-    return none(i, "two extremes tie: it has a kink here");
+  // Where the extreme itself is stationary in the parameter its derivative is rounding of the state's.
+  const double size = std::max({std::abs(largest), std::abs(smallest), magnitude * state_change});
+  if (largest - smallest > kAgree * size) return none(i, "two extremes tie: it has a kink here");
   return 0.5 * (largest + smallest);
 }
 
