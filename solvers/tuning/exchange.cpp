@@ -17,7 +17,7 @@ constexpr double kSamePlace = 1e-7;  // frequencies closer than this, relative, 
 constexpr double kNearEnd =
     1e-2;  // the gap from which on maxima are followed and problems solved to the last digit
 constexpr SolverOptions kExact{.tolerance = 1e-9, .most_iterations = 100};
-constexpr SolverOptions kSettling{.tolerance = 1e-6, .most_iterations = 60};
+constexpr SolverOptions kSettling{.tolerance = 1e-6, .most_iterations = 40};
 constexpr double kClosed = 1e-9;
 constexpr SolverOptions kRough{.tolerance = 1e-4, .most_iterations = 40, .feasibility = 1e-6};
 constexpr int kRoundsThatDrop = 5;
@@ -147,8 +147,13 @@ bool Exchange::is_bounded(const Goal& goal, std::size_t curve) const {
 std::vector<ActivePoint> Exchange::first_active(const Goal& goal, const Scan& scan) const {
   std::vector<ActivePoint> active;
   const std::vector<double> knots = space_.knots();
+  const bool dominates = std::any_of(curves_.begin(), curves_.end(), [](const CurveKind& curve) {
+    return curve.of == CurveKind::Of::dominated;
+  });
   for (std::size_t c = 0; c < curves_.size(); ++c) {
     if (!is_bounded(goal, c)) continue;
+    // What stays below the constant design everywhere needs no grid of its own beside that.
+    if (dominates && curves_[c].of == CurveKind::Of::objective) continue;
     const Band band = curves_[c].band;
     std::vector<double> places = knots;
     for (std::size_t i = 0; i + 1 < knots.size(); ++i) places.push_back(0.5 * (knots[i] + knots[i + 1]));
