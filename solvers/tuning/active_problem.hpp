@@ -64,7 +64,7 @@ class ActiveProblem final : public Problem {
     return goal_.of == Goal::Of::worst && curves_[curve].of == CurveKind::Of::objective;
   }
   double bound_of(std::size_t curve) const {
-    return curves_[curve].of == CurveKind::Of::objective ? goal_.held : 1.0;
+    return curves_[curve].of == CurveKind::Of::objective ? goal_.held : curves_[curve].most();
   }
   void name_variables();
   void add_rows();

@@ -24,6 +24,11 @@ struct CurveKind {
   Band band;
   double bound = 0.0;            // of a limit
   std::vector<double> constant;  // design of `dominated`
+
+  // What the curve stays under, where that is not t. Where the constant design is the best by itself a
+  // dominating one can only touch it: a hair of room lets the optimiser do so.
+  double most() const { return of == Of::dominated ? 1.0 + kTouch : 1.0; }
+  static constexpr double kTouch = 1e-8;
 };
 
 // Its values at designs and frequencies one after the other. Where the orbit has no symmetry a peak has two

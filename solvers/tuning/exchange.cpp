@@ -17,7 +17,7 @@ constexpr double kSamePlace = 1e-7;  // frequencies closer than this, relative, 
 constexpr double kNearEnd =
     1e-2;  // the gap from which on maxima are followed and problems solved to the last digit
 constexpr SolverOptions kExact{.tolerance = 1e-9, .most_iterations = 100};
-constexpr SolverOptions kSettling{.tolerance = 1e-6, .most_iterations = 40};
+constexpr SolverOptions kSettling{.tolerance = 1e-6, .most_iterations = 150};
 constexpr double kClosed = 1e-9;
 constexpr SolverOptions kRough{.tolerance = 1e-4, .most_iterations = 40, .feasibility = 1e-6};
 constexpr int kRoundsThatDrop = 5;
@@ -128,7 +128,7 @@ void Exchange::scan_curve(std::span<const double> x, std::size_t c, double floor
   if (curves_[c].of == CurveKind::Of::objective)
     scan.worst = std::max(scan.worst, highest.value);
   else
-    scan.violation = std::max(scan.violation, highest.value - 1.0);
+    scan.violation = std::max(scan.violation, highest.value - curves_[c].most());
 }
 
 Scan Exchange::scan(std::span<const double> x, double floor, double accuracy) {
