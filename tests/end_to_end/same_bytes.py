@@ -83,10 +83,10 @@ def check_tuning(program, source):
     with tempfile.TemporaryDirectory() as folder:
         study_path, output = os.path.join(folder, "study.toml"), os.path.join(folder, "optimum.h5")
         with open(study_path, "w") as file:
-            file.write(text.replace("[tune]\n", "[tune]\nstart = 12\n"))
+            file.write(text.replace("[tune]\n", "[tune]\nstart = 32\n"))
         runs = Runs(program, folder, study_path)
         one = runs.finish(output, "--threads", "1")
-        assert one["optimum/start_objective"][1] == (12,)
+        assert one["optimum/start_objective"][1] == (32,)
         for _ in range(2):
             assert runs.finish(output, "--threads", "2") == one
         runs.killed(one, output, signal.SIGKILL, "--threads", "2")

@@ -188,12 +188,23 @@ TEST_CASE("each rig tuning, with and without friction: certified, and no higher 
   }
 }
 
-TEST_CASE("tune_rig_schedule.toml: the schedule is better than the best constant and the authors' rule") {
+TEST_CASE(
+    "tune_rig_schedule.toml: better than the best constant, and within its slope as good as the authors' "
+    "rule") {
+  // At the worst frequency, 19.15 rad/s, both stand at the upper bound of I: there is nothing to gain on the
+  // rule.
+  constexpr double room = 2e-7;  // of the last stage, see design_tuning.cpp
   for (const char* friction : {"friction=1", "friction=0"}) {
     const Tuned tuned("tune_rig_schedule", {friction});
     INFO(friction);
     CHECK(tuned.of("objective") < tuned.of("constant_objective"));
-    CHECK(tuned.of("objective") < most(tuned["response_rule"]));
+    CHECK(tuned.of("objective") <= most(tuned["response_rule"]) * (1.0 + room));
+    double rule_slope = 0.0;  // the rule goes down faster than the study lets a schedule go
+    for (double omega = 15.0; omega < 35.0; omega += 0.01) {
+      const auto rule = [](double at) { return std::clamp(10985.1 / (at * at) - 12.82, 4.72, 12.9); };
+      rule_slope = std::max(rule_slope, (rule(omega) - rule(omega + 0.01)) / 0.01);
+    }
+    CHECK(rule_slope > 2.0);
     // Bounds and slope limit of the study.
     const std::vector<double>&I = tuned["I"], &knots = tuned["knots_I"];
     REQUIRE(I.size() == 41);
@@ -202,6 +213,15 @@ TEST_CASE("tune_rig_schedule.toml: the schedule is better than the best constant
       CHECK(I[k] <= 12.9);
       if (k > 0) CHECK(std::abs(I[k] - I[k - 1]) <= 2.0 * (knots[k] - knots[k - 1]) * (1.0 + 1e-9));
     }
+  }
+}
+
+TEST_CASE("tune_rig_schedule_stiffness_damping.toml: better than the best constant and the authors' rule") {
+  for (const char* friction : {"friction=1", "friction=0"}) {
+    const Tuned tuned("tune_rig_schedule_stiffness_damping", {friction});
+    INFO(friction);
+    CHECK(tuned.of("objective") < 0.8 * tuned.of("constant_objective"));
+    CHECK(tuned.of("objective") < 0.5 * most(tuned["response_rule"]));
   }
 }
 
