@@ -210,10 +210,10 @@ Solution ScaledProblem::conclude(Multipliers multipliers, Ending ending) const {
   result.kkt_residual = kkt_residual(problem_, at_, multipliers);
   const bool feasible = result.infeasibility <= options_.feasibility;
   if (diverging_) ending = Ending::diverging;
-  if (stopped_) ending = Ending::stopped;
   if (feasible && result.kkt_residual <= kAcceptable * options_.tolerance) ending = Ending::acceptable;
   if (feasible && result.kkt_residual <= options_.tolerance) ending = Ending::converged;
   if (!feasible && ending == Ending::failed) ending = Ending::infeasible;
+  if (stopped_) ending = Ending::stopped;
   result.ending = ending;
   result.reason = reason_of(ending, solution_.reason);
   result.lower_multipliers = std::move(multipliers.lower);

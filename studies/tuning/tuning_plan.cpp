@@ -29,7 +29,8 @@ void compute_start(const StudyFile& study, const tuning::Task& task, std::uint64
   const bool stopped = std::any_of(optima.begin(), optima.end(), [](const tuning::Optimum& optimum) {
     return optimum.outcome == tuning::Outcome::stopped;
   });
-  if (stopped) throw engine::GivenUp{};
+  // A stop that came while it was at work may have cut a step short without being its end.
+  if (stopped || stop_asked()) throw engine::GivenUp{};
   if (optima.empty()) throw std::logic_error("a start of a tuning has no optimum");
   encode(optima, out);
 }

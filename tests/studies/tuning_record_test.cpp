@@ -180,7 +180,7 @@ TEST_CASE("what changes an optimum is physics; starts, rules and columns are not
   CHECK(of(more).grid != of(most).grid);
 }
 
-TEST_CASE("--set of the band or of what scenarios set is refused, as it would be without effect") {
+TEST_CASE("The band and what scenarios set are refused by --set, which would be without effect") {
   CHECK_THROWS_WITH(plan_tuning(parse(rig), {"n=200"}), Catch::Contains("runs over the band"));
   CHECK_THROWS_WITH(
       plan_tuning(parse(classical + "[[scenario]]\nname = \"two\"\nset = { P = 2 }\n"), {"P=3"}),
