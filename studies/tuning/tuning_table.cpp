@@ -99,7 +99,7 @@ void print_objective(const TuningAbout& about, std::ostream& out) {
 }
 
 void print_peaks(const TuningAbout& about, std::ostream& out) {
-  const auto is_active = [](const tuning::Peak& peak) { return peak.multiplier > 0.0; };
+  const auto is_active = [](const tuning::Peak& peak) { return peak.multiplier > 1e-6; };
   if (std::none_of(about.optimum.peaks.begin(), about.optimum.peaks.end(), is_active)) return;
   const auto names = scenario_names(about.study);
   fmt::print(out, "\nactive peaks\n{:>18}{:>18}{:>10}\n", in_brackets(about.band, about.band_unit),

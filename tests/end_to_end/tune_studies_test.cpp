@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "tests/end_to_end/runs.hpp"
+#include "tests/known_answers/nishihara_asami.hpp"
 
 namespace {
 
@@ -104,28 +105,11 @@ double most(const std::vector<double>& values) {
   return *std::max_element(values.begin(), values.end());
 }
 
-struct ClosedForm {
-  double f, zeta, peak;
-};
-
-// O. Nishihara, T. Asami, J. Vib. Acoust. 124 (2002) 576; tests/known_answers/tuning_test.cpp shows that it
-// is one.
-ClosedForm nishihara_asami(double mu) {
-  const double q = std::sqrt(4.0 + 3.0 * mu);
-  return {2.0 / (1.0 + mu) *
-              std::sqrt(2.0 * (16.0 + 23.0 * mu + 9.0 * mu * mu + 2.0 * (2.0 + mu) * q) /
-                        (3.0 * (64.0 + 80.0 * mu + 27.0 * mu * mu))),
-          0.25 * std::sqrt((8.0 + 9.0 * mu - 4.0 * q) / (1.0 + mu)),
-          1.0 / (3.0 * mu) *
-              std::sqrt((std::pow(8.0 + 9.0 * mu, 2) * (16.0 + 9.0 * mu) - 128.0 * q * q * q) /
-                        (3.0 * (32.0 + 27.0 * mu)))};
-}
-
 TEST_CASE("tune_classical.toml: six mass ratios end at the exact H-infinity optimum from a poor start") {
   for (const char* mu : {"0.01", "0.02", "0.05", "0.1", "0.2", "0.5"}) {
     INFO("mu = " << mu);
     const Tuned tuned("tune_classical", {std::string("mu=") + mu});
-    const ClosedForm known = nishihara_asami(std::stod(mu));
+    const AbsorberOptimum known = nishihara_asami(std::stod(mu));
     CHECK(tuned.of("f") == Approx(known.f).epsilon(exact));
     CHECK(tuned.of("zeta") == Approx(known.zeta).epsilon(exact));
     CHECK(tuned.of("objective") == Approx(known.peak).epsilon(exact));
@@ -138,7 +122,7 @@ TEST_CASE("tune_grounded_inerter.toml: an inerter to the ground counts as absorb
   for (const char* beta : {"0.05", "0.1", "0.4"}) {
     INFO("beta = " << beta);
     const Tuned tuned("tune_grounded_inerter", {std::string("beta=") + beta});
-    const ClosedForm known = nishihara_asami(0.05 + std::stod(beta));
+    const AbsorberOptimum known = nishihara_asami(0.05 + std::stod(beta));
     CHECK(tuned.of("f") == Approx(known.f).epsilon(exact));
     CHECK(tuned.of("zeta") == Approx(known.zeta).epsilon(exact));
     CHECK(tuned.of("objective") == Approx(known.peak).epsilon(exact));

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "tests/end_to_end/runs.hpp"
+#include "tests/known_answers/nishihara_asami.hpp"
 #include "tests/studies/small_tunings.hpp"
 
 namespace {
@@ -19,22 +20,6 @@ constexpr double mu = 0.05;  // mass ratio of small_tunings
 // A maximum is flat, so a design is found to about the root of the precision of its peak.
 constexpr double of_design = 1e-5;
 constexpr double of_peak = 1e-6;
-
-// Nishihara and Asami (2002): the exact minimax optimum of the absorber on an undamped mass.
-struct Exact {
-  double f, zeta, peak;
-};
-Exact exact_optimum() {
-  const double q = std::sqrt(4 + 3 * mu);
-  const double f =
-      2 / (1 + mu) *
-      std::sqrt(2 * (16 + 23 * mu + 9 * mu * mu + 2 * (2 + mu) * q) / (3 * (64 + 80 * mu + 27 * mu * mu)));
-  const double zeta = 0.25 * std::sqrt((8 + 9 * mu - 4 * q) / (1 + mu));
-  const double peak =
-      1 / (3 * mu) *
-      std::sqrt(((8 + 9 * mu) * (8 + 9 * mu) * (16 + 9 * mu) - 128 * q * q * q) / (3 * (32 + 27 * mu)));
-  return {f, zeta, peak};
-}
 
 using Columns = std::map<std::string, std::vector<double>>;
 Columns columns_of(const std::string& path, const std::string& group = "optimum") {
@@ -75,7 +60,7 @@ TEST_CASE("the classical absorber is tuned to its closed form and told") {
                  Catch::Contains("active peaks") && Catch::Contains("converged"));
   CHECK(folder.names() == std::vector<std::string>{"tmd.h5", "tmd.toml"});
   Columns optimum = columns_of(file);
-  const Exact exact = exact_optimum();
+  const AbsorberOptimum exact = nishihara_asami(mu);
   CHECK_THAT(optimum["f"][0], Catch::WithinRel(exact.f, of_design));
   CHECK_THAT(optimum["zeta"][0], Catch::WithinRel(exact.zeta, of_design));
   CHECK_THAT(optimum["objective"][0], Catch::WithinRel(exact.peak, of_peak));

@@ -4,6 +4,7 @@
 #include <complex>
 
 #include "solvers/tuning/optimum.hpp"
+#include "tests/known_answers/nishihara_asami.hpp"
 
 namespace {
 
@@ -13,24 +14,6 @@ using tuning::Task;
 
 constexpr double tolerance = 1e-6;           // of f, zeta and the peak, as promised
 constexpr double closed_form_error = 1e-12;  // of the reference itself
-
-struct ClosedForm {
-  double f, zeta, peak;
-};
-
-// O. Nishihara, T. Asami, J. Vib. Acoust. 124 (2002) 576: exact H-infinity optimum.
-ClosedForm nishihara_asami(double mu) {
-  const double q = std::sqrt(4.0 + 3.0 * mu);
-  ClosedForm form{};
-  form.f = 2.0 / (1.0 + mu) *
-           std::sqrt(2.0 * (16.0 + 23.0 * mu + 9.0 * mu * mu + 2.0 * (2.0 + mu) * q) /
-                     (3.0 * (64.0 + 80.0 * mu + 27.0 * mu * mu)));
-  form.zeta = 0.25 * std::sqrt((8.0 + 9.0 * mu - 4.0 * q) / (1.0 + mu));
-  form.peak = 1.0 / (3.0 * mu) *
-              std::sqrt((std::pow(8.0 + 9.0 * mu, 2) * (16.0 + 9.0 * mu) - 128.0 * q * q * q) /
-                        (3.0 * (32.0 + 27.0 * mu)));
-  return form;
-}
 
 // |X| of the main mass by hand: (K + i w C - w^2 M) X = (1, 0).
 double magnification(double mu, double beta, double f, double zeta, double w) {
@@ -90,7 +73,7 @@ const double mass_ratios[] = {0.01, 0.02, 0.05, 0.1, 0.2, 0.5};
 
 TEST_CASE("the closed form of Nishihara and Asami is a minimum of the worst magnification") {
   for (const double mu : mass_ratios) {
-    const ClosedForm form = nishihara_asami(mu);
+    const AbsorberOptimum form = nishihara_asami(mu);
     INFO("mu = " << mu);
     const double worst = worst_magnification(mu, 0.0, form.f, form.zeta);
     CHECK(worst == Approx(form.peak).epsilon(1e-8));  // sampled at 200,000 places
@@ -105,7 +88,7 @@ TEST_CASE("the closed form of Nishihara and Asami is a minimum of the worst magn
 TEST_CASE(
     "the classical damper is tuned to the exact H-infinity optimum at six mass ratios from poor starts") {
   for (const double mu : mass_ratios) {
-    const ClosedForm form = nishihara_asami(mu);
+    const AbsorberOptimum form = nishihara_asami(mu);
     for (const std::size_t start : {0, 1, 2, 3}) {
       INFO("mu = " << mu << ", start " << start);
       const Optimum optimum = tuned(absorber(mu, 0.0), start);
@@ -123,7 +106,7 @@ TEST_CASE(
 TEST_CASE("an inerter from the absorber to the ground counts as absorber mass") {
   for (const double beta : {0.01, 0.1, 0.3}) {
     const double mu = 0.05;
-    const ClosedForm form = nishihara_asami(mu + beta);
+    const AbsorberOptimum form = nishihara_asami(mu + beta);
     INFO("beta = " << beta);
     const Optimum optimum = tuned(absorber(mu, beta));
     CHECK(optimum.parameters[0].value[0] == Approx(form.f).epsilon(tolerance));

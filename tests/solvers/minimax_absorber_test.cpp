@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 
+#include "tests/known_answers/nishihara_asami.hpp"
 #include "tests/solvers/known_optima.hpp"
 
 // The least highest peak of an undamped mass with an absorber, in epigraph form: many constraints, few of
@@ -18,22 +19,6 @@ constexpr double kPeak = 1e-9;  // of the highest peak, relative
 constexpr double kTuning =
     1e-7;  // of f and zeta: along the line of equal peaks the peak is flat to first order
 constexpr double kGap = 1e-12;  // of the highest peak: where the exchange ends
-
-struct Optimum {
-  double f, zeta, peak;
-};
-
-// O. Nishihara, T. Asami, J. Vib. Acoust. 124 (2002) 576-582.
-Optimum exact_optimum(double mu) {
-  const double q = std::sqrt(4.0 + 3.0 * mu);
-  return {2.0 / (1.0 + mu) *
-              std::sqrt(2.0 * (16.0 + 23.0 * mu + 9.0 * mu * mu + 2.0 * (2.0 + mu) * q) /
-                        (3.0 * (64.0 + 80.0 * mu + 27.0 * mu * mu))),
-          0.25 * std::sqrt((8.0 + 9.0 * mu - 4.0 * q) / (1.0 + mu)),
-          1.0 / (3.0 * mu) *
-              std::sqrt((std::pow(8.0 + 9.0 * mu, 2) * (16.0 + 9.0 * mu) - 128.0 * q * q * q) /
-                        (3.0 * (32.0 + 27.0 * mu)))};
-}
 
 struct Gain {
   double value;                  // |x1| k / P
@@ -135,7 +120,7 @@ TEST_CASE("the least highest peak of an absorber is that of Nishihara and Asami"
       const auto solve = [&](Problem& problem) {
         return solver == "ipopt" ? solve_with_ipopt(problem) : solve_with_nlopt(problem, solver);
       };
-      const Optimum exact = exact_optimum(mu);
+      const AbsorberOptimum exact = nishihara_asami(mu);
       PeakTuning problem(mu, 1.3, 0.03);
       const Solution on_grid = solve(problem);
       CHECK(on_grid.ending == Ending::converged);
