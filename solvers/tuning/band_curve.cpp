@@ -47,6 +47,10 @@ TunedResponse::State BandCurve::solve(std::span<const double> x, double band, bo
   const TunedResponse::State state = response_.solve(x, band, with_derivatives);
   reason_ = response_.reason();
   if (state != TunedResponse::State::solved) return state;
+  if (!std::isfinite(response_.value(0))) {
+    reason_ = "the quantity has no value there";
+    return TunedResponse::State::failed;
+  }
   factor_ = 1.0;
   offset_ = factor_slope_ = 0.0;
   const double scale = kind_.bound != 0.0 ? std::abs(kind_.bound) : 1.0;

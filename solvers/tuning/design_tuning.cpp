@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace frahm::tuning {
 namespace {
@@ -107,17 +108,18 @@ Stages DesignTuning::from(const std::vector<double>& value) {
 Exchange::Result DesignTuning::tune_constant(const std::vector<double>& value) {
   Exchange exchange(task_, constant_space_, curves_, effort_, stop_asked_);
   // A start without response, or without bound to it, moves towards the middle of the box.
-  Exchange::Result result;
+  std::optional<Exchange::Result> as_given;
   for (const double share : {0.0, 0.25, 0.5, 1.0}) {
     std::vector<double> x = constant_space_.constant_design(value);
     for (std::size_t p = 0; p < x.size(); ++p) {
       const DesignParameter& parameter = constant_space_.parameter(p);
       x[p] += share * (0.5 * (parameter.lower + parameter.upper) - x[p]);
     }
-    result = exchange.run(goal(), x);
-    if (result.has_step || result.outcome == Outcome::stopped) break;
+    Exchange::Result result = exchange.run(goal(), x);
+    if (result.has_step || result.outcome == Outcome::stopped) return result;
+    if (!as_given) as_given = std::move(result);
   }
-  return result;
+  return *as_given;
 }
 
 // The task's curves and, where the schedule has to stay below the constant design everywhere, those.

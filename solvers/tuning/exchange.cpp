@@ -11,6 +11,7 @@ namespace {
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr int kIntervals = 48;       // of the even grid that a scan starts from
 constexpr int kFirstIntervals = 32;  // and of the first active frequencies
+constexpr int kPanels = 40;          // of the quadrature of a mean square, beside those about the poles
 constexpr double kFine = 1e-7;       // accuracy of a scan, relative to the worst peak
 constexpr double kHighPeaks = 0.5;   // peaks lower than this share of the worst are left out
 constexpr double kSamePlace = 1e-7;  // frequencies closer than this, relative, are one
@@ -49,7 +50,7 @@ class Convergence {
   bool met() const { return best_ <= tolerance_; }
 
  private:
-  static constexpr int kPatience = 12;
+  static constexpr int kPatience = 6;
   double tolerance_, closed_;
   double best_ = std::numeric_limits<double>::infinity();
   int stalled_ = 0;
@@ -101,6 +102,7 @@ void Exchange::scan_curve(std::span<const double> x, std::size_t c, double floor
                           Scan& scan) {
   BandCurve& curve = *responses_[c];
   const auto point_at = [&](double band) -> CurvePoint {
+    if (stop_asked_()) return {band, kNone, kNone, kNone};
     const auto state = curve.solve(x, band, true);
     if (state == TunedResponse::State::solved) {
       constexpr std::size_t side = BandCurve::larger;
@@ -176,8 +178,18 @@ std::vector<ActivePoint> Exchange::first_active(const Goal& goal, const Scan& sc
   return active;
 }
 
-// The scan's maxima join the active points, each in the place of one it differs from by next to nothing. Near
-// the end they are followed: the maxima followed before, which these are again, go.
+// Whether maxima are followed as the design changes. Constants move sharp resonances out from between fixed
+// frequencies, so always; a schedule shapes the response place by place and has a grid at its knots, and what
+// its trials met stays met: at the end.
+bool Exchange::follows(bool near_end) const {
+  const bool dominates = std::any_of(curves_.begin(), curves_.end(), [](const CurveKind& curve) {
+    return curve.of == CurveKind::Of::dominated;
+  });
+  return near_end || dominates || !space_.has_schedule();
+}
+
+// The scan's maxima join the active points. Of those that are followed, the ones before, which these are
+// again, go. One that is not takes the place of a point it differs from by next to nothing.
 void Exchange::join(const Goal& goal, const Scan& scan, bool follow, std::vector<ActivePoint>& active) const {
   std::erase_if(active, [](const ActivePoint& point) { return point.followed; });
   const std::vector<double> knots = space_.knots();
@@ -227,7 +239,8 @@ std::vector<QuadratureNode> Exchange::quadrature(const Goal& goal, std::span<con
   const auto scenarios = static_cast<double>(task_.scenarios.size());
   for (std::size_t c = 0; c < curves_.size(); ++c) {
     if (curves_[c].of != CurveKind::Of::objective) continue;
-    const std::vector<double> ends = goal.of == Goal::Of::mean_square ? places(x, c, 16) : space_.knots();
+    const std::vector<double> ends =
+        goal.of == Goal::Of::mean_square ? places(x, c, kPanels) : space_.knots();
     if (ends.size() < 2) {
       nodes.push_back({curves_[c].scenario, ends.front(), 1.0 / scenarios});
       continue;
@@ -255,13 +268,14 @@ double Exchange::integral(const Goal& goal, std::span<const double> x) {
 
 // The best design over the active frequencies.
 Exchange::Step Exchange::solve(const Goal& goal, std::span<const double> x,
-                               const std::vector<ActivePoint>& active, const SolverOptions& options) {
+                               const std::vector<ActivePoint>& active, const std::string& solver,
+                               const SolverOptions& options) {
   const std::vector<QuadratureNode> nodes = quadrature(goal, x);
   ActiveProblem problem(task_, space_, goal, curves_, active, nodes, effort_, stop_asked_);
   problem.start_at(x);
   Step step;
   step.solution = task_.solver == "ipopt" ? solve_with_ipopt(problem, options)
-                                          : solve_with_nlopt(problem, task_.solver, options);
+                                          : solve_with_nlopt(problem, solver, options);
   const std::vector<double>& solved = step.solution.x;
   step.x.assign(solved.begin(), solved.begin() + static_cast<std::ptrdiff_t>(space_.variables()));
   step.active = active;
@@ -298,37 +312,55 @@ double Exchange::gap_of(const Goal& goal, const Step& step, const Scan& scan) {
   }
 }
 
-Exchange::Result Exchange::run(const Goal& goal, std::vector<double> x) {
+Exchange::Result Exchange::stopped(Result result) {
+  result.outcome = Outcome::stopped;
+  return result;
+}
+
+// Where Ipopt does not get there, SLSQP tries from the same design.
+Exchange::Result Exchange::run(const Goal& goal, const std::vector<double>& x) {
+  Result first = run_with(task_.solver, goal, x);
+  const bool has_more = first.has_step && first.outcome == Outcome::not_converged && task_.solver == "ipopt";
+  if (!has_more) return first;
+  Result second = run_with("slsqp", goal, x);
+  second.rounds.insert(second.rounds.begin(), first.rounds.begin(), first.rounds.end());
+  const bool keeps =
+      second.has_step && second.outcome != Outcome::infeasible &&
+      (second.outcome == Outcome::converged || is_better(goal, second.step, second.scan, first));
+  if (keeps || second.outcome == Outcome::stopped) return second;
+  first.rounds = std::move(second.rounds);
+  return first;
+}
+
+Exchange::Result Exchange::run_with(const std::string& solver, const Goal& goal, std::vector<double> x) {
   Result result;
   result.x = x;
   result.scan = scan(x, kHighPeaks, kFine);
+  if (stop_asked_()) return stopped(std::move(result));
   if (result.scan.unbounded || result.scan.failed) {
     result.outcome = result.scan.unbounded ? Outcome::unbounded : Outcome::failed;
     return result;
   }
-  std::vector<ActivePoint> active = first_active(goal, result.scan);
-  join(goal, result.scan, false, active);
   const bool settles = goal.of == Goal::Of::mean_response;
+  std::vector<ActivePoint> active = first_active(goal, result.scan);
+  join(goal, result.scan, follows(settles), active);
   Convergence convergence(task_.tolerance, settles ? task_.tolerance : kClosed);
   SolverOptions options = settles ? kSettling : kRough;
   bool near_end = settles;
   bool is_last = false;
   for (int round = 0; round < task_.most_rounds && !is_last; ++round) {
     // 1. The best design over the active frequencies.
-    const Step step = solve(goal, x, active, options);
-    if (step.solution.ending == Ending::stopped) {
-      result.outcome = Outcome::stopped;
-      return result;
-    }
+    const Step step = solve(goal, x, active, solver, options);
     // 2. Its true maxima, which join them.
     const Scan found = scan(step.x, kHighPeaks, kFine);
+    if (stop_asked_()) return stopped(std::move(result));
     const double gap = gap_of(goal, step, found);
     result.rounds.push_back({active.size(), step.solution.iterations, step.solution.objective, found.worst,
                              std::max(0.0, found.violation)});
     if (!space_.has_schedule() && round < kRoundsThatDrop) drop_idle(goal, step, active);
     const bool exact = near_end && is_solved(step.solution);
     near_end = settles || (std::abs(gap) < kNearEnd && found.violation < kNearEnd);
-    join(goal, found, near_end, active);
+    join(goal, found, follows(near_end), active);
     if (!settles) options = near_end ? kExact : kRough;
     x = step.x;
     // 3. The best so far, and whether another round pays.

@@ -65,7 +65,7 @@ class Exchange {
       gap = its_gap;
     }
   };
-  Result run(const Goal& goal, std::vector<double> x);
+  Result run(const Goal& goal, const std::vector<double>& x);
 
   // The goal's integral or variance at a design; NaN: it has none there.
   double integral(const Goal& goal, std::span<const double> x);
@@ -74,18 +74,21 @@ class Exchange {
   Scan scan(std::span<const double> x, double floor, double accuracy);
 
  private:
+  Result run_with(const std::string& solver, const Goal& goal, std::vector<double> x);
   Step solve(const Goal& goal, std::span<const double> x, const std::vector<ActivePoint>& active,
-             const SolverOptions& options);
+             const std::string& solver, const SolverOptions& options);
   void scan_curve(std::span<const double> x, std::size_t curve, double floor, double accuracy, Scan& scan);
   std::vector<double> places(std::span<const double> x, std::size_t curve, int intervals);
   std::vector<QuadratureNode> quadrature(const Goal& goal, std::span<const double> x);
   bool is_bounded(const Goal& goal, std::size_t curve) const;
   std::vector<ActivePoint> first_active(const Goal& goal, const Scan& scan) const;
+  bool follows(bool near_end) const;
   void join(const Goal& goal, const Scan& scan, bool follow, std::vector<ActivePoint>& active) const;
   bool can_follow(const Scan& scan, std::size_t maximum, const std::vector<double>& knots,
                   ActivePoint& point) const;
   void drop_idle(const Goal& goal, const Step& step, std::vector<ActivePoint>& active) const;
   static double gap_of(const Goal& goal, const Step& step, const Scan& scan);
+  static Result stopped(Result result);
   void conclude(bool gap_closed, Result& result) const;
 
   const Task& task_;

@@ -8,6 +8,8 @@ namespace frahm::tuning {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kSlip =
+    1e-6;  // by which a bound may lie above the worst peak: constraints are met to a tolerance
 
 std::string sentence(Outcome outcome, const Stages& stages) {
   const auto number = [](double value) {
@@ -56,7 +58,7 @@ class Report {
     for (const Round& round : optimum.rounds) optimum.iterations += round.iterations;
     x_ = on_constants_ ? tuning_.space().constant_design(stages_.best.x) : stages_.best.x;
     write_parameters(optimum);
-    optimum.constant_objective = stages_.constant.has_step ? stages_.constant.scan.worst : kNone;
+    optimum.constant_objective = constant_objective();
     optimum.constant = stages_.constant_value;
     optimum.certificate_gap = optimum.kkt_residual = optimum.objective = kNone;
     if (!stages_.best.has_step) return optimum;
@@ -65,7 +67,8 @@ class Report {
     optimum.kkt_residual = stages_.decisive.solution.kkt_residual;
     if (task_.objective == Objective::minimax) {
       optimum.objective = scan_.worst;
-      optimum.certificate_gap = (scan_.worst - stages_.bound) / scan_.worst;
+      optimum.certificate_gap = scan_.worst > 0.0 ? (scan_.worst - stages_.bound) / scan_.worst : kNone;
+      judge_certificate(optimum);
     } else {
       optimum.objective = stages_.decisive.objective_again;
     }
@@ -75,6 +78,31 @@ class Report {
   }
 
  private:
+  double constant_objective() const {
+    if (!stages_.constant.has_step) return kNone;
+    const bool minimax = task_.objective == Objective::minimax;
+    return minimax ? stages_.constant.scan.worst : stages_.constant.step.objective_again;
+  }
+
+  // The last scan looks at low peaks too, from other places: what it sees is the certificate.
+  void judge_certificate(Optimum& optimum) const {
+    // Of the problem over the active frequencies: where these are not all it says nothing of the design.
+    if (std::abs(optimum.certificate_gap) > std::max(task_.tolerance, kSlip)) optimum.kkt_residual = kNone;
+    if (optimum.outcome != Outcome::converged) return;
+    if (std::isnan(optimum.certificate_gap)) {
+      optimum.outcome = Outcome::not_converged;
+      optimum.reason = "the quantity is zero over the whole band: there is nothing to press down";
+    } else if (optimum.certificate_gap > task_.tolerance) {
+      optimum.outcome = Outcome::not_converged;
+      optimum.reason = "a last look found a higher peak than the rounds of exchange did";
+    } else if (optimum.certificate_gap < -kSlip) {
+      optimum.outcome = Outcome::not_converged;
+      optimum.reason =
+          "the last look missed a peak that the problem held: something changes over less of the "
+          "band than its poles are wide";
+    }
+  }
+
   // Multipliers belong to bounds that are met: what an interior-point method leaves at others is its
   // rounding.
   void write_parameters(Optimum& optimum) const {

@@ -76,7 +76,7 @@ Assembly assemble(const MapPlan& plan, const RunRecord& run, const AssemblyOptio
     });
     write_orbits(plan, writer);
     write_resonances(plan, writer);
-    writer.write_texts("provenance", provenance(plan, run, writing.told()));
+    writer.write_texts("provenance", provenance(plan, run, writing.told(), missing.size()));
     writer.finish();
     assembly.finished = true;
     assembly.failed_points = writing.failed();

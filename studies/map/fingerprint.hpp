@@ -12,8 +12,8 @@ namespace frahm::studies {
 // What the results of a study depend on, hashed (XXH3, 128 bits, as hex).
 // physics: network, definitions and values of the parameters (of those on an axis only that they are),
 // contents of tables, quantities, precision, version of the solver. grid: the axes' SI values and the tiles,
-// a motion's duration and samples, or a tuning's starts, rules and columns. Titles, comments, names of files, units and coordinates beside the axes
-// change neither.
+// a motion's duration and samples, or a tuning's starts, rules and columns. Titles, comments, names of files,
+// units and coordinates beside the axes change neither.
 engine::Fingerprint fingerprint(const StudyFile& study, const Grid& grid,
                                 std::span<const periodic::Quantity> quantities);
 

@@ -14,6 +14,11 @@ std::optional<engine::Fingerprint> fingerprint_of_file(const std::filesystem::pa
                              .grid = provenance_text(map, "fingerprint_grid")};
 }
 
+bool is_partial(const std::filesystem::path& path) {
+  return std::filesystem::exists(path) &&
+         !provenance_text(results::MapReader(path), missing_tiles_text).empty();
+}
+
 void check_result_place(const std::filesystem::path& output, const std::filesystem::path& study) {
   std::error_code error;
   if (!std::filesystem::exists(output, error)) return;

@@ -13,6 +13,11 @@ namespace frahm::studies {
 // Throws results::StoreError for a file that is no result of this program.
 std::optional<engine::Fingerprint> fingerprint_of_file(const std::filesystem::path& path);
 
+// The text of /provenance that tells how many tiles a file made by merge --partial does not hold.
+inline constexpr const char* missing_tiles_text = "missing_tiles";
+// Whether there is such a file.
+bool is_partial(const std::filesystem::path& path);
+
 // A result may be written where nothing stands, or in the place of another result; never over a study, a
 // table, any other file, a folder or a device.  study: the file whose result it is; empty: not known.
 // Throws engine::IoError.

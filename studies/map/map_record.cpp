@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "studies/map/build_facts.hpp"
+#include "studies/map/finished_file.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -83,7 +84,7 @@ results::MapLayout map_layout(const MapPlan& plan, const RunRecord& run) {
 }
 
 std::vector<results::Text> provenance(const StudyPlan& plan, const RunRecord& run,
-                                      const std::vector<std::string>& failed) {
+                                      const std::vector<std::string>& failed, std::uint64_t missing) {
   const BuildFacts facts = build_facts();
   std::vector<results::Text> texts{
       {"study", plan.study.source.text},
@@ -99,6 +100,7 @@ std::vector<results::Text> provenance(const StudyPlan& plan, const RunRecord& ru
       {"threads", fmt::format("{}", run.threads)},
       {"started", run.started},
       {"finished", utc_now()}};
+  if (missing > 0) texts.emplace_back(missing_tiles_text, fmt::format("{}", missing));
   if (!failed.empty()) texts.emplace_back("failed_points", fmt::format("{}", fmt::join(failed, "\n")));
   return texts;
 }

@@ -26,9 +26,10 @@ results::MapLayout file_layout(const StudyPlan& plan, const RunRecord& run);
 // The same with the axes in the user's units, coordinates and variables, without a point.
 results::MapLayout map_layout(const MapPlan& plan, const RunRecord& run);
 
-// The texts of /provenance. failed: lines "<point as --at takes it>: <reason>".
+// The texts of /provenance. failed: lines "<point as --at takes it>: <reason>". missing: tiles that a partial
+// file does not hold.
 std::vector<results::Text> provenance(const StudyPlan& plan, const RunRecord& run,
-                                      const std::vector<std::string>& failed);
+                                      const std::vector<std::string>& failed, std::uint64_t missing = 0);
 
 // The time histories of the points that the study lists, solved and written to /orbits; nothing if it lists
 // none. An orbit that does not exist has a row without samples.

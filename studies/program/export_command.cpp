@@ -127,13 +127,17 @@ void write_export(const ExportOptions& options, const results::MapReader& map, s
   out << schedule_table(read_stored_tuning(options.file), options.step);
 }
 
+[[noreturn]] void refuse_place(const std::filesystem::path& place) {
+  throw StudyError(
+      fmt::format("{}: is there already and not made by frahm export; name another file", place.string()));
+}
+
 // Replaces nothing but an earlier study of its own kind.
 void check_place_of_sweep(const std::filesystem::path& place) {
   std::ifstream there(place);
   std::string line;
   if (!there || (std::getline(there, line) && line == sweep_mark)) return;
-  throw StudyError(
-      fmt::format("{}: is there already and not made by frahm export; name another file", place.string()));
+  refuse_place(place);
 }
 
 int write_sweep(const ExportOptions& options, std::ostream& out) {
@@ -141,8 +145,13 @@ int write_sweep(const ExportOptions& options, std::ostream& out) {
   if (place.extension() != ".toml")
     throw StudyError(fmt::format("--sweep {}: a study is named .toml", place.string()));
   check_place_of_sweep(place);
+  const bool again = std::filesystem::exists(place);  // its tables are there then, and ours
   const SweepStudy sweep = sweep_study(read_stored_tuning(options.file), place.stem().string());
-  for (const auto& [name, csv] : sweep.tables) write_whole_file(place.parent_path() / name, csv);
+  for (const auto& [name, csv] : sweep.tables) {
+    const std::filesystem::path table = place.parent_path() / name;
+    if (!again && std::filesystem::exists(table)) refuse_place(table);
+    write_whole_file(table, csv);
+  }
   write_whole_file(place, sweep.text);
   fmt::print(out, "{}\n", place.string());
   return 0;

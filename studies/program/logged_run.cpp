@@ -24,7 +24,7 @@ void remove_leftovers(const StudyPlan& plan, const std::filesystem::path& output
 bool is_finished(const StudyPlan& plan, const std::filesystem::path& output) {
   const auto kept = fingerprint_of_file(output);
   if (!kept) return false;
-  if (*kept == plan.fingerprint) return true;
+  if (*kept == plan.fingerprint) return !is_partial(output);
   throw engine::ResumeRefused(output, {*kept, plan.tiles}, plan.log_header());
 }
 

@@ -53,7 +53,8 @@ void print_file(const std::filesystem::path& file, std::ostream& out) {
   const results::MapReader map(file);
   const results::MapLayout& layout = map.layout();
   const std::uint64_t points = points_of(layout);
-  fmt::print(out, "{}: finished\n{:<22} {}\n", file.string(), "title", layout.title);
+  fmt::print(out, "{}: {}\n{:<22} {}\n", file.string(),
+             is_partial(file) ? "a part of the result" : "finished", "title", layout.title);
   for (const results::Axis& axis : layout.axes) {
     fmt::print(out, "{:<22} {}: {} points\n", "axis", axis.name, axis.size);
   }

@@ -21,12 +21,12 @@ void refuse_gaps(const AssemblyOptions& options, std::uint64_t missing, std::uin
 }
 
 void write_file(const StudyPlan& plan, const RunRecord& run, const std::filesystem::path& output,
-                const TuningResult& result) {
+                const TuningResult& result, std::uint64_t missing) {
   results::MapWriter writer(output, file_layout(plan, run));
   writer.write_columns(optimum_group, optimum_columns(plan.study, result));
   writer.write_texts(optimum_group, optimum_texts(plan.study, result));
   if (plan.study.tune->trade_off) writer.write_columns(front_group, front_columns(plan.study, result));
-  writer.write_texts("provenance", provenance(plan, run, {}));
+  writer.write_texts("provenance", provenance(plan, run, {}, missing));
   writer.finish();
 }
 
@@ -46,7 +46,7 @@ std::optional<TuningResult> assemble_tuning(const StudyPlan& plan, const RunReco
   if (options.stop_asked()) return std::nullopt;
   TuningResult result = tuning_result(plan.study, std::move(starts));
   if (options.stop_asked()) return std::nullopt;
-  write_file(plan, run, options.output, result);
+  write_file(plan, run, options.output, result, missing);
   if (missing == 0) engine::remove_logs(options.logs);
   return result;
 }
