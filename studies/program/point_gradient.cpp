@@ -64,7 +64,7 @@ PointGradient gradient_at(const StudyFile& study, std::span<const double> parame
   const mechanics::NetworkValues values = values_at(study, at);
   PointGradient result;
   std::vector<periodic::Quantity> quantities;
-  for (const periodic::Quantity& quantity : periodic::standard_quantities(study.network)) {
+  for (const periodic::Quantity& quantity : periodic::all_quantities(study.network)) {
     if (!periodic::is_differentiable(quantity.measure)) continue;
     quantities.push_back(quantity);
     result.quantities.push_back(periodic::describe(quantity, study.network, study.dimensionless));

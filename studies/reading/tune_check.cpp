@@ -61,7 +61,10 @@ void check_over_band(StudyFile& study, std::vector<double>& parameters) {
     check_point(study, parameters);
     add_crank_orders_at(study, parameters);
   };
-  const std::vector<double> places = places_of(*study.tune, places_over_band);
+  std::vector<double> places = places_of(*study.tune, places_over_band);
+  for (const LimitChoice& limit : study.tune->limits) {
+    if (limit.band) places.insert(places.end(), {limit.band->from, limit.band->to});
+  }
   if (places.empty()) check();
   for (const double place : places) {
     parameters[study.tune->band->parameter] = place;

@@ -201,6 +201,8 @@ periodic::Quantity read_real_quantity(const TuneReading& reading, const TomlSect
     section.fail(key, fmt::format("\"{}\" is a count or a flag; a tuning needs a number that varies "
                                   "continuously",
                                   name));
+  if (!periodic::is_differentiable(quantity->measure))
+    section.fail(key, fmt::format("\"{}\" has no derivative by a design; a tuning needs one", name));
   return *quantity;
 }
 

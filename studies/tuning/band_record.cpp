@@ -42,7 +42,7 @@ void add_curves(const TuningAbout& about, GroupColumns& columns) {
                               of.empty() ? "" : ", scenario " + names[s]),
                   about.band, curve.value[s]);
     }
-    columns.add_number("worst_" + curve.name, quantity_unit(about.study),
+    columns.add_number("worst_" + curve.name, objective_unit(about.study),
                        fmt::format("true maximum of the response, {}", curve.name), curve.worst);
   }
 }

@@ -87,8 +87,9 @@ void print_objective(const TuningAbout& about, std::ostream& out) {
   fmt::print(out, "\n{:<24}{}\n", "objective", with_unit(optimum.objective, unit));
   for (const tuning::Curve& curve : about.result.assessment.curves) {
     if (curve.name == "after" || !about.tune.band) continue;
-    fmt::print(out, "  worst peak, {:<8}  {}\n", curve.name,
-               with_unit(curve.worst, quantity_unit(about.study)));
+    const bool minimax = about.tune.objective == tuning::Objective::minimax;
+    fmt::print(out, "  {}, {:<8}  {}\n", minimax ? "worst peak" : "objective ", curve.name,
+               with_unit(curve.worst, unit));
   }
   if (about.tune.has_schedule())
     fmt::print(out, "  the best constant     {}\n", with_unit(optimum.constant_objective, unit));

@@ -112,6 +112,19 @@ TEST_CASE("shards of a tuning are merged to the optimum of one run") {
   CHECK(folder.names() == std::vector<std::string>{"parts.h5", "tmd.toml", "whole.h5"});
 }
 
+TEST_CASE("a part of a result is no end: the run goes on from its logs") {
+  const Folder folder;
+  const std::string study = folder.write("tmd.toml", with_starts("4")), file = folder / "tmd.h5";
+  REQUIRE(tune(study, file, {"--shard", "1/2"}).code == 0);
+  REQUIRE(frahm({"merge", file, "--partial"}).code == 0);
+  CHECK_THAT(frahm({"status", file}).out, Catch::Contains("a part of the result"));
+  const Outcome whole = tune(study, file);
+  CHECK(whole.code == 0);
+  CHECK_THAT(whole.out, Catch::Contains("4: 4 converged"));
+  CHECK_THAT(frahm({"status", file}).out, Catch::Contains("finished"));
+  CHECK(folder.names() == std::vector<std::string>{"tmd.h5", "tmd.toml"});
+}
+
 TEST_CASE("an optimum out of reach ends with code 7, and the best design so far is in the file") {
   const Folder folder;
   const std::string file = folder / "tmd.h5";
