@@ -1,5 +1,7 @@
 #include "studies/reading/lookup_table.hpp"
 
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
@@ -18,7 +20,8 @@ using frahm::studies::StudyError;
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& text)
-      : path_(std::filesystem::temp_directory_path() / "frahm_lookup_table_test.csv") {
+      : path_(std::filesystem::temp_directory_path() /
+              ("frahm_lookup_table_" + std::to_string(getpid()) + "_test.csv")) {
     std::ofstream(path_) << text;
   }
   ~TemporaryFile() { std::filesystem::remove(path_); }
