@@ -116,7 +116,8 @@ Exchange::Result DesignTuning::tune_constant(const std::vector<double>& value) {
       x[p] += share * (0.5 * (parameter.lower + parameter.upper) - x[p]);
     }
     Exchange::Result result = exchange.run(goal(), x);
-    if (result.has_step || result.outcome == Outcome::stopped) return result;
+    if (result.has_step || result.outcome == Outcome::stopped || result.outcome == Outcome::converged)
+      return result;
     if (!as_given) as_given = std::move(result);
   }
   return *as_given;

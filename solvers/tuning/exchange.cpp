@@ -341,6 +341,10 @@ Exchange::Result Exchange::run_with(const std::string& solver, const Goal& goal,
     result.outcome = result.scan.unbounded ? Outcome::unbounded : Outcome::failed;
     return result;
   }
+  if (goal.of == Goal::Of::worst && result.scan.worst == 0.0 && result.scan.violation <= 0.0) {
+    result.outcome = Outcome::converged;  // nothing can be less
+    return result;
+  }
   const bool settles = goal.of == Goal::Of::mean_response;
   std::vector<ActivePoint> active = first_active(goal, result.scan);
   join(goal, result.scan, follows(settles), active);

@@ -61,7 +61,10 @@ class Report {
     optimum.constant_objective = constant_objective();
     optimum.constant = stages_.constant_value;
     optimum.certificate_gap = optimum.kkt_residual = optimum.objective = kNone;
-    if (!stages_.best.has_step) return optimum;
+    if (!stages_.best.has_step) {
+      if (optimum.outcome == Outcome::converged) write_nothing_moves(optimum);
+      return optimum;
+    }
     scan_ = tuning_.full_scan(x_);
     optimum.violation = std::max(0.0, scan_.violation);
     optimum.kkt_residual = stages_.decisive.solution.kkt_residual;
@@ -78,6 +81,11 @@ class Report {
   }
 
  private:
+  static void write_nothing_moves(Optimum& optimum) {
+    optimum.objective = optimum.certificate_gap = optimum.kkt_residual = 0.0;
+    optimum.reason = "the quantity is zero over the whole band, and nothing can be less";
+  }
+
   double constant_objective() const {
     if (!stages_.constant.has_step) return kNone;
     const bool minimax = task_.objective == Objective::minimax;
