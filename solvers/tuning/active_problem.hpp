@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "solvers/tuning/band_curve.hpp"
+#include "solvers/tuning/band_quadrature.hpp"
 #include "solvers/tuning/problem.hpp"
 #include "solvers/tuning/variance.hpp"
 
@@ -31,12 +32,6 @@ struct ActivePoint {
   std::size_t side = BandCurve::larger;
   bool followed = false;
   double from = 0.0, to = 0.0;  // of a followed one
-};
-
-// A node and weight of an integral over the band.
-struct QuadratureNode {
-  std::size_t scenario = 0;
-  double at = 0.0, weight = 0.0;
 };
 
 // The design problem with finitely many frequencies, a constraint for each active point, in their order:

@@ -193,8 +193,7 @@ void DesignTuning::settle_free_knots(double most, Stages& stages) {
 }
 
 double DesignTuning::worst_of(std::span<const double> value) {
-  Exchange exchange(task_, constant_space_, curves_, effort_, stop_asked_);
-  const Scan scan = exchange.scan(value, 0.9, 1e-3);
+  const Scan scan = BandScan(task_, constant_space_, curves_, effort_, stop_asked_).of(value, 0.9, 1e-3);
   if (scan.unbounded || scan.failed) return kNone;
   return scan.worst * (1.0 + 10.0 * std::max(0.0, scan.violation));
 }
@@ -205,8 +204,7 @@ double DesignTuning::objective_of(std::span<const double> x) {
 }
 
 Scan DesignTuning::full_scan(std::span<const double> x) {
-  Exchange exchange(task_, space_, curves_, effort_, stop_asked_);
-  return exchange.scan(x, 0.0, 1e-7);
+  return BandScan(task_, space_, curves_, effort_, stop_asked_).of(x, 0.0, 1e-7);
 }
 
 }  // namespace frahm::tuning

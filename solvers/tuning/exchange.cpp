@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solvers/tuning/resonance_places.hpp"
+#include "solvers/tuning/band_quadrature.hpp"
 
 namespace frahm::tuning {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr int kIntervals = 48;       // of the even grid that a scan starts from
-constexpr int kFirstIntervals = 32;  // and of the first active frequencies
-constexpr int kPanels = 40;          // of the quadrature of a mean square, beside those about the poles
+constexpr int kFirstIntervals = 32;  // of the first active frequencies
 constexpr double kFine = 1e-7;       // accuracy of a scan, relative to the worst peak
 constexpr double kHighPeaks = 0.5;   // peaks lower than this share of the worst are left out
 constexpr double kSamePlace = 1e-7;  // frequencies closer than this, relative, are one
@@ -23,12 +20,6 @@ constexpr double kClosed = 1e-9;
 constexpr SolverOptions kRough{.tolerance = 1e-4, .most_iterations = 40, .feasibility = 1e-6};
 constexpr int kRoundsThatDrop = 5;
 constexpr double kAcceptableResidual = 1e-5;
-
-// Gauss-Legendre, four nodes on [0, 1] (Abramowitz and Stegun, table 25.4).
-constexpr double kNodeAt[] = {0.069431844202973714, 0.33000947820757187, 0.66999052179242813,
-                              0.93056815579702629};
-constexpr double kNodeWeight[] = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307,
-                                  0.17392742256872693};
 
 // What the rounds have come to, and whether another will help.
 class Convergence {
@@ -81,63 +72,12 @@ bool is_better(const Goal& goal, const Exchange::Step& step, const Scan& scan, c
 
 Exchange::Exchange(const Task& task, const DesignSpace& space, const std::vector<CurveKind>& curves,
                    Effort& effort, const std::function<bool()>& stop_asked)
-    : task_(task), space_(space), curves_(curves), effort_(effort), stop_asked_(stop_asked) {
-  for (const CurveKind& curve : curves_)
-    responses_.push_back(std::make_unique<BandCurve>(task, space, curve, effort));
-}
-
-std::vector<double> Exchange::places(std::span<const double> x, std::size_t curve, int intervals) {
-  mechanics::NetworkValues values;
-  std::vector<double> at(space_.parameters() + 1);
-  const auto values_at = [&](double band) -> const mechanics::NetworkValues& {
-    for (std::size_t p = 0; p < space_.parameters(); ++p) at[p] = space_.place(p, band, x).value;
-    at.back() = band;
-    task_.network_at(curves_[curve].scenario, at, values, nullptr);
-    return values;
-  };
-  return resonance_places(task_.network, values_at, curves_[curve].band, space_.knots(), intervals);
-}
-
-void Exchange::scan_curve(std::span<const double> x, std::size_t c, double floor, double accuracy,
-                          Scan& scan) {
-  BandCurve& curve = *responses_[c];
-  const auto point_at = [&](double band) -> CurvePoint {
-    if (stop_asked_()) return {band, kNone, kNone, kNone};
-    const auto state = curve.solve(x, band, true);
-    if (state == TunedResponse::State::solved) {
-      constexpr std::size_t side = BandCurve::larger;
-      return {band, curve.value(side), curve.slope_left(side), curve.slope_right(side)};
-    }
-    const bool unbounded = state == TunedResponse::State::unbounded;
-    if (unbounded || !scan.unbounded) {
-      (unbounded ? scan.unbounded : scan.failed) = true;
-      scan.at = band;
-      scan.reason = curve.reason();
-    }
-    return {band, unbounded ? kInfinity : kNone, kNone, kNone};
-  };
-  const BandMaxima found = find_band_maxima(point_at, places(x, c, kIntervals), floor, accuracy);
-  for (const CurvePoint& maximum : found.maxima) {
-    const auto state = curve.solve(x, maximum.at, false);
-    const std::size_t sides = state == TunedResponse::State::solved ? curve.sides() : 1;
-    scan.maxima.push_back({c, maximum.at, maximum.value, sides});
-  }
-  Scan::Place highest;
-  for (const CurvePoint& sample : found.samples) {
-    if (sample.value > highest.value) highest = {sample.at, sample.value};
-  }
-  scan.tightest.push_back(highest);
-  if (curves_[c].of == CurveKind::Of::objective)
-    scan.worst = std::max(scan.worst, highest.value);
-  else
-    scan.violation = std::max(scan.violation, highest.value - curves_[c].most());
-}
-
-Scan Exchange::scan(std::span<const double> x, double floor, double accuracy) {
-  Scan result;
-  for (std::size_t c = 0; c < curves_.size(); ++c) scan_curve(x, c, floor, accuracy, result);
-  return result;
-}
+    : task_(task),
+      space_(space),
+      curves_(curves),
+      effort_(effort),
+      stop_asked_(stop_asked),
+      scan_(task, space, curves, effort, stop_asked) {}
 
 // Whether the goal keeps a curve under a bound; else it only integrates it.
 bool Exchange::is_bounded(const Goal& goal, std::size_t curve) const {
@@ -232,36 +172,20 @@ bool Exchange::can_follow(const Scan& scan, std::size_t i, const std::vector<dou
   return point.at - point.from > kSamePlace * point.at && point.to - point.at > kSamePlace * point.at;
 }
 
-std::vector<QuadratureNode> Exchange::quadrature(const Goal& goal, std::span<const double> x) {
-  std::vector<QuadratureNode> nodes;
-  if (goal.of != Goal::Of::mean_square && goal.of != Goal::Of::mean_response) return nodes;
-  const double length = task_.band.to - task_.band.from;
-  const auto scenarios = static_cast<double>(task_.scenarios.size());
-  for (std::size_t c = 0; c < curves_.size(); ++c) {
-    if (curves_[c].of != CurveKind::Of::objective) continue;
-    const std::vector<double> ends =
-        goal.of == Goal::Of::mean_square ? places(x, c, kPanels) : space_.knots();
-    if (ends.size() < 2) {
-      nodes.push_back({curves_[c].scenario, ends.front(), 1.0 / scenarios});
-      continue;
-    }
-    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-      const double h = ends[i + 1] - ends[i];
-      if (goal.of == Goal::Of::mean_response) {
-        nodes.push_back({curves_[c].scenario, ends[i] + 0.5 * h, h / (length * scenarios)});
-        continue;
-      }
-      for (int k = 0; k < 4; ++k)
-        nodes.push_back(
-            {curves_[c].scenario, ends[i] + h * kNodeAt[k], kNodeWeight[k] * h / (length * scenarios)});
-    }
+std::vector<QuadratureNode> Exchange::quadrature(std::span<const double> x, const Goal& goal) const {
+  switch (goal.of) {
+    case Goal::Of::mean_square:
+      return pole_quadrature(task_, space_, curves_, x);
+    case Goal::Of::mean_response:
+      return knot_quadrature(task_, space_, curves_);
+    default:
+      return {};
   }
-  return nodes;
 }
 
 double Exchange::integral(const Goal& goal, std::span<const double> x) {
   const std::vector<ActivePoint> none;
-  const std::vector<QuadratureNode> nodes = quadrature(goal, x);
+  const std::vector<QuadratureNode> nodes = quadrature(x, goal);
   ActiveProblem problem(task_, space_, goal, curves_, none, nodes, effort_, stop_asked_);
   return problem.objective(x, {});
 }
@@ -270,7 +194,7 @@ double Exchange::integral(const Goal& goal, std::span<const double> x) {
 Exchange::Step Exchange::solve(const Goal& goal, std::span<const double> x,
                                const std::vector<ActivePoint>& active, const std::string& solver,
                                const SolverOptions& options) {
-  const std::vector<QuadratureNode> nodes = quadrature(goal, x);
+  const std::vector<QuadratureNode> nodes = quadrature(x, goal);
   ActiveProblem problem(task_, space_, goal, curves_, active, nodes, effort_, stop_asked_);
   problem.start_at(x);
   Step step;
@@ -335,7 +259,7 @@ Exchange::Result Exchange::run(const Goal& goal, const std::vector<double>& x) {
 Exchange::Result Exchange::run_with(const std::string& solver, const Goal& goal, std::vector<double> x) {
   Result result;
   result.x = x;
-  result.scan = scan(x, kHighPeaks, kFine);
+  result.scan = scan_.of(x, kHighPeaks, kFine);
   if (stop_asked_()) return stopped(std::move(result));
   if (result.scan.unbounded || result.scan.failed) {
     result.outcome = result.scan.unbounded ? Outcome::unbounded : Outcome::failed;
@@ -356,7 +280,7 @@ Exchange::Result Exchange::run_with(const std::string& solver, const Goal& goal,
     // 1. The best design over the active frequencies.
     const Step step = solve(goal, x, active, solver, options);
     // 2. Its true maxima, which join them.
-    const Scan found = scan(step.x, kHighPeaks, kFine);
+    const Scan found = scan_.of(step.x, kHighPeaks, kFine);
     if (stop_asked_()) return stopped(std::move(result));
     const double gap = gap_of(goal, step, found);
     result.rounds.push_back({active.size(), step.solution.iterations, step.solution.objective, found.worst,

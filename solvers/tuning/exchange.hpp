@@ -1,34 +1,14 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "solvers/tuning/active_problem.hpp"
-#include "solvers/tuning/band_maxima.hpp"
+#include "solvers/tuning/band_scan.hpp"
 #include "solvers/tuning/optimum.hpp"
 
 namespace frahm::tuning {
-
-// All true local maxima of the curves of one design over their bands.
-struct Scan {
-  struct Maximum {
-    std::size_t curve = 0;
-    double at = 0.0, value = 0.0;
-    std::size_t sides = 1;
-  };
-  struct Place {
-    double at = 0.0, value = -kInfinity;
-  };
-  std::vector<Maximum> maxima;  // by curve, then place
-  std::vector<Place> tightest;  // of each curve, where it is highest, however low that is
-  double worst = 0.0;           // of the objective's curves; infinite where the response has no bound
-  double violation = 0.0;       // by which the other curves exceed 1
-  bool failed = false, unbounded = false;
-  double at = 0.0;     // where it failed or is unbounded
-  std::string reason;  // why
-};
 
 // The design problem over the whole band by exchange: solved over finitely many active frequencies, then the
 // true local maxima of its design are found and join them, until the two agree (Remez 1934; R. Hettich,
@@ -70,16 +50,11 @@ class Exchange {
   // The goal's integral or variance at a design; NaN: it has none there.
   double integral(const Goal& goal, std::span<const double> x);
 
-  // floor, accuracy: see find_band_maxima.
-  Scan scan(std::span<const double> x, double floor, double accuracy);
-
  private:
   Result run_with(const std::string& solver, const Goal& goal, std::vector<double> x);
   Step solve(const Goal& goal, std::span<const double> x, const std::vector<ActivePoint>& active,
              const std::string& solver, const SolverOptions& options);
-  void scan_curve(std::span<const double> x, std::size_t curve, double floor, double accuracy, Scan& scan);
-  std::vector<double> places(std::span<const double> x, std::size_t curve, int intervals);
-  std::vector<QuadratureNode> quadrature(const Goal& goal, std::span<const double> x);
+  std::vector<QuadratureNode> quadrature(std::span<const double> x, const Goal& goal) const;
   bool is_bounded(const Goal& goal, std::size_t curve) const;
   std::vector<ActivePoint> first_active(const Goal& goal, const Scan& scan) const;
   bool follows(bool near_end) const;
@@ -96,7 +71,7 @@ class Exchange {
   const std::vector<CurveKind>& curves_;
   Effort& effort_;
   const std::function<bool()>& stop_asked_;
-  std::vector<std::unique_ptr<BandCurve>> responses_;  // of each curve
+  BandScan scan_;
 };
 
 }  // namespace frahm::tuning
