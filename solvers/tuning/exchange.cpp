@@ -51,6 +51,12 @@ bool is_solved(const Solution& solution) {
   return solution.ending == Ending::converged || solution.kkt_residual <= kAcceptableResidual;
 }
 
+// Whether the design has to stay below a constant one everywhere.
+bool has_dominated(const std::vector<CurveKind>& curves) {
+  return std::any_of(curves.begin(), curves.end(),
+                     [](const CurveKind& curve) { return curve.of == CurveKind::Of::dominated; });
+}
+
 // Both sides of a peak without symmetry, else the larger, which is both.
 std::vector<std::size_t> sides_of(std::size_t sides) {
   if (sides == 2) return {0, 1};
@@ -89,9 +95,7 @@ bool Exchange::is_bounded(const Goal& goal, std::size_t curve) const {
 std::vector<ActivePoint> Exchange::first_active(const Goal& goal, const Scan& scan) const {
   std::vector<ActivePoint> active;
   const std::vector<double> knots = space_.knots();
-  const bool dominates = std::any_of(curves_.begin(), curves_.end(), [](const CurveKind& curve) {
-    return curve.of == CurveKind::Of::dominated;
-  });
+  const bool dominates = has_dominated(curves_);
   for (std::size_t c = 0; c < curves_.size(); ++c) {
     if (!is_bounded(goal, c)) continue;
     // What stays below the constant design everywhere needs no grid of its own beside that.
@@ -122,10 +126,7 @@ std::vector<ActivePoint> Exchange::first_active(const Goal& goal, const Scan& sc
 // frequencies, so always; a schedule shapes the response place by place and has a grid at its knots, and what
 // its trials met stays met: at the end.
 bool Exchange::follows(bool near_end) const {
-  const bool dominates = std::any_of(curves_.begin(), curves_.end(), [](const CurveKind& curve) {
-    return curve.of == CurveKind::Of::dominated;
-  });
-  return near_end || dominates || !space_.has_schedule();
+  return near_end || has_dominated(curves_) || !space_.has_schedule();
 }
 
 // The scan's maxima join the active points. Of those that are followed, the ones before, which these are
@@ -295,7 +296,7 @@ Exchange::Result Exchange::run_with(const std::string& solver, const Goal& goal,
     if (found.unbounded || found.failed) continue;
     is_last = convergence.judge(gap, std::max(0.0, found.violation), exact);
     const bool is_best = !result.has_step || is_better(goal, step, found, result);
-    if (is_best || (is_last && convergence.met())) result.take(step, found, gap);
+    if (is_best || (is_last && convergence.met())) result.take(step, found);
   }
   conclude(convergence.met(), result);
   return result;

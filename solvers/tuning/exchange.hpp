@@ -33,16 +33,14 @@ class Exchange {
     std::vector<double> x;  // the best design
     Scan scan;              // of it
     bool has_step = false;
-    Step step;         // whose solution it is
-    double gap = 0.0;  // see Optimum::certificate_gap; of an integral, what new nodes change
+    Step step;  // whose solution it is
     std::vector<Round> rounds;
 
-    void take(const Step& from, const Scan& found, double its_gap) {
+    void take(const Step& from, const Scan& found) {
       x = from.x;
       scan = found;
       has_step = true;
       step = from;
-      gap = its_gap;
     }
   };
   Result run(const Goal& goal, const std::vector<double>& x);
