@@ -91,15 +91,17 @@ Stages DesignTuning::from(const std::vector<double>& value) {
   stages.constant_value = stages.best.x;
   // 2. From them the schedules.
   const Exchange::Result schedule = tune_schedule(stages.constant_value);
-  const std::vector<double> as_schedule = space_.constant_design(stages.constant_value);
   keep(schedule);
   // 3. The knots that the worst peak leaves free.
   if (task_.objective == Objective::minimax && schedule.has_step) {
-    const bool gains = schedule.scan.worst * (1.0 + 2.0 * kRoom) < stages.constant.scan.worst;
-    if (gains) {
-      settle_free_knots(schedule.scan.worst * (1.0 + kRoom), stages);
+    const Scan& of_constant = stages.constant.scan;
+    const bool constant_serves = of_constant.violation <= std::max(schedule.scan.violation, 1e-9) &&
+                                 of_constant.worst <= schedule.scan.worst * (1.0 + 2.0 * kRoom);
+    if (constant_serves) {
+      stages.best.x = space_.constant_design(stages.constant_value);
+      stages.best.scan = of_constant;
     } else {
-      stages.best.x = as_schedule;  // a schedule gains nothing over the constants
+      settle_free_knots(schedule.scan.worst * (1.0 + kRoom), stages);
     }
   }
   return stages;

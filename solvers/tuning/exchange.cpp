@@ -18,6 +18,7 @@ constexpr SolverOptions kExact{.tolerance = 1e-9, .most_iterations = 100};
 constexpr SolverOptions kSettling{.tolerance = 1e-6, .most_iterations = 150};
 constexpr double kClosed = 1e-9;
 constexpr SolverOptions kRough{.tolerance = 1e-4, .most_iterations = 40, .feasibility = 1e-6};
+constexpr double kWithinPiece = 1.0 - 1e-6;  // of the way to a knot, on which the next piece begins
 constexpr int kRoundsThatDrop = 5;
 constexpr double kAcceptableResidual = 1e-5;
 
@@ -167,7 +168,7 @@ bool Exchange::can_follow(const Scan& scan, std::size_t i, const std::vector<dou
     if (k != i && scan.maxima[k].curve == point.curve) keep_off(scan.maxima[k].at, 0.5);
   }
   for (const double knot : knots) {
-    keep_off(knot, 1.0);
+    keep_off(knot, kWithinPiece);
     if (std::abs(knot - point.at) <= kSamePlace * std::abs(knot)) return false;
   }
   return point.at - point.from > kSamePlace * point.at && point.to - point.at > kSamePlace * point.at;

@@ -8,6 +8,7 @@ namespace frahm::tuning {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kBroken = 1e-9;  // a limit exceeded by less is met
 constexpr double kSlip =
     1e-6;  // by which a bound may lie above the worst peak: constraints are met to a tolerance
 
@@ -67,6 +68,7 @@ class Report {
     }
     scan_ = tuning_.full_scan(x_);
     optimum.violation = std::max(0.0, scan_.violation);
+    judge_limits(optimum);
     optimum.kkt_residual = stages_.decisive.solution.kkt_residual;
     if (task_.objective == Objective::minimax) {
       optimum.objective = scan_.worst;
@@ -90,6 +92,15 @@ class Report {
     if (!stages_.constant.has_step) return kNone;
     const bool minimax = task_.objective == Objective::minimax;
     return minimax ? stages_.constant.scan.worst : stages_.constant.step.objective_again;
+  }
+
+  // The last stage of a schedule may meet limits that the one before broke.
+  void judge_limits(Optimum& optimum) const {
+    if (optimum.outcome != Outcome::infeasible || optimum.violation > std::max(task_.tolerance, kBroken))
+      return;
+    optimum.outcome = Outcome::not_converged;
+    optimum.reason =
+        "the limits are met, but the rounds of exchange do not tell how near the objective is to its least";
   }
 
   // The last scan looks at low peaks too, from other places: what it sees is the certificate.

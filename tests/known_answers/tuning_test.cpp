@@ -202,6 +202,22 @@ TEST_CASE("limits that no design meets, and a resonance that nothing bounds, are
   CHECK(unbounded.reason.find("bound") != std::string::npos);
 }
 
+TEST_CASE("a schedule meets a limit that no constants do") {
+  // No constants bring the main mass below 6.4.
+  Task task = absorber(0.05, 0.0);
+  task.quantity = {periodic::Measure::stroke, 1};
+  task.limits.push_back(
+      {"peak", {periodic::Measure::peak, 0}, -std::numeric_limits<double>::infinity(), 5.0, {}});
+  tuning::Schedule schedule{{}, 3.0};
+  for (int k = 0; k <= 34; ++k) schedule.knots.push_back(0.3 + 0.05 * k);
+  schedule.knots.back() = 2.0;
+  task.parameters[0].schedule = schedule;
+  const Optimum optimum = tuned(task);
+  INFO(optimum.reason << ", constants " << optimum.constant_objective);
+  CHECK(optimum.violation <= 1e-6);
+  CHECK(optimum.limits[0].value <= 5.0 * (1.0 + 1e-6));
+}
+
 TEST_CASE("a limit's multiplier is what relaxing it gives") {
   const auto limited = [](double most) {
     Task task = absorber(0.05, 0.0);
