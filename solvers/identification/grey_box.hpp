@@ -1,0 +1,61 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "solvers/identification/identification.hpp"
+#include "solvers/identification/measurement.hpp"
+#include "solvers/mechanics/network.hpp"
+#include "solvers/transient/motion.hpp"
+
+// Named parameters of a network fitted to measured motions: least squares of the simulated motion's distance
+// from the measured one, on the exact flow with its exact derivatives through stops, releases and reversals.
+namespace frahm::identification {
+
+struct FittedParameter {
+  std::string name, unit;  // unit as of an Estimate
+  double start = 0.0, lower = 0.0, upper = 0.0;  // [SI]; bounds may be infinite
+  bool each_record = false;  // every record has its own value, such as what it starts from
+};
+
+// A number known from elsewhere, with its variance.
+struct FixedParameter {
+  std::string name;
+  double value = 0.0;
+};
+
+// Numbers of the network, the values it starts from, and how they change.
+struct Model {
+  mechanics::NetworkValues values;
+  transient::InitialState initial;  // values for each mass
+};
+
+// The model of a record. at: SI values of the fitted parameters, then of the fixed ones, in the task's order.
+// derivatives: if not null, one for each entry of `at`, others held, in the layout of the model.
+using ModelAt = std::function<void(std::size_t record, std::span<const double> at, Model& model,
+                                   std::vector<Model>* derivatives)>;
+
+struct GreyBoxTask {
+  mechanics::Network network;
+  ModelAt model_at;
+  std::vector<FittedParameter> parameters;  // at least one
+  std::vector<FixedParameter> fixed;
+  Eigen::MatrixXd fixed_covariance;  // of `fixed`, in its order
+  std::vector<TimeRecord> records;   // at least one
+  // Fit the first eighth of each record first, then a quarter, a half and all of it: a frequency that is
+  // off slips whole periods along a record, and finds its way only while that is short.
+  bool grow = true;
+  transient::Watch watch;  // called while it works; what it throws is passed on
+};
+
+// Channels of different sizes are weighed by 1 / |y - mean y| of each series in a first fit, then by the
+// residuals' own standard deviation, so that the variances are those of each sensor's noise.
+// Estimates: the fitted parameters in order, one of each record for those with each_record, named
+// `<parameter>_<record>`. The covariance of the fixed ones is propagated: cov = s^2 (J^T J)^-1 + S cov_f S^T,
+// S = -(J^T J)^-1 J^T J_f.
+// Throws mechanics::MechanicsError where the start has no meaning.
+Identification grey_box(const GreyBoxTask& task);
+
+}  // namespace frahm::identification
