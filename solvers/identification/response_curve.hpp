@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,7 @@ struct CurvePeak {
   double amplitude = 0.0;           // of the unit of the curve
   double lower = 0.0, upper = 0.0;  // half-power points [rad/s]
   // Covariance of omega, amplitude, lower, upper, in this order; NaN: no more places than coefficients.
-  std::vector<std::vector<double>> covariance;
+  Eigen::Matrix4d covariance;
   double degrees_of_freedom = 0.0;
   std::vector<double> at, measured, fitted;  // the places fitted: omega, amplitude, and the fit
 };
