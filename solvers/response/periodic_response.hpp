@@ -58,8 +58,9 @@ class PeriodicResponse {
   // Why a quantity of the last gradient() has none; "" where it has.
   std::string why_no_derivative(std::size_t quantity) const;
 
-  // Of a response that is ok or grazing.
-  History history(std::size_t samples);
+  // Of a response that is ok or grazing, at these phases omega t [rad]; where something jumps, what it
+  // jumps to.
+  History history(std::span<const double> phases);
   std::vector<Stretch> stretches() const;
 
  private:
