@@ -44,9 +44,10 @@ std::vector<double> sample_times_of(const StudyFile& study, double duration, dou
   constexpr double kRounding = 1e-12;
   const double steps = std::floor(duration * rate * (1.0 + kRounding));
   if (!(steps >= 1.0 && steps < kMostSamples)) {
-    throw StudyError(fmt::format("{}: {:.6g} s at {:.6g} samples a second make {:.6g} samples; must be from 2 "
-                                 "to ten million",
-                                 study.source.name, duration, rate, steps + 1.0));
+    throw StudyError(
+        fmt::format("{}: {:.6g} s at {:.6g} samples a second make {:.6g} samples; must be from 2 "
+                    "to ten million",
+                    study.source.name, duration, rate, steps + 1.0));
   }
   std::vector<double> times;
   for (double i = 0.0; i <= steps; i += 1.0) times.push_back(i / rate);
@@ -96,8 +97,7 @@ std::vector<MeasuredColumn> periodic_columns(const StudyFile& study, const mecha
   response.set_values(values);
   const periodic::ResponseSummary& summary = response.solve();
   if (summary.status != periodic::Status::ok && summary.status != periodic::Status::grazing)
-    throw StudyError(
-        fmt::format("{}: there is no periodic response: {}", study.source.name, summary.reason));
+    throw StudyError(fmt::format("{}: there is no periodic response: {}", study.source.name, summary.reason));
   std::vector<double> phases;
   for (const double time : times) phases.push_back(values.omega * time);
   return columns_of(response.history(phases));

@@ -151,14 +151,19 @@ std::string dimension_name(const Unit& unit) {
     if (unit.exponents == std::array{1, 0, -2}) return "an acceleration";
     if (unit.exponents == std::array{2, 1, -2}) return "an energy or a torque";
   }
+  return "a quantity in " + coherent_unit(unit);
+}
+
+std::string coherent_unit(const Unit& unit) {
   constexpr std::array<std::string_view, 4> symbols{"m", "kg", "s", "rad"};
   const std::array powers{unit.exponents[0], unit.exponents[1], unit.exponents[2], unit.radians};
-  std::string text = "a quantity in";
+  std::string text;
   for (std::size_t i = 0; i < symbols.size(); ++i) {
-    if (powers[i] == 1) text += fmt::format(" {}", symbols[i]);
-    if (powers[i] != 0 && powers[i] != 1) text += fmt::format(" {}{}", symbols[i], powers[i]);
+    if (powers[i] == 0) continue;
+    text += text.empty() ? "" : " ";
+    text += powers[i] == 1 ? std::string(symbols[i]) : fmt::format("{}{}", symbols[i], powers[i]);
   }
-  return text;
+  return text.empty() ? "1" : text;
 }
 
 UnitSystem::UnitSystem() : database_(std::make_unique<Database>()) {
