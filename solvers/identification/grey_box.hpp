@@ -15,7 +15,7 @@
 namespace frahm::identification {
 
 struct FittedParameter {
-  std::string name, unit;  // unit as of an Estimate
+  std::string name, unit;                        // unit as of an Estimate
   double start = 0.0, lower = 0.0, upper = 0.0;  // [SI]; bounds may be infinite
   bool each_record = false;  // every record has its own value, such as what it starts from
 };

@@ -22,7 +22,7 @@ inline constexpr double kConfidence = 0.95;
 
 // What was measured beside what the model says in its place: the data of a residual plot.
 struct FittedSeries {
-  std::string name, unit;           // of what was measured: "main_displacement", "m"
+  std::string name, unit;  // of what was measured: "main_displacement", "m"
   std::vector<double> measured, fitted;
 };
 

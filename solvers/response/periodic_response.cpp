@@ -51,8 +51,8 @@ std::string PeriodicResponse::observe(std::span<const double> times, std::span<c
                                       ObservedMotion& out) {
   return solver_->observe(times, observed, directions, out);
 }
-History PeriodicResponse::history(std::size_t samples) {
-  return solver_->history(samples);
+History PeriodicResponse::history(std::span<const double> phases) {
+  return solver_->history(phases);
 }
 std::vector<Stretch> PeriodicResponse::stretches() const {
   return solver_->stretches();

@@ -65,8 +65,9 @@ class PeriodicResponse {
   std::string observe(std::span<const double> times, std::span<const Observed> observed,
                       std::span<const mechanics::NetworkValues> directions, ObservedMotion& out);
 
-  // Of a response that is ok or grazing.
-  History history(std::size_t samples);
+  // Of a response that is ok or grazing, at these phases omega t [rad]; where something jumps, what it
+  // jumps to.
+  History history(std::span<const double> phases);
   std::vector<Stretch> stretches() const;
 
  private:

@@ -37,11 +37,11 @@ struct RecordChoice {
   std::string name;  // an identifier, unique
   std::filesystem::path file;
   identification::MotionKind motion = identification::MotionKind::free;  // of a grey box
-  std::vector<Assignment> set;             // of a grey box: parameters of this record
-  std::vector<DataColumn> columns;         // all of one length, doubtful rows left out
-  std::vector<std::string> labels;         // of the rows, where the file has them; else empty
-  std::size_t doubtful = 0;                // rows left out because the file marks them so
-  std::optional<StudyValue> added_mass;    // [kg], of the method added_mass
+  std::vector<Assignment> set;                    // of a grey box: parameters of this record
+  std::vector<DataColumn> columns;                // all of one length, doubtful rows left out
+  std::vector<std::string> labels;                // of the rows, where the file has them; else empty
+  std::size_t doubtful = 0;                       // rows left out because the file marks them so
+  std::optional<StudyValue> added_mass;           // [kg], of the method added_mass
   std::optional<StudyValue> static_displacement;  // [m], of the method resonance_magnification
   Position position;
 
