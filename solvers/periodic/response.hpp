@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "solvers/mechanics/network.hpp"
+#include "solvers/periodic/observed_motion.hpp"
 
 // What is told of a periodic response, and the interface of what finds one.
 namespace frahm::periodic {
@@ -74,6 +75,8 @@ class ResponseSolver {
   virtual const char* gradient(std::span<const mechanics::NetworkValues> directions,
                                std::span<double> out) = 0;
   virtual const char* why_no_derivative(std::size_t quantity) const = 0;
+  virtual const char* observe(std::span<const double> times, std::span<const Observed> observed,
+                              std::span<const mechanics::NetworkValues> directions, ObservedMotion& out) = 0;
   virtual History history(std::span<const double> phases) = 0;
   virtual std::vector<Stretch> stretches() const = 0;
 };

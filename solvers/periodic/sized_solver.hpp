@@ -3,6 +3,7 @@
 #include "solvers/periodic/continuation.hpp"
 #include "solvers/periodic/gradient.hpp"
 #include "solvers/periodic/observables.hpp"
+#include "solvers/periodic/orbit_observation.hpp"
 #include "solvers/periodic/response.hpp"
 #include "solvers/periodic/rest_position.hpp"
 
@@ -51,6 +52,12 @@ class SizedSolver final : public ResponseSolver {
     return gradient_.evaluate(orbit_, system_, values_, directions, out);
   }
   const char* why_no_derivative(std::size_t quantity) const override { return gradient_.why_none(quantity); }
+
+  const char* observe(std::span<const double> times, std::span<const Observed> observed,
+                      std::span<const mechanics::NetworkValues> directions, ObservedMotion& out) override {
+    OrbitObservation<N, H> observation(flow_, observed);
+    return observation.observe(orbit_, assembly_, system_, values_, directions, times, out);
+  }
 
   History history(std::span<const double> phases) override;
   std::vector<Stretch> stretches() const override;

@@ -82,6 +82,11 @@ class SmoothSolver final : public periodic::ResponseSolver {
     return "a response under the arctan law is integrated, and has no exact derivative";
   }
 
+  const char* observe(std::span<const double>, std::span<const periodic::Observed>,
+                      std::span<const mechanics::NetworkValues>, periodic::ObservedMotion& out) override {
+    out = {};
+    return why_no_derivative(0);
+  }
   History history(std::span<const double> phases) override;
   std::vector<periodic::Stretch> stretches() const override { return {}; }  // nothing ever sticks
 
