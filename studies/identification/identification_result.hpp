@@ -23,11 +23,6 @@ StudyPlan plan_identification(StudyFile study, std::vector<std::string> set);
 // reason, and for an estimate that a parameter names and the method has not.
 IdentificationResult identify(const StudyFile& study, const transient::Watch& watch = {});
 
-// The value [SI] that each of the study's identified parameters takes, in their order: of a grey box its own
-// estimate, else the one that it names; of one that every record has for itself that of the first record.
-// NaN: not determined.
-std::vector<double> identified_values(const StudyFile& study, const identification::Identification& fit);
-
 // The method as the study writes it.
 std::string method_name(IdentifyMethod method);
 

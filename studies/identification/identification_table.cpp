@@ -26,9 +26,7 @@ Spoken spoken_of(const StudyFile& study, const Estimate& estimate) {
   for (const IdentifiedParameter& parameter : study.identify->parameters) {
     const std::string& name = study.parameters.list[parameter.parameter].name;
     const bool takes_it =
-        parameter.estimate.empty()
-            ? estimate.name == name || (parameter.each_record && estimate.name.starts_with(name + "_"))
-            : estimate.name == parameter.estimate;
+        estimate.name == name || (parameter.each_record && estimate.name.starts_with(name + "_"));
     if (!takes_it) continue;
     const UsualUnit usual = usual_unit(study, parameter.parameter);
     const SpokenValue spoken = spoken_value(study, parameter.parameter, 1.0);

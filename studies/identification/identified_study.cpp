@@ -72,8 +72,7 @@ Stored read(const std::filesystem::path& file) {
 
 // The value of a parameter as it was found.
 double found(const Stored& stored, const IdentifiedParameter& parameter) {
-  const std::string& name = stored.study.parameters.list[parameter.parameter].name;
-  std::string estimate = parameter.estimate.empty() ? name : parameter.estimate;
+  std::string estimate = stored.study.parameters.list[parameter.parameter].name;
   if (parameter.each_record) estimate += "_" + stored.study.identify->records.front().name;
   const double value = stored.value(estimate);
   if (std::isnan(value))

@@ -12,6 +12,7 @@
 #include "studies/identification/grey_box_task.hpp"
 #include "studies/identification/identification_result.hpp"
 #include "studies/map/fingerprint.hpp"
+#include "studies/reading/settings.hpp"
 #include "studies/reading/spelling.hpp"
 
 namespace frahm::studies {
@@ -44,26 +45,36 @@ IdentificationResult fit_grey_box(const StudyFile& study, const transient::Watch
   return result;
 }
 
-// Which estimate each parameter takes. Throws StudyError for one that the method has not.
-std::vector<std::size_t> estimates_taken(const StudyFile& study, const Identification& fit) {
+// Each parameter that takes an estimate stands among the estimates under its own name too, so that a later
+// study of the chain knows it.
+void name_parameters(const StudyFile& study, Identification& fit) {
   std::vector<std::string> names;
   for (const identification::Estimate& estimate : fit.estimates) names.push_back(estimate.name);
-  std::vector<std::size_t> taken;
   for (const IdentifiedParameter& parameter : study.identify->parameters) {
-    std::string name =
-        parameter.estimate.empty() ? study.parameters.list[parameter.parameter].name : parameter.estimate;
-    if (parameter.each_record) name += "_" + study.identify->records.front().name;
-    const auto place = std::find(names.begin(), names.end(), name);
+    const std::string& own = study.parameters.list[parameter.parameter].name;
+    if (parameter.estimate.empty() || parameter.estimate == own) continue;
+    const auto place = std::find(names.begin(), names.end(), parameter.estimate);
+    const auto fail = [&](const std::string& what) {
+      throw study.source.error_at(parameter.position,
+                                  fmt::format("[[identify.parameter]] \"{}\": {}", own, what));
+    };
     if (place == names.end()) {
-      throw study.source.error_at(
-          parameter.position,
-          fmt::format("[[identify.parameter]] \"{}\": the method {} has no estimate \"{}\"{}; it has {}",
-                      study.parameters.list[parameter.parameter].name, method_name(study.identify->method),
-                      name, suggestion(name, names), fmt::join(names, ", ")));
+      fail(fmt::format("the method {} has no estimate \"{}\"{}; it has {}",
+                       method_name(study.identify->method), parameter.estimate,
+                       suggestion(parameter.estimate, names), fmt::join(names, ", ")));
     }
-    taken.push_back(static_cast<std::size_t>(place - names.begin()));
+    if (std::find(names.begin(), names.end(), own) != names.end())
+      fail(fmt::format("an estimate of the method {} has this name; call the parameter otherwise",
+                       method_name(study.identify->method)));
+    const auto taken = static_cast<std::size_t>(place - names.begin());
+    identification::Estimate alias = fit.estimates[taken];
+    const std::string unit = recorded_unit(study, parameter.parameter);
+    if (unit != "1" && unit != alias.unit)
+      fail(fmt::format("is in {}, and the estimate \"{}\" in {}", unit, parameter.estimate, alias.unit));
+    alias.name = own;
+    add_derived(fit, std::move(alias), Eigen::VectorXd::Unit(fit.covariance.rows(), place - names.begin()));
   }
-  return taken;
+  set_intervals(fit);
 }
 
 }  // namespace
@@ -86,18 +97,11 @@ IdentificationResult identify(const StudyFile& study, const transient::Watch& wa
     }
     if (!result.fit.failure.empty())
       throw StudyError(fmt::format("{}: nothing is identified: {}", study.source.name, result.fit.failure));
-    estimates_taken(study, result.fit);
+    name_parameters(study, result.fit);
     return result;
   } catch (const mechanics::MechanicsError& error) {
     throw StudyError(study.source.name + ": " + error.what());
   }
-}
-
-std::vector<double> identified_values(const StudyFile& study, const Identification& fit) {
-  std::vector<double> values;
-  for (const std::size_t estimate : estimates_taken(study, fit))
-    values.push_back(fit.estimates[estimate].value);
-  return values;
 }
 
 std::string method_name(IdentifyMethod method) {

@@ -92,15 +92,16 @@ std::string csv(const StudyFile& study, const std::filesystem::path& file, const
   return text + "\n";
 }
 
-StudyFile study_of(const std::filesystem::path& file) {
-  if (file.extension() == ".toml") return read_study(file);
+StudyFile study_of(const std::filesystem::path& file, const std::vector<std::string>& set) {
+  if (file.extension() == ".toml") return read_study_with(file, set);
+  if (!set.empty()) throw StudyError("--set: a result is of parameters that are settled; name its study");
   return read_stored_study(results::MapReader(file), file).study;
 }
 
 }  // namespace
 
 int export_data(const std::filesystem::path& file, const DataOptions& options, std::ostream& out) {
-  const StudyFile study = study_of(file);
+  const StudyFile study = study_of(file, options.set);
   if (study.identify)
     throw StudyError(
         fmt::format("{}: an identification reads measurements and has no motion of its own; "

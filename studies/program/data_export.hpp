@@ -11,7 +11,8 @@ namespace frahm::studies {
 // Of `frahm export --data`. Texts as typed.
 struct DataOptions {
   std::filesystem::path output;  // CSV; "-": stdout
-  std::vector<std::string> at;   // name=value: of a periodic response
+  std::vector<std::string> set;  // name=value: parameters of a study
+  std::vector<std::string> at;   // name=value: the point of a periodic response
   std::string rate;              // "1000", "1 kHz"
   std::string duration;          // "10", "10 s"
   std::string noise;             // "1%" of each column, "0.1 mm"

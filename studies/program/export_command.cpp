@@ -171,10 +171,10 @@ void check_options(const ExportOptions& options) {
   const int asked = int{!options.group.empty()} + int{options.schedule} + int{!options.sweep.empty()} +
                     int{!options.study.empty()} + int{!data.output.empty()};
   if (asked > 1) throw StudyError("--group, --schedule, --sweep, --study and --data: one of them at a time");
-  const bool of_data = !data.at.empty() || !data.rate.empty() || !data.duration.empty() ||
-                       !data.noise.empty() || !data.columns.empty();
+  const bool of_data = !data.set.empty() || !data.at.empty() || !data.rate.empty() ||
+                       !data.duration.empty() || !data.noise.empty() || !data.columns.empty();
   if (of_data && data.output.empty())
-    throw StudyError("--at, --rate, --duration, --noise and --columns: belong to --data");
+    throw StudyError("--set, --at, --rate, --duration, --noise and --columns: belong to --data");
   if (options.step && !options.schedule) throw StudyError("--step: belongs to --schedule");
   for (const auto& [option, file] : {std::pair("--sweep", options.sweep), std::pair("--study", options.study),
                                      std::pair("--data", data.output)}) {

@@ -187,6 +187,7 @@ void add_export(CLI::App& program, ExportOptions& options, Action& action) {
   DataOptions& data = options.data;
   command->add_option("--data", data.output,
                       "simulated measurements of a study (FILE may be one), to this CSV file; - for stdout");
+  add_set(*command, data.set);
   command->add_option("--at", data.at, "of --data: the point of a periodic response, name=value,...")
       ->allow_extra_args(false);
   command->add_option("--rate", data.rate, "of --data: samples a second, or with a unit: \"1 kHz\"");
