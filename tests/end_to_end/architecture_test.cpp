@@ -87,6 +87,7 @@ TEST_CASE("each foreign library is known to one file, and to no header") {
       {"isa-l/igzip_lib", {"results/chunk_codec.cpp"}},
       {"cvodes|nvector|sundials|sunlinsol|sunmatrix", {"solvers/smooth/cvodes.cpp"}},
       {"boost/math", {"solvers/periodic/resonance_peak.cpp", "solvers/tuning/band_maxima.cpp"}},
+      {"boost/tokenizer", {"studies/reading/csv_table.cpp"}},
       {"boost/random", {"solvers/tuning/starts.cpp"}},
       {"Ip.*", {"solvers/tuning/ipopt.cpp"}},
       {"nlopt", {"solvers/tuning/nlopt.cpp"}},
