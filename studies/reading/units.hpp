@@ -23,6 +23,8 @@ enum class Quantity {
   time,                  // s
   inverse_speed,         // s/m
   angular_acceleration,  // rad/s2
+  acceleration,          // m/s2
+  energy,                // J
 };
 
 std::string_view quantity_name(Quantity quantity);    // with its article: "a stiffness"
