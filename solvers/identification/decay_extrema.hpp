@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+// The turning points of a measured free vibration.
+namespace frahm::identification {
+
+// Maxima and minima in turn.
+struct DecayExtrema {
+  std::vector<double> time, displacement;              // [s], [m]
+  std::vector<double> time_sigma, displacement_sigma;  // standard errors; empty: not known
+  double degrees_of_freedom = 0.0;                     // of the variance behind the standard errors
+};
+
+struct FoundExtrema {
+  std::string failure;  // why there are none, a sentence; empty: there are
+  DecayExtrema extrema;
+  double noise = 0.0;              // standard deviation of the samples about the fits [m]
+  std::vector<std::string> notes;  // what was left out
+};
+
+// The extrema of a sampled trace. time [s]: increasing; displacement [m]: as many, at least kLeastSamples.
+// Friction makes the acceleration jump where the mass turns, so that the two sides have polynomials of their
+// own, x = X + a_2 tau^2 + a_3 tau^3 + ..., tau = t - t_i, with X and t_i in common, over a quarter period
+// each, of the degree that Akaike's corrected criterion prefers.
+// Left out: turning points with less than half a side within the record, and swings that are lost in noise.
+// failure: not finite, not increasing, too few samples, or fewer than two turning points.
+FoundExtrema find_extrema(std::span<const double> time, std::span<const double> displacement);
+inline constexpr std::size_t kLeastSamples = 16;
+
+}  // namespace frahm::identification

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <vector>
+
+#include "solvers/identification/identification.hpp"
+#include "solvers/identification/one_mass.hpp"
+#include "solvers/identification/response_curve.hpp"
+
+// Viscous damping and Coulomb friction to ground from the response at resonance, r = 1, to several amplitudes
+// of the excitation, source [23]. With X the response, Y the support's amplitude (or P/k of a force),
+// x_f = F/k and G, H Den Hartog's functions at r = 1:
+//   Y = slope sqrt((X + G x_f)^2 + (H x_f)^2),    slope = 2 zeta / sqrt(1 + 4 zeta^2),   to a force 2 zeta,
+// a hyperbola whose asymptote is the paper's line  Y = slope X + intercept:
+//   slope = 2 zeta,  intercept = 2 zeta G x_f,  G = sinh(pi zeta) / (cosh(pi zeta) - 1).
+namespace frahm::identification {
+
+// Pairs of amplitudes [m].
+struct ResonancePairs {
+  std::vector<double> response;    // X of the mass, > 0
+  std::vector<double> excitation;  // Y of the support, or P/k, > 0
+};
+
+// Estimates: slope [1], intercept [m] of the line, damping_ratio_line, friction_displacement_line [m] by the
+// paper's formulas; damping_ratio, friction_displacement [m] by least squares of the hyperbola. With mass and
+// stiffness also damping [N s m-1], damping_line, with the stiffness friction_force [N], friction_force_line.
+// failure: fewer than two pairs of different response, not positive, a line that does not rise.
+Identification forced_resonance(const ResonancePairs& pairs, ResponseTo shaken_by, const OneMass& known);
+
+// Lines that others have drawn.
+struct ResonanceLines {
+  std::vector<double> slope;      // [1], in (0, 1)
+  std::vector<double> intercept;  // [m]
+};
+
+// The same of the means of the lines; damping_ratio and friction_displacement take the line for the
+// hyperbola's asymptote. Intervals come from the spread of the lines, NaN of one.
+Identification forced_resonance(const ResonanceLines& lines, ResponseTo shaken_by, const OneMass& known);
+
+}  // namespace frahm::identification
