@@ -42,19 +42,20 @@ identification::ResponseCurve curve_of(const RecordChoice& record) {
 }
 
 Identification half_power_of(const StudyFile& study, const RecordChoice& record) {
-  if (record.find("amplitude")) return half_power(curve_of(record), shaken_by(*study.identify));
-  return half_power(identification::HalfPowerRows{.peak = column(record, "natural_frequency"),
-                                                  .lower = column(record, "lower_frequency"),
-                                                  .upper = column(record, "upper_frequency")},
-                    shaken_by(*study.identify));
+  if (record.find("amplitude"))
+    return identification::half_power(curve_of(record), shaken_by(*study.identify));
+  return identification::half_power(identification::HalfPowerRows{.peak = column(record, "natural_frequency"),
+                                                                  .lower = column(record, "lower_frequency"),
+                                                                  .upper = column(record, "upper_frequency")},
+                                    shaken_by(*study.identify));
 }
 
 Identification magnification_of(const StudyFile& study, const RecordChoice& record) {
   if (record.find("amplitude")) {
-    return resonance_magnification(curve_of(record), stated(study, *record.static_displacement),
-                                   shaken_by(*study.identify));
+    return identification::resonance_magnification(
+        curve_of(record), stated(study, *record.static_displacement), shaken_by(*study.identify));
   }
-  return resonance_magnification(
+  return identification::resonance_magnification(
       identification::MagnificationRows{.static_displacement = column(record, "static_displacement"),
                                         .resonant = column(record, "resonant_displacement")},
       shaken_by(*study.identify));
@@ -70,22 +71,24 @@ identification::DecayExtrema extrema_of(const RecordChoice& record) {
 
 Identification log_decrement_of(const StudyFile& study, const RecordChoice& record) {
   const auto cycles = study.identify->cycles;
-  if (record.find("extremum")) return log_decrement(extrema_of(record), cycles);
-  return log_decrement(column(record, "time"), column(record, "displacement"), cycles);
+  if (record.find("extremum")) return identification::log_decrement(extrema_of(record), cycles);
+  return identification::log_decrement(column(record, "time"), column(record, "displacement"), cycles);
 }
 
 Identification free_decay_of(const StudyFile& study, const RecordChoice& record) {
-  const identification::FreeDecayOptions options{.known = known_of(study)};
-  if (record.find("extremum")) return free_decay(extrema_of(record), options);
-  return free_decay(column(record, "time"), column(record, "displacement"), options);
+  const identification::FreeDecayOptions options{.known = known_of(study),
+                                                 .sensor_offset = study.identify->sensor_offset};
+  if (record.find("extremum")) return identification::free_decay(extrema_of(record), options);
+  return identification::free_decay(column(record, "time"), column(record, "displacement"), options);
 }
 
 Identification forced_resonance_of(const StudyFile& study, const RecordChoice& record) {
   const OneMass known = known_of(study);
   if (record.find("slope")) {
-    return forced_resonance(identification::ResonanceLines{.slope = column(record, "slope"),
-                                                           .intercept = column(record, "intercept")},
-                            shaken_by(*study.identify), known);
+    return identification::forced_resonance(
+        identification::ResonanceLines{.slope = column(record, "slope"),
+                                       .intercept = column(record, "intercept")},
+        shaken_by(*study.identify), known);
   }
   identification::ResonancePairs pairs{.response = column(record, "response"),
                                        .excitation = column(record, "support")};
@@ -93,35 +96,35 @@ Identification forced_resonance_of(const StudyFile& study, const RecordChoice& r
     pairs.excitation = column(record, "force");
     for (double& force : pairs.excitation) force /= *known.stiffness;  // P/k
   }
-  return forced_resonance(pairs, shaken_by(*study.identify), known);
+  return identification::forced_resonance(pairs, shaken_by(*study.identify), known);
 }
 
 Identification energy_balance_of(const RecordChoice& record) {
-  return energy_balance({.amplitude = column(record, "amplitude"),
-                         .energy = column(record, "energy"),
-                         .omega = column(record, "frequency"),
-                         .velocity_rms = column(record, "velocity_rms")});
+  return identification::energy_balance({.amplitude = column(record, "amplitude"),
+                                         .energy = column(record, "energy"),
+                                         .omega = column(record, "frequency"),
+                                         .velocity_rms = column(record, "velocity_rms")});
 }
 
 Identification hysteresis_loop_of(const RecordChoice& record) {
-  return hysteresis_loop({.time = column(record, "time"),
-                          .displacement = column(record, "displacement"),
-                          .force = column(record, "force")},
-                         std::nullopt);
+  return identification::hysteresis_loop({.time = column(record, "time"),
+                                          .displacement = column(record, "displacement"),
+                                          .force = column(record, "force")},
+                                         std::nullopt);
 }
 
 // The natural frequency of each record by its free decay, unless a table gives them.
 Identification added_mass_of(const StudyFile& study) {
   const auto& records = study.identify->records;
   if (records.front().find("frequency"))
-    return added_mass({.added = column(records.front(), "added_mass"),
-                       .omega = column(records.front(), "frequency"),
-                       .sigma = {}});
+    return identification::added_mass({.added = column(records.front(), "added_mass"),
+                                       .omega = column(records.front(), "frequency"),
+                                       .sigma = {}});
   identification::AddedMassRows rows;
   Identification decays;
   for (const RecordChoice& record : records) {
-    Identification decay = free_decay(column(record, "time"), column(record, "displacement"),
-                                      identification::FreeDecayOptions{});
+    Identification decay = identification::free_decay(column(record, "time"), column(record, "displacement"),
+                                                      identification::FreeDecayOptions{});
     if (!decay.failure.empty()) {
       decay.failure = "record \"" + record.name + "\": " + decay.failure;
       return decay;
@@ -139,7 +142,7 @@ Identification added_mass_of(const StudyFile& study) {
   }
   if (std::any_of(rows.sigma.begin(), rows.sigma.end(), [](double sigma) { return !(sigma > 0.0); }))
     rows.sigma.clear();
-  Identification result = added_mass(rows);
+  Identification result = identification::added_mass(rows);
   result.records.insert(result.records.end(), decays.records.begin(), decays.records.end());
   return result;
 }

@@ -115,7 +115,9 @@ void add_column(const StudyFile& study, const DataColumn& column, identification
 }  // namespace
 
 identification::TimeRecord time_record(const StudyFile& study, const RecordChoice& record) {
-  identification::TimeRecord result{.name = record.name, .motion = record.motion};
+  identification::TimeRecord result;
+  result.name = record.name;
+  result.motion = record.motion;
   for (const DataColumn& column : record.columns) {
     if (column.role == "time") {
       result.time = column.values;

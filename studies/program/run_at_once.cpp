@@ -38,8 +38,8 @@ transient::Watch watch_for_stop(const engine::StopSignals& signals, const engine
 
 void refuse_sharing(const RunCommandOptions& options, const StudyFile& study) {
   if (options.run.shard.count <= 1) return;
-  throw StudyError(fmt::format("{}: {} {} is one piece of work, which an array of tasks cannot share",
-                               study.source.name, study.identify ? "an" : "a", kind_noun(study.kind)));
+  throw StudyError(fmt::format("{}: {} is one piece of work, which an array of tasks cannot share",
+                               study.source.name, kind_noun(study.kind)));
 }
 
 void refuse_another_study(const StudyPlan& plan, const std::filesystem::path& output) {
