@@ -35,11 +35,11 @@ struct ModeChange {
 
 inline constexpr const char* kSeveralArrive = "several contacts come to rest at one instant";
 
-// Between a step and the next one, of another mode.
+// From the mode `before` to `after`, at the instant x seen from inside the first.
 template <int N, int H>
-ModeChange mode_change(const Flow<N, H>& flow, const OrbitStep<N, H>& step, const OrbitStep<N, H>& next) {
+ModeChange mode_change(const Flow<N, H>& flow, const Mode<N, H>& before, const Instant<N, H>& x,
+                       const Mode<N, H>& after) {
   const StepEquations<N, H>& eq = flow.equations();
-  const Mode<N, H>&before = flow.mode(step.mode), &after = flow.mode(next.mode);
   ModeChange change;
   for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
     const bool stuck_before = contains(before.stuck, j), stuck_after = contains(after.stuck, j);
@@ -49,9 +49,9 @@ ModeChange mode_change(const Flow<N, H>& flow, const OrbitStep<N, H>& step, cons
     change.arrived |= bit(j);
   }
   if (change.arrived != 0) {
-    change.slope = flow.sliding_speed(step.right, change.arriving()).slope;
+    change.slope = flow.sliding_speed(x, change.arriving()).slope;
   } else if (change.released >= 0) {
-    const ValueAndSlope force = flow.stuck_force(step.right, before, change.released);
+    const ValueAndSlope force = flow.stuck_force(x, before, change.released);
     change.slope = force.slope;
     change.side = force.value > 0.0 ? 1.0 : -1.0;
   }
@@ -66,7 +66,8 @@ const char* find_changes(const Flow<N, H>& flow, std::span<const OrbitStep<N, H>
   changes.clear();
   for (std::size_t i = 0; i + 1 < steps.size(); ++i) {
     if (!steps[i].ends_segment) continue;
-    changes.push_back(mode_change(flow, steps[i], steps[i + 1]));
+    changes.push_back(
+        mode_change(flow, flow.mode(steps[i].mode), steps[i].right, flow.mode(steps[i + 1].mode)));
     changes.back().step = i;
     if (changes.back().is_several()) return kSeveralArrive;
   }
@@ -89,9 +90,10 @@ class PassageSensitivity {
   // steps, laid out and expanded, and the changes found in them must outlive what is asked below.
   typename S::State sweep(Steps steps, std::span<const ModeChange> changes, const typename S::State& start);
 
-  // delta over the change from a step to the next. Returns the derivative of its instant [steps].
-  double cross(const ModeChange& change, const OrbitStep<N, H>& before, const OrbitStep<N, H>& after,
-               typename S::State& delta);
+  // delta over the arrival of one contact, between the instants seen from inside the modes before and after.
+  // Returns the derivative of its instant [steps].
+  double arrive(const ModeChange& change, const Instant<N, H>& before, const Instant<N, H>& after,
+                typename S::State& delta) const;
 
   // Taylor polynomials of delta over a step, a column for each component of the state.
   const typename S::StatePolynomials& polynomials(std::size_t step) const { return polynomials_[step]; }
@@ -108,6 +110,8 @@ class PassageSensitivity {
   const ModeDerivative<N, H>& mode(std::size_t index);
   void expand(const OrbitStep<N, H>& step, const typename S::State& start, typename S::StatePolynomials& p);
   void enter(typename S::State& delta) const;
+  double cross(const ModeChange& change, const OrbitStep<N, H>& before, const OrbitStep<N, H>& after,
+               typename S::State& delta);
 
   const Flow<N, H>& flow_;
   Steps steps_;
@@ -209,21 +213,24 @@ void PassageSensitivity<N, H>::enter(typename S::State& delta) const {
 template <int N, int H>
 double PassageSensitivity<N, H>::cross(const ModeChange& change, const OrbitStep<N, H>& before,
                                        const OrbitStep<N, H>& after, typename S::State& delta) {
-  const StepEquations<N, H>& eq = flow_.equations();
-  const Eigen::Index n = eq.masses();
-  auto dv = delta.segment(n, n);
-  if (change.arrived != 0) {
-    const Eigen::Index j = change.arriving();
-    const double velocity = eq.W.col(j).dot(dv) + by_->support_velocity.row(j).dot(before.right.u);
-    const double shift = -velocity / change.slope;
-    dv += (before.right.a - after.left.a) * shift;
-    return shift;
-  }
+  if (change.arrived != 0) return arrive(change, before.right, after.left, delta);
   if (change.released < 0) return 0.0;
   const Eigen::Index j = change.released;
   mode(before.mode);
   const double force = stuck_force(before.mode, before.right, delta, j);
   return (change.side * by_->limit[j] - force) / change.slope;
+}
+
+template <int N, int H>
+double PassageSensitivity<N, H>::arrive(const ModeChange& change, const Instant<N, H>& before,
+                                        const Instant<N, H>& after, typename S::State& delta) const {
+  const StepEquations<N, H>& eq = flow_.equations();
+  const Eigen::Index n = eq.masses(), j = change.arriving();
+  auto dv = delta.segment(n, n);
+  const double velocity = eq.W.col(j).dot(dv) + by_->support_velocity.row(j).dot(before.u);
+  const double shift = -velocity / change.slope;
+  dv += (before.a - after.a) * shift;
+  return shift;
 }
 
 template <int N, int H>

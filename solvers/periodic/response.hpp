@@ -36,7 +36,8 @@ struct History {
   std::vector<std::string> units;
   std::vector<std::vector<double>> columns;
 
-  // Without samples: displacement and velocity of each mass, force of each element, acceleration of each mass.
+  // Without samples: displacement and velocity of each mass, force of each element, acceleration of each
+  // mass.
   static History of(const mechanics::Network& network) {
     History history;
     const auto add_column = [&](const std::string& name, const char* unit) {
