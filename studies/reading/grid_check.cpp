@@ -34,6 +34,9 @@ std::vector<Checked> all_checked(const StudyFile& study) {
     add(study.comparison->slope);
   for (const DerivedCoordinate& coordinate : study.coordinates) add(coordinate.value);
   for (const StudyValue* value : study.motion.values()) add(*value);
+  if (study.identify) {
+    for (const StudyValue* value : study.identify->values()) add(*value);
+  }
   return all;
 }
 

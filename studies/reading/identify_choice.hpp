@@ -41,7 +41,7 @@ struct RecordChoice {
   std::vector<DataColumn> columns;                // all of one length, doubtful rows left out
   std::vector<std::string> labels;                // of the rows, where the file has them; else empty
   std::size_t doubtful = 0;                       // rows left out because the file marks them so
-  std::optional<StudyValue> added_mass;           // [kg], of the method added_mass
+  std::optional<StudyValue> added_mass;           // [kg], of the method added_mass with traces
   std::optional<StudyValue> static_displacement;  // [m], of the method resonance_magnification
   Position position;
 
@@ -62,7 +62,7 @@ struct IdentifiedParameter {
 // `fixed_from`: the value of a parameter as an earlier identification found it.
 struct FixedEstimate {
   std::size_t parameter = 0;  // index in Parameters::list, of a number
-  double value = 0.0;
+  double value = 0.0;         // SI
 };
 
 enum class IdentifyStart { given, free_decay };
@@ -76,13 +76,18 @@ struct IdentifyChoice {
   IdentifyStart start = IdentifyStart::given;  // of a grey box
   CurveOf curve = CurveOf::force;              // of half_power, resonance_magnification, forced_resonance
   std::optional<std::size_t> cycles;           // of log_decrement: over so many; absent: all there are
-  // Of the methods of one mass: what turns ratios into N s/m and N. At most one of the two is given.
+  bool sensor_offset = false;                  // of free_decay: the sensor's zero is to be fitted
+  // Of free_decay and forced_resonance: what turns ratios into N s/m and N. A free decay has at most one of
+  // the two, as it tells the other; a force at resonance has a stiffness.
   std::optional<StudyValue> mass, stiffness;
   std::optional<StudyValue> reference_frequency;  // omega_h [rad/s] of free records
   std::vector<RecordChoice> records;              // at least one
   std::vector<IdentifiedParameter> parameters;    // of a grey box: at least one
   std::vector<FixedEstimate> fixed;
   std::vector<std::vector<double>> fixed_covariance;  // of `fixed`, in its order
+
+  // The values that are expressions of parameters.
+  std::vector<const StudyValue*> values() const;
 };
 
 }  // namespace frahm::studies

@@ -1,4 +1,4 @@
-#include "studies/program/run_motion.hpp"
+#include "studies/program/run_at_once.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
@@ -10,6 +10,7 @@
 #include "engine/fingerprint.hpp"
 #include "engine/stop_signals.hpp"
 #include "results/map_writer.hpp"
+#include "studies/identification/identification_record.hpp"
 #include "studies/map/finished_file.hpp"
 #include "studies/map/map_plan.hpp"
 #include "studies/map/map_record.hpp"
@@ -21,7 +22,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Why a motion has been stopped.
+// Why it has been stopped.
 struct Stopped {
   std::string reason;
 };
@@ -37,8 +38,8 @@ transient::Watch watch_for_stop(const engine::StopSignals& signals, const engine
 
 void refuse_sharing(const RunCommandOptions& options, const StudyFile& study) {
   if (options.run.shard.count <= 1) return;
-  throw StudyError(fmt::format("{}: a {} is one motion, which an array of tasks cannot share",
-                               study.source.name, kind_name(study.kind)));
+  throw StudyError(fmt::format("{}: {} is one piece of work, which an array of tasks cannot share",
+                               study.source.name, kind_noun(study.kind)));
 }
 
 void refuse_another_study(const StudyPlan& plan, const std::filesystem::path& output) {
@@ -48,46 +49,61 @@ void refuse_another_study(const StudyPlan& plan, const std::filesystem::path& ou
 }
 
 void write_file(const StudyPlan& plan, const RunRecord& record, const std::filesystem::path& output,
-                const std::vector<results::Column>& columns) {
+                const std::string& group, const std::vector<results::Column>& columns,
+                const std::vector<results::Text>& texts = {}) {
   results::MapWriter writer(output, file_layout(plan, record));
-  writer.write_columns(std::string(kind_name(plan.study.kind)), columns);
+  writer.write_columns(group, columns);
+  if (!texts.empty()) writer.write_texts(group, texts);
   writer.write_texts("provenance", provenance(plan, record, {}));
   writer.finish();
 }
 
-void compute(const StudyPlan& plan, const RunRecord& record, const std::filesystem::path& output,
-             const transient::Watch& watch, std::ostream& out) {
-  if (plan.study.kind == StudyKind::decay) {
-    const transient::FreeDecay decay = solve_decay(plan.study, watch);
-    write_file(plan, record, output, decay_columns(plan.study, decay));
-    print_decay(plan.study, decay, out);
-  } else {
-    const transient::ForcedMotion motion = solve_transient(plan.study, watch);
-    write_file(plan, record, output, transient_columns(plan.study, motion));
-    print_transient(plan.study, motion, out);
+// Returns the exit code.
+int compute(const StudyPlan& plan, const RunRecord& record, const std::filesystem::path& output,
+            const transient::Watch& watch, std::ostream& out) {
+  const StudyFile& study = plan.study;
+  const std::string motion_group(kind_name(study.kind));
+  if (study.identify) {
+    const IdentificationResult result = identify(study, watch);
+    write_file(plan, record, output, identification_group, identification_columns(study, result),
+               identification_texts(study, result));
+    print_identification(study, result, out);
+    return result.fit.converged ? exit_code::done : exit_code::not_converged;
   }
+  if (study.kind == StudyKind::decay) {
+    const transient::FreeDecay decay = solve_decay(study, watch);
+    write_file(plan, record, output, motion_group, decay_columns(study, decay));
+    print_decay(study, decay, out);
+  } else {
+    const transient::ForcedMotion motion = solve_transient(study, watch);
+    write_file(plan, record, output, motion_group, transient_columns(study, motion));
+    print_transient(study, motion, out);
+  }
+  return exit_code::done;
 }
 
 }  // namespace
 
-int run_motion(const RunCommandOptions& options, StudyFile study, std::ostream& out) {
+int run_at_once(const RunCommandOptions& options, StudyFile study, std::ostream& out) {
   refuse_sharing(options, study);
   const RunRecord record{.command = options.command, .threads = 1, .started = utc_now()};
-  const StudyPlan plan = plan_motion(std::move(study), options.set);
+  const StudyPlan plan = study.identify ? plan_identification(std::move(study), options.set)
+                                        : plan_motion(std::move(study), options.set);
   const std::filesystem::path output =
       options.run.output.empty() ? default_output(options.study) : options.run.output;
   check_result_place(output, options.study);
   if (!options.run.fresh) refuse_another_study(plan, output);
 
+  int code = exit_code::done;
   try {
     const engine::StopSignals signals;
-    compute(plan, record, output, watch_for_stop(signals, options.run), out);
+    code = compute(plan, record, output, watch_for_stop(signals, options.run), out);
   } catch (const Stopped& stopped) {
-    fmt::print(std::cerr, "{}: nothing is kept of a single motion, which begins anew\n", stopped.reason);
+    fmt::print(std::cerr, "{}: nothing is kept of one piece of work, which begins anew\n", stopped.reason);
     return exit_code::stopped;
   }
   fmt::print(out, "\n{}\n", output.string());
-  return exit_code::done;
+  return code;
 }
 
 }  // namespace frahm::studies

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "results/layout.hpp"
-#include "solvers/tuning/optimum.hpp"
 
 namespace frahm::studies {
 
@@ -22,19 +21,11 @@ class GroupColumns {
                  std::vector<double> values);
   void add_flag(const std::string& name, const std::string& long_name, const std::string& dimension,
                 const std::vector<std::string>& meanings, std::vector<double> values);
-  void add_outcomes(const std::string& name, const std::string& long_name, const std::string& dimension,
-                    const std::vector<tuning::Outcome>& outcomes);
 
   std::vector<results::Column> take() { return std::move(columns_); }
 
  private:
   std::vector<results::Column> columns_;
 };
-
-// a per b: "m (N m-1)-1".
-std::string per_unit(const std::string& a, const std::string& b);
-
-// The outcomes in words, in the order of tuning::Outcome.
-const std::vector<std::string>& outcome_words();
 
 }  // namespace frahm::studies

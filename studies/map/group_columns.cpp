@@ -1,6 +1,4 @@
-#include "studies/tuning/group_columns.hpp"
-
-#include <fmt/format.h>
+#include "studies/map/group_columns.hpp"
 
 namespace frahm::studies {
 
@@ -31,24 +29,6 @@ void GroupColumns::add_flag(const std::string& name, const std::string& long_nam
       {.variable = {.name = name, .long_name = long_name, .type = results::Type::flag, .flags = flags},
        .dimension = dimension,
        .values = std::move(values)});
-}
-
-void GroupColumns::add_outcomes(const std::string& name, const std::string& long_name,
-                                const std::string& dimension, const std::vector<tuning::Outcome>& outcomes) {
-  std::vector<double> values;
-  for (const tuning::Outcome outcome : outcomes) values.push_back(1.0 + static_cast<int>(outcome));
-  add_flag(name, long_name, dimension, outcome_words(), std::move(values));
-}
-
-std::string per_unit(const std::string& a, const std::string& b) {
-  if (b == "1") return a;
-  return a == "1" ? fmt::format("({})-1", b) : fmt::format("{} ({})-1", a, b);
-}
-
-const std::vector<std::string>& outcome_words() {
-  static const std::vector<std::string> words{"converged", "not_converged", "infeasible",
-                                              "unbounded", "failed",        "stopped"};
-  return words;
 }
 
 }  // namespace frahm::studies

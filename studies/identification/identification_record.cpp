@@ -1,0 +1,108 @@
+#include "studies/identification/identification_record.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "studies/map/group_columns.hpp"
+#include "studies/reading/settings.hpp"
+
+namespace frahm::studies {
+namespace {
+
+using identification::Estimate, identification::FittedRecord, identification::Identification;
+
+std::string unit_of(const StudyFile& study, const std::string& unit) {
+  return study.dimensionless ? "1" : unit;
+}
+
+// prefix: of the names, "" for those of the fit itself.
+void add_estimates(const StudyFile& study, const Identification& found, const std::string& prefix,
+                   GroupColumns& columns) {
+  for (const Estimate& estimate : found.estimates) {
+    const std::string name = prefix + estimate.name, unit = unit_of(study, estimate.unit);
+    columns.add_number(name, unit, estimate.long_name, estimate.value);
+    columns.add_number(name + "_low", unit, "lower end of the 95 % interval of " + name, estimate.low);
+    columns.add_number(name + "_high", unit, "upper end of the 95 % interval of " + name, estimate.high);
+    columns.add_number(name + "_standard_error", unit, "standard error of " + name, estimate.standard_error);
+  }
+}
+
+std::vector<double> row_of(const Eigen::MatrixXd& matrix, std::size_t row) {
+  const Eigen::VectorXd values = matrix.row(static_cast<Eigen::Index>(row));
+  return {values.begin(), values.end()};
+}
+
+void add_covariance(const Identification& found, GroupColumns& columns) {
+  const Eigen::MatrixXd correlation = identification::correlation(found.covariance);
+  for (std::size_t i = 0; i < found.estimates.size(); ++i) {
+    const std::string& name = found.estimates[i].name;
+    columns.add(name + "_covariance", "1",
+                "covariance of " + name + " with each estimate, in the product of their units", "estimate",
+                row_of(found.covariance, i));
+    columns.add(name + "_correlation", "1", "correlation of " + name + " with each estimate", "estimate",
+                row_of(correlation, i));
+  }
+}
+
+// The data of a residual plot.
+void add_record(const StudyFile& study, const FittedRecord& record, GroupColumns& columns) {
+  const std::string along = record.name + "_" + record.over;
+  columns.add(along, unit_of(study, record.over_unit), record.over + " of the record " + record.name, along,
+              record.at);
+  for (const identification::FittedSeries& series : record.series) {
+    const std::string name = record.name + "_" + series.name, unit = unit_of(study, series.unit);
+    std::vector<double> residual;
+    for (std::size_t i = 0; i < series.measured.size(); ++i)
+      residual.push_back(series.measured[i] - series.fitted[i]);
+    columns.add(name + "_measured", unit, series.name + " as measured", along, series.measured);
+    columns.add(name + "_fitted", unit, series.name + " of the model", along, series.fitted);
+    columns.add(name + "_residual", unit, "measured less fitted " + series.name, along, std::move(residual));
+  }
+}
+
+}  // namespace
+
+std::vector<results::Column> identification_columns(const StudyFile& study,
+                                                    const IdentificationResult& result) {
+  GroupColumns columns;
+  const Identification& fit = result.fit;
+  add_estimates(study, fit, "", columns);
+  if (result.first) add_estimates(study, *result.first, "first_", columns);
+  add_covariance(fit, columns);
+  for (const FixedEstimate& fixed : study.identify->fixed) {
+    const std::string& name = study.parameters.list[fixed.parameter].name;
+    columns.add_number(fixed_prefix + name, recorded_unit(study, fixed.parameter),
+                       name + " as an earlier identification found it", fixed.value);
+  }
+  if (!fit.records.empty()) {
+    std::vector<double> quality;
+    for (const FittedRecord& record : fit.records) quality.push_back(record.nrmse);
+    columns.add("nrmse", "1", "fit quality of each record, 100 (1 - |y - yhat| / |y - mean y|) [percent]",
+                "record", std::move(quality));
+  }
+  for (const identification::RowColumn& row : fit.rows)
+    columns.add(row.name, unit_of(study, row.unit), row.long_name, "row", row.values);
+  for (const FittedRecord& record : fit.records) add_record(study, record, columns);
+  columns.add_number("degrees_of_freedom", "1", "of the variance behind the intervals",
+                     fit.degrees_of_freedom);
+  columns.add_count("iterations", "iterations of the fit", "", {static_cast<double>(fit.iterations)});
+  return columns.take();
+}
+
+std::vector<results::Text> identification_texts(const StudyFile& study, const IdentificationResult& result) {
+  std::vector<std::string> estimates, records;
+  for (const Estimate& estimate : result.fit.estimates) estimates.push_back(estimate.name);
+  for (const FittedRecord& record : result.fit.records) records.push_back(record.name);
+  std::vector<results::Text> texts{{"method", method_name(study.identify->method)},
+                                   {"estimates", fmt::format("{}", fmt::join(estimates, " "))},
+                                   {"records", fmt::format("{}", fmt::join(records, " "))},
+                                   {"notes", fmt::format("{}", fmt::join(result.fit.notes, "\n"))}};
+  const std::vector<std::string>& labels = study.identify->records.front().labels;
+  if (!labels.empty()) texts.emplace_back("row_labels", fmt::format("{}", fmt::join(labels, "\n")));
+  return texts;
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "solvers/identification/identification.hpp"
+#include "solvers/transient/motion.hpp"
+#include "studies/map/study_plan.hpp"
+
+// A study of kind "identify": the solver's answer to it.
+namespace frahm::studies {
+
+struct IdentificationResult {
+  std::optional<identification::Identification> first;  // the stage that the fit started from, if any
+  identification::Identification fit;
+};
+
+// Refuses what the method has no use for: more records than it takes. Throws StudyError.
+StudyPlan plan_identification(StudyFile study, std::vector<std::string> set);
+
+// What `watch` throws is passed on. Throws StudyError for data from which nothing can be found, with the
+// reason, and for an estimate that a parameter names and the method has not.
+IdentificationResult identify(const StudyFile& study, const transient::Watch& watch = {});
+
+// The method as the study writes it.
+std::string method_name(IdentifyMethod method);
+
+}  // namespace frahm::studies

@@ -1,0 +1,132 @@
+#include "studies/program/data_export.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <charconv>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <ostream>
+
+#include "results/map_reader.hpp"
+#include "studies/map/stored_study.hpp"
+#include "studies/motion/measurements.hpp"
+#include "studies/program/whole_file.hpp"
+#include "studies/reading/settings.hpp"
+
+namespace frahm::studies {
+namespace {
+
+// A number > 0 and the unit behind it.
+struct Amount {
+  double value = 0.0;
+  std::string unit;
+};
+
+Amount amount_of(const char* option, const std::string& text) {
+  Amount amount;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, amount.value);
+  if (error != std::errc{} || !(amount.value > 0.0) || !std::isfinite(amount.value))
+    throw StudyError(fmt::format("{} \"{}\": must be a number > 0, with its unit or without", option, text));
+  amount.unit.assign(stop, end);
+  amount.unit.erase(0, amount.unit.find_first_not_of(' '));
+  return amount;
+}
+
+double si_amount(const StudyFile& study, const char* option, const std::string& text, Quantity quantity) {
+  const Amount amount = amount_of(option, text);
+  if (amount.unit.empty()) return amount.value;
+  if (study.dimensionless)
+    throw StudyError(fmt::format("{} \"{}\": a dimensionless study has no units", option, text));
+  try {
+    return UnitSystem().to_si(amount.value, amount.unit, quantity);
+  } catch (const UnitError& error) {
+    throw StudyError(fmt::format("{} \"{}\": {}", option, text, error.what()));
+  }
+}
+
+// Samples a second: a frequency in cycles.
+double rate_of(const StudyFile& study, const std::string& text) {
+  if (text.empty()) return 0.0;
+  const double value = si_amount(study, "--rate", text, Quantity::angular_frequency);
+  return amount_of("--rate", text).unit.empty() ? value : value / (2.0 * std::numbers::pi);
+}
+
+// The absolute noise is a length, so that displacements alone can have it.
+SensorNoise noise_of(const StudyFile& study, const DataOptions& options) {
+  SensorNoise noise{.seed = options.seed};
+  if (options.noise.empty()) return noise;
+  const Amount amount = amount_of("--noise", options.noise);
+  if (amount.unit == "%") {
+    noise.share = 0.01 * amount.value;
+    return noise;
+  }
+  noise.absolute = si_amount(study, "--noise", options.noise, Quantity::length);
+  for (const std::string& column : options.columns) {
+    if (column.ends_with("_displacement")) continue;
+    throw StudyError(fmt::format("--noise \"{}\": a length, which {} is not; write a share such as 1%",
+                                 options.noise, column));
+  }
+  return noise;
+}
+
+std::string csv(const StudyFile& study, const std::filesystem::path& file, const DataOptions& options,
+                const Measurements& measured) {
+  std::string text = fmt::format(
+      "# simulated by frahm export from {}, {} samples at {:.10g} {}, noise {}{}\n", file.filename().string(),
+      measured.time.size(), measured.rate, study.dimensionless ? "in a unit of time" : "Hz",
+      options.noise.empty() ? "none" : options.noise,
+      options.noise.empty() ? "" : fmt::format(" with seed {}", options.seed));
+  const auto name = [&](const std::string& column, const std::string& unit) {
+    return study.dimensionless ? column : fmt::format("{} [{}]", column, unit);
+  };
+  text += name("time", "s");
+  for (const MeasuredColumn& column : measured.columns) text += "," + name(column.name, column.unit);
+  for (std::size_t row = 0; row < measured.time.size(); ++row) {
+    fmt::format_to(std::back_inserter(text), "\n{:.17g}", measured.time[row]);
+    for (const MeasuredColumn& column : measured.columns)
+      fmt::format_to(std::back_inserter(text), ",{:.17g}", column.values[row]);
+  }
+  return text + "\n";
+}
+
+StudyFile study_of(const std::filesystem::path& file, const std::vector<std::string>& set) {
+  if (file.extension() == ".toml") return read_study_with(file, set);
+  if (!set.empty()) throw StudyError("--set: a result is of parameters that are settled; name its study");
+  return read_stored_study(results::MapReader(file), file).study;
+}
+
+}  // namespace
+
+int export_data(const std::filesystem::path& file, const DataOptions& options, std::ostream& out) {
+  const StudyFile study = study_of(file, options.set);
+  if (study.identify)
+    throw StudyError(
+        fmt::format("{}: an identification reads measurements and has no motion of its own; "
+                    "frahm export --study makes a study of what it found",
+                    file.string()));
+  const MeasurementOptions asked{
+      .rate = rate_of(study, options.rate),
+      .duration = options.duration.empty()
+                      ? std::nullopt
+                      : std::optional(si_amount(study, "--duration", options.duration, Quantity::time)),
+      .noise = noise_of(study, options),
+      .columns = options.columns};
+  const bool motion = study.kind == StudyKind::decay || study.kind == StudyKind::transient;
+  if (motion && !options.at.empty())
+    throw StudyError("--at: belongs to the periodic response of a sweep or tuning");
+  const std::vector<double> parameters = parameters_at(study, options.at);
+  const std::string table = csv(study, file, options, measure(study, parameters, asked));
+  if (options.output == "-") {
+    out << table;
+    return 0;
+  }
+  check_output_is_not_input(options.output, file);
+  write_whole_file(options.output, table);
+  fmt::print(out, "{}\n", options.output.string());
+  return 0;
+}
+
+}  // namespace frahm::studies
