@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "solvers/identification/identification.hpp"
@@ -10,9 +11,17 @@
 // of the excitation, source [23]. With X the response, Y the support's amplitude (or P/k of a force),
 // x_f = F/k and G, H Den Hartog's functions at r = 1:
 //   Y = slope sqrt((X + G x_f)^2 + (H x_f)^2),    slope = 2 zeta / sqrt(1 + 4 zeta^2),   to a force 2 zeta,
-// a hyperbola whose asymptote is the paper's line  Y = slope X + intercept:
+// a hyperbola whose asymptote is, but for terms of zeta^2, the paper's line  Y = slope X + intercept:
 //   slope = 2 zeta,  intercept = 2 zeta G x_f,  G = sinh(pi zeta) / (cosh(pi zeta) - 1).
+// A support that only the spring stands on, the damper on the ground, acts as the force k Y.
 namespace frahm::identification {
+
+// What turns ratios into N s/m and N: damping takes two of the three, friction_force the stiffness, given or
+// of the other two. natural_frequency [rad/s] is that of the resonance.
+struct KnownResonance {
+  OneMass of;
+  std::optional<double> natural_frequency;
+};
 
 // Pairs of amplitudes [m].
 struct ResonancePairs {
@@ -21,19 +30,22 @@ struct ResonancePairs {
 };
 
 // Estimates: slope [1], intercept [m] of the line, damping_ratio_line, friction_displacement_line [m] by the
-// paper's formulas; damping_ratio, friction_displacement [m] by least squares of the hyperbola. With mass and
-// stiffness also damping [N s m-1], damping_line, with the stiffness friction_force [N], friction_force_line.
+// paper's formulas; damping_ratio, friction_displacement [m] by least squares of the hyperbola; as far as
+// known damping, damping_line [N s m-1], friction_force, friction_force_line [N].
+// The residuals are those of the excitation, as in the paper: its error and slope times the response's.
 // failure: fewer than two pairs of different response, not positive, a line that does not rise.
-Identification forced_resonance(const ResonancePairs& pairs, ResponseTo shaken_by, const OneMass& known);
+Identification forced_resonance(const ResonancePairs& pairs, ResponseTo shaken_by,
+                                const KnownResonance& known = {});
 
 // Lines that others have drawn.
 struct ResonanceLines {
-  std::vector<double> slope;      // [1], in (0, 1)
+  std::vector<double> slope;      // [1], > 0; to a support < 1
   std::vector<double> intercept;  // [m]
 };
 
 // The same of the means of the lines; damping_ratio and friction_displacement take the line for the
 // hyperbola's asymptote. Intervals come from the spread of the lines, NaN of one.
-Identification forced_resonance(const ResonanceLines& lines, ResponseTo shaken_by, const OneMass& known);
+Identification forced_resonance(const ResonanceLines& lines, ResponseTo shaken_by,
+                                const KnownResonance& known = {});
 
 }  // namespace frahm::identification

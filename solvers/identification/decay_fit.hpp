@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "solvers/identification/decay_extrema.hpp"
+#include "solvers/identification/identification.hpp"
+#include "solvers/identification/linear_fit.hpp"
+
+// What the methods for free vibration have in common.
+namespace frahm::identification {
+
+// "" where the extremes can be used: at least `least` of them, finite, times increasing, maxima and minima in
+// turn, not growing; else the sentence that says why not.
+std::string unless_decaying(const DecayExtrema& extrema, std::size_t least);
+
+// The standard errors of the extremes, or ones where they are not known.
+Eigen::VectorXd displacement_sigma(const DecayExtrema& extrema);
+
+// The frequency of the damped vibration from the times of the extremes, half a period apart: with Coulomb
+// friction, too, t_i = t_0 + i pi / omega_d.
+struct DampedFrequency {
+  double value = 0.0, variance = 0.0;  // [rad/s]
+  double degrees_of_freedom = 0.0;
+};
+DampedFrequency damped_frequency(const DecayExtrema& extrema);
+
+// Appends natural_frequency = omega_d / sqrt(1 - zeta^2) to a result that has damping_ratio and
+// damped_frequency.
+void add_natural_frequency(Identification& result);
+
+// The extremes beside what the fit says of them.
+FittedRecord extrema_record(const DecayExtrema& extrema, const Eigen::VectorXd& fitted);
+
+}  // namespace frahm::identification
