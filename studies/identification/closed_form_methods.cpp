@@ -88,7 +88,7 @@ Identification forced_resonance_of(const StudyFile& study, const RecordChoice& r
     return identification::forced_resonance(
         identification::ResonanceLines{.slope = column(record, "slope"),
                                        .intercept = column(record, "intercept")},
-        shaken_by(*study.identify), known);
+        shaken_by(*study.identify), {.of = known, .natural_frequency = std::nullopt});
   }
   identification::ResonancePairs pairs{.response = column(record, "response"),
                                        .excitation = column(record, "support")};
@@ -96,7 +96,8 @@ Identification forced_resonance_of(const StudyFile& study, const RecordChoice& r
     pairs.excitation = column(record, "force");
     for (double& force : pairs.excitation) force /= *known.stiffness;  // P/k
   }
-  return identification::forced_resonance(pairs, shaken_by(*study.identify), known);
+  return identification::forced_resonance(pairs, shaken_by(*study.identify),
+                                          {.of = known, .natural_frequency = std::nullopt});
 }
 
 Identification energy_balance_of(const RecordChoice& record) {
