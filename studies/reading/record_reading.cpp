@@ -110,11 +110,12 @@ void check_values(const TomlSection& section, const RawRecord& raw, const RawCol
 
 void check_count(const TomlSection& section, const RawRecord& raw, const RecordForm& form) {
   if (raw.rows.size() >= form.least_rows) return;
-  throw data_error(section,
-                   fmt::format("{}: {} row{} of numbers{}; at least {} needed", raw.file,
-                               raw.rows.empty() ? "no" : fmt::format("{}", raw.rows.size()),
-                               raw.rows.size() == 1 ? "" : "s", raw.doubtful > 0 ? " that nobody doubts" : "",
-                               form.least_rows == 1 ? "one is" : "two are"));
+  const bool at_line = raw.has_lines && !raw.rows.empty();
+  throw data_error(section, fmt::format("{}{}: {} of numbers{}; at least {} needed", raw.file,
+                                        at_line ? fmt::format(":{}", raw.rows.back()) : "",
+                                        raw.rows.empty() ? "no row" : "a single row",
+                                        raw.doubtful > 0 ? " that is not doubtful" : "",
+                                        form.least_rows == 1 ? "one is" : "two are"));
 }
 
 void take_columns(const IdentifyReading& reading, const TomlSection& section, RawRecord& raw,
