@@ -23,7 +23,4 @@ StudyPlan plan_identification(StudyFile study, std::vector<std::string> set);
 // reason, and for an estimate that a parameter names and the method has not.
 IdentificationResult identify(const StudyFile& study, const transient::Watch& watch = {});
 
-// The method as the study writes it.
-std::string method_name(IdentifyMethod method);
-
 }  // namespace frahm::studies

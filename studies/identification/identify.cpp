@@ -2,7 +2,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "solvers/identification/grey_box.hpp"
@@ -102,13 +101,6 @@ IdentificationResult identify(const StudyFile& study, const transient::Watch& wa
   } catch (const mechanics::MechanicsError& error) {
     throw StudyError(study.source.name + ": " + error.what());
   }
-}
-
-std::string method_name(IdentifyMethod method) {
-  constexpr std::array names{"half_power",       "resonance_magnification", "log_decrement",   "free_decay",
-                             "forced_resonance", "energy_balance",          "hysteresis_loop", "added_mass",
-                             "grey_box"};
-  return names.at(static_cast<std::size_t>(method));
 }
 
 }  // namespace frahm::studies

@@ -126,7 +126,7 @@ void read_bounds(const TomlSection& section, IdentifiedParameter& fitted) {
 
 // A formula's estimate in the place of a parameter.
 void read_estimate(const IdentifyReading& reading, const TomlSection& section, IdentifiedParameter& taken) {
-  const std::string& method = method_names()[static_cast<std::size_t>(reading.choice.method)];
+  const std::string& method = method_name(reading.choice.method);
   for (const char* key : {"lower", "upper", "each_record"}) {
     if (section.find(key))
       section.fail(key, fmt::format("belongs to the method \"grey_box\"; \"{}\" has no use for it", method));

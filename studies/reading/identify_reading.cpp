@@ -38,11 +38,9 @@ void check_keys_of_method(const TomlSection& section, Method method) {
   for (const MethodKey& key : method_keys()) {
     if (!section.find(key.name) || std::count(key.methods.begin(), key.methods.end(), method) > 0) continue;
     std::vector<std::string> owners;
-    for (const Method owner : key.methods)
-      owners.push_back(fmt::format("\"{}\"", method_names()[static_cast<std::size_t>(owner)]));
-    section.fail(key.name,
-                 fmt::format("belongs to the method {}; \"{}\" has no use for it", listed(owners, " or "),
-                             method_names()[static_cast<std::size_t>(method)]));
+    for (const Method owner : key.methods) owners.push_back(fmt::format("\"{}\"", method_name(owner)));
+    section.fail(key.name, fmt::format("belongs to the method {}; \"{}\" has no use for it",
+                                       listed(owners, " or "), method_name(method)));
   }
 }
 
@@ -185,6 +183,10 @@ const std::vector<std::string>& method_names() {
   return names;
 }
 
+const std::string& method_name(IdentifyMethod method) {
+  return method_names()[static_cast<std::size_t>(method)];
+}
+
 TomlSection identify_section(const StudySource& source, const TomlValue& root) {
   const TomlEntry* entry = find_entry(root, "identify");
   if (!entry) throw source.error_at(root.position, "the study has no [identify] with its method");
@@ -221,7 +223,7 @@ void read_identification(const StudyContext& context, const TomlValue& root, Stu
 }
 
 void read_measurements(const StudyContext& context, const TomlValue& root,
-                       const std::filesystem::path& folder, StudyFile& study) {
+                       const std::filesystem::path& folder, DataFiles data, StudyFile& study) {
   const TomlSection section = identify_section(context.source, root);
   IdentifyChoice& choice = *study.identify;
   IdentifyReading reading{context, folder, study, choice};
@@ -229,6 +231,10 @@ void read_measurements(const StudyContext& context, const TomlValue& root,
     read_identified_parameters(reading, parameter);
   check_parameters(section, choice);
   const std::vector<TomlSection> records = record_sections(section, root);
+  if (data == DataFiles::leave) {
+    for (std::size_t i = 0; i < records.size(); ++i) read_settings(reading, records[i], choice.records[i]);
+    return;
+  }
   for (std::size_t i = 0; i < records.size(); ++i) read_record(reading, records[i], choice.records[i]);
   check_reference_frequency(section, study, choice);
   check_start(section, study, choice);

@@ -18,9 +18,6 @@ struct IdentifyReading {
   IdentifyChoice& choice;  // study.identify
 };
 
-// Names of the methods, in the order of IdentifyMethod.
-const std::vector<std::string>& method_names();
-
 TomlSection identify_section(const StudySource& source, const TomlValue& root);
 
 // The sections of the tables [[identify.record]] and [[identify.parameter]], in the order of the study.
@@ -29,6 +26,9 @@ std::vector<TomlSection> parameter_sections(const TomlSection& identify, const T
 
 // [[identify.parameter]], which comes before the records.
 void read_identified_parameters(IdentifyReading& reading, const TomlSection& section);
+
+// `set` of a [[identify.record]], without its data.
+void read_settings(const IdentifyReading& reading, const TomlSection& section, RecordChoice& record);
 
 // A [[identify.record]], whose added mass or static displacement is read already, with its data.
 void read_record(IdentifyReading& reading, const TomlSection& section, RecordChoice& record);

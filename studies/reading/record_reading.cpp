@@ -186,19 +186,10 @@ Assignment read_setting(const IdentifyReading& reading, const TomlSection& secti
   return {*index, number.value * factor};
 }
 
-void read_settings(const IdentifyReading& reading, const TomlSection& section, RecordChoice& record) {
-  const TomlValue* set = section.find("set");
-  if (!set) return;
-  const auto* entries = set->as<TomlTable>();
-  if (!entries)
-    section.fail("set", fmt::format("expected a table such as {{ I = 4.72 }}, found {}", described(*set)));
-  for (const TomlEntry& entry : *entries) record.set.push_back(read_setting(reading, section, entry));
-}
-
 // Each key of a record belongs to the methods, and the forms of their data, that use it.
 void check_keys(const IdentifyReading& reading, const TomlSection& section, const RecordForm& form) {
   const Method method = reading.choice.method;
-  const std::string& name = method_names()[static_cast<std::size_t>(method)];
+  const std::string& name = method_name(method);
   for (const char* key : {"set", "motion"}) {
     if (section.find(key) && method != Method::grey_box)
       section.fail(key, fmt::format("belongs to the method \"grey_box\"; \"{}\" has no use for it", name));
@@ -215,6 +206,15 @@ void check_keys(const IdentifyReading& reading, const TomlSection& section, cons
 }
 
 }  // namespace
+
+void read_settings(const IdentifyReading& reading, const TomlSection& section, RecordChoice& record) {
+  const TomlValue* set = section.find("set");
+  if (!set) return;
+  const auto* entries = set->as<TomlTable>();
+  if (!entries)
+    section.fail("set", fmt::format("expected a table such as {{ I = 4.72 }}, found {}", described(*set)));
+  for (const TomlEntry& entry : *entries) record.set.push_back(read_setting(reading, section, entry));
+}
 
 void read_record(IdentifyReading& reading, const TomlSection& section, RecordChoice& record) {
   const std::vector<RecordForm> forms = record_forms(reading.study);
