@@ -14,6 +14,7 @@ namespace frahm::studies {
 struct IdentifyReading {
   const StudyContext& context;
   std::filesystem::path folder;  // of the files that the study names
+  DataFiles data = DataFiles::read;
   StudyFile& study;
   IdentifyChoice& choice;  // study.identify
 };
@@ -24,11 +25,8 @@ TomlSection identify_section(const StudySource& source, const TomlValue& root);
 std::vector<TomlSection> record_sections(const TomlSection& identify, const TomlValue& root);
 std::vector<TomlSection> parameter_sections(const TomlSection& identify, const TomlValue& root);
 
-// [[identify.parameter]], which comes before the records.
+// [[identify.parameter]]: of a grey box before the records, of a formula after them.
 void read_identified_parameters(IdentifyReading& reading, const TomlSection& section);
-
-// `set` of a [[identify.record]], without its data.
-void read_settings(const IdentifyReading& reading, const TomlSection& section, RecordChoice& record);
 
 // A [[identify.record]], whose added mass or static displacement is read already, with its data.
 void read_record(IdentifyReading& reading, const TomlSection& section, RecordChoice& record);

@@ -186,6 +186,15 @@ Assignment read_setting(const IdentifyReading& reading, const TomlSection& secti
   return {*index, number.value * factor};
 }
 
+void read_settings(const IdentifyReading& reading, const TomlSection& section, RecordChoice& record) {
+  const TomlValue* set = section.find("set");
+  if (!set) return;
+  const auto* entries = set->as<TomlTable>();
+  if (!entries)
+    section.fail("set", fmt::format("expected a table such as {{ I = 4.72 }}, found {}", described(*set)));
+  for (const TomlEntry& entry : *entries) record.set.push_back(read_setting(reading, section, entry));
+}
+
 // Each key of a record belongs to the methods, and the forms of their data, that use it.
 void check_keys(const IdentifyReading& reading, const TomlSection& section, const RecordForm& form) {
   const Method method = reading.choice.method;
@@ -207,16 +216,8 @@ void check_keys(const IdentifyReading& reading, const TomlSection& section, cons
 
 }  // namespace
 
-void read_settings(const IdentifyReading& reading, const TomlSection& section, RecordChoice& record) {
-  const TomlValue* set = section.find("set");
-  if (!set) return;
-  const auto* entries = set->as<TomlTable>();
-  if (!entries)
-    section.fail("set", fmt::format("expected a table such as {{ I = 4.72 }}, found {}", described(*set)));
-  for (const TomlEntry& entry : *entries) record.set.push_back(read_setting(reading, section, entry));
-}
-
 void read_record(IdentifyReading& reading, const TomlSection& section, RecordChoice& record) {
+  if (reading.data == DataFiles::leave) return read_settings(reading, section, record);
   const std::vector<RecordForm> forms = record_forms(reading.study);
   RawRecord raw = read_columns(section, reading.folder, forms);
   std::vector<std::string> roles;
