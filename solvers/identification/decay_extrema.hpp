@@ -10,7 +10,7 @@ namespace frahm::identification {
 
 // Maxima and minima in turn.
 struct DecayExtrema {
-  std::vector<double> time, displacement;              // [s], [m]
+  std::vector<double> time, displacement;              // [s], [m]; times may be empty: not known
   std::vector<double> time_sigma, displacement_sigma;  // standard errors; empty: not known
   double degrees_of_freedom = 0.0;                     // of the variance behind the standard errors
 };

@@ -1,5 +1,6 @@
 #include "solvers/identification/decay_fit.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -31,12 +32,15 @@ bool grows(const DecayExtrema& extrema) {
 std::string wrong_sizes(const DecayExtrema& extrema) {
   const std::size_t n = extrema.displacement.size();
   const auto sigmas = [n](const std::vector<double>& sigma) { return sigma.empty() ? n : sigma.size(); };
-  return first_of({unless_equal("time and displacement", {extrema.time.size(), n}),
-                   unless_equal("standard errors and extremes",
-                                {n, sigmas(extrema.displacement_sigma), sigmas(extrema.time_sigma)}),
-                   unless_finite("time", extrema.time), unless_finite("extreme", extrema.displacement),
-                   unless_positive("standard error", extrema.displacement_sigma),
-                   unless_positive("standard error", extrema.time_sigma)});
+  return first_of(
+      {unless_equal("time and displacement", {extrema.time.empty() ? n : extrema.time.size(), n}),
+       unless_equal("standard errors and extremes", {n, sigmas(extrema.displacement_sigma)}),
+       unless_equal("standard errors and times",
+                    {extrema.time.empty() ? 0 : n,
+                     extrema.time_sigma.empty() && !extrema.time.empty() ? n : extrema.time_sigma.size()}),
+       unless_finite("time", extrema.time), unless_finite("extreme", extrema.displacement),
+       unless_positive("standard error", extrema.displacement_sigma),
+       unless_positive("standard error", extrema.time_sigma)});
 }
 
 }  // namespace
@@ -47,7 +51,7 @@ std::string unless_decaying(const DecayExtrema& extrema, std::size_t least) {
   if (x.size() < least)
     return "it takes " + std::to_string(least) + " extremes at least, there are " + std::to_string(x.size());
   for (std::size_t i = 1; i < x.size(); ++i) {
-    if (!(extrema.time[i] > extrema.time[i - 1]))
+    if (!extrema.time.empty() && !(extrema.time[i] > extrema.time[i - 1]))
       return "the time of extreme " + std::to_string(i + 1) + " is " + number(extrema.time[i]) + " s after " +
              number(extrema.time[i - 1]) + " s: times must increase";
     if (i > 1 && !((x[i] - x[i - 1]) * (x[i - 1] - x[i - 2]) < 0.0))
@@ -67,6 +71,14 @@ Eigen::VectorXd displacement_sigma(const DecayExtrema& extrema) {
   return Eigen::Map<const Eigen::VectorXd>(extrema.displacement_sigma.data(), n);
 }
 
+namespace {
+
+struct DampedFrequency {
+  double value = 0.0, variance = 0.0;  // [rad/s]
+  double degrees_of_freedom = 0.0;
+};
+
+// Half a period apart, with Coulomb friction, too: t_i = t_0 + i pi / omega_d
 DampedFrequency damped_frequency(const DecayExtrema& extrema) {
   const auto n = static_cast<Index>(extrema.time.size());
   const bool known = !extrema.time_sigma.empty();
@@ -83,12 +95,20 @@ DampedFrequency damped_frequency(const DecayExtrema& extrema) {
   return {omega, by_half_period * by_half_period * variance, s.degrees_of_freedom};
 }
 
-void add_natural_frequency(Identification& result) {
-  double zeta = 0.0, omega_d = 0.0;
-  for (const Estimate& estimate : result.estimates) {
-    if (estimate.name == "damping_ratio") zeta = estimate.value;
-    if (estimate.name == "damped_frequency") omega_d = estimate.value;
-  }
+}  // namespace
+
+void add_frequencies(const DecayExtrema& extrema, double zeta, Identification& result) {
+  if (extrema.time.empty()) return;
+  const DampedFrequency damped = damped_frequency(extrema);
+  const double omega_d = damped.value;
+  const Index n = result.covariance.rows();
+  result.estimates.push_back({.name = "damped_frequency",
+                              .unit = "rad s-1",
+                              .long_name = "frequency of the damped vibration",
+                              .value = omega_d});
+  result.covariance.conservativeResizeLike(Eigen::MatrixXd::Zero(n + 1, n + 1));
+  result.covariance(n, n) = damped.variance;
+  result.degrees_of_freedom = std::min(result.degrees_of_freedom, damped.degrees_of_freedom);
   // omega_n = omega_d / s, s^2 = 1 - zeta^2
   const double squared = 1.0 - zeta * zeta, s = std::sqrt(squared);
   add_from(result,
@@ -100,7 +120,14 @@ void add_natural_frequency(Identification& result) {
 }
 
 FittedRecord extrema_record(const DecayExtrema& extrema, const Eigen::VectorXd& fitted) {
-  FittedRecord record{.name = "extrema", .over = "time", .over_unit = "s", .at = extrema.time, .series = {}};
+  const bool timed = !extrema.time.empty();
+  FittedRecord record{.name = "extrema",
+                      .over = timed ? "time" : "extremum",
+                      .over_unit = timed ? "s" : "1",
+                      .at = extrema.time,
+                      .series = {}};
+  for (std::size_t i = 0; !timed && i < extrema.displacement.size(); ++i)
+    record.at.push_back(static_cast<double>(i));
   record.series = {{"displacement", "m", extrema.displacement, {fitted.begin(), fitted.end()}}};
   record.nrmse = nrmse(record.series);
   return record;

@@ -17,17 +17,9 @@ std::string unless_decaying(const DecayExtrema& extrema, std::size_t least);
 // The standard errors of the extremes, or ones where they are not known.
 Eigen::VectorXd displacement_sigma(const DecayExtrema& extrema);
 
-// The frequency of the damped vibration from the times of the extremes, half a period apart: with Coulomb
-// friction, too, t_i = t_0 + i pi / omega_d.
-struct DampedFrequency {
-  double value = 0.0, variance = 0.0;  // [rad/s]
-  double degrees_of_freedom = 0.0;
-};
-DampedFrequency damped_frequency(const DecayExtrema& extrema);
-
-// Appends natural_frequency = omega_d / sqrt(1 - zeta^2) to a result that has damping_ratio and
-// damped_frequency.
-void add_natural_frequency(Identification& result);
+// Appends damped_frequency, from the times of the extremes, half a period apart, and natural_frequency =
+// omega_d / sqrt(1 - zeta^2) to a result whose damping_ratio is zeta; nothing where no times are known.
+void add_frequencies(const DecayExtrema& extrema, double zeta, Identification& result);
 
 // The extremes beside what the fit says of them.
 FittedRecord extrema_record(const DecayExtrema& extrema, const Eigen::VectorXd& fitted);

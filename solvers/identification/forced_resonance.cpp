@@ -94,33 +94,16 @@ std::string wrong(const ResonanceLines& lines, ResponseTo shaken_by) {
   return "";
 }
 
-std::string wrong(const KnownResonance& known) {
-  for (const auto& value : {known.of.mass, known.of.stiffness, known.natural_frequency}) {
+std::string wrong(const OneMass& known) {
+  for (const auto& value : {known.mass, known.stiffness}) {
     if (value && !(std::isfinite(*value) && *value > 0.0))
-      return "mass, stiffness and natural frequency must be positive and finite, one is " + number(*value);
+      return "mass and stiffness must be positive and finite, one is " + number(*value);
   }
-  if (known.of.mass && known.of.stiffness && known.natural_frequency)
-    return "mass, stiffness and natural frequency are all given: two of them tell the third";
   return "";
 }
 
-// Stiffness, and stiffness over natural frequency, where they are known.
-std::optional<double> stiffness_of(const KnownResonance& known) {
-  if (known.of.stiffness) return known.of.stiffness;
-  if (known.of.mass && known.natural_frequency)
-    return *known.of.mass * *known.natural_frequency * *known.natural_frequency;
-  return std::nullopt;
-}
-std::optional<double> impedance_of(const KnownResonance& known) {
-  const auto stiffness = stiffness_of(known);
-  if (!stiffness) return std::nullopt;
-  if (known.natural_frequency) return *stiffness / *known.natural_frequency;
-  if (known.of.mass) return std::sqrt(*stiffness * *known.of.mass);
-  return std::nullopt;
-}
-
-// c = 2 zeta k / omega_n, F = k x_f
-void add_forces(Identification& result, const KnownResonance& known, const std::string& suffix) {
+// c = 2 zeta sqrt(k m), F = k x_f
+void add_forces(Identification& result, const OneMass& known, const std::string& suffix) {
   const auto value_of = [&](const std::string& name) {
     return std::find_if(result.estimates.begin(), result.estimates.end(),
                         [&](const Estimate& estimate) { return estimate.name == name; })
@@ -128,20 +111,22 @@ void add_forces(Identification& result, const KnownResonance& known, const std::
   };
   const std::string ratio = "damping_ratio" + suffix, displacement = "friction_displacement" + suffix;
   const std::string how = suffix.empty() ? "" : ", by the line";
-  if (const auto impedance = impedance_of(known))
+  if (known.mass && known.stiffness) {
+    const double impedance = std::sqrt(*known.stiffness * *known.mass);
     add_from(result,
              {.name = "damping" + suffix,
               .unit = "N s m-1",
               .long_name = "viscous damping" + how,
-              .value = 2.0 * value_of(ratio) * *impedance},
-             {{ratio.c_str(), 2.0 * *impedance}});
-  if (const auto stiffness = stiffness_of(known))
+              .value = 2.0 * value_of(ratio) * impedance},
+             {{ratio.c_str(), 2.0 * impedance}});
+  }
+  if (known.stiffness)
     add_from(result,
              {.name = "friction_force" + suffix,
               .unit = "N",
               .long_name = "Coulomb friction force" + how,
-              .value = *stiffness * value_of(displacement)},
-             {{displacement.c_str(), *stiffness}});
+              .value = *known.stiffness * value_of(displacement)},
+             {{displacement.c_str(), *known.stiffness}});
 }
 
 // zeta = slope / 2, x_f = intercept / (2 zeta G), G = sinh(pi zeta) / (cosh(pi zeta) - 1) = coth(pi zeta / 2)
@@ -217,8 +202,7 @@ FittedRecord record_of(const ResonancePairs& pairs, const Eigen::VectorXd& fitte
 
 }  // namespace
 
-Identification forced_resonance(const ResonancePairs& pairs, ResponseTo shaken_by,
-                                const KnownResonance& known) {
+Identification forced_resonance(const ResonancePairs& pairs, ResponseTo shaken_by, const OneMass& known) {
   if (const std::string why = first_of({wrong(pairs), wrong(known)}); !why.empty()) return no_result(why);
   const auto n = static_cast<Index>(pairs.response.size());
   const Eigen::VectorXd X = Eigen::Map<const Eigen::VectorXd>(pairs.response.data(), n);
@@ -252,8 +236,7 @@ Identification forced_resonance(const ResonancePairs& pairs, ResponseTo shaken_b
   return result;
 }
 
-Identification forced_resonance(const ResonanceLines& lines, ResponseTo shaken_by,
-                                const KnownResonance& known) {
+Identification forced_resonance(const ResonanceLines& lines, ResponseTo shaken_by, const OneMass& known) {
   if (const std::string why = first_of({wrong(lines, shaken_by), wrong(known)}); !why.empty())
     return no_result(why);
   const auto n = static_cast<Index>(lines.slope.size());

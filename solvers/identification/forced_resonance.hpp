@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "solvers/identification/identification.hpp"
@@ -16,13 +15,6 @@
 // A support that only the spring stands on, the damper on the ground, acts as the force k Y.
 namespace frahm::identification {
 
-// What turns ratios into N s/m and N: damping takes two of the three, friction_force the stiffness, given or
-// of the other two. natural_frequency [rad/s] is that of the resonance.
-struct KnownResonance {
-  OneMass of;
-  std::optional<double> natural_frequency;
-};
-
 // Pairs of amplitudes [m].
 struct ResonancePairs {
   std::vector<double> response;    // X of the mass, > 0
@@ -30,12 +22,11 @@ struct ResonancePairs {
 };
 
 // Estimates: slope [1], intercept [m] of the line, damping_ratio_line, friction_displacement_line [m] by the
-// paper's formulas; damping_ratio, friction_displacement [m] by least squares of the hyperbola; as far as
-// known damping, damping_line [N s m-1], friction_force, friction_force_line [N].
+// paper's formulas; damping_ratio, friction_displacement [m] by least squares of the hyperbola; with mass
+// and stiffness damping, damping_line [N s m-1], with the stiffness friction_force, friction_force_line [N].
 // The residuals are those of the excitation, as in the paper: its error and slope times the response's.
 // failure: fewer than two pairs of different response, not positive, a line that does not rise.
-Identification forced_resonance(const ResonancePairs& pairs, ResponseTo shaken_by,
-                                const KnownResonance& known = {});
+Identification forced_resonance(const ResonancePairs& pairs, ResponseTo shaken_by, const OneMass& known = {});
 
 // Lines that others have drawn.
 struct ResonanceLines {
@@ -45,7 +36,6 @@ struct ResonanceLines {
 
 // The same of the means of the lines; damping_ratio and friction_displacement take the line for the
 // hyperbola's asymptote. Intervals come from the spread of the lines, NaN of one.
-Identification forced_resonance(const ResonanceLines& lines, ResponseTo shaken_by,
-                                const KnownResonance& known = {});
+Identification forced_resonance(const ResonanceLines& lines, ResponseTo shaken_by, const OneMass& known = {});
 
 }  // namespace frahm::identification

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "solvers/identification/decay_fit.hpp"
@@ -134,9 +135,16 @@ void add_of_mass(Identification& result, double m, double zeta, double omega, do
            {{"friction_displacement", k}, {"natural_frequency", 2.0 * m * omega * x_f}});
 }
 
-std::string wrong(const OneMass& known) {
+void add_forces(Identification& result, const OneMass& known, double zeta, double omega, double x_f) {
+  if (known.stiffness) add_of_stiffness(result, *known.stiffness, zeta, omega, x_f);
+  if (known.mass) add_of_mass(result, *known.mass, zeta, omega, x_f);
+}
+
+std::string wrong(const OneMass& known, bool has_times) {
   if (known.mass && known.stiffness)
     return "mass and stiffness are both given: the natural frequency is measured";
+  if (!has_times && (known.mass || known.stiffness))
+    return "forces take the natural frequency, and the extremes have no times";
   for (const auto& value : {known.mass, known.stiffness}) {
     if (value && !(std::isfinite(*value) && *value > 0.0))
       return std::string(known.mass ? "the mass" : "the stiffness") + " is " + number(*value) +
@@ -147,7 +155,7 @@ std::string wrong(const OneMass& known) {
 
 // Values and covariance of what the extremes tell, before anything is derived from it.
 void set_estimates(const LeastSquaresFit& fit, const Recursion& first, const Eigen::MatrixXd& by_x,
-                   const DampedFrequency& frequency, Identification& result) {
+                   Identification& result) {
   result.estimates = {
       {.name = "damping_ratio",
        .unit = "1",
@@ -168,14 +176,21 @@ void set_estimates(const LeastSquaresFit& fit, const Recursion& first, const Eig
   if (fit.p.size() > 3)
     result.estimates.push_back(
         {.name = "offset", .unit = "m", .long_name = "what the sensor shows at rest", .value = fit.p[3]});
-  result.estimates.push_back({.name = "damped_frequency",
-                              .unit = "rad s-1",
-                              .long_name = "frequency of the damped vibration",
-                              .value = frequency.value});
-  const Index n = by_x.rows();
-  result.covariance = Eigen::MatrixXd::Zero(n + 1, n + 1);
-  result.covariance.topLeftCorner(n, n) = by_x * by_x.transpose();
-  result.covariance(n, n) = frequency.variance;
+  result.covariance = by_x * by_x.transpose();
+}
+
+// Extremes of one size are those of any damping with the negative friction that makes up for it.
+void mark_undetermined(const LeastSquaresFit& fit, double size, Identification& result) {
+  Eigen::VectorXd scales = Eigen::VectorXd::Constant(fit.p.size(), size);
+  scales[1] = 1.0;
+  const Eigen::MatrixXd tells = covariance(fit.jacobian, 1.0, scales);
+  if (std::isfinite(tells(1, 1)) && std::isfinite(tells(2, 2))) return;
+  for (Index i = 0; i < 4; ++i) {
+    result.covariance.row(i).setConstant(std::numeric_limits<double>::quiet_NaN());
+    result.covariance.col(i) = result.covariance.row(i).transpose();
+  }
+  for (Index i = 0; i < 4; ++i) result.covariance(i, i) = std::numeric_limits<double>::infinity();
+  result.notes.push_back("the extremes are all of one size: damping and friction cannot be told apart");
 }
 
 // How the estimates change with the extremes, each by its standard error.
@@ -193,8 +208,8 @@ Eigen::MatrixXd slopes(const LeastSquaresFit& fit, const Eigen::VectorXd& x, con
 }  // namespace
 
 Identification free_decay(const DecayExtrema& extrema, const FreeDecayOptions& options) {
-  const std::string why =
-      first_of({wrong(options.known), unless_decaying(extrema, options.sensor_offset ? 4 : 3)});
+  const std::string why = first_of(
+      {wrong(options.known, !extrema.time.empty()), unless_decaying(extrema, options.sensor_offset ? 4 : 3)});
   if (!why.empty()) return no_result(why);
   const Eigen::Map<const Eigen::VectorXd> x(extrema.displacement.data(),
                                             static_cast<Index>(extrema.displacement.size()));
@@ -209,15 +224,14 @@ Identification free_decay(const DecayExtrema& extrema, const FreeDecayOptions& o
   const bool known = !extrema.displacement_sigma.empty();
   const Scatter s = scatter(fit.sum_of_squares(), static_cast<double>(x.size() - fit.p.size()),
                             known ? extrema.degrees_of_freedom : 0.0);
-  const DampedFrequency frequency = damped_frequency(extrema);
   Identification result;
-  set_estimates(fit, first, std::sqrt(s.variance) * slopes(fit, x, sigma), frequency, result);
-  result.degrees_of_freedom = std::min(s.degrees_of_freedom, frequency.degrees_of_freedom);
+  set_estimates(fit, first, std::sqrt(s.variance) * slopes(fit, x, sigma), result);
+  mark_undetermined(fit, x.cwiseAbs().maxCoeff(), result);
+  result.degrees_of_freedom = s.degrees_of_freedom;
   result.iterations = fit.iterations;
-  add_natural_frequency(result);
-  const double zeta = result.estimates[0].value, omega = result.estimates.back().value, x_f = fit.p[2];
-  if (options.known.stiffness) add_of_stiffness(result, *options.known.stiffness, zeta, omega, x_f);
-  if (options.known.mass) add_of_mass(result, *options.known.mass, zeta, omega, x_f);
+  const double zeta = result.estimates[0].value;
+  add_frequencies(extrema, zeta, result);
+  if (!extrema.time.empty()) add_forces(result, options.known, zeta, result.estimates.back().value, fit.p[2]);
   result.records = {extrema_record(extrema, sequence_at(fit.p, x).x)};
   set_intervals(result);
   return result;

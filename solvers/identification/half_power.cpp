@@ -112,7 +112,7 @@ Identification half_power(const HalfPowerRows& rows, ResponseTo shaken_by) {
 }
 
 Identification half_power(const ResponseCurve& curve, ResponseTo shaken_by) {
-  const CurvePeak peak = curve_peak(curve);
+  const CurvePeak peak = curve_peak(curve, shaken_by);
   if (!peak.failure.empty()) return no_result(peak.failure);
   if (std::isnan(half_power_exact(peak.lower, peak.upper, shaken_by)))
     return no_result("the half-power points " + number(peak.lower) + " and " + number(peak.upper) +

@@ -42,8 +42,8 @@ struct RowColumn {
 };
 
 struct Identification {
-  std::string failure;     // why nothing was identified, a sentence; empty: it was
-  bool converged = true;   // false: a fit ended before its best, a note says why
+  std::string failure;    // why nothing was identified, a sentence; empty: it was
+  bool converged = true;  // false: a fit ended before its best, a note says why
   std::vector<Estimate> estimates;
   // Of the estimates, in their order. Infinite on the diagonal, NaN beside it: not determined.
   Eigen::MatrixXd covariance;

@@ -101,25 +101,18 @@ Identification log_decrement(const DecayExtrema& extrema, std::optional<std::siz
                      std::to_string((least - 1) / 2) + " cycles, there are " +
                      std::to_string(taken.displacement.size()));
   const Decrements found = decrements(taken);
-  const DampedFrequency frequency = damped_frequency(taken);
   Identification result;
   result.estimates = {
       {.name = "log_decrement", .unit = "1", .long_name = "logarithmic decrement", .value = found.regression},
       {.name = "log_decrement_over_cycles",
        .unit = "1",
        .long_name = "logarithmic decrement from the first and the last extreme of the cycles",
-       .value = found.over_cycles},
-      {.name = "damped_frequency",
-       .unit = "rad s-1",
-       .long_name = "frequency of the damped vibration",
-       .value = frequency.value}};
-  result.covariance = Eigen::Matrix3d::Zero();
-  result.covariance.topLeftCorner(2, 2) = found.covariance;
-  result.covariance(2, 2) = frequency.variance;
-  result.degrees_of_freedom = std::min(found.degrees_of_freedom, frequency.degrees_of_freedom);
+       .value = found.over_cycles}};
+  result.covariance = found.covariance;
+  result.degrees_of_freedom = found.degrees_of_freedom;
   add_ratios(result, "", found.regression);
   add_ratios(result, "_over_cycles", found.over_cycles);
-  add_natural_frequency(result);
+  add_frequencies(taken, found.regression / std::hypot(2.0 * pi, found.regression), result);
   result.records = {extrema_record(taken, found.fitted)};
   result.notes.push_back("over " + std::to_string(found.cycles) + " cycles, " +
                          std::to_string(taken.displacement.size()) + " extremes");

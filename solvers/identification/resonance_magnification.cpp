@@ -80,7 +80,7 @@ Identification resonance_magnification(const ResponseCurve& curve, double static
   if (!(std::isfinite(static_displacement) && static_displacement > 0.0))
     return no_result("the static displacement is " + number(static_displacement) +
                      " m, it must be positive and finite");
-  const CurvePeak peak = curve_peak(curve);
+  const CurvePeak peak = curve_peak(curve, shaken_by);
   if (!peak.failure.empty()) return no_result(peak.failure);
   if (!(static_displacement < peak.amplitude))
     return no_result("the peak of " + number(peak.amplitude) +

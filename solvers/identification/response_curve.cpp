@@ -15,7 +15,8 @@ using Index = Eigen::Index;
 constexpr Index kHighestDegree = 12;
 constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
 
-// The places about the highest one, contiguous, with X > kPeakPart X_max, in the terms of the fit:
+// The places about the highest one, contiguous, with X > kPeakPart X_max and the next on either side, in the
+// terms of the fit:
 // z = (omega^2 - middle) / half in [-1, 1], X over X_max.
 struct Window {
   std::size_t first = 0, size = 0;
@@ -31,6 +32,8 @@ Window window_of(const ResponseCurve& curve) {
   std::size_t first = top, last = top;
   while (first > 0 && X[first - 1] > kPeakPart * X[top]) --first;
   while (last + 1 < X.size() && X[last + 1] > kPeakPart * X[top]) ++last;
+  if (first > 0) --first;  // so that the half-power points lie within, however few places there are
+  if (last + 1 < X.size()) ++last;
   window.first = first;
   window.size = last - first + 1;
   const double low = curve.omega[first] * curve.omega[first], high = curve.omega[last] * curve.omega[last];
@@ -96,11 +99,15 @@ Parabola fit_of_degree(const Window& window, Index degree) {
   return fit;
 }
 
-Parabola best_fit(const Window& window) {
-  Parabola best = fit_of_degree(window, 2);
-  for (Index degree = 3; degree <= std::min(kHighestDegree, window.z.size() - 3); ++degree) {
+// The degree goes up by two until one does not predict better: of many degrees one would fit the noise.
+Parabola best_fit(const Window& window, ResponseTo shaken_by) {
+  // To a support 1/X^2 is a parabola over 1 + 4 zeta^2 u: another two degrees leave nothing of that.
+  const Index wanted = shaken_by == ResponseTo::force ? 2 : 4, most = window.z.size() - 3;
+  Parabola best = fit_of_degree(window, std::clamp(most, Index{2}, wanted));
+  for (Index degree = wanted + 2; degree <= std::min(kHighestDegree, most); degree += 2) {
     Parabola fit = fit_of_degree(window, degree);
-    if (!fit.empty() && fit.criterion < best.criterion) best = std::move(fit);
+    if (fit.empty() || !(fit.criterion < best.criterion)) break;
+    best = std::move(fit);
   }
   return best;
 }
@@ -182,13 +189,13 @@ Eigen::MatrixXd by_coefficients(const Parabola& fit, const Window& window, const
 
 }  // namespace
 
-CurvePeak curve_peak(const ResponseCurve& curve) {
+CurvePeak curve_peak(const ResponseCurve& curve, ResponseTo shaken_by) {
   if (const std::string why = wrong(curve); !why.empty()) return no_peak(why);
   const Window window = window_of(curve);
   if (window.size < 3)
     return no_peak("only " + std::to_string(window.size) + " places lie above half the peak of " +
                    number(window.most) + ": it takes three at least");
-  const Parabola fit = best_fit(window);
+  const Parabola fit = best_fit(window, shaken_by);
   const double peak = fit.empty() ? kNone : lowest(fit);
   if (std::isnan(peak))
     return no_peak("the curve has no peak inside: it is highest at the end of its places, " +

@@ -18,8 +18,8 @@ struct ResponseCurve {
 
 // The peak, and the places on either side where the amplitude is 1/sqrt(2) of it.
 // 1/X^2 is a parabola of omega^2 for a viscous mass under a force, and smooth for any other: it is fitted by
-// a polynomial of omega^2 by least squares of X over the places about the peak with X > kPeakPart X_max, of
-// the degree that Akaike's corrected criterion prefers.
+// a polynomial of omega^2 by least squares of X over the places about the peak with X > kPeakPart X_max and
+// the next on either side, of the degree that Akaike's corrected criterion prefers.
 struct CurvePeak {
   std::string failure;              // why there is none, a sentence; empty: there is one
   double omega = 0.0;               // [rad/s]
@@ -31,6 +31,6 @@ struct CurvePeak {
   std::vector<double> at, measured, fitted;  // the places fitted: omega, amplitude, and the fit
 };
 inline constexpr double kPeakPart = 0.5;  // so that the half-power points, at 0.71, lie well inside
-CurvePeak curve_peak(const ResponseCurve& curve);
+CurvePeak curve_peak(const ResponseCurve& curve, ResponseTo shaken_by);
 
 }  // namespace frahm::identification
