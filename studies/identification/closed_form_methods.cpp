@@ -88,7 +88,7 @@ Identification forced_resonance_of(const StudyFile& study, const RecordChoice& r
     return identification::forced_resonance(
         identification::ResonanceLines{.slope = column(record, "slope"),
                                        .intercept = column(record, "intercept")},
-        shaken_by(*study.identify), {.of = known, .natural_frequency = std::nullopt});
+        shaken_by(*study.identify), known);
   }
   identification::ResonancePairs pairs{.response = column(record, "response"),
                                        .excitation = column(record, "support")};
@@ -96,8 +96,7 @@ Identification forced_resonance_of(const StudyFile& study, const RecordChoice& r
     pairs.excitation = column(record, "force");
     for (double& force : pairs.excitation) force /= *known.stiffness;  // P/k
   }
-  return identification::forced_resonance(pairs, shaken_by(*study.identify),
-                                          {.of = known, .natural_frequency = std::nullopt});
+  return identification::forced_resonance(pairs, shaken_by(*study.identify), known);
 }
 
 Identification energy_balance_of(const RecordChoice& record) {
@@ -120,7 +119,7 @@ Identification added_mass_of(const StudyFile& study) {
   if (records.front().find("frequency"))
     return identification::added_mass({.added = column(records.front(), "added_mass"),
                                        .omega = column(records.front(), "frequency"),
-                                       .sigma = {}});
+                                       .sigma = column(records.front(), "frequency_error")});
   identification::AddedMassRows rows;
   Identification decays;
   for (const RecordChoice& record : records) {
