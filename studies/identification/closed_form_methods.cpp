@@ -119,7 +119,7 @@ Identification added_mass_of(const StudyFile& study) {
   if (records.front().find("frequency"))
     return identification::added_mass({.added = column(records.front(), "added_mass"),
                                        .omega = column(records.front(), "frequency"),
-                                       .sigma = {}});
+                                       .sigma = column(records.front(), "frequency_error")});
   identification::AddedMassRows rows;
   Identification decays;
   for (const RecordChoice& record : records) {

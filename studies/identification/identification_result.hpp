@@ -16,14 +16,11 @@ struct IdentificationResult {
   identification::Identification fit;
 };
 
-// Refuses what the method has no use for: more records than it takes. Throws StudyError.
+// Throws StudyError for a value of --set that the study overrules.
 StudyPlan plan_identification(StudyFile study, std::vector<std::string> set);
 
 // What `watch` throws is passed on. Throws StudyError for data from which nothing can be found, with the
-// reason, and for an estimate that a parameter names and the method has not.
+// reason, and for a parameter that cannot take the estimate it names.
 IdentificationResult identify(const StudyFile& study, const transient::Watch& watch = {});
-
-// The method as the study writes it.
-std::string method_name(IdentifyMethod method);
 
 }  // namespace frahm::studies

@@ -1,9 +1,7 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <stdexcept>
 
 #include "solvers/identification/grey_box.hpp"
 #include "solvers/mechanics/linear_system.hpp"
@@ -13,25 +11,11 @@
 #include "studies/identification/identification_result.hpp"
 #include "studies/map/fingerprint.hpp"
 #include "studies/reading/settings.hpp"
-#include "studies/reading/spelling.hpp"
 
 namespace frahm::studies {
 namespace {
 
 using identification::Identification;
-
-void refuse_more_records(const StudyFile& study) {
-  const IdentifyChoice& choice = *study.identify;
-  const bool table_of_masses =
-      choice.method == IdentifyMethod::added_mass && choice.records.front().find("frequency") != nullptr;
-  const bool takes_several = choice.method == IdentifyMethod::grey_box ||
-                             (choice.method == IdentifyMethod::added_mass && !table_of_masses);
-  if (takes_several || choice.records.size() == 1) return;
-  throw study.source.error_at(
-      choice.records[1].position,
-      fmt::format("[[identify.record]] \"{}\": the method {} takes one record; give each its own study",
-                  choice.records[1].name, method_name(choice.method)));
-}
 
 IdentificationResult fit_grey_box(const StudyFile& study, const transient::Watch& watch) {
   IdentificationResult result;
@@ -46,7 +30,7 @@ IdentificationResult fit_grey_box(const StudyFile& study, const transient::Watch
 }
 
 // Each parameter that takes an estimate stands among the estimates under its own name too, so that a later
-// study of the chain knows it.
+// study of the chain knows it. The reading of the study has seen to it that the method has the estimate.
 void name_parameters(const StudyFile& study, Identification& fit) {
   std::vector<std::string> names;
   for (const identification::Estimate& estimate : fit.estimates) names.push_back(estimate.name);
@@ -58,11 +42,7 @@ void name_parameters(const StudyFile& study, Identification& fit) {
       throw study.source.error_at(parameter.position,
                                   fmt::format("[[identify.parameter]] \"{}\": {}", own, what));
     };
-    if (place == names.end()) {
-      fail(fmt::format("the method {} has no estimate \"{}\"{}; it has {}",
-                       method_name(study.identify->method), parameter.estimate,
-                       suggestion(parameter.estimate, names), fmt::join(names, ", ")));
-    }
+    if (place == names.end()) throw std::logic_error("no estimate " + parameter.estimate);
     if (std::find(names.begin(), names.end(), own) != names.end())
       fail(fmt::format("an estimate of the method {} has this name; call the parameter otherwise",
                        method_name(study.identify->method)));
@@ -81,7 +61,6 @@ void name_parameters(const StudyFile& study, Identification& fit) {
 
 StudyPlan plan_identification(StudyFile study, std::vector<std::string> set) {
   refuse_overruled(study, set);
-  refuse_more_records(study);
   StudyPlan plan{.study = std::move(study), .set = std::move(set)};
   plan.fingerprint = fingerprint(plan.study, {}, {});
   return plan;
@@ -102,13 +81,6 @@ IdentificationResult identify(const StudyFile& study, const transient::Watch& wa
   } catch (const mechanics::MechanicsError& error) {
     throw StudyError(study.source.name + ": " + error.what());
   }
-}
-
-std::string method_name(IdentifyMethod method) {
-  constexpr std::array names{"half_power",       "resonance_magnification", "log_decrement",   "free_decay",
-                             "forced_resonance", "energy_balance",          "hysteresis_loop", "added_mass",
-                             "grey_box"};
-  return names.at(static_cast<std::size_t>(method));
 }
 
 }  // namespace frahm::studies

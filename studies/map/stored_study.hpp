@@ -14,8 +14,8 @@ struct StoredStudy {
   std::vector<Assignment> overrides;  // these
 };
 
-// From the text in the result. Tables and data that the study reads are looked for beside the result.
-// file: of `result`.  Throws StudyError, results::StoreError.
+// From the text in the result. Tables that the study reads are looked for beside the result; measurements are
+// left.  file: of `result`.  Throws StudyError, results::StoreError.
 StoredStudy read_stored_study(const results::MapReader& result, const std::filesystem::path& file);
 
 }  // namespace frahm::studies

@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "solvers/periodic/linear_modes.hpp"
-#include "solvers/periodic/quantity.hpp"
+#include "solvers/periodic/orbit.hpp"
 #include "solvers/response/periodic_response.hpp"
 #include "studies/motion/motion_record.hpp"
 #include "studies/reading/spelling.hpp"

@@ -8,9 +8,9 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <iterator>
 
+#include "studies/reading/readable_file.hpp"
 #include "studies/reading/study_source.hpp"
 
 namespace frahm::studies {
@@ -28,11 +28,7 @@ std::string_view trimmed(std::string_view text) {
 }
 
 std::string text_of(const std::filesystem::path& path, const std::string& name) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path)) {
-    throw StudyError(
-        fmt::format("{}: cannot be read: {}", name, file ? "it is a directory" : std::strerror(errno)));
-  }
+  std::ifstream file = open_file(path, name);
   std::string text(std::istreambuf_iterator<char>(file), {});
   if (file.bad()) throw StudyError(fmt::format("{}: cannot be read: {}", name, std::strerror(errno)));
   if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
@@ -84,8 +80,8 @@ std::vector<CsvRow> read_csv(const std::filesystem::path& path, const std::strin
     if (content.empty() || content.starts_with('#')) continue;
     if (std::count(content.begin(), content.end(), '"') % 2 != 0)
       throw StudyError(fmt::format("{}:{}: a quote is not closed on its line", name, number));
-    const char separator = separator_of(content);
-    // A tab at an end of the line is not blank: beside it is an empty cell.
+    // A tab is blank at the ends of a line, unless tabs are what separates.
+    const char inside = separator_of(content), separator = inside == '\0' ? separator_of(line) : inside;
     rows.push_back({number, separator, split(separator == '\t' ? line : content, separator)});
   }
   return rows;

@@ -6,6 +6,7 @@
 #include "results/map_reader.hpp"
 #include "results/store_error.hpp"
 #include "studies/reading/identify_reading.hpp"
+#include "studies/reading/readable_file.hpp"
 #include "studies/reading/spelling.hpp"
 
 namespace frahm::studies {
@@ -51,6 +52,7 @@ EarlierEstimates estimates_among(const Columns& columns, const std::string& file
 
 EarlierEstimates read_earlier(const std::filesystem::path& path, const std::string& file) {
   EarlierEstimates earlier;
+  check_readable(path, file);
   try {
     const results::MapReader reader(path);
     if (!reader.has_group(group_name))

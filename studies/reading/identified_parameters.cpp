@@ -13,17 +13,20 @@ using Method = IdentifyMethod;
 // What each method estimates and a parameter of a system can take.
 std::vector<std::string> estimates_of(const IdentifyChoice& choice) {
   const bool is_known = choice.mass || choice.stiffness;
+  const bool is_curve = choice.records.front().find("amplitude") != nullptr;  // not a table of answers by row
   std::vector<std::string> names;
   const auto add = [&](std::initializer_list<const char*> more) {
     names.insert(names.end(), more.begin(), more.end());
   };
   switch (choice.method) {
     case Method::half_power:
-      add({"damping_ratio", "damping_ratio_first_order", "peak_frequency", "natural_frequency",
-           "lower_frequency", "upper_frequency"});
+      if (is_curve)
+        add({"damping_ratio", "damping_ratio_first_order", "peak_frequency", "natural_frequency",
+             "lower_frequency", "upper_frequency"});
       break;
     case Method::resonance_magnification:
-      add({"damping_ratio", "damping_ratio_first_order", "peak_frequency", "peak_amplitude"});
+      add({"damping_ratio", "damping_ratio_first_order"});
+      if (is_curve) add({"peak_frequency", "peak_amplitude"});
       break;
     case Method::log_decrement:
       add({"log_decrement", "damping_ratio", "damping_ratio_first_order", "damped_frequency",
@@ -126,16 +129,19 @@ void read_bounds(const TomlSection& section, IdentifiedParameter& fitted) {
 
 // A formula's estimate in the place of a parameter.
 void read_estimate(const IdentifyReading& reading, const TomlSection& section, IdentifiedParameter& taken) {
-  const std::string& method = method_names()[static_cast<std::size_t>(reading.choice.method)];
+  const std::string& method = method_name(reading.choice.method);
   for (const char* key : {"lower", "upper", "each_record"}) {
     if (section.find(key))
       section.fail(key, fmt::format("belongs to the method \"grey_box\"; \"{}\" has no use for it", method));
   }
   const std::vector<std::string> known = estimates_of(reading.choice);
   taken.estimate = section.text("estimate");
+  if (reading.data == DataFiles::leave) return;  // which estimates there are depends on the data
   if (std::find(known.begin(), known.end(), taken.estimate) == known.end())
-    section.fail("estimate", fmt::format("the method \"{}\" gives no estimate \"{}\"{}", method,
-                                         taken.estimate, suggestion(taken.estimate, known)));
+    section.fail("estimate",
+                 fmt::format("the method \"{}\" gives no estimate \"{}\"{}", method, taken.estimate,
+                             known.empty() ? ", as each row of its table has its own answer"
+                                           : suggestion(taken.estimate, known)));
 }
 
 }  // namespace

@@ -26,6 +26,10 @@ enum class IdentifyMethod {
   grey_box,
 };
 
+// Names of the methods, as a study writes them, in the order of IdentifyMethod.
+const std::vector<std::string>& method_names();
+const std::string& method_name(IdentifyMethod method);
+
 // A column of measurements: what it stands for (its role) and its numbers [SI].
 struct DataColumn {
   std::string role;  // "time", "main_displacement", "amplitude", "lower_frequency" ...

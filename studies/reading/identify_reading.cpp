@@ -38,11 +38,9 @@ void check_keys_of_method(const TomlSection& section, Method method) {
   for (const MethodKey& key : method_keys()) {
     if (!section.find(key.name) || std::count(key.methods.begin(), key.methods.end(), method) > 0) continue;
     std::vector<std::string> owners;
-    for (const Method owner : key.methods)
-      owners.push_back(fmt::format("\"{}\"", method_names()[static_cast<std::size_t>(owner)]));
-    section.fail(key.name,
-                 fmt::format("belongs to the method {}; \"{}\" has no use for it", listed(owners, " or "),
-                             method_names()[static_cast<std::size_t>(method)]));
+    for (const Method owner : key.methods) owners.push_back(fmt::format("\"{}\"", method_name(owner)));
+    section.fail(key.name, fmt::format("belongs to the method {}; \"{}\" has no use for it",
+                                       listed(owners, " or "), method_name(method)));
   }
 }
 
@@ -83,10 +81,6 @@ void read_known_values(NetworkReading& reading, const TomlSection& section, Iden
   if (choice.method == Method::free_decay && choice.mass && choice.stiffness)
     section.fail("stiffness",
                  "the mass is given too; a free decay tells the other of the two by its frequency");
-  if (choice.method == Method::forced_resonance && choice.curve == CurveOf::force && !choice.stiffness)
-    section.fail(
-        "the key \"stiffness\" is missing (a stiffness, N/m): the displacement that a force would cause at "
-        "rest is force / stiffness");
 }
 
 // The file's name without its ending, as a name: "free decay-1.csv" -> free_decay_1.
@@ -158,6 +152,28 @@ void check_start(const TomlSection& section, const StudyFile& study, const Ident
     section.fail("start", fmt::format("\"free_decay\" needs a record with motion = \"free\" and {}", role));
 }
 
+// The method's formula is of one record; only the frequencies with and without an added mass come from traces
+// of their own.
+void check_count(const TomlSection& section, const IdentifyChoice& choice,
+                 const std::vector<TomlSection>& records) {
+  if (choice.method == Method::grey_box) return;
+  for (std::size_t i = 1; i < records.size(); ++i) {
+    const bool traces = choice.records[0].find("time") && choice.records[i].find("time");
+    if (choice.method == Method::added_mass && traces) continue;
+    records[i].fail(fmt::format("the method \"{}\" reads one record{}", section.text("method"),
+                                choice.method == Method::added_mass ? ", or traces alone" : ""));
+  }
+}
+
+// A force at resonance stands beside displacements as force / stiffness.
+void check_stiffness(const TomlSection& section, const IdentifyChoice& choice) {
+  if (choice.method != Method::forced_resonance || choice.stiffness) return;
+  if (choice.records.front().find("force"))
+    section.fail(
+        "the key \"stiffness\" is missing (a stiffness, N/m): the displacement that a force would cause at "
+        "rest is force / stiffness");
+}
+
 void check_parameters(const TomlSection& section, const IdentifyChoice& choice) {
   if (choice.method != Method::grey_box || !choice.parameters.empty()) return;
   section.fail("the study has no [[identify.parameter]]: a grey box needs a parameter to fit");
@@ -183,6 +199,10 @@ const std::vector<std::string>& method_names() {
       "half_power",     "resonance_magnification", "log_decrement", "free_decay", "forced_resonance",
       "energy_balance", "hysteresis_loop",         "added_mass",    "grey_box"};
   return names;
+}
+
+const std::string& method_name(IdentifyMethod method) {
+  return method_names()[static_cast<std::size_t>(method)];
 }
 
 TomlSection identify_section(const StudySource& source, const TomlValue& root) {
@@ -221,15 +241,24 @@ void read_identification(const StudyContext& context, const TomlValue& root, Stu
 }
 
 void read_measurements(const StudyContext& context, const TomlValue& root,
-                       const std::filesystem::path& folder, StudyFile& study) {
+                       const std::filesystem::path& folder, DataFiles data, StudyFile& study) {
   const TomlSection section = identify_section(context.source, root);
   IdentifyChoice& choice = *study.identify;
-  IdentifyReading reading{context, folder, study, choice};
+  IdentifyReading reading{context, folder, data, study, choice};
+  const std::vector<TomlSection> records = record_sections(section, root);
+  const auto read_all_records = [&] {
+    for (std::size_t i = 0; i < records.size(); ++i) read_record(reading, records[i], choice.records[i]);
+  };
+  // A record of a grey box sets no parameter that is fitted; a formula's estimates depend on its data.
+  const bool formula = choice.method != Method::grey_box;
+  if (formula) read_all_records();
   for (const TomlSection& parameter : parameter_sections(section, root))
     read_identified_parameters(reading, parameter);
   check_parameters(section, choice);
-  const std::vector<TomlSection> records = record_sections(section, root);
-  for (std::size_t i = 0; i < records.size(); ++i) read_record(reading, records[i], choice.records[i]);
+  if (!formula) read_all_records();
+  if (data == DataFiles::leave) return;
+  check_count(section, choice, records);
+  check_stiffness(section, choice);
   check_reference_frequency(section, study, choice);
   check_start(section, study, choice);
   if (section.find("fixed_from")) read_fixed(reading, section);

@@ -14,12 +14,10 @@ namespace frahm::studies {
 struct IdentifyReading {
   const StudyContext& context;
   std::filesystem::path folder;  // of the files that the study names
+  DataFiles data = DataFiles::read;
   StudyFile& study;
   IdentifyChoice& choice;  // study.identify
 };
-
-// Names of the methods, in the order of IdentifyMethod.
-const std::vector<std::string>& method_names();
 
 TomlSection identify_section(const StudySource& source, const TomlValue& root);
 
@@ -27,7 +25,7 @@ TomlSection identify_section(const StudySource& source, const TomlValue& root);
 std::vector<TomlSection> record_sections(const TomlSection& identify, const TomlValue& root);
 std::vector<TomlSection> parameter_sections(const TomlSection& identify, const TomlValue& root);
 
-// [[identify.parameter]], which comes before the records.
+// [[identify.parameter]]: of a grey box before the records, of a formula after them.
 void read_identified_parameters(IdentifyReading& reading, const TomlSection& section);
 
 // A [[identify.record]], whose added mass or static displacement is read already, with its data.

@@ -35,6 +35,20 @@ struct RawRecord {
 // The error at the file that a record names.
 StudyError data_error(const TomlSection& record, const std::string& message);
 
+// A file of measurements as it is read.
+struct ColumnReading {
+  const TomlSection& record;
+  const std::vector<RecordForm>& forms;
+  RawRecord result = {};
+
+  [[noreturn]] void fail(const std::string& message) const;                     // at the file
+  [[noreturn]] void fail(Position position, const std::string& message) const;  // at a place of the study
+};
+
+// The columns of a file of each kind; result.file is known.
+RawRecord read_csv_columns(const ColumnReading& reading, const std::filesystem::path& path);
+RawRecord read_hdf5_columns(ColumnReading reading, const std::filesystem::path& path);
+
 // The columns of a record's file, by its ending: .h5, .hdf5 and .nc are HDF5, others CSV. They are those that
 // the record's `columns` name, else those whose header is the name of a role.  folder: of the study.
 // Throws StudyError for a file that cannot be read, and for columns that are missing or not numbers.

@@ -110,11 +110,12 @@ void check_values(const TomlSection& section, const RawRecord& raw, const RawCol
 
 void check_count(const TomlSection& section, const RawRecord& raw, const RecordForm& form) {
   if (raw.rows.size() >= form.least_rows) return;
-  throw data_error(section,
-                   fmt::format("{}: {} row{} of numbers{}; at least {} needed", raw.file,
-                               raw.rows.empty() ? "no" : fmt::format("{}", raw.rows.size()),
-                               raw.rows.size() == 1 ? "" : "s", raw.doubtful > 0 ? " that nobody doubts" : "",
-                               form.least_rows == 1 ? "one is" : "two are"));
+  const bool at_line = raw.has_lines && !raw.rows.empty();
+  throw data_error(section, fmt::format("{}{}: {} of numbers{}; at least {} needed", raw.file,
+                                        at_line ? fmt::format(":{}", raw.rows.back()) : "",
+                                        raw.rows.empty() ? "no row" : "a single row",
+                                        raw.doubtful > 0 ? " that is not doubtful" : "",
+                                        form.least_rows == 1 ? "one is" : "two are"));
 }
 
 void take_columns(const IdentifyReading& reading, const TomlSection& section, RawRecord& raw,
@@ -197,7 +198,7 @@ void read_settings(const IdentifyReading& reading, const TomlSection& section, R
 // Each key of a record belongs to the methods, and the forms of their data, that use it.
 void check_keys(const IdentifyReading& reading, const TomlSection& section, const RecordForm& form) {
   const Method method = reading.choice.method;
-  const std::string& name = method_names()[static_cast<std::size_t>(method)];
+  const std::string& name = method_name(method);
   for (const char* key : {"set", "motion"}) {
     if (section.find(key) && method != Method::grey_box)
       section.fail(key, fmt::format("belongs to the method \"grey_box\"; \"{}\" has no use for it", name));
@@ -216,6 +217,7 @@ void check_keys(const IdentifyReading& reading, const TomlSection& section, cons
 }  // namespace
 
 void read_record(IdentifyReading& reading, const TomlSection& section, RecordChoice& record) {
+  if (reading.data == DataFiles::leave) return read_settings(reading, section, record);
   const std::vector<RecordForm> forms = record_forms(reading.study);
   RawRecord raw = read_columns(section, reading.folder, forms);
   std::vector<std::string> roles;

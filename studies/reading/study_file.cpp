@@ -146,7 +146,7 @@ StudyFile read_study(const std::filesystem::path& path) {
   return parse_study(std::move(text), path);
 }
 
-StudyFile parse_study(std::string text, const std::filesystem::path& name) {
+StudyFile parse_study(std::string text, const std::filesystem::path& name, DataFiles data) {
   StudyFile study;
   if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
   study.source = {name.string(), std::move(text)};
@@ -178,7 +178,7 @@ StudyFile parse_study(std::string text, const std::filesystem::path& name) {
   } else if (study.kind == StudyKind::tune) {
     read_tuning(context, root, study);
   } else if (study.kind == StudyKind::identify) {
-    read_measurements(context, root, name.parent_path(), study);
+    read_measurements(context, root, name.parent_path(), data, study);
   }
   check_whole(study);
   return study;

@@ -123,8 +123,12 @@ struct StudyFile {
 // key`) and for a file that cannot be read.
 StudyFile read_study(const std::filesystem::path& path);
 
+// Whether the measurements of an identification, and earlier results that it takes, are read with it. Where
+// they are left its records have no columns and nothing is fixed.
+enum class DataFiles { read, leave };
+
 // The same for a text at hand; name: stands for the file in messages, and its folder for that of the tables.
-StudyFile parse_study(std::string text, const std::filesystem::path& name);
+StudyFile parse_study(std::string text, const std::filesystem::path& name, DataFiles data = DataFiles::read);
 
 std::string_view kind_name(StudyKind kind);  // as the study writes it
 std::string_view kind_noun(StudyKind kind);  // as sentences say it: "a tuning"

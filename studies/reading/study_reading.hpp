@@ -53,7 +53,7 @@ void check_tuning(StudyFile& study);
 // converted, as the network does; the measurements and the earlier estimates after. folder: of their files.
 void read_identification(const StudyContext& context, const TomlValue& root, StudyFile& study);
 void read_measurements(const StudyContext& context, const TomlValue& root,
-                       const std::filesystem::path& folder, StudyFile& study);
+                       const std::filesystem::path& folder, DataFiles data, StudyFile& study);
 
 // Refuses what has no meaning in some record at some corner of the bounds, and gives each crank the even
 // orders that it needs there.
