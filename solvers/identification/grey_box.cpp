@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "solvers/identification/least_squares.hpp"
 #include "solvers/identification/simulation.hpp"
@@ -16,9 +15,12 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd, Eigen::VectorXd;
 
-// Each record is followed so far in a first fit: long enough to tell a frequency, and short enough that one
-// that is a quarter off slips no more than half a period.
-constexpr double kFirstPeriods = 2.0;
+// Each record is followed so far in a first fit [periods]: long enough to tell a frequency, and short enough
+// that one that is a quarter off slips no more than half a period. Where that leads nowhere, as from friction
+// that stops the model long before the measured motion, only so far as it still moves.
+constexpr double kFirstPeriods[] = {2.0, 0.25};
+// A fit that misses more than this of the measured variation has led nowhere.
+constexpr double kNowhere = 0.5;
 constexpr std::size_t kSamplesAnUnknown = 4;  // in a first fit, at least
 constexpr LeastSquaresOptions kOnTheWay = {.tolerance = 1e-6, .most_evaluations = 50};
 
@@ -51,6 +53,17 @@ class Misfit {
   }
 
   const std::vector<Unknown>& unknowns() const { return unknowns_; }
+  VectorXd start() const {
+    VectorXd p(static_cast<Index>(unknowns_.size()));
+    for (std::size_t i = 0; i < unknowns_.size(); ++i) p[static_cast<Index>(i)] = unknowns_[i].start;
+    return p;
+  }
+  // Of all records: one for each channel.
+  std::size_t series() const {
+    std::size_t count = 0;
+    for (const std::vector<double>& weights : weights_) count += weights.size();
+    return count;
+  }
   // Which parameter an unknown is.
   std::size_t parameter(std::size_t unknown) const { return parameter_[unknown]; }
   Index residuals() const {
@@ -218,20 +231,23 @@ std::vector<FittedRecord> Misfit::fitted(const VectorXd& p) {
   return list;
 }
 
-// The records' beginnings first, twice as much of them each time. Returns where to start with all of them,
-// which is the first start where growing has not come nearer.
-void grow(Misfit& misfit, std::vector<Unknown>& unknowns, const Residuals& residuals, int& iterations) {
-  VectorXd start(static_cast<Index>(unknowns.size())), r, grown_r;
-  for (std::size_t i = 0; i < unknowns.size(); ++i) start[static_cast<Index>(i)] = unknowns[i].start;
+void start_at(const VectorXd& p, std::vector<Unknown>& unknowns) {
+  for (std::size_t i = 0; i < unknowns.size(); ++i) unknowns[i].start = p[static_cast<Index>(i)];
+}
+
+// The records' beginnings first, twice as much of them each time. Changes the unknowns' starts to those for
+// all of the records, unless growing has come no nearer.
+void grow(Misfit& misfit, double periods, std::vector<Unknown>& unknowns, const Residuals& residuals,
+          int& iterations) {
+  const VectorXd start = misfit.start();
+  VectorXd p = start, r, grown_r;
   std::vector<Unknown> grown = unknowns;
-  VectorXd p = start;
-  for (double seconds = kFirstPeriods * misfit.longest_period(start); misfit.follow(seconds);
-       seconds *= 2.0) {
+  for (double seconds = periods * misfit.longest_period(start); misfit.follow(seconds); seconds *= 2.0) {
     const LeastSquaresFit fit = least_squares(grown, residuals, kOnTheWay);
     iterations += fit.iterations;
     if (fit.p.size() == 0 || !fit.p.allFinite()) break;
     p = fit.p;
-    for (std::size_t i = 0; i < grown.size(); ++i) grown[i].start = p[static_cast<Index>(i)];
+    start_at(p, grown);
   }
   misfit.follow_all();
   if (!residuals(p, grown_r, nullptr)) return;
@@ -283,28 +299,41 @@ void estimate(const GreyBoxTask& task, Misfit& misfit, const LeastSquaresFit& fi
   note_bounds(fit, unknowns, result);
 }
 
+// All series weighed alike.
+LeastSquaresFit first_fit(const GreyBoxTask& task, Misfit& misfit, const Residuals& residuals,
+                          int& iterations) {
+  if (!task.grow) return least_squares(misfit.unknowns(), residuals);
+  LeastSquaresFit best;
+  for (const double periods : kFirstPeriods) {
+    std::vector<Unknown> unknowns = misfit.unknowns();
+    grow(misfit, periods, unknowns, residuals, iterations);
+    LeastSquaresFit fit = least_squares(unknowns, residuals);
+    iterations += fit.iterations;
+    const bool better = fit.converged > best.converged ||
+                        (fit.converged == best.converged && fit.sum_of_squares() < best.sum_of_squares());
+    if (best.p.size() == 0 || better) best = std::move(fit);
+    const double missed = std::sqrt(best.sum_of_squares() / static_cast<double>(misfit.series()));
+    if (best.converged && missed < kNowhere) break;
+  }
+  return best;
+}
+
 }  // namespace
 
 Identification grey_box(const GreyBoxTask& task) {
   Misfit misfit(task);
   const Residuals residuals = [&](const VectorXd& p, VectorXd& r, MatrixXd* by) { return misfit(p, r, by); };
   Identification result;
-  std::vector<Unknown> unknowns = misfit.unknowns();
-  VectorXd start(static_cast<Index>(unknowns.size())), r;
-  for (std::size_t i = 0; i < unknowns.size(); ++i) start[static_cast<Index>(i)] = unknowns[i].start;
-  if (!misfit.evaluate(start, r, nullptr, nullptr)) {
+  VectorXd r;
+  if (!misfit.evaluate(misfit.start(), r, nullptr, nullptr)) {
     result.failure = "the model cannot be simulated where the fit starts: " + misfit.reason();
     return result;
   }
-  if (task.grow) grow(misfit, unknowns, residuals, result.iterations);
-  LeastSquaresFit fit = least_squares(unknowns, residuals);
-  result.iterations += fit.iterations;
-  const std::size_t channels =
-      std::accumulate(task.records.begin(), task.records.end(), std::size_t{0},
-                      [](std::size_t sum, const TimeRecord& record) { return sum + record.channels.size(); });
-  if (fit.converged && channels > 1) {
+  LeastSquaresFit fit = first_fit(task, misfit, residuals, result.iterations);
+  if (fit.converged && misfit.series() > 1) {
     misfit.weigh_by_residuals(fit.p);
-    for (std::size_t i = 0; i < unknowns.size(); ++i) unknowns[i].start = fit.p[static_cast<Index>(i)];
+    std::vector<Unknown> unknowns = misfit.unknowns();
+    start_at(fit.p, unknowns);
     fit = least_squares(unknowns, residuals);
     result.iterations += fit.iterations;
   }
