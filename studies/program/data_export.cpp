@@ -83,7 +83,10 @@ std::string csv(const StudyFile& study, const std::filesystem::path& file, const
     return study.dimensionless ? column : fmt::format("{} [{}]", column, unit);
   };
   text += name("time", "s");
-  for (const MeasuredColumn& column : measured.columns) text += "," + name(column.name, column.unit);
+  for (const MeasuredColumn& column : measured.columns) {
+    text += ',';
+    text += name(column.name, column.unit);
+  }
   for (std::size_t row = 0; row < measured.time.size(); ++row) {
     fmt::format_to(std::back_inserter(text), "\n{:.17g}", measured.time[row]);
     for (const MeasuredColumn& column : measured.columns)
