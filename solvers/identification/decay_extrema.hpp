@@ -23,9 +23,9 @@ struct FoundExtrema {
 };
 
 // The extrema of a sampled trace. time [s]: increasing; displacement [m]: as many, at least kLeastSamples.
-// Friction makes the acceleration jump where the mass turns, so that the two sides have polynomials of their
-// own, x = X + a_2 tau^2 + a_3 tau^3 + ..., tau = t - t_i, with X and t_i in common, over a quarter period
-// each, of the degree that Akaike's corrected criterion prefers.
+// About each a polynomial over a quarter period on either side, x = X + a_2 tau^2 + a_3 tau^3 + ..., tau =
+// t - t_i. Friction makes the acceleration and what follows from it jump where the mass turns: behind the
+// turn b_2 tau^2 + ... comes to it. Akaike's corrected criterion chooses both degrees.
 // Left out: turning points with less than half a side within the record, and swings that are lost in noise.
 // failure: not finite, not increasing, too few samples, or fewer than two turning points.
 FoundExtrema find_extrema(std::span<const double> time, std::span<const double> displacement);
