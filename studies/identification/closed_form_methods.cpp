@@ -147,9 +147,7 @@ Identification added_mass_of(const StudyFile& study) {
   return result;
 }
 
-}  // namespace
-
-Identification identify_in_closed_form(const StudyFile& study) {
+Identification by_method(const StudyFile& study) {
   const RecordChoice& record = study.identify->records.front();
   switch (study.identify->method) {
     case IdentifyMethod::half_power:
@@ -172,6 +170,18 @@ Identification identify_in_closed_form(const StudyFile& study) {
       break;
   }
   throw std::logic_error("a grey box has no closed form");
+}
+
+}  // namespace
+
+Identification identify_in_closed_form(const StudyFile& study) {
+  Identification result = by_method(study);
+  const auto& records = study.identify->records;
+  if (records.size() > 1) return result;  // that have their names
+  for (identification::FittedRecord& fitted : result.records)
+    fitted.name =
+        result.records.size() == 1 ? records.front().name : records.front().name + "_" + fitted.name;
+  return result;
 }
 
 }  // namespace frahm::studies

@@ -55,8 +55,8 @@ void read_identification(const StudyContext& context, const TomlValue& root, Stu
 void read_measurements(const StudyContext& context, const TomlValue& root,
                        const std::filesystem::path& folder, DataFiles data, StudyFile& study);
 
-// Refuses what has no meaning in some record at some corner of the bounds, and gives each crank the even
-// orders that it needs there.
+// Refuses what has no meaning in some record where the fit starts, and gives each crank the even orders that
+// it needs there. Within the bounds there may be places without a meaning: a fit goes around them.
 void check_identification(StudyFile& study);
 
 // Each corner of a box of some dimensions, as in which of them it lies at the upper end; of many dimensions
