@@ -302,12 +302,16 @@ void estimate(const GreyBoxTask& task, Misfit& misfit, const LeastSquaresFit& fi
 // All series weighed alike.
 LeastSquaresFit first_fit(const GreyBoxTask& task, Misfit& misfit, const Residuals& residuals,
                           int& iterations) {
-  if (!task.grow) return least_squares(misfit.unknowns(), residuals);
+  // Where weights follow, only those depend on it.
+  const LeastSquaresOptions options = misfit.series() > 1
+                                          ? LeastSquaresOptions{.tolerance = 1e-8, .most_evaluations = 200}
+                                          : LeastSquaresOptions{};
+  if (!task.grow) return least_squares(misfit.unknowns(), residuals, options);
   LeastSquaresFit best;
   for (const double periods : kFirstPeriods) {
     std::vector<Unknown> unknowns = misfit.unknowns();
     grow(misfit, periods, unknowns, residuals, iterations);
-    LeastSquaresFit fit = least_squares(unknowns, residuals);
+    LeastSquaresFit fit = least_squares(unknowns, residuals, options);
     iterations += fit.iterations;
     const bool better = fit.converged > best.converged ||
                         (fit.converged == best.converged && fit.sum_of_squares() < best.sum_of_squares());

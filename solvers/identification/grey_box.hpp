@@ -44,8 +44,9 @@ struct GreyBoxTask {
   std::vector<FixedParameter> fixed;
   Eigen::MatrixXd fixed_covariance;  // of `fixed`, in its order
   std::vector<TimeRecord> records;   // at least one
-  // Fit the first eighth of each record first, then a quarter, a half and all of it: a frequency that is
-  // off slips whole periods along a record, and finds its way only while that is short.
+  // Fit the beginning of each record first, two periods of the model, then twice as much each time: a
+  // frequency that is off slips whole periods along a record, and finds its way only while that is short.
+  // Where that ends nowhere near the data, once more from a quarter of a period on.
   bool grow = true;
   transient::Watch watch;  // called while it works; what it throws is passed on
 };
@@ -55,7 +56,9 @@ struct GreyBoxTask {
 // Estimates: the fitted parameters in order, one of each record for those with each_record, named
 // `<parameter>_<record>`. The covariance of the fixed ones is propagated: cov = s^2 (J^T J)^-1 + S cov_f S^T,
 // S = -(J^T J)^-1 J^T J_f.
-// Throws mechanics::MechanicsError where the start has no meaning.
+// Throws mechanics::MechanicsError where the start has no meaning, and for friction of the arctan law. A
+// bound (0 of a friction) is better than none: beyond what the mechanics allows there is no model to tell the
+// way.
 Identification grey_box(const GreyBoxTask& task);
 
 }  // namespace frahm::identification
