@@ -255,17 +255,27 @@ void grow(Misfit& misfit, double periods, std::vector<Unknown>& unknowns, const 
   unknowns = std::move(grown);
 }
 
-// cov = s^2 (J^T J)^-1 + S cov_f S^T,  S = -(J^T J)^-1 J^T J_f. What is not determined stays so.
-MatrixXd with_fixed(MatrixXd covariance, const MatrixXd& J, const MatrixXd& J_fixed,
+// Of the unknowns and the fixed ones together, S = -(J^T J)^-1 J^T J_f being how the fit follows the latter:
+//   [ s^2 (J^T J)^-1 + S cov_f S^T,  S cov_f ]
+//   [ cov_f S^T,                       cov_f ]
+// What is not determined stays so.
+MatrixXd with_fixed(const MatrixXd& own, const MatrixXd& J, const MatrixXd& J_fixed,
                     const MatrixXd& fixed_covariance, const VectorXd& scales) {
-  if (J_fixed.cols() == 0) return covariance;
+  const Index n = own.rows(), f = fixed_covariance.rows();
+  if (f == 0) return own;
   const Eigen::CompleteOrthogonalDecomposition<MatrixXd> scaled(J * scales.asDiagonal());
   const MatrixXd S = -(scales.asDiagonal() * scaled.solve(J_fixed));
-  const MatrixXd added = S * fixed_covariance * S.transpose();
-  for (Index i = 0; i < covariance.size(); ++i) {
-    if (std::isfinite(covariance.data()[i])) covariance.data()[i] += added.data()[i];
+  MatrixXd joint(n + f, n + f);
+  joint.topLeftCorner(n, n) = S * fixed_covariance * S.transpose();
+  joint.topRightCorner(n, f) = S * fixed_covariance;
+  joint.bottomRightCorner(f, f) = fixed_covariance;
+  for (Index i = 0; i < n; ++i) {
+    for (Index k = 0; k < n; ++k)
+      joint(i, k) = std::isfinite(own(i, k)) ? own(i, k) + joint(i, k) : own(i, k);
+    if (!std::isfinite(own(i, i))) joint.topRightCorner(n, f).row(i).setConstant(std::nan(""));
   }
-  return covariance;
+  joint.bottomLeftCorner(f, n) = joint.topRightCorner(n, f).transpose();
+  return joint;
 }
 
 void note_bounds(const LeastSquaresFit& fit, const std::vector<Unknown>& unknowns, Identification& result) {
@@ -289,6 +299,11 @@ void estimate(const GreyBoxTask& task, Misfit& misfit, const LeastSquaresFit& fi
                                 .value = fit.p[place]});
     scales[place] = std::max(std::abs(fit.p[place]), 1e-3 * unknowns[i].scale);
   }
+  for (const FixedParameter& fixed : task.fixed)
+    result.estimates.push_back({.name = fixed.name,
+                                .unit = fixed.unit,
+                                .long_name = fixed.name + " as found before",
+                                .value = fixed.value});
   result.degrees_of_freedom = static_cast<double>(fit.residuals.size() - fit.p.size());
   const double variance = result.degrees_of_freedom > 0.0 ? fit.sum_of_squares() / result.degrees_of_freedom
                                                           : std::numeric_limits<double>::quiet_NaN();
@@ -341,9 +356,14 @@ Identification grey_box(const GreyBoxTask& task) {
     fit = least_squares(unknowns, residuals);
     result.iterations += fit.iterations;
   }
+  result.converged = fit.converged;
   if (!fit.converged) {
-    result.failure = "the fit found no least sum of squares: " + fit.reason;
-    return result;
+    const std::string what = "the fit found no least sum of squares: " + fit.reason;
+    if (fit.jacobian.size() == 0) {
+      result.failure = what;
+      return result;
+    }
+    result.notes.push_back(what + "; these are the best values met");
   }
   estimate(task, misfit, fit, result);
   result.records = misfit.fitted(fit.p);

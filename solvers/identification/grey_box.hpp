@@ -22,7 +22,7 @@ struct FittedParameter {
 
 // A number known from elsewhere, with its variance.
 struct FixedParameter {
-  std::string name;
+  std::string name, unit;
   double value = 0.0;
 };
 
@@ -54,8 +54,9 @@ struct GreyBoxTask {
 // Channels of different sizes are weighed by 1 / |y - mean y| of each series in a first fit, then by the
 // residuals' own standard deviation, so that the variances are those of each sensor's noise.
 // Estimates: the fitted parameters in order, one of each record for those with each_record, named
-// `<parameter>_<record>`. The covariance of the fixed ones is propagated: cov = s^2 (J^T J)^-1 + S cov_f S^T,
-// S = -(J^T J)^-1 J^T J_f.
+// `<parameter>_<record>`; then the fixed ones, so that their covariances with the fitted ones are known to
+// whoever takes these: cov = s^2 (J^T J)^-1 + S cov_f S^T, S = -(J^T J)^-1 J^T J_f. A fit that has not
+// converged has a note that says so.
 // Throws mechanics::MechanicsError where the start has no meaning, and for friction of the arctan law. A
 // bound (0 of a friction) is better than none: beyond what the mechanics allows there is no model to tell the
 // way.

@@ -147,7 +147,9 @@ identification::GreyBoxTask grey_box_task(const StudyFile& study) {
   for (Eigen::Index i = 0; i < fixed; ++i) {
     const auto row = static_cast<std::size_t>(i);
     const FixedEstimate& estimate = choice.fixed[row];
-    task.fixed.push_back({study.parameters.list[estimate.parameter].name, estimate.value});
+    task.fixed.push_back({.name = study.parameters.list[estimate.parameter].name,
+                          .unit = recorded_unit(study, estimate.parameter),
+                          .value = estimate.value});
     for (Eigen::Index j = 0; j < fixed; ++j)
       task.fixed_covariance(i, j) = choice.fixed_covariance[row][static_cast<std::size_t>(j)];
   }

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "studies/map/group_columns.hpp"
-#include "studies/reading/settings.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -72,11 +71,6 @@ std::vector<results::Column> identification_columns(const StudyFile& study,
   add_estimates(study, fit, "", columns);
   if (result.first) add_estimates(study, *result.first, "first_", columns);
   add_covariance(fit, columns);
-  for (const FixedEstimate& fixed : study.identify->fixed) {
-    const std::string& name = study.parameters.list[fixed.parameter].name;
-    columns.add_number(fixed_prefix + name, recorded_unit(study, fixed.parameter),
-                       name + " as an earlier identification found it", fixed.value);
-  }
   if (!fit.records.empty()) {
     std::vector<double> quality;
     for (const FittedRecord& record : fit.records) quality.push_back(record.nrmse);

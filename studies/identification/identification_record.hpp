@@ -11,8 +11,6 @@
 namespace frahm::studies {
 
 inline constexpr const char* identification_group = "identification";
-// Of the names of parameters that were fixed at what an earlier identification had found.
-inline constexpr const char* fixed_prefix = "fixed_";
 
 std::vector<results::Column> identification_columns(const StudyFile& study,
                                                     const IdentificationResult& result);

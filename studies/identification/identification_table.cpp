@@ -39,6 +39,14 @@ std::string number(double value, double factor) {
   return std::isnan(value) ? "-" : fmt::format("{:.8g}", value / factor);
 }
 
+std::string remark_of(const StudyFile& study, const Estimate& estimate) {
+  if (std::isinf(estimate.high)) return "  the data do not determine it";
+  for (const FixedEstimate& fixed : study.identify->fixed) {
+    if (study.parameters.list[fixed.parameter].name == estimate.name) return "  as found before";
+  }
+  return "";
+}
+
 void print_estimates(const StudyFile& study, const Identification& found, std::ostream& out) {
   if (found.estimates.empty()) return;
   fmt::print(out, "{:<36}{:>16}{:>16}{:>16}\n", "", "estimate", "95 % from", "to");
@@ -48,7 +56,7 @@ void print_estimates(const StudyFile& study, const Identification& found, std::o
         spoken.unit.empty() ? estimate.name : fmt::format("{} [{}]", estimate.name, spoken.unit);
     fmt::print(out, "{:<36}{:>16}{:>16}{:>16}{}\n", name, number(estimate.value, spoken.factor),
                number(estimate.low, spoken.factor), number(estimate.high, spoken.factor),
-               std::isinf(estimate.high) ? "  the data do not determine it" : "");
+               remark_of(study, estimate));
   }
 }
 

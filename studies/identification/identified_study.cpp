@@ -70,29 +70,26 @@ Stored read(const std::filesystem::path& file) {
           file.string()};
 }
 
-// The value of a parameter as it was found.
-double found(const Stored& stored, const IdentifiedParameter& parameter) {
-  std::string estimate = stored.study.parameters.list[parameter.parameter].name;
-  if (parameter.each_record) estimate += "_" + stored.study.identify->records.front().name;
-  const double value = stored.value(estimate);
-  if (std::isnan(value))
-    throw StudyError(
-        fmt::format("{}: the data do not determine {}, which the study needs", stored.name, estimate));
-  return value;
-}
-
-// All parameters that the identification settles, with their values; a later one counts.
+// All parameters that the identification settles, with their values; a later one counts. Of one that every
+// record has for itself, that of the first record.
 std::vector<Assignment> settled(const Stored& stored) {
   const IdentifyChoice& choice = *stored.study.identify;
+  const RecordChoice& first = choice.records.front();
   std::vector<Assignment> all = stored.overrides;
-  const auto& set = choice.records.front().set;
-  all.insert(all.end(), set.begin(), set.end());
+  all.insert(all.end(), first.set.begin(), first.set.end());
   for (std::size_t i = 0; i < stored.study.parameters.list.size(); ++i) {
-    const double fixed = stored.value(fixed_prefix + stored.study.parameters.list[i].name);
-    if (!std::isnan(fixed)) all.push_back({i, fixed});
+    const double value = stored.value(stored.study.parameters.list[i].name);
+    if (!std::isnan(value)) all.push_back({i, value});
   }
-  for (const IdentifiedParameter& fitted : choice.parameters)
-    all.push_back({fitted.parameter, found(stored, fitted)});
+  for (const IdentifiedParameter& fitted : choice.parameters) {
+    std::string estimate = stored.study.parameters.list[fitted.parameter].name;
+    if (fitted.each_record) estimate += "_" + first.name;
+    const double value = stored.value(estimate);
+    if (std::isnan(value))
+      throw StudyError(
+          fmt::format("{}: the data do not determine {}, which the study needs", stored.name, estimate));
+    all.push_back({fitted.parameter, value});
+  }
   return all;
 }
 

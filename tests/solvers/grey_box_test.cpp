@@ -283,7 +283,7 @@ TEST_CASE("What is uncertain of a fixed parameter adds to what it is fixed for, 
   const GreyBoxTask of_second{.network = network,
                               .model_at = model_of(1, false),
                               .parameters = {c},
-                              .fixed = {{"c_m", known.estimates[0].value}},
+                              .fixed = {{"c_m", "N s m-1", known.estimates[0].value}},
                               .fixed_covariance = known.covariance,
                               .records = {second},
                               .watch = {}};
