@@ -165,8 +165,7 @@ TurnFit fit_of(const Quarter& quarter, const TurnFit& start, Degrees degrees) {
                                       .solve(Eigen::MatrixXd::Identity(A.cols(), A.cols()));
   const Eigen::MatrixXd rows = (qr.colsPermutation() * inverse).topRows(2);
   fit.cofactor = rows * rows.transpose();
-  // A jump that may choose its place fits noise as three unknowns do: Y. Ninomiya, Ann. Inst. Statist. Math.
-  // 67 (2015) 943.
+  // A jump that may choose its place fits noise as three unknowns do, source [28].
   const Index chosen = degrees.jump > 1 ? 2 : 0;
   fit.criterion = corrected_akaike(fit.rss, n, A.cols() + chosen, fit.rounding);
   return fit;

@@ -25,7 +25,7 @@ using Residuals =
     std::function<bool(const Eigen::VectorXd& p, Eigen::VectorXd& residuals, Eigen::MatrixXd* jacobian)>;
 
 struct LeastSquaresOptions {
-  double tolerance = 1e-14;  // of the step and of the sum of squares, relative: to rounding
+  double tolerance = 1e-12;  // of the step and of the sum of squares, relative; Gauss-Newton steps follow
   int most_evaluations = 200;
 };
 

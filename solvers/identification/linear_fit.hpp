@@ -16,7 +16,7 @@ struct LinearFit {
 // y = A p, weighed by 1 / sigma. A: data x unknowns, of full rank; sigma > 0, or relative sizes of it.
 LinearFit linear_fit(const Eigen::MatrixXd& A, const Eigen::VectorXd& y, const Eigen::VectorXd& sigma);
 
-// Akaike's criterion corrected for few data (C. M. Hurvich and C.-L. Tsai, Biometrika 76 (1989) 297): the
+// Akaike's criterion corrected for few data (source [26]): the
 // model of least value predicts best. Of `data` residuals whose squares sum to `rss`, by a model of
 // `unknowns` coefficients; infinite where there are too few data for it.
 // rounding: standard deviation of what arithmetic leaves of exact data; no model is better than that.

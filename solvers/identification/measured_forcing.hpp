@@ -1,5 +1,6 @@
 #pragma once
 
+#include <complex>
 #include <vector>
 
 #include "solvers/identification/measurement.hpp"
@@ -8,13 +9,13 @@
 namespace frahm::identification {
 
 // A measured excitation in the place of a network's own, from one of its times to the next. The exact flow
-// knows constants and harmonics, so the interpolation is made of those, of a fundamental so slow (kTurned of
-// a radian an interval at most) that it is, as good as exactly,
-//   linear between the values of a force:           c + p sin psi
+// knows constants and harmonics, so the interpolation is made of those, the record's mean and two harmonics
+// of a fundamental so slow (kTurned of a radian an interval at most) that it is, as good as exactly,
+//   linear between the values of a force,
 //   the cubic spline through those of a displacement, whose velocity is continuous:
-//                                                   c + a cos psi + p sin psi + b sin 2 psi
-// psi = omega (t - middle of the interval). Slopes of the spline at its two ends are those of the parabola
-// through the first, or last, three values.
+//   mean + a cos psi + c cos 2 psi + p sin psi + b sin 2 psi,  psi = order omega (t - middle of the
+//   interval).
+// Slopes of the spline at its two ends are those of the parabola through the first, or last, three values.
 class MeasuredForcing {
  public:
   // Throws mechanics::MechanicsError where displacements have fewer than three values.
@@ -26,15 +27,20 @@ class MeasuredForcing {
   mechanics::NetworkValues values_of(const mechanics::NetworkValues& model) const;
   mechanics::NetworkValues direction_of(const mechanics::NetworkValues& by) const;
 
-  // Excitation between time i and the next, its phase 0 at the first.
-  void set_interval(std::size_t i, mechanics::NetworkValues& values) const;
+  // The harmonics of the excitation between time i and the next, phase 0 being at the first
+  // (periodic::Flow::set_oscillators). orders: of the network's system.
+  void oscillators(std::size_t i, const std::vector<int>& orders,
+                   std::vector<std::complex<double>>& at_zero) const;
 
  private:
-  static constexpr double kTurned = 0.05;
+  static constexpr double kTurned = 0.02;
 
   struct Column {
     mechanics::ExcitationKind kind;
-    std::vector<double> values, slopes;  // slopes [m/s] of a displacement
+    int order = 1;                       // of psi; the other harmonic has twice this
+    double mean = 0.0;                   // of the values
+    double scale = 1.0;                  // largest distance from it, > 0
+    std::vector<double> values, slopes;  // less the mean; slopes [m/s] of a displacement
   };
   mechanics::Network network_;
   std::vector<double> time_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <numbers>
 
@@ -181,22 +182,19 @@ struct MeasuredMotion final : Simulation::Kind {
   std::string run(const Model& model, std::span<const Model> by, std::span<const double> times,
                   periodic::ObservedMotion& out) override {
     need_hysteretic_omega(model);
-    NetworkValues values = forcing.values_of(model.values);
+    const NetworkValues values = forcing.values_of(model.values);
     std::vector<NetworkValues> directions;
     for (const Model& each : by) directions.push_back(forcing.direction_of(each.values));
     LinearSystem system;
     assembly.set_values(values, system);
+    assembly.set_forcing(values, system);
     MotionSensitivity motion(observed, {times.begin(), times.end()}, watch);
+    motion.set_system(system, derivatives(assembly, values, directions, system));
+    motion.start(model.initial, initial_of(by));
+    std::vector<std::complex<double>> oscillators;
     for (std::size_t i = 0; i + 1 < times.size(); ++i) {
-      forcing.set_interval(i, values);
-      assembly.set_forcing(values, system);
-      const std::vector<LinearSystem> systems_by = derivatives(assembly, values, directions, system);
-      if (i == 0) {
-        motion.set_system(system, systems_by);
-        motion.start(model.initial, initial_of(by));
-      } else {
-        motion.set_forcing(system, systems_by);
-      }
+      forcing.oscillators(i, system.orders, oscillators);
+      motion.set_oscillators(oscillators);
       if (!motion.advance(times[i + 1], 0.0, kUnlimited)) break;
     }
     if (motion.failure() == nullptr) motion.finish();

@@ -31,11 +31,6 @@ void MotionSensitivity::set_system(const mechanics::LinearSystem& system,
   directions_.reserve(by.size());
   for (std::size_t d = 0; d < by.size(); ++d) directions_.emplace_back(flow_);
   motion_.by.assign(by.size(), Eigen::MatrixXd(motion_.values.rows(), motion_.values.cols()));
-  set_forcing(system, by);
-}
-
-void MotionSensitivity::set_forcing(const mechanics::LinearSystem& system,
-                                    std::span<const mechanics::LinearSystem> by) {
   flow_.set_forcing(system);
   for (std::size_t d = 0; d < by.size(); ++d) {
     directions_[d].by.set(flow_.equations(), system, by[d]);

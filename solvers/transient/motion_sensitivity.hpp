@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <complex>
 #include <span>
 #include <vector>
 
@@ -20,10 +21,10 @@ class MotionSensitivity {
   // times: ascending [s]; the motion begins at the first, at least one. `observed` must outlive it.
   MotionSensitivity(std::span<const periodic::Observed> observed, std::vector<double> times, Watch watch);
 
-  // Matrices and forcing, and their derivatives along each direction (system_derivative.hpp), always of the
-  // same number of directions.  From set_forcing on only the forcing differs; omega stays as it is.
+  // Matrices and forcing, and their derivatives along each direction (system_derivative.hpp).
   void set_system(const mechanics::LinearSystem& system, std::span<const mechanics::LinearSystem> by);
-  void set_forcing(const mechanics::LinearSystem& system, std::span<const mechanics::LinearSystem> by);
+  // The forcing's harmonics at phase 0 from now on, which no direction changes (Flow::set_oscillators).
+  void set_oscillators(std::span<const std::complex<double>> at_zero) { flow_.set_oscillators(at_zero); }
 
   // To be called once, after set_system. by: of each direction; an empty vector stands for zeros.
   void start(const InitialState& initial, std::span<const InitialState> by);

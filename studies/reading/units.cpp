@@ -152,6 +152,10 @@ std::string dimension_name(const Unit& unit) {
 }
 
 std::string coherent_unit(const Unit& unit) {
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    const auto quantity = static_cast<Quantity>(i);
+    if (has_dimension(unit, quantity)) return std::string(si_unit(quantity));
+  }
   constexpr std::array<std::string_view, 4> symbols{"m", "kg", "s", "rad"};
   const std::array powers{unit.exponents[0], unit.exponents[1], unit.exponents[2], unit.radians};
   std::string text;

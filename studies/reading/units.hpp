@@ -58,7 +58,8 @@ double si_factor(const Unit& unit, Quantity expected);
 // What a unit measures, in words: "a stiffness", else its dimension in base units: "m2 s-2".
 std::string dimension_name(const Unit& unit);
 
-// The coherent SI unit of the same dimension: "m2 kg s-2"; "1" of a number.
+// The coherent SI unit of the same dimension: "N s m-1" where it has a name, else "m2 kg s-3"; "1" of a
+// number.
 std::string coherent_unit(const Unit& unit);
 
 // The units UDUNITS-2 knows. Reading its database costs some milliseconds; UDUNITS is not thread-safe, so a
