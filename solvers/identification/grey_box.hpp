@@ -24,6 +24,7 @@ struct FittedParameter {
 struct FixedParameter {
   std::string name, unit;
   double value = 0.0;
+  double degrees_of_freedom = std::numeric_limits<double>::infinity();  // of that variance
 };
 
 // Numbers of the network, the values it starts from, and how they change.

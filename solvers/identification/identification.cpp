@@ -48,10 +48,11 @@ Eigen::MatrixXd correlation(const Eigen::MatrixXd& covariance) {
 }
 
 void set_intervals(Identification& result) {
-  const double errors = reach(result.degrees_of_freedom);
   for (std::size_t i = 0; i < result.estimates.size(); ++i) {
     Estimate& estimate = result.estimates[i];
     const auto place = static_cast<Eigen::Index>(i);
+    if (std::isnan(estimate.degrees_of_freedom)) estimate.degrees_of_freedom = result.degrees_of_freedom;
+    const double errors = reach(estimate.degrees_of_freedom);
     estimate.standard_error = std::sqrt(result.covariance(place, place));
     if (std::isinf(estimate.standard_error)) {
       estimate.value = kNone;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,6 +18,8 @@ struct Estimate {
   // One standard deviation. Infinite: not determined; NaN: nothing tells (no more data than unknowns).
   double standard_error = 0.0;
   double low = 0.0, high = 0.0;  // interval of kConfidence, by Student's t; -inf, inf or NaN likewise
+  // Of the variance behind the interval, may be infinite. NaN: those of the whole Identification.
+  double degrees_of_freedom = std::numeric_limits<double>::quiet_NaN();
 };
 inline constexpr double kConfidence = 0.95;
 
@@ -61,8 +64,8 @@ double nrmse(std::span<const FittedSeries> series);
 // Correlation coefficients of a covariance: NaN where one is not determined.
 Eigen::MatrixXd correlation(const Eigen::MatrixXd& covariance);
 
-// Standard errors and intervals of result.estimates from result.covariance and result.degrees_of_freedom; an
-// estimate with an infinite variance loses its value.
+// Standard errors and intervals of result.estimates from result.covariance and the degrees of freedom of each,
+// which are those of the whole where it has none; an estimate with an infinite variance loses its value.
 void set_intervals(Identification& result);
 
 // Adds an estimate computed from the ones there: value and gradient by each of them.
