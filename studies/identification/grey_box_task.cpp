@@ -149,7 +149,8 @@ identification::GreyBoxTask grey_box_task(const StudyFile& study) {
     const FixedEstimate& estimate = choice.fixed[row];
     task.fixed.push_back({.name = study.parameters.list[estimate.parameter].name,
                           .unit = recorded_unit(study, estimate.parameter),
-                          .value = estimate.value});
+                          .value = estimate.value,
+                          .degrees_of_freedom = estimate.degrees_of_freedom});
     for (Eigen::Index j = 0; j < fixed; ++j)
       task.fixed_covariance(i, j) = choice.fixed_covariance[row][static_cast<std::size_t>(j)];
   }

@@ -26,6 +26,8 @@ void add_estimates(const StudyFile& study, const Identification& found, const st
     columns.add_number(name + "_low", unit, "lower end of the 95 % interval of " + name, estimate.low);
     columns.add_number(name + "_high", unit, "upper end of the 95 % interval of " + name, estimate.high);
     columns.add_number(name + "_standard_error", unit, "standard error of " + name, estimate.standard_error);
+    columns.add_number(name + "_degrees_of_freedom", "1", "behind the interval of " + name,
+                       estimate.degrees_of_freedom);
   }
 }
 
@@ -59,7 +61,22 @@ void add_record(const StudyFile& study, const FittedRecord& record, GroupColumns
     columns.add(name + "_measured", unit, series.name + " as measured", along, series.measured);
     columns.add(name + "_fitted", unit, series.name + " of the model", along, series.fitted);
     columns.add(name + "_residual", unit, "measured less fitted " + series.name, along, std::move(residual));
+    columns.add_number(name + "_nrmse", "percent", "fit quality of " + name,
+                       identification::nrmse(std::span(&series, 1)));
   }
+}
+
+// A parameter or a record may be called as something that the file holds beside it.
+void refuse_same_names(const StudyFile& study, const std::vector<results::Column>& columns) {
+  std::vector<std::string> names{"estimate", "record", "row"};  // dimensions, which are indices
+  for (const results::Column& column : columns) names.push_back(column.variable.name);
+  std::sort(names.begin(), names.end());
+  const auto twice = std::adjacent_find(names.begin(), names.end());
+  if (twice == names.end()) return;
+  throw StudyError(
+      fmt::format("{}: the result would have two things called \"{}\": one a parameter, record or mass "
+                  "of the study; call that otherwise",
+                  study.source.name, *twice));
 }
 
 }  // namespace
@@ -74,16 +91,19 @@ std::vector<results::Column> identification_columns(const StudyFile& study,
   if (!fit.records.empty()) {
     std::vector<double> quality;
     for (const FittedRecord& record : fit.records) quality.push_back(record.nrmse);
-    columns.add("nrmse", "1", "fit quality of each record, 100 (1 - |y - yhat| / |y - mean y|) [percent]",
+    columns.add("nrmse", "percent", "fit quality of each record, 100 (1 - |y - yhat| / |y - mean y|)",
                 "record", std::move(quality));
   }
   for (const identification::RowColumn& row : fit.rows)
     columns.add(row.name, unit_of(study, row.unit), row.long_name, "row", row.values);
   for (const FittedRecord& record : fit.records) add_record(study, record, columns);
-  columns.add_number("degrees_of_freedom", "1", "of the variance behind the intervals",
-                     fit.degrees_of_freedom);
+  columns.add_flag("outcome", "how the identification ended", "", {"converged", "not_converged"},
+                   {fit.converged ? converged_outcome : converged_outcome + 1.0});
+  columns.add_number("degrees_of_freedom", "1", "of the residuals", fit.degrees_of_freedom);
   columns.add_count("iterations", "iterations of the fit", "", {static_cast<double>(fit.iterations)});
-  return columns.take();
+  std::vector<results::Column> all = columns.take();
+  refuse_same_names(study, all);
+  return all;
 }
 
 std::vector<results::Text> identification_texts(const StudyFile& study, const IdentificationResult& result) {

@@ -11,6 +11,7 @@
 namespace frahm::studies {
 
 inline constexpr const char* identification_group = "identification";
+inline constexpr double converged_outcome = 1.0;  // of the flag `outcome`; 0 stands for not computed
 
 std::vector<results::Column> identification_columns(const StudyFile& study,
                                                     const IdentificationResult& result);

@@ -17,22 +17,21 @@ using identification::Estimate, identification::FittedRecord, identification::Id
 constexpr std::size_t most_correlations = 12;  // columns that still fit beside one another
 constexpr std::size_t most_rows = 30;
 
-// An estimate in the unit in which the study speaks of the parameter that takes it, else SI.
+// An estimate in the unit in which the study speaks of the parameter of its name, else SI.
 struct Spoken {
   double factor = 1.0;  // SI value = factor x value
   std::string unit;
 };
 Spoken spoken_of(const StudyFile& study, const Estimate& estimate) {
+  std::string name = estimate.name;
   for (const IdentifiedParameter& parameter : study.identify->parameters) {
-    const std::string& name = study.parameters.list[parameter.parameter].name;
-    const bool takes_it =
-        estimate.name == name || (parameter.each_record && estimate.name.starts_with(name + "_"));
-    if (!takes_it) continue;
-    const UsualUnit usual = usual_unit(study, parameter.parameter);
-    const SpokenValue spoken = spoken_value(study, parameter.parameter, 1.0);
-    return {usual.si_factor, spoken.unit};
+    const std::string& own = study.parameters.list[parameter.parameter].name;
+    if (parameter.each_record && estimate.name.starts_with(own + "_")) name = own;
   }
-  return {1.0, study.dimensionless || estimate.unit == "1" ? "" : estimate.unit};
+  const auto parameter = study.parameters.find(name);
+  if (!parameter || !study.parameters.list[*parameter].is_number())
+    return {1.0, study.dimensionless || estimate.unit == "1" ? "" : estimate.unit};
+  return {usual_unit(study, *parameter).si_factor, spoken_value(study, *parameter, 1.0).unit};
 }
 
 std::string number(double value, double factor) {
@@ -98,6 +97,12 @@ void print_rows(const StudyFile& study, const Identification& found, std::ostrea
   fmt::print(out, "\n{}", rows > most_rows ? fmt::format("and {} more\n", rows - most_rows) : "");
 }
 
+// " N s/m": the unit of a parameter behind its value.
+std::string behind(const StudyFile& study, std::size_t parameter) {
+  const std::string unit = spoken_value(study, parameter, 1.0).unit;
+  return unit.empty() ? "" : " " + unit;
+}
+
 std::string motion_word(identification::MotionKind motion) {
   return motion == identification::MotionKind::free     ? "free"
          : motion == identification::MotionKind::forced ? "forced"
@@ -113,7 +118,7 @@ void print_identification_choice(const StudyFile& study, std::ostream& out) {
     std::vector<std::string> roles;
     for (const DataColumn& column : record.columns) roles.push_back(column.role);
     const std::size_t rows = record.columns.front().values.size();
-    fmt::print(out, "{:<22}{} rows of {}{}{}\n", "record " + record.name, rows, fmt::join(roles, ", "),
+    fmt::print(out, "{:<21} {} rows of {}{}{}\n", "record " + record.name, rows, fmt::join(roles, ", "),
                choice.method == IdentifyMethod::grey_box ? ", " + motion_word(record.motion) : "",
                record.doubtful == 0 ? "" : fmt::format(", {} doubtful left out", record.doubtful));
   }
@@ -124,13 +129,13 @@ void print_identification_choice(const StudyFile& study, std::ostream& out) {
       continue;
     }
     const double factor = fitted.unit.si_factor, nominal = study.parameters.nominal()[fitted.parameter];
-    fmt::print(out, "{:<22}{:.6g} .. {:.6g} {}, from {:.6g}{}\n", name, fitted.lower / factor,
-               fitted.upper / factor, fitted.unit.text, nominal / factor,
+    fmt::print(out, "{:<22}{:.6g} .. {:.6g}{}, from {:.6g}{}\n", name, fitted.lower / factor,
+               fitted.upper / factor, behind(study, fitted.parameter), nominal / factor,
                fitted.each_record ? ", each record its own" : "");
   }
   for (const FixedEstimate& fixed : choice.fixed)
-    fmt::print(out, "{:<22}{:.8g} as found before\n", study.parameters.list[fixed.parameter].name,
-               fixed.value / usual_unit(study, fixed.parameter).si_factor);
+    fmt::print(out, "{:<22}{:.8g}{} as found before\n", study.parameters.list[fixed.parameter].name,
+               fixed.value / usual_unit(study, fixed.parameter).si_factor, behind(study, fixed.parameter));
 }
 
 void print_identification(const StudyFile& study, const IdentificationResult& result, std::ostream& out) {
@@ -145,7 +150,8 @@ void print_identification(const StudyFile& study, const IdentificationResult& re
   }
   print_estimates(study, result.fit, out);
   print_rows(study, result.fit, out);
-  print_correlations(result.fit, out);
+  // Those of a formula's own results follow from one another.
+  if (study.identify->method == IdentifyMethod::grey_box) print_correlations(result.fit, out);
   print_quality(result.fit, out);
   for (const RecordChoice& record : study.identify->records) {
     if (record.doubtful > 0)

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "results/map_reader.hpp"
+#include "solvers/mechanics/linear_system.hpp"
 #include "solvers/periodic/linear_modes.hpp"
 #include "studies/identification/identification_record.hpp"
 #include "studies/map/stored_study.hpp"
@@ -101,36 +103,75 @@ void remove(TomlTable& root, const std::string& key) {
   std::erase_if(root, [&](const TomlEntry& entry) { return entry.key == key; });
 }
 
-// A sweep of the frequency, a parameter, over the modes of the system as identified.
-void make_sweep(const StudyFile& study, const std::vector<double>& parameters, std::size_t frequency,
-                TomlTable& root) {
+// A name that no parameter has yet.
+std::string free_name(const StudyFile& study, std::string name) {
+  while (study.parameters.find(name)) name += "_";
+  return name;
+}
+
+mechanics::NetworkValues values_at(const StudyFile& study, std::vector<double> parameters) {
   mechanics::NetworkValues values;
-  std::vector<double> at = parameters;
-  evaluate(study.values, study.parameters, at, values);
-  const std::vector<double> modes = periodic::linear_modes(study.network, values, false).frequency;
-  const SpokenValue from = spoken_value(study, frequency, kFromMode * modes.front());
-  const SpokenValue to = spoken_value(study, frequency, kToMode * modes.back());
-  TomlTable axis{{"parameter", {}, text(study.parameters.list[frequency].name)}};
-  if (!from.unit.empty()) axis.push_back({"unit", {}, text(from.unit)});
-  axis.push_back({"from", {}, number(from.value)});
-  axis.push_back({"to", {}, number(to.value)});
+  evaluate(study.values, study.parameters, parameters, values);
+  return values;
+}
+
+// [[axis]] over the modes of the system as identified.
+void add_axis(const std::string& parameter, const std::string& unit, double factor,
+              const std::vector<double>& modes, TomlTable& root) {
+  TomlTable axis{{"parameter", {}, text(parameter)}};
+  if (!unit.empty()) axis.push_back({"unit", {}, text(unit)});
+  axis.push_back({"from", {}, number(kFromMode * modes.front() / factor)});
+  axis.push_back({"to", {}, number(kToMode * modes.back() / factor)});
   axis.push_back({"points", {}, {{}, kPoints}});
   set_kind(root, StudyKind::sweep);
   remove(root, "initial");
   root.push_back({"axis", {}, {{}, TomlArray{{{}, std::move(axis)}}}});
 }
 
+// A force that moves the first mass well: a thousandth of its static stiffness, and beyond all friction.
+double moving_force(const StudyFile& study, const mechanics::NetworkValues& values) {
+  mechanics::Network network = study.network;
+  network.excitations.clear();
+  mechanics::NetworkValues unexcited = values;
+  unexcited.excitation.clear();
+  const mechanics::Assembly assembly(network);
+  mechanics::LinearSystem system;
+  unexcited.omega = 1.0;
+  if (!(unexcited.hysteretic_omega > 0.0)) unexcited.hysteretic_omega = 1.0;
+  assembly.set_values(unexcited, system);
+  const double compliance = system.K.inverse()(0, 0);
+  return std::max(1e-3 / compliance, 4.0 * system.limit.sum());
+}
+
+// The system, which nothing drives but what was measured, under a harmonic force on its first mass.
+void drive(const StudyFile& study, const mechanics::NetworkValues& values, const std::vector<double>& modes,
+           TomlTable& root) {
+  const std::string omega = free_name(study, "omega"), force = free_name(study, "P");
+  if (!find(root, "parameters")) root.push_back({"parameters", {}, {{}, TomlTable{}}});
+  TomlTable& parameters = table_of(root, "parameters");
+  parameters.push_back({omega, {}, number(modes.front())});
+  parameters.push_back({force, {}, number(moving_force(study, values))});
+  TomlTable on{{"on", {}, text(study.network.masses.front())}, {"amplitude", {}, text(force)}};
+  TomlTable excitation{{"frequency", {}, text(omega)}};
+  excitation.push_back({"force", {}, {{}, TomlArray{{{}, std::move(on)}}}});
+  root.push_back({"excitation", {}, {{}, std::move(excitation)}});
+  add_axis(omega, "", 1.0, modes, root);
+}
+
 // The motion of the first record, sampled as it was.
 void make_motion(const Stored& stored, TomlTable& root) {
   const std::vector<double> time = stored.column(stored.study.identify->records.front().name + "_time");
-  const bool driven = find(root, "excitation") != nullptr;
-  TomlTable motion;
-  if (time.size() > 1) {
-    motion.push_back({"duration", {}, number(time.back() - time.front())});
-    motion.push_back({"samples", {}, {{}, static_cast<std::int64_t>(time.size())}});
-  }
-  set_kind(root, driven ? StudyKind::transient : StudyKind::decay);
-  root.push_back({driven ? "transient" : "decay", {}, {{}, std::move(motion)}});
+  if (time.size() < 2)
+    throw StudyError(
+        fmt::format("{}: the excitation's frequency is computed from parameters, so that there is no "
+                    "axis to sweep",
+                    stored.name));
+  set_kind(root, StudyKind::transient);
+  root.push_back({"transient",
+                  {},
+                  {{},
+                   TomlTable{{"duration", {}, number(time.back() - time.front())},
+                             {"samples", {}, {{}, static_cast<std::int64_t>(time.size())}}}}});
 }
 
 std::string study_of_system(const Stored& stored) {
@@ -145,10 +186,15 @@ std::string study_of_system(const Stored& stored) {
         with_unit(study, assignment.parameter, assignment.value);
     parameters[assignment.parameter] = assignment.value;
   }
+  const mechanics::NetworkValues values = values_at(study, parameters);
+  const std::vector<double> modes = periodic::linear_modes(study.network, values, false).frequency;
   const auto frequency = study.values.omega.expression.sole_parameter();
-  const bool driven = find(root, "excitation") != nullptr;
-  if (driven && frequency && study.parameters.list[*frequency].is_number()) {
-    make_sweep(study, parameters, *frequency, root);
+  if (!find(root, "excitation")) {
+    drive(study, values, modes, root);
+  } else if (frequency && study.parameters.list[*frequency].is_number()) {
+    const SpokenValue one = spoken_value(study, *frequency, 1.0);
+    add_axis(study.parameters.list[*frequency].name, one.unit, usual_unit(study, *frequency).si_factor, modes,
+             root);
   } else {
     make_motion(stored, root);
   }
@@ -233,9 +279,12 @@ points = {}
 
 std::string identified_study(const std::filesystem::path& file) {
   const Stored stored = read(file);
+  const std::string outcome = stored.value("outcome") == converged_outcome
+                                  ? ""
+                                  : "# The fit did not converge: these are the best values it met.\n";
   const std::string study =
       stored.study.network.masses.empty() ? study_of_one_mass(stored) : study_of_system(stored);
-  return std::string(identified_mark) + "\n" + study;
+  return std::string(identified_mark) + "\n" + outcome + study;
 }
 
 }  // namespace frahm::studies

@@ -1,7 +1,6 @@
 #include "studies/motion/measurements.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <boost/random/mersenne_twister.hpp>
@@ -116,9 +115,10 @@ std::vector<MeasuredColumn> chosen(const StudyFile& study, std::vector<MeasuredC
   for (const std::string& name : names) {
     const auto place = std::find(known.begin(), known.end(), name);
     if (place == known.end()) {
-      throw StudyError(fmt::format("--columns: nothing is called \"{}\"{}; there are {}", name,
-                                   suggestion(name, known), fmt::join(known, ", ")));
+      throw StudyError(fmt::format("--columns: nothing is called \"{}\"{}", name, suggestion(name, known)));
     }
+    if (std::count(names.begin(), names.end(), name) > 1)
+      throw StudyError(fmt::format("--columns: \"{}\" is asked for twice", name));
     columns.push_back(all[static_cast<std::size_t>(place - known.begin())]);
   }
   return columns;

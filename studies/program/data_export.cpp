@@ -5,9 +5,11 @@
 
 #include <charconv>
 #include <cmath>
+#include <fstream>
 #include <iterator>
 #include <numbers>
 #include <ostream>
+#include <string_view>
 
 #include "results/map_reader.hpp"
 #include "studies/map/stored_study.hpp"
@@ -17,6 +19,8 @@
 
 namespace frahm::studies {
 namespace {
+
+constexpr std::string_view data_mark = "# simulated by frahm export";
 
 // A number > 0 and the unit behind it.
 struct Amount {
@@ -54,31 +58,59 @@ double rate_of(const StudyFile& study, const std::string& text) {
   return amount_of("--rate", text).unit.empty() ? value : value / (2.0 * std::numbers::pi);
 }
 
-// The absolute noise is a length, so that displacements alone can have it.
+std::uint64_t seed_of(const std::string& text) {
+  std::uint64_t seed = 1;
+  if (text.empty()) return seed;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, seed);
+  if (error == std::errc{} && stop == end) return seed;
+  throw StudyError(fmt::format("--seed \"{}\": must be a whole number from 0 to 18446744073709551615", text));
+}
+
+Quantity quantity_of(std::string_view column) {
+  if (column.ends_with("_velocity")) return Quantity::speed;
+  if (column.ends_with("_acceleration")) return Quantity::acceleration;
+  return column.ends_with("_force") ? Quantity::force : Quantity::length;
+}
+
+// A share of each column, or an amount in a unit that all columns can have.
 SensorNoise noise_of(const StudyFile& study, const DataOptions& options) {
-  SensorNoise noise{.seed = options.seed};
+  SensorNoise noise{.seed = seed_of(options.seed)};
   if (options.noise.empty()) return noise;
   const Amount amount = amount_of("--noise", options.noise);
   if (amount.unit == "%") {
     noise.share = 0.01 * amount.value;
     return noise;
   }
-  noise.absolute = si_amount(study, "--noise", options.noise, Quantity::length);
-  for (const std::string& column : options.columns) {
-    if (column.ends_with("_displacement")) continue;
-    throw StudyError(fmt::format("--noise \"{}\": a length, which {} is not; write a share such as 1%",
-                                 options.noise, column));
+  if (amount.unit.empty() && !study.dimensionless) {
+    throw StudyError(
+        fmt::format("--noise \"{}\": has no unit; write a share such as 1%, or an amount such as \"0.1 mm\"",
+                    options.noise));
   }
+  const Quantity first = options.columns.empty() ? Quantity::length : quantity_of(options.columns.front());
+  noise.absolute = si_amount(study, "--noise", options.noise, first);
+  for (const std::string& column : options.columns)
+    si_amount(study, "--noise", options.noise, quantity_of(column));
   return noise;
+}
+
+// A table replaces nothing but an earlier one of its own kind.
+void check_place(const std::filesystem::path& place) {
+  std::ifstream there(place);
+  std::string line;
+  if (!there || !std::filesystem::is_regular_file(place)) return;
+  if (std::getline(there, line) && line.starts_with(data_mark)) return;
+  throw StudyError(fmt::format("{}: is there already and not made by frahm export --data; name another file",
+                               place.string()));
 }
 
 std::string csv(const StudyFile& study, const std::filesystem::path& file, const DataOptions& options,
                 const Measurements& measured) {
-  std::string text = fmt::format(
-      "# simulated by frahm export from {}, {} samples at {:.10g} {}, noise {}{}\n", file.filename().string(),
-      measured.time.size(), measured.rate, study.dimensionless ? "in a unit of time" : "Hz",
-      options.noise.empty() ? "none" : options.noise,
-      options.noise.empty() ? "" : fmt::format(" with seed {}", options.seed));
+  std::string text =
+      fmt::format("{} from {}, {} samples at {:.10g} {}, noise {}{}\n", data_mark, file.filename().string(),
+                  measured.time.size(), measured.rate, study.dimensionless ? "in a unit of time" : "Hz",
+                  options.noise.empty() ? "none" : options.noise,
+                  options.noise.empty() ? "" : fmt::format(" with seed {}", seed_of(options.seed)));
   const auto name = [&](const std::string& column, const std::string& unit) {
     return study.dimensionless ? column : fmt::format("{} [{}]", column, unit);
   };
@@ -127,6 +159,7 @@ int export_data(const std::filesystem::path& file, const DataOptions& options, s
     return 0;
   }
   check_output_is_not_input(options.output, file);
+  check_place(options.output);
   write_whole_file(options.output, table);
   fmt::print(out, "{}\n", options.output.string());
   return 0;

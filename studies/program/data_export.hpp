@@ -16,7 +16,7 @@ struct DataOptions {
   std::string rate;              // "1000", "1 kHz"
   std::string duration;          // "10", "10 s"
   std::string noise;             // "1%" of each column, "0.1 mm"
-  std::uint64_t seed = 1;
+  std::string seed;              // a whole number, 1 by default
   std::vector<std::string> columns;
 };
 

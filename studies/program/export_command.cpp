@@ -172,9 +172,10 @@ void check_options(const ExportOptions& options) {
                     int{!options.study.empty()} + int{!data.output.empty()};
   if (asked > 1) throw StudyError("--group, --schedule, --sweep, --study and --data: one of them at a time");
   const bool of_data = !data.set.empty() || !data.at.empty() || !data.rate.empty() ||
-                       !data.duration.empty() || !data.noise.empty() || !data.columns.empty();
+                       !data.duration.empty() || !data.noise.empty() || !data.columns.empty() ||
+                       !data.seed.empty();
   if (of_data && data.output.empty())
-    throw StudyError("--set, --at, --rate, --duration, --noise and --columns: belong to --data");
+    throw StudyError("--set, --at, --rate, --duration, --noise, --seed and --columns: belong to --data");
   if (options.step && !options.schedule) throw StudyError("--step: belongs to --schedule");
   for (const auto& [option, file] : {std::pair("--sweep", options.sweep), std::pair("--study", options.study),
                                      std::pair("--data", data.output)}) {
@@ -190,6 +191,11 @@ int export_command(const ExportOptions& options, std::ostream& out) {
   if (!options.sweep.empty()) return write_sweep(options, out);
   if (!options.study.empty()) return write_study(options, out);
   if (!options.data.output.empty()) return export_data(options.file, options.data, out);
+  if (options.file.extension() == ".toml")
+    throw StudyError(
+        fmt::format("{}: is a study, whose result is exported, or with --data what sensors would "
+                    "show of it",
+                    options.file.string()));
   const results::MapReader map(options.file);
   if (options.output == "-") {
     write_export(options, map, out);

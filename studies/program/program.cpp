@@ -107,7 +107,8 @@ struct RunTexts {
 
 void add_run(CLI::App& program, RunTexts& texts, Action& action) {
   CLI::App* run = add_command(
-      program, "run", "compute the map of a study or its optimum, or what is left of it; or its one motion",
+      program, "run",
+      "compute the map of a study or its optimum, or what is left of it; its one motion; or identify a model",
       run_examples);
   auto& [options, shard, budget] = texts;
   add_study(*run, options.study);
@@ -173,11 +174,14 @@ void add_merge(CLI::App& program, MergeOptions& options, Action& action) {
 }
 
 void add_export(CLI::App& program, ExportOptions& options, Action& action) {
-  CLI::App* command =
-      add_command(program, "export",
-                  "write a map as CSV, a row a point; or the columns of a motion or tuning", export_examples);
+  CLI::App* command = add_command(
+      program, "export",
+      "write a map as CSV, or the columns of a motion, tuning or identification; studies of what was "
+      "tuned or identified; simulated measurements",
+      export_examples);
   command->add_option("FILE", options.file, "result file")->required();
-  command->add_option("--group", options.group, "a group instead of the map: resonance, orbits");
+  command->add_option("--group", options.group,
+                      "a group instead of the map: resonance, orbits, identification ...");
   command->add_flag("--csv", options.csv, "the only form there is, and the default");
   command->add_flag("--schedule", options.schedule, "of a tuning: its schedule for a controller");
   command->add_option("--step", options.step, "of the schedule, in the unit of the band; else 1 rpm");
@@ -190,14 +194,17 @@ void add_export(CLI::App& program, ExportOptions& options, Action& action) {
   add_set(*command, data.set);
   command->add_option("--at", data.at, "of --data: the point of a periodic response, name=value,...")
       ->allow_extra_args(false);
-  command->add_option("--rate", data.rate, "of --data: samples a second, or with a unit: \"1 kHz\"");
-  command->add_option("--duration", data.duration, "of --data: so long, \"10 s\"");
+  command->add_option("--rate", data.rate,
+                      "of --data: samples a second, or \"1 kHz\"; else 100 a natural period");
+  command->add_option("--duration", data.duration,
+                      "of --data: so long, \"10 s\"; else the motion, or ten periods");
   command->add_option("--noise", data.noise,
                       "of --data: standard deviation, \"1%\" of each column's own or \"0.1 mm\"");
-  command->add_option("--seed", data.seed, "of --data: of the noise");
+  command->add_option("--seed", data.seed, "of --data: of the noise, else 1");
   command
       ->add_option("--columns", data.columns,
-                   "of --data: name,... of <mass>_displacement, _velocity, _acceleration, <element>_force")
+                   "of --data: name,... of <mass>_displacement, _velocity, _acceleration, of a periodic "
+                   "response <element>_force too; else the displacements")
       ->delimiter(',')
       ->allow_extra_args(false);
   command->add_option("-o,--output", options.output, "CSV file, - for stdout; else FILE with .csv");

@@ -9,6 +9,7 @@
 
 #include "engine/fingerprint.hpp"
 #include "engine/stop_signals.hpp"
+#include "results/map_reader.hpp"
 #include "results/map_writer.hpp"
 #include "studies/identification/identification_record.hpp"
 #include "studies/map/finished_file.hpp"
@@ -42,9 +43,28 @@ void refuse_sharing(const RunCommandOptions& options, const StudyFile& study) {
                                study.source.name, kind_noun(study.kind)));
 }
 
+// What an identification reads it must not take the place of.
+void refuse_own_data(const StudyFile& study, const std::filesystem::path& output) {
+  if (!study.identify) return;
+  std::error_code ignored;  // a file that is not there is no other's
+  for (const std::filesystem::path& file : study.identify->files) {
+    if (std::filesystem::equivalent(output, file, ignored))
+      throw StudyError(fmt::format("{}: is a file that the study reads; name another for the result with -o",
+                                   output.string()));
+  }
+}
+
+// An identification is made anew where its data have changed.
+bool is_of_same_file(const StudyFile& study, const std::filesystem::path& output) {
+  const results::MapReader map(output);
+  const std::string name = std::filesystem::path(study.source.name).filename().string();
+  return map.has_group(identification_group) && provenance_text(map, "study_file") == name;
+}
+
 void refuse_another_study(const StudyPlan& plan, const std::filesystem::path& output) {
   const auto kept = fingerprint_of_file(output);
   if (!kept || *kept == plan.fingerprint) return;
+  if (plan.study.identify && is_of_same_file(plan.study, output)) return;
   throw engine::ResumeRefused(output, *kept, plan.fingerprint);
 }
 
@@ -91,6 +111,7 @@ int run_at_once(const RunCommandOptions& options, StudyFile study, std::ostream&
                                         : plan_motion(std::move(study), options.set);
   const std::filesystem::path output =
       options.run.output.empty() ? default_output(options.study) : options.run.output;
+  refuse_own_data(plan.study, output);
   check_result_place(output, options.study);
   if (!options.run.fresh) refuse_another_study(plan, output);
 

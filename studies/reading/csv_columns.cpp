@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "studies/reading/csv_table.hpp"
@@ -10,6 +11,8 @@
 
 namespace frahm::studies {
 namespace {
+
+constexpr std::array motion_endings{"_displacement", "_velocity", "_acceleration", "_force"};
 
 struct CsvReading : ColumnReading {
   std::vector<CsvRow> rows = {};
@@ -73,6 +76,23 @@ std::vector<std::size_t> named(const CsvReading& reading, const std::string& nam
   return found;
 }
 
+// A column that looks like one of a motion, but of no node that the study has, would be silently without
+// effect.
+void refuse_misspelt(const CsvReading& reading, const RecordForm& form) {
+  if (!form.is_trace) return;
+  std::vector<std::string> known;
+  for (const Role& role : form.roles) known.push_back(role.name);
+  for (const std::string& name : header_names(reading)) {
+    const bool of_node = std::any_of(motion_endings.begin(), motion_endings.end(),
+                                     [&](const char* ending) { return name.ends_with(ending); });
+    if (!of_node || form.find(name)) continue;
+    reading.fail(
+        fmt::format("{}:{}: \"{}\" is of no node of the study{}; where it means nothing here, say which "
+                    "columns do: columns = {{ ... }}",
+                    reading.result.file, reading.result.header, name, suggestion(name, known)));
+  }
+}
+
 // Without `columns` those count whose header is the name of a role.
 std::vector<WantedColumn> wanted_by_header(const CsvReading& reading) {
   if (reading.header.empty()) {
@@ -93,11 +113,18 @@ std::vector<WantedColumn> wanted_by_header(const CsvReading& reading) {
                                suggestion(role.name, header_names(reading))));
     if (there) wanted.push_back({role.name, std::nullopt, role.name, reading.record.position()});
   }
-  for (const char* role : {label_role, doubtful_role}) {
-    if (!form.is_trace && !named(reading, role).empty())
-      wanted.push_back({role, std::nullopt, role, reading.record.position()});
-  }
+  if (!form.is_trace && !named(reading, label_role).empty())
+    wanted.push_back({label_role, std::nullopt, label_role, reading.record.position()});
+  refuse_misspelt(reading, form);
   return wanted;
+}
+
+// Rows that a file marks are left out whether or not the study speaks of the column.
+void want_doubtful(const CsvReading& reading, std::vector<WantedColumn>& wanted) {
+  const bool there = std::any_of(wanted.begin(), wanted.end(),
+                                 [](const WantedColumn& each) { return each.role == doubtful_role; });
+  if (!there && !named(reading, doubtful_role).empty())
+    wanted.push_back({doubtful_role, std::nullopt, doubtful_role, reading.record.position()});
 }
 
 // A header that stands over the numbers in another order than the study says would give the wrong data.
@@ -180,6 +207,7 @@ RawRecord read_columns_of(CsvReading reading, const std::filesystem::path& path)
   std::vector<WantedColumn> wanted = read_wanted(reading.record, reading.forms);
   const bool by_header = wanted.empty();
   if (by_header) wanted = wanted_by_header(reading);
+  want_doubtful(reading, wanted);
   const RecordForm& form = form_of_wanted(reading.record, reading.forms, wanted);
   if (reading.rows.empty())
     reading.fail(

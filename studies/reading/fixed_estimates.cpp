@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "results/map_reader.hpp"
 #include "results/store_error.hpp"
@@ -14,12 +15,13 @@ namespace {
 
 const std::string group_name = "identification";
 const std::string covariance_ending = "_covariance";
+constexpr double converged = 1.0;  // of the flag `outcome` (results/FORMAT.md)
 
 // The estimates of a result file that have a covariance, and it, in one order.
 struct EarlierEstimates {
   std::string file;  // as the study names it
   std::vector<std::string> names, units;
-  std::vector<double> values;
+  std::vector<double> values, degrees_of_freedom;
   std::vector<std::vector<double>> covariance;
 };
 
@@ -45,6 +47,9 @@ EarlierEstimates estimates_among(const Columns& columns, const std::string& file
     earlier.names.push_back(of);
     earlier.units.push_back(number->variable.unit);
     earlier.values.push_back(number->values.front());
+    const results::Column* freedom = find_number(columns, of + "_degrees_of_freedom");
+    earlier.degrees_of_freedom.push_back(freedom ? freedom->values.front()
+                                                 : std::numeric_limits<double>::infinity());
     earlier.covariance.push_back(row.values);
   }
   return earlier;
@@ -57,7 +62,11 @@ EarlierEstimates read_earlier(const std::filesystem::path& path, const std::stri
     const results::MapReader reader(path);
     if (!reader.has_group(group_name))
       throw StudyError(fmt::format("{}: is the result of no identification", file));
-    earlier = estimates_among(reader.columns(group_name), file);
+    const Columns columns = reader.columns(group_name);
+    const results::Column* outcome = find_number(columns, "outcome");
+    if (outcome && outcome->values.front() != converged)
+      throw StudyError(fmt::format("{}: its fit did not converge, and fixes nothing", file));
+    earlier = estimates_among(columns, file);
   } catch (const results::StoreError& error) {
     throw StudyError(error.what());
   }
@@ -146,7 +155,7 @@ void fix(IdentifyReading& reading, const EarlierEstimates& earlier) {
   for (auto& row : choice.fixed_covariance) row.resize(before + taken.size(), 0.0);
   for (const Taken& each : taken) {
     const double value = earlier.values[each.estimate];
-    choice.fixed.push_back({each.parameter, value});
+    choice.fixed.push_back({each.parameter, value, earlier.degrees_of_freedom[each.estimate]});
     reading.study.parameters.list[each.parameter].definition = value;
     std::vector<double> row(before, 0.0);
     for (const Taken& other : taken) row.push_back(earlier.covariance[each.estimate][other.estimate]);
@@ -167,6 +176,7 @@ void read_fixed(IdentifyReading& reading, const TomlSection& identify) {
   for (const TomlValue* item : files) {
     const std::string file = read_text(identify.source(), "[identify]: fixed_from", *item);
     try {
+      reading.choice.files.push_back(reading.folder / file);
       fix(reading, read_earlier(reading.folder / file, file));
     } catch (const StudyError& error) {
       throw identify.source().error_at(item->position,

@@ -119,12 +119,31 @@ UsualUnit read_usual_unit(const IdentifyReading& reading, const TomlSection& sec
   return usual;
 }
 
-void read_bounds(const TomlSection& section, IdentifiedParameter& fitted) {
-  if (section.find("lower")) fitted.lower = section.number("lower") * fitted.unit.si_factor;
-  if (section.find("upper")) fitted.upper = section.number("upper") * fitted.unit.si_factor;
-  if (fitted.lower < fitted.upper) return;
-  section.fail("upper", fmt::format("{} is not above \"lower\" = {}; bounds go from the lower to the upper",
-                                    section.number("upper"), section.number("lower")));
+// Some value of the network is this parameter, and may not be negative.
+bool cannot_be_negative(const StudyFile& study, std::size_t parameter) {
+  for (const auto* list : study.values.lists()) {
+    for (const StudyValue& value : *list) {
+      if (value.range != Range::finite && value.expression.sole_parameter() == parameter) return true;
+    }
+  }
+  return false;
+}
+
+void read_bounds(const StudyFile& study, const TomlSection& section, IdentifiedParameter& fitted) {
+  const double factor = fitted.unit.si_factor;
+  if (cannot_be_negative(study, fitted.parameter)) fitted.lower = 0.0;
+  if (section.find("lower")) fitted.lower = section.number("lower") * factor;
+  if (section.find("upper")) fitted.upper = section.number("upper") * factor;
+  if (!(fitted.lower < fitted.upper))
+    section.fail("upper", fmt::format("{} is not above \"lower\" = {}; bounds go from the lower to the upper",
+                                      section.number("upper"), fitted.lower / factor));
+  const double start = std::get<double>(study.parameters.list[fitted.parameter].definition);
+  if (start >= fitted.lower && start <= fitted.upper) return;
+  section.fail(
+      start < fitted.lower ? "lower" : "upper",
+      fmt::format("the fit starts from {:.6g} of [parameters], outside its bounds {:.6g} to {:.6g}{}{}",
+                  start / factor, fitted.lower / factor, fitted.upper / factor,
+                  fitted.unit.text.empty() ? "" : " ", fitted.unit.text));
 }
 
 // A formula's estimate in the place of a parameter.
@@ -154,7 +173,7 @@ void read_identified_parameters(IdentifyReading& reading, const TomlSection& sec
   if (reading.choice.method == Method::grey_box) {
     if (section.find("estimate"))
       section.fail("estimate", "a grey box estimates the parameters themselves; leave it out");
-    read_bounds(section, identified);
+    read_bounds(reading.study, section, identified);
     identified.each_record = section.boolean_or("each_record", false);
   } else {
     read_estimate(reading, section, identified);

@@ -67,6 +67,7 @@ struct IdentifiedParameter {
 struct FixedEstimate {
   std::size_t parameter = 0;  // index in Parameters::list, of a number
   double value = 0.0;         // SI
+  double degrees_of_freedom = std::numeric_limits<double>::infinity();  // behind its variance
 };
 
 enum class IdentifyStart { given, free_decay };
@@ -88,6 +89,7 @@ struct IdentifyChoice {
   std::vector<RecordChoice> records;              // at least one
   std::vector<IdentifiedParameter> parameters;    // of a grey box: at least one
   std::vector<FixedEstimate> fixed;
+  std::vector<std::filesystem::path> files;  // all that the study reads: of the records and of `fixed_from`
   std::vector<std::vector<double>> fixed_covariance;  // of `fixed`, in its order
 
   // The values that are expressions of parameters.

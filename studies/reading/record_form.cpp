@@ -144,7 +144,8 @@ std::vector<std::string> role_names(const std::vector<RecordForm>& forms) {
     }
     tables = tables || !form.is_trace;
   }
-  if (tables) names.insert(names.end(), {label_role, doubtful_role});
+  if (tables) names.emplace_back(label_role);
+  names.emplace_back(doubtful_role);
   return names;
 }
 

@@ -23,12 +23,12 @@ struct Role {
 struct RecordForm {
   std::vector<Role> roles;
   std::size_t least_rows = 1;
-  bool is_trace = false;  // over the time: every row counts, and none has a label
+  bool is_trace = false;  // over the time: no row has a label
 
   const Role* find(const std::string& name) const;
 };
 
-// Columns that any form may have which is no trace.
+// Columns beside these: of any form which is no trace, and of any form.
 inline constexpr const char* label_role = "label";
 inline constexpr const char* doubtful_role = "doubtful";  // 1: the row is left out; 0: it counts
 

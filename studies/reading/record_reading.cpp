@@ -131,6 +131,21 @@ void take_columns(const IdentifyReading& reading, const TomlSection& section, Ra
   record.doubtful = raw.doubtful;
 }
 
+// What was measured stands in the place of the study's whole excitation.
+void refuse_other_excitation(const IdentifyReading& reading, const TomlSection& section,
+                             const RecordChoice& record) {
+  const mechanics::Network& network = reading.study.network;
+  for (const mechanics::Excitation& excitation : network.excitations) {
+    const bool force = excitation.kind == mechanics::ExcitationKind::force;
+    const std::string& node = force ? network.masses[excitation.node] : network.prescribed[excitation.node];
+    if (record.find(node + (force ? "_force" : "_displacement"))) continue;
+    section.fail("file",
+                 fmt::format("an excitation was measured, and takes the place of [excitation]; but \"{}\" is "
+                             "excited too and was not measured",
+                             node));
+  }
+}
+
 // Of a grey box: how the motion came about, and what must be there for it.
 void read_motion_kind(const IdentifyReading& reading, const TomlSection& section, RecordChoice& record) {
   const StudyFile& study = reading.study;
@@ -156,6 +171,11 @@ void read_motion_kind(const IdentifyReading& reading, const TomlSection& section
   if (record.motion != MotionKind::free && !measured && !stated)
     section.fail("motion",
                  fmt::format("\"{}\", but the study has no [excitation] and none was measured", word));
+  if (measured && record.doubtful > 0)
+    section.fail("file",
+                 "a measured excitation drives the motion at all times: none of its rows can be left out as "
+                 "doubtful");
+  if (measured) refuse_other_excitation(reading, section, record);
   if (record.motion == MotionKind::free && study.motion.initial.empty())
     section.fail(
         "a free motion starts from [[initial]] values, and the study has none: nothing moves that is not "
@@ -219,10 +239,14 @@ void check_keys(const IdentifyReading& reading, const TomlSection& section, cons
 void read_record(IdentifyReading& reading, const TomlSection& section, RecordChoice& record) {
   if (reading.data == DataFiles::leave) return read_settings(reading, section, record);
   const std::vector<RecordForm> forms = record_forms(reading.study);
+  reading.choice.files.push_back(reading.folder / record.file);
   RawRecord raw = read_columns(section, reading.folder, forms);
   std::vector<std::string> roles;
   for (const RawColumn& column : raw.columns) roles.push_back(column.role->name);
   const RecordForm& form = form_of(forms, roles);
+  if (form.find("extremum") && raw.doubtful > 0)
+    section.fail("file",
+                 "turning points come in turn: none can be left out as doubtful; cut the table there");
   check_count(section, raw, form);
   check_keys(reading, section, form);
   take_columns(reading, section, raw, record);

@@ -64,8 +64,8 @@ const RecordForm& form_of_wanted(const TomlSection& record, const std::vector<Re
     record.fail("columns", fmt::format("\"{}\" is missing; the columns are {}", role.name, described(form)));
   }
   for (const WantedColumn& each : wanted) {
-    const bool of_tables = each.role == label_role || each.role == doubtful_role;
-    if (form.find(each.role) || (of_tables && !form.is_trace)) continue;
+    const bool beside = each.role == doubtful_role || (each.role == label_role && !form.is_trace);
+    if (form.find(each.role) || beside) continue;
     throw record.source().error_at(each.position, fmt::format("{}: columns: \"{}\" does not go with {}",
                                                               record.where(), each.role, described(form)));
   }

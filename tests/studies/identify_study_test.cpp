@@ -243,9 +243,12 @@ TEST_CASE("columns of an HDF5 file are its datasets, whose padding and doubtful 
     return frahm::results::Column{
         {.name = name, .unit = unit, .long_name = name}, "extremum", std::move(values)};
   };
-  writer.write_columns("decay", {along("main_extremum", "mm", {20, -18, 16, none, none}),
-                                 along("main_extremum_time", "s", {0, 0.1, 0.2, none, none}),
-                                 along("mark", "1", {0, 0, 1, 0, 0}), along("gap", "m", {1, none, 3, 4, 5})});
+  writer.write_columns("decay",
+                       {along("main_extremum", "mm", {20, -18, 16, none, none}),
+                        along("main_extremum_time", "s", {0, 0.1, 0.2, none, none}),
+                        along("x", "mm", {20, 18, 16, none, none}), along("e", "J", {3, 2, 1, none, none}),
+                        along("w", "rad s-1", {9, 9, 9, none, none}), along("mark", "1", {0, 0, 1, 0, 0}),
+                        along("gap", "m", {1, none, 3, 4, 5})});
   writer.finish();
   const auto text = [&](const std::string& columns) {
     return heading + identify("log_decrement") + record("earlier.h5", "columns = { " + columns + " }\n");
@@ -255,11 +258,15 @@ TEST_CASE("columns of an HDF5 file are its datasets, whose padding and doubtful 
       read(folder, text("extremum = \"decay/main_extremum\"" + times)).identify->records[0];
   check_all(column(whole, "extremum"), {0.02, -0.018, 0.016});
   CHECK(column(whole, "extremum_time").size() == 3);
+  const std::string energies = "amplitude = \"decay/x\", energy = \"decay/e\", frequency = \"decay/w\"";
   const RecordChoice part =
-      read(folder, text("extremum = \"decay/main_extremum\", doubtful = \"decay/mark\""))
+      read(folder, heading + identify("energy_balance") +
+                       record("earlier.h5", "columns = { " + energies + ", doubtful = \"decay/mark\" }\n"))
           .identify->records[0];
-  check_all(column(part, "extremum"), {0.02, -0.018});
+  check_all(column(part, "amplitude"), {0.02, 0.018});
   CHECK(part.doubtful == 1);
+  CHECK_THAT(complaint_about(folder, text("extremum = \"decay/main_extremum\", doubtful = \"decay/mark\"")),
+             Catch::Contains("turning points come in turn"));
   CHECK_THAT(complaint_about(folder, text("extremum = \"decay/gap\"")),
              Catch::Contains("earlier.h5: \"decay/gap\": value 2: nan is not a finite number"));
   CHECK_THAT(complaint_about(folder, text("extremum = \"decay/mian\"")), Catch::Contains("has no \"mian\""));
