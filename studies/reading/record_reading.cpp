@@ -183,27 +183,14 @@ void read_motion_kind(const IdentifyReading& reading, const TomlSection& section
 }
 
 Assignment read_setting(const IdentifyReading& reading, const TomlSection& section, const TomlEntry& entry) {
-  const StudyFile& study = reading.study;
-  const std::string where = fmt::format("{}: set: {}", section.where(), entry.key);
-  const auto fail = [&](Position position, const std::string& message) {
-    throw section.source().error_at(position, fmt::format("{}: {}", where, message));
-  };
-  const auto index = study.parameters.find(entry.key);
-  if (!index)
-    fail(entry.position, "no parameter has this name" + suggestion(entry.key, study.parameters.names()));
-  const Parameter& parameter = study.parameters.list[*index];
-  if (!parameter.is_number()) fail(entry.position, "it is computed from other parameters; set those");
-  for (const IdentifiedParameter& fitted : reading.choice.parameters) {
-    if (fitted.parameter == *index) fail(entry.position, "it is fitted; a record cannot set it");
-  }
-  const NumberWithUnit number = read_number_with_unit(reading.context, where, entry.value);
-  double factor = usual_unit(study, *index).si_factor;
-  try {
-    if (number.unit) factor = si_factor(parameter, *number.unit);
-  } catch (const UnitError& error) {
-    fail(number.unit_position, error.what());
-  }
-  return {*index, number.value * factor};
+  return read_assignment(reading.context, reading.study, section.where() + ": set", entry,
+                         [&](std::size_t parameter) -> std::string {
+                           const auto& fitted = reading.choice.parameters;
+                           const bool is_fitted =
+                               std::any_of(fitted.begin(), fitted.end(),
+                                           [&](const auto& each) { return each.parameter == parameter; });
+                           return is_fitted ? "it is fitted; a record cannot set it" : "";
+                         });
 }
 
 void read_settings(const IdentifyReading& reading, const TomlSection& section, RecordChoice& record) {

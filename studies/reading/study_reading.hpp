@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -96,6 +97,13 @@ struct NumberWithUnit {
 };
 NumberWithUnit read_number_with_unit(const StudyContext& context, const std::string& where,
                                      const TomlValue& value);
+
+// A number parameter set to a value: an entry of a table such as { omega = 250, I = { value = 6, unit = "kg"
+// } }, a bare number in the unit in which the study speaks of it. why_not: why a parameter cannot be set
+// there, "" if it can; empty: any can.
+using WhyNot = std::function<std::string(std::size_t parameter)>;
+Assignment read_assignment(const StudyContext& context, const StudyFile& study, const std::string& where,
+                           const TomlEntry& entry, const WhyNot& why_not = {});
 
 // The unit of a key; none in a dimensionless study, where only "1" is allowed.
 std::optional<Unit> read_unit(const StudyContext& context, const std::string& where, const TomlValue& value);
