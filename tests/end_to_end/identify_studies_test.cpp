@@ -98,9 +98,9 @@ TEST_CASE("the rig's chain recovers every parameter from its own tests without n
   const double c_I = (c_high - c_low) / (12.9 - 4.72);
   const std::map<std::string, std::map<std::string, double>> truth{
       {"identify_rig_main_mass", {{"M", M}, {"k", K}}},
-      {"identify_rig_main", {{"C", C}, {"D", D}, {"x0", 0.03}}},
+      {"identify_rig_main", {{"k", K}, {"C", C}, {"D", D}, {"x0", 0.03}}},
       {"identify_rig_tmd_mass", {{"m", m}, {"k", k}}},
-      {"identify_rig_tmd", {{"d", d}, {"c_m", c_m}}},
+      {"identify_rig_tmd", {{"k", k}, {"d", d}, {"c_m", c_m}}},
       {"identify_rig_inerter_low", {{"c", c_low}}},
       {"identify_rig_inerter_high", {{"c", c_high}}},
       {"identify_rig_damping_law", {{"c_const", c_low - 4.72 * c_I}, {"c_I", c_I}}}};
@@ -167,7 +167,8 @@ TEST_CASE("what was identified is a study that runs, driven or not, with a syste
     CHECK(run.code == 0);
     const runs::Map map = runs::read_map(laboratory / "model.h5");
     CHECK(map.values.size() > 5);
-    for (const double status : map["status"]) CHECK(status == 1.0);
+    // Grazing, and an undamped mode at resonance, are answers; failed (4) is none.
+    for (const double status : map["status"]) CHECK((status >= 1.0 && status <= 3.0));
   }
 }
 
@@ -184,13 +185,13 @@ const std::string small_study =
 
 // x of the cart with c = 6.2 N s/m and F = 4.4 N by the closed form of each half swing, sampled at 200 Hz.
 std::vector<double> small_motion(std::size_t samples) {
-  const double m = 7.3, c = 6.2, k = 4100.0, F = 4.4, delta = 0.5 * c / m;
-  const double damped = std::sqrt(k / m - delta * delta), half = std::acos(-1.0) / damped;
+  const double stiffness = 4100.0, friction = 4.4, delta = 0.5 * 6.2 / 7.3;
+  const double damped = std::sqrt(stiffness / 7.3 - delta * delta), half = std::acos(-1.0) / damped;
   std::vector<double> x;
   double from = 0.025, start = 0.0;
   while (x.size() < samples) {
-    const double rest = std::copysign(F / k, from);
-    const bool held = std::abs(from) <= F / k;
+    const double rest = std::copysign(friction / stiffness, from);
+    const bool held = std::abs(from) <= friction / stiffness;
     while (x.size() < samples && (held || 0.005 * static_cast<double>(x.size()) < start + half)) {
       const double t = 0.005 * static_cast<double>(x.size()) - start;
       const double swing =
