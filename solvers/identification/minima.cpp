@@ -118,10 +118,10 @@ LeastSquaresFit Minima::from_start() {
   return beside(std::move(fit));
 }
 
-// One half swing more or fewer before rest, and two: friction by these parts, alone and with the others as
-// they follow it; and both ways along the least determined direction.
+// A half swing more or fewer before rest, one half of that, and two: friction moved by so much, alone and
+// with the others as they follow it; and both ways along the least determined direction.
 std::vector<VectorXd> Minima::starts_beside(const LeastSquaresFit& fit) {
-  constexpr double kSwings[] = {-2.0, -1.0, 1.0, 2.0};
+  constexpr double kSwings[] = {-2.0, -1.0, -0.5, 0.5, 1.0, 2.0};
   constexpr double kLengths[] = {-0.6, -0.2, 0.2, 0.6};
   const std::vector<Unknown>& unknowns = misfit_.unknowns();
   VectorXd scales(fit.p.size());
