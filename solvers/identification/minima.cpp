@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace frahm::identification {
 namespace {
@@ -39,9 +40,11 @@ Minima::Minima(const GreyBoxTask& task, Misfit& misfit, int& iterations)
       misfit_(misfit),
       iterations_(iterations),
       residuals_([&misfit](const VectorXd& p, VectorXd& r, MatrixXd* by) { return misfit(p, r, by); }),
-      rubs_(std::ranges::any_of(task.network.elements, [](const mechanics::Element& element) {
-        return element.type == mechanics::ElementType::coulomb;
-      })) {}
+      rubs_(std::ranges::any_of(
+          task.network.elements,
+          [](const mechanics::Element& element) { return element.type == mechanics::ElementType::coulomb; })),
+      free_(std::ranges::any_of(
+          task.records, [](const TimeRecord& record) { return record.motion == MotionKind::free; })) {}
 
 LeastSquaresFit Minima::descend(const VectorXd& p, const LeastSquaresOptions& options) {
   LeastSquaresFit fit = least_squares(started_at(p, misfit_.unknowns()), residuals_, options);
@@ -119,10 +122,11 @@ LeastSquaresFit Minima::from_start() {
 }
 
 // A half swing more or fewer before rest, one half of that, and two: friction moved by so much, alone and
-// with the others as they follow it; and both ways along the least determined direction.
+// with the others as they follow it; and both ways along the least determined direction, which is all there
+// is for motions that are driven.
 std::vector<VectorXd> Minima::starts_beside(const LeastSquaresFit& fit) {
   constexpr double kSwings[] = {-2.0, -1.0, -0.5, 0.5, 1.0, 2.0};
-  constexpr double kLengths[] = {-0.6, -0.2, 0.2, 0.6};
+  constexpr double kLengths[] = {-0.6, 0.6, -0.2, 0.2};
   const std::vector<Unknown>& unknowns = misfit_.unknowns();
   VectorXd scales(fit.p.size());
   for (Index i = 0; i < scales.size(); ++i)
@@ -130,7 +134,7 @@ std::vector<VectorXd> Minima::starts_beside(const LeastSquaresFit& fit) {
   std::vector<VectorXd> starts;
   const MatrixXd spread = covariance(fit.jacobian, 1.0, scales);
   const double swings = std::clamp(static_cast<double>(misfit_.turns(fit.p)), 3.0, 30.0);
-  for (const Index i : misfit_.frictions(fit.p)) {
+  for (const Index i : free_ ? misfit_.frictions(fit.p) : std::vector<Index>{}) {
     for (const double by : kSwings) {
       VectorXd moved = fit.p, following = fit.p;
       moved[i] *= 1.0 + by / swings;
@@ -140,7 +144,8 @@ std::vector<VectorXd> Minima::starts_beside(const LeastSquaresFit& fit) {
     }
   }
   const VectorXd direction = least_determined(fit, scales);
-  for (const double length : kLengths) starts.push_back(fit.p + length * direction);
+  for (const double length : std::span(kLengths).first(free_ ? 4 : 2))
+    starts.push_back(fit.p + length * direction);
   for (VectorXd& p : starts) {
     for (Index i = 0; i < p.size(); ++i) {
       const Unknown& unknown = unknowns[static_cast<std::size_t>(i)];

@@ -33,6 +33,7 @@ class Minima {
   int& iterations_;
   Residuals residuals_;
   bool rubs_ = false;   // there are contacts
+  bool free_ = false;   // there are free motions, which come to rest
   bool exact_ = false;  // the data are followed to rounding
 };
 
