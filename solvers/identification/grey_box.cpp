@@ -5,255 +5,13 @@
 #include <cmath>
 #include <limits>
 
-#include "solvers/identification/least_squares.hpp"
-#include "solvers/identification/simulation.hpp"
-#include "solvers/mechanics/linear_system.hpp"
+#include "solvers/identification/minima.hpp"
 
 namespace frahm::identification {
 namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd, Eigen::VectorXd;
-
-// Each record is followed so far in a first fit [periods]: long enough to tell a frequency, and short enough
-// that one that is a quarter off slips no more than half a period. Where that leads nowhere, as from friction
-// that stops the model long before the measured motion, only so far as it still moves.
-constexpr double kFirstPeriods[] = {2.0, 0.25};
-// A fit that misses more than this of the measured variation has led nowhere.
-constexpr double kNowhere = 0.5;
-constexpr std::size_t kSamplesAnUnknown = 4;  // in a first fit, at least
-constexpr LeastSquaresOptions kOnTheWay = {.tolerance = 1e-6, .most_evaluations = 50};
-
-// Sensors without noise have the variance of this, of their variation: rounding, and no more weight.
-constexpr double kExact = 1e-10;
-
-Eigen::Map<const VectorXd> measured(const Channel& channel, std::size_t samples) {
-  return {channel.values.data(), static_cast<Index>(samples)};
-}
-
-// |y - mean y|, of a series that does not vary |y|, or 1.
-double variation(const Channel& channel) {
-  const auto y = measured(channel, channel.values.size());
-  const double spread = (y.array() - y.mean()).matrix().norm();
-  if (spread > 0.0) return spread;
-  return y.norm() > 0.0 ? y.norm() : 1.0;
-}
-
-// The residuals of all records as functions of the unknowns.
-class Misfit {
- public:
-  explicit Misfit(const GreyBoxTask& task) : task_(task) {
-    for (const TimeRecord& record : task.records) {
-      simulations_.emplace_back(task.network, record, task.watch);
-      horizon_.push_back(record.time.size());
-      weights_.emplace_back();
-      for (const Channel& channel : record.channels) weights_.back().push_back(1.0 / variation(channel));
-    }
-    for (std::size_t i = 0; i < task.parameters.size(); ++i) add_unknowns(i);
-  }
-
-  const std::vector<Unknown>& unknowns() const { return unknowns_; }
-  VectorXd start() const {
-    VectorXd p(static_cast<Index>(unknowns_.size()));
-    for (std::size_t i = 0; i < unknowns_.size(); ++i) p[static_cast<Index>(i)] = unknowns_[i].start;
-    return p;
-  }
-  // Of all records: one for each channel.
-  std::size_t series() const {
-    std::size_t count = 0;
-    for (const std::vector<double>& weights : weights_) count += weights.size();
-    return count;
-  }
-  // Which parameter an unknown is.
-  std::size_t parameter(std::size_t unknown) const { return parameter_[unknown]; }
-  Index residuals() const {
-    std::size_t count = 0;
-    for (std::size_t r = 0; r < horizon_.size(); ++r) count += horizon_[r] * weights_[r].size();
-    return static_cast<Index>(count);
-  }
-
-  // As `Residuals` (least_squares.hpp). What the mechanics refuses has none.
-  bool operator()(const VectorXd& p, VectorXd& r, MatrixXd* by) {
-    try {
-      return evaluate(p, r, by, nullptr);
-    } catch (const mechanics::MechanicsError& error) {
-      reason_ = error.what();
-      return false;
-    }
-  }
-  // Throws what the mechanics refuses. by, by_fixed: unless null, derivatives by unknowns and fixed ones.
-  bool evaluate(const VectorXd& p, VectorXd& r, MatrixXd* by, MatrixXd* by_fixed);
-  const std::string& reason() const { return reason_; }  // why there were none
-
-  // Follows the first `seconds` of each record from now on, and enough to tell every unknown. False: all of
-  // each already.
-  bool follow(double seconds);
-  void follow_all();
-  double longest_period(const VectorXd& p);  // of all records [s]
-
-  // 1 / standard deviation of each channel's residuals at p.
-  void weigh_by_residuals(const VectorXd& p);
-  std::vector<FittedRecord> fitted(const VectorXd& p);
-
- private:
-  void add_unknowns(std::size_t parameter);
-  std::vector<double> at(std::size_t record, const VectorXd& p) const;
-  Model model(std::size_t record, const VectorXd& p, std::vector<Model>* by) const;
-  Index place(std::size_t record, std::size_t parameter) const {
-    return static_cast<Index>(first_[parameter] + (task_.parameters[parameter].each_record ? record : 0));
-  }
-
-  const GreyBoxTask& task_;
-  std::vector<Simulation> simulations_;
-  std::vector<std::size_t> horizon_;          // samples of each record that are followed
-  std::vector<std::vector<double>> weights_;  // of each record's channels
-  std::vector<Unknown> unknowns_;
-  std::vector<std::size_t> first_;      // of each parameter: its first unknown
-  std::vector<std::size_t> parameter_;  // of each unknown
-  std::string reason_;
-};
-
-void Misfit::add_unknowns(std::size_t i) {
-  const FittedParameter& parameter = task_.parameters[i];
-  const double range = parameter.upper - parameter.lower;
-  double scale = std::abs(parameter.start);
-  if (scale == 0.0) scale = std::isfinite(range) && range > 0.0 ? 0.1 * range : 1.0;
-  first_.push_back(unknowns_.size());
-  for (std::size_t record = 0; record < (parameter.each_record ? task_.records.size() : 1); ++record) {
-    const std::string name =
-        parameter.each_record ? parameter.name + "_" + task_.records[record].name : parameter.name;
-    unknowns_.push_back({name, parameter.start, parameter.lower, parameter.upper, scale});
-    parameter_.push_back(i);
-  }
-}
-
-std::vector<double> Misfit::at(std::size_t record, const VectorXd& p) const {
-  std::vector<double> values;
-  for (std::size_t i = 0; i < task_.parameters.size(); ++i) values.push_back(p[place(record, i)]);
-  for (const FixedParameter& fixed : task_.fixed) values.push_back(fixed.value);
-  return values;
-}
-
-Model Misfit::model(std::size_t record, const VectorXd& p, std::vector<Model>* by) const {
-  Model result;
-  if (by != nullptr) by->clear();
-  task_.model_at(record, at(record, p), result, by);
-  return result;
-}
-
-bool Misfit::evaluate(const VectorXd& p, VectorXd& r, MatrixXd* by, MatrixXd* by_fixed) {
-  const std::size_t parameters = task_.parameters.size();
-  r.resize(residuals());
-  if (by != nullptr) by->setZero(r.size(), static_cast<Index>(unknowns_.size()));
-  if (by_fixed != nullptr) by_fixed->setZero(r.size(), static_cast<Index>(task_.fixed.size()));
-  periodic::ObservedMotion motion;
-  std::vector<Model> directions;
-  Index row = 0;
-  for (std::size_t record = 0; record < task_.records.size(); ++record) {
-    const Model at_p = model(record, p, by != nullptr ? &directions : nullptr);
-    if (by != nullptr && by_fixed == nullptr) directions.resize(parameters);
-    reason_ = simulations_[record].run(at_p, directions, horizon_[record], motion);
-    if (!reason_.empty() || !motion.values.allFinite()) return false;
-    const auto samples = static_cast<Index>(horizon_[record]);
-    for (std::size_t c = 0; c < weights_[record].size(); ++c, row += samples) {
-      const auto column = static_cast<Index>(c);
-      const double weight = weights_[record][c];
-      r.segment(row, samples) = weight * (motion.values.col(column) -
-                                          measured(task_.records[record].channels[c], horizon_[record]));
-      for (std::size_t d = 0; d < motion.by.size(); ++d) {
-        MatrixXd& matrix = d < parameters ? *by : *by_fixed;
-        const Index unknown = d < parameters ? place(record, d) : static_cast<Index>(d - parameters);
-        matrix.col(unknown).segment(row, samples) = weight * motion.by[d].col(column);
-      }
-    }
-  }
-  return true;
-}
-
-bool Misfit::follow(double seconds) {
-  bool shorter = false;
-  for (std::size_t r = 0; r < horizon_.size(); ++r) {
-    const TimeRecord& record = task_.records[r];
-    const auto end = std::upper_bound(record.time.begin(), record.time.end(), record.time.front() + seconds);
-    const auto samples = static_cast<std::size_t>(end - record.time.begin());
-    horizon_[r] = std::min(std::max(samples, kSamplesAnUnknown * unknowns_.size()), record.time.size());
-    shorter = shorter || horizon_[r] < record.time.size();
-  }
-  return shorter;
-}
-
-void Misfit::follow_all() {
-  for (std::size_t r = 0; r < horizon_.size(); ++r) horizon_[r] = task_.records[r].time.size();
-}
-
-double Misfit::longest_period(const VectorXd& p) {
-  double longest = 0.0;
-  for (std::size_t record = 0; record < simulations_.size(); ++record)
-    longest = std::max(longest, simulations_[record].longest_period(model(record, p, nullptr)));
-  return longest;
-}
-
-// Of N residuals and u unknowns each residual's square is short by the factor (N - u) / N in the mean.
-void Misfit::weigh_by_residuals(const VectorXd& p) {
-  VectorXd r;
-  if (!(*this)(p, r, nullptr)) return;
-  const double all = static_cast<double>(r.size());
-  const double free = std::max(1.0, all - static_cast<double>(unknowns_.size()));
-  Index row = 0;
-  for (std::size_t record = 0; record < task_.records.size(); ++record) {
-    const auto samples = static_cast<Index>(horizon_[record]);
-    for (std::size_t c = 0; c < weights_[record].size(); ++c, row += samples) {
-      const double mean_square = r.segment(row, samples).squaredNorm() / static_cast<double>(samples);
-      const double exact = kExact * weights_[record][c] * variation(task_.records[record].channels[c]);
-      weights_[record][c] /=
-          std::max(std::sqrt(mean_square * all / free), exact / std::sqrt(static_cast<double>(samples)));
-    }
-  }
-}
-
-std::vector<FittedRecord> Misfit::fitted(const VectorXd& p) {
-  constexpr const char* kUnits[] = {"m", "m s-1", "m s-2"};
-  std::vector<FittedRecord> list;
-  periodic::ObservedMotion motion;
-  for (std::size_t record = 0; record < task_.records.size(); ++record) {
-    const TimeRecord& of = task_.records[record];
-    simulations_[record].run(model(record, p, nullptr), {}, of.time.size(), motion);
-    FittedRecord fit{of.name, "time", "s", of.time, {}, 0.0};
-    for (std::size_t c = 0; c < of.channels.size(); ++c) {
-      const auto column = motion.values.col(static_cast<Index>(c));
-      const Channel& channel = of.channels[c];
-      fit.series.push_back({channel.name, kUnits[static_cast<int>(channel.signal)], channel.values,
-                            std::vector<double>(column.begin(), column.end())});
-    }
-    fit.nrmse = nrmse(fit.series);
-    list.push_back(std::move(fit));
-  }
-  return list;
-}
-
-void start_at(const VectorXd& p, std::vector<Unknown>& unknowns) {
-  for (std::size_t i = 0; i < unknowns.size(); ++i) unknowns[i].start = p[static_cast<Index>(i)];
-}
-
-// The records' beginnings first, twice as much of them each time. Changes the unknowns' starts to those for
-// all of the records, unless growing has come no nearer.
-void grow(Misfit& misfit, double periods, std::vector<Unknown>& unknowns, const Residuals& residuals,
-          int& iterations) {
-  const VectorXd start = misfit.start();
-  VectorXd p = start, r, grown_r;
-  std::vector<Unknown> grown = unknowns;
-  for (double seconds = periods * misfit.longest_period(start); misfit.follow(seconds); seconds *= 2.0) {
-    const LeastSquaresFit fit = least_squares(grown, residuals, kOnTheWay);
-    iterations += fit.iterations;
-    if (fit.p.size() == 0 || !fit.p.allFinite()) break;
-    p = fit.p;
-    start_at(p, grown);
-  }
-  misfit.follow_all();
-  if (!residuals(p, grown_r, nullptr)) return;
-  if (residuals(start, r, nullptr) && !(grown_r.squaredNorm() < r.squaredNorm())) return;
-  unknowns = std::move(grown);
-}
 
 // Of the unknowns and the fixed ones together, S = -(J^T J)^-1 J^T J_f being how the fit follows the latter:
 //   [ s^2 (J^T J)^-1 + S cov_f S^T,  S cov_f ]
@@ -278,12 +36,88 @@ MatrixXd with_fixed(const MatrixXd& own, const MatrixXd& J, const MatrixXd& J_fi
   return joint;
 }
 
-void note_bounds(const LeastSquaresFit& fit, const std::vector<Unknown>& unknowns, Identification& result) {
-  for (std::size_t i = 0; i < unknowns.size(); ++i) {
+// How much of the residuals' own size they repeat from one sample to the next: sum r_i r_{i+1} / sum r_i^2.
+double lag_one(const FittedSeries& series) {
+  double beside = 0.0, all = 0.0, last = 0.0;
+  for (std::size_t i = 0; i < series.measured.size(); ++i) {
+    const double r = series.measured[i] - series.fitted[i];
+    beside += r * last;
+    all += r * r;
+    last = r;
+  }
+  return all > 0.0 ? beside / all : 0.0;
+}
+
+std::string percent(double share) {
+  std::string digits = std::to_string(share);
+  return digits.substr(0, digits.find('.') + 2) + " %";
+}
+
+// Where the data are followed to rounding there is nothing to be noted; what a bound holds has a note
+// already, and its residuals follow one another.
+void note_quality(const GreyBoxTask& task, bool held, Identification& result) {
+  constexpr double kGood = 90.0, kExact = 100.0 - 1e-6, kRepeats = 0.5;
+  for (std::size_t i = 0; i < result.records.size(); ++i) {
+    const FittedRecord& record = result.records[i];
+    const bool free = task.records[i].motion == MotionKind::free;
+    if (record.nrmse < kGood)
+      result.notes.push_back("the model misses " + percent(100.0 - record.nrmse) + " of record '" +
+                             record.name + "': a wrong model" +
+                             (free ? "" : ", a clock that is not the excitation's") + " or a wrong minimum");
+    if (held || !(record.nrmse < kExact)) continue;
+    for (const FittedSeries& series : record.series) {
+      if (lag_one(series) <= kRepeats) continue;
+      result.notes.push_back("what is left of " + series.name + " in record '" + record.name +
+                             "' is no noise, its values follow one another: the intervals are too narrow");
+    }
+  }
+}
+
+// What is held where the model follows the data to rounding would not be better elsewhere.
+void note_bounds(const LeastSquaresFit& fit, const std::vector<Unknown>& unknowns, bool exact,
+                 Identification& result) {
+  for (std::size_t i = 0; i < unknowns.size() && !exact; ++i) {
     if (fit.at_bound[i] == 0) continue;
     const char* side = fit.at_bound[i] < 0 ? "lower" : "upper";
     result.notes.push_back("`" + unknowns[i].name + "` is held by its " + side +
                            " bound, beyond which the fit would be better: its interval is not to be trusted");
+  }
+}
+
+// |y - f| of all that is measured is rounding.
+bool is_exact(const std::vector<FittedRecord>& records) {
+  constexpr double kRounding = 1e-12;
+  for (const FittedRecord& record : records) {
+    for (const FittedSeries& series : record.series) {
+      const auto size = static_cast<Index>(series.measured.size());
+      const Eigen::Map<const VectorXd> y(series.measured.data(), size), f(series.fitted.data(), size);
+      if ((y - f).norm() > kRounding * y.norm()) return false;
+    }
+  }
+  return true;
+}
+
+// Degrees of freedom of a sum of two independent estimated variances. Source: Welch-Satterthwaite.
+//   nu = (V_1 + V_2)^2 / (V_1^2 / nu_1 + V_2^2 / nu_2)
+double degrees_of_sum(double V_1, double nu_1, double V_2, double nu_2) {
+  if (!(V_2 > 0.0)) return nu_1;
+  return (V_1 + V_2) * (V_1 + V_2) / (V_1 * V_1 / nu_1 + V_2 * V_2 / nu_2);
+}
+
+// The fixed ones keep theirs; what the fitted ones have from them counts as one variance, that of the fixed
+// one known least.
+void set_degrees_of_freedom(const GreyBoxTask& task, const MatrixXd& own, Identification& result) {
+  double fixed = std::numeric_limits<double>::infinity();
+  for (const FixedParameter& each : task.fixed) fixed = std::min(fixed, each.degrees_of_freedom);
+  const auto fitted = static_cast<std::size_t>(own.rows());
+  for (std::size_t i = 0; i < result.estimates.size(); ++i) {
+    const auto place = static_cast<Index>(i);
+    double& degrees = result.estimates[i].degrees_of_freedom;
+    degrees = result.degrees_of_freedom;
+    if (i >= fitted)
+      degrees = task.fixed[i - fitted].degrees_of_freedom;
+    else if (const double V = own(place, place); std::isfinite(V))
+      degrees = degrees_of_sum(V, degrees, result.covariance(place, place) - V, fixed);
   }
 }
 
@@ -309,55 +143,58 @@ void estimate(const GreyBoxTask& task, Misfit& misfit, const LeastSquaresFit& fi
                                                           : std::numeric_limits<double>::quiet_NaN();
   MatrixXd J, J_fixed;
   if (!misfit.evaluate(fit.p, r, &J, &J_fixed)) J = fit.jacobian;
-  result.covariance = with_fixed(covariance(J, variance, scales), J, J_fixed, task.fixed_covariance, scales);
+  const MatrixXd own = covariance(J, variance, scales);
+  result.covariance = with_fixed(own, J, J_fixed, task.fixed_covariance, scales);
+  set_degrees_of_freedom(task, own, result);
   set_intervals(result);
-  note_bounds(fit, unknowns, result);
 }
 
-// All series weighed alike.
-LeastSquaresFit first_fit(const GreyBoxTask& task, Misfit& misfit, const Residuals& residuals,
-                          int& iterations) {
-  // Where weights follow, only those depend on it.
-  const LeastSquaresOptions options = misfit.series() > 1
-                                          ? LeastSquaresOptions{.tolerance = 1e-8, .most_evaluations = 200}
-                                          : LeastSquaresOptions{};
-  if (!task.grow) return least_squares(misfit.unknowns(), residuals, options);
-  LeastSquaresFit best;
-  for (const double periods : kFirstPeriods) {
-    std::vector<Unknown> unknowns = misfit.unknowns();
-    grow(misfit, periods, unknowns, residuals, iterations);
-    LeastSquaresFit fit = least_squares(unknowns, residuals, options);
-    iterations += fit.iterations;
-    const bool better = fit.converged > best.converged ||
-                        (fit.converged == best.converged && fit.sum_of_squares() < best.sum_of_squares());
-    if (best.p.size() == 0 || better) best = std::move(fit);
-    const double missed = std::sqrt(best.sum_of_squares() / static_cast<double>(misfit.series()));
-    if (best.converged && missed < kNowhere) break;
+// Weights by the residuals, until they settle.
+LeastSquaresFit weigh(Misfit& misfit, Minima& minima, LeastSquaresFit fit) {
+  constexpr int kMostRounds = 8;
+  constexpr double kSettled = 0.01;
+  for (int round = 0; round < kMostRounds; ++round) {
+    const double change = misfit.weigh_by_residuals(fit.p);
+    fit = minima.from(fit.p);
+    if (change < kSettled) break;
   }
-  return best;
+  return fit;
+}
+
+LeastSquaresFit least_misfit(const GreyBoxTask& task, Misfit& misfit, int& iterations) {
+  Minima minima(task, misfit, iterations);
+  LeastSquaresFit fit = minima.from_start();
+  if (misfit.series() == 1 || fit.jacobian.size() == 0 || !misfit.moves(fit.p)) return fit;
+  fit = weigh(misfit, minima, std::move(fit));
+  const double sum = fit.sum_of_squares();
+  fit = minima.beside(std::move(fit));
+  return fit.sum_of_squares() < sum ? weigh(misfit, minima, std::move(fit)) : fit;
+}
+
+// Why the residuals tell nothing of the unknowns; "": they may.
+std::string too_few(const Misfit& misfit) {
+  const std::size_t unknowns = misfit.unknowns().size();
+  if (misfit.residuals() >= static_cast<Index>(unknowns)) return "";
+  return "the records have " + std::to_string(misfit.residuals()) + " measured values for " +
+         std::to_string(unknowns) + " unknowns: at least as many are needed";
 }
 
 }  // namespace
 
 Identification grey_box(const GreyBoxTask& task) {
   Misfit misfit(task);
-  const Residuals residuals = [&](const VectorXd& p, VectorXd& r, MatrixXd* by) { return misfit(p, r, by); };
   Identification result;
   VectorXd r;
   if (!misfit.evaluate(misfit.start(), r, nullptr, nullptr)) {
     result.failure = "the model cannot be simulated where the fit starts: " + misfit.reason();
     return result;
   }
-  LeastSquaresFit fit = first_fit(task, misfit, residuals, result.iterations);
-  if (fit.converged && misfit.series() > 1) {
-    misfit.weigh_by_residuals(fit.p);
-    std::vector<Unknown> unknowns = misfit.unknowns();
-    start_at(fit.p, unknowns);
-    fit = least_squares(unknowns, residuals);
-    result.iterations += fit.iterations;
-  }
-  result.converged = fit.converged;
-  if (!fit.converged) {
+  result.failure = too_few(misfit);
+  if (!result.failure.empty()) return result;
+  const LeastSquaresFit fit = least_misfit(task, misfit, result.iterations);
+  const bool moves = fit.jacobian.size() > 0 && misfit.moves(fit.p);
+  result.converged = fit.converged && moves;
+  if (!fit.converged || fit.jacobian.size() == 0) {
     const std::string what = "the fit found no least sum of squares: " + fit.reason;
     if (fit.jacobian.size() == 0) {
       result.failure = what;
@@ -365,8 +202,15 @@ Identification grey_box(const GreyBoxTask& task) {
     }
     result.notes.push_back(what + "; these are the best values met");
   }
+  if (!moves)
+    result.notes.push_back(
+        "at the best values met nothing moves, and nothing tells the way: start elsewhere, with less "
+        "friction");
   estimate(task, misfit, fit, result);
   result.records = misfit.fitted(fit.p);
+  note_bounds(fit, misfit.unknowns(), is_exact(result.records), result);
+  const bool held = std::ranges::any_of(fit.at_bound, [](int side) { return side != 0; });
+  note_quality(task, held, result);
   return result;
 }
 

@@ -53,14 +53,16 @@ struct GreyBoxTask {
 };
 
 // Channels of different sizes are weighed by 1 / |y - mean y| of each series in a first fit, then by the
-// residuals' own standard deviation, so that the variances are those of each sensor's noise.
+// residuals' own standard deviation until that settles, so that the variances are those of each sensor's
+// noise. A motion that comes to rest has a minimum for each number of half swings: from the one that is
+// found, others are looked for (minima.hpp). A fit at which nothing moves that should has not converged.
 // Estimates: the fitted parameters in order, one of each record for those with each_record, named
 // `<parameter>_<record>`; then the fixed ones, so that their covariances with the fitted ones are known to
-// whoever takes these: cov = s^2 (J^T J)^-1 + S cov_f S^T, S = -(J^T J)^-1 J^T J_f. A fit that has not
-// converged has a note that says so.
-// Throws mechanics::MechanicsError where the start has no meaning, and for friction of the arctan law. A
-// bound (0 of a friction) is better than none: beyond what the mechanics allows there is no model to tell the
-// way.
+// whoever takes these: cov = s^2 (J^T J)^-1 + S cov_f S^T, S = -(J^T J)^-1 J^T J_f. Each has the degrees of
+// freedom of that sum. A fit that has not converged has a note that says so; others tell of a record missed
+// by more than 10 %, and of residuals that follow one another. Throws mechanics::MechanicsError where the
+// start has no meaning, and for friction of the arctan law. A bound (0 of a friction) is better than none:
+// beyond what the mechanics allows there is no model to tell the way.
 Identification grey_box(const GreyBoxTask& task);
 
 }  // namespace frahm::identification

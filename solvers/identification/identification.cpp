@@ -26,7 +26,7 @@ double nrmse(std::span<const FittedSeries> series) {
     const Eigen::Map<const Eigen::VectorXd> y(each.measured.data(), size), fit(each.fitted.data(), size);
     const double spread = (y.array() - y.mean()).matrix().squaredNorm();
     // Series of different sensors count by what share of their own variation is missed.
-    if (!(spread > 0.0)) continue;
+    if (!(spread > kConstant * kConstant * y.squaredNorm())) continue;
     missed += (y - fit).squaredNorm() / spread;
     varies += 1.0;
   }

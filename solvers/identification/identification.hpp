@@ -57,6 +57,9 @@ struct Identification {
   std::vector<std::string> notes;  // sentences: what was left out, what is held by a bound
 };
 
+// A series whose |y - mean y| is less than this of |y| is constant: what it varies by is rounding.
+inline constexpr double kConstant = 1e-12;
+
 // Fit quality, 100 (1 - |y - yhat| / |y - mean y|) [%]; the mean is each series' own. 100: exact, 0: no
 // better than a constant. NaN: nothing measured varies.
 double nrmse(std::span<const FittedSeries> series);
@@ -64,8 +67,9 @@ double nrmse(std::span<const FittedSeries> series);
 // Correlation coefficients of a covariance: NaN where one is not determined.
 Eigen::MatrixXd correlation(const Eigen::MatrixXd& covariance);
 
-// Standard errors and intervals of result.estimates from result.covariance and the degrees of freedom of each,
-// which are those of the whole where it has none; an estimate with an infinite variance loses its value.
+// Standard errors and intervals of result.estimates from result.covariance and the degrees of freedom of
+// each, which are those of the whole where it has none; an estimate with an infinite variance loses its
+// value.
 void set_intervals(Identification& result);
 
 // Adds an estimate computed from the ones there: value and gradient by each of them.

@@ -115,6 +115,30 @@ TEST_CASE("two unknowns that do the same are not determined, a third is") {
   CHECK_THAT(without(0, 0), Catch::WithinRel(1.0 / 5.0, kRounding));
 }
 
+// As a model solved to a tolerance of its own: a line through scattered values, rough in its seventh digit.
+bool rough_line(const Eigen::VectorXd& p, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
+  constexpr Eigen::Index kSize = 50;
+  r.resize(kSize);
+  if (jacobian) jacobian->resize(kSize, 2);
+  for (Eigen::Index i = 0; i < kSize; ++i) {
+    const double x = static_cast<double>(i) / 50.0, scatter = i % 2 == 0 ? 0.01 : -0.01;
+    const double rough = 1e-7 * std::sin(1e11 * (p[0] + p[1]) + 7.0 * static_cast<double>(i));
+    r[i] = p[0] + p[1] * x - (1.0 + 2.0 * x + scatter) + rough;
+    if (jacobian) jacobian->row(i) << 1.0, x;
+  }
+  return true;
+}
+
+TEST_CASE("a rough sum of squares has been minimised where no step matters any more") {
+  const LeastSquaresFit fit = least_squares({{.name = "a", .start = 5.0}, {.name = "b", .start = 0.1}},
+                                            rough_line, {.tolerance = 1e-15, .most_evaluations = 25});
+  CHECK(fit.converged);
+  // se of a line's intercept 2 s / sqrt(N), of its slope sqrt(12 / N) s; their estimates from the same
+  // scatter without roughness are within them of the truth.
+  CHECK(std::abs(fit.p[0] - 1.0) < 0.01 * 2.0 / std::sqrt(50.0));
+  CHECK(std::abs(fit.p[1] - 2.0) < 0.01 * std::sqrt(12.0 / 50.0));
+}
+
 Estimate estimate(const char* name, double value) {
   return {.name = name, .unit = "1", .long_name = "", .value = value};
 }
