@@ -77,14 +77,19 @@ std::vector<std::size_t> turns(Samples x, double swing) {
   return found;
 }
 
+// Of the free vibration: its half period [s], and delta of exp(-delta s) cos s, s = pi t / half period.
+struct Shape {
+  double half_period = 0.0, decrease = 0.0;
+};
+
 // The samples within half the way to the neighbours of turn k; empty where less than half of a side is there.
 Quarters quarters_of(Samples time, Samples x, const std::vector<std::size_t>& turns, std::size_t k,
-                     double half_period) {
+                     Shape shape) {
   const double at = time[turns[k]];
   const double before = k > 0 ? at - time[turns[k - 1]] : time[turns[k + 1]] - at;
   const double after = k + 1 < turns.size() ? time[turns[k + 1]] - at : before;
   const double from = at - 0.5 * before, to = at + 0.5 * after;
-  Quarters quarters{at, half_period / std::numbers::pi, {}, {}};
+  Quarters quarters{at, shape.half_period / std::numbers::pi, shape.decrease, {}, {}};
   if (at - time.front() < 0.25 * before || time.back() - at < 0.25 * after) return quarters;
   const auto first =
       static_cast<std::size_t>(std::lower_bound(time.begin(), time.end(), from) - time.begin());
@@ -108,15 +113,24 @@ struct Turns {
   double rss = 0.0, degrees_of_freedom = 0.0;  // [m^2]
 
   double time(std::size_t k) const { return quarters[k].at + quarters[k].radian * fits[k].phase; }
-  double half_period() const {
-    return (time(fits.size() - 1) - time(0)) / static_cast<double>(fits.size() - 1);
+  // The mean half period; delta of phi_3 beside phi_2, a_3 = -2 delta' a_2, by least squares over all turns.
+  Shape shape() const {
+    double product = 0.0, square = 0.0;
+    for (const TurningPoint& fit : fits) {
+      product += fit.before[0] * fit.before[1];
+      square += fit.before[0] * fit.before[0];
+    }
+    constexpr double kMost = 1.0;
+    const double more = square > 0.0 ? -0.5 * product / square : 0.0;
+    return {(time(fits.size() - 1) - time(0)) / static_cast<double>(fits.size() - 1),
+            std::clamp(quarters[0].decrease + more, -kMost, kMost)};
   }
 };
 
-Turns fit_turns(Samples time, Samples x, const std::vector<std::size_t>& turned, double half_period) {
+Turns fit_turns(Samples time, Samples x, const std::vector<std::size_t>& turned, Shape shape) {
   Turns turns;
   for (std::size_t k = 0; k < turned.size(); ++k) {
-    const Quarters quarters = quarters_of(time, x, turned, k, half_period);
+    const Quarters quarters = quarters_of(time, x, turned, k, shape);
     const TurningPoint fit = turning_point(quarters);
     // A gap would break the turn from maximum to minimum: only the first and the last may be missing.
     if (!fit.converged && !turns.fits.empty()) break;
@@ -163,16 +177,15 @@ FoundExtrema find_extrema(Samples time, Samples displacement) {
                 " m, the threshold of " + number(kAboveNoise) + " standard deviations of its noise, " +
                 number(noise) + " m: it takes two turning points at least");
   if (const std::string fault = unless_whole(time, displacement, turned); !fault.empty()) return none(fault);
-  // The half period of the turning samples shapes the fits that tell it better.
-  double half_period = (time[turned.back()] - time[turned.front()]) / static_cast<double>(turned.size() - 1);
-  Turns fitted = fit_turns(time, displacement, turned, half_period);
-  if (fitted.fits.size() > 1) {
-    half_period = fitted.half_period();
-    fitted = fit_turns(time, displacement, turned, half_period);
-  }
+  // What the turning samples tell of the shape serves for fits that tell it better.
+  const double half_period =
+      (time[turned.back()] - time[turned.front()]) / static_cast<double>(turned.size() - 1);
+  Turns fitted = fit_turns(time, displacement, turned, {.half_period = half_period});
+  if (fitted.fits.size() > 1) fitted = fit_turns(time, displacement, turned, fitted.shape());
   if (fitted.fits.size() < 2)
     return none("only " + std::to_string(fitted.fits.size()) + " of " + std::to_string(turned.size()) +
-                " turning points have samples enough about them: it takes six at least, two on either side");
+                " turning points can be fitted: it takes six samples about each at least, two on either "
+                "side, within the record and out of the noise");
   FoundExtrema found = found_of(fitted);
   const std::size_t left_out = turned.size() - fitted.fits.size();
   if (left_out > 0)

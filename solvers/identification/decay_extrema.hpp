@@ -24,7 +24,7 @@ struct FoundExtrema {
 
 // The extrema of a sampled trace. time [s]: increasing; displacement [m]: as many, at least kLeastSamples.
 // About each what turning_point.hpp fits, over a quarter period on either side; the half period that shapes
-// the fits is the mean one of all turns.
+// the fits, and their decrease, are those of all turns together.
 // Left out: turning points with less than half a side within the record, and swings that are lost in noise.
 // failure: not finite, not increasing, too few samples, fewer than two turning points, or what
 // record_faults.hpp knows: samples that are missing, too far apart, wild, or clipped.

@@ -11,6 +11,7 @@ namespace frahm::identification {
 namespace {
 
 using Samples = std::span<const double>;
+constexpr double kLongStep = 2.0;  // median steps
 using Turned = std::span<const std::size_t>;
 
 double median(std::vector<double> values) {
@@ -37,7 +38,8 @@ std::string gap(Samples time, Turned turned, double half_period, double step) {
   const double from = time[turned.front()] - 0.5 * half_period, to = time[turned.back()] + 0.5 * half_period;
   for (std::size_t i = 1; i < time.size(); ++i) {
     const double missing = time[i] - time[i - 1];
-    if (time[i] < from || time[i - 1] > to || missing <= std::max(0.25 * half_period, 2.0 * step)) continue;
+    if (time[i] < from || time[i - 1] > to || missing <= std::max(0.25 * half_period, kLongStep * step))
+      continue;
     return "samples are missing from " + number(time[i - 1]) + " to " + number(time[i]) +
            " s, a good part of a half period of " + number(half_period) +
            " s: what turns in between cannot be seen; use the part before or the part behind";
@@ -109,7 +111,12 @@ std::string unless_wild(Samples time, Samples x, double noise) {
     const double part = (time[i] - time[i - 1]) / (time[i + 1] - time[i - 1]);
     return x[i] - x[i - 1] - part * (x[i + 1] - x[i - 1]);
   };
+  // A line over a gap is off by itself.
+  const double longest = kLongStep * median_step(time);
   for (std::size_t i = 2; i + 2 < x.size(); ++i) {
+    bool even = true;
+    for (std::size_t j = i - 1; j <= i + 2; ++j) even = even && time[j] - time[j - 1] <= longest;
+    if (!even) continue;
     const double here = off(i), before = off(i - 1), behind = off(i + 1);
     if (std::abs(here) > far && here * before < 0.0 && here * behind < 0.0 &&
         std::abs(here) > std::max(std::abs(before), std::abs(behind)))

@@ -16,7 +16,7 @@ inline constexpr double kLeastSamplesOfCycle = 12.0;
 //   samples missing: a step of time above a quarter of a half period, and above twice the median step;
 //   too coarse: fewer than kLeastSamplesOfCycle a cycle;
 //   a wild sample: far from its neighbours' line, on the other side of it than they are of theirs, by more
-//   than 20 standard deviations and by a hundredth of the range;
+//   than 20 standard deviations and by a hundredth of the range, where the steps of time are even;
 //   clipped: three samples and more of one value, the largest or the least of all, at two turns and more.
 std::string unless_whole(std::span<const double> time, std::span<const double> displacement,
                          std::span<const std::size_t> turned);

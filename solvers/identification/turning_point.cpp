@@ -14,16 +14,18 @@ using Index = Eigen::Index;
 constexpr Index kHighestDegree = 12;
 constexpr double kQuarter = 0.5 * std::numbers::pi;
 
-// phi_0 ... phi_degree at s: phi_0 = cos s, phi_1 = sin s, phi_k = s^(k-2) / (k-2)! - phi_{k-2}, so that
-// phi_k' = phi_{k-1}.
+// phi_1 ... phi_degree at s, u = 1 + delta^2: phi_1 = u exp(-delta s) sin s, phi_2 = 1 - exp(-delta s) (cos s
+// + delta sin s), and from phi_2'' + 2 delta phi_2' + u phi_2 = u, integrated again and again,
+//   phi_k = s^(k-2) / (k-2)! - (2 delta phi_{k-1} + phi_{k-2}) / u.
 using Shapes = Eigen::Matrix<double, kHighestDegree + 1, 1>;
-Shapes shapes_at(double s, Index degree) {
+Shapes shapes_at(double s, double delta, Index degree) {
+  const double u = 1.0 + delta * delta, falls = std::exp(-delta * s);
   Shapes phi;
-  phi[0] = std::cos(s);
-  phi[1] = std::sin(s);
-  double power = 1.0;
-  for (Index k = 2; k <= degree; ++k) {
-    phi[k] = power - phi[k - 2];
+  phi[1] = u * falls * std::sin(s);
+  phi[2] = 1.0 - falls * (std::cos(s) + delta * std::sin(s));
+  double power = s;
+  for (Index k = 3; k <= degree; ++k) {
+    phi[k] = power - (2.0 * delta * phi[k - 1] + phi[k - 2]) / u;
     power *= s / static_cast<double>(k - 1);
   }
   return phi;
@@ -67,7 +69,7 @@ Eigen::MatrixXd columns(const Quarters& quarters, const TurningPoint& fit, Degre
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(quarters.phase.size(), degrees.unknowns());
   for (Index i = 0; i < A.rows(); ++i) {
     const double s = quarters.phase[i] - fit.phase;
-    const Shapes phi = shapes_at(s, degrees.common);
+    const Shapes phi = shapes_at(s, quarters.decrease, std::max<Index>(degrees.common, fit.after.size() + 1));
     A(i, 0) = 1.0;
     A(i, 1) = -slope_at(fit, s, phi);
     A.row(i).segment(2, common) = phi.segment(2, common).cwiseQuotient(size).transpose();

@@ -9,6 +9,7 @@ namespace frahm::identification {
 // The samples over about a quarter period on either side.
 struct Quarters {
   double at = 0.0, radian = 0.0;  // [s] a sample near the turn; the time in which the phase grows by one
+  double decrease = 0.0;          // delta, free vibration being exp(-delta s) cos s
   Eigen::VectorXd phase, x;       // (t - at) / radian, [m]
 };
 
@@ -24,10 +25,11 @@ struct TurningPoint {
 
 // x = X + a_2 phi_2(s) + a_3 phi_3(s) + ..., s = phase - turn, and behind the turn b_2 phi_2 + ... comes to
 // it: friction makes the acceleration and what follows from it jump there. The shapes are those of a mass on
-// a spring: phi_2 = 1 - cos s, phi_3 = s - sin s, and on with phi_k' = phi_{k-1}. So a_2 and b_2 are all
-// there is of a mass that only rubs; viscous damping adds a_3 to first order of it, a_4 to second. These are
-// always fitted (a_4 where there are eight samples), as what is left out moves the turn by as much as noise
-// that hides it. Akaike's corrected criterion chooses how many more there are.
+// a spring with a damper: phi_2 = 1 - exp(-delta s) (cos s + delta sin s), and on with phi_k' = phi_{k-1}. So
+// a_2 and b_2 are all there is of a mass that rubs on a known damper; a_3 makes up for an error of delta, a_4
+// for one of the frequency. These are always fitted (a_4 where there are eight samples), as what is left out
+// moves the turn by as much as noise that hides it. Akaike's corrected criterion chooses how many more there
+// are.
 // Not converged: samples too few, fewer than two on a side or six in all, or that do not turn.
 TurningPoint turning_point(const Quarters& quarters);
 
