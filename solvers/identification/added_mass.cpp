@@ -23,10 +23,24 @@ std::string wrong(const AddedMassRows& rows) {
   if (!rows.sigma.empty() && rows.sigma.size() != rows.omega.size())
     return "there are " + std::to_string(rows.sigma.size()) + " standard errors for " +
            std::to_string(rows.omega.size()) + " frequencies";
+  if (!rows.degrees_of_freedom.empty() && rows.degrees_of_freedom.size() != rows.sigma.size())
+    return "there are degrees of freedom of " + std::to_string(rows.degrees_of_freedom.size()) +
+           " standard errors, of " + std::to_string(rows.sigma.size());
+  if (std::any_of(rows.degrees_of_freedom.begin(), rows.degrees_of_freedom.end(),
+                  [](double nu) { return !(nu > 0.0); }))
+    return "the degrees of freedom of a standard error must be positive";
   const auto [least, most] = std::minmax_element(rows.added.begin(), rows.added.end());
   if (rows.added.size() < 2 || *least == *most) return "it takes two different added masses at least";
   if (*least < 0.0) return "an added mass is " + number(*least) + " kg, it must not be negative";
   return "";
+}
+
+// Of what changes by u_i with the standard error of datum i: nu = (sum u_i^2)^2 / sum u_i^4 / nu_i
+double welch_satterthwaite(const Eigen::RowVectorXd& u, const std::vector<double>& degrees_of_freedom) {
+  double fourth = 0.0;
+  for (Eigen::Index i = 0; i < u.size(); ++i)
+    fourth += std::pow(u[i], 4) / degrees_of_freedom[static_cast<std::size_t>(i)];
+  return fourth > 0.0 ? std::pow(u.squaredNorm(), 2) / fourth : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
@@ -59,6 +73,12 @@ Identification added_mass(const AddedMassRows& rows) {
       {.name = "stiffness", .unit = "N m-1", .long_name = "stiffness", .value = 1.0 / slope}};
   result.covariance = s.variance * by_data * by_data.transpose();
   result.degrees_of_freedom = s.degrees_of_freedom;
+  for (std::size_t i = 0; !rows.degrees_of_freedom.empty() && i < result.estimates.size(); ++i) {
+    Estimate& estimate = result.estimates[i];
+    estimate.degrees_of_freedom =
+        welch_satterthwaite(by_data.row(static_cast<Eigen::Index>(i)), rows.degrees_of_freedom);
+    result.degrees_of_freedom = std::min(result.degrees_of_freedom, estimate.degrees_of_freedom);
+  }
   const Eigen::VectorXd fitted = (A * fit.p).array().rsqrt();
   FittedRecord record{
       .name = "added_mass", .over = "added_mass", .over_unit = "kg", .at = rows.added, .series = {}};

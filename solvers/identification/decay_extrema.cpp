@@ -1,12 +1,12 @@
 #include "solvers/identification/decay_extrema.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numbers>
 
-#include "solvers/identification/linear_fit.hpp"
+#include "solvers/identification/record_faults.hpp"
 #include "solvers/identification/statement.hpp"
+#include "solvers/identification/turning_point.hpp"
 
 namespace frahm::identification {
 namespace {
@@ -77,157 +77,27 @@ std::vector<std::size_t> turns(Samples x, double swing) {
   return found;
 }
 
-// The samples about one turning point, in quarter periods of about 1.
-struct Quarter {
-  double at = 0.0, length = 0.0;  // [s] the turning sample, a quarter period
-  Eigen::VectorXd tau, x;         // (t - at) / length, [m]
+// Of the free vibration: its half period [s], and delta of exp(-delta s) cos s, s = pi t / half period.
+struct Shape {
+  double half_period = 0.0, decrease = 0.0;
 };
-
-struct TurnFit {
-  double tau = 0.0, x = 0.0;         // the turning point
-  double rss = 0.0, rounding = 0.0;  // [m^2], [m]
-  Eigen::Matrix2d cofactor;          // of x and tau, for samples of variance 1
-  double criterion = std::numeric_limits<double>::infinity();
-  Eigen::VectorXd before, after;  // a_2, a_3 ... of the two sides
-  Index common = 0, jump = 0, unknowns = 0;
-  bool converged = false;
-};
-
-// x - X and its slope, at s from the turning point, with a_2, a_3, ... of its side.
-double slope_at(const TurnFit& fit, double s) {
-  const Eigen::VectorXd& a = s < 0.0 ? fit.before : fit.after;
-  double sum = 0.0;
-  for (Index k = a.size() - 1; k >= 0; --k) sum = sum * s + static_cast<double>(k + 2) * a[k];
-  return sum * s;
-}
-
-// Where and how the parabola of all samples turns.
-TurnFit parabola(const Quarter& quarter) {
-  Eigen::MatrixXd A(quarter.tau.size(), 3);
-  A << Eigen::VectorXd::Ones(quarter.tau.size()), quarter.tau, quarter.tau.cwiseAbs2();
-  const Eigen::Vector3d p = A.colPivHouseholderQr().solve(quarter.x);
-  constexpr double kNear = 0.5;  // the turning sample is no further off, whatever the parabola says
-  TurnFit fit;
-  fit.tau = p[2] != 0.0 ? std::clamp(-0.5 * p[1] / p[2], -kNear, kNear) : 0.0;
-  fit.before = fit.after = Eigen::VectorXd::Constant(1, p[2]);
-  return fit;
-}
-
-// What the two sides have in common, x = X + a_2 s^2 + ... + a_degree s^degree, s = tau - turn, and what
-// comes to it behind the turn, b_2 s^2 + ... + b_jump s^jump: friction pulls the other way there. jump 1:
-// nothing.
-struct Degrees {
-  Index common, jump;
-  Index unknowns() const { return common + jump; }  // X and the turn's place among them
-};
-
-// By Gauss and Newton from `start`.
-TurnFit fit_of(const Quarter& quarter, const TurnFit& start, Degrees degrees) {
-  constexpr int kMostSteps = 40;
-  constexpr double kSettled = 1e-13, kGood = 1e-7;
-  const Index n = quarter.tau.size(), common = degrees.common - 1, jump = degrees.jump - 1;
-  TurnFit fit = start;
-  fit.converged = false;
-  fit.common = degrees.common;
-  fit.jump = degrees.jump;
-  fit.unknowns = degrees.unknowns();
-  Eigen::MatrixXd A(n, fit.unknowns);
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
-  for (int step = 0; step < kMostSteps; ++step) {
-    A.setZero();
-    for (Index i = 0; i < n; ++i) {
-      const double s = quarter.tau[i] - fit.tau;
-      A(i, 0) = 1.0;
-      A(i, 1) = -slope_at(fit, s);
-      double power = s * s;
-      for (Index k = 0; k < common; ++k, power *= s) {
-        A(i, 2 + k) = power;
-        if (s > 0.0 && k < jump) A(i, 2 + common + k) = power;
-      }
-    }
-    qr.compute(A);
-    const Eigen::VectorXd p = qr.solve(quarter.x);
-    fit.rss = (quarter.x - A * p).squaredNorm();
-    fit.x = p[0];
-    fit.before = fit.after = p.segment(2, common);
-    fit.after.head(jump) += p.tail(jump);
-    fit.tau += p[1];
-    if (!(std::abs(fit.tau) < 1.0)) return fit;
-    fit.converged = std::abs(p[1]) < kGood;
-    if (std::abs(p[1]) < kSettled) break;
-  }
-  // Both sides of a maximum lie below it.
-  fit.converged = fit.converged && qr.rank() == A.cols() && !(fit.before[0] * fit.after[0] < 0.0);
-  if (!fit.converged) return fit;
-  const Eigen::MatrixXd inverse = qr.matrixR()
-                                      .topLeftCorner(A.cols(), A.cols())
-                                      .triangularView<Eigen::Upper>()
-                                      .solve(Eigen::MatrixXd::Identity(A.cols(), A.cols()));
-  const Eigen::MatrixXd rows = (qr.colsPermutation() * inverse).topRows(2);
-  fit.cofactor = rows * rows.transpose();
-  // A jump that may choose its place fits noise as three unknowns do, source [28].
-  const Index chosen = degrees.jump > 1 ? 2 : 0;
-  fit.criterion = corrected_akaike(fit.rss, n, A.cols() + chosen, fit.rounding);
-  return fit;
-}
-
-// The best of one common degree: without a jump, with one of the acceleration, of two more derivatives, of
-// all.
-TurnFit best_of_degree(const Quarter& quarter, const TurnFit& start, Index degree) {
-  TurnFit best;
-  for (const Index jump : {Index{1}, Index{2}, Index{4}, degree}) {
-    const Degrees degrees{degree, jump};
-    if (jump > degree || quarter.tau.size() <= degrees.unknowns()) continue;
-    const TurnFit fit = fit_of(quarter, best.converged ? best : start, degrees);
-    if (fit.converged && (!best.converged || fit.criterion < best.criterion)) best = fit;
-  }
-  return best;
-}
-
-// A jump too small to be seen still moves the turn of the polynomial that does without: the time, not the
-// extreme, which is stationary. So the time and its error are those of the fit with the jump.
-void take_time_with_jump(const Quarter& quarter, TurnFit& fit) {
-  const TurnFit timed = fit_of(quarter, fit, {fit.common, 2});
-  if (!timed.converged) return;
-  fit.tau = timed.tau;
-  fit.cofactor(1, 1) = timed.cofactor(1, 1);
-}
-
-// The degree goes up by two: what an even power misses an odd one does not find.
-TurnFit best_fit(const Quarter& quarter) {
-  constexpr Index kHighestDegree = 12, kLeastOfSide = 2;
-  constexpr double kEpsilon = 4.0 * std::numeric_limits<double>::epsilon();
-  TurnFit start = parabola(quarter), best;
-  start.rounding = kEpsilon * quarter.x.cwiseAbs().maxCoeff();
-  const Index before = (quarter.tau.array() < start.tau).count();
-  if (std::min(before, quarter.tau.size() - before) < kLeastOfSide) return best;
-  for (Index degree = 2; degree <= kHighestDegree; degree += 2) {
-    const TurnFit fit = best_of_degree(quarter, start, degree);
-    // Over a quarter period s^4 is always there, a tenth and more of s^2. Beyond it the first degree that
-    // does not predict better ends it: one of many would fit the noise by chance.
-    const bool better = degree <= 4 || fit.criterion < best.criterion;
-    if (!fit.converged || !better) break;
-    start = best = fit;
-  }
-  if (best.converged && best.jump < 2) take_time_with_jump(quarter, best);
-  return best;
-}
 
 // The samples within half the way to the neighbours of turn k; empty where less than half of a side is there.
-Quarter quarter_of(Samples time, Samples x, const std::vector<std::size_t>& turns, std::size_t k) {
+Quarters quarters_of(Samples time, Samples x, const std::vector<std::size_t>& turns, std::size_t k,
+                     Shape shape) {
   const double at = time[turns[k]];
   const double before = k > 0 ? at - time[turns[k - 1]] : time[turns[k + 1]] - at;
   const double after = k + 1 < turns.size() ? time[turns[k + 1]] - at : before;
   const double from = at - 0.5 * before, to = at + 0.5 * after;
-  Quarter quarter{at, 0.25 * (before + after), {}, {}};
-  if (at - time.front() < 0.25 * before || time.back() - at < 0.25 * after) return quarter;
+  Quarters quarters{at, shape.half_period / std::numbers::pi, shape.decrease, {}, {}};
+  if (at - time.front() < 0.25 * before || time.back() - at < 0.25 * after) return quarters;
   const auto first =
       static_cast<std::size_t>(std::lower_bound(time.begin(), time.end(), from) - time.begin());
   const auto end = static_cast<std::size_t>(std::upper_bound(time.begin(), time.end(), to) - time.begin());
   const auto n = static_cast<Index>(end - first);
-  quarter.tau = (Eigen::Map<const Eigen::VectorXd>(&time[first], n).array() - at) / quarter.length;
-  quarter.x = Eigen::Map<const Eigen::VectorXd>(&x[first], n);
-  return quarter;
+  quarters.phase = (Eigen::Map<const Eigen::VectorXd>(&time[first], n).array() - at) / quarters.radian;
+  quarters.x = Eigen::Map<const Eigen::VectorXd>(&x[first], n);
+  return quarters;
 }
 
 FoundExtrema none(std::string why) {
@@ -236,24 +106,58 @@ FoundExtrema none(std::string why) {
   return found;
 }
 
-struct Turn {
-  double length;  // [s]
-  TurnFit fit;
-  double at;  // [s]
+// The turning points in turn, of one half period.
+struct Turns {
+  std::vector<Quarters> quarters;
+  std::vector<TurningPoint> fits;
+  double rss = 0.0, degrees_of_freedom = 0.0;  // [m^2]
+
+  double time(std::size_t k) const { return quarters[k].at + quarters[k].radian * fits[k].phase; }
+  // The mean half period; delta of phi_3 beside phi_2, a_3 = -2 delta' a_2, by least squares over all turns.
+  Shape shape() const {
+    double product = 0.0, square = 0.0;
+    for (const TurningPoint& fit : fits) {
+      product += fit.before[0] * fit.before[1];
+      square += fit.before[0] * fit.before[0];
+    }
+    constexpr double kMost = 1.0;
+    const double more = square > 0.0 ? -0.5 * product / square : 0.0;
+    return {(time(fits.size() - 1) - time(0)) / static_cast<double>(fits.size() - 1),
+            std::clamp(quarters[0].decrease + more, -kMost, kMost)};
+  }
 };
 
-// Standard errors: every sample has the noise that all the fits together leave.
-void set_errors(const std::vector<Turn>& fitted, double rss, double degrees_of_freedom, FoundExtrema& found) {
-  found.extrema.degrees_of_freedom = degrees_of_freedom;
-  found.noise = degrees_of_freedom > 0.0 ? std::sqrt(rss / degrees_of_freedom) : 0.0;
-  for (const Turn& turn : fitted) {
-    found.extrema.time.push_back(turn.at + turn.length * turn.fit.tau);
-    found.extrema.displacement.push_back(turn.fit.x);
-    if (!(degrees_of_freedom > 0.0)) continue;
-    const double sigma = std::max(found.noise, turn.fit.rounding);
-    found.extrema.displacement_sigma.push_back(sigma * std::sqrt(turn.fit.cofactor(0, 0)));
-    found.extrema.time_sigma.push_back(sigma * std::sqrt(turn.fit.cofactor(1, 1)) * turn.length);
+Turns fit_turns(Samples time, Samples x, const std::vector<std::size_t>& turned, Shape shape) {
+  Turns turns;
+  for (std::size_t k = 0; k < turned.size(); ++k) {
+    const Quarters quarters = quarters_of(time, x, turned, k, shape);
+    const TurningPoint fit = turning_point(quarters);
+    // A gap would break the turn from maximum to minimum: only the first and the last may be missing.
+    if (!fit.converged && !turns.fits.empty()) break;
+    if (!fit.converged) continue;
+    turns.rss += fit.rss;
+    turns.degrees_of_freedom += static_cast<double>(quarters.phase.size() - fit.unknowns);
+    turns.quarters.push_back(quarters);
+    turns.fits.push_back(fit);
   }
+  return turns;
+}
+
+// Standard errors: every sample has the noise that all the fits together leave.
+FoundExtrema found_of(const Turns& turns) {
+  FoundExtrema found;
+  found.extrema.degrees_of_freedom = turns.degrees_of_freedom;
+  found.noise = turns.degrees_of_freedom > 0.0 ? std::sqrt(turns.rss / turns.degrees_of_freedom) : 0.0;
+  for (std::size_t k = 0; k < turns.fits.size(); ++k) {
+    const TurningPoint& fit = turns.fits[k];
+    found.extrema.time.push_back(turns.time(k));
+    found.extrema.displacement.push_back(fit.x);
+    if (!(turns.degrees_of_freedom > 0.0)) continue;
+    const double sigma = std::max(found.noise, fit.rounding);
+    found.extrema.displacement_sigma.push_back(sigma * std::sqrt(fit.cofactor(0, 0)));
+    found.extrema.time_sigma.push_back(sigma * std::sqrt(fit.cofactor(1, 1)) * turns.quarters[k].radian);
+  }
+  return found;
 }
 
 }  // namespace
@@ -264,30 +168,26 @@ FoundExtrema find_extrema(Samples time, Samples displacement) {
   // that the samples show; a billionth of the whole is rounding.
   constexpr double kAboveNoise = 20.0, kAboveRounding = 1e-9;
   const auto [least, most] = std::minmax_element(displacement.begin(), displacement.end());
-  const double swing =
-      std::max(kAboveNoise * noise_of(time, displacement), kAboveRounding * (*most - *least));
+  const double noise = noise_of(time, displacement);
+  if (const std::string wild = unless_wild(time, displacement, noise); !wild.empty()) return none(wild);
+  const double swing = std::max(kAboveNoise * noise, kAboveRounding * (*most - *least));
   const std::vector<std::size_t> turned = turns(displacement, swing);
   if (turned.size() < 2)
-    return none("the record turns " + std::to_string(turned.size()) + " times by more than the noise, " +
-                number(swing) + " m: it takes two turning points at least");
-  FoundExtrema found;
-  std::vector<Turn> fitted;
-  double rss = 0.0, degrees_of_freedom = 0.0;
-  for (std::size_t k = 0; k < turned.size(); ++k) {
-    const Quarter quarter = quarter_of(time, displacement, turned, k);
-    const TurnFit fit = quarter.tau.size() > 0 ? best_fit(quarter) : TurnFit{};
-    // A gap would break the turn from maximum to minimum: only the first and the last may be missing.
-    if (!fit.converged && !fitted.empty()) break;
-    if (!fit.converged) continue;
-    fitted.push_back({quarter.length, fit, quarter.at});
-    rss += fit.rss;
-    degrees_of_freedom += static_cast<double>(quarter.tau.size() - fit.unknowns);
-  }
-  if (fitted.size() < 2)
-    return none("only " + std::to_string(fitted.size()) + " of " + std::to_string(turned.size()) +
-                " turning points have samples enough about them: it takes five at least, two on either side");
-  set_errors(fitted, rss, degrees_of_freedom, found);
-  const std::size_t left_out = turned.size() - fitted.size();
+    return none("the record turns " + std::to_string(turned.size()) + " times by more than " + number(swing) +
+                " m, the threshold of " + number(kAboveNoise) + " standard deviations of its noise, " +
+                number(noise) + " m: it takes two turning points at least");
+  if (const std::string fault = unless_whole(time, displacement, turned); !fault.empty()) return none(fault);
+  // What the turning samples tell of the shape serves for fits that tell it better.
+  const double half_period =
+      (time[turned.back()] - time[turned.front()]) / static_cast<double>(turned.size() - 1);
+  Turns fitted = fit_turns(time, displacement, turned, {.half_period = half_period});
+  if (fitted.fits.size() > 1) fitted = fit_turns(time, displacement, turned, fitted.shape());
+  if (fitted.fits.size() < 2)
+    return none("only " + std::to_string(fitted.fits.size()) + " of " + std::to_string(turned.size()) +
+                " turning points can be fitted: it takes six samples about each at least, two on either "
+                "side, within the record and out of the noise");
+  FoundExtrema found = found_of(fitted);
+  const std::size_t left_out = turned.size() - fitted.fits.size();
   if (left_out > 0)
     found.notes.push_back(
         std::to_string(left_out) + " of " + std::to_string(turned.size()) +

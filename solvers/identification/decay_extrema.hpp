@@ -8,7 +8,7 @@
 // The turning points of a measured free vibration.
 namespace frahm::identification {
 
-// Maxima and minima in turn.
+// Maxima and minima in turn. Where no times are known nothing tells that a pair of them is missing.
 struct DecayExtrema {
   std::vector<double> time, displacement;              // [s], [m]; times may be empty: not known
   std::vector<double> time_sigma, displacement_sigma;  // standard errors; empty: not known
@@ -23,11 +23,11 @@ struct FoundExtrema {
 };
 
 // The extrema of a sampled trace. time [s]: increasing; displacement [m]: as many, at least kLeastSamples.
-// About each a polynomial over a quarter period on either side, x = X + a_2 tau^2 + a_3 tau^3 + ..., tau =
-// t - t_i. Friction makes the acceleration and what follows from it jump where the mass turns: behind the
-// turn b_2 tau^2 + ... comes to it. Akaike's corrected criterion chooses both degrees.
+// About each what turning_point.hpp fits, over a quarter period on either side; the half period that shapes
+// the fits, and their decrease, are those of all turns together.
 // Left out: turning points with less than half a side within the record, and swings that are lost in noise.
-// failure: not finite, not increasing, too few samples, or fewer than two turning points.
+// failure: not finite, not increasing, too few samples, fewer than two turning points, or what
+// record_faults.hpp knows: samples that are missing, too far apart, wild, or clipped.
 FoundExtrema find_extrema(std::span<const double> time, std::span<const double> displacement);
 inline constexpr std::size_t kLeastSamples = 16;
 

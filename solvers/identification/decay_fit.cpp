@@ -43,6 +43,26 @@ std::string wrong_sizes(const DecayExtrema& extrema) {
        unless_positive("standard error", extrema.time_sigma)});
 }
 
+// Extremes are half a period apart, all of them, if none is missing: of two that are not the sentence.
+std::string uneven(const DecayExtrema& extrema) {
+  constexpr double kShort = 0.5, kLong = 1.5;  // half periods
+  std::vector<double> apart;
+  for (std::size_t i = 1; i < extrema.time.size(); ++i)
+    apart.push_back(extrema.time[i] - extrema.time[i - 1]);
+  if (apart.empty()) return "";
+  std::vector<double> sorted = apart;
+  std::sort(sorted.begin(), sorted.end());
+  const double half_period = sorted[(sorted.size() - 1) / 2];
+  for (std::size_t i = 0; i < apart.size(); ++i) {
+    if (apart[i] >= kShort * half_period && apart[i] <= kLong * half_period) continue;
+    return "extremes " + std::to_string(i + 1) + " and " + std::to_string(i + 2) + ", at " +
+           number(extrema.time[i]) + " and " + number(extrema.time[i + 1]) + " s, are " + number(apart[i]) +
+           " s apart, most are " + number(half_period) +
+           " s: successive ones are half a period apart, some are missing or too many";
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string unless_decaying(const DecayExtrema& extrema, std::size_t least) {
@@ -59,6 +79,7 @@ std::string unless_decaying(const DecayExtrema& extrema, std::size_t least) {
              number(x[i - 2]) + ", " + number(x[i - 1]) + ", " + number(x[i]) +
              " m: maxima and minima must come in turn";
   }
+  if (std::string which = uneven(extrema); !which.empty()) return which;
   if (x.size() > 2 && grows(extrema))
     return "the oscillation grows: its first swing is " + number(std::abs(x[1] - x[0])) + " m, its last " +
            number(std::abs(x[x.size() - 1] - x[x.size() - 2])) + " m";

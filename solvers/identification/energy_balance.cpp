@@ -1,5 +1,6 @@
 #include "solvers/identification/energy_balance.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -16,6 +17,11 @@ std::string wrong(const EnergyRows& rows) {
        unless_positive("amplitude", rows.amplitude), unless_finite("energy", rows.energy),
        unless_positive("frequency", rows.omega), unless_positive("rms velocity", rows.velocity_rms)});
   if (!bad.empty()) return bad;
+  const auto negative =
+      std::find_if(rows.energy.begin(), rows.energy.end(), [](double E) { return E < 0.0; });
+  if (negative != rows.energy.end())
+    return "energy " + std::to_string(negative - rows.energy.begin() + 1) + " of " + std::to_string(n) +
+           " is " + number(*negative) + " J, what a damper and friction take must not be negative";
   if (n < 2) return "it takes two amplitudes at least, there is " + std::to_string(n);
   if (rows.omega.size() != 1 && rows.omega.size() != n)
     return "there are " + std::to_string(rows.omega.size()) + " frequencies for " + std::to_string(n) +
@@ -41,6 +47,23 @@ Eigen::MatrixXd losses(const EnergyRows& rows) {
   return A;
 }
 
+// Why the two losses grow alike from row to row: their ratio is 2 pi v_rms^2 / (4 omega X), or pi omega X
+// / 4.
+std::string alike(const EnergyRows& rows) {
+  const double X = rows.amplitude[0], omega = rows.omega[0];
+  constexpr double kRounding = 1e-6;
+  const bool one_amplitude = std::all_of(rows.amplitude.begin(), rows.amplitude.end(),
+                                         [&](double each) { return std::abs(each - X) <= kRounding * X; });
+  std::string what = "one amplitude";
+  if (!one_amplitude && rows.velocity_rms.empty())
+    what = "one velocity, frequency times amplitude, " + number(omega * X) + " m/s,";
+  if (!one_amplitude && !rows.velocity_rms.empty())
+    what = "one rms velocity squared over frequency times amplitude, " +
+           number(rows.velocity_rms[0] * rows.velocity_rms[0] / (omega * X)) + " m/s,";
+  return "all " + std::to_string(rows.energy.size()) + " rows are of " + what +
+         ": damper and friction cannot be told apart";
+}
+
 }  // namespace
 
 Identification energy_balance(const EnergyRows& rows) {
@@ -51,9 +74,7 @@ Identification energy_balance(const EnergyRows& rows) {
   // Parallel columns: the sine of the angle between them is rounding.
   constexpr double kParallel = 1e-7;
   const double cosine = A.col(0).normalized().dot(A.col(1).normalized());
-  if (1.0 - cosine < kParallel * kParallel)
-    return no_result("all " + std::to_string(n) +
-                     " rows are of one amplitude: damper and friction cannot be told apart");
+  if (1.0 - cosine < kParallel * kParallel) return no_result(alike(rows));
   const LinearFit fit = linear_fit(A, energy, Eigen::VectorXd::Ones(n));
   const Scatter s = scatter(fit.chi_squared, fit.degrees_of_freedom, 0.0);
   Identification result;

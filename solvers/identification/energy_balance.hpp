@@ -17,7 +17,8 @@ struct EnergyRows {
 // E = pi c omega X^2 + 4 F X; with the rms velocity E = (2 pi / omega) c v_rms^2 + 4 F X, exact for any
 // waveform that turns twice a cycle. Linear least squares.
 // Estimates: damping [N s m-1], friction_force [N].
-// failure: fewer than two rows, not positive, all of one amplitude.
+// failure: fewer than two rows, not positive, a negative energy; rows that are all of one amplitude, or of
+// one omega X (with the rms velocity v^2 / (omega X)), for which both losses grow alike.
 Identification energy_balance(const EnergyRows& rows);
 
 }  // namespace frahm::identification

@@ -82,16 +82,35 @@ std::string wrong(const ResonancePairs& pairs) {
   return "";
 }
 
+std::string unless_above_support(double slope, ResponseTo shaken_by) {
+  if (shaken_by != ResponseTo::support || slope < 1.0) return "";
+  return "a slope is " + number(slope) + ": a support moves by less than the mass it shakes at resonance";
+}
+
+std::string unless_underdamped(double slope, ResponseTo shaken_by) {
+  if (std::string why = unless_above_support(slope, shaken_by); !why.empty()) return why;
+  const double zeta = ratio_of(slope, shaken_by).value;
+  if (zeta < 1.0) return "";
+  return "a slope of " + number(slope) + " is that of a damping ratio of " + number(zeta) +
+         ", it must be below 1";
+}
+
+// By more than rounding.
+std::string unless_rising(const Eigen::VectorXd& X, const Eigen::VectorXd& Y, double slope,
+                          ResponseTo shaken_by) {
+  constexpr double kRounding = 1e-9;
+  if (!(slope * (X.maxCoeff() - X.minCoeff()) > kRounding * Y.maxCoeff()))
+    return "the excitation does not rise with the response: the slope of the line is " + number(slope);
+  return unless_underdamped(slope, shaken_by);
+}
+
 std::string wrong(const ResonanceLines& lines, ResponseTo shaken_by) {
   const std::string bad =
       first_of({unless_equal("slope and intercept", {lines.slope.size(), lines.intercept.size()}),
                 unless_positive("slope", lines.slope), unless_finite("intercept", lines.intercept)});
   if (!bad.empty()) return bad;
   if (lines.slope.empty()) return "there are no lines";
-  const double most = *std::max_element(lines.slope.begin(), lines.slope.end());
-  if (shaken_by == ResponseTo::support && !(most < 1.0))
-    return "a slope is " + number(most) + ": a support moves by less than the mass it shakes at resonance";
-  return "";
+  return unless_above_support(*std::max_element(lines.slope.begin(), lines.slope.end()), shaken_by);
 }
 
 std::string wrong(const OneMass& known) {
@@ -192,6 +211,16 @@ void note_stops(const Eigen::VectorXd& Y, double zeta, double x_f, ResponseTo sh
         " pairs are of a motion that stops in each half cycle, for which the formulas do not hold");
 }
 
+// The line takes the responses as exact. R^2 = 1 - |y - yhat|^2 / |y - mean y|^2
+void note_scatter(const Eigen::VectorXd& Y, const LinearFit& line, Identification& result) {
+  constexpr double kLeast = 0.95;
+  const double explained = 1.0 - line.residuals.squaredNorm() / (Y.array() - Y.mean()).matrix().squaredNorm();
+  if (explained >= kLeast) return;
+  result.notes.push_back("the pairs scatter about the line, R^2 = " + number(explained) +
+                         ": as far as that is of the response, slope and damping are too small, and "
+                         "their intervals too narrow");
+}
+
 FittedRecord record_of(const ResonancePairs& pairs, const Eigen::VectorXd& fitted) {
   FittedRecord record{
       .name = "resonance", .over = "response", .over_unit = "m", .at = pairs.response, .series = {}};
@@ -210,9 +239,7 @@ Identification forced_resonance(const ResonancePairs& pairs, ResponseTo shaken_b
   Eigen::MatrixXd A(n, 2);
   A << X, Eigen::VectorXd::Ones(n);
   const LinearFit line = linear_fit(A, Y, Eigen::VectorXd::Ones(n));
-  if (!(line.p[0] > 0.0))
-    return no_result("the excitation does not rise with the response: the slope of the line is " +
-                     number(line.p[0]));
+  if (const std::string why = unless_rising(X, Y, line.p[0], shaken_by); !why.empty()) return no_result(why);
   const LeastSquaresFit fit = fit_hyperbola(X, Y, shaken_by, line.p[0], line.p[1]);
   if (!fit.converged) return no_result("the fit of the hyperbola did not converge: " + fit.reason);
   const double line_variance = scatter(line.chi_squared, line.degrees_of_freedom, 0.0).variance;
@@ -230,6 +257,7 @@ Identification forced_resonance(const ResonancePairs& pairs, ResponseTo shaken_b
   add_line(result, line.p[0], line.p[1]);
   add_forces(result, known, "");
   add_forces(result, known, "_line");
+  note_scatter(Y, line, result);
   note_stops(Y, fit.p[0], fit.p[1], shaken_by, result);
   result.records = {record_of(pairs, fit.residuals + Y)};
   set_intervals(result);
@@ -247,10 +275,8 @@ Identification forced_resonance(const ResonanceLines& lines, ResponseTo shaken_b
   const Eigen::MatrixXd off = drawn.rowwise() - mean;
   const double each = scatter(1.0, static_cast<double>(n - 1), 0.0).variance / static_cast<double>(n);
   const double slope = mean[0], intercept = mean[1];
+  if (const std::string why = unless_underdamped(slope, shaken_by); !why.empty()) return no_result(why);
   const Ratio zeta = ratio_of(slope, shaken_by);
-  if (!(zeta.value < 1.0))
-    return no_result("a slope of " + number(slope) + " is that of a damping ratio of " + number(zeta.value) +
-                     ", it must be below 1");
   const AtResonance at = at_resonance(zeta.value);
   const double x_f = intercept / (slope * at.G);  // of the asymptote Y = slope (X + G x_f)
   Identification result;

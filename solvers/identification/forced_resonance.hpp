@@ -25,7 +25,10 @@ struct ResonancePairs {
 // paper's formulas; damping_ratio, friction_displacement [m] by least squares of the hyperbola; with mass
 // and stiffness damping, damping_line [N s m-1], with the stiffness friction_force, friction_force_line [N].
 // The residuals are those of the excitation, as in the paper: its error and slope times the response's.
-// failure: fewer than two pairs of different response, not positive, a line that does not rise.
+// Scatter of the response makes the slope, and with it the damping, too small and the intervals too narrow: a
+// note says so where it is large.
+// failure: fewer than two pairs of different response, not positive, a line that does not rise, or so steeply
+// that the damping ratio is not below 1.
 Identification forced_resonance(const ResonancePairs& pairs, ResponseTo shaken_by, const OneMass& known = {});
 
 // Lines that others have drawn.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "solvers/identification/fourier_fit.hpp"
@@ -177,6 +178,27 @@ void set_estimates(const Unknowns& u, double omega_variance, Identification& res
            {{"energy_loss", 0.25 / X.value}, {"amplitude", -friction / X.value}});
 }
 
+// Over a stiffness that may be zero nothing can be divided. Intervals must be there.
+void check_loss(double force, Identification& result) {
+  constexpr double kRounding = 1e-9;
+  const auto find = [&](const char* name) {
+    return std::find_if(result.estimates.begin(), result.estimates.end(),
+                        [&](const Estimate& estimate) { return estimate.name == name; });
+  };
+  const auto k = find("storage_stiffness"), X = find("amplitude"), W = find("energy_loss");
+  if (W->value < 0.0 && !(W->high > 0.0))
+    result.notes.push_back(
+        "the loop runs the other way: is the force's sign that of a force against the motion?");
+  const bool none = std::abs(k->value) * X->value <= kRounding * force;
+  if (!none && !(k->low <= 0.0 && k->high >= 0.0)) return;
+  const Index loss = find("loss_factor") - result.estimates.begin();
+  result.covariance.row(loss).setConstant(std::numeric_limits<double>::quiet_NaN());
+  result.covariance.col(loss).setConstant(std::numeric_limits<double>::quiet_NaN());
+  result.covariance(loss, loss) = std::numeric_limits<double>::infinity();
+  result.notes.push_back("the storage stiffness may be zero: the loss factor is not determined");
+  set_intervals(result);
+}
+
 }  // namespace
 
 Identification hysteresis_loop(const LoopTraces& traces, std::optional<double> omega) {
@@ -191,7 +213,10 @@ Identification hysteresis_loop(const LoopTraces& traces, std::optional<double> o
     return no_result("the displacement does not change");
   const double start = omega.value_or(crossing_frequency(time, displacement));
   if (start == 0.0)
-    return no_result("the displacement does not pass its middle upwards twice: the frequency must be given");
+    return no_result(
+        "the displacement does not pass its middle upwards twice, so that the frequency cannot be found: it "
+        "takes a "
+        "record of two periods at least");
   const double spacing = duration / static_cast<double>(n - 1);
   constexpr double kLeastPeriods = 1.0, kMostOmega = pi / 2.0;  // four samples a period
   if (start * (duration + spacing) < 2.0 * pi * kLeastPeriods * (1.0 - 1e-6) || start * spacing > kMostOmega)
@@ -206,6 +231,7 @@ Identification hysteresis_loop(const LoopTraces& traces, std::optional<double> o
   set_estimates({x, F}, omega ? 0.0 : x.omega_variance, result);
   result.records = {record_of(traces, x, F)};
   set_intervals(result);
+  check_loss(force.cwiseAbs().maxCoeff(), result);
   return result;
 }
 

@@ -22,6 +22,8 @@ struct LoopTraces {
 // first harmonic), loss_factor = W / (2 pi U) with U = k X^2 / 2, equivalent_damping = W / oint v dx (W / (pi
 // omega X^2) of a harmonic motion) [N s m-1], equivalent_friction = W / (4 X) [N]. A force that jumps is seen
 // only between samples: its loss is known to that part of the stroke.
+// The loss factor is not determined where the storage stiffness may be zero, as of a damper alone. A note
+// says where the loss is negative. failure: a frequency that is not given nor fitted to two periods at least.
 Identification hysteresis_loop(const LoopTraces& traces, std::optional<double> omega);
 
 }  // namespace frahm::identification

@@ -124,6 +124,14 @@ TEST_CASE("An energy balance that cannot tell the two apart says so") {
   const auto refused = [](const EnergyRows& rows) { return energy_balance(rows).failure; };
   CHECK_THAT(refused({.amplitude = {1.0, 1.0}, .energy = {1.0, 2.0}, .omega = {1.0}, .velocity_rms = {}}),
              Contains("of one amplitude"));
+  CHECK_THAT(
+      refused({.amplitude = {1.0, 2.0}, .energy = {1.0, 2.0}, .omega = {4.0, 2.0}, .velocity_rms = {}}),
+      Contains("frequency times amplitude, 4 m/s"));
+  CHECK_THAT(
+      refused({.amplitude = {1.0, 4.0}, .energy = {1.0, 2.0}, .omega = {3.0}, .velocity_rms = {1.0, 2.0}}),
+      Contains("rms velocity squared over frequency times amplitude"));
+  CHECK_THAT(refused({.amplitude = {1.0, 2.0}, .energy = {1.0, -2.0}, .omega = {1.0}, .velocity_rms = {}}),
+             Contains("energy 2 of 2 is -2"));
   CHECK_THAT(refused({.amplitude = {1.0}, .energy = {1.0}, .omega = {1.0}, .velocity_rms = {}}),
              Contains("two amplitudes"));
   CHECK_THAT(refused({.amplitude = {1.0, 0.0}, .energy = {1.0, 2.0}, .omega = {1.0}, .velocity_rms = {}}),
@@ -242,7 +250,7 @@ TEST_CASE("Of a hundred noisy loops the intervals hold the truth in ninety at le
 
 TEST_CASE("A loop that is none says why") {
   Loop loop = loop_of(viscous, {800.0, 6.0}, {}, 17.0, 1.0, 40);
-  CHECK_THAT(hysteresis_loop(loop.traces, std::nullopt).failure, Contains("the frequency must be given"));
+  CHECK_THAT(hysteresis_loop(loop.traces, std::nullopt).failure, Contains("two periods at least"));
   CHECK_THAT(hysteresis_loop(loop.traces, 10.0).failure, Contains("it takes one at least"));
   CHECK_THAT(hysteresis_loop(loop.traces, -1.0).failure, Contains("the frequency is -1"));
   std::fill(loop.traces.displacement.begin(), loop.traces.displacement.end(), 1.0);
@@ -251,6 +259,38 @@ TEST_CASE("A loop that is none says why") {
   CHECK_THAT(hysteresis_loop(loop.traces, 17.0).failure, Contains("force 5 of 40 is nan"));
   loop.traces.force.pop_back();
   CHECK_THAT(hysteresis_loop(loop.traces, 17.0).failure, Contains("different lengths"));
+}
+
+// x = sin, F = k x + c v, over four cycles of 50 samples.
+LoopTraces traces_of(double k, double c, double omega) {
+  LoopTraces traces;
+  for (int i = 0; i < 200; ++i) {
+    const double t = 2.0 * pi / omega * i / 50.0;
+    traces.time.push_back(t);
+    traces.displacement.push_back(std::sin(omega * t));
+    traces.force.push_back(k * std::sin(omega * t) + c * omega * std::cos(omega * t));
+  }
+  return traces;
+}
+
+TEST_CASE("Without a stiffness there is no loss factor, and a loop that runs the other way is noted") {
+  const LoopTraces damper = traces_of(0.0, 6.0, 17.0);
+  LoopTraces noisy = damper;
+  noisy.force = Noise(1).on(noisy.force, 1.0);
+  for (const LoopTraces& traces : {damper, noisy}) {
+    const Identification result = hysteresis_loop(traces, std::nullopt);
+    REQUIRE(result.failure == "");
+    CHECK(std::isnan(value_of(result, "loss_factor")));
+    CHECK(std::isinf(estimate_of(result, "loss_factor").standard_error));
+    CHECK_THAT(value_of(result, "equivalent_damping"), WithinRel(6.0, 0.01));
+    REQUIRE(result.notes.size() == 1);
+    CHECK_THAT(result.notes[0], Contains("the loss factor is not determined"));
+  }
+  const Identification turned = hysteresis_loop(traces_of(-800.0, -6.0, 17.0), std::nullopt);
+  REQUIRE(turned.notes.size() == 1);
+  CHECK_THAT(turned.notes[0], Contains("runs the other way"));
+  CHECK_THAT(value_of(turned, "loss_factor"), WithinRel(6.0 * 17.0 / 800.0, kExact));
+  CHECK(hysteresis_loop(traces_of(800.0, 6.0, 17.0), std::nullopt).notes.empty());
 }
 
 TEST_CASE("Frequencies with and without an added mass give mass and stiffness exactly") {
@@ -297,6 +337,29 @@ TEST_CASE("Of a hundred noisy sets of frequencies the intervals hold mass and st
       CHECK(truth.held >= kHeld);
     }
   }
+}
+
+TEST_CASE(
+    "Degrees of freedom of the frequencies' errors make those of mass and stiffness, by "
+    "Welch-Satterthwaite") {
+  AddedMassRows rows{.added = {0.0, 20.0}, .omega = {24.0, 22.0}, .sigma = {0.01, 0.01}};
+  rows.degrees_of_freedom = {8.0, 8.0};
+  const Identification both = added_mass(rows);
+  REQUIRE(both.failure == "");
+  // m = 20 w_2^2 / (w_1^2 - w_2^2): its parts are as w_2 to w_1. nu = 8 (1 + q)^2 / (1 + q^2), q =
+  // (w_2/w_1)^2
+  const double q = 22.0 * 22.0 / (24.0 * 24.0);
+  const Estimate& mass = estimate_of(both, "mass");
+  CHECK_THAT(mass.degrees_of_freedom, WithinRel(8.0 * (1.0 + q) * (1.0 + q) / (1.0 + q * q), 1e-8));
+  CHECK(mass.high - mass.value > 2.1 * mass.standard_error);  // t of 16 is 2.12
+  // Only what is known badly counts.
+  rows.degrees_of_freedom = {4.0, std::numeric_limits<double>::infinity()};
+  rows.sigma = {0.01, 1e-9};
+  CHECK_THAT(estimate_of(added_mass(rows), "stiffness").degrees_of_freedom, WithinRel(4.0, 1e-8));
+  rows.degrees_of_freedom = {4.0};
+  CHECK_THAT(added_mass(rows).failure, Contains("degrees of freedom of 1"));
+  rows.degrees_of_freedom = {4.0, 0.0};
+  CHECK_THAT(added_mass(rows).failure, Contains("must be positive"));
 }
 
 TEST_CASE("Added masses that tell nothing are refused") {

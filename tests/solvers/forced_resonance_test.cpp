@@ -162,6 +162,9 @@ TEST_CASE("Pairs of a motion that stops are noted, and what tells nothing is ref
   CHECK_THAT(refused({1.0}, {1.0}), Contains("two pairs"));
   CHECK_THAT(refused({1.0, 1.0}, {1.0, 2.0}), Contains("two pairs"));
   CHECK_THAT(refused({1.0, 2.0}, {2.0, 1.0}), Contains("does not rise"));
+  CHECK_THAT(refused({1.0, 2.0, 3.0}, {0.7, 0.7, 0.7 * (1.0 + 1e-15)}), Contains("does not rise"));
+  CHECK_THAT(refused({1.0, 2.0}, {1.0, 2.0}), Contains("a slope is 1: a support"));
+  CHECK_THAT(refused({1.0, 2.0}, {0.95, 1.9}), Contains("must be below 1"));
   CHECK_THAT(refused({1.0, -2.0}, {2.0, 1.0}), Contains("response 2 of 2 is -2"));
   CHECK_THAT(refused({1.0, 2.0}, {2.0}), Contains("different lengths"));
   CHECK_THAT(
@@ -172,6 +175,19 @@ TEST_CASE("Pairs of a motion that stops are noted, and what tells nothing is ref
       Contains("must be below 1"));
   CHECK_THAT(forced_resonance(pairs, ResponseTo::force, {.mass = {}, .stiffness = -1.0}).failure,
              Contains("one is -1"));
+}
+
+TEST_CASE("Where the response scatters a note says that slope and damping are too small") {
+  const ResonancePairs exact = pairs_of(0.0423, 0.2e-3, ResponseTo::support, 12);
+  CHECK(forced_resonance(exact, ResponseTo::support, known).notes.empty());
+  ResonancePairs loose = exact;
+  const double range = exact.response.back() - exact.response.front();
+  loose.response = Noise(1).on(loose.response, 0.2 * range);
+  for (double& X : loose.response) X = std::max(X, 1e-6);
+  const Identification result = forced_resonance(loose, ResponseTo::support, known);
+  REQUIRE(result.failure == "");
+  REQUIRE(!result.notes.empty());
+  CHECK_THAT(result.notes[0], Contains("scatter about the line, R^2 = 0."));
 }
 
 }  // namespace
