@@ -135,13 +135,16 @@ Identification added_mass_of(const StudyFile& study) {
     rows.added.push_back(record.added_mass ? stated(study, *record.added_mass) : 0.0);
     rows.omega.push_back(frequency->value);
     rows.sigma.push_back(frequency->standard_error);
+    rows.degrees_of_freedom.push_back(frequency->degrees_of_freedom);
     for (auto& each : decay.records) {
       each.name = record.name;
       decays.records.push_back(std::move(each));
     }
   }
-  if (std::any_of(rows.sigma.begin(), rows.sigma.end(), [](double sigma) { return !(sigma > 0.0); }))
+  if (std::any_of(rows.sigma.begin(), rows.sigma.end(), [](double sigma) { return !(sigma > 0.0); })) {
     rows.sigma.clear();
+    rows.degrees_of_freedom.clear();
+  }
   Identification result = identification::added_mass(rows);
   result.records.insert(result.records.end(), decays.records.begin(), decays.records.end());
   return result;
