@@ -117,6 +117,7 @@ struct Turns {
   Shape shape() const {
     double product = 0.0, square = 0.0;
     for (const TurningPoint& fit : fits) {
+      if (fit.before.size() < 2) continue;
       product += fit.before[0] * fit.before[1];
       square += fit.before[0] * fit.before[0];
     }

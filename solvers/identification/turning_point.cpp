@@ -132,15 +132,16 @@ TurningPoint fit_of(const Quarters& quarters, const TurningPoint& start, Degrees
 }  // namespace
 
 TurningPoint turning_point(const Quarters& quarters) {
-  constexpr Index kLeastOfSide = 2;
+  constexpr Index kLeastOfSide = 2, kLeastSamples = 6;
   constexpr double kEpsilon = 4.0 * std::numeric_limits<double>::epsilon();
-  constexpr Degrees kOfFew{3, 2}, kLeast{4, 2};
   const Index n = quarters.phase.size();
-  if (n <= kOfFew.unknowns()) return {};
+  if (n < kLeastSamples) return {};
   TurningPoint start = parabola(quarters);
   start.rounding = kEpsilon * quarters.x.cwiseAbs().maxCoeff();
   const Index before = (quarters.phase.array() < start.phase).count();
   if (std::min(before, n - before) < kLeastOfSide) return {};
+  // One less of few samples.
+  constexpr Degrees kOfFew{3, 2}, kLeast{4, 2};
   TurningPoint best = fit_of(quarters, start, n > kLeast.unknowns() + 1 ? kLeast : kOfFew);
   // The degree goes up by two: what an even power misses an odd one does not find. The first that does not
   // predict better ends it: one of many would fit the noise by chance.
