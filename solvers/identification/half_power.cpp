@@ -144,11 +144,7 @@ Identification half_power(const ResponseCurve& curve, ResponseTo shaken_by) {
       peak, [&](double omega, double lower, double upper) {
         return omega / peak_ratio(half_power_exact(lower, upper, shaken_by), shaken_by);
       });
-  FittedRecord record{
-      .name = "curve", .over = "frequency", .over_unit = "rad s-1", .at = peak.at, .series = {}};
-  record.series = {{"amplitude", "m", peak.measured, peak.fitted}};
-  record.nrmse = nrmse(record.series);
-  result.records = {record};
+  result.records = {fitted_record(peak)};
   set_intervals(result);
   return result;
 }

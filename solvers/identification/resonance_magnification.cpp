@@ -103,11 +103,7 @@ Identification resonance_magnification(const ResponseCurve& curve, double static
   const double slope = (exact(peak.amplitude + h) - exact(peak.amplitude - h)) / (2.0 * h);
   add_from(result, found[0], {{"peak_amplitude", slope}});
   add_from(result, found[1], {{"peak_amplitude", -found[1].value / peak.amplitude}});
-  FittedRecord record{
-      .name = "curve", .over = "frequency", .over_unit = "rad s-1", .at = peak.at, .series = {}};
-  record.series = {{"amplitude", "m", peak.measured, peak.fitted}};
-  record.nrmse = nrmse(record.series);
-  result.records = {record};
+  result.records = {fitted_record(peak)};
   set_intervals(result);
   return result;
 }

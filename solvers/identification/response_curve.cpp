@@ -222,4 +222,12 @@ CurvePeak curve_peak(const ResponseCurve& curve, ResponseTo shaken_by) {
   return found;
 }
 
+FittedRecord fitted_record(const CurvePeak& peak) {
+  FittedRecord record{
+      .name = "curve", .over = "frequency", .over_unit = "rad s-1", .at = peak.at, .series = {}};
+  record.series = {{"amplitude", "m", peak.measured, peak.fitted}};
+  record.nrmse = nrmse(record.series);
+  return record;
+}
+
 }  // namespace frahm::identification

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "solvers/identification/identification.hpp"
+
 // The measured amplitude of one mass on a spring over the frequency, and its peak.
 namespace frahm::identification {
 
@@ -32,5 +34,8 @@ struct CurvePeak {
 };
 inline constexpr double kPeakPart = 0.5;  // so that the half-power points, at 0.71, lie well inside
 CurvePeak curve_peak(const ResponseCurve& curve, ResponseTo shaken_by);
+
+// The places fitted, for a residual plot.
+FittedRecord fitted_record(const CurvePeak& peak);
 
 }  // namespace frahm::identification
