@@ -103,7 +103,7 @@ TEST_CASE("the rig's chain recovers every parameter from its own tests without n
       {"identify_rig_tmd", {{"k", k}, {"d", d}, {"c_m", c_m}}},
       {"identify_rig_inerter_low", {{"c", c_low}}},
       {"identify_rig_inerter_high", {{"c", c_high}}},
-      {"identify_rig_damping_law", {{"c_const", c_low - 4.72 * c_I}, {"c_I", c_I}}}};
+      {"identify_rig_damping_law", {{"m", m}, {"k", k}, {"c_const", c_low - 4.72 * c_I}, {"c_I", c_I}}}};
   for (const std::string& study : chain) {
     laboratory.run(study);
     for (const auto& [parameter, value] : truth.at(study)) {
@@ -120,6 +120,8 @@ TEST_CASE("the rig's chain finds its parameters in the studies' own data, down t
   const double c_I = (c_high - c_low) / (12.9 - 4.72);
   CHECK(std::abs(laboratory.off("c_const", c_low - 4.72 * c_I)) < standard_errors);
   CHECK(std::abs(laboratory.off("c_I", c_I)) < standard_errors);
+  CHECK(std::abs(laboratory.off("m", m)) < standard_errors);
+  CHECK(std::abs(laboratory.off("k", k)) < standard_errors);
   laboratory.run("identify_rig_main");
   CHECK(std::abs(laboratory.off("C", C)) < standard_errors);
   CHECK(std::abs(laboratory.off("D", D)) < standard_errors);
