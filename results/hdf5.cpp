@@ -68,14 +68,22 @@ Handle open_attribute(hid_t object, const std::string& name, const std::string& 
   return Handle(checked(H5Aopen(object, name.c_str(), H5P_DEFAULT), where, "cannot read attribute " + name));
 }
 
-// The text of an attribute that is a scalar string of fixed length.
+// The text of an attribute whose strings have each their own length, as h5py and others write them.
+std::string variable_text_of(hid_t attribute, hid_t type, const std::string& where) {
+  char* text = nullptr;
+  checked(H5Aread(attribute, type, static_cast<void*>(&text)), where, "cannot read an attribute");
+  const std::string copy = text ? text : "";
+  H5free_memory(text);
+  return copy;
+}
+
+// The text of an attribute that is a single string.
 std::optional<std::string> text_of(hid_t attribute, const std::string& where) {
   const Handle type(checked(H5Aget_type(attribute), where, "cannot read an attribute"));
   const Handle space(checked(H5Aget_space(attribute), where, "cannot read an attribute"));
-  if (H5Tget_class(type.get()) != H5T_STRING || H5Tis_variable_str(type.get()) > 0 ||
-      H5Sget_simple_extent_type(space.get()) != H5S_SCALAR) {
+  if (H5Tget_class(type.get()) != H5T_STRING || H5Sget_simple_extent_npoints(space.get()) != 1)
     return std::nullopt;
-  }
+  if (H5Tis_variable_str(type.get()) > 0) return variable_text_of(attribute, type.get(), where);
   std::string text(H5Tget_size(type.get()), '\0');
   checked(H5Aread(attribute, type.get(), text.data()), where, "cannot read an attribute");
   text.resize(std::min(text.size(), text.find('\0')));
@@ -203,6 +211,17 @@ std::vector<std::string> Group::dataset_names() const {
   checked(H5Literate(id(), H5_INDEX_CRT_ORDER, H5_ITER_INC, nullptr, visit, &names), where_,
           "cannot list the group");
   std::erase_if(names, [&](const std::string& link) { return !has_dataset(link); });
+  return names;
+}
+
+std::vector<std::string> Group::link_names() const {
+  std::vector<std::string> names;
+  const auto visit = [](hid_t, const char* name, const H5L_info_t*, void* list) -> herr_t {
+    static_cast<std::vector<std::string>*>(list)->emplace_back(name);
+    return 0;
+  };
+  checked(H5Literate(id(), H5_INDEX_NAME, H5_ITER_INC, nullptr, visit, &names), where_,
+          "cannot list the group");
   return names;
 }
 

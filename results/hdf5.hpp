@@ -45,9 +45,10 @@ class Object {
   void write_numbers(const std::string& name, const Variable& as,
                      std::span<const double> values);  // shape [n]
 
-  std::optional<std::string> text(const std::string& name) const;             // if there is such an attribute
+  // If there is such an attribute: a single string, of fixed or variable length.
+  std::optional<std::string> text(const std::string& name) const;
   std::optional<std::vector<double>> numbers(const std::string& name) const;  // if there is such an attribute
-  std::vector<Text> texts() const;  // every scalar string attribute, in order of creation
+  std::vector<Text> texts() const;  // every single string among the attributes, in order of creation
 
  protected:
   Object(Handle handle, std::string where) : handle_(std::move(handle)), where_(std::move(where)) {}
@@ -68,6 +69,7 @@ struct Storage {
 class Dataset : public Object {
  public:
   Type type() const;
+  bool is_numeric() const;  // integers or floats of any size and byte order
   Shape shape() const;
   Shape chunk() const;  // empty if contiguous
 
@@ -98,6 +100,7 @@ class Group : public Object {
   bool has(const std::string& name) const;
   bool has_dataset(const std::string& name) const;
   std::vector<std::string> dataset_names() const;  // in order of creation
+  std::vector<std::string> link_names() const;     // of all it holds, by name; of any file
 
   Group create_group(const std::string& name);
   Group group(const std::string& name) const;

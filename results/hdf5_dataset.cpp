@@ -73,6 +73,12 @@ Type Dataset::type() const {
   throw StoreError(where_, "must be float64, float32, int64, int32 or int8, little-endian", "");
 }
 
+bool Dataset::is_numeric() const {
+  const Handle type(checked(H5Dget_type(id()), where_, "cannot read the type"));
+  const H5T_class_t kind = H5Tget_class(type.get());
+  return kind == H5T_INTEGER || kind == H5T_FLOAT;
+}
+
 Shape Dataset::shape() const {
   const Handle space(checked(H5Dget_space(id()), where_, "cannot read the shape"));
   Shape shape(static_cast<std::size_t>(

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <complex>
 #include <span>
 #include <vector>
 
@@ -87,6 +88,11 @@ class Flow {
   // Matrices and friction limits; call set_forcing before the next passage.
   void set_system(const mechanics::LinearSystem& system);
   void set_forcing(const mechanics::LinearSystem& system);
+  // Each harmonic's cos + i sin at phase 0, in the order of the system's, in the place of 1, until the next
+  // set_forcing: the same forcing with other amplitudes and phases, without any of its matrices anew.
+  void set_oscillators(std::span<const std::complex<double>> at_zero) {
+    equations_.oscillators_at_zero.assign(at_zero.begin(), at_zero.end());
+  }
 
   // The flow from state z at `phase` (omega t) [rad] over `length` steps.
   void pass(const typename S::State& z, double phase, double length, Passage<N, H>& passage);

@@ -43,6 +43,7 @@ void Flow<N, H>::set_forcing(const mechanics::LinearSystem& system) {
   }
   const auto harmonics = static_cast<Eigen::Index>(orders_.size());
   fundamental_rate_ = system.omega * h;
+  eq.oscillators_at_zero.clear();
   eq.period = 2.0 * M_PI / fundamental_rate_;
   eq.phase_rate.resize(harmonics);
   rotation_.resize(2 * orders_.size());

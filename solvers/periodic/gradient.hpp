@@ -34,7 +34,6 @@ class Gradient {
  private:
   using Gram = typename Integrals<N, H>::Gram;
 
-  static const char* why_no_orbit_derivative(const Orbit<N, H>& orbit);
   const char* differentiate_all(std::span<const mechanics::NetworkValues> directions, std::span<double> out);
   const char* differentiate(const mechanics::NetworkValues& direction, std::span<double> out);
   void integrate();

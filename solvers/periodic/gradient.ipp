@@ -62,20 +62,6 @@ const char* Gradient<N, H>::evaluate(const Orbit<N, H>& orbit, const mechanics::
 }
 
 template <int N, int H>
-const char* Gradient<N, H>::why_no_orbit_derivative(const Orbit<N, H>& orbit) {
-  switch (orbit.status) {
-    case Status::ok:
-      return "";
-    case Status::grazing:
-      return "grazing: an event only just happens, and the derivatives on both sides differ";
-    case Status::unbounded:
-      return "the response is unbounded";
-    default:
-      return "there is no response";
-  }
-}
-
-template <int N, int H>
 const char* Gradient<N, H>::differentiate_all(std::span<const mechanics::NetworkValues> directions,
                                               std::span<double> out) {
   for (std::size_t i = 0; i < traces_.size(); ++i) {
@@ -196,12 +182,13 @@ double Gradient<N, H>::derivative_of_point(std::size_t i) {
 // event besides.
 template <int N, int H>
 double Gradient<N, H>::at_candidate(std::size_t trace, const Candidate<N, H>& candidate) const {
-  const TraceDerivative<N, H> traced(assembly_, flow_, sensitivity_, system_->laws, system_by_.laws);
-  const InstantDerivative<N, H> d = sensitivity_.at(candidate.step, candidate.s, candidate.at);
+  const TraceDerivative<N, H> traced(assembly_, flow_, sensitivity_.passage(), system_->laws,
+                                     system_by_.laws);
+  const InstantDerivative<N, H> d = sensitivity_.passage().at(candidate.step, candidate.s, candidate.at);
   const std::size_t mode = steps_.steps()[candidate.step].mode;
   double by = traced.of(traces_[trace], candidate.at, d, mode);
   if (candidate.change >= 0) {
-    by += candidate.slope * sensitivity_.shift(static_cast<std::size_t>(candidate.change));
+    by += candidate.slope * sensitivity_.passage().shift(static_cast<std::size_t>(candidate.change));
   }
   return by;
 }
@@ -225,7 +212,7 @@ double Gradient<N, H>::extreme(std::size_t i, Side side) {
                               : side == Side::least && candidate.value <= found.least + tie);
     if (!at_most && !at_least) continue;
     const double by = at_candidate(trace, candidate);
-    const InstantDerivative<N, H> d = sensitivity_.at(candidate.step, candidate.s, candidate.at);
+    const InstantDerivative<N, H> d = sensitivity_.passage().at(candidate.step, candidate.s, candidate.at);
     state_change = std::max(state_change, d.z.norm() / candidate.at.z.norm());
     if (at_most) {
       smallest = std::min(smallest, by);
@@ -256,11 +243,11 @@ double Gradient<N, H>::peak_phase(std::size_t i) {
   }
   if (peak == nullptr) return none(i, "the largest value is held, never reached");
   if (!peak->stationary) {
-    return flow_.fundamental_rate() * sensitivity_.shift(static_cast<std::size_t>(peak->change));
+    return flow_.fundamental_rate() * sensitivity_.passage().shift(static_cast<std::size_t>(peak->change));
   }
   // u'(t) = 0:  dt = -du' / u''
   const Eigen::Index mass = static_cast<Eigen::Index>(quantities_[i].index), n = flow_.equations().masses();
-  const InstantDerivative<N, H> d = sensitivity_.at(peak->step, peak->s, peak->at);
+  const InstantDerivative<N, H> d = sensitivity_.passage().at(peak->step, peak->s, peak->at);
   return -flow_.fundamental_rate() * d.z[n + mass] / peak->at.a[mass];
 }
 

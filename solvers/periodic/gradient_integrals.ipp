@@ -16,7 +16,7 @@ void Gradient<N, H>::integrate() {
     for (int node = 0; node < kNodes; ++node) at.col(node) = powers(kNodeAt[node] * steps[i].length);
     y.topRows(eq.states()).noalias() = steps[i].expansion.z.transpose() * at;
     y.bottomRows(eq.oscillators()).noalias() = steps[i].expansion.u.transpose() * at;
-    y_by.noalias() = sensitivity_.polynomials(i).transpose() * at;
+    y_by.noalias() = sensitivity_.passage().polynomials(i).transpose() * at;
     for (int node = 0; node < kNodes; ++node) y_by.col(node) *= steps[i].length * kNodeWeight[node];
     gram_by_.topRows(eq.states()).noalias() += y_by * y.transpose();
   }
@@ -177,7 +177,7 @@ typename Gradient<N, H>::Loss Gradient<N, H>::sliding_distance(std::size_t conta
     const OrbitStep<N, H>& step = steps[i];
     const Mode<N, H>& mode = flow_.mode(step.mode);
     if (contains(mode.stuck, j)) continue;
-    const auto& p = sensitivity_.polynomials(i);
+    const auto& p = sensitivity_.passage().polynomials(i);
     const typename S::State d = p.transpose() * powers(step.length);
     const typename S::Oscillators du = step.right.u - step.left.u;
     distance.value += mode.sign(j) * (w.dot(step.right.z.head(n) - step.left.z.head(n)) + support.dot(du));
@@ -194,8 +194,8 @@ double Gradient<N, H>::stuck_fraction(std::size_t contact) const {
   double stuck_by = 0.0;  // [steps]
   for (std::size_t k = 0; k < segments.size(); ++k) {
     if (!contains(flow_.mode(segments[k].mode).stuck, static_cast<Eigen::Index>(contact))) continue;
-    if (k + 1 < segments.size()) stuck_by += sensitivity_.shift(k);
-    if (k > 0) stuck_by -= sensitivity_.shift(k - 1);
+    if (k + 1 < segments.size()) stuck_by += sensitivity_.passage().shift(k);
+    if (k > 0) stuck_by -= sensitivity_.passage().shift(k - 1);
   }
   return stuck_by / ((orbit_->half_period ? 0.5 : 1.0) * flow_.equations().period);
 }

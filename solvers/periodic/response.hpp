@@ -1,10 +1,12 @@
 #pragma once
 
+#include <numbers>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "solvers/mechanics/network.hpp"
+#include "solvers/periodic/observed_motion.hpp"
 
 // What is told of a periodic response, and the interface of what finds one.
 namespace frahm::periodic {
@@ -27,14 +29,15 @@ struct Stretch {
   std::vector<std::string> contacts;  // per Coulomb element: "sticks", "slides +", "slides -"
 };
 
-// Sampled time history over one period, omega t from 0 to 2 pi inclusive. Rows are samples.
+// The response at chosen instants. Rows are samples.
 struct History {
   std::vector<double> time;        // [s]
   std::vector<std::string> names;  // "main_displacement", "main_velocity", ..., "guide_force"
   std::vector<std::string> units;
   std::vector<std::vector<double>> columns;
 
-  // Without samples: displacement and velocity of each mass, force of each element.
+  // Without samples: displacement and velocity of each mass, force of each element, acceleration of each
+  // mass.
   static History of(const mechanics::Network& network) {
     History history;
     const auto add_column = [&](const std::string& name, const char* unit) {
@@ -47,9 +50,18 @@ struct History {
       add_column(mass + "_velocity", "m s-1");
     }
     for (const auto& element : network.elements) add_column(element.name + "_force", "N");
+    for (const std::string& mass : network.masses) add_column(mass + "_acceleration", "m s-2");
     return history;
   }
 };
+
+// So many phases omega t at equal intervals over a period, both its ends included [rad].
+inline std::vector<double> phases_of_a_period(std::size_t samples) {
+  std::vector<double> phases(samples, 0.0);
+  for (std::size_t i = 1; i < samples; ++i)
+    phases[i] = 2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(samples - 1);
+  return phases;
+}
 
 // What PeriodicResponse (solvers/response/) does, for one kind of network; its comments say what is promised.
 class ResponseSolver {
@@ -64,7 +76,9 @@ class ResponseSolver {
   virtual const char* gradient(std::span<const mechanics::NetworkValues> directions,
                                std::span<double> out) = 0;
   virtual const char* why_no_derivative(std::size_t quantity) const = 0;
-  virtual History history(std::size_t samples) = 0;
+  virtual const char* observe(std::span<const double> times, std::span<const Observed> observed,
+                              std::span<const mechanics::NetworkValues> directions, ObservedMotion& out) = 0;
+  virtual History history(std::span<const double> phases) = 0;
   virtual std::vector<Stretch> stretches() const = 0;
 };
 

@@ -3,6 +3,7 @@
 #include "solvers/periodic/continuation.hpp"
 #include "solvers/periodic/gradient.hpp"
 #include "solvers/periodic/observables.hpp"
+#include "solvers/periodic/orbit_observation.hpp"
 #include "solvers/periodic/response.hpp"
 #include "solvers/periodic/rest_position.hpp"
 
@@ -52,7 +53,13 @@ class SizedSolver final : public ResponseSolver {
   }
   const char* why_no_derivative(std::size_t quantity) const override { return gradient_.why_none(quantity); }
 
-  History history(std::size_t samples) override;
+  const char* observe(std::span<const double> times, std::span<const Observed> observed,
+                      std::span<const mechanics::NetworkValues> directions, ObservedMotion& out) override {
+    OrbitObservation<N, H> observation(flow_, observed);
+    return observation.observe(orbit_, assembly_, system_, values_, directions, times, out);
+  }
+
+  History history(std::span<const double> phases) override;
   std::vector<Stretch> stretches() const override;
 
  private:
@@ -136,18 +143,16 @@ void SizedSolver<N, H>::settle() {
   if (settle_rest_position(assembly_, flow_, steps_, integrals_, trial)) orbit_ = trial;
 }
 
-// The orbit at equal intervals of omega t: displacement and velocity of each mass, force of each element.
 template <int N, int H>
-History SizedSolver<N, H>::history(std::size_t samples) {
+History SizedSolver<N, H>::history(std::span<const double> phases) {
   const auto& network = assembly_.network();
   History result = History::of(network);
   const Forms<N, H> forms(assembly_, flow_);
   const Eigen::Index n = flow_.equations().masses();
-  const double turn = 2.0 * std::numbers::pi, seconds_per_turn = turn / system_.omega;
+  const double step = flow_.equations().step, turn = 2.0 * std::numbers::pi;
   const double covered = orbit_.half_period ? 0.5 * turn : turn;
-  for (std::size_t i = 0; i < samples; ++i) {
-    const double phase = samples > 1 ? turn * static_cast<double>(i) / static_cast<double>(samples - 1) : 0.0;
-    double from_section = phase - orbit_.section;
+  for (const double phase : phases) {
+    double from_section = std::fmod(phase, turn) - orbit_.section;
     double sign = 1.0;
     for (; from_section < 0.0; from_section += covered) sign *= orbit_.sign();
     for (; from_section >= covered; from_section -= covered) sign *= orbit_.sign();
@@ -159,16 +164,18 @@ History SizedSolver<N, H>::history(std::size_t samples) {
     Instant<N, H> instant;
     flow_.instant_at(flow_.state_within(*segment, orbit_.section, at - segment->start),
                      orbit_.section + from_section, mode, instant);
-    result.time.push_back(phase / turn * seconds_per_turn);
+    result.time.push_back(phase / system_.omega);
     std::size_t column = 0;
     for (Eigen::Index mass = 0; mass < n; ++mass) {
       result.columns[column++].push_back(sign * instant.z[mass]);
-      result.columns[column++].push_back(sign * instant.z[n + mass] / flow_.equations().step);
+      result.columns[column++].push_back(sign * instant.z[n + mass] / step);
     }
     for (std::size_t e = 0; e < network.elements.size(); ++e) {
       result.columns[column++].push_back(sign *
                                          forms.element_force(e, system_.laws[e], mode).at(instant).value);
     }
+    for (Eigen::Index mass = 0; mass < n; ++mass)
+      result.columns[column++].push_back(sign * instant.a[mass] / (step * step));
   }
   return result;
 }

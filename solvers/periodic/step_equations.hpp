@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <cmath>
+#include <complex>
 #include <cstdint>
 #include <vector>
 
@@ -94,6 +95,9 @@ struct StepEquations {
   Eigen::VectorXd maxwell_stiffness, maxwell_rate;  // k [N/m]; k/c times h
   Eigen::MatrixXd maxwell_drive;                    // k p^T y'(t) [N a step]
   Eigen::VectorXd phase_rate;                       // order_k omega h [rad a step], size H
+  // Of each harmonic cos + i sin at phase 0; empty: 1, as in every motion but one whose excitation was
+  // measured.
+  std::vector<std::complex<double>> oscillators_at_zero;
 
   Eigen::Index masses() const { return M.rows(); }
   Eigen::Index contacts() const { return limit.size(); }
@@ -118,6 +122,11 @@ struct StepEquations {
       const auto i = static_cast<Eigen::Index>(k);
       u[1 + 2 * i] = std::cos(orders[k] * fundamental_phase);
       u[2 + 2 * i] = std::sin(orders[k] * fundamental_phase);
+      if (oscillators_at_zero.empty()) continue;
+      const std::complex<double> turned =
+          oscillators_at_zero[k] * std::complex<double>(u[1 + 2 * i], u[2 + 2 * i]);
+      u[1 + 2 * i] = turned.real();
+      u[2 + 2 * i] = turned.imag();
     }
   }
 

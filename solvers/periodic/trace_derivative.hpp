@@ -134,7 +134,7 @@ class TraceDerivative {
   using Laws = std::vector<mechanics::ElementLaw>;
 
   TraceDerivative(const mechanics::Assembly& assembly, const Flow<N, H>& flow,
-                  const OrbitSensitivity<N, H>& sensitivity, const Laws& laws, const Laws& laws_by)
+                  const PassageSensitivity<N, H>& sensitivity, const Laws& laws, const Laws& laws_by)
       : assembly_(assembly), flow_(flow), sensitivity_(sensitivity), laws_(laws), laws_by_(laws_by) {}
 
   // d: of the instant x, which lies in `mode`.
@@ -241,7 +241,7 @@ class TraceDerivative {
 
   const mechanics::Assembly& assembly_;
   const Flow<N, H>& flow_;
-  const OrbitSensitivity<N, H>& sensitivity_;
+  const PassageSensitivity<N, H>& sensitivity_;
   const Laws &laws_, &laws_by_;
 };
 

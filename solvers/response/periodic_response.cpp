@@ -46,8 +46,13 @@ std::string PeriodicResponse::gradient(std::span<const mechanics::NetworkValues>
 std::string PeriodicResponse::why_no_derivative(std::size_t quantity) const {
   return solver_->why_no_derivative(quantity);
 }
-History PeriodicResponse::history(std::size_t samples) {
-  return solver_->history(samples);
+std::string PeriodicResponse::observe(std::span<const double> times, std::span<const Observed> observed,
+                                      std::span<const mechanics::NetworkValues> directions,
+                                      ObservedMotion& out) {
+  return solver_->observe(times, observed, directions, out);
+}
+History PeriodicResponse::history(std::span<const double> phases) {
+  return solver_->history(phases);
 }
 std::vector<Stretch> PeriodicResponse::stretches() const {
   return solver_->stretches();

@@ -58,8 +58,16 @@ class PeriodicResponse {
   // Why a quantity of the last gradient() has none; "" where it has.
   std::string why_no_derivative(std::size_t quantity) const;
 
-  // Of a response that is ok or grazing.
-  History history(std::size_t samples);
+  // What sensors show of a response that is ok or grazing.
+  // times: [s], at any of which the excitation's phase is omega t.  directions: as of gradient(); may be
+  // none. Returns "", or why there are no derivatives (as gradient() says); `out` then has the values alone.
+  // Of the arctan law there are neither.
+  std::string observe(std::span<const double> times, std::span<const Observed> observed,
+                      std::span<const mechanics::NetworkValues> directions, ObservedMotion& out);
+
+  // Of a response that is ok or grazing, at these phases omega t [rad]; where something jumps, what it
+  // jumps to.
+  History history(std::span<const double> phases);
   std::vector<Stretch> stretches() const;
 
  private:

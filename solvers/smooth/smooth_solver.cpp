@@ -82,7 +82,12 @@ class SmoothSolver final : public periodic::ResponseSolver {
     return "a response under the arctan law is integrated, and has no exact derivative";
   }
 
-  History history(std::size_t samples) override;
+  const char* observe(std::span<const double>, std::span<const periodic::Observed>,
+                      std::span<const mechanics::NetworkValues>, periodic::ObservedMotion& out) override {
+    out = {};
+    return why_no_derivative(0);
+  }
+  History history(std::span<const double> phases) override;
   std::vector<periodic::Stretch> stretches() const override { return {}; }  // nothing ever sticks
 
  private:
@@ -140,7 +145,7 @@ bool SmoothSolver::guess_from_exact_law() {
   const Status status = exact_->solve().status;
   if (status != Status::ok && status != Status::grazing) return false;
   constexpr Eigen::Index kSamples = 64;
-  const History history = exact_->history(kSamples + 1);
+  const History history = exact_->history(periodic::phases_of_a_period(kSamples + 1));
   const Eigen::Index n = equation_.masses();
   const auto& elements = assembly_.network().elements;
   Eigen::MatrixXd states(equation_.size(), kSamples), speeds(equation_.terms(), kSamples);
@@ -195,10 +200,10 @@ Eigen::VectorXd SmoothSolver::scale(double displacement, double velocity) const 
   return result;
 }
 
-// The orbit at omega t = phase in [0, 2 pi].
+// The orbit at omega t = phase.
 void SmoothSolver::state_at(double phase, Eigen::VectorXd& z) const {
   const double covered = equation_.period() * (orbit_.half_period ? 0.5 : 1.0);
-  double from_section = phase / system_.omega - orbit_.section, sign = 1.0;
+  double from_section = std::fmod(phase, 2.0 * std::numbers::pi) / system_.omega - orbit_.section, sign = 1.0;
   for (; from_section < 0.0; from_section += covered) sign *= orbit_.sign();
   for (; from_section >= covered; from_section -= covered) sign *= orbit_.sign();
   const double t = orbit_.section + from_section;
@@ -207,8 +212,7 @@ void SmoothSolver::state_at(double phase, Eigen::VectorXd& z) const {
   z *= sign;
 }
 
-// The orbit at equal intervals of omega t: displacement and velocity of each mass, force of each element.
-History SmoothSolver::history(std::size_t samples) {
+History SmoothSolver::history(std::span<const double> phases) {
   const Network& network = assembly_.network();
   const Forms forms(assembly_, equation_);
   History result = History::of(network);
@@ -218,9 +222,7 @@ History SmoothSolver::history(std::size_t samples) {
   }
   Instant instant;
   Eigen::VectorXd z;
-  for (std::size_t i = 0; i < samples; ++i) {
-    const double share = samples > 1 ? static_cast<double>(i) / static_cast<double>(samples - 1) : 0.0;
-    const double phase = 2.0 * std::numbers::pi * share;
+  for (const double phase : phases) {
     state_at(phase, z);
     equation_.look(phase / system_.omega, z, instant);
     result.time.push_back(phase / system_.omega);
@@ -230,6 +232,8 @@ History SmoothSolver::history(std::size_t samples) {
       result.columns[column++].push_back(z[equation_.masses() + mass]);
     }
     for (const Form& force : element_forces) result.columns[column++].push_back(force.value(instant));
+    for (Eigen::Index mass = 0; mass < equation_.masses(); ++mass)
+      result.columns[column++].push_back(instant.dz[equation_.masses() + mass]);
   }
   return result;
 }

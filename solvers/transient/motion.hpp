@@ -31,8 +31,9 @@ struct Stop {
 
 // States at given times, ascending.
 struct Samples {
-  std::vector<double> time;                                 // [s]
-  std::vector<std::vector<double>> displacement, velocity;  // of each mass, a value for each time
+  std::vector<double> time;  // [s]
+  // Of each mass, a value for each time: [m], [m/s], [m/s^2]; where the acceleration jumps, what it jumps to.
+  std::vector<std::vector<double>> displacement, velocity, acceleration;
 };
 
 // Called every few hundred steps while a motion is followed; what it throws ends the motion and is passed on.

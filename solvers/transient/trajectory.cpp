@@ -25,6 +25,16 @@ void check_initial(double value, const char* what) {
   throw mechanics::MechanicsError(message.str());
 }
 
+// Accelerations at fraction s of a step: the slopes of the velocities' polynomials [m a step^2].
+template <class StatePolynomials>
+Eigen::VectorXd acceleration_in(const StatePolynomials& z, Index masses, double s) {
+  Eigen::VectorXd acceleration(masses);
+  const periodic::Polynomial powers = periodic::powers(s);
+  for (Index i = 0; i < masses; ++i)
+    acceleration[i] = periodic::derivative(periodic::Polynomial(z.col(masses + i))).dot(powers);
+  return acceleration;
+}
+
 }  // namespace
 
 std::vector<double> sample_times(double duration, int count) {
@@ -43,6 +53,7 @@ Trajectory::Trajectory(const mechanics::Assembly& assembly, std::vector<double> 
   samples_.time = std::move(times);
   samples_.displacement.resize(turning_points_.size());
   samples_.velocity.resize(turning_points_.size());
+  samples_.acceleration.resize(turning_points_.size());
 }
 
 void Trajectory::set_system(const mechanics::LinearSystem& system, double phase) {
@@ -79,6 +90,7 @@ void Trajectory::start(const InitialState& initial) {
   set(initial.displacement, 0, 1.0, "displacement");
   set(initial.velocity, n, eq.step, "velocity");
   deceleration_.setZero(eq.contacts());
+  acceleration_.setZero(n);
 }
 
 bool Trajectory::advance(double duration, double phase) {
@@ -185,19 +197,25 @@ void Trajectory::find_free_directions() {
 
 void Trajectory::keep_samples(Step& step, double at) {
   const double h = flow_.equations().step, end = at + step.length * h;
+  const auto& expansion = steps_.expand(step);
   for (; next_sample_ < samples_.time.size() && samples_.time[next_sample_] < end; ++next_sample_) {
+    const double s = std::max(0.0, (samples_.time[next_sample_] - at) / h);
     State z;
-    Flow::evaluate(steps_.expand(step), std::max(0.0, (samples_.time[next_sample_] - at) / h), z);
-    keep_state(z);
+    Flow::evaluate(expansion, s, z);
+    keep_state(z, acceleration_in(expansion.z, flow_.equations().masses(), s));
   }
+  if (!samples_.time.empty())
+    acceleration_ = acceleration_in(expansion.z, flow_.equations().masses(), step.length);
 }
 
-void Trajectory::keep_state(const State& z) {
+void Trajectory::keep_state(const State& z, const Eigen::VectorXd& acceleration) {
   const Index n = flow_.equations().masses();
+  const double h = flow_.equations().step;
   for (Index i = 0; i < n; ++i) {
     const auto mass = static_cast<std::size_t>(i);
     samples_.displacement[mass].push_back(z[i]);
-    samples_.velocity[mass].push_back(z[n + i] / flow_.equations().step);
+    samples_.velocity[mass].push_back(z[n + i] / h);
+    samples_.acceleration[mass].push_back(acceleration[i] / (h * h));
   }
 }
 
@@ -205,10 +223,11 @@ void Trajectory::come_to_rest() {
   const Eigen::VectorXd place = tends_to();
   z_.setZero();
   z_.head(place.size()) = place;
+  acceleration_.setZero(place.size());
 }
 
 void Trajectory::finish() {
-  for (; next_sample_ < samples_.time.size(); ++next_sample_) keep_state(z_);
+  for (; next_sample_ < samples_.time.size(); ++next_sample_) keep_state(z_, acceleration_);
 }
 
 // With q = q_0 + B y, B the free directions, the forces balance along them:

@@ -68,7 +68,7 @@ class Trajectory {
   void note_mode(const periodic::Mode<Eigen::Dynamic, Eigen::Dynamic>& mode, double at, const State& z);
   void find_free_directions();
   void keep_samples(Step& step, double at);
-  void keep_state(const State& z);
+  void keep_state(const State& z, const Eigen::VectorXd& acceleration);
   Eigen::VectorXd resting_place(const State& z) const;
 
   const mechanics::Assembly& assembly_;
@@ -76,6 +76,7 @@ class Trajectory {
   periodic::OrbitSteps<Eigen::Dynamic, Eigen::Dynamic> steps_;
   periodic::Orbit<Eigen::Dynamic, Eigen::Dynamic> stretch_;  // the passage in hand
   State z_;
+  Eigen::VectorXd acceleration_;  // where z_ is [m a step^2]
   double time_ = 0.0;
   double steps_taken_ = 0.0;
   const char* failure_ = nullptr;

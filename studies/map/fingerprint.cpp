@@ -83,7 +83,8 @@ void add_network(const StudyFile& study, CanonicalText& text) {
 
 // What tells a decay or transient from another of the same network.
 void add_motion(const StudyFile& study, CanonicalText& text) {
-  if (study.kind == StudyKind::sweep || study.tune) return;
+  const bool moves = study.kind == StudyKind::decay || study.kind == StudyKind::transient || study.identify;
+  if (!moves) return;
   const auto names = study.parameters.names();
   text.line("kind {}", kind_name(study.kind));
   const auto add = [&](const char* what, const std::optional<StudyValue>& value) {
@@ -149,6 +150,44 @@ void add_assessment(const StudyFile& study, CanonicalText& text) {
   for (const ScenarioChoice& scenario : study.tune->scenarios) text.line("named {}", scenario.name);
 }
 
+void add_records(const StudyFile& study, CanonicalText& text) {
+  const auto names = study.parameters.names();
+  const auto add = [&](const char* what, const std::optional<StudyValue>& value) {
+    if (value) text.line("{} {}", what, value->expression.canonical_text(names));
+  };
+  for (const RecordChoice& record : study.identify->records) {
+    text.line("record {} motion {}", record.name, static_cast<int>(record.motion));
+    for (const Assignment& at : record.set) text.line("set {} {}", names[at.parameter], at.value);
+    add("added mass", record.added_mass);
+    add("static displacement", record.static_displacement);
+    for (const DataColumn& column : record.columns)
+      text.line("column {} {}", column.role, fmt::join(column.values, " "));
+    text.line("labels {}", fmt::join(record.labels, "\n"));
+  }
+}
+
+// What tells an identification from another of the same network: its data, and what is made of them.
+void add_identification(const StudyFile& study, CanonicalText& text) {
+  if (!study.identify) return;
+  const IdentifyChoice& choice = *study.identify;
+  const auto names = study.parameters.names();
+  text.line("method {} start {} curve {} cycles {}", static_cast<int>(choice.method),
+            static_cast<int>(choice.start), static_cast<int>(choice.curve), choice.cycles.value_or(0));
+  const auto add = [&](const char* what, const std::optional<StudyValue>& value) {
+    if (value) text.line("{} {}", what, value->expression.canonical_text(names));
+  };
+  add("mass", choice.mass);
+  add("stiffness", choice.stiffness);
+  add("reference frequency", choice.reference_frequency);
+  for (const IdentifiedParameter& fitted : choice.parameters)
+    text.line("fitted {} {} {} each record {} estimate {}", names[fitted.parameter], fitted.lower,
+              fitted.upper, fitted.each_record, fitted.estimate);
+  for (std::size_t i = 0; i < choice.fixed.size(); ++i)
+    text.line("fixed {} {} {}", names[choice.fixed[i].parameter], choice.fixed[i].value,
+              fmt::join(choice.fixed_covariance[i], " "));
+  add_records(study, text);
+}
+
 std::string physics_hash(const StudyFile& study, std::span<const periodic::Quantity> quantities) {
   CanonicalText text;
   text.line("solver {}", solver_version);
@@ -158,6 +197,7 @@ std::string physics_hash(const StudyFile& study, std::span<const periodic::Quant
   add_network(study, text);
   add_motion(study, text);
   add_tuning(study, text);
+  add_identification(study, text);
   add_comparison(study, text);
   for (const periodic::Quantity& quantity : quantities) {
     text.line("quantity {}", periodic::describe(quantity, study.network, study.dimensionless).name);
@@ -179,7 +219,8 @@ std::string grid_hash(const StudyFile& study, const Grid& grid) {
     text.line("orbit ends");
   }
   text.line("resonances {}", fmt::join(study.output.resonances, " "));
-  if (study.kind != StudyKind::sweep && !study.tune) text.line("samples {}", study.motion.samples);
+  if (study.kind == StudyKind::decay || study.kind == StudyKind::transient)
+    text.line("samples {}", study.motion.samples);
   if (study.motion.duration) {
     text.line("duration {}", study.motion.duration->expression.canonical_text(study.parameters.names()));
   }

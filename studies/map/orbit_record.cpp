@@ -30,7 +30,7 @@ KeptOrbit keep_orbit(const MapPlan& plan, const std::vector<Assignment>& point) 
   }
   const periodic::Status status = response.solve().status;
   if (status == periodic::Status::ok || status == periodic::Status::grazing) {
-    orbit.history = response.history(samples_in_period);
+    orbit.history = response.history(periodic::phases_of_a_period(samples_in_period));
   }
   return orbit;
 }
@@ -48,6 +48,8 @@ std::vector<results::Variable> sample_variables(const StudyFile& study) {
   }
   for (const auto& element : study.network.elements)
     add(element.name + "_force", "N", "force of " + element.name);
+  for (const std::string& mass : study.network.masses)
+    add(mass + "_acceleration", "m s-2", "acceleration of " + mass);
   return variables;
 }
 

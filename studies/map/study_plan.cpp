@@ -9,12 +9,30 @@
 namespace frahm::studies {
 namespace {
 
+std::string overruled_by_measurements(const IdentifyChoice& choice, std::size_t parameter) {
+  for (const IdentifiedParameter& fitted : choice.parameters) {
+    if (fitted.parameter == parameter)
+      return "is identified; the value from which a fit starts is that of [parameters]";
+  }
+  for (const FixedEstimate& fixed : choice.fixed) {
+    if (fixed.parameter == parameter) return "has its value from fixed_from; leave that file out";
+  }
+  for (const RecordChoice& record : choice.records) {
+    for (const Assignment& assignment : record.set) {
+      if (assignment.parameter == parameter)
+        return fmt::format("is set by the record \"{}\"; change that", record.name);
+    }
+  }
+  return "";
+}
+
 // What the study itself does with a parameter, so that no value of the command line can count; empty if
 // nothing.
 std::string overruled_by(const StudyFile& study, std::size_t parameter) {
   for (const ParameterAxis& axis : study.axes) {
     if (axis.parameter == parameter) return "runs along an axis of the map; change the axis";
   }
+  if (study.identify) return overruled_by_measurements(*study.identify, parameter);
   if (!study.tune) return "";
   if (study.tune->band && study.tune->band->parameter == parameter)
     return "runs over the band of the tuning; change the band";

@@ -11,6 +11,7 @@
 
 #include "engine/progress.hpp"
 #include "solvers/mechanics/linear_system.hpp"
+#include "studies/identification/identification_record.hpp"
 #include "studies/map/map_plan.hpp"
 #include "studies/map/map_sample.hpp"
 #include "studies/motion/motion_record.hpp"
@@ -150,6 +151,18 @@ int check_motion(const StudyFile& study, std::ostream& out) {
   return exit_code::done;
 }
 
+void print_stated_modes(const StudyFile& study, std::ostream& out) {
+  fmt::print(out, "As the study states it:\n");
+  std::vector<double> parameters = study.parameters.nominal();
+  mechanics::NetworkValues values;
+  evaluate(study.values, study.parameters, parameters, values);
+  try {
+    print_modes(study, modes_at_point(study, values), out);
+  } catch (const mechanics::MechanicsError& error) {
+    throw StudyError(study.source.name + ": " + error.what());
+  }
+}
+
 void print_design_range(const StudyFile& study, const DesignChoice& design, std::ostream& out) {
   const double factor = design.unit.si_factor;
   const bool has_unit = !design.unit.text.empty() && design.unit.text != "1";
@@ -172,16 +185,22 @@ int check_tune(const CheckOptions& options, StudyFile read, std::ostream& out) {
     print_design_range(study, design, out);
     variables += design.is_scheduled() ? design.knots.size() : 1;
   }
-  fmt::print(out, "{:<22}{}\n{:<22}{}\n{:<22}{}\n\nAs the study states it:\n", "variables", variables,
-             "limits", study.tune->limits.size() + (study.tune->trade_off ? 1 : 0), "starts", plan.tiles);
-  std::vector<double> parameters = study.parameters.nominal();
-  mechanics::NetworkValues values;
-  evaluate(study.values, study.parameters, parameters, values);
-  try {
-    print_modes(study, modes_at_point(study, values), out);
-  } catch (const mechanics::MechanicsError& error) {
-    throw StudyError(study.source.name + ": " + error.what());
-  }
+  fmt::print(out, "{:<22}{}\n{:<22}{}\n{:<22}{}\n\n", "variables", variables, "limits",
+             study.tune->limits.size() + (study.tune->trade_off ? 1 : 0), "starts", plan.tiles);
+  print_stated_modes(study, out);
+  return exit_code::done;
+}
+
+// Of an identification.
+int check_identification(const CheckOptions& options, StudyFile read, std::ostream& out) {
+  const StudyPlan plan = plan_identification(std::move(read), options.set);
+  const StudyFile& study = plan.study;
+  fmt::print(out, "{} is a valid study{}{}\n\n", study.source.name, study.title.empty() ? "" : ": ",
+             study.title);
+  print_identification_choice(study, out);
+  if (study.network.masses.empty()) return exit_code::done;
+  fmt::print(out, "\n");
+  print_stated_modes(study, out);
   return exit_code::done;
 }
 
@@ -199,6 +218,7 @@ int check_command(const CheckOptions& options, std::ostream& out) {
   constexpr double sample_seconds = 1.0;
   StudyFile read = read_study_with(options.study, options.set);
   if (read.kind == StudyKind::tune) return check_tune(options, std::move(read), out);
+  if (read.identify) return check_identification(options, std::move(read), out);
   if (read.kind != StudyKind::sweep) return check_motion(read, out);
   const MapPlan plan = plan_map(std::move(read), options.set);
   const StudyFile& study = plan.study;

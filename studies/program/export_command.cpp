@@ -10,6 +10,8 @@
 #include <ostream>
 
 #include "results/map_reader.hpp"
+#include "studies/identification/identification_record.hpp"
+#include "studies/identification/identified_study.hpp"
 #include "studies/map/grid.hpp"
 #include "studies/program/whole_file.hpp"
 #include "studies/tuning/schedule_table.hpp"
@@ -116,7 +118,7 @@ void write_columns(const std::vector<results::Column>& columns, std::ostream& ou
 // A group asked for, else the map, or of a file without one its motion or optimum.
 void write_table(const results::MapReader& map, const std::string& asked, std::ostream& out) {
   if (!asked.empty()) return write_columns(map.columns(asked), out);
-  for (const char* group : {"decay", "transient", optimum_group}) {
+  for (const char* group : {"decay", "transient", optimum_group, identification_group}) {
     if (map.layout().axes.empty() && map.has_group(group)) return write_columns(map.columns(group), out);
   }
   write_map(map, out);
@@ -132,19 +134,19 @@ void write_export(const ExportOptions& options, const results::MapReader& map, s
       fmt::format("{}: is there already and not made by frahm export; name another file", place.string()));
 }
 
-// Replaces nothing but an earlier study of its own kind.
-void check_place_of_sweep(const std::filesystem::path& place) {
+// A study replaces nothing but an earlier one of its own kind, which begins with this mark.
+void check_place_of_study(const char* option, const std::filesystem::path& place, const char* mark) {
+  if (place.extension() != ".toml")
+    throw StudyError(fmt::format("{} {}: a study is named .toml", option, place.string()));
   std::ifstream there(place);
   std::string line;
-  if (!there || (std::getline(there, line) && line == sweep_mark)) return;
+  if (!there || (std::getline(there, line) && line == mark)) return;
   refuse_place(place);
 }
 
 int write_sweep(const ExportOptions& options, std::ostream& out) {
   const std::filesystem::path& place = options.sweep;
-  if (place.extension() != ".toml")
-    throw StudyError(fmt::format("--sweep {}: a study is named .toml", place.string()));
-  check_place_of_sweep(place);
+  check_place_of_study("--sweep", place, sweep_mark);
   const bool again = std::filesystem::exists(place);  // its tables are there then, and ours
   const SweepStudy sweep = sweep_study(read_stored_tuning(options.file), place.stem().string());
   for (const auto& [name, csv] : sweep.tables) {
@@ -157,12 +159,29 @@ int write_sweep(const ExportOptions& options, std::ostream& out) {
   return 0;
 }
 
+int write_study(const ExportOptions& options, std::ostream& out) {
+  check_place_of_study("--study", options.study, identified_mark);
+  write_whole_file(options.study, identified_study(options.file));
+  fmt::print(out, "{}\n", options.study.string());
+  return 0;
+}
+
 void check_options(const ExportOptions& options) {
-  const int asked = int{!options.group.empty()} + int{options.schedule} + int{!options.sweep.empty()};
-  if (asked > 1) throw StudyError("--group, --schedule and --sweep: one of them at a time");
+  const DataOptions& data = options.data;
+  const int asked = int{!options.group.empty()} + int{options.schedule} + int{!options.sweep.empty()} +
+                    int{!options.study.empty()} + int{!data.output.empty()};
+  if (asked > 1) throw StudyError("--group, --schedule, --sweep, --study and --data: one of them at a time");
+  const bool of_data = !data.set.empty() || !data.at.empty() || !data.rate.empty() ||
+                       !data.duration.empty() || !data.noise.empty() || !data.columns.empty() ||
+                       !data.seed.empty();
+  if (of_data && data.output.empty())
+    throw StudyError("--set, --at, --rate, --duration, --noise, --seed and --columns: belong to --data");
   if (options.step && !options.schedule) throw StudyError("--step: belongs to --schedule");
-  if (!options.sweep.empty() && !options.output.empty())
-    throw StudyError("--output: --sweep names its own file");
+  for (const auto& [option, file] : {std::pair("--sweep", options.sweep), std::pair("--study", options.study),
+                                     std::pair("--data", data.output)}) {
+    if (!file.empty() && !options.output.empty())
+      throw StudyError(fmt::format("--output: {} names its own file", option));
+  }
 }
 
 }  // namespace
@@ -170,6 +189,13 @@ void check_options(const ExportOptions& options) {
 int export_command(const ExportOptions& options, std::ostream& out) {
   check_options(options);
   if (!options.sweep.empty()) return write_sweep(options, out);
+  if (!options.study.empty()) return write_study(options, out);
+  if (!options.data.output.empty()) return export_data(options.file, options.data, out);
+  if (options.file.extension() == ".toml")
+    throw StudyError(
+        fmt::format("{}: is a study, whose result is exported, or with --data what sensors would "
+                    "show of it",
+                    options.file.string()));
   const results::MapReader map(options.file);
   if (options.output == "-") {
     write_export(options, map, out);

@@ -1,7 +1,6 @@
 #include "studies/program/point_command.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <iterator>
 
@@ -15,11 +14,12 @@ namespace {
 
 constexpr std::size_t intervals_a_period = 512;  // of a history; smooth to the eye with dozens of stops
 
-// A line of names, a line of units, then a line for each sample with all its digits.
+// A line of names with their units, then a line for each sample with all its digits.
 std::string csv(const periodic::History& history, bool dimensionless) {
-  std::string text = fmt::format("time,{}\n", fmt::join(history.names, ","));
-  fmt::format_to(std::back_inserter(text), "{}", dimensionless ? "1" : "s");
-  for (const std::string& unit : history.units) text += "," + (dimensionless ? "1" : unit);
+  std::string text = dimensionless ? "time" : "time [s]";
+  for (std::size_t i = 0; i < history.names.size(); ++i)
+    text += dimensionless ? fmt::format(",{}", history.names[i])
+                          : fmt::format(",{} [{}]", history.names[i], history.units[i]);
   for (std::size_t row = 0; row < history.time.size(); ++row) {
     fmt::format_to(std::back_inserter(text), "\n{:.17g}", history.time[row]);
     for (const auto& column : history.columns)
@@ -36,8 +36,8 @@ int point_command(const PointOptions& options, std::ostream& out) {
   }
   StudyFile study = read_study_with(options.study, options.set);
   if (study.kind != StudyKind::sweep && study.kind != StudyKind::tune) {
-    throw StudyError(fmt::format("{}: a {} has no periodic response to tell; frahm run computes its motion",
-                                 study.source.name, kind_name(study.kind)));
+    throw StudyError(fmt::format("{}: {} has no periodic response to tell; frahm run computes what it has",
+                                 study.source.name, kind_noun(study.kind)));
   }
   std::vector<double> parameters = parameters_at(study, options.at);
   set_crank_orders_at(study, parameters);

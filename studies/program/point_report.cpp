@@ -128,7 +128,7 @@ PointReport tell_point(const StudyFile& study, std::vector<double> parameters, s
   add_comparison(study, parameters, quantities, report);
   if (report.status == "ok" || report.status == "grazing") {
     report.stretches = response.stretches();
-    if (history_samples > 0) report.history = response.history(history_samples);
+    if (history_samples > 0) report.history = response.history(periodic::phases_of_a_period(history_samples));
   }
   if (gradient) report.gradient = gradient_at(study, parameters);
   return report;

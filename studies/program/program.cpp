@@ -36,7 +36,8 @@ A study file describes a system and the axes of a map. From there:
 Every command has its own help: frahm run --help
 
 Exit codes: 0 done, 1 internal error, 2 wrong usage or study, 3 some points failed, 4 stopped (run again to
-resume), 5 refused to mix results of different studies, 6 input or output failed, 7 a tuning did not converge,
+resume), 5 refused to mix results of different studies, 6 input or output failed, 7 a tuning or fit did not
+converge,
 8 self-check failed)";
 
 constexpr const char* run_examples = R"(
@@ -45,7 +46,8 @@ Examples:
   frahm run rig_atlas.toml --set "K=8200 N/m" -o stiffer.h5
   frahm run rig_atlas.toml --time-budget 50m  stops in time; the same command goes on
   frahm run rig_decay_main.toml               one motion: a free decay, or a transient
-  frahm run tmd_classical.toml                a tuning: an optimum from each of its starts
+  frahm run tune_classical.toml               a tuning: an optimum from each of its starts
+  frahm run identify_rig_tmd.toml             an identification: a model from measurements
   sbatch --array=0-15 --wrap "frahm run rig_atlas.toml"    then: frahm merge rig_atlas.h5)";
 
 constexpr const char* check_examples = R"(
@@ -71,7 +73,10 @@ Examples:
   frahm export rig_atlas.h5 -o - | head
   frahm export curves.h5 --group resonance    the resonances the study asked for
   frahm export tuned.h5 --schedule            a tuning's schedule for a controller, in steps of 1 rpm
-  frahm export tuned.h5 --sweep optimum.toml  a study of the response at its optimum; then frahm run it)";
+  frahm export tuned.h5 --sweep optimum.toml  a study of the response at its optimum; then frahm run it
+  frahm export found.h5 --study model.toml    a study in which the estimates of an identification stand
+  frahm export rig_decay_main.toml --data decay.csv --rate "500 Hz" --noise "0.05 mm" --seed 7
+                                              measurements as a sensor would take them, to try an experiment)";
 
 using Action = std::function<int(std::ostream&)>;  // of the command that was given
 
@@ -102,7 +107,8 @@ struct RunTexts {
 
 void add_run(CLI::App& program, RunTexts& texts, Action& action) {
   CLI::App* run = add_command(
-      program, "run", "compute the map of a study or its optimum, or what is left of it; or its one motion",
+      program, "run",
+      "compute the map of a study or its optimum, or what is left of it; its one motion; or identify a model",
       run_examples);
   auto& [options, shard, budget] = texts;
   add_study(*run, options.study);
@@ -168,15 +174,39 @@ void add_merge(CLI::App& program, MergeOptions& options, Action& action) {
 }
 
 void add_export(CLI::App& program, ExportOptions& options, Action& action) {
-  CLI::App* command =
-      add_command(program, "export",
-                  "write a map as CSV, a row a point; or the columns of a motion or tuning", export_examples);
+  CLI::App* command = add_command(
+      program, "export",
+      "write a map as CSV, or the columns of a motion, tuning or identification; studies of what was "
+      "tuned or identified; simulated measurements",
+      export_examples);
   command->add_option("FILE", options.file, "result file")->required();
-  command->add_option("--group", options.group, "a group instead of the map: resonance, orbits");
+  command->add_option("--group", options.group,
+                      "a group instead of the map: resonance, orbits, identification ...");
   command->add_flag("--csv", options.csv, "the only form there is, and the default");
   command->add_flag("--schedule", options.schedule, "of a tuning: its schedule for a controller");
   command->add_option("--step", options.step, "of the schedule, in the unit of the band; else 1 rpm");
   command->add_option("--sweep", options.sweep, "of a tuning: a study that sweeps its optimum, to this file");
+  command->add_option("--study", options.study,
+                      "of an identification: a study in which its estimates stand, to this file");
+  DataOptions& data = options.data;
+  command->add_option("--data", data.output,
+                      "simulated measurements of a study (FILE may be one), to this CSV file; - for stdout");
+  add_set(*command, data.set);
+  command->add_option("--at", data.at, "of --data: the point of a periodic response, name=value,...")
+      ->allow_extra_args(false);
+  command->add_option("--rate", data.rate,
+                      "of --data: samples a second, or \"1 kHz\"; else 100 a natural period");
+  command->add_option("--duration", data.duration,
+                      "of --data: so long, \"10 s\"; else the motion, or ten periods");
+  command->add_option("--noise", data.noise,
+                      "of --data: standard deviation, \"1%\" of each column's own or \"0.1 mm\"");
+  command->add_option("--seed", data.seed, "of --data: of the noise, else 1");
+  command
+      ->add_option("--columns", data.columns,
+                   "of --data: name,... of <mass>_displacement, _velocity, _acceleration, of a periodic "
+                   "response <element>_force too; else the displacements")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   command->add_option("-o,--output", options.output, "CSV file, - for stdout; else FILE with .csv");
   command->callback([&] { action = [&](std::ostream& out) { return export_command(options, out); }; });
 }

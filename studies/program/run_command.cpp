@@ -1,7 +1,7 @@
 #include "studies/program/run_command.hpp"
 
+#include "studies/program/run_at_once.hpp"
 #include "studies/program/run_map.hpp"
-#include "studies/program/run_motion.hpp"
 #include "studies/program/run_tuning.hpp"
 #include "studies/reading/settings.hpp"
 
@@ -15,7 +15,7 @@ int run_command(const RunCommandOptions& options, std::ostream& out) {
   StudyFile study = read_study_with(options.study, options.set);
   if (study.kind == StudyKind::sweep) return run_map(options, std::move(study), out);
   if (study.kind == StudyKind::tune) return run_tuning(options, std::move(study), out);
-  return run_motion(options, std::move(study), out);
+  return run_at_once(options, std::move(study), out);
 }
 
 }  // namespace frahm::studies

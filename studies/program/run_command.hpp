@@ -19,9 +19,9 @@ struct RunCommandOptions {
 // The study's name with .h5, in the working directory.
 std::filesystem::path default_output(const std::filesystem::path& study);
 
-// Computes what a study asks for, a map (run_map.hpp), an optimum (run_tuning.hpp) or one motion
-// (run_motion.hpp), writes its file and prints a short table of it. Returns 0; 3 if some points failed; 4 if
-// stopped; 7 if an optimum was not found. Throws StudyError,
+// Computes what a study asks for, a map (run_map.hpp), an optimum (run_tuning.hpp), one motion
+// or an identified model (run_at_once.hpp), writes its file and prints a short table of it. Returns 0; 3 if
+// some points failed; 4 if stopped; 7 if an optimum or a fit was not found. Throws StudyError,
 // engine::ResumeRefused when an output of another study is there, engine::IoError, results::StoreError.
 int run_command(const RunCommandOptions& options, std::ostream& out);
 

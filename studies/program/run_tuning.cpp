@@ -16,7 +16,7 @@
 #include "studies/program/status_command.hpp"
 #include "studies/program/study_note.hpp"
 #include "studies/tuning/assemble_tuning.hpp"
-#include "studies/tuning/group_columns.hpp"
+#include "studies/tuning/outcome_words.hpp"
 #include "studies/tuning/tuning_plan.hpp"
 #include "studies/tuning/tuning_record.hpp"
 #include "studies/tuning/tuning_table.hpp"

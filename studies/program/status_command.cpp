@@ -8,6 +8,7 @@
 
 #include "engine/io_error.hpp"
 #include "engine/tile_index.hpp"
+#include "studies/identification/identification_record.hpp"
 #include "studies/map/finished_file.hpp"
 #include "studies/map/map_summary.hpp"
 #include "studies/tuning/tuning_record.hpp"
@@ -43,6 +44,11 @@ void print_groups(const results::MapReader& map, std::ostream& out) {
     if (!map.has_group(group)) continue;
     fmt::print(out, "{:<22} {}\n", "motion", group);
     print_group(map, group, out);
+  }
+  if (map.has_group(identification_group)) {
+    for (const auto& [name, text] : map.texts(identification_group))
+      fmt::print(out, "{:<22} {}\n", name, text);
+    print_group(map, identification_group, out);
   }
   if (!map.has_group(optimum_group)) return;
   for (const auto& [name, text] : map.texts(optimum_group)) fmt::print(out, "{:<22} {}\n", name, text);

@@ -33,7 +33,7 @@ void write_whole_file(const std::filesystem::path& path, const std::function<voi
   part += ".part";
   try {
     write_file(part, write);
-  } catch (const engine::IoError&) {
+  } catch (...) {
     std::filesystem::remove(part, error);
     throw;
   }

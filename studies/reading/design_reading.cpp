@@ -131,29 +131,16 @@ void read_limit(TuneReading& reading, const TomlValue& table, std::size_t number
 }
 
 Assignment read_setting(const TuneReading& reading, const TomlSection& scenario, const TomlEntry& entry) {
-  const StudyFile& study = reading.study;
-  const std::string where = fmt::format("{}: set: {}", scenario.where(), entry.key);
-  const auto fail = [&](Position position, const std::string& message) {
-    throw reading.context.source.error_at(position, fmt::format("{}: {}", where, message));
-  };
-  const auto index = study.parameters.find(entry.key);
-  if (!index)
-    fail(entry.position, "no parameter has this name" + suggestion(entry.key, study.parameters.names()));
-  const Parameter& parameter = study.parameters.list[*index];
-  if (!parameter.is_number()) fail(entry.position, "it is computed from other parameters; set those");
-  for (const DesignChoice& design : reading.choice.designs) {
-    if (design.parameter == *index) fail(entry.position, "it is tuned; a scenario cannot set it");
-  }
-  if (reading.choice.band && reading.choice.band->parameter == *index)
-    fail(entry.position, "it runs over the band; a scenario cannot set it");
-  const NumberWithUnit number = read_number_with_unit(reading.context, where, entry.value);
-  double factor = usual_unit(study, *index).si_factor;
-  try {
-    if (number.unit) factor = si_factor(parameter, *number.unit);
-  } catch (const UnitError& error) {
-    fail(number.unit_position, error.what());
-  }
-  return {*index, number.value * factor};
+  return read_assignment(reading.context, reading.study, scenario.where() + ": set", entry,
+                         [&](std::size_t parameter) -> std::string {
+                           for (const DesignChoice& design : reading.choice.designs) {
+                             if (design.parameter == parameter)
+                               return "it is tuned; a scenario cannot set it";
+                           }
+                           const bool band =
+                               reading.choice.band && reading.choice.band->parameter == parameter;
+                           return band ? "it runs over the band; a scenario cannot set it" : "";
+                         });
 }
 
 void read_scenario(TuneReading& reading, const TomlValue& table, std::size_t number) {

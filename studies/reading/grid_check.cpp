@@ -34,6 +34,9 @@ std::vector<Checked> all_checked(const StudyFile& study) {
     add(study.comparison->slope);
   for (const DerivedCoordinate& coordinate : study.coordinates) add(coordinate.value);
   for (const StudyValue* value : study.motion.values()) add(*value);
+  if (study.identify) {
+    for (const StudyValue* value : study.identify->values()) add(*value);
+  }
   return all;
 }
 
@@ -166,7 +169,8 @@ double largest_crank_ratio(const StudyFile& study, std::size_t excitation) {
 }
 
 void keep_orders(mechanics::Excitation& crank, double ratio) {
-  if (crank.taylor_order == 0) crank.even_orders = mechanics::crank_orders_needed(ratio);
+  // A bound of zero needs none.
+  if (crank.taylor_order == 0 && ratio > 0.0) crank.even_orders = mechanics::crank_orders_needed(ratio);
 }
 
 }  // namespace

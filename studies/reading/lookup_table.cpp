@@ -2,68 +2,54 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <charconv>
-#include <cstring>
-#include <fstream>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "studies/reading/csv_table.hpp"
 #include "studies/reading/study_source.hpp"
 
 namespace frahm::studies {
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
+constexpr std::size_t longest_shown = 40;  // characters of a row in a message
 
-std::optional<double> as_number(std::string_view text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
-struct Row {
-  std::optional<double> x, y;
+struct Point {
+  double x = 0.0, y = 0.0;
 };
 
-std::optional<Row> as_row(std::string_view line) {
-  const std::size_t separator = line.find_first_of(",;\t");
-  if (separator == std::string_view::npos) return std::nullopt;
-  return Row{as_number(trimmed(line.substr(0, separator))), as_number(trimmed(line.substr(separator + 1)))};
+std::optional<Point> as_point(const CsvRow& row) {
+  if (row.cells.size() != 2) return std::nullopt;
+  const auto x = cell_number(row.cells[0]), y = cell_number(row.cells[1]);
+  if (!x || !y || !std::isfinite(*x) || !std::isfinite(*y)) return std::nullopt;
+  return Point{*x, *y};
+}
+
+std::string shown(const CsvRow& row) {
+  std::string text = row.cells.front();
+  for (std::size_t i = 1; i < row.cells.size(); ++i) text += row.separator + row.cells[i];
+  return text.substr(0, longest_shown);
 }
 
 }  // namespace
 
 LookupTable read_lookup_table(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  if (!file) throw StudyError(fmt::format("{}: {}", path.string(), std::strerror(errno)));
   LookupTable table;
-  std::string text;
   bool header_possible = true;
-  for (std::size_t number = 1; std::getline(file, text); ++number) {
-    const std::string_view line = trimmed(text);
-    if (line.empty() || line.starts_with('#')) continue;
+  for (const CsvRow& row : read_csv(path, path.string())) {
     const auto fail = [&](std::string_view rule) {
-      throw StudyError(
-          fmt::format("{}:{}: {}, found \"{}\"", path.string(), number, rule, line.substr(0, 40)));
+      throw StudyError(fmt::format("{}:{}: {}, found \"{}\"", path.string(), row.line, rule, shown(row)));
     };
-    const std::optional<Row> row = as_row(line);
-    if (!row) fail("a row has two columns separated by a comma");
-    const bool numeric = row->x && row->y;
-    if (!numeric && !header_possible) fail("both columns must be numbers");
+    if (row.cells.size() < 2) fail("a row has two columns separated by a comma");
+    const std::optional<Point> point = as_point(row);
+    if (!point && !header_possible) fail("both columns must be numbers");
     header_possible = false;
-    if (!numeric) continue;
-    if (!table.x.empty() && *row->x <= table.x.back()) fail("the first column must increase from row to row");
-    table.x.push_back(*row->x);
-    table.y.push_back(*row->y);
+    if (!point) continue;
+    if (!table.x.empty() && point->x <= table.x.back())
+      fail("the first column must increase from row to row");
+    table.x.push_back(point->x);
+    table.y.push_back(point->y);
   }
-  if (file.bad()) throw StudyError(fmt::format("{}: {}", path.string(), std::strerror(errno)));
   if (table.x.size() < 2)
     throw StudyError(fmt::format("{}: a table needs at least two rows of numbers", path.string()));
   return table;

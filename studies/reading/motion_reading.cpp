@@ -142,7 +142,7 @@ void refuse_smooth_friction(const StudyFile& study) {
     if (study.network.elements[e].law != mechanics::FrictionLaw::arctan) continue;
     const StudyValue& slope = study.values.second[e];
     throw study.source.error_at(slope.position,
-                                fmt::format("{}: a {} follows friction as it is; the law \"arctan\" is for a "
+                                fmt::format("{}: {} follows friction as it is; the law \"arctan\" is for a "
                                             "sweep",
                                             slope.where, kind_noun(study.kind)));
   }
@@ -155,7 +155,7 @@ void read_motion(const StudyContext& context, const TomlValue& root, StudyFile& 
   read_initial(reading, root, study.motion);
   if (study.kind == StudyKind::decay) {
     read_decay(reading, root, study.motion);
-  } else {
+  } else if (study.kind == StudyKind::transient) {
     read_transient(reading, root, study.motion);
   }
 }

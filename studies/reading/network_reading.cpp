@@ -241,20 +241,20 @@ StudyValue read_value(NetworkReading& reading, const TomlSection& section, const
 
 NetworkOfStudy read_network(const StudyContext& context, const TomlValue& root, Parameters& parameters,
                             StudyKind kind) {
-  const bool is_forced = kind != StudyKind::decay;
+  const TomlEntry* excitation = find_entry(root, "excitation");
+  const bool is_forced = kind == StudyKind::identify ? excitation != nullptr : kind != StudyKind::decay;
   NetworkReading reading(context, parameters);
   std::size_t number = 0;
   for (const TomlValue* table : read_tables(context.source, root, "mass"))
     read_mass(reading, *table, ++number);
   if (number == 0) throw context.source.error_at(root.position, "the study has no [[mass]]: nothing moves");
-  const TomlEntry* excitation = find_entry(root, "excitation");
   if (is_forced && !excitation) throw context.source.error_at(root.position, "the study has no [excitation]");
   if (is_forced) read_prescribed_nodes(reading, excitation->value);
   number = 0;
   for (const TomlValue* table : read_tables(context.source, root, "element"))
     read_element(reading, *table, ++number);
   if (is_forced) {
-    read_excitation(reading, excitation->value, kind == StudyKind::transient);
+    read_excitation(reading, excitation->value, kind == StudyKind::transient || kind == StudyKind::identify);
     check_every_motion_is_felt(reading, excitation->value);
   }
   check_masses_are_held(context, reading.result, reading.masses);

@@ -26,29 +26,6 @@ void read_quantities(const TomlSection& section, OutputChoice& output) {
   output.names = read_quantity_names(section);
 }
 
-Assignment read_assignment(const StudyContext& context, const TomlEntry& entry, const StudyFile& study) {
-  const auto index = study.parameters.find(entry.key);
-  const std::string where = fmt::format("[output]: orbits: {}", entry.key);
-  const auto fail = [&](Position position, const std::string& message) {
-    throw context.source.error_at(position, fmt::format("{}: {}", where, message));
-  };
-  if (!index)
-    fail(entry.position, "no parameter has this name" + suggestion(entry.key, study.parameters.names()));
-  const Parameter& parameter = study.parameters.list[*index];
-  if (!parameter.is_number()) fail(entry.position, "it is computed from other parameters; set those");
-  if (entry.value.as<std::string>()) {
-    fail(entry.value.position, fmt::format("expected a number, found {}", described(entry.value)));
-  }
-  const NumberWithUnit number = read_number_with_unit(context, where, entry.value);
-  double factor = usual_unit(study, *index).si_factor;
-  try {
-    if (number.unit) factor = si_factor(parameter, *number.unit);
-  } catch (const UnitError& error) {
-    fail(number.unit_position, error.what());
-  }
-  return {*index, number.value * factor};
-}
-
 void read_orbits(const StudyContext& context, const TomlSection& section, StudyFile& study) {
   const TomlValue* value = section.find("orbits");
   if (!value) return;
@@ -63,7 +40,8 @@ void read_orbits(const StudyContext& context, const TomlSection& section, StudyF
                                       described(point)));
     }
     std::vector<Assignment> assignments;
-    for (const TomlEntry& entry : *entries) assignments.push_back(read_assignment(context, entry, study));
+    for (const TomlEntry& entry : *entries)
+      assignments.push_back(read_assignment(context, study, "[output]: orbits", entry));
     study.output.orbits.push_back(std::move(assignments));
   }
 }

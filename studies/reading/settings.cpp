@@ -36,4 +36,11 @@ SpokenValue spoken_value(const StudyFile& study, std::size_t parameter, double s
   return spoken;
 }
 
+std::string recorded_unit(const StudyFile& study, std::size_t parameter) {
+  const Parameter& definition = study.parameters.list[parameter];
+  if (study.dimensionless) return "1";
+  if (definition.quantity) return std::string(si_unit(*definition.quantity));
+  return definition.unit ? coherent_unit(*definition.unit) : "1";
+}
+
 }  // namespace frahm::studies

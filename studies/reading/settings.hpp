@@ -26,4 +26,8 @@ struct SpokenValue {
 // parameter: index in Parameters::list, of a number.  si: its value in SI.
 SpokenValue spoken_value(const StudyFile& study, std::size_t parameter, double si);
 
+// The SI unit of a number parameter, in the form of CF: that of what it stands for, else that of the unit it
+// is given in; "1" where neither is known.
+std::string recorded_unit(const StudyFile& study, std::size_t parameter);
+
 }  // namespace frahm::studies

@@ -18,13 +18,13 @@ namespace {
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // some editors begin a UTF-8 file with it
 
 // The sections of each kind of study, in the order of StudyKind.
-const std::array<std::vector<std::string>, 4> sections_of_kind{
+const std::array<std::vector<std::string>, 5> sections_of_kind{
     {{"study", "parameters", "mass", "element", "excitation", "axis", "coordinate", "output", "compare"},
      {"study", "parameters", "mass", "element", "decay", "initial"},
      {"study", "parameters", "mass", "element", "excitation", "transient", "initial"},
      {"study", "parameters", "mass", "element", "excitation", "tune", "design", "constraint", "scenario",
-      "column"}}};
-const std::vector<std::string> reserved_keys{"identify"};
+      "column"},
+     {"study", "parameters", "mass", "element", "excitation", "initial", "identify"}}};
 
 const std::vector<std::string>& sections(StudyKind kind) {
   return sections_of_kind[static_cast<std::size_t>(kind)];
@@ -35,7 +35,7 @@ bool contains(const std::vector<std::string>& words, const std::string& word) {
 }
 
 void check_top_keys(const StudySource& source, const TomlValue& root) {
-  std::vector<std::string> known = reserved_keys;
+  std::vector<std::string> known;
   for (const auto& words : sections_of_kind) known.insert(known.end(), words.begin(), words.end());
   for (const TomlEntry& entry : *root.as<TomlTable>()) {
     if (contains(known, entry.key)) continue;
@@ -51,6 +51,7 @@ std::string_view why_without(StudyKind kind, const std::string& section) {
     const bool of_a_map = section == "axis" || section == "coordinate" || section == "output";
     return of_a_map ? ": the band of [tune] and the bounds of [[design]] are its ranges" : "";
   }
+  if (kind == StudyKind::identify) return "";
   if (section == "axis" || section == "coordinate" || section == "output")
     return ": it computes one motion, not a map";
   if (section == "excitation") return ": a free vibration starts from [[initial]] values and is not driven";
@@ -62,7 +63,7 @@ void check_sections_of_kind(const StudyFile& study, const TomlValue& root) {
   for (const TomlEntry& entry : *root.as<TomlTable>()) {
     if (contains(sections(study.kind), entry.key)) continue;
     throw study.source.error_at(entry.position,
-                                fmt::format("the section \"{}\" is not part of a {}{}", entry.key,
+                                fmt::format("the section \"{}\" is not part of {}{}", entry.key,
                                             kind_noun(study.kind), why_without(study.kind, entry.key)));
   }
 }
@@ -79,12 +80,8 @@ void read_heading(const TomlValue& root, StudyFile& study) {
     section.fail("schema", fmt::format("{} is unknown; this version reads schema = 1", schema));
   section.require("kind");
   const std::string kind = section.choice_or("kind", {"sweep", "tune", "identify", "decay", "transient"});
-  if (kind == "identify") {
-    section.fail("kind",
-                 "\"identify\" is not available in this version; \"sweep\", \"tune\", \"decay\" and "
-                 "\"transient\" are");
-  }
-  for (const StudyKind each : {StudyKind::sweep, StudyKind::decay, StudyKind::transient, StudyKind::tune}) {
+  for (const StudyKind each :
+       {StudyKind::sweep, StudyKind::decay, StudyKind::transient, StudyKind::tune, StudyKind::identify}) {
     if (kind == kind_name(each)) study.kind = each;
   }
   study.title = section.text_or("title", "");
@@ -121,11 +118,18 @@ void find_frequency_dimension(StudyFile& study) {
   study.frequency_dimension = study.values_depend_on_frequency ? moving.back() : *still;
 }
 
+// An identification by a formula needs no system.
+bool has_system(const TomlValue& root) {
+  return find_entry(root, "mass") || find_entry(root, "element") || find_entry(root, "excitation") ||
+         find_entry(root, "initial");
+}
+
 // That every value has a meaning wherever the study goes.
 void check_whole(StudyFile& study) {
   check_grid(study);
   set_crank_orders(study);
   if (study.tune) check_tuning(study);
+  if (study.identify) check_identification(study);
 }
 
 }  // namespace
@@ -142,7 +146,7 @@ StudyFile read_study(const std::filesystem::path& path) {
   return parse_study(std::move(text), path);
 }
 
-StudyFile parse_study(std::string text, const std::filesystem::path& name) {
+StudyFile parse_study(std::string text, const std::filesystem::path& name, DataFiles data) {
   StudyFile study;
   if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
   study.source = {name.string(), std::move(text)};
@@ -154,14 +158,17 @@ StudyFile parse_study(std::string text, const std::filesystem::path& name) {
   const UnitSystem units;
   const StudyContext context{study.source, units, study.dimensionless};
   study.parameters = read_parameters(context, root, name.parent_path());
-  auto [network, values] = read_network(context, root, study.parameters, study.kind);
-  study.network = std::move(network);
-  study.values = std::move(values);
+  if (study.kind != StudyKind::identify || has_system(root)) {
+    auto [network, values] = read_network(context, root, study.parameters, study.kind);
+    study.network = std::move(network);
+    study.values = std::move(values);
+  }
   if (study.kind == StudyKind::sweep) {
     read_comparison(context, root, study);
   } else if (study.kind != StudyKind::tune) {
     read_motion(context, root, study);
   }
+  if (study.kind == StudyKind::identify) read_identification(context, root, study);
   convert_parameters(context, study.parameters);
   if (study.kind == StudyKind::sweep) {
     read_axes(context, root, study);
@@ -170,6 +177,8 @@ StudyFile parse_study(std::string text, const std::filesystem::path& name) {
     read_output(context, root, study);
   } else if (study.kind == StudyKind::tune) {
     read_tuning(context, root, study);
+  } else if (study.kind == StudyKind::identify) {
+    read_measurements(context, root, name.parent_path(), data, study);
   }
   check_whole(study);
   return study;
@@ -185,12 +194,26 @@ std::string_view kind_name(StudyKind kind) {
       return "transient";
     case StudyKind::tune:
       return "tune";
+    case StudyKind::identify:
+      return "identify";
   }
   return "study";
 }
 
 std::string_view kind_noun(StudyKind kind) {
-  return kind == StudyKind::tune ? "tuning" : kind_name(kind);
+  switch (kind) {
+    case StudyKind::sweep:
+      return "a sweep";
+    case StudyKind::decay:
+      return "a decay";
+    case StudyKind::transient:
+      return "a transient";
+    case StudyKind::tune:
+      return "a tuning";
+    case StudyKind::identify:
+      return "an identification";
+  }
+  return "a study";
 }
 
 std::vector<const StudyValue*> MotionChoice::values() const {
@@ -251,6 +274,11 @@ UsualUnit usual_unit(const StudyFile& study, std::size_t parameter) {
     if (study.tune->band && study.tune->band->parameter == parameter) return study.tune->band->unit;
     for (const DesignChoice& design : study.tune->designs) {
       if (design.parameter == parameter) return design.unit;
+    }
+  }
+  if (study.identify) {
+    for (const IdentifiedParameter& fitted : study.identify->parameters) {
+      if (fitted.parameter == parameter) return fitted.unit;
     }
   }
   const Parameter& definition = study.parameters.list[parameter];

@@ -10,6 +10,7 @@
 
 #include "solvers/mechanics/network.hpp"
 #include "solvers/periodic/quantity.hpp"
+#include "studies/reading/identify_choice.hpp"
 #include "studies/reading/parameters.hpp"
 #include "studies/reading/study_source.hpp"
 #include "studies/reading/study_values.hpp"
@@ -67,7 +68,7 @@ struct Comparison {
   std::vector<periodic::Quantity> quantities;                  // real-valued, at least one
 };
 
-enum class StudyKind { sweep, decay, transient, tune };
+enum class StudyKind { sweep, decay, transient, tune, identify };
 
 // A mass's initial values [m], [m/s].
 struct InitialValues {
@@ -75,7 +76,7 @@ struct InitialValues {
   StudyValue displacement, velocity;
 };
 
-// [decay] or [transient], and [[initial]].
+// [decay] or [transient], and [[initial]]. Of an identification the initial values alone.
 struct MotionChoice {
   std::optional<StudyValue> duration;             // [s]
   int samples = 0;                                // of the history; 0: none
@@ -96,9 +97,10 @@ struct StudyFile {
 
   Parameters parameters;
   mechanics::Network network;
-  StudyValues values;              // of a decay: its frequency and excitation mean nothing
-  MotionChoice motion;             // of a decay or transient
-  std::optional<TuneChoice> tune;  // of a tuning
+  StudyValues values;                      // of a decay: its frequency and excitation mean nothing
+  MotionChoice motion;                     // of a decay, a transient or an identification
+  std::optional<TuneChoice> tune;          // of a tuning
+  std::optional<IdentifyChoice> identify;  // of an identification, which may have no network
 
   // Of a sweep; the other kinds have none of these.
   std::vector<ParameterAxis> axes;
@@ -116,16 +118,20 @@ struct StudyFile {
   bool values_depend_on_frequency = false;
 };
 
-// Reads and checks a study. Tables it names are read too, from paths relative to its own.
+// Reads and checks a study. Tables and measurements it names are read too, from paths relative to its own.
 // Throws StudyError for anything wrong in it (`file:line:column: key: what was found, the rule, the nearest
 // key`) and for a file that cannot be read.
 StudyFile read_study(const std::filesystem::path& path);
 
+// Whether the measurements of an identification, and earlier results that it takes, are read with it. Where
+// they are left its records have no columns and nothing is fixed.
+enum class DataFiles { read, leave };
+
 // The same for a text at hand; name: stands for the file in messages, and its folder for that of the tables.
-StudyFile parse_study(std::string text, const std::filesystem::path& name);
+StudyFile parse_study(std::string text, const std::filesystem::path& name, DataFiles data = DataFiles::read);
 
 std::string_view kind_name(StudyKind kind);  // as the study writes it
-std::string_view kind_noun(StudyKind kind);  // as sentences say it: "tuning"
+std::string_view kind_noun(StudyKind kind);  // as sentences say it: "a tuning"
 
 // The study with some number parameters replaced, and checked again.
 StudyFile with_parameters(StudyFile study, std::span<const Assignment> assignments);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -36,7 +37,7 @@ struct NetworkOfStudy {
 NetworkOfStudy read_network(const StudyContext& context, const TomlValue& root, Parameters& parameters,
                             StudyKind kind);
 
-// [decay] or [transient] and [[initial]] into study.motion, after the network and as it does.
+// [decay], [transient] and [[initial]] into study.motion, after the network and as it does.
 void read_motion(const StudyContext& context, const TomlValue& root, StudyFile& study);
 
 // [compare] into study.comparison, once the network is there. Notes in the parameters what a slope is.
@@ -48,6 +49,20 @@ void read_tuning(const StudyContext& context, const TomlValue& root, StudyFile& 
 // Refuses what has no meaning at some corner of the bounds, of the scenarios and of the band, and gives each
 // crank the even orders that it needs there.
 void check_tuning(StudyFile& study);
+
+// [identify] and its tables into study.identify. What they say in expressions comes before units are
+// converted, as the network does; the measurements and the earlier estimates after. folder: of their files.
+void read_identification(const StudyContext& context, const TomlValue& root, StudyFile& study);
+void read_measurements(const StudyContext& context, const TomlValue& root,
+                       const std::filesystem::path& folder, DataFiles data, StudyFile& study);
+
+// Refuses what has no meaning in some record where the fit starts, and gives each crank the even orders that
+// it needs there. Within the bounds there may be places without a meaning: a fit goes around them.
+void check_identification(StudyFile& study);
+
+// Each corner of a box of some dimensions, as in which of them it lies at the upper end; of many dimensions
+// not all of the corners, but all that differ from the lowest and the highest in one of them.
+std::vector<std::vector<bool>> corners(std::size_t dimensions);
 
 // What follows friction as it is has no use for its smoothed law.
 void refuse_smooth_friction(const StudyFile& study);
@@ -82,6 +97,13 @@ struct NumberWithUnit {
 };
 NumberWithUnit read_number_with_unit(const StudyContext& context, const std::string& where,
                                      const TomlValue& value);
+
+// A number parameter set to a value: an entry of a table such as { omega = 250, I = { value = 6, unit = "kg"
+// } }, a bare number in the unit in which the study speaks of it. why_not: why a parameter cannot be set
+// there, "" if it can; empty: any can.
+using WhyNot = std::function<std::string(std::size_t parameter)>;
+Assignment read_assignment(const StudyContext& context, const StudyFile& study, const std::string& where,
+                           const TomlEntry& entry, const WhyNot& why_not = {});
 
 // The unit of a key; none in a dimensionless study, where only "1" is allowed.
 std::optional<Unit> read_unit(const StudyContext& context, const std::string& where, const TomlValue& value);

@@ -7,7 +7,6 @@
 namespace frahm::studies {
 namespace {
 
-constexpr std::size_t most_corner_parameters = 10;  // more are tried one by one: 2^10 corners are enough
 constexpr std::size_t places_over_band = 9;
 constexpr std::size_t places_of_weight = 1001;
 
@@ -32,27 +31,6 @@ std::vector<double> places_of(const TuneChoice& tune, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i)
     places[i] = std::lerp(range.from, range.to, static_cast<double>(i) / static_cast<double>(count - 1));
   return places;
-}
-
-// Each corner of the bounds, as which design parameters are at their upper one.
-std::vector<std::vector<bool>> corners_of(const TuneChoice& tune) {
-  const std::size_t n = tune.designs.size();
-  std::vector<std::vector<bool>> corners;
-  if (n > most_corner_parameters) {
-    corners = {std::vector<bool>(n, false), std::vector<bool>(n, true)};
-    for (std::size_t i = 0; i < n; ++i) {
-      for (const bool base : {false, true}) {
-        corners.emplace_back(n, base);
-        corners.back()[i] = !base;
-      }
-    }
-    return corners;
-  }
-  for (std::size_t bits = 0; bits < std::size_t{1} << n; ++bits) {
-    corners.emplace_back(n, false);
-    for (std::size_t i = 0; i < n; ++i) corners.back()[i] = (bits >> i & 1U) != 0;
-  }
-  return corners;
 }
 
 // At each place of the band.
@@ -110,7 +88,7 @@ void check_weight_and_rules(const StudyFile& study, std::vector<double> paramete
 void check_tuning(StudyFile& study) {
   const TuneChoice& tune = *study.tune;
   for (const std::vector<double>& scenario : scenarios_of(study)) {
-    for (const std::vector<bool>& corner : corners_of(tune)) {
+    for (const std::vector<bool>& corner : corners(tune.designs.size())) {
       std::vector<double> parameters = scenario;
       for (std::size_t i = 0; i < corner.size(); ++i)
         parameters[tune.designs[i].parameter] = corner[i] ? tune.designs[i].upper : tune.designs[i].lower;

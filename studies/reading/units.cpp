@@ -18,7 +18,7 @@ struct QuantityEntry {
 };
 
 // In the order of Quantity.
-constexpr std::array<QuantityEntry, 13> quantities{{
+constexpr std::array<QuantityEntry, 15> quantities{{
     {"a pure number", "1", "1", "1 or %", {0, 0, 0}},
     {"a length", "m", "m", "m, mm or um", {1, 0, 0}},
     {"a mass", "kg", "kg", "kg, g or t", {0, 1, 0}},
@@ -32,6 +32,8 @@ constexpr std::array<QuantityEntry, 13> quantities{{
     {"a time", "s", "s", "s, ms or min", {0, 0, 1}},
     {"an inverse speed", "s m-1", "s/m", "s/m or s/mm", {-1, 0, 1}},
     {"an angular acceleration", "rad s-2", "rad/s2", "rad/s2, rpm/s or Hz/s", {0, 0, -2}},
+    {"an acceleration", "m s-2", "m/s2", "m/s2 or mm/s2", {1, 0, -2}},
+    {"an energy", "J", "J", "J, mJ or N m", {2, 1, -2}},
 }};
 
 const QuantityEntry& entry(Quantity quantity) {
@@ -141,24 +143,28 @@ double si_factor(const Unit& unit, Quantity expected) {
 
 std::string dimension_name(const Unit& unit) {
   if (unit.foreign) return "a temperature, current, amount or light intensity";
+  if (has_dimension(unit, Quantity::energy)) return "an energy or a torque";
   for (std::size_t i = 0; i < quantities.size(); ++i) {
     const auto quantity = static_cast<Quantity>(i);
     if (has_dimension(unit, quantity)) return std::string(quantity_name(quantity));
   }
-  if (unit.radians == 0) {
-    if (unit.exponents == std::array{0, 0, 1}) return "a time";
-    if (unit.exponents == std::array{1, 0, -1}) return "a velocity";
-    if (unit.exponents == std::array{1, 0, -2}) return "an acceleration";
-    if (unit.exponents == std::array{2, 1, -2}) return "an energy or a torque";
+  return "a quantity in " + coherent_unit(unit);
+}
+
+std::string coherent_unit(const Unit& unit) {
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    const auto quantity = static_cast<Quantity>(i);
+    if (has_dimension(unit, quantity)) return std::string(si_unit(quantity));
   }
   constexpr std::array<std::string_view, 4> symbols{"m", "kg", "s", "rad"};
   const std::array powers{unit.exponents[0], unit.exponents[1], unit.exponents[2], unit.radians};
-  std::string text = "a quantity in";
+  std::string text;
   for (std::size_t i = 0; i < symbols.size(); ++i) {
-    if (powers[i] == 1) text += fmt::format(" {}", symbols[i]);
-    if (powers[i] != 0 && powers[i] != 1) text += fmt::format(" {}{}", symbols[i], powers[i]);
+    if (powers[i] == 0) continue;
+    text += text.empty() ? "" : " ";
+    text += powers[i] == 1 ? std::string(symbols[i]) : fmt::format("{}{}", symbols[i], powers[i]);
   }
-  return text;
+  return text.empty() ? "1" : text;
 }
 
 UnitSystem::UnitSystem() : database_(std::make_unique<Database>()) {

@@ -23,6 +23,8 @@ enum class Quantity {
   time,                  // s
   inverse_speed,         // s/m
   angular_acceleration,  // rad/s2
+  acceleration,          // m/s2
+  energy,                // J
 };
 
 std::string_view quantity_name(Quantity quantity);    // with its article: "a stiffness"
@@ -55,6 +57,10 @@ double si_factor(const Unit& unit, Quantity expected);
 
 // What a unit measures, in words: "a stiffness", else its dimension in base units: "m2 s-2".
 std::string dimension_name(const Unit& unit);
+
+// The coherent SI unit of the same dimension: "N s m-1" where it has a name, else "m2 kg s-3"; "1" of a
+// number.
+std::string coherent_unit(const Unit& unit);
 
 // The units UDUNITS-2 knows. Reading its database costs some milliseconds; UDUNITS is not thread-safe, so a
 // system is used by one thread, when a study is read.

@@ -6,8 +6,7 @@
 #include <cmath>
 
 #include "results/map_reader.hpp"
-#include "studies/map/finished_file.hpp"
-#include "studies/reading/assignment.hpp"
+#include "studies/map/stored_study.hpp"
 #include "studies/tuning/tuning_record.hpp"
 
 namespace frahm::studies {
@@ -25,14 +24,10 @@ StoredTuning read_stored_tuning(const std::filesystem::path& file) {
   const results::MapReader result(file);
   if (!result.has_group(optimum_group))
     throw StudyError(fmt::format("{}: is not the result of a tuning", file.string()));
-  const std::filesystem::path study_file = provenance_text(result, "study_file");
   StoredTuning stored;
-  stored.study = parse_study(provenance_text(result, "study"), file.parent_path() / study_file);
-  const std::string overrides = provenance_text(result, "overrides");
-  if (!overrides.empty()) {
-    stored.overrides = parse_assignments(stored.study, "--set", overrides);
-    stored.study = with_parameters(std::move(stored.study), stored.overrides);
-  }
+  StoredStudy of_file = read_stored_study(result, file);
+  stored.study = std::move(of_file.study);
+  stored.overrides = std::move(of_file.overrides);
   const StudyFile& study = stored.study;
   const auto columns = result.columns(optimum_group);
   for (const DesignChoice& design : study.tune->designs) {

@@ -6,10 +6,17 @@
 #include <cmath>
 #include <limits>
 
+#include "studies/tuning/outcome_words.hpp"
 #include "studies/tuning/tuning_about.hpp"
 
 namespace frahm::studies {
 namespace {
+
+// a per b: "m (N m-1)-1".
+std::string per_unit(const std::string& a, const std::string& b) {
+  if (b == "1") return a;
+  return a == "1" ? fmt::format("({})-1", b) : fmt::format("{} ({})-1", a, b);
+}
 
 using results::Type;
 using tuning::Optimum;
@@ -28,7 +35,8 @@ void add_numbers(const TuningAbout& about, GroupColumns& columns) {
   columns.add_number("kkt_residual", "1", "residual of the conditions of a local optimum",
                      about.optimum.kkt_residual);
   columns.add_number("violation", "1", "largest violation of a limit, relative", about.optimum.violation);
-  columns.add_outcomes("outcome", "how the tuning ended", "", {about.optimum.outcome});
+  columns.add_flag("outcome", "how the tuning ended", "", outcome_words(),
+                   outcome_flags({about.optimum.outcome}));
   if (about.tune.trade_off)
     columns.add_number("trade_off", about.tune.trade_off->unit.text,
                        "limit of " + about.tune.trade_off->name + " that this is the optimum of",
@@ -169,7 +177,7 @@ void add_starts(const TuningAbout& about, GroupColumns& columns) {
   columns.add("start_objective", objective_unit(about.study), "objective found from a start", "start",
               objectives);
   columns.add("start_kkt_residual", "1", "residual of the conditions of a local optimum", "start", residuals);
-  columns.add_outcomes("start_outcome", "how the start ended", "start", outcomes);
+  columns.add_flag("start_outcome", "how the start ended", "start", outcome_words(), outcome_flags(outcomes));
   std::vector<const Optimum*> optima;
   for (const StartResult& start : about.result.starts) optima.push_back(&start.optima[limit]);
   add_designs(about, "start_", "found from a start", "start", optima, columns);
@@ -236,7 +244,7 @@ std::vector<results::Column> front_columns(const StudyFile& study, const TuningR
   columns.add("certificate_gap", "1", "(objective - bound) / objective", "trade_off", gaps);
   columns.add("kkt_residual", "1", "residual of the conditions of a local optimum", "trade_off", residuals);
   columns.add("violation", "1", "largest violation of a limit, relative", "trade_off", violations);
-  columns.add_outcomes("outcome", "how the tuning ended", "trade_off", outcomes);
+  columns.add_flag("outcome", "how the tuning ended", "trade_off", outcome_words(), outcome_flags(outcomes));
   columns.add_count("best_start", "the start that this was found from", "trade_off", starts);
   add_designs(about, "", "under that limit", "trade_off", optima, columns);
   return columns.take();

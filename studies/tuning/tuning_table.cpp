@@ -8,6 +8,7 @@
 #include <cmath>
 #include <ostream>
 
+#include "studies/tuning/outcome_words.hpp"
 #include "studies/tuning/tuned_design.hpp"
 #include "studies/tuning/tuning_about.hpp"
 

@@ -69,7 +69,7 @@ TEST_CASE("the arctan orbit is the one that an integrator from rest comes to") {
     INFO("r " << r << ", f " << f << ", slope " << slope);
     REQUIRE(smooth.solve(with_slope(single_mass_values(r, zeta, f), slope)).status == Status::ok);
     const Integrated expected = integrated(r, zeta, f, slope, 60);
-    const History history = smooth.response().history(2);
+    const History history = smooth.response().history(frahm::periodic::phases_of_a_period(2));
     const double size = std::max(expected.peak, 1e-2);  // static displacement 1
     CHECK_THAT(history.columns[0][0], Catch::WithinAbs(expected.x, kOrbit * size));
     CHECK_THAT(history.columns[1][0], Catch::WithinAbs(expected.v, kOrbit * size));
@@ -178,7 +178,7 @@ TEST_CASE(
   exact.solve(values);
   REQUIRE(smooth.solve(with_slope(values, kPaperSlope)).status == Status::ok);
   CHECK_THAT(std::abs(smooth["main_peak"] / exact["main_peak"] - 1.0), Catch::WithinRel(1.907e-4, 1e-2));
-  const History history = smooth.response().history(2);
+  const History history = smooth.response().history(frahm::periodic::phases_of_a_period(2));
   const auto at_start = [&](std::size_t column) { return history.columns[column][0]; };
   const std::array<double, 4> start{at_start(0), at_start(2), at_start(1), at_start(3)};
   // From 1e-3 beside the orbit: within 40 periods the multiplier 0.72 brings it back to 2e-9 of that.

@@ -28,7 +28,7 @@ void check_orbit(Responses& responses, const mechanics::NetworkValues& values) {
   mechanics::LinearSystem system;
   assembly.set_values(values, system);
   assembly.set_forcing(values, system);
-  const History history = responses.response().history(2);
+  const History history = responses.response().history(frahm::periodic::phases_of_a_period(2));
   const Eigen::Index n = system.masses();
   Eigen::VectorXd q(n), v(n);
   double largest = 0.0, fastest = 0.0;

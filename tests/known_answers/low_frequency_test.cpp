@@ -52,7 +52,7 @@ TEST_CASE("At low frequency the orbit with many stops is the one that a long mar
         const int periods = 3 + static_cast<int>(std::log(1e-15) / std::log(std::max(radius, 1e-6)));
         if (periods > 5000) continue;
         const Eigen::Vector2d z = march(values, periods);
-        const History history = responses.response().history(2);
+        const History history = responses.response().history(frahm::periodic::phases_of_a_period(2));
         CHECK(std::abs(z[0] - history.columns[0][0]) < kAgreement);
         CHECK(std::abs(z[1] - history.columns[1][0]) < kAgreement);
       }

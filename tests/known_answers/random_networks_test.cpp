@@ -70,7 +70,7 @@ void check_network(const RandomNetwork& drawn) {
   CHECK(responses["energy_balance"] < kBalance);
   CHECK(responses["floquet_radius"] <= kUnstable);
   if (responses["status"] == 4.0) return;
-  const History history = responses.response().history(2001);
+  const History history = responses.response().history(frahm::periodic::phases_of_a_period(2001));
   check_extremes(drawn, responses, history);
   check_period(drawn, responses, history);
 }

@@ -112,7 +112,7 @@ TEST_CASE("The mean and the even orders of a crank are in the orbit of the mass 
     const double phase = 0.7;
     REQUIRE(responses.solve(crank_values(omega, phase)).status == periodic::Status::ok);
     CHECK_THAT(responses["x_mean"], Catch::WithinAbs(100.0 / 160.0 * harmonic(0).real(), tolerance));
-    const auto history = responses.response().history(61);
+    const auto history = responses.response().history(frahm::periodic::phases_of_a_period(61));
     for (std::size_t i = 0; i < 61; ++i) {
       INFO("omega " << omega << ", sample " << i);
       const double angle = omega * history.time[i] + phase;

@@ -210,7 +210,7 @@ TEST_CASE("7. Where a quantity jumps, the limits on both sides count") {
   // Ground carries x + 2 zeta x' + f: X + f just before the maximum, or more where the damper's share still
   // grows.
   CHECK(responses["transmitted_force"] >= exact.amplitude + f - kAgreement);
-  const History history = responses.response().history(20001);
+  const History history = responses.response().history(frahm::periodic::phases_of_a_period(20001));
   double sampled = 0.0;
   for (std::size_t i = 0; i < history.time.size(); ++i) {
     sampled =

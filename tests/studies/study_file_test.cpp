@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <sstream>
 #include <string>
 
 namespace {
@@ -39,7 +40,11 @@ TEST_CASE("every study of the project is read") {
   for (const auto& entry : std::filesystem::directory_iterator(studies)) {
     if (entry.path().extension() != ".toml") continue;
     INFO(entry.path().string());
-    CHECK_NOTHROW(read_study(entry.path()));
+    std::stringstream text;
+    text << std::ifstream(entry.path()).rdbuf();
+    // What an earlier run is to leave beside the study is not there yet.
+    const bool of_a_chain = text.str().find(".h5\"") != std::string::npos;
+    CHECK_NOTHROW(parse_study(text.str(), entry.path(), of_a_chain ? DataFiles::leave : DataFiles::read));
     ++count;
   }
   CHECK(count >= 7);

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+// What measurements tell of a system: estimates, how sure they are, and how well the model follows the data.
+namespace frahm::identification {
+
+// A number found from measurements.
+struct Estimate {
+  std::string name;       // "damping_ratio"; of a fitted parameter its name
+  std::string unit;       // SI, in the form of CF: "N s m-1"; "1" without
+  std::string long_name;  // what it is, in words
+  double value = 0.0;     // NaN: the data do not determine it
+  // One standard deviation. Infinite: not determined; NaN: nothing tells (no more data than unknowns).
+  double standard_error = 0.0;
+  double low = 0.0, high = 0.0;  // interval of kConfidence, by Student's t; -inf, inf or NaN likewise
+  // Of the variance behind the interval, may be infinite. NaN: those of the whole Identification.
+  double degrees_of_freedom = std::numeric_limits<double>::quiet_NaN();
+};
+inline constexpr double kConfidence = 0.95;
+
+// What was measured beside what the model says in its place: the data of a residual plot.
+struct FittedSeries {
+  std::string name, unit;  // of what was measured: "main_displacement", "m"
+  std::vector<double> measured, fitted;
+};
+
+// The series of one record over one variable.
+struct FittedRecord {
+  std::string name;
+  std::string over, over_unit;  // "time", "s"
+  std::vector<double> at;       // values of `over`, one for each of a series
+  std::vector<FittedSeries> series;
+  double nrmse = 0.0;  // of all its series together [%]
+};
+
+// A column of answers that each row of the data has for itself, such as a table of half-power frequencies.
+struct RowColumn {
+  std::string name, unit, long_name;
+  std::vector<double> values;
+};
+
+struct Identification {
+  std::string failure;    // why nothing was identified, a sentence; empty: it was
+  bool converged = true;  // false: a fit ended before its best, a note says why
+  std::vector<Estimate> estimates;
+  // Of the estimates, in their order. Infinite on the diagonal, NaN beside it: not determined.
+  Eigen::MatrixXd covariance;
+  double degrees_of_freedom = 0.0;
+  int iterations = 0;  // of a fit that iterates
+  std::vector<FittedRecord> records;
+  std::vector<RowColumn> rows;
+  std::vector<std::string> notes;  // sentences: what was left out, what is held by a bound
+};
+
+// A series whose |y - mean y| is less than this of |y| is constant: what it varies by is rounding.
+inline constexpr double kConstant = 1e-12;
+
+// Fit quality, 100 (1 - |y - yhat| / |y - mean y|) [%]; the mean is each series' own. 100: exact, 0: no
+// better than a constant. NaN: nothing measured varies.
+double nrmse(std::span<const FittedSeries> series);
+
+// Correlation coefficients of a covariance: NaN where one is not determined.
+Eigen::MatrixXd correlation(const Eigen::MatrixXd& covariance);
+
+// Standard errors and intervals of result.estimates from result.covariance and the degrees of freedom of
+// each, which are those of the whole where it has none; an estimate with an infinite variance loses its
+// value.
+void set_intervals(Identification& result);
+
+// Adds an estimate computed from the ones there: value and gradient by each of them.
+void add_derived(Identification& result, Estimate estimate, const Eigen::VectorXd& gradient);
+
+}  // namespace frahm::identification

@@ -1,0 +1,173 @@
+#include "solvers/identification/minima.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace frahm::identification {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd, Eigen::VectorXd;
+
+// Each record is followed so far in a first fit [periods]: long enough to tell a frequency, and short enough
+// that one that is a quarter off slips no more than half a period. Where that leads nowhere, as from friction
+// that stops the model long before the measured motion, only so far as it still moves.
+constexpr double kFirstPeriods[] = {2.0, 0.25};
+// A fit that misses more than this of the measured variation has led nowhere.
+constexpr double kNowhere = 0.5;
+// One that misses less has nothing beside it that is better.
+constexpr double kExactly = 1e-9;
+constexpr LeastSquaresOptions kOnTheWay = {.tolerance = 1e-6, .most_evaluations = 50};
+constexpr double kLower = 1e-6;  // by this share another minimum's sum of squares is less
+
+std::vector<Unknown> started_at(const VectorXd& p, std::vector<Unknown> unknowns) {
+  for (std::size_t i = 0; i < unknowns.size(); ++i) unknowns[i].start = p[static_cast<Index>(i)];
+  return unknowns;
+}
+
+// The direction, of length 1 in units of p, in which the residuals at the fit change least.
+VectorXd least_determined(const LeastSquaresFit& fit, const VectorXd& scales) {
+  const Eigen::BDCSVD<MatrixXd> svd(fit.jacobian * scales.asDiagonal(), Eigen::ComputeThinV);
+  return scales.cwiseProduct(svd.matrixV().rightCols<1>());
+}
+
+}  // namespace
+
+Minima::Minima(const GreyBoxTask& task, Misfit& misfit, int& iterations)
+    : task_(task),
+      misfit_(misfit),
+      iterations_(iterations),
+      residuals_([&misfit](const VectorXd& p, VectorXd& r, MatrixXd* by) { return misfit(p, r, by); }),
+      rubs_(std::ranges::any_of(
+          task.network.elements,
+          [](const mechanics::Element& element) { return element.type == mechanics::ElementType::coulomb; })),
+      free_(std::ranges::any_of(
+          task.records, [](const TimeRecord& record) { return record.motion == MotionKind::free; })) {}
+
+LeastSquaresFit Minima::descend(const VectorXd& p, const LeastSquaresOptions& options) {
+  LeastSquaresFit fit = least_squares(started_at(p, misfit_.unknowns()), residuals_, options);
+  iterations_ += fit.iterations;
+  return fit;
+}
+
+LeastSquaresFit Minima::from(const VectorXd& p) {
+  return descend(p, {});
+}
+
+// More than this share of the measured variation, with the weights of a first fit.
+bool Minima::misses(const LeastSquaresFit& fit, double share) const {
+  return !(fit.sum_of_squares() <= share * share * static_cast<double>(misfit_.series()));
+}
+
+// Keeps the lower of both, of the same sum of squares one that has converged.
+void Minima::take(LeastSquaresFit fit, LeastSquaresFit& best) {
+  if (fit.p.size() == 0 || !fit.p.allFinite() || fit.jacobian.size() == 0) return;
+  const double sum = fit.sum_of_squares(), least = best.sum_of_squares();
+  const bool lower = sum < (1.0 - kLower) * least;
+  const bool alike = sum <= (1.0 + kLower) * least && fit.converged && !best.converged;
+  if (best.jacobian.size() == 0 || lower || alike) best = std::move(fit);
+}
+
+// The records' beginnings first, twice as much of them each time, then all. From the start itself where that
+// is nearer than what growing has come to.
+LeastSquaresFit Minima::grown(const VectorXd& start, double periods) {
+  VectorXd p = start, r, grown_r;
+  for (double seconds = periods * misfit_.longest_period(start); misfit_.follow(seconds); seconds *= 2.0) {
+    const LeastSquaresFit fit = descend(p, kOnTheWay);
+    if (fit.p.size() == 0 || !fit.p.allFinite()) break;
+    p = fit.p;
+  }
+  misfit_.follow_all();
+  if (!residuals_(p, grown_r, nullptr))
+    p = start;
+  else if (residuals_(start, r, nullptr) && !(grown_r.squaredNorm() < r.squaredNorm()))
+    p = start;
+  return descend(p, kOnTheWay);
+}
+
+void Minima::search(const VectorXd& start, LeastSquaresFit& best) {
+  if (!task_.grow) return take(descend(start, kOnTheWay), best);
+  for (const double periods : kFirstPeriods) {
+    take(grown(start, periods), best);
+    // Growing may lead away from a start that is right.
+    if (periods == kFirstPeriods[0] && misses(best, kExactly)) take(descend(start, kOnTheWay), best);
+    if (best.jacobian.size() > 0 && !misses(best, kNowhere)) return;
+  }
+}
+
+// Half the friction each time, until the model moves as the data do: from the start's other values.
+void Minima::loosen(LeastSquaresFit& best) {
+  constexpr int kMostHalvings = 8;
+  VectorXd p = misfit_.start();
+  const std::vector<Index> frictions = misfit_.frictions(p);
+  for (const Index i : frictions) p[i] = std::max(std::abs(p[i]), std::abs(best.p[i]));
+  for (int halving = 0; halving < kMostHalvings && !frictions.empty(); ++halving) {
+    for (const Index i : frictions) p[i] *= 0.5;
+    if (!misfit_.moves(p)) continue;
+    search(p, best);
+    if (!misses(best, kNowhere)) return;
+  }
+}
+
+LeastSquaresFit Minima::from_start() {
+  LeastSquaresFit best;
+  search(misfit_.start(), best);
+  const bool found = best.jacobian.size() > 0;
+  if (rubs_ && found && misses(best, kNowhere)) loosen(best);
+  LeastSquaresFit fit = from(found ? best.p : misfit_.start());
+  exact_ = fit.p.size() > 0 && !misses(fit, kExactly);
+  return beside(std::move(fit));
+}
+
+// A half swing more or fewer before rest, one half of that, and two: friction moved by so much, alone and
+// with the others as they follow it; and both ways along the least determined direction, which is all there
+// is for motions that are driven.
+std::vector<VectorXd> Minima::starts_beside(const LeastSquaresFit& fit) {
+  constexpr double kSwings[] = {-2.0, -1.0, -0.5, 0.5, 1.0, 2.0};
+  constexpr double kLengths[] = {-0.6, 0.6, -0.2, 0.2};
+  const std::vector<Unknown>& unknowns = misfit_.unknowns();
+  VectorXd scales(fit.p.size());
+  for (Index i = 0; i < scales.size(); ++i)
+    scales[i] = std::max(std::abs(fit.p[i]), unknowns[static_cast<std::size_t>(i)].scale);
+  std::vector<VectorXd> starts;
+  const MatrixXd spread = covariance(fit.jacobian, 1.0, scales);
+  const double swings = std::clamp(static_cast<double>(misfit_.turns(fit.p)), 3.0, 30.0);
+  for (const Index i : free_ ? misfit_.frictions(fit.p) : std::vector<Index>{}) {
+    for (const double by : kSwings) {
+      VectorXd moved = fit.p, following = fit.p;
+      moved[i] *= 1.0 + by / swings;
+      following += (by / swings * fit.p[i] / spread(i, i)) * spread.col(i);
+      starts.push_back(moved);
+      if (following.allFinite() && spread(i, i) > 0.0) starts.push_back(following);
+    }
+  }
+  const VectorXd direction = least_determined(fit, scales);
+  for (const double length : std::span(kLengths).first(free_ ? 4 : 2))
+    starts.push_back(fit.p + length * direction);
+  for (VectorXd& p : starts) {
+    for (Index i = 0; i < p.size(); ++i) {
+      const Unknown& unknown = unknowns[static_cast<std::size_t>(i)];
+      p[i] = std::clamp(p[i], unknown.lower, unknown.upper);
+    }
+  }
+  return starts;
+}
+
+LeastSquaresFit Minima::beside(LeastSquaresFit fit) {
+  constexpr int kMostRounds = 5;
+  constexpr LeastSquaresOptions kGlance = {.tolerance = 1e-4, .most_evaluations = 15};
+  if (!rubs_ || exact_ || fit.jacobian.size() == 0) return fit;
+  for (int round = 0; round < kMostRounds; ++round) {
+    LeastSquaresFit best = fit;
+    for (const VectorXd& start : starts_beside(fit)) take(descend(start, kGlance), best);
+    if (!(best.sum_of_squares() < (1.0 - kLower) * fit.sum_of_squares())) return fit;
+    best = from(best.p);
+    if (!(best.sum_of_squares() < (1.0 - kLower) * fit.sum_of_squares())) return fit;
+    fit = std::move(best);
+  }
+  return fit;
+}
+
+}  // namespace frahm::identification

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "solvers/identification/misfit.hpp"
+
+// The least of a misfit's several minima. A motion that comes to rest has one for each number of half swings
+// before that, and where friction holds the model nothing changes the sum of squares at all.
+namespace frahm::identification {
+
+// With the weights the misfit has. iterations: added to.
+class Minima {
+ public:
+  Minima(const GreyBoxTask& task, Misfit& misfit, int& iterations);  // which must all outlive it
+
+  // From the task's start: grown along the records and of all of them at once, and from less friction where
+  // that ends with nothing moving.
+  LeastSquaresFit from_start();
+  // The nearest minimum.
+  LeastSquaresFit from(const Eigen::VectorXd& p);
+  // Of a model with contacts also minima beside `fit`, as long as one is lower.
+  LeastSquaresFit beside(LeastSquaresFit fit);
+
+ private:
+  LeastSquaresFit descend(const Eigen::VectorXd& p, const LeastSquaresOptions& options);
+  LeastSquaresFit grown(const Eigen::VectorXd& start, double periods);
+  void take(LeastSquaresFit fit, LeastSquaresFit& best);
+  void search(const Eigen::VectorXd& start, LeastSquaresFit& best);
+  void loosen(LeastSquaresFit& best);
+  bool misses(const LeastSquaresFit& fit, double share) const;
+  std::vector<Eigen::VectorXd> starts_beside(const LeastSquaresFit& fit);
+
+  const GreyBoxTask& task_;
+  Misfit& misfit_;
+  int& iterations_;
+  Residuals residuals_;
+  bool rubs_ = false;   // there are contacts
+  bool free_ = false;   // there are free motions, which come to rest
+  bool exact_ = false;  // the data are followed to rounding
+};
+
+}  // namespace frahm::identification

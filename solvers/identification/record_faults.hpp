@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+// What is wrong with a sampled free vibration that its samples tell.
+namespace frahm::identification {
+
+// Fewer samples a cycle do not tell the shape about a turning point: its error is then biased, and its
+// standard error too small.
+inline constexpr double kLeastSamplesOfCycle = 12.0;
+
+// "" where nothing is, else the sentence that says what and where. turned: the samples, two at least, at
+// which the trace turns; noise: standard deviation of the samples.
+//   samples missing: a step of time above a quarter of a half period, and above twice the median step;
+//   too coarse: fewer than kLeastSamplesOfCycle a cycle;
+//   a wild sample: far from its neighbours' line, on the other side of it than they are of theirs, by more
+//   than 20 standard deviations and by a hundredth of the range, where the steps of time are even;
+//   clipped: three samples and more of one value, the largest or the least of all, at two turns and more.
+std::string unless_whole(std::span<const double> time, std::span<const double> displacement,
+                         std::span<const std::size_t> turned);
+std::string unless_wild(std::span<const double> time, std::span<const double> displacement, double noise);
+
+}  // namespace frahm::identification

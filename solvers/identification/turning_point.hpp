@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+
+// One turning point of a measured free vibration, from the samples about it.
+namespace frahm::identification {
+
+// The samples over about a quarter period on either side.
+struct Quarters {
+  double at = 0.0, radian = 0.0;  // [s] a sample near the turn; the time in which the phase grows by one
+  double decrease = 0.0;          // delta, free vibration being exp(-delta s) cos s
+  Eigen::VectorXd phase, x;       // (t - at) / radian, [m]
+};
+
+struct TurningPoint {
+  bool converged = false;
+  double phase = 0.0, x = 0.0;       // of the turn, [m]
+  double rss = 0.0, rounding = 0.0;  // [m^2], [m]
+  Eigen::Matrix2d cofactor;          // of x and phase, for samples of variance 1
+  double criterion = std::numeric_limits<double>::infinity();
+  Eigen::VectorXd before, after;  // coefficients of phi_2, phi_3 ... on the two sides
+  Eigen::Index unknowns = 0;
+};
+
+// x = X + a_2 phi_2(s) + a_3 phi_3(s) + ..., s = phase - turn, and behind the turn b_2 phi_2 + ... comes to
+// it: friction makes the acceleration and what follows from it jump there. The shapes are those of a mass on
+// a spring with a damper: phi_2 = 1 - exp(-delta s) (cos s + delta sin s), and on with phi_k' = phi_{k-1}. So
+// a_2 and b_2 are all there is of a mass that rubs on a known damper; a_3 makes up for an error of delta, a_4
+// for one of the frequency. These are always fitted, as what is left out moves the turn by as much as
+// noise that hides it; a_4 only where there are eight samples.
+// Akaike's corrected criterion chooses how many more there are.
+// Not converged: samples too few, fewer than two on a side or six in all, or that do not turn.
+TurningPoint turning_point(const Quarters& quarters);
+
+}  // namespace frahm::identification

@@ -1,0 +1,193 @@
+#include "solvers/transient/motion_sensitivity.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace frahm::transient {
+namespace {
+
+using Eigen::Index;
+
+constexpr double kStepsAtOnce = 256.0;  // in memory: a few hundred kilobytes for a few masses
+constexpr double kMostSteps = 1e7;      // some ten seconds of one core
+
+}  // namespace
+
+MotionSensitivity::MotionSensitivity(std::span<const periodic::Observed> observed, std::vector<double> times,
+                                     Watch watch)
+    : steps_(flow_),
+      time_(times.front()),
+      times_(std::move(times)),
+      samples_(observed),
+      observed_(observed),
+      watch_(std::move(watch)) {
+  motion_.values.resize(static_cast<Index>(times_.size()), static_cast<Index>(observed.size()));
+}
+
+void MotionSensitivity::set_system(const mechanics::LinearSystem& system,
+                                   std::span<const mechanics::LinearSystem> by) {
+  flow_.set_system(system);
+  directions_.clear();
+  directions_.reserve(by.size());
+  for (std::size_t d = 0; d < by.size(); ++d) directions_.emplace_back(flow_);
+  motion_.by.assign(by.size(), Eigen::MatrixXd(motion_.values.rows(), motion_.values.cols()));
+  flow_.set_forcing(system);
+  for (std::size_t d = 0; d < by.size(); ++d) {
+    directions_[d].by.set(flow_.equations(), system, by[d]);
+    directions_[d].sensitivity.set_direction(directions_[d].by);
+  }
+}
+
+void MotionSensitivity::start(const InitialState& initial, std::span<const InitialState> by) {
+  const Index n = flow_.equations().masses();
+  const double h = flow_.equations().step;
+  const auto values = [n](const std::vector<double>& given) {
+    return given.empty() ? Eigen::VectorXd(Eigen::VectorXd::Zero(n))
+                         : Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(given.data(), n));
+  };
+  const auto state = [&](const InitialState& from) {
+    State z = State::Zero(flow_.equations().states());
+    z.head(n) = values(from.displacement);
+    z.segment(n, n) = h * values(from.velocity);
+    return z;
+  };
+  z_ = state(initial);
+  if (!z_.allFinite()) throw mechanics::MechanicsError("the initial values must be finite");
+  for (std::size_t d = 0; d < by.size(); ++d) {
+    directions_[d].delta = state(by[d]);
+    // v h:  d(v h) = h dv + (v h) dh/h
+    directions_[d].delta.segment(n, n) += directions_[d].by.log_step * z_.segment(n, n);
+  }
+}
+
+bool MotionSensitivity::advance(double time, double phase, double longest) {
+  const double h = flow_.equations().step, start = time_, length = (time - start) / h;
+  if (steps_taken_ + length > kMostSteps)
+    failure_ = "it takes more than 10 million steps of the fastest oscillation of system or excitation";
+  const double most = std::clamp(longest / h, 1.0, kStepsAtOnce);
+  for (double done = 0.0; done < length && failure_ == nullptr;) {
+    if (watch_) watch_();
+    const double part = std::min(length - done, most);
+    if (!pass(part, phase + done * flow_.fundamental_rate())) return false;
+    done += part;
+    time_ = start + done * h;
+  }
+  if (failure_ == nullptr) time_ = time;
+  return failure_ == nullptr;
+}
+
+bool MotionSensitivity::pass(double length, double phase) {
+  stretch_.section = phase;
+  passage_start_ = time_;
+  flow_.pass(z_, phase, length, stretch_.passage);
+  steps_taken_ += length;
+  failure_ = stretch_.passage.failure;
+  if (failure_ != nullptr) return false;
+  steps_.lay_out(stretch_);
+  differentiate();
+  const auto steps = steps_.steps();
+  const double h = flow_.equations().step;
+  for (std::size_t i = 0; i < steps.size(); ++i) sample(i, time_ + (steps[i].start + steps[i].length) * h);
+  keep_ending(steps.back());
+  z_ = stretch_.passage.end;
+  return true;
+}
+
+void MotionSensitivity::differentiate() {
+  if (directions_.empty() || *why_none_ != '\0') return;
+  const auto steps = steps_.steps();
+  for (Step& step : steps) steps_.expand(step);
+  if (!begun_) {
+    begin(steps.front());
+  } else {
+    why_none_ = cross_border(steps.front());
+  }
+  if (*why_none_ == '\0') why_none_ = periodic::find_changes<kAny, kAny>(flow_, steps, changes_);
+  if (*why_none_ != '\0') return;
+  for (Direction& d : directions_) d.delta = d.sensitivity.sweep(steps, changes_, d.delta);
+}
+
+// delta is taken with tau = t/h held, the initial values are given with t held:
+//   delta = dz|_t - z' dtau,  dtau = -tau dh/h
+void MotionSensitivity::begin(const Step& first) {
+  const Index n = flow_.equations().masses(), maxwell = flow_.equations().maxwell_elements();
+  State rate(flow_.equations().states());
+  rate << first.left.z.segment(n, n), first.left.a, first.left.ds.head(maxwell);
+  const double tau = time_ / flow_.equations().step;
+  for (Direction& d : directions_) d.delta += (d.by.log_step * tau) * rate;
+}
+
+// What arrives just where a passage ends does so between the two. Where several arrive and all stick from
+// there on, the impulses of their friction leave of delta its M-orthogonal projection onto the velocities
+// that keep them stuck, whichever comes first; the next passage begins with that.
+const char* MotionSensitivity::cross_border(const Step& first) {
+  const periodic::Mode<kAny, kAny>& after = flow_.mode(first.mode);
+  if (after.stuck == ending_.mode.stuck && after.positive == ending_.mode.positive) return "";
+  periodic::ModeChange change = periodic::mode_change(flow_, ending_.mode, ending_.at, after);
+  if (change.arrived == 0) return "";
+  if (change.is_several()) {
+    const bool all_stick = (change.arrived & ~after.stuck) == 0 && change.released < 0;
+    return all_stick ? "" : periodic::kSeveralArrive;
+  }
+  change.slope = ending_.slopes[static_cast<std::size_t>(change.arriving())];
+  for (Direction& d : directions_) d.sensitivity.arrive(change, ending_.at, first.left, d.delta);
+  return "";
+}
+
+void MotionSensitivity::keep_ending(const Step& last) {
+  begun_ = true;
+  ending_.mode = flow_.mode(last.mode);
+  ending_.at = last.right;
+  ending_.slopes.clear();
+  for (Index j = 0; j < flow_.equations().contacts(); ++j)
+    ending_.slopes.push_back(flow_.sliding_speed(last.right, j).slope);
+}
+
+// The samples before `end` [s], from a step of the passage in hand on.
+void MotionSensitivity::sample(std::size_t i, double end) {
+  if (next_sample_ == times_.size() || times_[next_sample_] >= end) return;
+  Step& step = steps_.steps()[i];
+  steps_.expand(step);
+  samples_.set_step(flow_, step);
+  const double h = flow_.equations().step, start = passage_start_ + step.start * h;
+  const std::size_t first = next_sample_;
+  powers_.clear();
+  for (; next_sample_ < times_.size() && times_[next_sample_] < end; ++next_sample_) {
+    powers_.push_back(periodic::powers(std::clamp((times_[next_sample_] - start) / h, 0.0, step.length)));
+    samples_.values(powers_.back(), 1.0, motion_.values.row(static_cast<Index>(next_sample_)));
+  }
+  if (*why_none_ != '\0') return;
+  for (std::size_t d = 0; d < directions_.size(); ++d) {
+    samples_.set_direction(flow_, directions_[d].sensitivity, i);
+    for (std::size_t k = 0; k < powers_.size(); ++k)
+      samples_.derivatives(powers_[k], times_[first + k] / h, 1.0,
+                           motion_.by[d].row(static_cast<Index>(first + k)));
+  }
+}
+
+// Held masses are released again only by forces that still change.
+bool MotionSensitivity::is_at_rest() const {
+  const auto& eq = flow_.equations();
+  const Index harmonics = eq.force.cols() - 1;
+  return begun_ && eq.maxwell_elements() == 0 && eq.force.rightCols(harmonics).isZero(0.0) &&
+         eq.motion.rightCols(harmonics).isZero(0.0) && flow_.configuration(ending_.mode).P.isZero(0.0);
+}
+
+void MotionSensitivity::finish() {
+  if (!is_at_rest()) {
+    // The last instant, which lies before no step.
+    return sample(steps_.steps().size() - 1, std::numeric_limits<double>::infinity());
+  }
+  for (; next_sample_ < times_.size(); ++next_sample_) {
+    const auto row = static_cast<Index>(next_sample_);
+    for (std::size_t o = 0; o < observed_.size(); ++o) {
+      const auto column = static_cast<Index>(o);
+      const bool rests = observed_[o].order == 0;
+      motion_.values(row, column) = rests ? z_[observed_[o].mass] : 0.0;
+      for (std::size_t d = 0; d < directions_.size(); ++d)
+        motion_.by[d](row, column) = rests ? directions_[d].delta[observed_[o].mass] : 0.0;
+    }
+  }
+}
+
+}  // namespace frahm::transient

@@ -1,0 +1,161 @@
+#include "studies/identification/grey_box_task.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "studies/reading/settings.hpp"
+
+namespace frahm::studies {
+namespace {
+
+using identification::Model, identification::Signal;
+
+// What a StudyValue is worth, and how it changes with one parameter.
+Dual dual_of(const StudyFile& study, const StudyValue& value, std::span<const double> parameters,
+             std::size_t by) {
+  std::vector<Dual> duals;
+  for (const double parameter : parameters) duals.push_back({parameter, 0.0});
+  duals[by].derivative = 1.0;
+  study.parameters.complete(std::span<Dual>(duals));
+  return value.expression.evaluate(std::span<const Dual>(duals));
+}
+
+double value_of(const StudyValue& value, std::span<const double> parameters) {
+  return value.expression.evaluate(parameters);
+}
+
+void set_model(const StudyFile& study, std::span<double> parameters, Model& model) {
+  const std::size_t n = study.network.masses.size();
+  evaluate(study.values, study.parameters, parameters, model.values);
+  if (study.identify->reference_frequency)
+    model.values.hysteretic_omega = value_of(*study.identify->reference_frequency, parameters);
+  model.initial.displacement.assign(n, 0.0);
+  model.initial.velocity.assign(n, 0.0);
+  for (const InitialValues& initial : study.motion.initial) {
+    model.initial.displacement[initial.mass] = value_of(initial.displacement, parameters);
+    model.initial.velocity[initial.mass] = value_of(initial.velocity, parameters);
+  }
+}
+
+void differentiate_model(const StudyFile& study, std::span<const double> parameters, std::size_t by,
+                         Model& model) {
+  const std::size_t n = study.network.masses.size();
+  differentiate(study.values, study.parameters, parameters, by, model.values);
+  if (study.identify->reference_frequency)
+    model.values.hysteretic_omega =
+        dual_of(study, *study.identify->reference_frequency, parameters, by).derivative;
+  model.initial.displacement.assign(n, 0.0);
+  model.initial.velocity.assign(n, 0.0);
+  for (const InitialValues& initial : study.motion.initial) {
+    model.initial.displacement[initial.mass] =
+        dual_of(study, initial.displacement, parameters, by).derivative;
+    model.initial.velocity[initial.mass] = dual_of(study, initial.velocity, parameters, by).derivative;
+  }
+}
+
+// SI values of all parameters in a record, before those that are fitted or fixed take theirs.
+std::vector<double> parameters_in_record(const StudyFile& study, const RecordChoice& record) {
+  std::vector<double> parameters = study.parameters.nominal();
+  for (const Assignment& assignment : record.set) parameters[assignment.parameter] = assignment.value;
+  return parameters;
+}
+
+identification::ModelAt model_at(const StudyFile& study) {
+  const IdentifyChoice& choice = *study.identify;
+  std::vector<std::size_t> places;  // of the entries of `at` among the parameters
+  for (const IdentifiedParameter& fitted : choice.parameters) places.push_back(fitted.parameter);
+  for (const FixedEstimate& fixed : choice.fixed) places.push_back(fixed.parameter);
+  std::vector<std::vector<double>> records;
+  for (const RecordChoice& record : choice.records) records.push_back(parameters_in_record(study, record));
+  return [&study, places = std::move(places), records = std::move(records)](
+             std::size_t record, std::span<const double> at, Model& model, std::vector<Model>* derivatives) {
+    std::vector<double> parameters = records[record];
+    for (std::size_t i = 0; i < places.size(); ++i) parameters[places[i]] = at[i];
+    set_model(study, parameters, model);
+    if (!derivatives) return;
+    derivatives->resize(places.size());
+    for (std::size_t i = 0; i < places.size(); ++i)
+      differentiate_model(study, parameters, places[i], (*derivatives)[i]);
+  };
+}
+
+// The name without the ending, if it has it.
+std::optional<std::string> before(const std::string& role, const std::string& ending) {
+  if (!role.ends_with(ending)) return std::nullopt;
+  return role.substr(0, role.size() - ending.size());
+}
+
+std::optional<std::size_t> place_of(const std::vector<std::string>& names, const std::string& name) {
+  const auto place = std::find(names.begin(), names.end(), name);
+  if (place == names.end()) return std::nullopt;
+  return static_cast<std::size_t>(place - names.begin());
+}
+
+void add_column(const StudyFile& study, const DataColumn& column, identification::TimeRecord& record) {
+  using mechanics::ExcitationKind;
+  constexpr std::array<std::pair<const char*, Signal>, 3> signals{{{"_displacement", Signal::displacement},
+                                                                   {"_velocity", Signal::velocity},
+                                                                   {"_acceleration", Signal::acceleration}}};
+  for (const auto& [ending, signal] : signals) {
+    const auto node = before(column.role, ending);
+    if (!node) continue;
+    if (const auto mass = place_of(study.network.masses, *node)) {
+      record.channels.push_back({column.role, *mass, signal, column.values});
+    } else if (const auto support = place_of(study.network.prescribed, *node)) {
+      record.excitation.push_back({ExcitationKind::motion, *support, column.values});
+    }
+    return;
+  }
+  if (const auto node = before(column.role, "_force")) {
+    if (const auto mass = place_of(study.network.masses, *node))
+      record.excitation.push_back({ExcitationKind::force, *mass, column.values});
+  }
+}
+
+}  // namespace
+
+identification::TimeRecord time_record(const StudyFile& study, const RecordChoice& record) {
+  identification::TimeRecord result;
+  result.name = record.name;
+  result.motion = record.motion;
+  for (const DataColumn& column : record.columns) {
+    if (column.role == "time") {
+      result.time = column.values;
+    } else {
+      add_column(study, column, result);
+    }
+  }
+  return result;
+}
+
+identification::GreyBoxTask grey_box_task(const StudyFile& study) {
+  const IdentifyChoice& choice = *study.identify;
+  const std::vector<double> nominal = study.parameters.nominal();
+  identification::GreyBoxTask task;
+  task.network = study.network;
+  task.model_at = model_at(study);
+  for (const IdentifiedParameter& fitted : choice.parameters) {
+    task.parameters.push_back({.name = study.parameters.list[fitted.parameter].name,
+                               .unit = recorded_unit(study, fitted.parameter),
+                               .start = nominal[fitted.parameter],
+                               .lower = fitted.lower,
+                               .upper = fitted.upper,
+                               .each_record = fitted.each_record});
+  }
+  const auto fixed = static_cast<Eigen::Index>(choice.fixed.size());
+  task.fixed_covariance.resize(fixed, fixed);
+  for (Eigen::Index i = 0; i < fixed; ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    const FixedEstimate& estimate = choice.fixed[row];
+    task.fixed.push_back({.name = study.parameters.list[estimate.parameter].name,
+                          .unit = recorded_unit(study, estimate.parameter),
+                          .value = estimate.value,
+                          .degrees_of_freedom = estimate.degrees_of_freedom});
+    for (Eigen::Index j = 0; j < fixed; ++j)
+      task.fixed_covariance(i, j) = choice.fixed_covariance[row][static_cast<std::size_t>(j)];
+  }
+  for (const RecordChoice& record : choice.records) task.records.push_back(time_record(study, record));
+  return task;
+}
+
+}  // namespace frahm::studies

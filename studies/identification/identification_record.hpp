@@ -1,0 +1,26 @@
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "results/layout.hpp"
+#include "studies/identification/identification_result.hpp"
+
+// The record of an identification (results/FORMAT.md, /identification) and a table of it.
+namespace frahm::studies {
+
+inline constexpr const char* identification_group = "identification";
+inline constexpr double converged_outcome = 1.0;  // of the flag `outcome`; 0 stands for not computed
+
+std::vector<results::Column> identification_columns(const StudyFile& study,
+                                                    const IdentificationResult& result);
+// Method, names of the records, notes.
+std::vector<results::Text> identification_texts(const StudyFile& study, const IdentificationResult& result);
+
+// The records and parameters of a study, before anything is identified.
+void print_identification_choice(const StudyFile& study, std::ostream& out);
+// Estimates with their intervals, correlations, fit quality, notes.
+void print_identification(const StudyFile& study, const IdentificationResult& result, std::ostream& out);
+
+}  // namespace frahm::studies

@@ -1,0 +1,86 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "solvers/identification/grey_box.hpp"
+#include "solvers/mechanics/linear_system.hpp"
+#include "studies/identification/closed_form_methods.hpp"
+#include "studies/identification/free_decay_start.hpp"
+#include "studies/identification/grey_box_task.hpp"
+#include "studies/identification/identification_result.hpp"
+#include "studies/map/fingerprint.hpp"
+#include "studies/reading/settings.hpp"
+
+namespace frahm::studies {
+namespace {
+
+using identification::Identification;
+
+IdentificationResult fit_grey_box(const StudyFile& study, const transient::Watch& watch) {
+  IdentificationResult result;
+  identification::GreyBoxTask task = grey_box_task(study);
+  task.watch = watch;
+  if (study.identify->start == IdentifyStart::free_decay) {
+    result.first = first_estimates(study);
+    if (result.first->failure.empty()) set_start(study, *result.first, task);
+  }
+  result.fit = identification::grey_box(task);
+  return result;
+}
+
+// Each parameter that takes an estimate stands among the estimates under its own name too, so that a later
+// study of the chain knows it. The reading of the study has seen to it that the method has the estimate.
+void name_parameters(const StudyFile& study, Identification& fit) {
+  std::vector<std::string> names;
+  for (const identification::Estimate& estimate : fit.estimates) names.push_back(estimate.name);
+  for (const IdentifiedParameter& parameter : study.identify->parameters) {
+    const std::string& own = study.parameters.list[parameter.parameter].name;
+    if (parameter.estimate.empty() || parameter.estimate == own) continue;
+    const auto place = std::find(names.begin(), names.end(), parameter.estimate);
+    const auto fail = [&](const std::string& what) {
+      throw study.source.error_at(parameter.position,
+                                  fmt::format("[[identify.parameter]] \"{}\": {}", own, what));
+    };
+    if (place == names.end()) throw std::logic_error("no estimate " + parameter.estimate);
+    if (std::find(names.begin(), names.end(), own) != names.end())
+      fail(fmt::format("an estimate of the method {} has this name; call the parameter otherwise",
+                       method_name(study.identify->method)));
+    const auto taken = static_cast<std::size_t>(place - names.begin());
+    identification::Estimate alias = fit.estimates[taken];
+    const std::string unit = recorded_unit(study, parameter.parameter);
+    if (unit != "1" && unit != alias.unit)
+      fail(fmt::format("is in {}, and the estimate \"{}\" in {}", unit, parameter.estimate, alias.unit));
+    alias.name = own;
+    add_derived(fit, std::move(alias), Eigen::VectorXd::Unit(fit.covariance.rows(), place - names.begin()));
+  }
+  set_intervals(fit);
+}
+
+}  // namespace
+
+StudyPlan plan_identification(StudyFile study, std::vector<std::string> set) {
+  refuse_overruled(study, set);
+  StudyPlan plan{.study = std::move(study), .set = std::move(set)};
+  plan.fingerprint = fingerprint(plan.study, {}, {});
+  return plan;
+}
+
+IdentificationResult identify(const StudyFile& study, const transient::Watch& watch) {
+  try {
+    IdentificationResult result;
+    if (study.identify->method == IdentifyMethod::grey_box) {
+      result = fit_grey_box(study, watch);
+    } else {
+      result.fit = identify_in_closed_form(study);
+    }
+    if (!result.fit.failure.empty())
+      throw StudyError(fmt::format("{}: nothing is identified: {}", study.source.name, result.fit.failure));
+    name_parameters(study, result.fit);
+    return result;
+  } catch (const mechanics::MechanicsError& error) {
+    throw StudyError(study.source.name + ": " + error.what());
+  }
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "results/map_reader.hpp"
+#include "studies/reading/study_file.hpp"
+
+namespace frahm::studies {
+
+// The study that a result was made from.
+struct StoredStudy {
+  StudyFile study;                    // with the overrides of its run
+  std::vector<Assignment> overrides;  // these
+};
+
+// From the text in the result. Tables that the study reads are looked for beside the result; measurements are
+// left.  file: of `result`.  Throws StudyError, results::StoreError.
+StoredStudy read_stored_study(const results::MapReader& result, const std::filesystem::path& file);
+
+}  // namespace frahm::studies

@@ -1,0 +1,130 @@
+#include "studies/program/run_at_once.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <chrono>
+#include <iostream>
+#include <string>
+
+#include "engine/fingerprint.hpp"
+#include "engine/stop_signals.hpp"
+#include "results/map_reader.hpp"
+#include "results/map_writer.hpp"
+#include "studies/identification/identification_record.hpp"
+#include "studies/map/finished_file.hpp"
+#include "studies/map/map_plan.hpp"
+#include "studies/map/map_record.hpp"
+#include "studies/motion/motion_record.hpp"
+#include "studies/program/exit_code.hpp"
+
+namespace frahm::studies {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Why it has been stopped.
+struct Stopped {
+  std::string reason;
+};
+
+// Throws Stopped on a signal, or when the time budget is used up.
+transient::Watch watch_for_stop(const engine::StopSignals& signals, const engine::RunOptions& run) {
+  return [&signals, &run, start = Clock::now()] {
+    if (signals.received() != 0) throw Stopped{"stopped by " + engine::signal_name(signals.received())};
+    if (run.time_budget && Clock::now() - start >= *run.time_budget)
+      throw Stopped{fmt::format("the time budget of {} s is used up", run.time_budget->count())};
+  };
+}
+
+void refuse_sharing(const RunCommandOptions& options, const StudyFile& study) {
+  if (options.run.shard.count <= 1) return;
+  throw StudyError(fmt::format("{}: {} is one piece of work, which an array of tasks cannot share",
+                               study.source.name, kind_noun(study.kind)));
+}
+
+// What an identification reads it must not take the place of.
+void refuse_own_data(const StudyFile& study, const std::filesystem::path& output) {
+  if (!study.identify) return;
+  std::error_code ignored;  // a file that is not there is no other's
+  for (const std::filesystem::path& file : study.identify->files) {
+    if (std::filesystem::equivalent(output, file, ignored))
+      throw StudyError(fmt::format("{}: is a file that the study reads; name another for the result with -o",
+                                   output.string()));
+  }
+}
+
+// An identification is made anew where its data have changed.
+bool is_of_same_file(const StudyFile& study, const std::filesystem::path& output) {
+  const results::MapReader map(output);
+  const std::string name = std::filesystem::path(study.source.name).filename().string();
+  return map.has_group(identification_group) && provenance_text(map, "study_file") == name;
+}
+
+void refuse_another_study(const StudyPlan& plan, const std::filesystem::path& output) {
+  const auto kept = fingerprint_of_file(output);
+  if (!kept || *kept == plan.fingerprint) return;
+  if (plan.study.identify && is_of_same_file(plan.study, output)) return;
+  throw engine::ResumeRefused(output, *kept, plan.fingerprint);
+}
+
+void write_file(const StudyPlan& plan, const RunRecord& record, const std::filesystem::path& output,
+                const std::string& group, const std::vector<results::Column>& columns,
+                const std::vector<results::Text>& texts = {}) {
+  results::MapWriter writer(output, file_layout(plan, record));
+  writer.write_columns(group, columns);
+  if (!texts.empty()) writer.write_texts(group, texts);
+  writer.write_texts("provenance", provenance(plan, record, {}));
+  writer.finish();
+}
+
+// Returns the exit code.
+int compute(const StudyPlan& plan, const RunRecord& record, const std::filesystem::path& output,
+            const transient::Watch& watch, std::ostream& out) {
+  const StudyFile& study = plan.study;
+  const std::string motion_group(kind_name(study.kind));
+  if (study.identify) {
+    const IdentificationResult result = identify(study, watch);
+    write_file(plan, record, output, identification_group, identification_columns(study, result),
+               identification_texts(study, result));
+    print_identification(study, result, out);
+    return result.fit.converged ? exit_code::done : exit_code::not_converged;
+  }
+  if (study.kind == StudyKind::decay) {
+    const transient::FreeDecay decay = solve_decay(study, watch);
+    write_file(plan, record, output, motion_group, decay_columns(study, decay));
+    print_decay(study, decay, out);
+  } else {
+    const transient::ForcedMotion motion = solve_transient(study, watch);
+    write_file(plan, record, output, motion_group, transient_columns(study, motion));
+    print_transient(study, motion, out);
+  }
+  return exit_code::done;
+}
+
+}  // namespace
+
+int run_at_once(const RunCommandOptions& options, StudyFile study, std::ostream& out) {
+  refuse_sharing(options, study);
+  const RunRecord record{.command = options.command, .threads = 1, .started = utc_now()};
+  const StudyPlan plan = study.identify ? plan_identification(std::move(study), options.set)
+                                        : plan_motion(std::move(study), options.set);
+  const std::filesystem::path output =
+      options.run.output.empty() ? default_output(options.study) : options.run.output;
+  refuse_own_data(plan.study, output);
+  check_result_place(output, options.study);
+  if (!options.run.fresh) refuse_another_study(plan, output);
+
+  int code = exit_code::done;
+  try {
+    const engine::StopSignals signals;
+    code = compute(plan, record, output, watch_for_stop(signals, options.run), out);
+  } catch (const Stopped& stopped) {
+    fmt::print(std::cerr, "{}: nothing is kept of one piece of work, which begins anew\n", stopped.reason);
+    return exit_code::stopped;
+  }
+  fmt::print(out, "\n{}\n", output.string());
+  return code;
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,244 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "studies/reading/csv_table.hpp"
+#include "studies/reading/record_columns.hpp"
+#include "studies/reading/spelling.hpp"
+#include "studies/reading/wanted_columns.hpp"
+
+namespace frahm::studies {
+namespace {
+
+constexpr std::array motion_endings{"_displacement", "_velocity", "_acceleration", "_force"};
+
+struct CsvReading : ColumnReading {
+  std::vector<CsvRow> rows = {};
+  std::vector<std::string> header = {};  // cells; empty: none
+};
+
+std::string called(const CsvReading& reading, std::size_t column) {
+  if (reading.header.empty()) return fmt::format("column {}", column + 1);
+  return fmt::format("column {} \"{}\"", column + 1, reading.header[column]);
+}
+
+const char* separator_name(char separator) {
+  switch (separator) {
+    case '\t':
+      return "tabs";
+    case ';':
+      return "semicolons";
+    case ',':
+      return "commas";
+  }
+  return "nothing";
+}
+
+// All rows have as many cells and are separated alike: else a decimal comma may have cut a number in two.
+void check_even(const CsvReading& reading) {
+  const CsvRow& first = reading.rows.front();
+  for (const CsvRow& row : reading.rows) {
+    const bool alike = row.separator == first.separator;
+    if (alike && row.cells.size() == first.cells.size()) continue;
+    const std::string hint = row.separator == ',' ? ", and decimals are written with a point" : "";
+    const std::string place = fmt::format("{}:{}", reading.result.file, row.line);
+    if (alike)
+      reading.fail(fmt::format("{}: {} cells, but {} in line {}; all rows have as many{}", place,
+                               row.cells.size(), first.cells.size(), first.line, hint));
+    reading.fail(fmt::format("{}: separated by {}, but line {} by {}; all rows are separated alike{}", place,
+                             separator_name(row.separator), first.line, separator_name(first.separator),
+                             hint));
+  }
+}
+
+void take_header(CsvReading& reading) {
+  if (!is_header(reading.rows.front())) return;
+  reading.header = reading.rows.front().cells;
+  reading.result.header = reading.rows.front().line;
+  reading.rows.erase(reading.rows.begin());
+}
+
+// What its cells name, without units.
+std::vector<std::string> header_names(const CsvReading& reading) {
+  std::vector<std::string> names;
+  for (const std::string& cell : reading.header) names.push_back(column_name(cell).name);
+  return names;
+}
+
+// The columns that a header cell names so, with its unit or without.
+std::vector<std::size_t> named(const CsvReading& reading, const std::string& name) {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < reading.header.size(); ++i) {
+    if (reading.header[i] == name || column_name(reading.header[i]).name == name) found.push_back(i);
+  }
+  return found;
+}
+
+// A column that looks like one of a motion, but of no node that the study has, would be silently without
+// effect.
+void refuse_misspelt(const CsvReading& reading, const RecordForm& form) {
+  if (!form.is_trace) return;
+  std::vector<std::string> known;
+  for (const Role& role : form.roles) known.push_back(role.name);
+  for (const std::string& name : header_names(reading)) {
+    const bool of_node = std::any_of(motion_endings.begin(), motion_endings.end(),
+                                     [&](const char* ending) { return name.ends_with(ending); });
+    if (!of_node || form.find(name)) continue;
+    reading.fail(
+        fmt::format("{}:{}: \"{}\" is of no node of the study{}; where it means nothing here, say which "
+                    "columns do: columns = {{ ... }}",
+                    reading.result.file, reading.result.header, name, suggestion(name, known)));
+  }
+}
+
+// Without `columns` those count whose header is the name of a role.
+std::vector<WantedColumn> wanted_by_header(const CsvReading& reading) {
+  if (reading.header.empty()) {
+    reading.fail(fmt::format("{}: has no header; say which column is what: columns = {{ {} = 1, ... }}",
+                             reading.result.file, reading.forms.front().roles.front().name));
+  }
+  std::vector<std::string> found;
+  for (const std::string& role : role_names(reading.forms)) {
+    if (!named(reading, role).empty()) found.push_back(role);
+  }
+  const RecordForm& form = form_of(reading.forms, found);
+  std::vector<WantedColumn> wanted;
+  for (const Role& role : form.roles) {
+    const bool there = std::find(found.begin(), found.end(), role.name) != found.end();
+    if (role.required && !there)
+      reading.fail(fmt::format("{}:{}: no column is called \"{}\"{}", reading.result.file,
+                               reading.result.header, role.name,
+                               suggestion(role.name, header_names(reading))));
+    if (there) wanted.push_back({role.name, std::nullopt, role.name, reading.record.position()});
+  }
+  if (!form.is_trace && !named(reading, label_role).empty())
+    wanted.push_back({label_role, std::nullopt, label_role, reading.record.position()});
+  refuse_misspelt(reading, form);
+  return wanted;
+}
+
+// Rows that a file marks are left out whether or not the study speaks of the column.
+void want_doubtful(const CsvReading& reading, std::vector<WantedColumn>& wanted) {
+  const bool there = std::any_of(wanted.begin(), wanted.end(),
+                                 [](const WantedColumn& each) { return each.role == doubtful_role; });
+  if (!there && !named(reading, doubtful_role).empty())
+    wanted.push_back({doubtful_role, std::nullopt, doubtful_role, reading.record.position()});
+}
+
+// A header that stands over the numbers in another order than the study says would give the wrong data.
+void check_order(const CsvReading& reading, const WantedColumn& column,
+                 const std::vector<WantedColumn>& wanted) {
+  if (reading.header.empty()) return;
+  const std::string name = column_name(reading.header[*column.number - 1]).name;
+  for (const WantedColumn& other : wanted) {
+    if (other.role == column.role || other.role != name) continue;
+    reading.fail(column.position, fmt::format("columns: {}: column {} of {} is headed \"{}\"; number and "
+                                              "header disagree",
+                                              column.role, *column.number, reading.result.file, name));
+  }
+}
+
+std::size_t index_of(const CsvReading& reading, const WantedColumn& column,
+                     const std::vector<WantedColumn>& wanted) {
+  const std::string where = fmt::format("columns: {}", column.role);
+  const std::string& file = reading.result.file;
+  if (column.number) {
+    const std::size_t count =
+        reading.header.empty() ? reading.rows.front().cells.size() : reading.header.size();
+    if (*column.number > count)
+      reading.fail(column.position,
+                   fmt::format("{}: there is no column {}; {} has {}", where, *column.number, file, count));
+    check_order(reading, column, wanted);
+    return *column.number - 1;
+  }
+  if (reading.header.empty())
+    reading.fail(column.position,
+                 fmt::format("{}: {} has no header; give the number of the column, from 1", where, file));
+  const std::vector<std::size_t> found = named(reading, column.name);
+  if (found.empty())
+    reading.fail(column.position, fmt::format("{}: no column of {} is called \"{}\"{}", where, file,
+                                              column.name, suggestion(column.name, header_names(reading))));
+  if (found.size() > 1)
+    reading.fail(fmt::format("{}:{}: columns {} and {} are both called \"{}\"", file, reading.result.header,
+                             found[0] + 1, found[1] + 1, column.name));
+  return found.front();
+}
+
+// Keeps the rows that nobody doubts; what the others say is not looked at.
+void leave_out_doubtful(CsvReading& reading, std::size_t column) {
+  std::vector<CsvRow> kept;
+  for (CsvRow& row : reading.rows) {
+    const std::string& cell = row.cells[column];
+    if (cell != "0" && cell != "1")
+      reading.fail(fmt::format("{}:{}: {}: \"{}\" is neither 0 nor 1, which marks a doubtful row",
+                               reading.result.file, row.line, called(reading, column), cell));
+    if (cell == "0") kept.push_back(std::move(row));
+  }
+  reading.result.doubtful = reading.rows.size() - kept.size();
+  reading.rows = std::move(kept);
+}
+
+RawColumn numbers_of(const CsvReading& reading, const Role& role, std::size_t index) {
+  RawColumn column{&role, called(reading, index), std::nullopt, {}};
+  if (!reading.header.empty()) column.unit = column_name(reading.header[index]).unit;
+  column.values.reserve(reading.rows.size());
+  for (const CsvRow& row : reading.rows) {
+    const std::string& cell = row.cells[index];
+    const auto number = cell_number(cell);
+    if (!number || !std::isfinite(*number))
+      reading.fail(
+          fmt::format("{}:{}: {}: {}", reading.result.file, row.line, column.called, cell_problem(cell)));
+    column.values.push_back(*number);
+  }
+  return column;
+}
+
+RawRecord read_columns_of(CsvReading reading, const std::filesystem::path& path) {
+  try {
+    reading.rows = read_csv(path, reading.result.file);
+  } catch (const StudyError& error) {
+    reading.fail(error.what());
+  }
+  if (reading.rows.empty()) reading.fail(fmt::format("{}: has no rows", reading.result.file));
+  check_even(reading);
+  take_header(reading);
+  std::vector<WantedColumn> wanted = read_wanted(reading.record, reading.forms);
+  const bool by_header = wanted.empty();
+  if (by_header) wanted = wanted_by_header(reading);
+  want_doubtful(reading, wanted);
+  const RecordForm& form = form_of_wanted(reading.record, reading.forms, wanted);
+  if (reading.rows.empty())
+    reading.fail(
+        fmt::format("{}:{}: has no rows below its header", reading.result.file, reading.result.header));
+
+  std::vector<std::size_t> index;
+  for (const WantedColumn& column : wanted) {
+    index.push_back(index_of(reading, column, wanted));
+    const auto same = std::find(index.begin(), index.end() - 1, index.back());
+    if (same != index.end() - 1)
+      reading.fail(column.position, fmt::format("columns: {}: column {} is {} already", column.role,
+                                                index.back() + 1, wanted[same - index.begin()].role));
+  }
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    if (wanted[i].role == doubtful_role) leave_out_doubtful(reading, index[i]);
+  }
+  for (const CsvRow& row : reading.rows) reading.result.rows.push_back(row.line);
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    if (const Role* role = form.find(wanted[i].role)) {
+      reading.result.columns.push_back(numbers_of(reading, *role, index[i]));
+    } else if (wanted[i].role == label_role) {
+      for (const CsvRow& row : reading.rows) reading.result.labels.push_back(row.cells[index[i]]);
+    }
+  }
+  return std::move(reading.result);
+}
+
+}  // namespace
+
+RawRecord read_csv_columns(const ColumnReading& reading, const std::filesystem::path& path) {
+  return read_columns_of({reading, {}, {}}, path);
+}
+
+}  // namespace frahm::studies

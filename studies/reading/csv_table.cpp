@@ -1,0 +1,119 @@
+#include "studies/reading/csv_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/tokenizer.hpp>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <iterator>
+
+#include "studies/reading/readable_file.hpp"
+#include "studies/reading/study_source.hpp"
+
+namespace frahm::studies {
+namespace {
+
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+constexpr std::size_t longest_shown = 40;  // characters of a cell in a message
+
+using Cells = boost::tokenizer<boost::escaped_list_separator<char>>;
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+std::string text_of(const std::filesystem::path& path, const std::string& name) {
+  std::ifstream file = open_file(path, name);
+  std::string text(std::istreambuf_iterator<char>(file), {});
+  if (file.bad()) throw StudyError(fmt::format("{}: cannot be read: {}", name, std::strerror(errno)));
+  if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
+  if (text.find('\0') != std::string::npos)
+    throw StudyError(fmt::format("{}: is no text in UTF-8: it contains zero bytes", name));
+  return text;
+}
+
+char separator_of(std::string_view line) {
+  bool quoted = false;
+  std::string found;
+  for (const char c : line) {
+    if (c == '"') quoted = !quoted;
+    if (!quoted) found += c;
+  }
+  for (const char separator : {'\t', ';', ','}) {
+    if (found.find(separator) != std::string::npos) return separator;
+  }
+  return '\0';
+}
+
+std::vector<std::string> split(std::string_view line, char separator) {
+  // Without an escape character: a backslash in a label is a backslash.
+  const std::string separators = separator == '\0' ? std::string() : std::string(1, separator);
+  const boost::escaped_list_separator<char> rule(std::string(), separators, std::string("\""));
+  const std::string text(line);
+  std::vector<std::string> cells;
+  for (const std::string& cell : Cells(text, rule)) cells.emplace_back(trimmed(cell));
+  return cells;
+}
+
+bool is_decimal_comma(std::string_view cell) {
+  std::string with_point(cell);
+  std::replace(with_point.begin(), with_point.end(), ',', '.');
+  return with_point != cell && cell_number(with_point);
+}
+
+}  // namespace
+
+std::vector<CsvRow> read_csv(const std::filesystem::path& path, const std::string& name) {
+  const std::string text = text_of(path, name);
+  std::vector<CsvRow> rows;
+  std::string_view rest = text;
+  for (std::size_t number = 1; !rest.empty(); ++number) {
+    const std::size_t end = rest.find('\n');
+    const std::string_view line = rest.substr(0, end);
+    rest = end == std::string_view::npos ? "" : rest.substr(end + 1);
+    const std::string_view content = trimmed(line);
+    if (content.empty() || content.starts_with('#')) continue;
+    if (std::count(content.begin(), content.end(), '"') % 2 != 0)
+      throw StudyError(fmt::format("{}:{}: a quote is not closed on its line", name, number));
+    // A tab is blank at the ends of a line, unless tabs are what separates.
+    const char inside = separator_of(content), separator = inside == '\0' ? separator_of(line) : inside;
+    rows.push_back({number, separator, split(separator == '\t' ? line : content, separator)});
+  }
+  return rows;
+}
+
+bool is_header(const CsvRow& row) {
+  return std::none_of(row.cells.begin(), row.cells.end(),
+                      [](const std::string& cell) { return cell_number(cell) || is_decimal_comma(cell); });
+}
+
+ColumnName column_name(const std::string& cell) {
+  const std::size_t open = cell.rfind('[');
+  if (open == std::string::npos || !cell.ends_with(']')) return {cell, std::nullopt};
+  const std::string_view all = cell;
+  return {std::string(trimmed(all.substr(0, open))),
+          std::string(trimmed(all.substr(open + 1, all.size() - open - 2)))};
+}
+
+std::optional<double> cell_number(std::string_view cell) {
+  if (cell.size() > 1 && cell[0] == '+' && cell[1] != '-') cell.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (error != std::errc{} || end != cell.data() + cell.size()) return std::nullopt;
+  return value;
+}
+
+std::string cell_problem(const std::string& cell) {
+  if (cell.empty()) return "is empty; must be a finite number";
+  const std::string shown = cell.substr(0, longest_shown);
+  if (cell_number(cell)) return fmt::format("\"{}\" is not a finite number", shown);
+  return fmt::format("\"{}\" is not a number{}", shown,
+                     is_decimal_comma(cell) ? "; decimals are written with a point" : "");
+}
+
+}  // namespace frahm::studies

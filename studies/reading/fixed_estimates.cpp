@@ -1,0 +1,188 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "results/map_reader.hpp"
+#include "results/store_error.hpp"
+#include "studies/reading/identify_reading.hpp"
+#include "studies/reading/readable_file.hpp"
+#include "studies/reading/spelling.hpp"
+
+namespace frahm::studies {
+namespace {
+
+const std::string group_name = "identification";
+const std::string covariance_ending = "_covariance";
+constexpr double converged = 1.0;  // of the flag `outcome` (results/FORMAT.md)
+
+// The estimates of a result file that have a covariance, and it, in one order.
+struct EarlierEstimates {
+  std::string file;  // as the study names it
+  std::vector<std::string> names, units;
+  std::vector<double> values, degrees_of_freedom;
+  std::vector<std::vector<double>> covariance;
+};
+
+using Columns = std::vector<results::Column>;
+
+const results::Column* find_number(const Columns& columns, const std::string& name) {
+  const auto found = std::find_if(columns.begin(), columns.end(), [&](const results::Column& column) {
+    return column.variable.name == name && column.dimension.empty() && column.values.size() == 1;
+  });
+  return found == columns.end() ? nullptr : &*found;
+}
+
+// The estimates lie in the order of their rows of the covariance matrix.
+EarlierEstimates estimates_among(const Columns& columns, const std::string& file) {
+  EarlierEstimates earlier;
+  earlier.file = file;
+  for (const results::Column& row : columns) {
+    const std::string& name = row.variable.name;
+    if (row.dimension.empty() || !name.ends_with(covariance_ending)) continue;
+    const std::string of = name.substr(0, name.size() - covariance_ending.size());
+    const results::Column* number = find_number(columns, of);
+    if (!number) continue;
+    earlier.names.push_back(of);
+    earlier.units.push_back(number->variable.unit);
+    earlier.values.push_back(number->values.front());
+    const results::Column* freedom = find_number(columns, of + "_degrees_of_freedom");
+    earlier.degrees_of_freedom.push_back(freedom ? freedom->values.front()
+                                                 : std::numeric_limits<double>::infinity());
+    earlier.covariance.push_back(row.values);
+  }
+  return earlier;
+}
+
+EarlierEstimates read_earlier(const std::filesystem::path& path, const std::string& file) {
+  EarlierEstimates earlier;
+  check_readable(path, file);
+  try {
+    const results::MapReader reader(path);
+    if (!reader.has_group(group_name))
+      throw StudyError(fmt::format("{}: is the result of no identification", file));
+    const Columns columns = reader.columns(group_name);
+    const results::Column* outcome = find_number(columns, "outcome");
+    if (outcome && outcome->values.front() != converged)
+      throw StudyError(fmt::format("{}: its fit did not converge, and fixes nothing", file));
+    earlier = estimates_among(columns, file);
+  } catch (const results::StoreError& error) {
+    throw StudyError(error.what());
+  }
+  for (const auto& row : earlier.covariance) {
+    if (row.size() != earlier.names.size())
+      throw StudyError(fmt::format("{}: a row of its covariance has {} numbers, but it has {} estimates",
+                                   file, row.size(), earlier.names.size()));
+  }
+  return earlier;
+}
+
+// The unit of an estimate is the SI one of its parameter, where that is known.
+void check_unit(const IdentifyReading& reading, const EarlierEstimates& earlier, std::size_t i,
+                const Parameter& parameter) {
+  const std::string& unit = earlier.units[i];
+  const auto fail = [&](const std::string& problem) {
+    throw StudyError(fmt::format("{}: the estimate \"{}\": {}", earlier.file, earlier.names[i], problem));
+  };
+  if (unit.empty() || unit == "1") return;
+  if (reading.study.dimensionless)
+    fail(fmt::format("its unit \"{}\" has no meaning in a dimensionless study", unit));
+  try {
+    if (parameter.quantity) si_factor(reading.context.units.parse(unit), *parameter.quantity);
+  } catch (const UnitError& error) {
+    fail(fmt::format("{}; the parameter is used as {}", error.what(), parameter.used_as));
+  }
+}
+
+bool is_fitted(const IdentifyChoice& choice, std::size_t parameter) {
+  return std::any_of(choice.parameters.begin(), choice.parameters.end(),
+                     [&](const IdentifiedParameter& fitted) { return fitted.parameter == parameter; });
+}
+
+void check_free_to_fix(const IdentifyReading& reading, const EarlierEstimates& earlier, std::size_t i,
+                       std::size_t parameter) {
+  const IdentifyChoice& choice = reading.choice;
+  const auto fail = [&](const std::string& problem) {
+    throw StudyError(fmt::format("{}: the estimate \"{}\" {}", earlier.file, earlier.names[i], problem));
+  };
+  for (const FixedEstimate& other : choice.fixed) {
+    if (other.parameter == parameter) fail("stands in an earlier file of fixed_from too");
+  }
+  for (const RecordChoice& record : choice.records) {
+    for (const Assignment& assignment : record.set) {
+      if (assignment.parameter == parameter)
+        fail(fmt::format("fixes a parameter that the record \"{}\" sets", record.name));
+    }
+  }
+  if (!std::isfinite(earlier.values[i])) fail("was not determined by its data and fixes nothing");
+}
+
+// Which estimates of a file are parameters here that are not fitted again: index of the estimate, of the
+// parameter.
+struct Taken {
+  std::size_t estimate = 0, parameter = 0;
+};
+
+std::vector<Taken> taken_from(const IdentifyReading& reading, const EarlierEstimates& earlier) {
+  std::vector<Taken> taken;
+  const Parameters& parameters = reading.study.parameters;
+  for (std::size_t i = 0; i < earlier.names.size(); ++i) {
+    const auto index = parameters.find(earlier.names[i]);
+    if (!index || !parameters.list[*index].is_number() || is_fitted(reading.choice, *index)) continue;
+    check_unit(reading, earlier, i, parameters.list[*index]);
+    check_free_to_fix(reading, earlier, i, *index);
+    taken.push_back({i, *index});
+  }
+  if (!taken.empty()) return taken;
+  std::vector<std::string> open;
+  for (std::size_t i = 0; i < parameters.list.size(); ++i) {
+    if (parameters.list[i].is_number() && !is_fitted(reading.choice, i))
+      open.push_back(parameters.list[i].name);
+  }
+  throw StudyError(fmt::format(
+      "{}: none of its estimates is a number parameter of this study that is not fitted; it has {}, the "
+      "study {}",
+      earlier.file, earlier.names.empty() ? "none" : listed(earlier.names, " and "),
+      open.empty() ? "none" : listed(open, " and ")));
+}
+
+// Estimates of different files are independent of each other.
+void fix(IdentifyReading& reading, const EarlierEstimates& earlier) {
+  IdentifyChoice& choice = reading.choice;
+  const std::vector<Taken> taken = taken_from(reading, earlier);
+  const std::size_t before = choice.fixed.size();
+  for (auto& row : choice.fixed_covariance) row.resize(before + taken.size(), 0.0);
+  for (const Taken& each : taken) {
+    const double value = earlier.values[each.estimate];
+    choice.fixed.push_back({each.parameter, value, earlier.degrees_of_freedom[each.estimate]});
+    reading.study.parameters.list[each.parameter].definition = value;
+    std::vector<double> row(before, 0.0);
+    for (const Taken& other : taken) row.push_back(earlier.covariance[each.estimate][other.estimate]);
+    choice.fixed_covariance.push_back(std::move(row));
+  }
+}
+
+}  // namespace
+
+void read_fixed(IdentifyReading& reading, const TomlSection& identify) {
+  const TomlValue& value = identify.require("fixed_from");
+  std::vector<const TomlValue*> files{&value};
+  if (const auto* list = value.as<TomlArray>()) {
+    files.clear();
+    for (const TomlValue& item : *list) files.push_back(&item);
+    if (files.empty()) identify.fail("fixed_from", "the list of files is empty");
+  }
+  for (const TomlValue* item : files) {
+    const std::string file = read_text(identify.source(), "[identify]: fixed_from", *item);
+    try {
+      reading.choice.files.push_back(reading.folder / file);
+      fix(reading, read_earlier(reading.folder / file, file));
+    } catch (const StudyError& error) {
+      throw identify.source().error_at(item->position,
+                                       fmt::format("[identify]: fixed_from: {}", error.what()));
+    }
+  }
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "solvers/identification/measurement.hpp"
+#include "studies/reading/parameters.hpp"
+#include "studies/reading/study_values.hpp"
+
+// What a study of kind "identify" asks for, with its data. Numbers are SI.
+namespace frahm::studies {
+
+enum class IdentifyMethod {
+  half_power,
+  resonance_magnification,
+  log_decrement,
+  free_decay,
+  forced_resonance,
+  energy_balance,
+  hysteresis_loop,
+  added_mass,
+  grey_box,
+};
+
+// Names of the methods, as a study writes them, in the order of IdentifyMethod.
+const std::vector<std::string>& method_names();
+const std::string& method_name(IdentifyMethod method);
+
+// A column of measurements: what it stands for (its role) and its numbers [SI].
+struct DataColumn {
+  std::string role;  // "time", "main_displacement", "amplitude", "lower_frequency" ...
+  std::vector<double> values;
+};
+
+// [[identify.record]]
+struct RecordChoice {
+  std::string name;  // an identifier, unique
+  std::filesystem::path file;
+  identification::MotionKind motion = identification::MotionKind::free;  // of a grey box
+  std::vector<Assignment> set;                    // of a grey box: parameters of this record
+  std::vector<DataColumn> columns;                // all of one length, doubtful rows left out
+  std::vector<std::string> labels;                // of the rows, where the file has them; else empty
+  std::size_t doubtful = 0;                       // rows left out because the file marks them so
+  std::optional<StudyValue> added_mass;           // [kg], of the method added_mass with traces
+  std::optional<StudyValue> static_displacement;  // [m], of the method resonance_magnification
+  Position position;
+
+  const DataColumn* find(const std::string& role) const;
+};
+
+// [[identify.parameter]]
+struct IdentifiedParameter {
+  std::size_t parameter = 0;  // index in Parameters::list, of a number
+  UsualUnit unit;
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  bool each_record = false;
+  std::string estimate;  // of the other methods: the estimate whose value it takes; "" of a grey box
+  Position position;
+};
+
+// `fixed_from`: the value of a parameter as an earlier identification found it.
+struct FixedEstimate {
+  std::size_t parameter = 0;  // index in Parameters::list, of a number
+  double value = 0.0;         // SI
+  double degrees_of_freedom = std::numeric_limits<double>::infinity();  // behind its variance
+};
+
+enum class IdentifyStart { given, free_decay };
+
+// What shakes the mass of a response curve.
+enum class CurveOf { force, support };
+
+// [identify]
+struct IdentifyChoice {
+  IdentifyMethod method = IdentifyMethod::grey_box;
+  IdentifyStart start = IdentifyStart::given;  // of a grey box
+  CurveOf curve = CurveOf::force;              // of half_power, resonance_magnification, forced_resonance
+  std::optional<std::size_t> cycles;           // of log_decrement: over so many; absent: all there are
+  bool sensor_offset = false;                  // of free_decay: the sensor's zero is to be fitted
+  // Of free_decay and forced_resonance: what turns ratios into N s/m and N. A free decay has at most one of
+  // the two, as it tells the other; a force at resonance has a stiffness.
+  std::optional<StudyValue> mass, stiffness;
+  std::optional<StudyValue> reference_frequency;  // omega_h [rad/s] of free records
+  std::vector<RecordChoice> records;              // at least one
+  std::vector<IdentifiedParameter> parameters;    // of a grey box: at least one
+  std::vector<FixedEstimate> fixed;
+  std::vector<std::filesystem::path> files;  // all that the study reads: of the records and of `fixed_from`
+  std::vector<std::vector<double>> fixed_covariance;  // of `fixed`, in its order
+
+  // The values that are expressions of parameters.
+  std::vector<const StudyValue*> values() const;
+};
+
+}  // namespace frahm::studies

@@ -1,0 +1,286 @@
+#include "studies/reading/identify_reading.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "studies/reading/network_reading.hpp"
+#include "studies/reading/spelling.hpp"
+
+namespace frahm::studies {
+namespace {
+
+using Method = IdentifyMethod;
+
+constexpr std::int64_t most_cycles = 1'000'000;
+
+// A key of [identify] that only some methods have.
+struct MethodKey {
+  const char* name;
+  std::vector<Method> methods;
+};
+
+const std::vector<MethodKey>& method_keys() {
+  static const std::vector<MethodKey> keys{
+      {"start", {Method::grey_box}},
+      {"fixed_from", {Method::grey_box}},
+      {"reference_frequency", {Method::grey_box}},
+      {"curve", {Method::half_power, Method::resonance_magnification, Method::forced_resonance}},
+      {"cycles", {Method::log_decrement}},
+      {"sensor_offset", {Method::free_decay}},
+      {"mass", {Method::free_decay, Method::forced_resonance}},
+      {"stiffness", {Method::free_decay, Method::forced_resonance}}};
+  return keys;
+}
+
+// What another method would use would be silently without effect.
+void check_keys_of_method(const TomlSection& section, Method method) {
+  for (const MethodKey& key : method_keys()) {
+    if (!section.find(key.name) || std::count(key.methods.begin(), key.methods.end(), method) > 0) continue;
+    std::vector<std::string> owners;
+    for (const Method owner : key.methods) owners.push_back(fmt::format("\"{}\"", method_name(owner)));
+    section.fail(key.name, fmt::format("belongs to the method {}; \"{}\" has no use for it",
+                                       listed(owners, " or "), method_name(method)));
+  }
+}
+
+void read_method(const TomlSection& section, IdentifyChoice& choice) {
+  section.require("method");
+  const std::string name = section.choice_or("method", method_names());
+  const auto found = std::find(method_names().begin(), method_names().end(), name);
+  choice.method = static_cast<Method>(found - method_names().begin());
+  check_keys_of_method(section, choice.method);
+  if (section.choice_or("start", {"given", "free_decay"}) == "free_decay")
+    choice.start = IdentifyStart::free_decay;
+  if (section.choice_or("curve", {"force", "support"}) == "support") choice.curve = CurveOf::support;
+  choice.sensor_offset = section.boolean_or("sensor_offset", false);
+  if (!section.find("cycles")) return;
+  const std::int64_t cycles = section.integer_or("cycles", 1);
+  if (cycles < 1 || cycles > most_cycles)
+    section.fail("cycles",
+                 fmt::format("{} is out of range: a whole number from 1 to {}", cycles, most_cycles));
+  choice.cycles = static_cast<std::size_t>(cycles);
+}
+
+std::optional<StudyValue> read_optional(NetworkReading& reading, const TomlSection& section,
+                                        const std::string& key, Quantity quantity,
+                                        Range range = Range::positive) {
+  if (!section.find(key)) return std::nullopt;
+  StudyValue value = read_value(reading, section, key, quantity, range);
+  if (quantity != Quantity::angular_frequency) return value;
+  for (const std::size_t i : reading.parameters.inputs_of(value.expression.reads()))
+    reading.parameters.list[i].in_frequency = true;
+  return value;
+}
+
+void read_known_values(NetworkReading& reading, const TomlSection& section, IdentifyChoice& choice) {
+  choice.mass = read_optional(reading, section, "mass", Quantity::mass);
+  choice.stiffness = read_optional(reading, section, "stiffness", Quantity::stiffness);
+  choice.reference_frequency =
+      read_optional(reading, section, "reference_frequency", Quantity::angular_frequency);
+  if (choice.method == Method::free_decay && choice.mass && choice.stiffness)
+    section.fail("stiffness",
+                 "the mass is given too; a free decay tells the other of the two by its frequency");
+}
+
+// The file's name without its ending, as a name: "free decay-1.csv" -> free_decay_1.
+std::string name_of(const std::filesystem::path& file) {
+  std::string name = file.stem().string();
+  for (char& c : name) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    if (!plain) c = '_';
+  }
+  return is_identifier(name) ? name : "record_" + name;
+}
+
+RecordChoice read_record_heading(NetworkReading& reading, const TomlSection& section,
+                                 const IdentifyChoice& choice) {
+  RecordChoice record;
+  record.position = section.position();
+  record.file = section.text("file");
+  record.name = section.find("name") ? section.identifier("name") : name_of(record.file);
+  for (const RecordChoice& other : choice.records) {
+    if (other.name != record.name) continue;
+    const std::string problem =
+        fmt::format("the name \"{}\" is taken by the record of line {}", record.name, other.position.line);
+    section.find("name") ? section.fail("name", problem)
+                         : section.fail(problem + "; give them a \"name\" each");
+  }
+  record.added_mass = read_optional(reading, section, "added_mass", Quantity::mass, Range::not_negative);
+  record.static_displacement = read_optional(reading, section, "static_displacement", Quantity::length);
+  return record;
+}
+
+void check_system(const TomlSection& section, const StudyFile& study, const IdentifyChoice& choice) {
+  if (choice.method != Method::grey_box || !study.network.masses.empty()) return;
+  section.fail("method",
+               "a grey box fits parameters of a system, and the study has none: [[mass]] and [[element]]");
+}
+
+bool has_hysteresis(const mechanics::Network& network) {
+  return std::any_of(network.elements.begin(), network.elements.end(),
+                     [](const auto& element) { return element.type == mechanics::ElementType::hysteretic; });
+}
+
+// A hysteretic element has its damping at one frequency, which nothing else tells where nothing is forced at
+// a known one.
+void check_reference_frequency(const TomlSection& section, const StudyFile& study,
+                               const IdentifyChoice& choice) {
+  if (choice.reference_frequency || !has_hysteresis(study.network)) return;
+  for (const RecordChoice& record : choice.records) {
+    const bool free = record.motion == identification::MotionKind::free;
+    if (!free && !study.network.excitations.empty()) continue;
+    section.fail(
+        fmt::format("the key \"reference_frequency\" is missing: the study has a hysteretic element, and the "
+                    "record \"{}\" no known frequency at which it would have its loss factor",
+                    record.name));
+  }
+}
+
+// Liang and Feeny's method starts a fit of one mass whose free vibration was measured.
+void check_start(const TomlSection& section, const StudyFile& study, const IdentifyChoice& choice) {
+  if (choice.start != IdentifyStart::free_decay) return;
+  if (study.network.masses.size() != 1)
+    section.fail("start", fmt::format("\"free_decay\" is for a system of one mass; this one has {}",
+                                      study.network.masses.size()));
+  const std::string role = study.network.masses.front() + "_displacement";
+  const bool has_one =
+      std::any_of(choice.records.begin(), choice.records.end(), [&](const RecordChoice& record) {
+        return record.motion == identification::MotionKind::free && record.find(role);
+      });
+  if (!has_one)
+    section.fail("start", fmt::format("\"free_decay\" needs a record with motion = \"free\" and {}", role));
+}
+
+// The method's formula is of one record; only the frequencies with and without an added mass come from traces
+// of their own.
+void check_count(const TomlSection& section, const IdentifyChoice& choice,
+                 const std::vector<TomlSection>& records) {
+  if (choice.method == Method::grey_box) return;
+  for (std::size_t i = 1; i < records.size(); ++i) {
+    const bool traces = choice.records[0].find("time") && choice.records[i].find("time");
+    if (choice.method == Method::added_mass && traces) continue;
+    records[i].fail(fmt::format("the method \"{}\" reads one record{}", section.text("method"),
+                                choice.method == Method::added_mass ? ", or traces alone" : ""));
+  }
+}
+
+// A force at resonance stands beside displacements as force / stiffness.
+void check_stiffness(const TomlSection& section, const IdentifyChoice& choice) {
+  if (choice.method != Method::forced_resonance || choice.stiffness) return;
+  if (choice.records.front().find("force"))
+    section.fail(
+        "the key \"stiffness\" is missing (a stiffness, N/m): the displacement that a force would cause at "
+        "rest is force / stiffness");
+}
+
+void check_parameters(const TomlSection& section, const IdentifyChoice& choice) {
+  if (choice.method != Method::grey_box || !choice.parameters.empty()) return;
+  section.fail("the study has no [[identify.parameter]]: a grey box needs a parameter to fit");
+}
+
+std::vector<TomlSection> sections_of(const TomlSection& identify, const TomlValue& root, const char* kind,
+                                     const char* naming_key, const std::vector<std::string>& keys) {
+  std::vector<TomlSection> sections;
+  const std::string path = fmt::format("identify.{}", kind);
+  const TomlValue& parent = find_entry(root, "identify")->value;
+  for (const TomlValue* table : read_tables(identify.source(), parent, path)) {
+    const std::string where =
+        label(*table, fmt::format("[[{}]]", path), naming_key, path, sections.size() + 1);
+    sections.emplace_back(identify.source(), *table, where, keys);
+  }
+  return sections;
+}
+
+}  // namespace
+
+const std::vector<std::string>& method_names() {
+  static const std::vector<std::string> names{
+      "half_power",     "resonance_magnification", "log_decrement", "free_decay", "forced_resonance",
+      "energy_balance", "hysteresis_loop",         "added_mass",    "grey_box"};
+  return names;
+}
+
+const std::string& method_name(IdentifyMethod method) {
+  return method_names()[static_cast<std::size_t>(method)];
+}
+
+TomlSection identify_section(const StudySource& source, const TomlValue& root) {
+  const TomlEntry* entry = find_entry(root, "identify");
+  if (!entry) throw source.error_at(root.position, "the study has no [identify] with its method");
+  return {source,
+          entry->value,
+          "[identify]",
+          {"method", "start", "fixed_from", "curve", "cycles", "sensor_offset", "mass", "stiffness",
+           "reference_frequency", "record", "parameter"}};
+}
+
+std::vector<TomlSection> record_sections(const TomlSection& identify, const TomlValue& root) {
+  return sections_of(
+      identify, root, "record", "name",
+      {"name", "file", "columns", "units", "set", "motion", "added_mass", "static_displacement"});
+}
+
+std::vector<TomlSection> parameter_sections(const TomlSection& identify, const TomlValue& root) {
+  return sections_of(identify, root, "parameter", "parameter",
+                     {"parameter", "lower", "upper", "unit", "each_record", "estimate"});
+}
+
+void read_identification(const StudyContext& context, const TomlValue& root, StudyFile& study) {
+  const TomlSection section = identify_section(context.source, root);
+  IdentifyChoice choice;
+  read_method(section, choice);
+  check_system(section, study, choice);
+  NetworkReading reading(context, study.parameters);
+  reading.result = {study.network, study.values};
+  read_known_values(reading, section, choice);
+  for (const TomlSection& record : record_sections(section, root))
+    choice.records.push_back(read_record_heading(reading, record, choice));
+  if (choice.records.empty()) section.fail("the study has no [[identify.record]]: nothing was measured");
+  study.identify = std::move(choice);
+}
+
+void read_measurements(const StudyContext& context, const TomlValue& root,
+                       const std::filesystem::path& folder, DataFiles data, StudyFile& study) {
+  const TomlSection section = identify_section(context.source, root);
+  IdentifyChoice& choice = *study.identify;
+  IdentifyReading reading{context, folder, data, study, choice};
+  const std::vector<TomlSection> records = record_sections(section, root);
+  const auto read_all_records = [&] {
+    for (std::size_t i = 0; i < records.size(); ++i) read_record(reading, records[i], choice.records[i]);
+  };
+  // A record of a grey box sets no parameter that is fitted; a formula's estimates depend on its data.
+  const bool formula = choice.method != Method::grey_box;
+  if (formula) read_all_records();
+  for (const TomlSection& parameter : parameter_sections(section, root))
+    read_identified_parameters(reading, parameter);
+  check_parameters(section, choice);
+  if (!formula) read_all_records();
+  if (data == DataFiles::leave) return;
+  check_count(section, choice, records);
+  check_stiffness(section, choice);
+  check_reference_frequency(section, study, choice);
+  check_start(section, study, choice);
+  if (section.find("fixed_from")) read_fixed(reading, section);
+}
+
+const DataColumn* RecordChoice::find(const std::string& role) const {
+  const auto column =
+      std::find_if(columns.begin(), columns.end(), [&](const DataColumn& each) { return each.role == role; });
+  return column == columns.end() ? nullptr : &*column;
+}
+
+std::vector<const StudyValue*> IdentifyChoice::values() const {
+  std::vector<const StudyValue*> all;
+  for (const auto* value : {&mass, &stiffness, &reference_frequency}) {
+    if (*value) all.push_back(&**value);
+  }
+  for (const RecordChoice& record : records) {
+    for (const auto* value : {&record.added_mass, &record.static_displacement}) {
+      if (*value) all.push_back(&**value);
+    }
+  }
+  return all;
+}
+
+}  // namespace frahm::studies

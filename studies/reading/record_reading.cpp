@@ -1,0 +1,245 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "studies/reading/identify_reading.hpp"
+#include "studies/reading/record_columns.hpp"
+#include "studies/reading/spelling.hpp"
+
+namespace frahm::studies {
+namespace {
+
+using identification::MotionKind;
+using Method = IdentifyMethod;
+
+const TomlEntry* unit_entry(const TomlSection& section, const std::string& role) {
+  const TomlValue* units = section.find("units");
+  return units ? find_entry(*units, role) : nullptr;
+}
+
+// Every entry of `units` is that of a column of numbers.
+void check_units(const TomlSection& section, const RawRecord& raw) {
+  const TomlValue* units = section.find("units");
+  if (!units) return;
+  const auto* entries = units->as<TomlTable>();
+  if (!entries)
+    section.fail("units", fmt::format("expected a table such as {{ displacement = \"mm\" }}, found {}",
+                                      described(*units)));
+  std::vector<std::string> roles;
+  for (const RawColumn& column : raw.columns) roles.push_back(column.role->name);
+  for (const TomlEntry& entry : *entries) {
+    if (std::find(roles.begin(), roles.end(), entry.key) != roles.end()) continue;
+    throw section.source().error_at(
+        entry.position, fmt::format("{}: units: no column of numbers is \"{}\"{}", section.where(), entry.key,
+                                    suggestion(entry.key, roles)));
+  }
+}
+
+// `low.csv:1: column 2 "x [mm]"`
+std::string unit_place(const RawRecord& raw, const RawColumn& column) {
+  return raw.has_lines ? fmt::format("{}:{}: {}", raw.file, raw.header, column.called)
+                       : fmt::format("{}: {}", raw.file, column.called);
+}
+
+std::optional<Unit> unit_of_file(const IdentifyReading& reading, const TomlSection& section,
+                                 const RawRecord& raw, const RawColumn& column) {
+  if (!column.unit) return std::nullopt;
+  const auto fail = [&](std::string_view problem) {
+    throw data_error(section, fmt::format("{}: {}", unit_place(raw, column), problem));
+  };
+  if (reading.context.dimensionless) {
+    if (*column.unit != "1")
+      fail(fmt::format("the unit \"{}\" has no meaning in a dimensionless study", *column.unit));
+    return std::nullopt;
+  }
+  try {
+    return reading.context.units.parse(*column.unit);
+  } catch (const UnitError& error) {
+    fail(error.what());
+  }
+  return std::nullopt;
+}
+
+bool is_same(const Unit& a, const Unit& b) {
+  return a.scale == b.scale && a.exponents == b.exponents && a.radians == b.radians && a.foreign == b.foreign;
+}
+
+// Factor of a column to SI.
+double factor_of(const IdentifyReading& reading, const TomlSection& section, const RawRecord& raw,
+                 const RawColumn& column) {
+  const auto in_file = unit_of_file(reading, section, raw, column);
+  const TomlEntry* entry = unit_entry(section, column.role->name);
+  if (!entry) {
+    try {
+      return in_file ? si_factor(*in_file, column.role->quantity) : 1.0;
+    } catch (const UnitError& error) {
+      throw data_error(section, fmt::format("{}: {}", unit_place(raw, column), error.what()));
+    }
+  }
+  const std::string where = fmt::format("{}: units: {}", section.where(), column.role->name);
+  const auto given = read_unit(reading.context, where, entry->value);
+  const auto fail = [&](std::string_view problem) {
+    throw section.source().error_at(entry->value.position, fmt::format("{}: {}", where, problem));
+  };
+  if (given && in_file && !is_same(*given, *in_file))
+    fail(fmt::format("\"{}\", but the file gives \"{}\" in {}", given->text, in_file->text,
+                     unit_place(raw, column)));
+  try {
+    return given ? si_factor(*given, column.role->quantity) : 1.0;
+  } catch (const UnitError& error) {
+    fail(error.what());
+  }
+  return 1.0;
+}
+
+void check_values(const TomlSection& section, const RawRecord& raw, const RawColumn& column) {
+  const auto& values = column.values;
+  const auto fail = [&](std::size_t row, const std::string& problem) {
+    throw data_error(section, fmt::format("{}: {}", raw.place(column, row), problem));
+  };
+  const Range range = column.role->range;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (range == Range::positive && !(values[i] > 0.0)) fail(i, fmt::format("{} must be > 0", values[i]));
+    if (range == Range::not_negative && values[i] < 0.0) fail(i, fmt::format("{} must be >= 0", values[i]));
+    if (column.role->increases && i > 0 && values[i] <= values[i - 1])
+      fail(i, fmt::format("{} follows {}; {} must increase from row to row", values[i], values[i - 1],
+                          column.role->name));
+  }
+}
+
+void check_count(const TomlSection& section, const RawRecord& raw, const RecordForm& form) {
+  if (raw.rows.size() >= form.least_rows) return;
+  const bool at_line = raw.has_lines && !raw.rows.empty();
+  throw data_error(section, fmt::format("{}{}: {} of numbers{}; at least {} needed", raw.file,
+                                        at_line ? fmt::format(":{}", raw.rows.back()) : "",
+                                        raw.rows.empty() ? "no row" : "a single row",
+                                        raw.doubtful > 0 ? " that is not doubtful" : "",
+                                        form.least_rows == 1 ? "one is" : "two are"));
+}
+
+void take_columns(const IdentifyReading& reading, const TomlSection& section, RawRecord& raw,
+                  RecordChoice& record) {
+  check_units(section, raw);
+  for (RawColumn& column : raw.columns) {
+    check_values(section, raw, column);
+    const double factor = factor_of(reading, section, raw, column);
+    for (double& value : column.values) value *= factor;
+    record.columns.push_back({column.role->name, std::move(column.values)});
+  }
+  record.labels = std::move(raw.labels);
+  record.doubtful = raw.doubtful;
+}
+
+// What was measured stands in the place of the study's whole excitation.
+void refuse_other_excitation(const IdentifyReading& reading, const TomlSection& section,
+                             const RecordChoice& record) {
+  const mechanics::Network& network = reading.study.network;
+  for (const mechanics::Excitation& excitation : network.excitations) {
+    const bool force = excitation.kind == mechanics::ExcitationKind::force;
+    const std::string& node = force ? network.masses[excitation.node] : network.prescribed[excitation.node];
+    if (record.find(node + (force ? "_force" : "_displacement"))) continue;
+    section.fail("file",
+                 fmt::format("an excitation was measured, and takes the place of [excitation]; but \"{}\" is "
+                             "excited too and was not measured",
+                             node));
+  }
+}
+
+// Of a grey box: how the motion came about, and what must be there for it.
+void read_motion_kind(const IdentifyReading& reading, const TomlSection& section, RecordChoice& record) {
+  const StudyFile& study = reading.study;
+  const auto& columns = record.columns;
+  const auto any = [&](auto is) {
+    return std::any_of(columns.begin(), columns.end(),
+                       [&](const DataColumn& column) { return is(study, column.role); });
+  };
+  if (!any(is_motion))
+    section.fail(section.find("columns") ? "columns" : "file",
+                 fmt::format("no motion of a mass was measured; the columns are {}",
+                             described(record_forms(study).front())));
+  const bool measured = any(is_excitation), stated = !study.network.excitations.empty();
+  const std::string word = section.choice_or(
+      "motion", measured || stated ? std::vector<std::string>{"forced", "free", "periodic"}
+                                   : std::vector<std::string>{"free", "forced", "periodic"});
+  record.motion = word == "free"     ? MotionKind::free
+                  : word == "forced" ? MotionKind::forced
+                                     : MotionKind::periodic;
+  if (record.motion != MotionKind::forced && measured)
+    section.fail("motion",
+                 fmt::format("\"{}\", but an excitation was measured, which is for \"forced\"", word));
+  if (record.motion != MotionKind::free && !measured && !stated)
+    section.fail("motion",
+                 fmt::format("\"{}\", but the study has no [excitation] and none was measured", word));
+  if (measured && record.doubtful > 0)
+    section.fail("file",
+                 "a measured excitation drives the motion at all times: none of its rows can be left out as "
+                 "doubtful");
+  if (measured) refuse_other_excitation(reading, section, record);
+  if (record.motion == MotionKind::free && study.motion.initial.empty())
+    section.fail(
+        "a free motion starts from [[initial]] values, and the study has none: nothing moves that is not "
+        "displaced or set in motion");
+}
+
+Assignment read_setting(const IdentifyReading& reading, const TomlSection& section, const TomlEntry& entry) {
+  return read_assignment(reading.context, reading.study, section.where() + ": set", entry,
+                         [&](std::size_t parameter) -> std::string {
+                           const auto& fitted = reading.choice.parameters;
+                           const bool is_fitted =
+                               std::any_of(fitted.begin(), fitted.end(),
+                                           [&](const auto& each) { return each.parameter == parameter; });
+                           return is_fitted ? "it is fitted; a record cannot set it" : "";
+                         });
+}
+
+void read_settings(const IdentifyReading& reading, const TomlSection& section, RecordChoice& record) {
+  const TomlValue* set = section.find("set");
+  if (!set) return;
+  const auto* entries = set->as<TomlTable>();
+  if (!entries)
+    section.fail("set", fmt::format("expected a table such as {{ I = 4.72 }}, found {}", described(*set)));
+  for (const TomlEntry& entry : *entries) record.set.push_back(read_setting(reading, section, entry));
+}
+
+// Each key of a record belongs to the methods, and the forms of their data, that use it.
+void check_keys(const IdentifyReading& reading, const TomlSection& section, const RecordForm& form) {
+  const Method method = reading.choice.method;
+  const std::string& name = method_name(method);
+  for (const char* key : {"set", "motion"}) {
+    if (section.find(key) && method != Method::grey_box)
+      section.fail(key, fmt::format("belongs to the method \"grey_box\"; \"{}\" has no use for it", name));
+  }
+  const auto check = [&](const char* key, bool wanted, const char* rule) {
+    if (section.find(key) && !wanted) section.fail(key, fmt::format("has no use here; {}", rule));
+    if (!section.find(key) && wanted) section.fail(fmt::format("the key \"{}\" is missing; {}", key, rule));
+  };
+  check("added_mass", method == Method::added_mass && form.is_trace,
+        "it is the mass added while the trace of a record of the method \"added_mass\" was taken, 0 without");
+  check("static_displacement", method == Method::resonance_magnification && form.find("amplitude"),
+        "it is the displacement at rest under the force, or the amplitude of the support, of a response "
+        "curve of the method \"resonance_magnification\"");
+}
+
+}  // namespace
+
+void read_record(IdentifyReading& reading, const TomlSection& section, RecordChoice& record) {
+  if (reading.data == DataFiles::leave) return read_settings(reading, section, record);
+  const std::vector<RecordForm> forms = record_forms(reading.study);
+  reading.choice.files.push_back(reading.folder / record.file);
+  RawRecord raw = read_columns(section, reading.folder, forms);
+  std::vector<std::string> roles;
+  for (const RawColumn& column : raw.columns) roles.push_back(column.role->name);
+  const RecordForm& form = form_of(forms, roles);
+  if (form.find("extremum") && raw.doubtful > 0)
+    section.fail("file",
+                 "turning points come in turn: none can be left out as doubtful; cut the table there");
+  check_count(section, raw, form);
+  check_keys(reading, section, form);
+  take_columns(reading, section, raw, record);
+  if (reading.choice.method != Method::grey_box) return;
+  read_motion_kind(reading, section, record);
+  read_settings(reading, section, record);
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "studies/reading/record_form.hpp"
+#include "studies/reading/toml_section.hpp"
+
+// What a record's `columns` ask for.
+namespace frahm::studies {
+
+// A column by its number or its name.
+struct WantedColumn {
+  std::string role;
+  std::optional<std::size_t> number;  // from 1
+  std::string name;                   // in the header, or the path of a dataset; of no number
+  Position position;                  // in the study
+};
+
+// Those of the key `columns`; none if it is absent. Throws StudyError for a role that no form has.
+std::vector<WantedColumn> read_wanted(const TomlSection& record, const std::vector<RecordForm>& forms);
+
+// The form of the columns wanted. Throws StudyError where one is missing or does not belong to it.
+const RecordForm& form_of_wanted(const TomlSection& record, const std::vector<RecordForm>& forms,
+                                 const std::vector<WantedColumn>& wanted);
+
+}  // namespace frahm::studies
