@@ -56,11 +56,14 @@ std::string percent(double share) {
 // Where the data are followed to rounding there is nothing to be noted; what a bound holds has a note
 // already, and its residuals follow one another.
 void note_quality(const GreyBoxTask& task, bool held, Identification& result) {
-  constexpr double kGood = 90.0, kExact = 100.0 - 1e-6, kRepeats = 0.5;
+  constexpr double kGood = 90.0, kExact = 100.0 - 1e-6, kRepeats = 0.5, kWhite = 0.2;
   for (std::size_t i = 0; i < result.records.size(); ++i) {
     const FittedRecord& record = result.records[i];
     const bool free = task.records[i].motion == MotionKind::free;
-    if (record.nrmse < kGood)
+    // What is missed may be noise alone, whose values do not follow one another.
+    const bool white = std::ranges::all_of(
+        record.series, [](const FittedSeries& series) { return lag_one(series) <= kWhite; });
+    if (record.nrmse < kGood && !white)
       result.notes.push_back("the model misses " + percent(100.0 - record.nrmse) + " of record '" +
                              record.name + "': a wrong model" +
                              (free ? "" : ", a clock that is not the excitation's") + " or a wrong minimum");
@@ -149,6 +152,23 @@ void estimate(const GreyBoxTask& task, Misfit& misfit, const LeastSquaresFit& fi
   set_intervals(result);
 }
 
+// Where another minimum is as low to within noise the parabola about this one tells too little: intervals
+// reach as far about the other as about this one.
+void span_rivals(const std::vector<VectorXd>& rivals, Identification& result) {
+  if (rivals.empty()) return;
+  for (Index i = 0; i < rivals.front().size(); ++i) {
+    Estimate& estimate = result.estimates[static_cast<std::size_t>(i)];
+    const double below = estimate.value - estimate.low, above = estimate.high - estimate.value;
+    for (const VectorXd& rival : rivals) {
+      estimate.low = std::min(estimate.low, rival[i] - below);
+      estimate.high = std::max(estimate.high, rival[i] + above);
+    }
+  }
+  result.notes.push_back(
+      "another minimum is as low to within noise, such as one of a half swing more or fewer before rest: the "
+      "intervals span both, and reach beyond their standard errors");
+}
+
 // Weights by the residuals, until they settle.
 LeastSquaresFit weigh(Misfit& misfit, Minima& minima, LeastSquaresFit fit) {
   constexpr int kMostRounds = 8;
@@ -161,8 +181,7 @@ LeastSquaresFit weigh(Misfit& misfit, Minima& minima, LeastSquaresFit fit) {
   return fit;
 }
 
-LeastSquaresFit least_misfit(const GreyBoxTask& task, Misfit& misfit, int& iterations) {
-  Minima minima(task, misfit, iterations);
+LeastSquaresFit least_misfit(Misfit& misfit, Minima& minima) {
   LeastSquaresFit fit = minima.from_start();
   if (misfit.series() == 1 || fit.jacobian.size() == 0 || !misfit.moves(fit.p)) return fit;
   fit = weigh(misfit, minima, std::move(fit));
@@ -191,7 +210,8 @@ Identification grey_box(const GreyBoxTask& task) {
   }
   result.failure = too_few(misfit);
   if (!result.failure.empty()) return result;
-  const LeastSquaresFit fit = least_misfit(task, misfit, result.iterations);
+  Minima minima(task, misfit, result.iterations);
+  const LeastSquaresFit fit = least_misfit(misfit, minima);
   const bool moves = fit.jacobian.size() > 0 && misfit.moves(fit.p);
   result.converged = fit.converged && moves;
   if (!fit.converged || fit.jacobian.size() == 0) {
@@ -210,6 +230,7 @@ Identification grey_box(const GreyBoxTask& task) {
   result.records = misfit.fitted(fit.p);
   note_bounds(fit, misfit.unknowns(), is_exact(result.records), result);
   const bool held = std::ranges::any_of(fit.at_bound, [](int side) { return side != 0; });
+  if (!held) span_rivals(minima.rivals(), result);  // beside what a bound holds is no noise
   note_quality(task, held, result);
   return result;
 }

@@ -155,13 +155,31 @@ std::vector<VectorXd> Minima::starts_beside(const LeastSquaresFit& fit) {
   return starts;
 }
 
+// Another is one that the parabola about this one does not explain: by |J d|^2 it would be far above it, and
+// it is not. s^2: the variance of a residual.
+void Minima::keep_rival(const LeastSquaresFit& other, const LeastSquaresFit& fit) {
+  constexpr double kAlike = 25.0,
+                   kApart = 100.0;  // s^2: noise makes one of many minima so much lower by chance
+  if (other.p.size() != fit.p.size() || !other.p.allFinite()) return;
+  const double free = std::max(1.0, static_cast<double>(fit.residuals.size() - fit.p.size()));
+  const double variance = fit.sum_of_squares() / free;
+  const bool alike = other.sum_of_squares() <= fit.sum_of_squares() + kAlike * variance;
+  if (alike && (fit.jacobian * (other.p - fit.p)).squaredNorm() > kApart * variance)
+    rivals_.push_back(other.p);
+}
+
 LeastSquaresFit Minima::beside(LeastSquaresFit fit) {
   constexpr int kMostRounds = 5;
   constexpr LeastSquaresOptions kGlance = {.tolerance = 1e-4, .most_evaluations = 15};
   if (!rubs_ || exact_ || fit.jacobian.size() == 0) return fit;
   for (int round = 0; round < kMostRounds; ++round) {
     LeastSquaresFit best = fit;
-    for (const VectorXd& start : starts_beside(fit)) take(descend(start, kGlance), best);
+    rivals_.clear();
+    for (const VectorXd& start : starts_beside(fit)) {
+      LeastSquaresFit other = descend(start, kGlance);
+      keep_rival(other, fit);
+      take(std::move(other), best);
+    }
     if (!(best.sum_of_squares() < (1.0 - kLower) * fit.sum_of_squares())) return fit;
     best = from(best.p);
     if (!(best.sum_of_squares() < (1.0 - kLower) * fit.sum_of_squares())) return fit;

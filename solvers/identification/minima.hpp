@@ -18,6 +18,8 @@ class Minima {
   LeastSquaresFit from(const Eigen::VectorXd& p);
   // Of a model with contacts also minima beside `fit`, as long as one is lower.
   LeastSquaresFit beside(LeastSquaresFit fit);
+  // Minima of their own beside the last one returned that are as low to within noise: the unknowns there.
+  const std::vector<Eigen::VectorXd>& rivals() const { return rivals_; }
 
  private:
   LeastSquaresFit descend(const Eigen::VectorXd& p, const LeastSquaresOptions& options);
@@ -27,6 +29,7 @@ class Minima {
   void loosen(LeastSquaresFit& best);
   bool misses(const LeastSquaresFit& fit, double share) const;
   std::vector<Eigen::VectorXd> starts_beside(const LeastSquaresFit& fit);
+  void keep_rival(const LeastSquaresFit& other, const LeastSquaresFit& fit);
 
   const GreyBoxTask& task_;
   Misfit& misfit_;
@@ -35,6 +38,7 @@ class Minima {
   bool rubs_ = false;   // there are contacts
   bool free_ = false;   // there are free motions, which come to rest
   bool exact_ = false;  // the data are followed to rounding
+  std::vector<Eigen::VectorXd> rivals_;
 };
 
 }  // namespace frahm::identification

@@ -33,6 +33,18 @@ double half_period_of(Samples time, Turned turned) {
   return median(swings);
 }
 
+// Samples in a cycle. Each swing counts whole samples, all together tell the parts of one; a gap is left out.
+double samples_of_cycle(Samples time, Turned turned, double half_period, double step) {
+  double together = 0.0, swings = 0.0;
+  for (std::size_t k = 1; k < turned.size(); ++k) {
+    const double swing = time[turned[k]] - time[turned[k - 1]];
+    if (swing > 1.5 * half_period) continue;
+    together += swing;
+    swings += 1.0;
+  }
+  return 2.0 * together / (swings * step);
+}
+
 // From half a swing before the first turn to half a swing behind the last: a gap beyond does no harm.
 std::string gap(Samples time, Turned turned, double half_period, double step) {
   const double from = time[turned.front()] - 0.5 * half_period, to = time[turned.back()] + 0.5 * half_period;
@@ -93,7 +105,7 @@ std::string clipped_at(Samples x, Turned turned, double value, const char* which
 std::string unless_whole(Samples time, Samples x, Turned turned) {
   const double half_period = half_period_of(time, turned), step = median_step(time);
   if (std::string missing = gap(time, turned, half_period, step); !missing.empty()) return missing;
-  const double of_cycle = 2.0 * half_period / step;
+  const double of_cycle = samples_of_cycle(time, turned, half_period, step);
   if (of_cycle < kLeastSamplesOfCycle * (1.0 - 1e-9))
     return "the record has " + number(of_cycle) + " samples a cycle, it takes " +
            number(kLeastSamplesOfCycle) + " at least";

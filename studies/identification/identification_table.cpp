@@ -153,10 +153,6 @@ void print_identification(const StudyFile& study, const IdentificationResult& re
   // Those of a formula's own results follow from one another.
   if (study.identify->method == IdentifyMethod::grey_box) print_correlations(result.fit, out);
   print_quality(result.fit, out);
-  for (const RecordChoice& record : study.identify->records) {
-    if (record.doubtful > 0)
-      fmt::print(out, "note: {} doubtful rows of {} are left out\n", record.doubtful, record.name);
-  }
   for (const std::string& note : result.fit.notes) fmt::print(out, "note: {}\n", note);
 }
 

@@ -54,7 +54,7 @@ void name_parameters(const StudyFile& study, Identification& fit) {
     alias.name = own;
     add_derived(fit, std::move(alias), Eigen::VectorXd::Unit(fit.covariance.rows(), place - names.begin()));
   }
-  set_intervals(fit);
+  if (fit.estimates.size() > names.size()) set_intervals(fit);
 }
 
 }  // namespace
@@ -77,6 +77,12 @@ IdentificationResult identify(const StudyFile& study, const transient::Watch& wa
     if (!result.fit.failure.empty())
       throw StudyError(fmt::format("{}: nothing is identified: {}", study.source.name, result.fit.failure));
     name_parameters(study, result.fit);
+    for (const RecordChoice& record : study.identify->records) {
+      if (record.doubtful > 0)
+        result.fit.notes.push_back(fmt::format("{} doubtful row{} of {} {} left out", record.doubtful,
+                                               record.doubtful == 1 ? "" : "s", record.name,
+                                               record.doubtful == 1 ? "is" : "are"));
+    }
     return result;
   } catch (const mechanics::MechanicsError& error) {
     throw StudyError(study.source.name + ": " + error.what());

@@ -174,6 +174,7 @@ void leave_out_doubtful(CsvReading& reading, std::size_t column) {
     if (cell != "0" && cell != "1")
       reading.fail(fmt::format("{}:{}: {}: \"{}\" is neither 0 nor 1, which marks a doubtful row",
                                reading.result.file, row.line, called(reading, column), cell));
+    reading.result.first_is_doubtful |= cell == "1" && &row == &reading.rows.front();
     if (cell == "0") kept.push_back(std::move(row));
   }
   reading.result.doubtful = reading.rows.size() - kept.size();

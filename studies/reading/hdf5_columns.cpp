@@ -30,6 +30,7 @@ void keep_rows(const ColumnReading& reading, RawRecord& record, const std::vecto
                                i + 1, doubtful[i]));
     if (doubtful.empty() || doubtful[i] == 0.0) record.rows.push_back(i + 1);
   }
+  record.first_is_doubtful = record.rows.empty() || record.rows.front() != 1;
   record.doubtful = record.columns.front().values.size() - record.rows.size();
   for (RawColumn& column : record.columns) {
     std::vector<double> kept;

@@ -27,6 +27,7 @@ struct RawRecord {
   std::vector<RawColumn> columns;
   std::vector<std::string> labels;  // of each row kept, if there is such a column
   std::size_t doubtful = 0;         // rows left out
+  bool first_is_doubtful = false;   // the first row is one of them
 
   // `low.csv:12: column 2 "x [mm]"`, or `low.h5: "transient/time": value 12`.
   std::string place(const RawColumn& column, std::size_t row) const;

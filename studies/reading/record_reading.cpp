@@ -239,6 +239,10 @@ void read_record(IdentifyReading& reading, const TomlSection& section, RecordCho
   take_columns(reading, section, raw, record);
   if (reading.choice.method != Method::grey_box) return;
   read_motion_kind(reading, section, record);
+  if (raw.first_is_doubtful && record.motion != MotionKind::periodic)
+    section.fail("file",
+                 "the motion begins at the first row, which cannot be doubtful; cut the record there, and "
+                 "[[initial]] holds at the next");
   read_settings(reading, section, record);
 }
 

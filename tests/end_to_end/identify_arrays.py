@@ -36,7 +36,7 @@ def main():
         for engine in ("h5netcdf", "netcdf4"):
             with xr.open_dataset(file, engine=engine, group="identification") as found:
                 names = found.attrs["estimates"].split()
-                check(names[:2] == ["c_const", "c_I"], f"{engine}: estimates {names}")
+                check("c_const" in names and "c_I" in names, f"{engine}: estimates {names}")
                 check("m" in names and "d" in names, "what was fixed stands among the estimates")
                 covariance = np.array([found[name + "_covariance"].values for name in names])
                 correlation = np.array([found[name + "_correlation"].values for name in names])
