@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <limits>
 
+#include "solvers/transient/step_limits.hpp"
+
 namespace frahm::transient {
 namespace {
 
 using Eigen::Index;
-
-constexpr double kStepsAtOnce = 256.0;  // in memory: a few hundred kilobytes for a few masses
-constexpr double kMostSteps = 1e7;      // some ten seconds of one core
 
 }  // namespace
 
@@ -62,8 +61,7 @@ void MotionSensitivity::start(const InitialState& initial, std::span<const Initi
 
 bool MotionSensitivity::advance(double time, double phase, double longest) {
   const double h = flow_.equations().step, start = time_, length = (time - start) / h;
-  if (steps_taken_ + length > kMostSteps)
-    failure_ = "it takes more than 10 million steps of the fastest oscillation of system or excitation";
+  if (steps_taken_ + length > kMostSteps) failure_ = kTooManySteps;
   const double most = std::clamp(longest / h, 1.0, kStepsAtOnce);
   for (double done = 0.0; done < length && failure_ == nullptr;) {
     if (watch_) watch_();

@@ -6,6 +6,8 @@
 #include <limits>
 #include <sstream>
 
+#include "solvers/transient/step_limits.hpp"
+
 namespace frahm::transient {
 namespace {
 
@@ -13,8 +15,6 @@ using Eigen::Index;
 using periodic::bit, periodic::contains, periodic::ContactMask;
 
 constexpr double kNever = std::numeric_limits<double>::quiet_NaN();
-constexpr double kStepsAtOnce = 256.0;  // in memory: a few hundred kilobytes for a few masses
-constexpr double kMostSteps = 1e7;      // some ten seconds of one core
 
 void check_initial(double value, const char* what) {
   const double size = std::abs(value);
@@ -109,7 +109,7 @@ bool Trajectory::advance(double duration, double phase) {
 
 bool Trajectory::can_last(double duration) {
   if (failure_ == nullptr && steps_taken_ + duration / flow_.equations().step > kMostSteps) {
-    failure_ = "it takes more than 10 million steps of the fastest oscillation of system or excitation";
+    failure_ = kTooManySteps;
   }
   return failure_ == nullptr;
 }

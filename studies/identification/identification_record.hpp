@@ -10,9 +10,6 @@
 // The record of an identification (results/FORMAT.md, /identification) and a table of it.
 namespace frahm::studies {
 
-inline constexpr const char* identification_group = "identification";
-inline constexpr double converged_outcome = 1.0;  // of the flag `outcome`; 0 stands for not computed
-
 std::vector<results::Column> identification_columns(const StudyFile& study,
                                                     const IdentificationResult& result);
 // Method, names of the records, notes.

@@ -13,6 +13,7 @@
 #include "studies/map/stored_study.hpp"
 #include "studies/motion/motion_record.hpp"
 #include "studies/reading/settings.hpp"
+#include "studies/reading/toml_building.hpp"
 #include "studies/reading/toml_writing.hpp"
 
 namespace frahm::studies {
@@ -21,27 +22,8 @@ namespace {
 constexpr double kFromMode = 0.5, kToMode = 1.5;  // of the lowest and highest natural frequency
 constexpr std::int64_t kPoints = 401;
 
-TomlValue text(const std::string& value) {
-  return {{}, value};
-}
-
-TomlValue number(double value) {
-  return {{}, value};
-}
-
-TomlEntry* find(TomlTable& table, const std::string& key) {
-  const auto entry = std::find_if(table.begin(), table.end(), [&](auto& each) { return each.key == key; });
-  return entry == table.end() ? nullptr : &*entry;
-}
-
 TomlTable& table_of(TomlTable& root, const std::string& key) {
-  return std::get<TomlTable>(find(root, key)->value.content);
-}
-
-TomlValue with_unit(const StudyFile& study, std::size_t parameter, double si) {
-  const SpokenValue spoken = spoken_value(study, parameter, si);
-  if (spoken.unit.empty()) return number(spoken.value);
-  return {{}, TomlTable{{"value", {}, number(spoken.value)}, {"unit", {}, text(spoken.unit)}}};
+  return std::get<TomlTable>(entry_of(root, key)->value.content);
 }
 
 struct Stored {
@@ -96,7 +78,7 @@ std::vector<Assignment> settled(const Stored& stored) {
 }
 
 void set_kind(TomlTable& root, StudyKind kind) {
-  find(table_of(root, "study"), "kind")->value = text(std::string(kind_name(kind)));
+  entry_of(table_of(root, "study"), "kind")->value = toml_string(std::string(kind_name(kind)));
 }
 
 void remove(TomlTable& root, const std::string& key) {
@@ -118,10 +100,10 @@ mechanics::NetworkValues values_at(const StudyFile& study, std::vector<double> p
 // [[axis]] over the modes of the system as identified.
 void add_axis(const std::string& parameter, const std::string& unit, double factor,
               const std::vector<double>& modes, TomlTable& root) {
-  TomlTable axis{{"parameter", {}, text(parameter)}};
-  if (!unit.empty()) axis.push_back({"unit", {}, text(unit)});
-  axis.push_back({"from", {}, number(kFromMode * modes.front() / factor)});
-  axis.push_back({"to", {}, number(kToMode * modes.back() / factor)});
+  TomlTable axis{{"parameter", {}, toml_string(parameter)}};
+  if (!unit.empty()) axis.push_back({"unit", {}, toml_string(unit)});
+  axis.push_back({"from", {}, toml_number(kFromMode * modes.front() / factor)});
+  axis.push_back({"to", {}, toml_number(kToMode * modes.back() / factor)});
   axis.push_back({"points", {}, {{}, kPoints}});
   set_kind(root, StudyKind::sweep);
   remove(root, "initial");
@@ -147,12 +129,12 @@ double moving_force(const StudyFile& study, const mechanics::NetworkValues& valu
 void drive(const StudyFile& study, const mechanics::NetworkValues& values, const std::vector<double>& modes,
            TomlTable& root) {
   const std::string omega = free_name(study, "omega"), force = free_name(study, "P");
-  if (!find(root, "parameters")) root.push_back({"parameters", {}, {{}, TomlTable{}}});
+  if (!entry_of(root, "parameters")) root.push_back({"parameters", {}, {{}, TomlTable{}}});
   TomlTable& parameters = table_of(root, "parameters");
-  parameters.push_back({omega, {}, number(modes.front())});
-  parameters.push_back({force, {}, number(moving_force(study, values))});
-  TomlTable on{{"on", {}, text(study.network.masses.front())}, {"amplitude", {}, text(force)}};
-  TomlTable excitation{{"frequency", {}, text(omega)}};
+  parameters.push_back({omega, {}, toml_number(modes.front())});
+  parameters.push_back({force, {}, toml_number(moving_force(study, values))});
+  TomlTable on{{"on", {}, toml_string(study.network.masses.front())}, {"amplitude", {}, toml_string(force)}};
+  TomlTable excitation{{"frequency", {}, toml_string(omega)}};
   excitation.push_back({"force", {}, {{}, TomlArray{{{}, std::move(on)}}}});
   root.push_back({"excitation", {}, {{}, std::move(excitation)}});
   add_axis(omega, "", 1.0, modes, root);
@@ -170,7 +152,7 @@ void make_motion(const Stored& stored, TomlTable& root) {
   root.push_back({"transient",
                   {},
                   {{},
-                   TomlTable{{"duration", {}, number(time.back() - time.front())},
+                   TomlTable{{"duration", {}, toml_number(time.back() - time.front())},
                              {"samples", {}, {{}, static_cast<std::int64_t>(time.size())}}}}});
 }
 
@@ -182,14 +164,14 @@ std::string study_of_system(const Stored& stored) {
   std::vector<double> parameters = study.parameters.nominal();
   for (const Assignment& assignment : settled(stored)) {
     TomlTable& definitions = table_of(root, "parameters");
-    find(definitions, study.parameters.list[assignment.parameter].name)->value =
-        with_unit(study, assignment.parameter, assignment.value);
+    entry_of(definitions, study.parameters.list[assignment.parameter].name)->value =
+        toml_parameter(study, assignment.parameter, assignment.value);
     parameters[assignment.parameter] = assignment.value;
   }
   const mechanics::NetworkValues values = values_at(study, parameters);
   const std::vector<double> modes = periodic::linear_modes(study.network, values, false).frequency;
   const auto frequency = study.values.omega.expression.sole_parameter();
-  if (!find(root, "excitation")) {
+  if (!entry_of(root, "excitation")) {
     drive(study, values, modes, root);
   } else if (frequency && study.parameters.list[*frequency].is_number()) {
     const SpokenValue one = spoken_value(study, *frequency, 1.0);

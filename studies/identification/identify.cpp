@@ -54,7 +54,6 @@ void name_parameters(const StudyFile& study, Identification& fit) {
     alias.name = own;
     add_derived(fit, std::move(alias), Eigen::VectorXd::Unit(fit.covariance.rows(), place - names.begin()));
   }
-  if (fit.estimates.size() > names.size()) set_intervals(fit);
 }
 
 }  // namespace

@@ -13,9 +13,7 @@
 namespace frahm::studies {
 namespace {
 
-const std::string group_name = "identification";
 const std::string covariance_ending = "_covariance";
-constexpr double converged = 1.0;  // of the flag `outcome` (results/FORMAT.md)
 
 // The estimates of a result file that have a covariance, and it, in one order.
 struct EarlierEstimates {
@@ -60,11 +58,11 @@ EarlierEstimates read_earlier(const std::filesystem::path& path, const std::stri
   check_readable(path, file);
   try {
     const results::MapReader reader(path);
-    if (!reader.has_group(group_name))
+    if (!reader.has_group(identification_group))
       throw StudyError(fmt::format("{}: is the result of no identification", file));
-    const Columns columns = reader.columns(group_name);
+    const Columns columns = reader.columns(identification_group);
     const results::Column* outcome = find_number(columns, "outcome");
-    if (outcome && outcome->values.front() != converged)
+    if (outcome && outcome->values.front() != converged_outcome)
       throw StudyError(fmt::format("{}: its fit did not converge, and fixes nothing", file));
     earlier = estimates_among(columns, file);
   } catch (const results::StoreError& error) {

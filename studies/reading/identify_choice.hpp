@@ -26,6 +26,11 @@ enum class IdentifyMethod {
   grey_box,
 };
 
+// Of the group in a result that holds an identification, and of its flag `outcome` where the fit converged
+// (results/FORMAT.md).
+inline constexpr const char* identification_group = "identification";
+inline constexpr double converged_outcome = 1.0;
+
 // Names of the methods, as a study writes them, in the order of IdentifyMethod.
 const std::vector<std::string>& method_names();
 const std::string& method_name(IdentifyMethod method);

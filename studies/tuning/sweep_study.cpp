@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "studies/reading/settings.hpp"
+#include "studies/reading/toml_building.hpp"
 #include "studies/reading/toml_reading.hpp"
 #include "studies/reading/toml_section.hpp"
 #include "studies/reading/toml_writing.hpp"
@@ -13,39 +14,20 @@
 namespace frahm::studies {
 namespace {
 
-TomlValue number(double value) {
-  return {{}, value};
-}
-
-TomlValue text(const std::string& value) {
-  return {{}, value};
-}
-
-TomlEntry* find(TomlTable& table, const std::string& key) {
-  const auto entry = std::find_if(table.begin(), table.end(), [&](auto& each) { return each.key == key; });
-  return entry == table.end() ? nullptr : &*entry;
-}
-
 // The unit in which the sweep speaks of a parameter; empty for none.
 std::string unit_of(const StudyFile& study, std::size_t parameter) {
   return spoken_value(study, parameter, 0.0).unit;
 }
 
-TomlValue with_unit(const StudyFile& study, std::size_t parameter, double si) {
-  const SpokenValue spoken = spoken_value(study, parameter, si);
-  if (spoken.unit.empty()) return number(spoken.value);
-  return {{}, TomlTable{{"value", {}, number(spoken.value)}, {"unit", {}, text(spoken.unit)}}};
-}
-
 TomlValue axis_of(const StudyFile& study, std::size_t parameter, const std::vector<double>& values,
                   const std::string& zip) {
   TomlArray list;
-  for (const double value : values) list.push_back(number(value));
-  TomlTable axis{{"parameter", {}, text(study.parameters.list[parameter].name)}};
+  for (const double value : values) list.push_back(toml_number(value));
+  TomlTable axis{{"parameter", {}, toml_string(study.parameters.list[parameter].name)}};
   const std::string unit = unit_of(study, parameter);
-  if (!unit.empty()) axis.push_back({"unit", {}, text(unit)});
+  if (!unit.empty()) axis.push_back({"unit", {}, toml_string(unit)});
   axis.push_back({"values", {}, {{}, std::move(list)}});
-  if (!zip.empty()) axis.push_back({"zip", {}, text(zip)});
+  if (!zip.empty()) axis.push_back({"zip", {}, toml_string(zip)});
   return {{}, std::move(axis)};
 }
 
@@ -85,21 +67,21 @@ void set_parameters(const StoredTuning& stored, const std::string& stem, TomlTab
                     SweepStudy& sweep) {
   const StudyFile& study = stored.study;
   const auto put = [&](std::size_t parameter, TomlValue value) {
-    find(parameters, study.parameters.list[parameter].name)->value = std::move(value);
+    entry_of(parameters, study.parameters.list[parameter].name)->value = std::move(value);
   };
   for (const Assignment& assignment : stored.overrides)
-    put(assignment.parameter, with_unit(study, assignment.parameter, assignment.value));
+    put(assignment.parameter, toml_parameter(study, assignment.parameter, assignment.value));
   for (std::size_t i = 0; i < stored.design.size(); ++i) {
     const DesignChoice& design = study.tune->designs[i];
     if (!design.is_scheduled()) {
-      put(design.parameter, with_unit(study, design.parameter, stored.design[i].front()));
+      put(design.parameter, toml_parameter(study, design.parameter, stored.design[i].front()));
       continue;
     }
     const std::string& name = study.parameters.list[design.parameter].name;
     const std::string file = fmt::format("{}_{}.csv", stem, name);
     sweep.tables.emplace_back(file, schedule_csv(study, design, stored.design[i]));
     const std::string& of = study.parameters.list[study.tune->band->parameter].name;
-    put(design.parameter, {{}, TomlTable{{"table", {}, text(file)}, {"of", {}, text(of)}}});
+    put(design.parameter, {{}, TomlTable{{"table", {}, toml_string(file)}, {"of", {}, toml_string(of)}}});
   }
 }
 
@@ -110,7 +92,7 @@ TomlValue output_of(const StudyFile& study) {
   names.emplace_back("status");
   TomlArray list;
   for (auto name = names.begin(); name != names.end(); ++name) {
-    if (std::find(names.begin(), name, *name) == name) list.push_back(text(*name));
+    if (std::find(names.begin(), name, *name) == name) list.push_back(toml_string(*name));
   }
   return {{}, TomlTable{{"quantities", {}, {{}, std::move(list)}}}};
 }
@@ -127,9 +109,10 @@ SweepStudy sweep_study(const StoredTuning& stored, const std::string& stem) {
     return entry.key == "tune" || entry.key == "design" || entry.key == "constraint" ||
            entry.key == "scenario" || entry.key == "column";
   });
-  find(std::get<TomlTable>(find(sections, "study")->value.content), "kind")->value = text("sweep");
+  entry_of(std::get<TomlTable>(entry_of(sections, "study")->value.content), "kind")->value =
+      toml_string("sweep");
   SweepStudy sweep;
-  set_parameters(stored, stem, std::get<TomlTable>(find(sections, "parameters")->value.content), sweep);
+  set_parameters(stored, stem, std::get<TomlTable>(entry_of(sections, "parameters")->value.content), sweep);
   TomlArray axes;
   add_scenario_axes(study, axes);
   axes.push_back(axis_of(study, study.tune->band->parameter, stored.band, ""));

@@ -1,0 +1,28 @@
+#include "studies/reading/toml_building.hpp"
+
+#include <algorithm>
+
+#include "studies/reading/settings.hpp"
+
+namespace frahm::studies {
+
+TomlValue toml_number(double value) {
+  return {{}, value};
+}
+
+TomlValue toml_string(const std::string& value) {
+  return {{}, value};
+}
+
+TomlValue toml_parameter(const StudyFile& study, std::size_t parameter, double si) {
+  const SpokenValue spoken = spoken_value(study, parameter, si);
+  if (spoken.unit.empty()) return toml_number(spoken.value);
+  return {{}, TomlTable{{"value", {}, toml_number(spoken.value)}, {"unit", {}, toml_string(spoken.unit)}}};
+}
+
+TomlEntry* entry_of(TomlTable& table, const std::string& key) {
+  const auto entry = std::find_if(table.begin(), table.end(), [&](auto& each) { return each.key == key; });
+  return entry == table.end() ? nullptr : &*entry;
+}
+
+}  // namespace frahm::studies
