@@ -26,22 +26,24 @@ bool is_launched_by_mpi() {
   return std::any_of(launchers.begin(), launchers.end(), [](const char* name) { return std::getenv(name); });
 }
 
-// The processors this process may use, shared evenly with the ranks of the same machine that may use the
-// same.
-int shared_processors() {
+cpu_set_t own_mask() {
+  cpu_set_t mask;
+  CPU_ZERO(&mask);
+  ::sched_getaffinity(0, sizeof mask, &mask);
+  return mask;
+}
+
+// The processors that each rank of this machine may use, this process among them.
+std::vector<cpu_set_t> masks_of_machine() {
   MPI_Comm machine = MPI_COMM_NULL;
   MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
   int ranks = 1;
   MPI_Comm_size(machine, &ranks);
-  cpu_set_t own;
-  CPU_ZERO(&own);
-  ::sched_getaffinity(0, sizeof own, &own);
-  std::vector<cpu_set_t> all(static_cast<std::size_t>(ranks));
-  MPI_Allgather(&own, sizeof own, MPI_BYTE, all.data(), sizeof own, MPI_BYTE, machine);
+  const cpu_set_t own = own_mask();
+  std::vector<cpu_set_t> masks(static_cast<std::size_t>(ranks));
+  MPI_Allgather(&own, sizeof own, MPI_BYTE, masks.data(), sizeof own, MPI_BYTE, machine);
   MPI_Comm_free(&machine);
-  const auto sharing = std::count_if(all.begin(), all.end(),
-                                     [&](const cpu_set_t& other) { return CPU_EQUAL(&own, &other) != 0; });
-  return std::max(1, omp_get_num_procs() / static_cast<int>(sharing));
+  return masks;
 }
 
 class MpiRanks : public Ranks {
@@ -53,7 +55,7 @@ class MpiRanks : public Ranks {
       throw std::runtime_error("this MPI lets only the main thread send messages (MPI_THREAD_SERIALIZED)");
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &size_);
-    processors_ = shared_processors();
+    machine_ = masks_of_machine();
   }
   ~MpiRanks() override {
     for (Sending& sending : sendings_) MPI_Wait(&sending.request, MPI_STATUS_IGNORE);
@@ -62,7 +64,20 @@ class MpiRanks : public Ranks {
 
   int rank() const override { return rank_; }
   int size() const override { return size_; }
-  int processors() const override { return processors_; }
+
+  int processors() const override {
+    const cpu_set_t own = own_mask();
+    const auto sharing = std::count_if(machine_.begin(), machine_.end(),
+                                       [&](const cpu_set_t& other) { return CPU_EQUAL(&own, &other) != 0; });
+    return std::max(1, omp_get_num_procs() / std::max(1, static_cast<int>(sharing)));
+  }
+
+  int take_machine() override {
+    cpu_set_t all = own_mask();
+    for (const cpu_set_t& mask : machine_) CPU_OR(&all, &all, &mask);
+    ::sched_setaffinity(0, sizeof all, &all);  // where that is not allowed, its own processors have to do
+    return static_cast<int>(machine_.size());
+  }
 
   void send(int to, const Bytes& message) override {
     Sending& sending = sendings_.emplace_back(message);
@@ -99,7 +114,8 @@ class MpiRanks : public Ranks {
     });
   }
 
-  int rank_ = 0, size_ = 1, processors_ = 1;
+  int rank_ = 0, size_ = 1;
+  std::vector<cpu_set_t> machine_;  // masks_of_machine()
   std::list<Sending> sendings_;
 };
 

@@ -25,6 +25,9 @@ class Ranks {
   virtual int size() const = 0;  // > 1
   // Processors of this process: those it may use, shared evenly with ranks that may use the same ones. >= 1
   virtual int processors() const = 0;
+  // Lets this process use the processors of all ranks on its machine, when the others have nothing more to
+  // do. Returns the number of these ranks, itself among them.
+  virtual int take_machine() = 0;
 
   // Neither waits. What one rank sends another comes whole and in the order in which it was sent.
   virtual void send(int to, const Bytes& message) = 0;

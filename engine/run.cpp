@@ -103,24 +103,53 @@ class Attendance {
   std::optional<Watch> watch_;
 };
 
-std::string stop_reason(const StopSignals& signals, const std::optional<Dealer>& dealer,
-                        const RunOptions& options) {
-  if (signals.received() != 0) return "stopped by " + signal_name(signals.received());
-  if (dealer && !dealer->stop_reason().empty()) return dealer->stop_reason();
-  return fmt::format("the time budget of {} s is used up", options.time_budget->count());
+// What may end a run before its work is done: a signal, or the time budget, which begins with it.
+class StopRequest {
+ public:
+  explicit StopRequest(const RunOptions& options) : budget_(options.time_budget) {}
+
+  bool asked() const { return signals_.received() != 0 || (budget_ && elapsed() >= budget_->count()); }
+  double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }  // [s]
+  // Why the run was stopped. elsewhere: the reason of another rank; empty if it had none.
+  std::string reason(const std::string& elsewhere) const {
+    if (signals_.received() != 0) return "stopped by " + signal_name(signals_.received());
+    if (!elsewhere.empty()) return elsewhere;
+    return fmt::format("the time budget of {} s is used up", budget_->count());
+  }
+
+ private:
+  Clock::time_point start_ = Clock::now();
+  std::optional<std::chrono::duration<double>> budget_;
+  StopSignals signals_;
+};
+
+// Alone, a process has all tiles in its queue at once. Among ranks they are dealt out.
+std::optional<Dealer> supply(const RunOptions& options, const LogHeader& study, int threads,
+                             const std::vector<std::uint64_t>& tiles, TileQueue& queue) {
+  if (options.ranks)
+    return std::optional<Dealer>(std::in_place, *options.ranks, study_mark(study), threads, tiles, queue);
+  queue.add(tiles);
+  queue.close();
+  return std::nullopt;
+}
+
+// Adds to a summary what this run did.
+void count(const TeamWork& work, const std::optional<Dealer>& dealer, int threads, Ranks* ranks,
+           Summary& summary) {
+  const Finished elsewhere = dealer ? dealer->finished() : Finished{};
+  summary.points = tally_of(summary.points, work, dealer);
+  summary.tiles_computed = work.finished().tiles + elsewhere.tiles;
+  summary.cpu_seconds_elsewhere = 1e-3 * static_cast<double>(elsewhere.cpu_milliseconds);
+  summary.threads = dealer ? dealer->threads() : threads;
+  summary.ranks = ranks ? ranks->size() : 1;
+  summary.threads_here = threads * (ranks ? ranks->take_machine() : 1);
 }
 
 }  // namespace
 
 Summary run(const Job& job, const RunOptions& options) {
   check(options);
-  const Clock::time_point start = Clock::now();
-  const auto elapsed = [start] { return std::chrono::duration<double>(Clock::now() - start); };
-  const StopSignals signals;
-  const auto stop_asked = [&] {
-    return signals.received() != 0 || (options.time_budget && elapsed() >= *options.time_budget);
-  };
-
+  const StopRequest stop(options);
   const LogHeader study{.fingerprint = job.fingerprint, .tiles = job.tiles};
   if (options.fresh) discard_logs(options, study);
   ShardLog log(own_log(options), study);
@@ -130,17 +159,10 @@ Summary run(const Job& job, const RunOptions& options) {
   }
 
   TeamWork work(job, log);
-  const std::size_t wanted = tiles.size();
-  const int threads = team_size(options, wanted);
-  std::optional<Dealer> dealer;
-  if (options.ranks) {
-    dealer.emplace(*options.ranks, study_mark(study), threads, std::move(tiles), work.queue());
-  } else {
-    work.queue().add(tiles);
-    work.queue().close();
-  }
-  const auto give_up = [&] { return work.has_failed() || stop_asked(); };
-  const auto tally = [&] { return tally_of(summary.points, work, dealer); };
+  const int threads = team_size(options, tiles.size());
+  std::optional<Dealer> dealer = supply(options, study, threads, tiles, work.queue());
+  const auto give_up = [&] { return work.has_failed() || stop.asked(); };
+  const auto tally = [&, &found = summary.points] { return tally_of(found, work, dealer); };
   Progress progress(progress_form(options.progress), std::cerr);
   {
     const Watch showing(100ms, [&] { progress.update(tally()); });
@@ -154,16 +176,11 @@ Summary run(const Job& job, const RunOptions& options) {
   work.rethrow_failure();
   if (dealer) dealer->rethrow_failure();
 
-  const Finished elsewhere = dealer ? dealer->finished() : Finished{};
-  summary.points = tally();
-  summary.tiles_computed = work.finished().tiles + elsewhere.tiles;
-  summary.threads = dealer ? dealer->threads() : threads;
-  summary.ranks = options.ranks ? options.ranks->size() : 1;
-  summary.seconds = elapsed().count();
-  summary.cpu_seconds_elsewhere = 1e-3 * static_cast<double>(elsewhere.cpu_milliseconds);
-  const bool all = summary.tiles_computed == wanted;
+  count(work, dealer, threads, options.ranks, summary);
+  summary.seconds = stop.elapsed();
+  const bool all = summary.tiles_computed == tiles.size();
   summary.outcome = all ? Outcome::complete : Outcome::stopped;
-  summary.reason = all ? "every tile is finished" : stop_reason(signals, dealer, options);
+  summary.reason = all ? "every tile is finished" : stop.reason(dealer ? dealer->stop_reason() : "");
   return summary;
 }
 

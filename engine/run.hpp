@@ -74,7 +74,8 @@ struct Summary {
   Tally points;
   int threads = 0;  // of all ranks
   int ranks = 1;
-  double seconds = 0.0;                // wall time
+  int threads_here = 0;  // which this machine has for what is left to do when all ranks are done
+  double seconds = 0.0;  // wall time
   double cpu_seconds_elsewhere = 0.0;  // of the other ranks
   std::vector<UnusedBytes> unused;     // ends of logs that could not be used when the run began
 };

@@ -18,6 +18,7 @@ class ScriptedRanks : public Ranks {
   int rank() const override { return 0; }
   int size() const override { return size_; }
   int processors() const override { return 1; }
+  int take_machine() override { return 1; }
   void send(int to, const Bytes& message) override { sent_[to].push_back(decode(message)); }
   std::optional<Message> receive() override {
     if (coming_.empty()) return std::nullopt;
