@@ -12,6 +12,7 @@
 #include "engine/dealer.hpp"
 #include "engine/shard_log.hpp"
 #include "engine/stop_signals.hpp"
+#include "engine/team.hpp"
 #include "engine/team_work.hpp"
 #include "engine/watch.hpp"
 
@@ -70,11 +71,6 @@ Remainder read_logs(const Job& job, const RunOptions& options, const LogHeader& 
   summary.points.done = summary.points.resumed;
   summary.unused = index.unused;
   return remainder;
-}
-
-int team_size(const RunOptions& options, std::size_t tiles) {
-  const int wanted = options.threads > 0 ? options.threads : default_threads(options.ranks);
-  return static_cast<int>(std::min(static_cast<std::size_t>(wanted), std::max<std::size_t>(tiles, 1)));
 }
 
 // How far the whole run is.
@@ -159,7 +155,8 @@ Summary run(const Job& job, const RunOptions& options) {
   }
 
   TeamWork work(job, log);
-  const int threads = team_size(options, tiles.size());
+  const int wanted = options.threads > 0 ? options.threads : default_threads(options.ranks);
+  const int threads = team_size(wanted, tiles.size());
   std::optional<Dealer> dealer = supply(options, study, threads, tiles, work.queue());
   const auto give_up = [&] { return work.has_failed() || stop.asked(); };
   const auto tally = [&, &found = summary.points] { return tally_of(found, work, dealer); };
