@@ -1,6 +1,6 @@
 """A Slurm cluster of several nodes on this one machine, in a folder of its own.
 
-Everything it starts, and whatever that starts, is a descendant of this process and ends with the cluster.
+Everything it starts, and whatever that starts, is a descendant of with_init() and ends with it.
 """
 
 import ctypes
@@ -10,7 +10,9 @@ import shutil
 import signal
 import socket
 import subprocess
+import sys
 import tempfile
+import threading
 import time
 
 PROGRAMS = "munged", "slurmctld", "slurmd", "sbatch", "scontrol", "squeue", "scancel", "sinfo"
@@ -64,12 +66,6 @@ def _free_ports(count):
     return ports
 
 
-def _adopt_orphans():
-    """From now on what a daemon leaves behind becomes a child of this process, not of init."""
-    pr_set_child_subreaper = 36
-    ctypes.CDLL(None).prctl(pr_set_child_subreaper, 1, 0, 0, 0)
-
-
 def _die_with_parent():
     pr_set_pdeathsig = 1
     ctypes.CDLL(None).prctl(pr_set_pdeathsig, signal.SIGKILL, 0, 0, 0)
@@ -120,10 +116,41 @@ def _kill(pid):
         pass
 
 
-def _bury_orphans():
+def _end_descendants(pid, but=()):
+    end = time.monotonic() + 20
+    while time.monotonic() < end:
+        left = set(descendants(pid)) - set(but)
+        if not left:
+            return
+        for one in left:
+            _kill(one)
+        time.sleep(0.05)
+
+
+def with_init(work):
+    """Carries out work() in a child, for its exit code. This process is init for it: it adopts the orphans of daemons,
+    buries the dead at once (Slurm takes a zombie for a job that will not end), and ends all when the work is done,
+    however that ended."""
+    pr_set_child_subreaper = 36
+    ctypes.CDLL(None).prctl(pr_set_child_subreaper, 1, 0, 0, 0)
+    child = os.fork()
+    if child == 0:
+        sys.exit(work())
+    for number in signal.SIGTERM, signal.SIGHUP, signal.SIGINT:
+        signal.signal(number, lambda number, _: os.kill(child, signal.SIGTERM))
+    pid, status = os.wait()
+    while pid != child:
+        pid, status = os.wait()
+    burying = threading.Thread(target=_bury_all, daemon=True)
+    burying.start()
+    _end_descendants(os.getpid())
+    return os.waitstatus_to_exitcode(status) if os.WIFEXITED(status) else 1
+
+
+def _bury_all():
     try:
-        while os.waitpid(-1, os.WNOHANG)[0] != 0:
-            pass
+        while True:
+            os.wait()
     except ChildProcessError:
         pass
 
@@ -141,6 +168,8 @@ def wait_until(what, seconds, holds):
 
 
 class Cluster:
+    """To be used within with_init()."""
+
     def __init__(self, nodes, processors):
         missing = [name for name in PROGRAMS if shutil.which(name, path=PATH) is None]
         if missing:
@@ -149,10 +178,10 @@ class Cluster:
         self.folder = tempfile.mkdtemp(prefix="frahm-slurm-")
         self.environment = {**os.environ, "PATH": PATH, "SLURM_CONF": os.path.join(self.folder, "slurm.conf")}
         self.daemons = {}
+        self.init = os.getppid()
 
     def __enter__(self):
         try:
-            _adopt_orphans()
             self._write_configuration()
             self._start()
         except (OSError, subprocess.SubprocessError, TimeoutError) as error:
@@ -206,8 +235,8 @@ class Cluster:
     def kill_node(self, node):
         """SIGKILL to the node's daemon, and to the jobs on it and their keepers: the node is gone without a word."""
         daemon = self.daemons.pop(node)
-        jobs = [pid for pid in descendants(os.getpid()) if _has_in_environment(pid, f"SLURMD_NODENAME={node}")]
-        keepers = {_parent(pid) for pid in jobs} - {os.getpid(), *jobs}
+        jobs = [pid for pid in descendants(self.init) if _has_in_environment(pid, f"SLURMD_NODENAME={node}")]
+        keepers = {_parent(pid) for pid in jobs} - {self.init, *jobs}
         for pid in [daemon.pid, *keepers, *jobs]:
             _kill(pid)
         daemon.wait()
@@ -239,15 +268,8 @@ class Cluster:
 
     def stop(self):
         """Ends the daemons, all their descendants, and removes the folder."""
-        end = time.monotonic() + 20
-        while time.monotonic() < end:
-            left = descendants(os.getpid())
-            if not left:
-                break
-            for pid in left:
-                _kill(pid)
-            time.sleep(0.05)
         for daemon in self.daemons.values():
+            daemon.kill()
             daemon.wait(timeout=10)
-        _bury_orphans()
+        _end_descendants(self.init, but=[os.getpid()])
         shutil.rmtree(self.folder, ignore_errors=True)

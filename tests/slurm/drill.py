@@ -13,7 +13,7 @@ import sys
 import tempfile
 import time
 
-from cluster import Cluster, NotAvailable, wait_until
+from cluster import Cluster, NotAvailable, wait_until, with_init
 
 NOT_AVAILABLE = 77
 MOST_SECONDS = 420  # of the whole drill; two minutes on two idle cores
@@ -154,7 +154,7 @@ def run_drill(program, source):
 
 
 def give_up(number, _):
-    raise TimeoutError(f"{signal.Signals(number).name}: the drill ends here (its limit: {MOST_SECONDS} s)")
+    raise TimeoutError(f"{signal.Signals(number).name}: the drill ends here (its limit is {MOST_SECONDS} s)")
 
 
 def main():
@@ -173,4 +173,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(with_init(main))
