@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <iosfwd>
+#include <string>
 
 #include "engine/run.hpp"
 #include "studies/map/study_plan.hpp"
@@ -20,6 +21,9 @@ engine::Summary compute(const StudyPlan& plan, const engine::Job& job, const eng
 
 // Notes, on stderr, what could not be used of earlier logs.
 void tell_unused(const engine::Summary& summary);
+
+// "2 threads", "8 threads of 4 ranks".
+std::string team_text(int threads, int ranks);
 
 // The ends of a run that makes no file: stopped, or one shard of several. They return the exit code.
 int tell_stopped(const engine::Summary& summary, const std::filesystem::path& output);
