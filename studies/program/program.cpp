@@ -58,11 +58,14 @@ Examples:
   frahm run rig_decay_main.toml               one motion: a free decay, or a transient
   frahm run tune_classical.toml               a tuning: an optimum from each of its starts
   frahm run identify_rig_tmd.toml             an identification: a model from measurements
-  sbatch --array=0-15 --wrap "frahm run rig_atlas.toml"    then: frahm merge rig_atlas.h5)";
+  sbatch --array=0-15 --wrap 'frahm run rig_atlas.toml --shard $SLURM_ARRAY_TASK_ID/16'
+                                              then: frahm merge rig_atlas.h5)";
 
 constexpr const char* check_examples = R"(
-Example:
-  frahm check rig_atlas.toml --set "A=20 mm")";
+Examples:
+  frahm check rig_atlas.toml --set "A=20 mm"
+  frahm check rig_atlas.toml --max-array 201  an array's tasks, as MaxArraySize of the cluster allows
+  frahm check rig_atlas.toml --simulate-ranks 1000 --threads 4)";
 
 constexpr const char* point_examples = R"(
 Examples (a bare number is in the unit in which the study speaks of the parameter):
@@ -157,6 +160,15 @@ void add_check(CLI::App& program, CheckOptions& options, Action& action) {
   add_study(*check, options.study);
   add_set(*check, options.set);
   add_threads(*check, options.threads);
+  check
+      ->add_option("--max-array", options.max_array,
+                   "tasks an array may have on the cluster (MaxArraySize); else as Slurm here says, or 1001")
+      ->check(CLI::Range(1, 4'000'001));  // the largest Slurm can be set to
+  check
+      ->add_option(
+          "--simulate-ranks", options.simulate_ranks,
+          "predict time and efficiency on 1, 10, 100 ... so many MPI ranks of --threads each (0: one)")
+      ->check(CLI::Range(1, 100'000));
   check->callback([&] { action = [&](std::ostream& out) { return check_command(options, out); }; });
 }
 
