@@ -41,6 +41,7 @@ std::string text(const Tally& tally, double seconds) {
   if (const auto speed = rate(tally, seconds)) line += fmt::format("  {:.3g} points/s", *speed);
   const auto left = time_left(tally, seconds);
   if (left && *left > 0.0) line += fmt::format("  {} left", readable_time(*left));
+  if (tally.reused > 0) line += fmt::format("  {} reused", tally.reused);
   if (tally.failed > 0) line += fmt::format("  {} failed", tally.failed);
   return line;
 }
@@ -56,10 +57,10 @@ std::string json(const Tally& tally, double seconds, bool last) {
     return value ? fmt::format("{:.6g}", *value) : "null";
   };
   return fmt::format(
-      R"({{"event":"{}","points":{},"done":{},"resumed":{},"failed":{},"percent":{:.3f},"seconds":{:.3f},)"
+      R"({{"event":"{}","points":{},"done":{},"resumed":{},"reused":{},"failed":{},"percent":{:.3f},"seconds":{:.3f},)"
       R"("points_per_second":{},"seconds_left":{}}})",
-      last ? "end" : "progress", tally.points, tally.done, tally.resumed, tally.failed, percent(tally),
-      seconds, number(rate(tally, seconds)), number(time_left(tally, seconds)));
+      last ? "end" : "progress", tally.points, tally.done, tally.resumed, tally.reused, tally.failed,
+      percent(tally), seconds, number(rate(tally, seconds)), number(time_left(tally, seconds)));
 }
 
 std::chrono::milliseconds period(ProgressForm form) {

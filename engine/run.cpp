@@ -152,6 +152,7 @@ Summary run(const Job& job, const RunOptions& options) {
     Tally now = found;
     now.done += work.finished_points;
     now.failed += work.failed_points;
+    if (work.job.reused) now.reused = work.job.reused();
     return now;
   };
   Progress progress(progress_form(options.progress), std::cerr);

@@ -1,5 +1,7 @@
 #include "studies/program/program.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <functional>
@@ -45,6 +47,7 @@ Examples:
   frahm run rig_atlas.toml                    into rig_atlas.h5, on all processors
   frahm run rig_atlas.toml --set "K=8200 N/m" -o stiffer.h5
   frahm run rig_atlas.toml --time-budget 50m  stops in time; the same command goes on
+  frahm run rig_atlas.toml --from rig_atlas.h5    after axes have grown: computes the new points only
   frahm run rig_decay_main.toml               one motion: a free decay, or a transient
   frahm run tune_classical.toml               a tuning: an optimum from each of its starts
   frahm run identify_rig_tmd.toml             an identification: a model from measurements
@@ -117,6 +120,9 @@ void add_run(CLI::App& program, RunTexts& texts, Action& action) {
   run->add_option(
       "--shard", shard,
       "i/n: compute every n-th tile from i on, i from 0; in an array task of Slurm its own share");
+  run->add_option(
+      "--from", options.from,
+      "result of the same system on another grid: its points are taken over, the others computed");
   run->add_flag("--fresh", options.run.fresh, "discard what earlier runs have left");
   run->add_option("--time-budget", budget, "stop after 90s, 50m, 2h or 1d");
   add_set(*run, options.set);
@@ -255,9 +261,11 @@ int carry_out(const Action& action, std::ostream& out) {
   } catch (const StudyError& error) {
     return complain(error.what(), exit_code::wrong_input);
   } catch (const engine::ResumeRefused& error) {
-    return complain(
-        std::string(error.what()) + "\nname another file with -o, or discard what is there with --fresh",
-        exit_code::resume_refused);
+    const std::string advice = error.advice().empty()
+                                   ? "it is not replaced unasked: name another file with -o, or discard what "
+                                     "is there with --fresh"
+                                   : error.advice();
+    return complain(fmt::format("{}\n{}", error.what(), advice), exit_code::resume_refused);
   } catch (const engine::IoError& error) {
     return complain(error.what(), exit_code::input_output);
   } catch (const results::StoreError& error) {

@@ -89,13 +89,14 @@ TEST_CASE("json progress is one object a line") {
   watched.progress.update({.points = 200});
   watched.time = 4s;
   watched.progress.finish({.points = 200, .done = 100, .resumed = 20, .failed = 3});
-  CHECK(watched.out.str() ==
-        R"({"event":"progress","points":200,"done":0,"resumed":0,"failed":0,"percent":0.000,"seconds":0.000,)"
-        R"("points_per_second":null,"seconds_left":null})"
-        "\n"
-        R"({"event":"end","points":200,"done":100,"resumed":20,"failed":3,"percent":50.000,"seconds":4.000,)"
-        R"("points_per_second":20,"seconds_left":5})"
-        "\n");
+  CHECK(
+      watched.out.str() ==
+      R"({"event":"progress","points":200,"done":0,"resumed":0,"reused":0,"failed":0,"percent":0.000,"seconds":0.000,)"
+      R"("points_per_second":null,"seconds_left":null})"
+      "\n"
+      R"({"event":"end","points":200,"done":100,"resumed":20,"reused":0,"failed":3,"percent":50.000,"seconds":4.000,)"
+      R"("points_per_second":20,"seconds_left":5})"
+      "\n");
 }
 
 TEST_CASE("progress of form none is silent") {
