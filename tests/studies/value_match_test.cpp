@@ -1,5 +1,6 @@
 #include "studies/map/value_match.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -35,21 +36,23 @@ TEST_CASE("the values of an axis are known by their number, upwards, wherever th
   CHECK(match.wanted == Numbers{1, none, 0, 2});
 }
 
-TEST_CASE("an axis of finer steps has all values of the coarser one, though their last digits differ") {
+TEST_CASE("a longer axis of finer steps has all values of the coarser one, though their last digits differ") {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> end(-500.0, 500.0);
   int unequal = 0;
-  for (int round = 0; round < 200; ++round) {
+  for (std::size_t round = 0; round < 200; ++round) {
     const double from = end(random), to = end(random);
     INFO("from " << from << " to " << to);
-    const std::size_t finer = 2 + round % 4;
-    const Values coarse = even_steps(from, to, 401), fine = even_steps(from, to, 400 * finer + 1);
+    const std::size_t finer = 1 + round % 4, steps = 400 * 3 * finer;
+    const Values coarse = even_steps(from, to, 401),
+                 fine = even_steps(from, to + 2.0 * (to - from), steps + 1);
     const Numbers found = match_values(fine, coarse).wanted;
     for (std::size_t i = 0; i < found.size(); ++i) {
-      REQUIRE(found[i] == (from < to ? finer * i : finer * (400 - i)));
+      REQUIRE(found[i] == (from < to ? finer * i : steps - finer * i));
       unequal += coarse[i] != fine[finer * i];
     }
-    CHECK(std::ranges::count(match_values(coarse, fine).wanted, none) == 401 + 400 * (finer - 1) - 401);
+    CHECK(std::ranges::count(match_values(coarse, fine).wanted, none) ==
+          static_cast<std::ptrdiff_t>(fine.size() - coarse.size()));
   }
   CHECK(unequal > 1000);  // or nothing was tried
 }
