@@ -19,14 +19,17 @@ double percent(const Tally& tally) {
                            : 100.0 * static_cast<double>(tally.done) / static_cast<double>(tally.points);
 }
 
-// Points per second of this run; nothing before the first point.
+// Points per second that this run computes; nothing before the first one. Those that it finds in an earlier
+// result cost next to nothing, and may come first: they say nothing of the time the others take.
 std::optional<double> rate(const Tally& tally, double seconds) {
-  const std::uint64_t computed = tally.done - tally.resumed;
+  const std::uint64_t found = tally.resumed + tally.reused;
+  const std::uint64_t computed = tally.done > found ? tally.done - found : 0;
   if (computed == 0 || seconds <= 0.0) return std::nullopt;
   return static_cast<double>(computed) / seconds;
 }
 
-// Seconds until all is done at the rate so far; nothing when that is unknown.
+// Seconds until all is done at the rate so far, at most where points are reused; nothing when that is
+// unknown.
 std::optional<double> time_left(const Tally& tally, double seconds) {
   if (tally.done >= tally.points) return 0.0;
   const std::optional<double> speed = rate(tally, seconds);

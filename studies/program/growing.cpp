@@ -19,7 +19,7 @@ bool grows_in_place(const StudyPlan& plan, const std::filesystem::path& from,
 
 std::string advice_about_logs(const engine::ResumeRefused& refused, const StudyPlan& plan,
                               const std::filesystem::path& output) {
-  if (refused.physics_differs()) return "";
+  if (refused.physics_differs() || plan.study.kind != StudyKind::sweep) return "";
   constexpr const char* otherwise = "name another file with -o, or discard what is there with --fresh";
   if (refused.kept() == plan.header_of_logs(""))
     return fmt::format("it was begun without --from: leave that out to go on, {}", otherwise);

@@ -46,6 +46,7 @@ int run_map(const RunCommandOptions& options, StudyFile study, std::ostream& out
   if (summary.outcome == engine::Outcome::stopped) return tell_stopped(summary, run.output);
   if (run.shard.count > 1) return tell_shard(run, summary, out);
 
+  earlier.reset();  // the new file may take its place
   record.threads = summary.threads;
   const engine::StopSignals signals;
   const Assembly assembly =
