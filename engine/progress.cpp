@@ -19,14 +19,17 @@ double percent(const Tally& tally) {
                            : 100.0 * static_cast<double>(tally.done) / static_cast<double>(tally.points);
 }
 
-// Points per second of this run; nothing before the first point.
+// Points per second that this run computes; nothing before the first one. Those that it finds in an earlier
+// result cost next to nothing, and may come first: they say nothing of the time the others take.
 std::optional<double> rate(const Tally& tally, double seconds) {
-  const std::uint64_t computed = tally.done - tally.resumed;
+  const std::uint64_t found = tally.resumed + tally.reused;
+  const std::uint64_t computed = tally.done > found ? tally.done - found : 0;
   if (computed == 0 || seconds <= 0.0) return std::nullopt;
   return static_cast<double>(computed) / seconds;
 }
 
-// Seconds until all is done at the rate so far; nothing when that is unknown.
+// Seconds until all is done at the rate so far, at most where points are reused; nothing when that is
+// unknown.
 std::optional<double> time_left(const Tally& tally, double seconds) {
   if (tally.done >= tally.points) return 0.0;
   const std::optional<double> speed = rate(tally, seconds);
@@ -42,6 +45,7 @@ std::string text(const std::string& stage, const Tally& tally, double seconds) {
   if (const auto speed = rate(tally, seconds)) line += fmt::format("  {:.3g} points/s", *speed);
   const auto left = time_left(tally, seconds);
   if (left && *left > 0.0) line += fmt::format("  {} left", readable_time(*left));
+  if (tally.reused > 0) line += fmt::format("  {} reused", tally.reused);
   if (tally.failed > 0) line += fmt::format("  {} failed", tally.failed);
   return line;
 }
@@ -57,11 +61,11 @@ std::string json(const std::string& stage, const Tally& tally, double seconds, b
     return value ? fmt::format("{:.6g}", *value) : "null";
   };
   return fmt::format(
-      R"({{"event":"{}",{}"points":{},"done":{},"resumed":{},"failed":{},"percent":{:.3f},"seconds":{:.3f},)"
-      R"("points_per_second":{},"seconds_left":{}}})",
+      R"({{"event":"{}",{}"points":{},"done":{},"resumed":{},"reused":{},"failed":{},"percent":{:.3f},)"
+      R"("seconds":{:.3f},"points_per_second":{},"seconds_left":{}}})",
       last ? "end" : "progress", stage.empty() ? "" : fmt::format(R"("stage":"{}",)", stage), tally.points,
-      tally.done, tally.resumed, tally.failed, percent(tally), seconds, number(rate(tally, seconds)),
-      number(time_left(tally, seconds)));
+      tally.done, tally.resumed, tally.reused, tally.failed, percent(tally), seconds,
+      number(rate(tally, seconds)), number(time_left(tally, seconds)));
 }
 
 std::chrono::milliseconds period(ProgressForm form) {

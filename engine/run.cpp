@@ -79,6 +79,7 @@ Tally tally_of(const Tally& found, const TeamWork& work, const std::optional<Dea
   if (dealer) finished += dealer->finished();
   Tally now = found;
   now.done += finished.points;
+  now.reused += finished.reused;
   now.failed += finished.failed;
   return now;
 }

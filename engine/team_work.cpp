@@ -62,6 +62,7 @@ Finished TeamWork::finished() const {
   const double cpu_seconds = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
   return {.tiles = tiles_,
           .points = points_,
+          .reused = job_.reused ? job_.reused() : 0,
           .failed = failed_points_,
           .cpu_milliseconds = static_cast<std::uint64_t>(1e3 * cpu_seconds)};
 }

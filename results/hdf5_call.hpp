@@ -19,6 +19,10 @@ Result checked(Result result, const std::string& where, const std::string& what)
   return result;
 }
 
+// Errors are thrown, not printed. The setting is the calling thread's; a file may be read by another one than
+// that which opened it.
+void do_not_print();
+
 // HDF5's identifier of the type in the file, which is also that of to_storage()'s bytes.
 std::int64_t numeric_type(Type type);
 

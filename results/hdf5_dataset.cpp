@@ -108,6 +108,7 @@ void Dataset::write(std::span<const std::uint64_t> start, std::span<const std::u
 
 std::vector<double> Dataset::read(std::span<const std::uint64_t> start,
                                   std::span<const std::uint64_t> count) const {
+  do_not_print();
   std::vector<double> values(product(count));
   const Selection box = select_box(id(), start, count, where_);
   checked(H5Dread(id(), H5T_NATIVE_DOUBLE, box.memory.get(), box.file.get(), H5P_DEFAULT, values.data()),

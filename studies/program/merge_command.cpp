@@ -10,6 +10,7 @@
 #include "engine/stop_signals.hpp"
 #include "engine/tile_index.hpp"
 #include "studies/map/assemble.hpp"
+#include "studies/map/fingerprint.hpp"
 #include "studies/map/finished_file.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/map_table.hpp"
@@ -66,10 +67,23 @@ void remove_notes(const MergeOptions& options, const std::vector<std::filesystem
   for (const auto& place : places_of_note(options, logs)) remove_study_notes(place);
 }
 
+// The result from which missing points are still to be taken must not be replaced by a part.
+void refuse_loss_of_source(const MergeOptions& options, const StudyPlan& plan) {
+  if (!options.partial || !plan.grown_from || !std::filesystem::exists(options.output)) return;
+  const results::MapReader there(options.output);
+  if (identity_of(there.texts("provenance")) != plan.grown_from->identity) return;
+  throw engine::IoError(
+      options.output, fmt::format("the missing points are to be taken from it, and a part would replace it: "
+                                  "frahm merge ANOTHER.h5 {}.*.frahm-log --partial",
+                                  options.output.string()));
+}
+
 int merge_map(const MergeOptions& options, const std::vector<std::filesystem::path>& logs,
               const engine::LogHeader& header, NotedStudy noted, std::ostream& out) {
-  const MapPlan plan = plan_map(std::move(noted.study), noted.set);
+  MapPlan plan = plan_map(std::move(noted.study), noted.set);
+  plan.grown_from = noted.grown_from;
   check_note_gives(plan, noted, header);
+  refuse_loss_of_source(options, plan);
   const engine::StopSignals signals;
   const Assembly assembly = assemble(plan, record_of(options), assembly_of(options, logs, signals));
   if (!assembly.finished) return tell_stopped(options);

@@ -55,6 +55,7 @@ Examples:
   frahm run rig_atlas.toml --set "K=8200 N/m" -o stiffer.h5
   frahm run rig_atlas.toml --time-budget 50m  stops in time; the same command goes on
   mpirun -np 16 frahm run rig_atlas.toml      on the ranks of an MPI job
+  frahm run rig_atlas.toml --from rig_atlas.h5    after axes have grown: computes the new points only
   frahm run rig_decay_main.toml               one motion: a free decay, or a transient
   frahm run tune_classical.toml               a tuning: an optimum from each of its starts
   frahm run identify_rig_tmd.toml             an identification: a model from measurements
@@ -140,6 +141,9 @@ void add_run(CLI::App& program, RunTexts& texts, Action& action) {
   run->add_option(
       "--shard", shard,
       "i/n: compute every n-th tile from i on, i from 0; in an array task of Slurm its own share");
+  run->add_option(
+      "--from", options.from,
+      "result of the same system on another grid: its points are taken over, the others computed");
   run->add_flag("--fresh", options.run.fresh, "discard what earlier runs have left");
   run->add_option("--time-budget", budget, "stop after 90s, 50m, 2h or 1d");
   add_set(*run, options.set);
@@ -284,8 +288,11 @@ Ending carry_out(const Action& action, std::ostream& out) {
   } catch (const StudyError& error) {
     return {exit_code::wrong_input, error.what()};
   } catch (const engine::ResumeRefused& error) {
-    return {exit_code::resume_refused,
-            std::string(error.what()) + "\nname another file with -o, or discard what is there with --fresh"};
+    const std::string advice = error.advice().empty()
+                                   ? "it is not replaced unasked: name another file with -o, or discard what "
+                                     "is there with --fresh"
+                                   : error.advice();
+    return {exit_code::resume_refused, fmt::format("{}\n{}", error.what(), advice)};
   } catch (const engine::RankFailed& error) {
     return {error.code(), error.what()};
   } catch (const engine::IoError& error) {
