@@ -11,7 +11,7 @@
 
 #include "engine/dealer.hpp"
 #include "engine/shard_log.hpp"
-#include "engine/stop_signals.hpp"
+#include "engine/stop_request.hpp"
 #include "engine/team.hpp"
 #include "engine/team_work.hpp"
 #include "engine/watch.hpp"
@@ -100,26 +100,6 @@ class Attendance {
   std::optional<Watch> watch_;
 };
 
-// What may end a run before its work is done: a signal, or the time budget, which begins with it.
-class StopRequest {
- public:
-  explicit StopRequest(const RunOptions& options) : budget_(options.time_budget) {}
-
-  bool asked() const { return signals_.received() != 0 || (budget_ && elapsed() >= budget_->count()); }
-  double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }  // [s]
-  // Why the run was stopped. elsewhere: the reason of another rank; empty if it had none.
-  std::string reason(const std::string& elsewhere) const {
-    if (signals_.received() != 0) return "stopped by " + signal_name(signals_.received());
-    if (!elsewhere.empty()) return elsewhere;
-    return fmt::format("the time budget of {} s is used up", budget_->count());
-  }
-
- private:
-  Clock::time_point start_ = Clock::now();
-  std::optional<std::chrono::duration<double>> budget_;
-  StopSignals signals_;
-};
-
 // Alone, a process has all tiles in its queue at once. Among ranks they are dealt out.
 std::optional<Dealer> supply(const RunOptions& options, const LogHeader& study, int threads,
                              const std::vector<std::uint64_t>& tiles, TileQueue& queue) {
@@ -146,7 +126,7 @@ void count(const TeamWork& work, const std::optional<Dealer>& dealer, int thread
 
 Summary run(const Job& job, const RunOptions& options) {
   check(options);
-  const StopRequest stop(options);
+  const StopRequest stop(options.time_budget);
   const LogHeader study{.fingerprint = job.fingerprint, .tiles = job.tiles};
   if (options.fresh) discard_logs(options, study);
   ShardLog log(own_log(options), study);
@@ -175,10 +155,11 @@ Summary run(const Job& job, const RunOptions& options) {
   if (dealer) dealer->rethrow_failure();
 
   count(work, dealer, threads, options.ranks, summary);
-  summary.seconds = stop.elapsed();
+  summary.seconds = stop.elapsed().count();
   const bool all = summary.tiles_computed == tiles.size();
   summary.outcome = all ? Outcome::complete : Outcome::stopped;
-  summary.reason = all ? "every tile is finished" : stop.reason(dealer ? dealer->stop_reason() : "");
+  summary.reason = all ? "every tile is finished" : stop.reason();
+  if (summary.reason.empty()) summary.reason = dealer->stop_reason();  // another rank asked
   return summary;
 }
 

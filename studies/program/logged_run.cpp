@@ -73,6 +73,12 @@ int tell_stopped(const engine::Summary& summary, const std::filesystem::path& ou
   return exit_code::stopped;
 }
 
+int tell_unwritten(const engine::StopRequest& stop, const std::filesystem::path& output) {
+  fmt::print(std::cerr, "{}: all is computed and kept beside {}; the same command writes the file\n",
+             stop.reason(), output.string());
+  return exit_code::stopped;
+}
+
 int tell_shard(const engine::RunOptions& run, const engine::Summary& summary, std::ostream& out) {
   fmt::print(out, "shard {}/{}: {} tiles are kept beside {}\nwhen all shards are done: frahm merge {}\n",
              run.shard.index, run.shard.count, summary.tiles, run.output.string(), run.output.string());

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "engine/io_error.hpp"
-#include "engine/stop_signals.hpp"
+#include "engine/stop_request.hpp"
 #include "engine/tile_index.hpp"
 #include "studies/map/assemble.hpp"
 #include "studies/map/fingerprint.hpp"
@@ -49,17 +49,18 @@ RunRecord record_of(const MergeOptions& options) {
 }
 
 AssemblyOptions assembly_of(const MergeOptions& options, const std::vector<std::filesystem::path>& logs,
-                            const engine::StopSignals& signals) {
+                            const engine::StopRequest& stop) {
   return {.output = options.output,
           .logs = logs,
           .partial = options.partial,
           .threads = options.threads,
           .progress = options.progress,
-          .stop_asked = [&signals] { return signals.received() != 0; }};
+          .stop_asked = [&stop] { return stop.asked(); }};
 }
 
-int tell_stopped(const MergeOptions& options) {
-  fmt::print(std::cerr, "stopped; the shard logs are kept and {} is as it was\n", options.output.string());
+int tell_stopped(const MergeOptions& options, const engine::StopRequest& stop) {
+  fmt::print(std::cerr, "{}; the shard logs are kept and {} is as it was\n", stop.reason(),
+             options.output.string());
   return exit_code::stopped;
 }
 
@@ -84,9 +85,9 @@ int merge_map(const MergeOptions& options, const std::vector<std::filesystem::pa
   plan.grown_from = noted.grown_from;
   check_note_gives(plan, noted, header);
   refuse_loss_of_source(options, plan);
-  const engine::StopSignals signals;
-  const Assembly assembly = assemble(plan, record_of(options), assembly_of(options, logs, signals));
-  if (!assembly.finished) return tell_stopped(options);
+  const engine::StopRequest stop(std::nullopt);
+  const Assembly assembly = assemble(plan, record_of(options), assembly_of(options, logs, stop));
+  if (!assembly.finished) return tell_stopped(options, stop);
   if (assembly.missing_tiles == 0) {
     remove_notes(options, logs);
   } else {
@@ -100,9 +101,9 @@ int merge_tuning(const MergeOptions& options, const std::vector<std::filesystem:
                  const engine::LogHeader& header, NotedStudy noted, std::ostream& out) {
   const StudyPlan plan = plan_tuning(std::move(noted.study), noted.set);
   check_note_gives(plan, noted, header);
-  const engine::StopSignals signals;
-  const auto result = assemble_tuning(plan, record_of(options), assembly_of(options, logs, signals));
-  if (!result) return tell_stopped(options);
+  const engine::StopRequest stop(std::nullopt);
+  const auto result = assemble_tuning(plan, record_of(options), assembly_of(options, logs, stop));
+  if (!result) return tell_stopped(options, stop);
   const std::uint64_t missing = plan.tiles - result->starts.size();
   if (missing == 0) {
     remove_notes(options, logs);

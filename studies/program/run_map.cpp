@@ -6,7 +6,6 @@
 #include <ctime>
 #include <optional>
 
-#include "engine/stop_signals.hpp"
 #include "engine/tile_index.hpp"
 #include "studies/map/assemble.hpp"
 #include "studies/map/finished_file.hpp"
@@ -49,14 +48,14 @@ int run_map(const RunCommandOptions& options, StudyFile study, std::ostream& out
   earlier.reset();  // the new file may take its place
   record.threads = summary.threads;
   record.ranks = summary.ranks;
-  const engine::StopSignals signals;
+  const engine::StopRequest stop(run.time_budget, engine::StopRequest::Seconds(summary.seconds));
   const Assembly assembly = assemble(plan, record,
                                      {.output = run.output,
                                       .logs = engine::find_logs(run.output),
                                       .threads = summary.threads_here,
                                       .progress = run.progress,
-                                      .stop_asked = [&] { return signals.received() != 0; }});
-  if (!assembly.finished) return tell_stopped(summary, run.output);
+                                      .stop_asked = [&] { return stop.asked(); }});
+  if (!assembly.finished) return tell_unwritten(stop, run.output);
   remove_study_notes(run.output);
   const Effort effort{.points = summary.points.done - summary.points.resumed - summary.points.reused,
                       .reused = summary.points.reused,
