@@ -140,11 +140,14 @@ TEST_CASE("shards are kept apart, merged when all are there, and give what one r
   CHECK(run(study, parts, {"--shard", "0/3"}).code == 0);
   CHECK(run(study, parts, {"--shard", "2/3"}).code == 0);
   CHECK_FALSE(std::filesystem::exists(parts));
-  CHECK_THAT(frahm({"status", parts}).out, Catch::Contains("unfinished") && Catch::Contains("missing"));
+  const auto status = frahm({"status", parts});
+  CHECK_THAT(status.out, Catch::Contains("unfinished") && Catch::Contains("of 3030 done") &&
+                             Catch::Contains("at work                nobody\n") &&
+                             Catch::Contains("missing tasks          1 of 3: --array=1\n"));
 
   const auto early = frahm({"merge", parts});
   CHECK(early.code == 6);
-  CHECK_THAT(early.err, Catch::Contains("tiles are in no shard log yet"));
+  CHECK_THAT(early.err, Catch::Contains("tiles are in no shard log yet") && Catch::Contains("--array=1"));
   CHECK(frahm({"merge", parts, "--partial"}).code == 0);
   CHECK(runs::read_map(parts)["status"] != runs::read_map(folder / "one.h5")["status"]);
 
@@ -159,6 +162,53 @@ TEST_CASE("shards are kept apart, merged when all are there, and give what one r
   CHECK(one["main_peak"] == merged["main_peak"]);
   CHECK(one["status"] == merged["status"]);
   CHECK(folder.names() == Names{"one.h5", "parts.h5", "small.toml"});
+}
+
+TEST_CASE("a second merge says that all is done, and removes what a killed one has left") {
+  const Folder folder;
+  const std::string study =
+      folder.write("small.toml", oscillator() + axis("f", 0, 1, 30) + axis("r", 0.2, 2, 101));
+  const std::string parts = folder / "parts.h5";
+  const std::string left = parts + ".shard-1-of-2.frahm-log", kept = folder / "kept";
+  CHECK(run(study, parts, {"--shard", "0/2"}).code == 0);
+  CHECK(run(study, parts, {"--shard", "1/2"}).code == 0);
+  std::filesystem::copy_file(left, kept);
+  CHECK(frahm({"merge", parts}).code == 0);
+  const std::string bytes = text_of(parts);
+  const auto again = frahm({"merge", parts});
+  CHECK(again.code == 0);
+  CHECK_THAT(again.out, Catch::Contains("parts.h5 is finished already, nothing is left to merge"));
+  CHECK(frahm({"merge", parts, left}).code == 0);  // named, as the first time
+  std::filesystem::copy_file(kept, left);
+  CHECK(frahm({"merge", parts}).code == 0);
+  CHECK(text_of(parts) == bytes);
+  CHECK(folder.names() == Names{"kept", "parts.h5", "small.toml"});
+  CHECK(frahm({"merge", folder / "none.h5"}).code == 6);
+}
+
+TEST_CASE("status tells the tasks of every number of shards, and tiles where the study's note is gone") {
+  const Folder folder;
+  const std::string study =
+      folder.write("small.toml", oscillator() + axis("f", 0, 1, 30) + axis("r", 0.2, 2, 101));
+  const std::string parts = folder / "parts.h5";
+  CHECK(run(study, parts, {"--shard", "0/2"}).code == 0);
+  CHECK(run(study, parts, {"--shard", "1/4"}).code == 0);
+  const auto two = frahm({"status", parts});
+  CHECK_THAT(two.out, Catch::Contains("missing tasks          1 of 2: --array=1\n") &&
+                          Catch::Contains("missing tasks          1 of 4: --array=3\n") &&
+                          Catch::Contains("any one of these arrays completes the rest"));
+  for (const std::string& name : folder.names()) {
+    if (name.ends_with(".frahm-study")) std::filesystem::remove(folder / name);
+  }
+  const auto without = frahm({"status", parts});
+  CHECK(without.code == 0);
+  CHECK_THAT(without.out, Catch::Contains("points                 unknown: ") && Catch::Contains("tiles ") &&
+                              Catch::Contains("--array=3"));
+  folder.write("parts.h5.shard-2-of-4.frahm-log", std::string(300, 'x'));
+  const auto damaged = frahm({"status", parts});
+  CHECK(damaged.code == 6);
+  CHECK_THAT(damaged.out, Catch::Contains("--array=3") && Catch::Contains("unreadable log") &&
+                              Catch::Contains("not a shard log"));
 }
 
 TEST_CASE(

@@ -66,9 +66,9 @@ def _free_ports(count):
     return ports
 
 
-def _die_with_parent():
+def _die_with_parent(how=signal.SIGKILL):
     pr_set_pdeathsig = 1
-    ctypes.CDLL(None).prctl(pr_set_pdeathsig, signal.SIGKILL, 0, 0, 0)
+    ctypes.CDLL(None).prctl(pr_set_pdeathsig, how, 0, 0, 0)
 
 
 def _stat(pid):
@@ -135,6 +135,7 @@ def with_init(work):
     ctypes.CDLL(None).prctl(pr_set_child_subreaper, 1, 0, 0, 0)
     child = os.fork()
     if child == 0:
+        _die_with_parent(signal.SIGTERM)
         sys.exit(work())
     for number in signal.SIGTERM, signal.SIGHUP, signal.SIGINT:
         signal.signal(number, lambda number, _: os.kill(child, signal.SIGTERM))

@@ -1,4 +1,4 @@
-"""Runs the job scripts of studies/slurm on a real Slurm, with everything that befalls jobs on a cluster: requeued by
+"""Runs the job scripts of studies/slurm on a real Slurm, with what befalls jobs on a cluster: requeued by
 hand, stopped by the time limit, their node killed. The result has the bytes of one plain run.
 
 usage: drill.py FRAHM SOURCE_DIR
@@ -18,7 +18,8 @@ from cluster import Cluster, NotAvailable, wait_until, with_init
 NOT_AVAILABLE = 77
 MOST_SECONDS = 420  # of the whole drill; two minutes on two idle cores
 TASKS = 6  # two on each of three nodes, so that all run at once
-FRICTIONS = 100  # values of the atlas' second axis instead of 31: some seconds for each task
+# Values of the atlas' second axis instead of 31, so that each task takes some ten seconds.
+FRICTIONS = 50 * min(len(os.sched_getaffinity(0)), TASKS)
 NOTICE = 4.0  # seconds between the submission and slurmctld's look at the time limits
 
 
@@ -27,9 +28,9 @@ class Drill:
         self.program, self.folder, self.cluster = program, folder, cluster
         self.scripts = os.path.join(source, "studies", "slurm")
         cluster.environment["PATH"] = os.path.dirname(program) + ":" + cluster.environment["PATH"]
-        # Open MPI as root, between nodes that are one machine.
+        # Open MPI as root, and between nodes that are one machine, whose shared memory it must not use.
         cluster.environment.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
-                                   OMPI_MCA_rmaps_base_oversubscribe="1")
+                                   OMPI_MCA_btl="tcp,self", OMPI_MCA_btl_tcp_if_include="lo", OMPI_MCA_pml="ob1")
         os.chdir(folder)
 
     def submit(self, *words):
@@ -97,9 +98,9 @@ def check_array(drill):
 
 
 def check_mpi(drill):
-    """The MPI job: stopped by a signal that the script hands on to the ranks, then requeued by hand."""
+    """The MPI job on two nodes: stopped by a signal that the script hands on to the ranks, then requeued by hand."""
     cluster = drill.cluster
-    job = drill.submit("--nodes=1", "--ntasks=2", "--time=10", "mpi.sh", "study.toml", "mpi.h5")
+    job = drill.submit("--nodes=2", "--ntasks=4", "--time=10", "mpi.sh", "study.toml", "mpi.h5")
     running = lambda: subprocess.run(["frahm", "status", "mpi.h5"], env=cluster.environment, capture_output=True, text=True,
                                      timeout=20).stdout
     wait_until("the ranks are at work", 30, lambda: "a run of the whole" in running())
