@@ -194,9 +194,13 @@ TEST_CASE("failed points are counted, and the first thousand told in the order o
   }
 }
 
-TEST_CASE("an assembly asked to stop, at its chunks or at what is solved after them, leaves all as it was") {
+TEST_CASE(
+    "an assembly asked to stop, at its logs, its chunks or what is solved after them, leaves all as it was") {
   const MapPlan plan = plan_of(with_resonances);
-  for (const std::uint64_t looks : {0, 1, 3, 20}) {
+  REQUIRE(plan.grid.chunks() == 1);
+  // At the first log, in the middle of it, at the chunk, the orbits, the resonances.
+  const std::uint64_t read = plan.tiles;
+  for (const std::uint64_t looks : {std::uint64_t{0}, read / 2, read, read + 1, read + 20}) {
     const TemporaryFolder folder;
     write_logs(plan, folder / "map.h5", all_tiles);
     const auto before = names_in(folder / "");
