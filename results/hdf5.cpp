@@ -44,7 +44,7 @@ Handle file_access(const std::string& path) {
   // then, and after a full disk HDF5's own attempt ends in a segmentation fault. (Called again, it does
   // nothing.)
   H5dont_atexit();
-  do_not_print();
+  print_no_errors();
   Handle access(checked(H5Pcreate(H5P_FILE_ACCESS), path, "cannot open"));
   // V18 stores texts above 64 KiB as attributes; nothing newer than 1.10 is needed to read the file.
   checked(H5Pset_libver_bounds(access.get(), H5F_LIBVER_V18, H5F_LIBVER_V110), path,
@@ -91,12 +91,12 @@ std::optional<std::string> text_of(hid_t attribute, const std::string& where) {
 
 }  // namespace
 
-void fail(const std::string& where, const std::string& what) {
-  throw StoreError(where, what, deepest_error());
+void print_no_errors() {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-void do_not_print() {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+void fail(const std::string& where, const std::string& what) {
+  throw StoreError(where, what, deepest_error());
 }
 
 std::int64_t numeric_type(Type type) {

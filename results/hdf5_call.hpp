@@ -19,9 +19,9 @@ Result checked(Result result, const std::string& where, const std::string& what)
   return result;
 }
 
-// Errors are thrown, not printed. The setting is the calling thread's; a file may be read by another one than
-// that which opened it.
-void do_not_print();
+// Keeps HDF5 from printing errors, which are thrown. The setting is the calling thread's: whatever may be the
+// first call in a thread comes after it.
+void print_no_errors();
 
 // HDF5's identifier of the type in the file, which is also that of to_storage()'s bytes.
 std::int64_t numeric_type(Type type);

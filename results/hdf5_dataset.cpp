@@ -100,6 +100,7 @@ Shape Dataset::chunk() const {
 
 void Dataset::write(std::span<const std::uint64_t> start, std::span<const std::uint64_t> count,
                     std::span<const std::byte> elements) {
+  print_no_errors();
   const Selection box = select_box(id(), start, count, where_);
   checked(
       H5Dwrite(id(), numeric_type(type()), box.memory.get(), box.file.get(), H5P_DEFAULT, elements.data()),
@@ -108,7 +109,7 @@ void Dataset::write(std::span<const std::uint64_t> start, std::span<const std::u
 
 std::vector<double> Dataset::read(std::span<const std::uint64_t> start,
                                   std::span<const std::uint64_t> count) const {
-  do_not_print();
+  print_no_errors();
   std::vector<double> values(product(count));
   const Selection box = select_box(id(), start, count, where_);
   checked(H5Dread(id(), H5T_NATIVE_DOUBLE, box.memory.get(), box.file.get(), H5P_DEFAULT, values.data()),
@@ -117,6 +118,7 @@ std::vector<double> Dataset::read(std::span<const std::uint64_t> start,
 }
 
 void Dataset::write_chunk(std::span<const std::uint64_t> start, std::span<const std::byte> encoded) {
+  print_no_errors();
   constexpr std::uint32_t every_filter_applied = 0;
   checked(
       H5Dwrite_chunk(id(), H5P_DEFAULT, every_filter_applied, sizes(start), encoded.size(), encoded.data()),
@@ -124,6 +126,7 @@ void Dataset::write_chunk(std::span<const std::uint64_t> start, std::span<const 
 }
 
 void Dataset::grow(std::uint64_t size) {
+  print_no_errors();
   Shape grown = shape();
   grown.front() = size;
   checked(H5Dset_extent(id(), sizes(grown)), where_, "cannot grow");

@@ -22,7 +22,8 @@ namespace frahm::results {
 // that order only. Nothing of them is kept in memory.
 //
 // Errors: StoreError where the file cannot be written; std::invalid_argument, naming the thing, its value and
-// the rule, for what must not be in it. Not thread-safe.
+// the rule, for what must not be in it. Not thread-safe, but write_chunk() and append_ragged() may be called
+// from one thread after the other.
 class MapWriter {
  public:
   MapWriter(const std::filesystem::path& path, const MapLayout& layout);

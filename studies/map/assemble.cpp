@@ -129,6 +129,16 @@ Failures write_map(const MapPlan& plan, const results::MapLayout& layout, const 
   return failures;
 }
 
+// Where the finished tiles lie: each record of each log is read and checked.
+engine::TileIndex read_logs(const MapPlan& plan, const AssemblyOptions& options) {
+  StageProgress progress("reading", plan.grid.points(), options.progress);
+  return engine::index_tiles(options.logs, plan.log_header(),
+                             [&](std::uint64_t tile, std::span<const std::byte>) {
+                               if (options.stop_asked()) throw AssemblyStopped{};
+                               progress.add(plan.grid.box(tile).points());
+                             });
+}
+
 void refuse_gaps(const AssemblyOptions& options, const std::vector<std::uint64_t>& missing,
                  std::uint64_t tiles) {
   if (missing.empty() || options.partial) return;
@@ -138,31 +148,36 @@ void refuse_gaps(const AssemblyOptions& options, const std::vector<std::uint64_t
                   tiles, missing.front(), missing_tasks_text(options.logs, missing)));
 }
 
+// Makes the file, whole and at its place.
+Assembly make_file(const MapPlan& plan, const RunRecord& run, const AssemblyOptions& options) {
+  const engine::TileIndex index = read_logs(plan, options);
+  const auto missing = engine::missing_tiles(index);
+  refuse_gaps(options, missing, index.places.size());
+  const results::MapLayout layout = map_layout(plan, run);
+  results::MapWriter writer(options.output, layout);
+  const Failures failures = write_map(plan, layout, index, options, writer);
+  write_orbits(plan, options, writer);
+  write_resonances(plan, options, writer);
+  writer.write_texts("provenance", provenance(plan, run, failures.texts(plan.study), missing.size()));
+  writer.finish();
+  return {.finished = true,
+          .tiles = index.places.size(),
+          .missing_tiles = missing.size(),
+          .missing_tasks = missing.empty() ? "" : missing_tasks_text(options.logs, missing),
+          .failed_points = failures.number()};
+}
+
 }  // namespace
 
 Assembly assemble(const MapPlan& plan, const RunRecord& run, const AssemblyOptions& options) {
   const engine::AssemblyLock lock(options.output);
-  const engine::TileIndex index =
-      engine::index_tiles(options.logs, plan.log_header(), [](std::uint64_t, std::span<const std::byte>) {});
-  const auto missing = engine::missing_tiles(index);
-  Assembly assembly{.finished = false, .tiles = index.places.size(), .missing_tiles = missing.size()};
-  if (!missing.empty()) assembly.missing_tasks = missing_tasks_text(options.logs, missing);
-  refuse_gaps(options, missing, assembly.tiles);
   try {
-    const results::MapLayout layout = map_layout(plan, run);
-    results::MapWriter writer(options.output, layout);
-    const Failures failures = write_map(plan, layout, index, options, writer);
-    write_orbits(plan, options, writer);
-    write_resonances(plan, options, writer);
-    writer.write_texts("provenance", provenance(plan, run, failures.texts(plan.study), missing.size()));
-    writer.finish();
-    assembly.finished = true;
-    assembly.failed_points = failures.number();
-  } catch (const AssemblyStopped&) {
+    const Assembly assembly = make_file(plan, run, options);
+    if (assembly.missing_tiles == 0) engine::remove_logs(options.logs);
     return assembly;
+  } catch (const AssemblyStopped&) {
+    return {};
   }
-  if (missing.empty()) engine::remove_logs(options.logs);
-  return assembly;
 }
 
 }  // namespace frahm::studies

@@ -1,52 +1,43 @@
 #include "studies/map/assembly_stage.hpp"
 
-#include <atomic>
-#include <chrono>
-#include <exception>
 #include <iostream>
-#include <utility>
-
-#include "engine/watch.hpp"
 
 namespace frahm::studies {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 // The work of the stage; a piece counts as done when it has had its turn.
-engine::PieceWork counted(const AssemblyStage& stage, std::atomic<std::uint64_t>& done) {
-  return [work = stage.make_work(), &stage, &done](std::uint64_t piece) {
-    return [turn = work(piece), piece, &stage, &done] {
+engine::PieceWork counted(const AssemblyStage& stage, StageProgress& progress) {
+  return [work = stage.make_work(), &stage, &progress](std::uint64_t piece) {
+    return [turn = work(piece), piece, &stage, &progress] {
       turn();
-      done += stage.points_of(piece);
+      progress.add(stage.points_of(piece));
     };
   };
 }
 
 }  // namespace
 
-void carry_out(const AssemblyStage& stage, const AssemblyOptions& options) {
+StageProgress::StageProgress(const std::string& name, std::uint64_t points, engine::ProgressStyle style)
+    : points_(points),
+      progress_(engine::progress_form(style), std::cerr, engine::Progress::Clock::now, name),
+      watch_(std::chrono::milliseconds(100), [this] { look(); }) {}
+
+StageProgress::~StageProgress() {
+  watch_.end();
+  if (shown_) progress_.finish(tally());
+}
+
+void StageProgress::look() {
   constexpr std::chrono::seconds silence(1);
-  std::atomic<std::uint64_t> done = 0;
-  const auto tally = [&] { return engine::Tally{.points = stage.points, .done = done}; };
-  engine::Progress progress(engine::progress_form(options.progress), std::cerr, Clock::now, stage.name);
-  bool shown = false;
-  engine::Watch watch(std::chrono::milliseconds(100), [&, start = Clock::now()] {
-    if (Clock::now() - start < silence) return;
-    progress.update(tally());
-    shown = true;
-  });
-  bool all = false;
-  std::exception_ptr error;
-  try {
-    all = engine::make_in_order(
-        options.threads, stage.pieces, [&] { return counted(stage, done); }, options.stop_asked);
-  } catch (...) {  // thrown on when the progress has ended its line
-    error = std::current_exception();
-  }
-  watch.end();
-  if (shown) progress.finish(tally());
-  if (error) std::rethrow_exception(error);
+  if (std::chrono::steady_clock::now() - start_ < silence) return;
+  progress_.update(tally());
+  shown_ = true;
+}
+
+void carry_out(const AssemblyStage& stage, const AssemblyOptions& options) {
+  StageProgress progress(stage.name, stage.points, options.progress);
+  const bool all = engine::make_in_order(
+      options.threads, stage.pieces, [&] { return counted(stage, progress); }, options.stop_asked);
   if (!all) throw AssemblyStopped{};
 }
 

@@ -1,13 +1,41 @@
 #pragma once
 
+#include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <string>
 
 #include "engine/in_order.hpp"
+#include "engine/progress.hpp"
+#include "engine/watch.hpp"
 #include "studies/map/assembly_options.hpp"
 
 namespace frahm::studies {
+
+// The progress of a part of an assembly, on stderr if it takes longer than a second. Ends its line when it is
+// destroyed.
+class StageProgress {
+ public:
+  // name: "writing".  points: to do in all.
+  StageProgress(const std::string& name, std::uint64_t points, engine::ProgressStyle style);
+  ~StageProgress();
+  StageProgress(const StageProgress&) = delete;
+  StageProgress& operator=(const StageProgress&) = delete;
+
+  void add(std::uint64_t points) { done_ += points; }  // from any thread
+
+ private:
+  engine::Tally tally() const { return {.points = points_, .done = done_}; }
+  void look();
+
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::uint64_t points_;
+  std::atomic<std::uint64_t> done_ = 0;
+  engine::Progress progress_;
+  bool shown_ = false;
+  engine::Watch watch_;  // last: it uses all of the above
+};
 
 // A part of an assembly: pieces made by a team of threads, and used in their order.
 struct AssemblyStage {
@@ -20,7 +48,7 @@ struct AssemblyStage {
 // An assembly was asked to stop.
 struct AssemblyStopped {};
 
-// Carries a stage out, with progress on stderr if it takes longer than a second. Throws AssemblyStopped, and
+// Carries a stage out, with its progress. Throws AssemblyStopped, and
 // what the work throws.
 void carry_out(const AssemblyStage& stage, const AssemblyOptions& options);
 

@@ -16,6 +16,9 @@
 namespace frahm::studies {
 namespace {
 
+constexpr double rounding = 1e-12;      // a component that is so small a part of the motion is none
+constexpr double least_motion = 1e-30;  // [m, or without dimension] what rounding leaves a stuck mass: 1e-47
+
 // Response curves of some masses along the frequency axis, the other parameters held: amplitudes at the
 // reference order over the axis's parameter.
 class ResponseCurves {
@@ -72,8 +75,8 @@ class ResponseCurves {
     std::vector<double> found(2 * amplitudes.size());
     response_.quantities(found);
     for (std::size_t i = 0; i < amplitudes.size(); ++i) {
-      // A component that is rounding of the motion is none.
-      amplitudes[i] = found[2 * i] <= 1e-12 * found[2 * i + 1] ? 0.0 : found[2 * i];
+      const double amplitude = found[2 * i], motion = found[2 * i + 1];
+      amplitudes[i] = amplitude <= rounding * motion || motion < least_motion ? 0.0 : amplitude;
     }
     return amplitudes;
   }

@@ -1,3 +1,4 @@
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <array>
@@ -6,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <random>
+#include <thread>
 
 #include "results/hdf5.hpp"
 #include "results/map_reader.hpp"
@@ -35,6 +37,25 @@ std::string refusal(const std::function<void()>& act) {
   }
   return "";
 }
+
+// As long as it lives, what the process prints on stderr goes to a file.
+class StderrInFile {
+ public:
+  explicit StderrInFile(const std::filesystem::path& path) : before_(::dup(STDERR_FILENO)) {
+    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    ::dup2(file, STDERR_FILENO);
+    ::close(file);
+  }
+  StderrInFile(const StderrInFile&) = delete;
+  StderrInFile& operator=(const StderrInFile&) = delete;
+  ~StderrInFile() {
+    ::dup2(before_, STDERR_FILENO);
+    ::close(before_);
+  }
+
+ private:
+  int before_;
+};
 
 // The refusal of the sample's layout after a change.
 std::string refusal_of(const std::function<void(MapLayout&)>& change) {
@@ -256,6 +277,21 @@ TEST_CASE("reading what is not there is refused") {
   CHECK_THAT(refusal([&] { reader.read(5, origin, one); }), Contains("variable 5"));
   CHECK_THAT(refusal([&] { reader.columns("decay"); }),
              Contains("map.h5:/decay") && Contains("cannot open the group"));
+}
+
+TEST_CASE(
+    "a write that fails in a thread that did not open the file is thrown there, and HDF5 prints nothing") {
+  const TemporaryDirectory directory;
+  sample::write(directory / "map.h5");
+  hdf5::File to_read = hdf5::File::open(directory / "map.h5");
+  hdf5::Dataset peak = to_read.root().dataset("main_peak");
+  const StderrInFile printed(directory / "stderr");
+  std::string chunk_refusal, growth_refusal;
+  std::jthread([&] { chunk_refusal = refusal([&] { peak.write_chunk(Shape{0, 0}, Bytes(10)); }); }).join();
+  std::jthread([&] { growth_refusal = refusal([&] { peak.grow(6); }); }).join();
+  CHECK_THAT(chunk_refusal, Contains("map.h5:/main_peak: cannot write a chunk"));
+  CHECK_THAT(growth_refusal, Contains("map.h5:/main_peak: cannot grow"));
+  CHECK(std::filesystem::file_size(directory / "stderr") == 0);
 }
 
 TEST_CASE("a damaged chunk is an error, not a wrong number") {

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <chrono>
+#include <cmath>
 #include <iostream>
 #include <sstream>
 #include <thread>
@@ -194,9 +195,13 @@ TEST_CASE("failed points are counted, and the first thousand told in the order o
   }
 }
 
-TEST_CASE("an assembly asked to stop, at its chunks or at what is solved after them, leaves all as it was") {
+TEST_CASE(
+    "an assembly asked to stop, at its logs, its chunks or what is solved after them, leaves all as it was") {
   const MapPlan plan = plan_of(with_resonances);
-  for (const std::uint64_t looks : {0, 1, 3, 20}) {
+  REQUIRE(plan.grid.chunks() == 1);
+  // At the first log, in the middle of it, at the chunk, the orbits, the resonances.
+  const std::uint64_t read = plan.tiles;
+  for (const std::uint64_t looks : {std::uint64_t{0}, read / 2, read, read + 1, read + 20}) {
     const TemporaryFolder folder;
     write_logs(plan, folder / "map.h5", all_tiles);
     const auto before = names_in(folder / "");
@@ -243,6 +248,22 @@ TEST_CASE("resonances and kept orbits are the same on any number of threads") {
     if (first.empty()) first = found;
     CHECK(found == first);
   }
+}
+
+TEST_CASE("a mass that sticks has no resonance, though rounding moves it") {
+  std::string text = oscillator() + small_studies::axis_of("f", "[0.2, 1.11864406779661]") +
+                     axis("r", 0.1, 2.5, 481) + quantities + "resonances = [\"main\"]\n";
+  const std::string damping = "zeta = 0.05";
+  text.replace(text.find(damping), damping.size(), "zeta = 0.1650485436893204");
+  const MapPlan plan = plan_map(parse_study(text, "small.toml"), {});
+  const TemporaryFolder folder;
+  write_logs(plan, folder / "map.h5", all_tiles);
+  REQUIRE(assembled(plan, options_of(folder / "map.h5", 2)).finished);
+  const auto columns = results::MapReader(folder / "map.h5").columns("resonance");
+  REQUIRE(columns.at(1).variable.name == "main_resonance_frequency");
+  CHECK_THAT(columns[1].values.at(0), Catch::WithinAbs(1.0, 0.1));
+  CHECK(std::isnan(columns[1].values.at(1)));
+  CHECK(std::isnan(columns.at(2).values.at(1)));
 }
 
 // What a stage of pieces that take so long says on stderr.
