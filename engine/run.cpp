@@ -1,7 +1,6 @@
 #include "engine/run.hpp"
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <atomic>
@@ -108,11 +107,6 @@ void compute_tiles(Work& work, const StopAsked& give_up) {
   }
 }
 
-int team_size(const RunOptions& options, std::size_t tiles) {
-  const int wanted = options.threads > 0 ? options.threads : omp_get_num_procs();
-  return static_cast<int>(std::min(static_cast<std::size_t>(wanted), std::max<std::size_t>(tiles, 1)));
-}
-
 // Draws the progress at each call, and once a second brings what is finished to the disk.
 std::function<void()> keep_up(Progress& progress, ShardLog& log, std::function<Tally()> tally) {
   return [&progress, &log, tally = std::move(tally), last_sync = Clock::now()]() mutable {
@@ -156,7 +150,7 @@ Summary run(const Job& job, const RunOptions& options) {
   };
   Progress progress(progress_form(options.progress), std::cerr);
   Watch watch(std::chrono::milliseconds(100), keep_up(progress, log, tally));
-  summary.threads = team_size(options, tiles.size());
+  summary.threads = team_size(options.threads, tiles.size());
   const std::exception_ptr team_error = run_team(summary.threads, [&](const std::atomic<bool>& failed) {
     compute_tiles(work, [&] { return failed || watch.failed() || stop_asked(); });
   });

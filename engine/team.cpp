@@ -1,5 +1,8 @@
 #include "engine/team.hpp"
 
+#include <omp.h>
+
+#include <algorithm>
 #include <mutex>
 
 namespace frahm::engine {
@@ -34,6 +37,11 @@ void take_part(Team& team) {
 }
 
 }  // namespace
+
+int team_size(int wanted, std::uint64_t pieces) {
+  const auto most = static_cast<std::uint64_t>(wanted > 0 ? wanted : omp_get_num_procs());
+  return static_cast<int>(std::clamp<std::uint64_t>(pieces, 1, most));
+}
 
 std::exception_ptr run_team(int threads, const std::function<void(const std::atomic<bool>& failed)>& work) {
   Team team{.work = work, .first_error_turn = {}, .first_error = {}};

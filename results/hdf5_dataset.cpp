@@ -106,17 +106,6 @@ void Dataset::write(std::span<const std::uint64_t> start, std::span<const std::u
       where_, "cannot write");
 }
 
-void Dataset::read_elements(const Box& box, std::span<std::byte> to, const Shape& to_shape) const {
-  const Selection from = select_box(id(), box.start, box.count, where_);
-  const Handle array(checked(H5Screate_simple(static_cast<int>(to_shape.size()), sizes(to_shape), nullptr),
-                             where_, "cannot select a box"));
-  const Shape corner(to_shape.size(), 0);
-  checked(H5Sselect_hyperslab(array.get(), H5S_SELECT_SET, sizes(corner), nullptr, sizes(box.count), nullptr),
-          where_, "cannot select a box");
-  checked(H5Dread(id(), numeric_type(type()), array.get(), from.file.get(), H5P_DEFAULT, to.data()), where_,
-          "cannot read");
-}
-
 std::vector<double> Dataset::read(std::span<const std::uint64_t> start,
                                   std::span<const std::uint64_t> count) const {
   std::vector<double> values(product(count));

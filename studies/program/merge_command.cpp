@@ -47,9 +47,12 @@ RunRecord record_of(const MergeOptions& options) {
 
 AssemblyOptions assembly_of(const MergeOptions& options, const std::vector<std::filesystem::path>& logs,
                             const engine::StopSignals& signals) {
-  return {.output = options.output, .logs = logs, .partial = options.partial, .stop_asked = [&signals] {
-            return signals.received() != 0;
-          }};
+  return {.output = options.output,
+          .logs = logs,
+          .partial = options.partial,
+          .threads = options.threads,
+          .progress = options.progress,
+          .stop_asked = [&signals] { return signals.received() != 0; }};
 }
 
 int tell_stopped(const MergeOptions& options) {

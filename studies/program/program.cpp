@@ -99,6 +99,16 @@ void add_threads(CLI::App& command, int& threads) {
   command.add_option("--threads", threads, "0: one on each processor")->check(CLI::Range(0, 4096));
 }
 
+void add_progress(CLI::App& command, engine::ProgressStyle& style) {
+  const std::map<std::string, engine::ProgressStyle> styles{{"auto", engine::ProgressStyle::automatic},
+                                                            {"plain", engine::ProgressStyle::plain},
+                                                            {"json", engine::ProgressStyle::json},
+                                                            {"none", engine::ProgressStyle::none}};
+  command.add_option("--progress", style, "auto, plain, json or none")
+      ->transform(CLI::Transformer(styles))
+      ->type_name("STYLE");
+}
+
 // What `run` is given as texts, to be read when the whole line is known.
 struct RunTexts {
   RunCommandOptions options;
@@ -120,13 +130,7 @@ void add_run(CLI::App& program, RunTexts& texts, Action& action) {
   run->add_flag("--fresh", options.run.fresh, "discard what earlier runs have left");
   run->add_option("--time-budget", budget, "stop after 90s, 50m, 2h or 1d");
   add_set(*run, options.set);
-  const std::map<std::string, engine::ProgressStyle> styles{{"auto", engine::ProgressStyle::automatic},
-                                                            {"plain", engine::ProgressStyle::plain},
-                                                            {"json", engine::ProgressStyle::json},
-                                                            {"none", engine::ProgressStyle::none}};
-  run->add_option("--progress", options.run.progress, "auto, plain, json or none")
-      ->transform(CLI::Transformer(styles))
-      ->type_name("STYLE");
+  add_progress(*run, options.run.progress);
   run->callback([&] {
     action = [&](std::ostream& out) {
       options.run.shard = shard.empty() ? shard_of_array_task(std::getenv) : shard_of(shard);
@@ -170,6 +174,8 @@ void add_merge(CLI::App& program, MergeOptions& options, Action& action) {
   merge->add_option("FILE", options.output, "result file to make")->required();
   merge->add_option("SHARD", options.logs, "shard logs (*.frahm-log); else those beside FILE");
   merge->add_flag("--partial", options.partial, "although tiles are missing; keeps the logs");
+  add_threads(*merge, options.threads);
+  add_progress(*merge, options.progress);
   merge->callback([&] { action = [&](std::ostream& out) { return merge_command(options, out); }; });
 }
 

@@ -43,10 +43,12 @@ int run_map(const RunCommandOptions& options, StudyFile study, std::ostream& out
 
   record.threads = summary.threads;
   const engine::StopSignals signals;
-  const Assembly assembly =
-      assemble(plan, record, {.output = run.output, .logs = engine::find_logs(run.output), .stop_asked = [&] {
-                                return signals.received() != 0;
-                              }});
+  const Assembly assembly = assemble(plan, record,
+                                     {.output = run.output,
+                                      .logs = engine::find_logs(run.output),
+                                      .threads = run.threads,
+                                      .progress = run.progress,
+                                      .stop_asked = [&] { return signals.received() != 0; }});
   if (!assembly.finished) return tell_stopped(summary, run.output);
   remove_study_notes(run.output);
   const Effort effort{.points = summary.points.done - summary.points.resumed,

@@ -98,6 +98,15 @@ TEST_CASE("json progress is one object a line") {
         "\n");
 }
 
+TEST_CASE("the progress of a stage names it") {
+  std::ostringstream plain, json;
+  const auto now = [] { return Progress::Clock::time_point(); };
+  Progress(ProgressForm::plain, plain, now, "writing").update({.points = 200});
+  Progress(ProgressForm::json, json, now, "writing").update({.points = 200});
+  CHECK(plain.str() == "writing   0.0 %  0/200 points\n");
+  CHECK_THAT(json.str(), StartsWith(R"({"event":"progress","stage":"writing","points":200,)"));
+}
+
 TEST_CASE("progress of form none is silent") {
   Watched watched(ProgressForm::none);
   watched.progress.update({.points = 1});
