@@ -257,7 +257,9 @@ int carry_out(const Action& action, std::ostream& out) {
   try {
     const int code = action(out);
     out.flush();
-    return out ? code : complain("the output could not be written", exit_code::input_output);
+    return out ? code
+               : complain("standard output could not be written to; a file that was made is whole",
+                          exit_code::input_output);
   } catch (const StudyError& error) {
     return complain(error.what(), exit_code::wrong_input);
   } catch (const engine::ResumeRefused& error) {
