@@ -67,8 +67,8 @@ def check_read_only(bench, study, expected):
         outcome = place.run()
         assert outcome.code == 6 and explains(outcome, errno.EROFS), outcome
         remount(folder, "rw")
-        stopped = place.run("--time-budget", "0.005s", "--progress", "none")
-        assert stopped.code == 4, stopped
+        half = place.run("--shard", "0/2", "--progress", "none")
+        assert half.code == 0, half
         remount(folder, "ro")
         outcome = place.run()
         assert outcome.code == 6 and explains(outcome, errno.EROFS), outcome

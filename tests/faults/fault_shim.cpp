@@ -7,6 +7,7 @@
 //                 "reads": read, open for reading, list a directory, lock
 //   FAULT_AT      number of the call, from 1 on; without it the calls are only counted
 //   FAULT_DO      "kill_before", "kill_half" (half of the bytes are written), "kill_after": SIGKILL;
+//                 "freeze": SIGSTOP before the call, which is carried out when the process goes on;
 //                 "short": half of the bytes are transferred, and the call says so;
 //                 "fail": the call fails;  "fail_on": this one and all later ones do. Under ENOSPC and EDQUOT
 //                 what gives space back still works then.
@@ -32,7 +33,7 @@
 
 namespace {
 
-enum class Fault { none, kill_before, kill_half, kill_after, short_transfer, fail };
+enum class Fault { none, kill_before, kill_half, kill_after, freeze, short_transfer, fail };
 enum class Kind { change, release, read };  // release: a change that needs no space on the disk
 
 std::string variable(const char* name) {
@@ -90,6 +91,7 @@ Fault fault_at(long number, Kind kind) {
   }
   if (number > set.at) return Fault::none;
   if (set.what == "fail") return Fault::fail;
+  if (set.what == "freeze") return Fault::freeze;
   if (set.what == "short") return Fault::short_transfer;
   if (set.what == "kill_before") return Fault::kill_before;
   if (set.what == "kill_half") return Fault::kill_half;
@@ -133,6 +135,9 @@ Result carry_out(const Call& call, Result failure, Real real) {
       errno = settings().error;
       tell(call, "failed");
       return failure;
+    case Fault::freeze:
+      ::kill(::getpid(), SIGSTOP);
+      break;
     default:
       break;
   }
