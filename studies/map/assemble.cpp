@@ -138,8 +138,8 @@ void refuse_gaps(const AssemblyOptions& options, const std::vector<std::uint64_t
 
 }  // namespace
 
-Assembly assemble(const MapPlan& plan, const RunRecord& run, const AssemblyOptions& options) {
-  const engine::AssemblyLock lock(options.output);
+Assembly assemble(const MapPlan& plan, const RunRecord& run, const AssemblyOptions& options,
+                  const engine::OutputLock&) {
   const engine::TileIndex index =
       engine::index_tiles(options.logs, plan.log_header(), [](std::uint64_t, std::span<const std::byte>) {});
   const auto missing = engine::missing_tiles(index);

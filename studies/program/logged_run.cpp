@@ -13,11 +13,19 @@
 
 namespace frahm::studies {
 
-void remove_leftovers(const StudyPlan& plan, const std::filesystem::path& output) {
+namespace {
+
+std::vector<std::filesystem::path> logs_of(const StudyPlan& plan, const std::filesystem::path& output) {
   std::vector<std::filesystem::path> logs = engine::find_logs(output);
   std::erase_if(logs, [&](const auto& log) { return engine::study_of_log(log) != plan.log_header(); });
-  engine::remove_logs(logs);
-  engine::remove_assembly_lock(output);
+  return logs;
+}
+
+void remove_leftovers(const StudyPlan& plan, const std::filesystem::path& output) {
+  if (!logs_of(plan, output).empty() || std::filesystem::exists(engine::lock_path(output))) {
+    const engine::OutputLock lock(output);
+    engine::remove_logs(logs_of(plan, output));
+  }
   if (engine::find_logs(output).empty()) remove_study_notes(output);
 }
 
@@ -26,6 +34,20 @@ bool is_finished(const StudyPlan& plan, const std::filesystem::path& output) {
   if (!kept) return false;
   if (*kept == plan.fingerprint) return !is_partial(output);
   throw engine::ResumeRefused(output, {*kept, plan.tiles}, plan.log_header());
+}
+
+}  // namespace
+
+bool begin(const StudyPlan& plan, const engine::RunOptions& run, std::optional<engine::OutputLock>& lock) {
+  const auto is_done = [&] { return !run.fresh && is_finished(plan, run.output); };
+  if (!is_done()) {
+    if (run.shard.count > 1) return true;
+    lock.emplace(run.output);
+    if (!is_done()) return true;
+    lock.reset();  // another process has finished it while this one waited
+  }
+  remove_leftovers(plan, run.output);
+  return false;
 }
 
 engine::Summary compute(const StudyPlan& plan, const engine::Job& job, const engine::RunOptions& run) {

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "engine/io_error.hpp"
+#include "engine/output_lock.hpp"
 #include "engine/stop_signals.hpp"
 #include "engine/tile_index.hpp"
 #include "studies/map/assemble.hpp"
@@ -65,11 +66,12 @@ void remove_notes(const MergeOptions& options, const std::vector<std::filesystem
 }
 
 int merge_map(const MergeOptions& options, const std::vector<std::filesystem::path>& logs,
-              const engine::LogHeader& header, NotedStudy noted, std::ostream& out) {
+              const engine::LogHeader& header, NotedStudy noted, const engine::OutputLock& lock,
+              std::ostream& out) {
   const MapPlan plan = plan_map(std::move(noted.study), noted.set);
   check_note_gives(plan, noted, header);
   const engine::StopSignals signals;
-  const Assembly assembly = assemble(plan, record_of(options), assembly_of(options, logs, signals));
+  const Assembly assembly = assemble(plan, record_of(options), assembly_of(options, logs, signals), lock);
   if (!assembly.finished) return tell_stopped(options);
   if (assembly.missing_tiles == 0) {
     remove_notes(options, logs);
@@ -81,11 +83,12 @@ int merge_map(const MergeOptions& options, const std::vector<std::filesystem::pa
 }
 
 int merge_tuning(const MergeOptions& options, const std::vector<std::filesystem::path>& logs,
-                 const engine::LogHeader& header, NotedStudy noted, std::ostream& out) {
+                 const engine::LogHeader& header, NotedStudy noted, const engine::OutputLock& lock,
+                 std::ostream& out) {
   const StudyPlan plan = plan_tuning(std::move(noted.study), noted.set);
   check_note_gives(plan, noted, header);
   const engine::StopSignals signals;
-  const auto result = assemble_tuning(plan, record_of(options), assembly_of(options, logs, signals));
+  const auto result = assemble_tuning(plan, record_of(options), assembly_of(options, logs, signals), lock);
   if (!result) return tell_stopped(options);
   const std::uint64_t missing = plan.tiles - result->starts.size();
   if (missing == 0) {
@@ -99,12 +102,15 @@ int merge_tuning(const MergeOptions& options, const std::vector<std::filesystem:
 }  // namespace
 
 int merge_command(const MergeOptions& options, std::ostream& out) {
+  engine::survive_broken_pipes();
+  const engine::OutputLock lock(options.output);
   const auto logs = options.logs.empty() ? engine::find_logs(options.output) : options.logs;
   const engine::LogHeader header = study_of(logs, options.output);
   NotedStudy noted = study_from_note(places_of_note(options, logs), header);
   check_result_place(options.output, {});
-  return noted.study.kind == StudyKind::tune ? merge_tuning(options, logs, header, std::move(noted), out)
-                                             : merge_map(options, logs, header, std::move(noted), out);
+  return noted.study.kind == StudyKind::tune
+             ? merge_tuning(options, logs, header, std::move(noted), lock, out)
+             : merge_map(options, logs, header, std::move(noted), lock, out);
 }
 
 }  // namespace frahm::studies

@@ -31,8 +31,8 @@ int run_map(const RunCommandOptions& options, StudyFile study, std::ostream& out
   const MapPlan plan = plan_map(std::move(study), options.set);
 
   check_result_place(run.output, options.study);
-  if (!run.fresh && is_finished(plan, run.output)) {
-    remove_leftovers(plan, run.output);
+  std::optional<engine::OutputLock> lock;
+  if (!begin(plan, run, lock)) {
     fmt::print(out, "everything is computed already; --fresh computes it anew\n");
     return print_map_table(plan, options.study, run.output, std::nullopt, out);
   }
@@ -48,7 +48,8 @@ int run_map(const RunCommandOptions& options, StudyFile study, std::ostream& out
                                       .logs = engine::find_logs(run.output),
                                       .threads = run.threads,
                                       .progress = run.progress,
-                                      .stop_asked = [&] { return signals.received() != 0; }});
+                                      .stop_asked = [&] { return signals.received() != 0; }},
+                                     *lock);
   if (!assembly.finished) return tell_stopped(summary, run.output);
   remove_study_notes(run.output);
   const Effort effort{.points = summary.points.done - summary.points.resumed,
