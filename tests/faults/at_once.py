@@ -5,13 +5,15 @@ usage: at_once.py FRAHM SOURCE_DIR
 """
 
 import glob
+import itertools
 import os
 import random
 import re
 import signal
 import time
 
-from faulty_runs import OUTPUT, Expected, Fault, ended, larger_sweep, main, sweep_study, tuning_study
+from faulty_runs import (OUTPUT, Expected, Fault, ended, in_parallel, larger_sweep, main, sweep_study,
+                         tuning_study)
 
 RUN = ("run", "study.toml", "-o", OUTPUT, "--threads", "1", "--progress", "none")
 OWNER = re.compile(r"in use by process (\d+) on ")
@@ -31,8 +33,11 @@ def is_frozen(process):
     """Whether every thread of it is stopped."""
     states = []
     for path in glob.glob(f"/proc/{process.pid}/task/*/stat"):
-        with open(path) as stat:
-            states.append(stat.read().rsplit(")", 1)[1].split()[0])
+        try:
+            with open(path) as stat:
+                states.append(stat.read().rsplit(")", 1)[1].split()[0])
+        except OSError:  # the thread has just ended
+            return False
     return bool(states) and all(state == "T" for state in states)
 
 
@@ -57,23 +62,27 @@ def check_second(bench, study, expected):
     """A second process in each phase of the first."""
     place = bench.place(study)
     assert place.call(*RUN, fault=Fault()).code == 0
-    for phase, number in phases(place).items():
-        for second in RUN, (*RUN, "--fresh"), ("merge", OUTPUT):
-            case = f"{phase}, then {' '.join(second)}"
-            place = bench.place(study)
-            first = frozen_at(place, Fault(number, "freeze"), *RUN)
-            outcome = ended(place.start(*second))
-            owner = OWNER.search(outcome.err)
-            if outcome.code == 6:
-                assert owner and int(owner.group(1)) == first.pid, f"{case}: does not name the owner: {outcome}"
-            else:
-                assert outcome.code == 0 and phase in ("published", "removing the logs", "last call"), f"{case}: {outcome}"
-                expected.check_file(place, case)
-            status = place.call("status", OUTPUT)
-            assert status.code == 0 and not re.search(r"-\d", status.out.split("fingerprint")[0]), f"{case}: {status}"
-            outcome = thawed(first)
-            assert outcome.code == 0, f"{case}: the first: {outcome}"
-            expected.check_resume(place, case)
+
+    def check(item):
+        (phase, number), second = item
+        case = f"{phase}, then {' '.join(second)}"
+        place = bench.place(study)
+        first = frozen_at(place, Fault(number, "freeze"), *RUN)
+        outcome = ended(place.start(*second))
+        owner = OWNER.search(outcome.err)
+        if outcome.code == 6:
+            assert owner and int(owner.group(1)) == first.pid, f"{case}: does not name the owner: {outcome}"
+        else:
+            assert outcome.code == 0 and phase in ("removing the logs", "last call"), f"{case}: {outcome}"
+            expected.check_file(place, case)
+        status = place.call("status", OUTPUT)
+        assert status.code == 0, f"{case}: {status}"
+        outcome = thawed(first)
+        assert outcome.code == 0, f"{case}: the first: {outcome}"
+        expected.check_resume(place, case)
+
+    seconds = RUN, (*RUN, "--fresh"), ("merge", OUTPUT)
+    in_parallel(check, itertools.product(phases(place).items(), seconds), at_once=8)  # they mostly wait
 
 
 def check_races(bench, study, expected, *options):

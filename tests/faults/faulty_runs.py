@@ -222,9 +222,9 @@ def explains(outcome, reason):
                for line in outcome.err.splitlines())
 
 
-def in_parallel(work, items):
-    """work(item) for each, on all processors; the first failure is raised when all have ended."""
-    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+def in_parallel(work, items, at_once=os.cpu_count()):
+    """work(item) for each, so many at once; the first failure is raised when all have ended."""
+    with concurrent.futures.ThreadPoolExecutor(at_once) as pool:
         return [future.result() for future in [pool.submit(work, item) for item in items]]
 
 
