@@ -112,6 +112,15 @@ bool File::try_lock() {
   throw IoError(path_, "lock", errno);
 }
 
+bool File::is_locked() const {
+  if (uninterrupted([&] { return ::flock(descriptor_, LOCK_SH | LOCK_NB); }) == 0) {
+    ::flock(descriptor_, LOCK_UN);
+    return false;
+  }
+  if (errno == EWOULDBLOCK) return true;
+  throw IoError(path_, "look for the lock of", errno);
+}
+
 bool File::is_at_its_path() const {
   struct stat here {};
   struct stat there {};

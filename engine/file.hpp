@@ -36,6 +36,9 @@ class File {
 
   // Takes the exclusive lock of the file, which is held until the file is closed; false: someone has it.
   bool try_lock();
+  // Whether someone has the lock at this moment. Keeps no lock; one who waits for it as open_locked() does,
+  // still gets it.
+  bool is_locked() const;
   // Whether path() still leads to this file: false when it was removed or replaced since it was opened.
   bool is_at_its_path() const;
 
@@ -52,7 +55,7 @@ class File {
 // Throws Locked, IoError.
 File open_locked(const std::filesystem::path& path, std::uint64_t owner_offset);
 
-constexpr std::size_t owner_size = 104;  // bytes kept for the owner's text
+constexpr std::size_t owner_size = 84;  // bytes kept for the owner's text
 
 // "process 4711 on node17", at most owner_size bytes.
 std::string this_process();

@@ -14,7 +14,7 @@ using PieceWork = std::function<std::function<void()>(std::uint64_t piece)>;
 // the other threads wait at once.
 constexpr std::uint64_t most_pieces_a_thread = 3;
 
-// Makes the pieces 0 ... pieces - 1 in a team of `threads` (0: one on each processor this process may use)
+// Makes the pieces 0 ... pieces - 1 in a team of `threads` (0: default_threads())
 // and calls what they return one after the other, in their order: what is done in turn need not be
 // thread-safe. Memory is bounded: a thread that is too far ahead of the slowest piece waits.
 // make_work: called once in each thread.  stop_asked: looked at before each piece, from several threads.

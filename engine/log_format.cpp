@@ -18,8 +18,13 @@ constexpr std::string_view file_magic = "FRAHMLOG";
 constexpr std::uint32_t record_magic = 0x454C4954U;  // "TILE" in the file
 constexpr std::size_t hash_size = 64;
 constexpr std::size_t version_at = 8, tiles_at = 12, physics_at = 20, grid_at = 84, header_crc_at = 148;
-static_assert(header_crc_at + sizeof(std::uint32_t) == owner_offset &&
-              owner_offset + owner_size == header_size);
+static_assert(header_crc_at + sizeof(std::uint32_t) == owner_offset);
+// From owner_offset on:
+constexpr std::size_t writer_size = header_size - owner_offset;
+constexpr std::size_t began_at = owner_size, found_at = 92, writer_crc_at = 100;
+static_assert(began_at + sizeof(std::uint64_t) == found_at &&
+              found_at + sizeof(std::uint64_t) == writer_crc_at &&
+              writer_crc_at + sizeof(std::uint32_t) == writer_size);
 
 void put_text(std::byte* to, std::string_view text) {
   std::memcpy(to, text.data(), text.size());
@@ -48,8 +53,28 @@ Bytes encode_header(const LogHeader& header) {
   put_hash(&bytes[physics_at], header.fingerprint.physics, "physics");
   put_hash(&bytes[grid_at], header.fingerprint.grid, "grid");
   put_little_endian(&bytes[header_crc_at], crc32c(std::span(bytes).first(header_crc_at)));
-  put_text(&bytes[owner_offset], std::string_view(this_process()).substr(0, owner_size));
   return bytes;
+}
+
+Bytes encode_writer(const WriterStart& start) {
+  using std::chrono::milliseconds;
+  const auto began = std::chrono::floor<milliseconds>(start.time.time_since_epoch()).count();
+  Bytes bytes(writer_size, std::byte{0});
+  put_text(bytes.data(), std::string_view(this_process()).substr(0, owner_size));
+  put_little_endian(&bytes[began_at], static_cast<std::uint64_t>(began));
+  put_little_endian(&bytes[found_at], start.good_bytes);
+  put_little_endian(&bytes[writer_crc_at], crc32c(std::span(bytes).first(writer_crc_at)));
+  return bytes;
+}
+
+std::optional<WriterStart> read_writer(const File& log) {
+  Bytes bytes(writer_size);
+  if (log.read_at(owner_offset, bytes) < writer_size) return std::nullopt;
+  const auto crc = get_little_endian<std::uint32_t>(&bytes[writer_crc_at]);
+  if (crc32c(std::span(bytes).first(writer_crc_at)) != crc) return std::nullopt;
+  const auto began = static_cast<std::int64_t>(get_little_endian<std::uint64_t>(&bytes[began_at]));
+  return WriterStart{.time = std::chrono::system_clock::time_point(std::chrono::milliseconds(began)),
+                     .good_bytes = get_little_endian<std::uint64_t>(&bytes[found_at])};
 }
 
 std::uint64_t study_mark(const LogHeader& header) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -17,12 +18,16 @@
 //           20  physics, 64 bytes of text              header's bytes 12-147 u64
 //           84  grid, 64 bytes of text             16  tile                  u64
 //          148  CRC-32C of 0-147    u32            24  length of the payload u64
-//          152  owner, 104 bytes of text           32  payload
-//          256  first record                     then  CRC-32C of all before u32
+//          152  owner, 84 bytes of text            32  payload
+//          236  began [ms since 1970]  u64       then  CRC-32C of all before u32
+//          244  bytes found then       u64
+//          252  CRC-32C of 152-251     u32
+//          256  first record
 //
-// The owner names the process that last held the lock of the log, for messages only; the CRC leaves it out,
-// as it changes when a run resumes. Every record names its study, so that pieces of two logs can never pass
-// for one.
+// From 152 on stands who last held the lock of the log, when that writer began by its clock, and how many
+// good bytes it found: for messages, and for the rate at which it works. It changes when a run resumes, so
+// the study's CRC leaves it out, and where it is damaged, or of an older program, nothing else is lost. Every
+// record names its study, so that pieces of two logs can never pass for one.
 namespace frahm::engine {
 
 constexpr std::uint32_t log_version = 1;
@@ -31,8 +36,21 @@ constexpr std::uint64_t owner_offset = 152;
 constexpr std::size_t record_head_size = 32;
 constexpr std::size_t record_overhead = record_head_size + sizeof(std::uint32_t);
 
+// The header of a log without the part of its writer, which is zero.
 // Throws std::invalid_argument for a hash of the fingerprint that is empty or longer than 64 characters.
 Bytes encode_header(const LogHeader& header);
+
+// Where the present or last writer of a log began.
+struct WriterStart {
+  std::chrono::system_clock::time_point time;  // to the millisecond
+  std::uint64_t good_bytes = header_size;      // what the log held then
+};
+
+// The part of a header from owner_offset on, in the name of this process.
+Bytes encode_writer(const WriterStart& start);
+
+// Nothing if a log does not say it: its header is cut off or damaged there, or of an older program.
+std::optional<WriterStart> read_writer(const File& log);
 
 // The mark by which the records of a study are known.
 std::uint64_t study_mark(const LogHeader& header);

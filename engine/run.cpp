@@ -3,20 +3,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <iostream>
+#include <optional>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 
+#include "engine/dealer.hpp"
 #include "engine/shard_log.hpp"
 #include "engine/stop_signals.hpp"
 #include "engine/team.hpp"
+#include "engine/team_work.hpp"
 #include "engine/watch.hpp"
 
 namespace frahm::engine {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
 
 void check(const RunOptions& options) {
   if (options.shard.count == 0 || options.shard.index >= options.shard.count) {
@@ -30,10 +34,6 @@ void check(const RunOptions& options) {
     throw std::invalid_argument(
         fmt::format("time budget of {} s: must be > 0", options.time_budget->count()));
   }
-}
-
-std::filesystem::path own_log(const RunOptions& options) {
-  return log_path(options.output, fmt::format("shard-{}-of-{}", options.shard.index, options.shard.count));
 }
 
 // Removes what RunOptions::fresh says.
@@ -73,66 +73,79 @@ Remainder read_logs(const Job& job, const RunOptions& options, const LogHeader& 
   return remainder;
 }
 
-// What the threads of a run share.
-struct Work {
-  const Job& job;
-  const std::vector<std::uint64_t>& tiles;  // to do
-  ShardLog& log;
-  std::atomic<std::size_t> next = 0;  // the first of `tiles` that nobody has taken
-  // Finished by this run:
-  std::atomic<std::uint64_t> finished_tiles = 0;
-  std::atomic<std::uint64_t> finished_points = 0;
-  std::atomic<std::uint64_t> failed_points = 0;
+// How far the whole run is.
+Tally tally_of(const Tally& found, const TeamWork& work, const std::optional<Dealer>& dealer) {
+  Finished finished = work.finished();
+  if (dealer) finished += dealer->finished();
+  Tally now = found;
+  now.done += finished.points;
+  now.failed += finished.failed;
+  return now;
+}
+
+// The other ranks, as long as it lives: rank 0 serves them beside its own work. Alone, it is nothing.
+class Attendance {
+ public:
+  Attendance(std::optional<Dealer>& dealer, StopAsked stop_asked) : dealer_(dealer) {
+    if (dealer) watch_.emplace(1ms, [&dealer, stop = std::move(stop_asked)] { dealer->serve(stop()); });
+  }
+  // Returns when the others have left.
+  void wait() const {
+    while (dealer_ && !dealer_->all_have_left()) std::this_thread::sleep_for(1ms);
+  }
+
+ private:
+  std::optional<Dealer>& dealer_;
+  std::optional<Watch> watch_;
 };
 
-// What each thread does: takes the next tile, computes it and keeps it, until none is left or give_up().
-void compute_tiles(Work& work, const StopAsked& give_up) {
-  const Job& job = work.job;
-  const Kernel kernel = job.make_kernel(give_up);
-  Bytes record;
-  while (!give_up()) {
-    const std::size_t taken = work.next++;
-    if (taken >= work.tiles.size()) return;
-    const std::uint64_t tile = work.tiles[taken];
-    record.clear();
-    try {
-      kernel(tile, record);
-    } catch (const GivenUp&) {
-      return;
-    }
-    work.log.append(tile, record);
-    if (job.failed) work.failed_points += job.failed(tile, record);
-    work.finished_points += job.points(tile);
-    ++work.finished_tiles;
+// What may end a run before its work is done: a signal, or the time budget, which begins with it.
+class StopRequest {
+ public:
+  explicit StopRequest(const RunOptions& options) : budget_(options.time_budget) {}
+
+  bool asked() const { return signals_.received() != 0 || (budget_ && elapsed() >= budget_->count()); }
+  double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }  // [s]
+  // Why the run was stopped. elsewhere: the reason of another rank; empty if it had none.
+  std::string reason(const std::string& elsewhere) const {
+    if (signals_.received() != 0) return "stopped by " + signal_name(signals_.received());
+    if (!elsewhere.empty()) return elsewhere;
+    return fmt::format("the time budget of {} s is used up", budget_->count());
   }
+
+ private:
+  Clock::time_point start_ = Clock::now();
+  std::optional<std::chrono::duration<double>> budget_;
+  StopSignals signals_;
+};
+
+// Alone, a process has all tiles in its queue at once. Among ranks they are dealt out.
+std::optional<Dealer> supply(const RunOptions& options, const LogHeader& study, int threads,
+                             const std::vector<std::uint64_t>& tiles, TileQueue& queue) {
+  if (options.ranks)
+    return std::optional<Dealer>(std::in_place, *options.ranks, study_mark(study), threads, tiles, queue);
+  queue.add(tiles);
+  queue.close();
+  return std::nullopt;
 }
 
-// Draws the progress at each call, and once a second brings what is finished to the disk.
-std::function<void()> keep_up(Progress& progress, ShardLog& log, std::function<Tally()> tally) {
-  return [&progress, &log, tally = std::move(tally), last_sync = Clock::now()]() mutable {
-    progress.update(tally());
-    if (Clock::now() - last_sync < std::chrono::seconds(1)) return;
-    log.sync();
-    last_sync = Clock::now();
-  };
-}
-
-std::string stop_reason(const StopSignals& signals, const RunOptions& options) {
-  if (signals.received() != 0) return "stopped by " + signal_name(signals.received());
-  return fmt::format("the time budget of {} s is used up", options.time_budget->count());
+// Adds to a summary what this run did.
+void count(const TeamWork& work, const std::optional<Dealer>& dealer, int threads, Ranks* ranks,
+           Summary& summary) {
+  const Finished elsewhere = dealer ? dealer->finished() : Finished{};
+  summary.points = tally_of(summary.points, work, dealer);
+  summary.tiles_computed = work.finished().tiles + elsewhere.tiles;
+  summary.cpu_seconds_elsewhere = 1e-3 * static_cast<double>(elsewhere.cpu_milliseconds);
+  summary.threads = dealer ? dealer->threads() : threads;
+  summary.ranks = ranks ? ranks->size() : 1;
+  summary.threads_here = threads * (ranks ? ranks->take_machine() : 1);
 }
 
 }  // namespace
 
 Summary run(const Job& job, const RunOptions& options) {
   check(options);
-  const Clock::time_point start = Clock::now();
-  const auto elapsed = [start] { return std::chrono::duration<double>(Clock::now() - start); };
-  const StopSignals signals;
-  const auto stop_asked = [&] {
-    return signals.received() != 0 || (options.time_budget && elapsed() >= *options.time_budget);
-  };
-
+  const StopRequest stop(options);
   const LogHeader study{.fingerprint = job.fingerprint, .tiles = job.tiles};
   if (options.fresh) discard_logs(options, study);
   ShardLog log(own_log(options), study);
@@ -141,32 +154,37 @@ Summary run(const Job& job, const RunOptions& options) {
     summary.unused.push_back({own_log(options), found.good_bytes, found.unused_bytes()});
   }
 
-  Work work{.job = job, .tiles = tiles, .log = log};
-  const auto tally = [&work, &found = summary.points] {
-    Tally now = found;
-    now.done += work.finished_points;
-    now.failed += work.failed_points;
-    return now;
-  };
+  TeamWork work(job, log);
+  const int wanted = options.threads > 0 ? options.threads : default_threads(options.ranks);
+  const int threads = team_size(wanted, tiles.size());
+  std::optional<Dealer> dealer = supply(options, study, threads, tiles, work.queue());
+  const auto give_up = [&] { return work.has_failed() || stop.asked(); };
+  const auto tally = [&, &found = summary.points] { return tally_of(found, work, dealer); };
   Progress progress(progress_form(options.progress), std::cerr);
-  Watch watch(std::chrono::milliseconds(100), keep_up(progress, log, tally));
-  summary.threads = team_size(options.threads, tiles.size());
-  const std::exception_ptr team_error = run_team(summary.threads, [&](const std::atomic<bool>& failed) {
-    compute_tiles(work, [&] { return failed || watch.failed() || stop_asked(); });
-  });
-  const std::exception_ptr watch_error = watch.end();
+  {
+    const Watch showing(100ms, [&] { progress.update(tally()); });
+    const Watch syncing(1s, [&] { work.keep_on_disk(); });
+    const Attendance others(dealer, give_up);
+    work.compute(threads, give_up);
+    others.wait();
+  }
+  work.keep_on_disk();
   progress.finish(tally());
-  if (watch_error) std::rethrow_exception(watch_error);
-  log.sync();
-  if (team_error) std::rethrow_exception(team_error);
+  work.rethrow_failure();
+  if (dealer) dealer->rethrow_failure();
 
-  summary.points = tally();
-  summary.tiles_computed = work.finished_tiles;
-  summary.seconds = elapsed().count();
+  count(work, dealer, threads, options.ranks, summary);
+  summary.seconds = stop.elapsed();
   const bool all = summary.tiles_computed == tiles.size();
   summary.outcome = all ? Outcome::complete : Outcome::stopped;
-  summary.reason = all ? "every tile is finished" : stop_reason(signals, options);
+  summary.reason = all ? "every tile is finished" : stop.reason(dealer ? dealer->stop_reason() : "");
   return summary;
+}
+
+std::filesystem::path own_log(const RunOptions& options) {
+  const int rank = options.ranks ? options.ranks->rank() : 0;
+  return log_path(options.output, fmt::format("shard-{}-of-{}{}", options.shard.index, options.shard.count,
+                                              rank > 0 ? fmt::format("-rank-{}", rank) : ""));
 }
 
 }  // namespace frahm::engine

@@ -12,6 +12,7 @@
 #include "engine/bytes.hpp"
 #include "engine/fingerprint.hpp"
 #include "engine/progress.hpp"
+#include "engine/ranks.hpp"
 #include "engine/tile_index.hpp"
 
 // Many answers: the tiles of a job computed by a team of threads and kept in a shard log as each is finished.
@@ -48,13 +49,14 @@ struct Shard {
 
 struct RunOptions {
   std::filesystem::path output;  // the file to be assembled later; the logs stand beside it
-  int threads = 0;               // >= 0; 0: one on each processor this process may use
+  int threads = 0;               // of each process, >= 0; 0: default_threads()
   Shard shard;
   // Discard what earlier runs left: all logs; for one shard of several its own log and those of other
   // studies, because the other shards of this study may be at work or done.
   bool fresh = false;
   std::optional<std::chrono::duration<double>> time_budget;  // > 0, from the start of the run; absent: none
   ProgressStyle progress = ProgressStyle::automatic;
+  Ranks* ranks = nullptr;  // among which this process is; null: it works alone
 };
 
 enum class Outcome {
@@ -70,17 +72,25 @@ struct Summary {
   std::uint64_t tiles_resumed = 0;  // found in logs
   std::uint64_t tiles_computed = 0;
   Tally points;
-  int threads = 0;                  // of the team
-  double seconds = 0.0;             // wall time
-  std::vector<UnusedBytes> unused;  // ends of logs that could not be used when the run began
+  int threads = 0;  // of all ranks
+  int ranks = 1;
+  int threads_here = 0;  // which this machine has for what is left to do when all ranks are done
+  double seconds = 0.0;  // wall time
+  double cpu_seconds_elsewhere = 0.0;  // of the other ranks
+  std::vector<UnusedBytes> unused;     // ends of logs that could not be used when the run began
 };
 
-// Computes the tiles of the shard that are in no log beside the output yet. On SIGTERM, SIGINT, SIGUSR1 or at
-// the end of the time budget the tiles in hand are finished or given up by their kernels; at the end, however
-// it comes, what is finished is on the disk. One run at a time in a process. Throws std::invalid_argument for
-// options outside their range, ResumeRefused when tiles of another study are kept beside the output (unless
-// fresh), Locked when another process computes this shard, IoError, and, when the tiles in hand are kept, the
-// first exception of a kernel.
+// Computes the tiles of the shard that are in no log beside the output yet; among ranks it is called by rank
+// 0, deals the tiles out to all, and returns when the others have closed their logs (engine/assist). On
+// SIGTERM, SIGINT, SIGUSR1 or at the end of the time budget the tiles in hand are finished or given up by
+// their kernels; at the end, however it comes, what is finished is on the disk. One run at a time in a
+// process. Throws std::invalid_argument for options outside their range, ResumeRefused when tiles of another
+// study are kept beside the output (unless fresh), Locked when another process computes this shard, IoError,
+// and, when the tiles in hand are kept, the first exception of a kernel; RankFailed (engine/dealer) when
+// another rank could not go on.
 Summary run(const Job& job, const RunOptions& options);
+
+// The log of this process: <output>.shard-i-of-n[-rank-k].frahm-log, without a rank's number for rank 0.
+std::filesystem::path own_log(const RunOptions& options);
 
 }  // namespace frahm::engine

@@ -21,8 +21,7 @@ ShardLog::ShardLog(const std::filesystem::path& path, const LogHeader& header)
     begin(header);  // nothing is kept in it, so there is nothing to protect
     return;
   }
-  const Bytes bytes = encode_header(header);
-  file_.write_at(owner_offset, std::span(bytes).subspan(owner_offset));
+  file_.write_at(owner_offset, encode_writer({std::chrono::system_clock::now(), found_.good_bytes}));
   if (found_.unused_bytes() > 0) file_.truncate(found_.good_bytes);
   end_ = found_.good_bytes;
 }
@@ -36,17 +35,21 @@ ShardLog::~ShardLog() {
 void ShardLog::begin(const LogHeader& header) {
   found_ = {};
   file_.truncate(0);
-  file_.write_at(0, encode_header(header));
+  Bytes bytes = encode_header(header);
+  std::ranges::copy(encode_writer({std::chrono::system_clock::now(), header_size}),
+                    bytes.begin() + owner_offset);
+  file_.write_at(0, bytes);
   file_.sync();
   sync_directory(directory_of(file_.path()));
   end_ = synced_end_ = header_size;
 }
 
 void ShardLog::append(std::uint64_t tile, std::span<const std::byte> payload) {
+  Bytes record;  // made before the turn, which is for the file alone
+  encode_record(mark_, tile, payload, record);
   const std::lock_guard turn(append_turn_);
-  encode_record(mark_, tile, payload, record_);
   try {
-    file_.write_at(end_, record_);
+    file_.write_at(end_, record);
   } catch (const IoError&) {
     // Cut off the part that was written. Should even that fail, the reader will cut there, and the next
     // record is written over it.
@@ -56,7 +59,7 @@ void ShardLog::append(std::uint64_t tile, std::span<const std::byte> payload) {
     }
     throw;
   }
-  end_ += record_.size();
+  end_ += record.size();
 }
 
 void ShardLog::sync() {

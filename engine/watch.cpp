@@ -11,28 +11,22 @@ Watch::~Watch() {
   end();
 }
 
-std::exception_ptr Watch::end() {
+void Watch::end() {
   {
     const std::lock_guard turn(turn_);
     ended_ = true;
   }
   ending_.notify_one();
   if (thread_.joinable()) thread_.join();
-  return error_;
 }
 
 void Watch::keep_looking() {
-  try {
-    std::unique_lock turn(turn_);
-    while (!ended_) {
-      turn.unlock();
-      look_();
-      turn.lock();
-      ending_.wait_for(turn, period_, [this] { return ended_; });
-    }
-  } catch (...) {  // returned by end()
-    error_ = std::current_exception();
-    failed_ = true;
+  std::unique_lock turn(turn_);
+  while (!ended_) {
+    turn.unlock();
+    look_();
+    turn.lock();
+    ending_.wait_for(turn, period_, [this] { return ended_; });
   }
 }
 

@@ -1,28 +1,23 @@
 #pragma once
 
-#include <atomic>
 #include <chrono>
 #include <condition_variable>
-#include <exception>
 #include <functional>
 #include <mutex>
 #include <thread>
 
 namespace frahm::engine {
 
-// Calls `look` again and again in a thread of its own: slow work on disk and terminal that no worker shall
-// wait for.
+// Calls `look` again and again in a thread of its own, with a pause of `period` between: slow work on disk,
+// terminal and network that no worker shall wait for. `look` must not throw.
 class Watch {
  public:
   Watch(std::chrono::milliseconds period, std::function<void()> look);
-  ~Watch();  // ends the thread
+  ~Watch();  // ends it
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
 
-  // Whether `look` has thrown; it is not called again then.
-  bool failed() const { return failed_; }
-  // Ends the thread; returns what `look` threw, null if nothing.
-  std::exception_ptr end();
+  void end();  // returns when `look` has returned for the last time
 
  private:
   void keep_looking();
@@ -32,8 +27,6 @@ class Watch {
   std::mutex turn_;  // guards ended_
   std::condition_variable ending_;
   bool ended_ = false;
-  std::atomic<bool> failed_ = false;
-  std::exception_ptr error_;
   std::thread thread_;  // last: it uses all of the above
 };
 

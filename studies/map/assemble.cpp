@@ -9,6 +9,7 @@
 #include "engine/io_error.hpp"
 #include "engine/tile_index.hpp"
 #include "results/map_writer.hpp"
+#include "studies/map/array_tasks.hpp"
 #include "studies/map/assembly_stage.hpp"
 #include "studies/map/tile_record.hpp"
 
@@ -131,9 +132,10 @@ Failures write_map(const MapPlan& plan, const results::MapLayout& layout, const 
 void refuse_gaps(const AssemblyOptions& options, const std::vector<std::uint64_t>& missing,
                  std::uint64_t tiles) {
   if (missing.empty() || options.partial) return;
-  throw engine::IoError(options.output,
-                        fmt::format("{} of its {} tiles are in no shard log yet (the first is tile {})",
-                                    missing.size(), tiles, missing.front()));
+  throw engine::IoError(
+      options.output,
+      fmt::format("{} of its {} tiles are in no shard log yet (the first is tile {}){}", missing.size(),
+                  tiles, missing.front(), missing_tasks_text(options.logs, missing)));
 }
 
 }  // namespace
@@ -144,6 +146,7 @@ Assembly assemble(const MapPlan& plan, const RunRecord& run, const AssemblyOptio
       engine::index_tiles(options.logs, plan.log_header(), [](std::uint64_t, std::span<const std::byte>) {});
   const auto missing = engine::missing_tiles(index);
   Assembly assembly{.finished = false, .tiles = index.places.size(), .missing_tiles = missing.size()};
+  if (!missing.empty()) assembly.missing_tasks = missing_tasks_text(options.logs, missing);
   refuse_gaps(options, missing, assembly.tiles);
   try {
     const results::MapLayout layout = map_layout(plan, run);

@@ -12,6 +12,7 @@ namespace frahm::studies {
 struct Assembly {
   bool finished = false;  // false: stopped; the output is as it was before
   std::uint64_t tiles = 0, missing_tiles = 0;
+  std::string missing_tasks = {};  // as array_tasks.hpp tells them
   std::uint64_t failed_points = 0;
 };
 

@@ -12,7 +12,7 @@ struct AssemblyOptions {
   std::filesystem::path output;
   std::vector<std::filesystem::path> logs;
   bool partial = false;  // write what there is, the rest as not computed; the logs are kept then
-  int threads = 0;       // >= 0; 0: one on each processor this process may use
+  int threads = 0;       // >= 0; 0: engine::default_threads()
   engine::ProgressStyle progress = engine::ProgressStyle::none;
   std::function<bool()> stop_asked;  // looked at between pieces, from several threads
 };

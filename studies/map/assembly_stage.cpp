@@ -44,10 +44,9 @@ void carry_out(const AssemblyStage& stage, const AssemblyOptions& options) {
   } catch (...) {  // thrown on when the progress has ended its line
     error = std::current_exception();
   }
-  const std::exception_ptr watch_error = watch.end();
+  watch.end();
   if (shown) progress.finish(tally());
   if (error) std::rethrow_exception(error);
-  if (watch_error) std::rethrow_exception(watch_error);
   if (!all) throw AssemblyStopped{};
 }
 

@@ -98,6 +98,7 @@ std::vector<results::Text> provenance(const StudyPlan& plan, const RunRecord& ru
       {"flags", facts.flags},
       {"libraries", fmt::format("{}", fmt::join(facts.libraries, ", "))},
       {"threads", fmt::format("{}", run.threads)},
+      {"ranks", fmt::format("{}", run.ranks)},
       {"started", run.started},
       {"finished", utc_now()}};
   if (missing > 0) texts.emplace_back(missing_tiles_text, fmt::format("{}", missing));

@@ -14,7 +14,8 @@ namespace frahm::studies {
 // How a result came about.
 struct RunRecord {
   std::string command;  // "frahm run rig_atlas.toml"
-  int threads = 0;      // of the last run
+  int threads = 0;      // of the last run, in all ranks
+  int ranks = 1;        // of it
   std::string started;  // of the last run, ISO 8601 in UTC
 };
 

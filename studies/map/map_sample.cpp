@@ -12,6 +12,12 @@
 namespace frahm::studies {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
 // Tile numbers k x stride modulo the number of tiles are each met once, and the first few of them lie evenly
 // spread, when the stride is near the golden section.
 std::uint64_t spreading_stride(std::uint64_t tiles) {
@@ -32,12 +38,14 @@ void add(const MapPlan& plan, std::uint64_t tile, const TileRecord& record,
   const MapBox box = plan.grid.box(tile);
   const std::size_t points = box.points();
   sample.points += points;
+  const auto start = Clock::now();
   for (std::size_t q = 0; q < variables.size(); ++q) {
     const auto values = std::span(record.values).subspan(q * points, points);
     const results::Bytes raw = results::to_storage(variables[q], values);
     sample.raw_bytes += raw.size();
     sample.stored_bytes += results::encode_chunk(raw, results::element_size(variables[q].type)).size();
   }
+  sample.encoding_seconds += seconds_since(start);
   if (sample.failed == 0 && !record.failed.empty()) {
     sample.failed_at = point_text(plan.study, index_in(box, record.failed.front().place));
     sample.reason = record.failed.front().reason;
@@ -48,7 +56,6 @@ void add(const MapPlan& plan, std::uint64_t tile, const TileRecord& record,
 }  // namespace
 
 MapSample sample_map(const MapPlan& plan, double seconds) {
-  using Clock = std::chrono::steady_clock;
   const std::vector<results::Variable> variables = map_layout(plan, {}).variables;
   const engine::Kernel kernel = job_of(plan).make_kernel({});
   const std::uint64_t tiles = plan.grid.tiles(), stride = spreading_stride(tiles);
@@ -60,7 +67,8 @@ MapSample sample_map(const MapPlan& plan, double seconds) {
     bytes.clear();
     const auto start = Clock::now();
     kernel(tile, bytes);
-    sample.seconds += std::chrono::duration<double>(Clock::now() - start).count();
+    sample.costs.push_back({tile, seconds_since(start)});
+    sample.seconds += sample.costs.back().seconds;
     decode(bytes, plan.grid.box(tile).points() * plan.variables.size(), record);
     add(plan, tile, record, variables, sample);
   }

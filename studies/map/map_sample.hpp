@@ -2,8 +2,10 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "studies/map/map_plan.hpp"
+#include "studies/map/rank_simulation.hpp"
 
 namespace frahm::studies {
 
@@ -11,8 +13,10 @@ namespace frahm::studies {
 struct MapSample {
   std::uint64_t points = 0;        // computed, >= 1
   double seconds = 0.0;            // of one thread
+  std::vector<TileCost> costs;     // of each tile computed; together `seconds`
   std::uint64_t raw_bytes = 0;     // of their values in the record
   std::uint64_t stored_bytes = 0;  // the same, compressed
+  double encoding_seconds = 0.0;   // what the compression took one thread
   std::uint64_t failed = 0;        // points
   std::string failed_at, reason;   // of the first that failed; its place as --at takes it
 };

@@ -4,9 +4,9 @@
 #include <fmt/ostream.h>
 
 #include <algorithm>
-#include <cctype>
+#include <chrono>
 #include <cmath>
-#include <string_view>
+#include <optional>
 #include <thread>
 
 #include "engine/progress.hpp"
@@ -15,8 +15,10 @@
 #include "studies/map/map_plan.hpp"
 #include "studies/map/map_sample.hpp"
 #include "studies/motion/motion_record.hpp"
+#include "studies/program/array_job.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/modes_table.hpp"
+#include "studies/program/rank_table.hpp"
 #include "studies/reading/settings.hpp"
 #include "studies/tuning/tuning_plan.hpp"
 #include "studies/tuning/tuning_table.hpp"
@@ -30,18 +32,6 @@ std::string readable_size(double bytes) {
     bytes /= 1000.0;
   }
   return fmt::format("{:.3g} TB", bytes);
-}
-
-// A word of a shell command.
-std::string shell_word(const std::string& word) {
-  const auto harmless = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) ||
-           std::string_view("._-/=+,").find(c) != std::string_view::npos;
-  };
-  if (!word.empty() && std::all_of(word.begin(), word.end(), harmless)) return word;
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
 }
 
 void print_grid(const StudyFile& study, const Grid& grid, std::ostream& out) {
@@ -68,21 +58,15 @@ void print_prediction(const Grid& grid, const MapSample& sample, int threads, st
   }
 }
 
-// How a cluster is asked for the same map: tasks of some ten minutes each on one core.
-void print_array(const CheckOptions& options, const Grid& grid, double core_seconds, std::ostream& out) {
-  constexpr double task_seconds = 600.0, most_tasks = 1000.0;
-  if (grid.tiles() == 1) {
-    fmt::print(out, "\nThe map is a single tile, which an array of tasks cannot share.\n");
-    return;
-  }
-  const double most = std::min(most_tasks, static_cast<double>(grid.tiles()));
-  const int tasks = static_cast<int>(std::clamp(std::ceil(core_seconds / task_seconds), 2.0, most));
-  const std::string output = shell_word(options.study.stem().string() + ".h5");
-  std::string run = "frahm run " + shell_word(options.study.string()) + " -o " + output;
-  for (const std::string& setting : options.set) run += " --set " + shell_word(setting);
-  fmt::print(out, "\nAs an array of {} tasks on a cluster, then one file of their shards:\n", tasks);
-  fmt::print(out, "  sbatch --array=0-{} --cpus-per-task=1 --wrap {}\n", tasks - 1, shell_word(run));
-  fmt::print(out, "  frahm merge {}\n", output);
+void print_array(const CheckOptions& options, const StudyPlan& plan, const char* noun,
+                 std::optional<double> core_seconds, std::ostream& out) {
+  print_array_job({.study = options.study,
+                   .set = options.set,
+                   .noun = noun,
+                   .tiles = plan.tiles,
+                   .core_seconds = core_seconds,
+                   .most_tasks = options.max_array > 0 ? options.max_array : most_array_tasks()},
+                  out);
 }
 
 void print_first_modes(const StudyFile& study, const Grid& grid, std::ostream& out) {
@@ -188,6 +172,7 @@ int check_tune(const CheckOptions& options, StudyFile read, std::ostream& out) {
   fmt::print(out, "{:<22}{}\n{:<22}{}\n{:<22}{}\n\n", "variables", variables, "limits",
              study.tune->limits.size() + (study.tune->trade_off ? 1 : 0), "starts", plan.tiles);
   print_stated_modes(study, out);
+  if (plan.tiles > 1) print_array(options, plan, "tuning", std::nullopt, out);
   return exit_code::done;
 }
 
@@ -215,12 +200,18 @@ MapSample sample_of(const MapPlan& plan, double seconds) {
 }  // namespace
 
 int check_command(const CheckOptions& options, std::ostream& out) {
+  using Clock = std::chrono::steady_clock;
   constexpr double sample_seconds = 1.0;
+  const auto start = Clock::now();
   StudyFile read = read_study_with(options.study, options.set);
+  if (options.simulate_ranks > 0 && read.kind != StudyKind::sweep)
+    throw StudyError(options.study.string() + ": --simulate-ranks is for maps; this study is a " +
+                     std::string(kind_name(read.kind)));
   if (read.kind == StudyKind::tune) return check_tune(options, std::move(read), out);
   if (read.identify) return check_identification(options, std::move(read), out);
   if (read.kind != StudyKind::sweep) return check_motion(read, out);
   const MapPlan plan = plan_map(std::move(read), options.set);
+  const double start_seconds = std::chrono::duration<double>(Clock::now() - start).count();
   const StudyFile& study = plan.study;
   const MapSample sample = sample_of(plan, sample_seconds);
   const double core_seconds =
@@ -231,7 +222,11 @@ int check_command(const CheckOptions& options, std::ostream& out) {
              study.title);
   print_grid(study, plan.grid, out);
   print_prediction(plan.grid, sample, options.threads > 0 ? options.threads : processors, out);
-  print_array(options, plan.grid, core_seconds, out);
+  print_array(options, plan, "map", core_seconds, out);
+  if (options.simulate_ranks > 0) {
+    print_rank_table(plan.grid, sample, options.simulate_ranks, std::max(1, options.threads), start_seconds,
+                     out);
+  }
   print_first_modes(study, plan.grid, out);
   return exit_code::done;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <iosfwd>
 #include <string>
@@ -11,6 +12,8 @@ struct CheckOptions {
   std::filesystem::path study;
   std::vector<std::string> set = {};  // name=value, a unit behind the value or none
   int threads = 0;                    // for the predicted time; 0: one on each processor
+  std::uint64_t max_array = 0;        // tasks that an array of the cluster may have; 0: as Slurm here says
+  int simulate_ranks = 0;             // so many ranks of `threads` threads (0: one); 0: no simulation
 };
 
 // Validates a study and tells what running it means: points and tiles, the time and size to expect, the line

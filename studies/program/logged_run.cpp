@@ -70,6 +70,12 @@ void tell_unused(const engine::Summary& summary) {
   }
 }
 
+std::string team_text(int threads, int ranks) {
+  std::string text = fmt::format("{} thread{}", threads, threads == 1 ? "" : "s");
+  if (ranks > 1) text += fmt::format(" of {} ranks", ranks);
+  return text;
+}
+
 int tell_stopped(const engine::Summary& summary, const std::filesystem::path& output) {
   const double percent =
       100.0 * static_cast<double>(summary.points.done) / static_cast<double>(summary.points.points);

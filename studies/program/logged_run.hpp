@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iosfwd>
 #include <optional>
+#include <string>
 
 #include "engine/output_lock.hpp"
 #include "engine/run.hpp"
@@ -22,6 +23,9 @@ engine::Summary compute(const StudyPlan& plan, const engine::Job& job, const eng
 
 // Notes, on stderr, what could not be used of earlier logs.
 void tell_unused(const engine::Summary& summary);
+
+// "2 threads", "8 threads of 4 ranks".
+std::string team_text(int threads, int ranks);
 
 // The ends of a run that makes no file: stopped, or one shard of several. They return the exit code.
 int tell_stopped(const engine::Summary& summary, const std::filesystem::path& output);

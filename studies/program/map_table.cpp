@@ -11,6 +11,7 @@
 #include "studies/map/finished_file.hpp"
 #include "studies/map/map_summary.hpp"
 #include "studies/program/exit_code.hpp"
+#include "studies/program/logged_run.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -19,8 +20,8 @@ constexpr int most_failures_shown = 3;
 
 void print_effort(const Effort& effort, std::ostream& out) {
   const auto points = static_cast<double>(effort.points);
-  fmt::print(out, "{:<22} {:.2f} s wall, {:.2f} s CPU on {} thread{}", "time", effort.seconds,
-             effort.cpu_seconds, effort.threads, effort.threads == 1 ? "" : "s");
+  fmt::print(out, "{:<22} {:.2f} s wall, {:.2f} s CPU on {}", "time", effort.seconds, effort.cpu_seconds,
+             team_text(effort.threads, effort.ranks));
   if (effort.points > 0) {
     fmt::print(out, "; {} orbits, {:.0f}/s, {:.0f} per CPU second", effort.points, points / effort.seconds,
                points / effort.cpu_seconds);

@@ -14,7 +14,8 @@ struct Effort {
   std::uint64_t points = 0;  // computed by it
   double seconds = 0.0;      // wall time of the whole program
   double cpu_seconds = 0.0;  // of all threads
-  int threads = 0;
+  int threads = 0;           // of all ranks
+  int ranks = 1;
 };
 
 // The short table that ends a run: worst peak of the first mass along the slowest axis, shares of the

@@ -27,6 +27,8 @@ engine::LogHeader study_of(const std::vector<std::filesystem::path>& logs,
                            const std::filesystem::path& output) {
   for (const auto& log : logs) {
     if (!std::filesystem::exists(log)) throw engine::IoError(log, "there is no such shard log");
+  }
+  for (const auto& log : logs) {
     if (const auto study = engine::study_of_log(log)) return *study;
   }
   throw engine::IoError(output, "there is no shard log to merge");
@@ -76,8 +78,8 @@ int merge_map(const MergeOptions& options, const std::vector<std::filesystem::pa
   if (assembly.missing_tiles == 0) {
     remove_notes(options, logs);
   } else {
-    fmt::print(out, "{} of {} tiles are missing: their points are not computed; the logs are kept\n",
-               assembly.missing_tiles, assembly.tiles);
+    fmt::print(out, "{} of {} tiles are missing: their points are not computed; the logs are kept{}\n",
+               assembly.missing_tiles, assembly.tiles, assembly.missing_tasks);
   }
   return print_map_table(plan, plan.study.source.name, options.output, std::nullopt, out);
 }
@@ -99,15 +101,32 @@ int merge_tuning(const MergeOptions& options, const std::vector<std::filesystem:
   return tell_tuning(plan, *result, options.output, out);
 }
 
+// Whether an earlier merge or run has made the file already: a whole result, and of the study of whatever
+// logs are still there, left behind when it was killed while it removed them. These go.
+bool is_merged(const MergeOptions& options, std::vector<std::filesystem::path> logs, std::ostream& out) {
+  check_result_place(options.output, {});
+  const auto kept = fingerprint_of_file(options.output);
+  if (!kept || is_partial(options.output)) return false;
+  std::erase_if(logs, [](const auto& log) { return !std::filesystem::exists(log); });
+  for (const auto& log : logs) {
+    const auto study = engine::study_of_log(log);
+    if (study && study->fingerprint != *kept) return false;
+  }
+  engine::remove_logs(logs);
+  remove_notes(options, logs);
+  fmt::print(out, "{} is finished already, nothing is left to merge\n", options.output.string());
+  return true;
+}
+
 }  // namespace
 
 int merge_command(const MergeOptions& options, std::ostream& out) {
   engine::survive_broken_pipes();
   const engine::OutputLock lock(options.output);
   const auto logs = options.logs.empty() ? engine::find_logs(options.output) : options.logs;
+  if (is_merged(options, logs, out)) return exit_code::done;
   const engine::LogHeader header = study_of(logs, options.output);
   NotedStudy noted = study_from_note(places_of_note(options, logs), header);
-  check_result_place(options.output, {});
   return noted.study.kind == StudyKind::tune
              ? merge_tuning(options, logs, header, std::move(noted), lock, out)
              : merge_map(options, logs, header, std::move(noted), lock, out);

@@ -41,11 +41,16 @@ engine::Shard shard_of_array_task(const std::function<const char*(const char*)>&
   };
   const std::uint64_t id = read("SLURM_ARRAY_TASK_ID", 0), first = read("SLURM_ARRAY_TASK_MIN", 0);
   const std::uint64_t step = read("SLURM_ARRAY_TASK_STEP", 1), count = read("SLURM_ARRAY_TASK_COUNT", 1);
-  if (step == 0 || id < first || (id - first) % step != 0 || (id - first) / step >= count) {
-    throw StudyError(
-        fmt::format("array task {} does not fit tasks from {} in steps of {}, {} of them (environment "
-                    "SLURM_ARRAY_TASK_*); give --shard i/n",
-                    id, first, step, count));
+  const std::uint64_t last = read("SLURM_ARRAY_TASK_MAX", first + (count - 1) * step);
+  // Slurm gives a set of single numbers, such as --array=1,3, the step 1: no place in the set follows from
+  // it, nor what each task would take for its share.
+  const bool is_series = step > 0 && count > 0 && last == first + (count - 1) * step;
+  if (!is_series || id < first || id > last || (id - first) % step != 0) {
+    throw StudyError(fmt::format(
+        "array task {} of {} tasks from {} to {} in steps of {} (environment SLURM_ARRAY_TASK_*): which "
+        "share it has is clear only where the tasks are evenly spaced; give --shard i/n, such as "
+        "--shard $SLURM_ARRAY_TASK_ID/16 of an --array within 0-15",
+        id, count, first, last, step));
   }
   return {.index = (id - first) / step, .count = count};
 }

@@ -14,7 +14,7 @@ namespace frahm::studies {
 // "3/16": shard 3 of 16, counted from 0.
 engine::Shard shard_of(std::string_view text);
 
-// The share of an array task of Slurm, from SLURM_ARRAY_TASK_ID, _COUNT, _MIN and _STEP; the whole work
+// The share of an array task of Slurm, from SLURM_ARRAY_TASK_ID, _COUNT, _MIN, _MAX and _STEP; the whole work
 // outside of one. variable: reads the environment, null where it has no such variable.
 engine::Shard shard_of_array_task(const std::function<const char*(const char*)>& variable);
 

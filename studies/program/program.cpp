@@ -1,14 +1,23 @@
 #include "studies/program/program.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <functional>
 #include <iostream>
 #include <map>
+#include <memory>
+#include <optional>
+#include <sstream>
 
+#include "engine/assist.hpp"
+#include "engine/dealer.hpp"
 #include "engine/fingerprint.hpp"
 #include "engine/io_error.hpp"
+#include "engine/mpi.hpp"
 #include "results/store_error.hpp"
+#include "studies/program/assist_command.hpp"
 #include "studies/program/check_command.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/export_command.hpp"
@@ -45,14 +54,18 @@ Examples:
   frahm run rig_atlas.toml                    into rig_atlas.h5, on all processors
   frahm run rig_atlas.toml --set "K=8200 N/m" -o stiffer.h5
   frahm run rig_atlas.toml --time-budget 50m  stops in time; the same command goes on
+  mpirun -np 16 frahm run rig_atlas.toml      on the ranks of an MPI job
   frahm run rig_decay_main.toml               one motion: a free decay, or a transient
   frahm run tune_classical.toml               a tuning: an optimum from each of its starts
   frahm run identify_rig_tmd.toml             an identification: a model from measurements
-  sbatch --array=0-15 --wrap "frahm run rig_atlas.toml"    then: frahm merge rig_atlas.h5)";
+  sbatch --array=0-15 --wrap 'frahm run rig_atlas.toml --shard $SLURM_ARRAY_TASK_ID/16'
+                                              then: frahm merge rig_atlas.h5)";
 
 constexpr const char* check_examples = R"(
-Example:
-  frahm check rig_atlas.toml --set "A=20 mm")";
+Examples:
+  frahm check rig_atlas.toml --set "A=20 mm"
+  frahm check rig_atlas.toml --max-array 201  an array's tasks, as MaxArraySize of the cluster allows
+  frahm check rig_atlas.toml --simulate-ranks 1000 --threads 4)";
 
 constexpr const char* point_examples = R"(
 Examples (a bare number is in the unit in which the study speaks of the parameter):
@@ -135,7 +148,8 @@ void add_run(CLI::App& program, RunTexts& texts, Action& action) {
     action = [&](std::ostream& out) {
       options.run.shard = shard.empty() ? shard_of_array_task(std::getenv) : shard_of(shard);
       if (!budget.empty()) options.run.time_budget = time_span_of("--time-budget", budget);
-      return run_command(options, out);
+      const bool leads = !options.run.ranks || options.run.ranks->rank() == 0;
+      return leads ? run_command(options, out) : assist_command(options);
     };
   });
 }
@@ -146,6 +160,15 @@ void add_check(CLI::App& program, CheckOptions& options, Action& action) {
   add_study(*check, options.study);
   add_set(*check, options.set);
   add_threads(*check, options.threads);
+  check
+      ->add_option("--max-array", options.max_array,
+                   "tasks an array may have on the cluster (MaxArraySize); else as Slurm here says, or 1001")
+      ->check(CLI::Range(1, 4'000'001));  // the largest Slurm can be set to
+  check
+      ->add_option(
+          "--simulate-ranks", options.simulate_ranks,
+          "predict time and efficiency on 1, 10, 100 ... so many MPI ranks of --threads each (0: one)")
+      ->check(CLI::Range(1, 100'000));
   check->callback([&] { action = [&](std::ostream& out) { return check_command(options, out); }; });
 }
 
@@ -247,53 +270,89 @@ void describe(CLI::App& program, CommandLine& line) {
       ->callback([&line] { line.action = [](std::ostream& out) { return verify_command(out); }; });
 }
 
-// What went wrong, and the exit code for it.
-int complain(const std::string& message, int code) {
-  std::cerr << "frahm: " << message << '\n';
-  return code;
-}
+// How a command ended.
+struct Ending {
+  int code = exit_code::done;
+  std::string complaint = {};  // what went wrong; empty if nothing did
+};
 
-int carry_out(const Action& action, std::ostream& out) {
+Ending carry_out(const Action& action, std::ostream& out) {
   try {
     const int code = action(out);
     out.flush();
-    return out ? code
-               : complain("standard output could not be written to; a file that was made is whole",
-                          exit_code::input_output);
+    return out ? Ending{code}
+               : Ending{exit_code::input_output,
+                        "standard output could not be written to; a file that was made is whole"};
   } catch (const StudyError& error) {
-    return complain(error.what(), exit_code::wrong_input);
+    return {exit_code::wrong_input, error.what()};
   } catch (const engine::ResumeRefused& error) {
-    return complain(
-        std::string(error.what()) + "\nname another file with -o, or discard what is there with --fresh",
-        exit_code::resume_refused);
+    return {exit_code::resume_refused,
+            std::string(error.what()) + "\nname another file with -o, or discard what is there with --fresh"};
+  } catch (const engine::RankFailed& error) {
+    return {error.code(), error.what()};
   } catch (const engine::IoError& error) {
-    return complain(error.what(), exit_code::input_output);
+    return {exit_code::input_output, error.what()};
   } catch (const results::StoreError& error) {
-    return complain(error.what(), exit_code::input_output);
+    return {exit_code::input_output, error.what()};
   } catch (const std::filesystem::filesystem_error& error) {
-    return complain(error.what(), exit_code::input_output);
+    return {exit_code::input_output, error.what()};
   } catch (const std::bad_alloc&) {
-    return complain("there is not enough memory", exit_code::input_output);
+    return {exit_code::input_output, "there is not enough memory"};
+  } catch (const std::exception& error) {
+    return {exit_code::internal_error, fmt::format("internal error, please report it: {}", error.what())};
   }
+}
+
+// Parses the command line; the exit code if there is nothing more to do. A rank that follows says nothing.
+std::optional<int> parse(CLI::App& program, CommandLine& line, int argc, const char* const* argv,
+                         std::ostream& out, std::ostream& complaints) {
+  for (int i = 0; i < argc; ++i) line.run.options.command += (i == 0 ? "frahm" : std::string(" ") + argv[i]);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error, out, complaints) == 0 ? exit_code::done : exit_code::wrong_input;
+  }
+  if (line.version) line.action = [&line](std::ostream& to) { return version_command(line.verbose, to); };
+  if (line.action) return std::nullopt;
+  complaints << program.help();
+  return exit_code::wrong_input;
+}
+
+// Of this process alone, or of rank 0.
+int lead(engine::Ranks* ranks, int argc, const char* const* argv, std::ostream& out) {
+  CLI::App program(overview, "frahm");
+  CommandLine line;
+  describe(program, line);
+  line.run.options.run.ranks = ranks;
+  if (const auto code = parse(program, line, argc, argv, out, std::cerr)) return *code;
+  const Ending ending = carry_out(line.action, out);
+  if (!ending.complaint.empty()) std::cerr << "frahm: " << ending.complaint << '\n';
+  return ending.code;
+}
+
+// Of the other ranks: a run is shared, whatever else is asked for is done by rank 0. They say nothing
+// themselves; what goes wrong with one is told by rank 0.
+int follow(engine::Ranks& ranks, int argc, const char* const* argv) {
+  CLI::App program(overview, "frahm");
+  CommandLine line;
+  describe(program, line);
+  line.run.options.run.ranks = &ranks;
+  std::ostringstream unseen;
+  if (parse(program, line, argc, argv, unseen, unseen) || !program.got_subcommand("run"))
+    return engine::wait_for_end(ranks);
+  const Ending ending = carry_out(line.action, unseen);
+  return ending.complaint.empty() ? ending.code : engine::tell_failure(ranks, ending.complaint, ending.code);
 }
 
 }  // namespace
 
 int run_program(int argc, const char* const* argv, std::ostream& out) {
-  CLI::App program(overview, "frahm");
-  CommandLine line;
-  describe(program, line);
-  for (int i = 0; i < argc; ++i) line.run.options.command += (i == 0 ? "frahm" : std::string(" ") + argv[i]);
-  try {
-    program.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return program.exit(error, out, std::cerr) == 0 ? exit_code::done : exit_code::wrong_input;
-  }
-  if (line.version)
-    return carry_out([&](std::ostream& to) { return version_command(line.verbose, to); }, out);
-  if (line.action) return carry_out(line.action, out);
-  std::cerr << program.help();
-  return exit_code::wrong_input;
+  const std::unique_ptr<engine::Ranks> ranks = engine::mpi_ranks();
+  if (!ranks) return lead(nullptr, argc, argv, out);
+  if (ranks->rank() > 0) return follow(*ranks, argc, argv);
+  const int code = lead(ranks.get(), argc, argv, out);
+  engine::end_all(*ranks, code);
+  return code;
 }
 
 }  // namespace frahm::studies

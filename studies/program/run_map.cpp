@@ -42,11 +42,12 @@ int run_map(const RunCommandOptions& options, StudyFile study, std::ostream& out
   if (run.shard.count > 1) return tell_shard(run, summary, out);
 
   record.threads = summary.threads;
+  record.ranks = summary.ranks;
   const engine::StopSignals signals;
   const Assembly assembly = assemble(plan, record,
                                      {.output = run.output,
                                       .logs = engine::find_logs(run.output),
-                                      .threads = run.threads,
+                                      .threads = summary.threads_here,
                                       .progress = run.progress,
                                       .stop_asked = [&] { return signals.received() != 0; }},
                                      *lock);
@@ -54,8 +55,10 @@ int run_map(const RunCommandOptions& options, StudyFile study, std::ostream& out
   remove_study_notes(run.output);
   const Effort effort{.points = summary.points.done - summary.points.resumed,
                       .seconds = std::chrono::duration<double>(Clock::now() - start).count(),
-                      .cpu_seconds = static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC,
-                      .threads = summary.threads};
+                      .cpu_seconds = static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC +
+                                     summary.cpu_seconds_elsewhere,
+                      .threads = summary.threads,
+                      .ranks = summary.ranks};
   return print_map_table(plan, options.study, run.output, effort, out);
 }
 

@@ -77,6 +77,7 @@ int run_tuning(const RunCommandOptions& options, StudyFile study, std::ostream& 
   if (run.shard.count > 1) return tell_shard(run, summary, out);
 
   record.threads = summary.threads;
+  record.ranks = summary.ranks;
   const engine::StopSignals signals;
   const auto stop_asked = [&] { return signals.received() != 0; };
   const std::optional<TuningResult> result = assemble_tuning(
@@ -85,10 +86,11 @@ int run_tuning(const RunCommandOptions& options, StudyFile study, std::ostream& 
   if (!result) return tell_stopped(summary, run.output);
   remove_study_notes(run.output);
   const int code = tell_tuning(plan, *result, run.output, out);
-  fmt::print(out, "{:<22}{:.2f} s wall, {:.2f} s CPU on {} thread{}\n", "time",
-             std::chrono::duration<double>(Clock::now() - start).count(),
-             static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC, summary.threads,
-             summary.threads == 1 ? "" : "s");
+  const double cpu_seconds =
+      static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC + summary.cpu_seconds_elsewhere;
+  fmt::print(out, "{:<22}{:.2f} s wall, {:.2f} s CPU on {}\n", "time",
+             std::chrono::duration<double>(Clock::now() - start).count(), cpu_seconds,
+             team_text(summary.threads, summary.ranks));
   return code;
 }
 

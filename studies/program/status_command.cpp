@@ -5,12 +5,15 @@
 
 #include <algorithm>
 #include <ostream>
+#include <utility>
 
 #include "engine/io_error.hpp"
 #include "engine/tile_index.hpp"
 #include "studies/identification/identification_record.hpp"
 #include "studies/map/finished_file.hpp"
 #include "studies/map/map_summary.hpp"
+#include "studies/program/exit_code.hpp"
+#include "studies/program/log_status.hpp"
 #include "studies/tuning/tuning_record.hpp"
 
 namespace frahm::studies {
@@ -77,44 +80,46 @@ void print_file(const std::filesystem::path& file, std::ostream& out) {
   }
 }
 
-// The logs of one study: there is more than one only where a run was refused or a log put there by hand.
-void print_logs(const std::vector<std::filesystem::path>& logs, const engine::LogHeader& study,
-                std::ostream& out) {
-  std::vector<std::filesystem::path> own = logs;
-  std::erase_if(own, [&](const auto& log) { return engine::study_of_log(log) != study; });
-  const engine::TileIndex index = engine::index_tiles(own, study, [](std::uint64_t, auto) {});
-  const std::uint64_t missing = engine::missing_tiles(index).size(), done = study.tiles - missing;
-  fmt::print(out, "{:<22} {} of {} ({:.1f} %), {} missing\n", "tiles", done, study.tiles,
-             100.0 * static_cast<double>(done) / static_cast<double>(study.tiles), missing);
-  fmt::print(out, "{:<22} {}\n{:<22} {}\n", "fingerprint_physics", study.fingerprint.physics,
-             "fingerprint_grid", study.fingerprint.grid);
-  for (const auto& log : index.logs) fmt::print(out, "{:<22} {}\n", "log", log.string());
-  for (const engine::UnusedBytes& unused : index.unused) {
-    fmt::print(out, "{:<22} {}: {} bytes from byte {} on\n", "unused or in writing", unused.log.string(),
-               unused.bytes, unused.from);
+// The logs beside a file, by the study they belong to: there is more than one only where a run was refused or
+// a log put there by hand.
+struct FoundLogs {
+  std::vector<std::pair<engine::LogHeader, std::vector<std::filesystem::path>>> studies;
+  std::vector<std::string> unreadable;  // what is wrong with each log that cannot be read
+};
+
+FoundLogs logs_beside(const std::filesystem::path& file) {
+  FoundLogs found;
+  for (const auto& log : engine::find_logs(file)) {
+    try {
+      const auto study = engine::study_of_log(log);
+      if (!study) continue;  // cut off at birth
+      auto known = std::find_if(found.studies.begin(), found.studies.end(),
+                                [&](const auto& some) { return some.first == *study; });
+      if (known == found.studies.end()) known = found.studies.insert(known, {*study, {}});
+      known->second.push_back(log);
+    } catch (const engine::IoError& error) {
+      found.unreadable.push_back(error.what());
+    }
   }
+  return found;
 }
 
 }  // namespace
 
 int status_command(const std::filesystem::path& file, std::ostream& out) {
   const bool is_there = std::filesystem::exists(file);
-  const std::vector<std::filesystem::path> logs = engine::find_logs(file);
+  const FoundLogs found = logs_beside(file);
   if (is_there) print_file(file, out);
-  std::vector<engine::LogHeader> studies;
-  for (const auto& log : logs) {
-    const auto study = engine::study_of_log(log);
-    if (study && std::find(studies.begin(), studies.end(), *study) == studies.end())
-      studies.push_back(*study);
-  }
-  if (!is_there && studies.empty())
+  if (!is_there && found.studies.empty() && found.unreadable.empty())
     throw engine::IoError(file, "there is no such file, and no shard log beside it");
-  for (const engine::LogHeader& study : studies) {
+  for (const auto& [study, logs] : found.studies) {
     fmt::print(out, "{}: {}\n", file.string(),
                is_there ? "a newer run is in progress or was stopped" : "unfinished");
-    print_logs(logs, study, out);
+    print_log_status(file, logs, study, out);
   }
-  return 0;
+  for (const std::string& problem : found.unreadable)
+    fmt::print(out, "{:<22} {}\n", "unreadable log", problem);
+  return found.unreadable.empty() ? exit_code::done : exit_code::input_output;
 }
 
 }  // namespace frahm::studies

@@ -7,6 +7,7 @@
 #include <string>
 #include <thread>
 
+#include "engine/mpi.hpp"
 #include "studies/map/build_facts.hpp"
 
 namespace frahm::studies {
@@ -33,6 +34,8 @@ int version_command(bool verbose, std::ostream& out) {
   fmt::print(out, "flags      {}\n", facts.flags);
   fmt::print(out, "CPU        {}\n", cpu_text());
   fmt::print(out, "threads    {} (processors this process may use)\n", std::thread::hardware_concurrency());
+  const std::string mpi = engine::mpi_library();
+  fmt::print(out, "ranks      {}\n", mpi.empty() ? "none: built without MPI" : mpi);
   fmt::print(out, "libraries  {}\n", fmt::join(facts.libraries, "\n           "));
   return 0;
 }

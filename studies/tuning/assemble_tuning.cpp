@@ -5,6 +5,7 @@
 #include "engine/io_error.hpp"
 #include "engine/tile_index.hpp"
 #include "results/map_writer.hpp"
+#include "studies/map/array_tasks.hpp"
 #include "studies/map/map_record.hpp"
 #include "studies/tuning/optimum_record.hpp"
 #include "studies/tuning/tuning_record.hpp"
@@ -12,12 +13,14 @@
 namespace frahm::studies {
 namespace {
 
-void refuse_gaps(const AssemblyOptions& options, std::uint64_t missing, std::uint64_t starts) {
-  if (missing == starts)
+void refuse_gaps(const AssemblyOptions& options, const std::vector<std::uint64_t>& missing,
+                 std::uint64_t starts) {
+  if (missing.size() == starts)
     throw engine::IoError(options.output, fmt::format("none of its {} starts is in a shard log yet", starts));
-  if (missing == 0 || options.partial) return;
+  if (missing.empty() || options.partial) return;
   throw engine::IoError(options.output,
-                        fmt::format("{} of its {} starts are in no shard log yet", missing, starts));
+                        fmt::format("{} of its {} starts are in no shard log yet{}", missing.size(), starts,
+                                    missing_tasks_text(options.logs, missing)));
 }
 
 void write_file(const StudyPlan& plan, const RunRecord& run, const std::filesystem::path& output,
@@ -36,7 +39,7 @@ std::optional<TuningResult> assemble_tuning(const StudyPlan& plan, const RunReco
                                             const AssemblyOptions& options, const engine::OutputLock&) {
   const engine::TileIndex index =
       engine::index_tiles(options.logs, plan.log_header(), [](std::uint64_t, std::span<const std::byte>) {});
-  const std::uint64_t missing = engine::missing_tiles(index).size();
+  const std::vector<std::uint64_t> missing = engine::missing_tiles(index);
   refuse_gaps(options, missing, plan.tiles);
   std::vector<StartResult> starts;
   engine::for_each_tile(index, [&](std::uint64_t start, std::span<const std::byte> bytes) {
@@ -45,8 +48,8 @@ std::optional<TuningResult> assemble_tuning(const StudyPlan& plan, const RunReco
   if (options.stop_asked()) return std::nullopt;
   TuningResult result = tuning_result(plan.study, std::move(starts));
   if (options.stop_asked()) return std::nullopt;
-  write_file(plan, run, options.output, result, missing);
-  if (missing == 0) engine::remove_logs(options.logs);
+  write_file(plan, run, options.output, result, missing.size());
+  if (missing.empty()) engine::remove_logs(options.logs);
   return result;
 }
 

@@ -84,6 +84,7 @@ TEST_CASE("each foreign library is known to one file, and to no header") {
       {"CLI", {"studies/program/program.cpp"}},
       {"udunits2", {"studies/reading/units.cpp"}},
       {"isa-l/crc", {"engine/checksum.cpp"}},
+      {"mpi", {"engine/mpi.cpp"}},
       {"isa-l/igzip_lib", {"results/chunk_codec.cpp"}},
       {"cvodes|nvector|sundials|sunlinsol|sunmatrix", {"solvers/smooth/cvodes.cpp"}},
       {"boost/math",

@@ -72,7 +72,7 @@ TEST_CASE("a log cut at any byte of its last record keeps the tiles before and t
     write_file(path, whole.substr(0, cut));
     REQUIRE(good_tiles(path) == 2);
     { ShardLog(path, study).append(2, sample(2)); }
-    REQUIRE(read_file(path).substr(owner_offset + owner_size) == whole.substr(owner_offset + owner_size));
+    REQUIRE(read_file(path).substr(header_size) == whole.substr(header_size));
   }
 }
 
@@ -103,7 +103,7 @@ TEST_CASE("a bit flipped anywhere in a record cuts the log before that record") 
   }
 }
 
-TEST_CASE("a bit flipped in the header is an error naming the file, except in the owner's name") {
+TEST_CASE("a bit flipped in the header is an error naming the file, except where it tells of the writer") {
   const Scratch scratch;
   const auto path = log_path(scratch.output(), "a");
   write_three(path);
@@ -180,6 +180,55 @@ TEST_CASE("a second writer of a log is refused and told who has it") {
   CHECK_THROWS_WITH(ShardLog(path, study), Contains(path.string()) && Contains(this_process()));
   CHECK_THROWS_AS(remove_logs({path}), Locked);
   CHECK(good_tiles(path) == 3);
+}
+
+TEST_CASE("a log tells when its present writer began and what that found") {
+  const Scratch scratch;
+  const auto path = log_path(scratch.output(), "a");
+  const auto began = [&] { return read_writer(File::open_if_present(path).value()).value(); };
+  const auto before = std::chrono::system_clock::now() - std::chrono::milliseconds(1);
+  const auto sizes = write_three(path);
+  CHECK(began().good_bytes == header_size);
+  CHECK(began().time >= before);
+  const auto between = std::chrono::system_clock::now() - std::chrono::milliseconds(1);
+  { ShardLog(path, study).append(3, sample(3)); }
+  CHECK(began().good_bytes == sizes[3]);
+  CHECK(began().time >= between);
+  CHECK(began().time <= std::chrono::system_clock::now());
+}
+
+TEST_CASE("a log that is older or damaged there does not tell of its writer and keeps its tiles") {
+  const Scratch scratch;
+  const auto path = log_path(scratch.output(), "a");
+  write_three(path);
+  const std::string whole = read_file(path), owner = "process 4711 on node17";
+  std::string older = whole;
+  older.replace(owner_offset, header_size - owner_offset,
+                owner + std::string(header_size - owner_offset - owner.size(), '\0'));
+  std::vector<std::string> logs{older};
+  for (const std::uint64_t at : {owner_offset, owner_offset + owner_size, header_size - 1}) {
+    logs.push_back(whole);
+    logs.back()[at] = static_cast<char>(whole[at] ^ 1);
+  }
+  for (const std::string& bytes : logs) {
+    write_file(path, bytes);
+    CHECK_FALSE(read_writer(File::open_if_present(path).value()).has_value());
+    CHECK(good_tiles(path) == 3);
+  }
+}
+
+TEST_CASE("looking whether a log is in use tells its writer's lock and keeps none") {
+  const Scratch scratch;
+  const auto path = log_path(scratch.output(), "a");
+  write_three(path);
+  const File look = File::open_if_present(path).value();
+  CHECK_FALSE(look.is_locked());
+  {
+    const ShardLog log(path, study);
+    CHECK(look.is_locked());
+  }
+  CHECK_FALSE(look.is_locked());
+  const ShardLog again(path, study);
 }
 
 TEST_CASE("a fingerprint that does not fit is refused before anything is written") {

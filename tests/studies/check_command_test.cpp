@@ -29,13 +29,31 @@ TEST_CASE("Checking the rig atlas tells its size, its array of tasks and its mod
   CHECK(has(text, "rig_atlas.toml is a valid study: Tuned mass damper with inerter: the rig"));
   CHECK(has(text, "points  522102 = 42 I x 31 FP x 401 omega\n"));
   CHECK(has(text, "on 2 threads of this machine"));
-  CHECK(has(text, "sbatch --array=0-1 "));
-  CHECK(has(text, "--set "));
-  CHECK(has(text, "K=8000 N/m"));
-  CHECK(has(text, "frahm merge rig_atlas.h5\n"));
+  // Quoted twice, so that the shell that submits leaves the variable to the task.
+  CHECK(has(text, "  sbatch --array=0-1 --cpus-per-task=1 --wrap 'frahm run "));
+  CHECK(
+      has(text, " -o rig_atlas.h5 --set '\\''K=8000 N/m'\\'' --shard $SLURM_ARRAY_TASK_ID/2 --threads 1'\n"));
+  CHECK(has(text, "frahm merge rig_atlas.h5 "));
   CHECK(has(text, "At the first point of the grid, I=4.72 kg,FP=0,omega=150 rpm:\n"));
   CHECK(has(text, "shape of main, tmd\n"));
   CHECK(has(text, "With all friction stuck nothing moves."));
+}
+
+TEST_CASE("A simulation of ranks tells time, efficiency and losses of 1, 10, 100 ... ranks") {
+  std::ostringstream out;
+  CHECK(check_command({.study = studies + "rig_atlas.toml", .threads = 2, .simulate_ranks = 250}, out) == 0);
+  const std::string text = out.str();
+  INFO(text);
+  CHECK(has(text, "On ranks of 2 threads each"));
+  for (const char* row :
+       {"\n      1        2 ", "\n     10       20 ", "\n    100      200 ", "\n    250      500 "})
+    CHECK(has(text, row));
+  CHECK(has(text, "Efficiency "));
+  CHECK_THROWS_WITH(check_command({.study = studies + "tune_classical.toml", .simulate_ranks = 2}, out),
+                    Catch::Contains("--simulate-ranks is for maps"));
+  CHECK_THROWS_WITH(
+      check_command({.study = studies + "rig_atlas.toml", .threads = 4096, .simulate_ranks = 100'000}, out),
+      Catch::Contains("threads in all"));
 }
 
 TEST_CASE("A sample of a map is at least a tile and at most the map") {

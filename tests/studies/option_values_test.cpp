@@ -38,6 +38,36 @@ TEST_CASE("an array task of Slurm takes its own share") {
   CHECK(shard_in(task).count == 4);
 }
 
+// As Slurm 22.05 sets it for each task of `--array=...`.
+Environment array_of(const std::string& id, const std::string& count, const std::string& first,
+                     const std::string& last, const std::string& step) {
+  return {{"SLURM_ARRAY_TASK_ID", id},
+          {"SLURM_ARRAY_TASK_COUNT", count},
+          {"SLURM_ARRAY_TASK_MIN", first},
+          {"SLURM_ARRAY_TASK_MAX", last},
+          {"SLURM_ARRAY_TASK_STEP", step}};
+}
+
+TEST_CASE("evenly spaced array tasks are numbered from 0 on") {
+  CHECK(shard_in(array_of("9", "3", "1", "9", "4")).index == 2);  // --array=1-9:4
+  CHECK(shard_in(array_of("9", "3", "1", "9", "4")).count == 3);
+  CHECK(shard_in(array_of("5", "4", "2", "5", "1")).index == 3);  // --array=2-5%2
+  CHECK(shard_in(array_of("7", "1", "7", "7", "1")).count == 1);  // --array=7
+}
+
+TEST_CASE("array tasks that are not evenly spaced are refused in every task") {
+  for (const char* id : {"1", "3"}) {
+    CHECK_THROWS_WITH(shard_in(array_of(id, "2", "1", "3", "1")), Catch::Contains("--shard"));
+  }
+  for (const char* id : {"1", "3", "4"}) {
+    CHECK_THROWS_WITH(shard_in(array_of(id, "3", "1", "4", "1")), Catch::Contains("--shard"));
+  }
+  for (const char* id : {"0", "2", "8", "10"}) {  // --array=0-8:4,2,10
+    CHECK_THROWS_WITH(shard_in(array_of(id, "5", "0", "10", "4")), Catch::Contains("--shard"));
+  }
+  CHECK_THROWS_AS(shard_in(array_of("0", "0", "0", "0", "1")), StudyError);
+}
+
 TEST_CASE("array tasks that are no shares of one work are refused") {
   const Environment gap{
       {"SLURM_ARRAY_TASK_ID", "9"}, {"SLURM_ARRAY_TASK_COUNT", "2"}, {"SLURM_ARRAY_TASK_MIN", "0"}};

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+
+#include "engine/bytes.hpp"
+
+namespace frahm::engine {
+
+// The processes of one parallel program, told apart by their rank, and messages between them.
+//
+// Used by one thread at a time.
+class Ranks {
+ public:
+  struct Message {
+    int from = 0;
+    Bytes bytes;
+  };
+
+  Ranks() = default;
+  Ranks(const Ranks&) = delete;
+  Ranks& operator=(const Ranks&) = delete;
+  virtual ~Ranks() = default;
+
+  virtual int rank() const = 0;  // 0 <= rank() < size()
+  virtual int size() const = 0;  // > 1
+  // Processors of this process: those it may use, shared evenly with ranks that may use the same ones. >= 1
+  virtual int processors() const = 0;
+  // Lets this process use the processors of all ranks on its machine, when the others have nothing more to
+  // do. Returns the number of these ranks, itself among them.
+  virtual int take_machine() = 0;
+
+  // Neither waits. What one rank sends another comes whole and in the order in which it was sent.
+  virtual void send(int to, const Bytes& message) = 0;
+  virtual std::optional<Message> receive() = 0;
+};
+
+}  // namespace frahm::engine

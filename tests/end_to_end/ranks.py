@@ -1,0 +1,193 @@
+"""On any number of MPI ranks a study gives the same bytes as in one process, whatever happens to a rank.
+
+usage: ranks.py FRAHM SOURCE_DIR MPIEXEC
+"""
+
+import fcntl
+import os
+import random
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+from same_bytes import raw_bytes
+
+TIME_LIMIT = 120.0  # s of any one run: a hang is a failure
+KILLS = 8
+
+ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+                   OMPI_MCA_rmaps_base_oversubscribe="1", OMPI_MCA_hwloc_base_binding_policy="none")
+
+
+class Folder:
+    def __init__(self, program, mpiexec, folder, study):
+        self.program, self.mpiexec, self.folder = program, mpiexec, folder
+        self.study, self.output = os.path.join(folder, "study.toml"), os.path.join(folder, "map.h5")
+        with open(self.study, "w") as file:
+            file.write(study)
+
+    def command(self, *options, study=None):
+        return [self.program, "run", study or self.study, "-o", self.output, "--progress", "none", *options]
+
+    def start(self, command):
+        return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=ENVIRONMENT)
+
+    def end(self, process):
+        try:
+            out, message = process.communicate(timeout=TIME_LIMIT)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            raise AssertionError(f"hangs: {process.args}")
+        return process.returncode, out, message
+
+    def call(self, command):
+        return self.end(self.start(command))
+
+    def on_ranks(self, ranks, *options):
+        return [self.mpiexec, "-np", str(ranks), *self.command(*options)]
+
+    def of_different(self, *commands):
+        """A rank for each command."""
+        line = [self.mpiexec]
+        for i, command in enumerate(commands):
+            line += ([":"] if i > 0 else []) + ["-np", "1", *command]
+        return line
+
+    def finish(self, command):
+        code, out, message = self.call(command)
+        assert code == 0, f"code {code}: {message}"
+        left = sorted(os.listdir(self.folder))
+        assert left == ["map.h5", "study.toml"], left
+        found = raw_bytes(self.output)
+        os.remove(self.output)
+        return found, out
+
+    def logs(self):
+        return [name for name in os.listdir(self.folder) if name.endswith(".frahm-log")]
+
+    def forget(self):
+        for name in os.listdir(self.folder):
+            if name != "study.toml":
+                os.remove(os.path.join(self.folder, name))
+
+
+def check_numbers_of_ranks(folder, expected):
+    for ranks in 1, 2, 4, 7:
+        for threads in 1, 2:
+            found, out = folder.finish(folder.on_ranks(ranks, "--threads", str(threads)))
+            assert found == expected, (ranks, threads)
+            team = f"{ranks * threads} threads of {ranks} ranks" if ranks > 1 else f" on {threads} thread"
+            assert out.count(team) == 1, out
+            assert out.count("status ") == 1, "said by more than one rank"
+
+
+def check_stops(folder, expected):
+    for how in signal.SIGUSR1, signal.SIGTERM, signal.SIGINT:
+        process = folder.start(folder.on_ranks(3, "--threads", "1"))
+        while not folder.logs() and process.poll() is None:
+            time.sleep(0.001)
+        time.sleep(random.uniform(0.0, 0.2))
+        process.send_signal(how)
+        code, _, message = folder.end(process)
+        if how == signal.SIGUSR1 and code != 0:  # which the launcher passes on; the others it carries out itself
+            assert code == 4, (code, message)
+            assert message.count("stopped by SIGUSR1") == 1, message
+        assert folder.finish(folder.on_ranks(2))[0] == expected, how
+
+    code, _, message = folder.call(folder.on_ranks(2, "--time-budget", "0.05s"))
+    assert code == 4 and message.count("the time budget of 0.05 s is used up") == 1, (code, message)
+    assert folder.finish(folder.command())[0] == expected
+
+
+def ranks_of(process):
+    """The processes that a launcher has started."""
+    with open(f"/proc/{process.pid}/task/{process.pid}/children") as file:
+        return [int(pid) for pid in file.read().split()]
+
+
+def check_killed_ranks(folder, expected):
+    killed = 0
+    for _ in range(KILLS):
+        process = folder.start(folder.on_ranks(4, "--threads", "1"))
+        while len(folder.logs()) < 2 and process.poll() is None:
+            time.sleep(0.001)
+        time.sleep(random.uniform(0.0, 0.3))
+        ranks = ranks_of(process) if process.poll() is None else []
+        if ranks:
+            os.kill(random.choice(ranks), signal.SIGKILL)
+        code, _, _ = folder.end(process)
+        if code == 0:
+            os.remove(folder.output)
+            continue
+        killed += 1
+        again = [folder.command("--threads", "2"), folder.on_ranks(2), folder.on_ranks(7, "--threads", "1")]
+        assert folder.finish(random.choice(again))[0] == expected
+    assert killed > 0
+
+
+def check_errors(folder, expected):
+    nowhere = os.path.join(folder.folder, "nowhere.toml")
+    code, _, message = folder.call(folder.of_different(folder.command(), folder.command(study=nowhere)))
+    assert code == 2 and message.count("frahm: rank 1: ") == 1 and nowhere in message, (code, message)
+    folder.forget()
+
+    with tempfile.TemporaryDirectory() as elsewhere:
+        other = os.path.join(elsewhere, "study.toml")
+        with open(folder.study) as file, open(other, "w") as changed:
+            changed.write(file.read().replace("points = 481", "points = 480"))
+        code, _, message = folder.call(folder.of_different(folder.command(), folder.command(study=other)))
+    assert code == 6 and message.count("another study") == 1, (code, message)
+    folder.forget()
+
+    log = folder.output + ".shard-0-of-1-rank-1.frahm-log"
+    with open(log, "wb") as held:
+        fcntl.flock(held, fcntl.LOCK_EX)
+        code, _, message = folder.call(folder.on_ranks(2))
+    assert code == 6 and message.count("frahm: rank 1 (process ") == 1 and log in message, (code, message)
+    assert folder.finish(folder.on_ranks(2))[0] == expected
+
+    full = ["sh", "-c", 'trap "" XFSZ; ulimit -f 40; exec "$@"', "sh", *folder.command("--threads", "1")]
+    code, _, message = folder.call(folder.of_different(folder.command("--threads", "1"), full))
+    assert code == 6 and "rank 1 (process " in message and "File too large" in message, (code, message)
+    assert folder.finish(folder.on_ranks(2))[0] == expected
+
+    code, out, message = folder.call([folder.mpiexec, "-np", "3", folder.program, "check", folder.study])
+    assert code == 0 and out.count("is a valid study") == 1, (code, out, message)
+    code, _, message = folder.call([folder.mpiexec, "-np", "3", folder.program, "run", nowhere])
+    assert code == 2 and message.count("frahm: ") == 1, (code, message)
+    code, _, message = folder.call([folder.mpiexec, "-np", "2", folder.program, "run", folder.study, "--wrong"])
+    assert code == 2 and message.count("--wrong") == 1, (code, message)
+
+
+def check_tuning(program, source, mpiexec):
+    """The starts of a tuning are its tiles."""
+    with open(os.path.join(source, "studies", "tune_h2_force.toml")) as file:
+        lines = [line for line in file.read().splitlines() if not line.startswith("start ")]
+    with tempfile.TemporaryDirectory() as path:
+        folder = Folder(program, mpiexec, path, "\n".join(lines).replace("[tune]", "[tune]\nstart = 16"))
+        expected, _ = folder.finish(folder.command("--threads", "1"))
+        assert expected["optimum/start_objective"][1] == (16,)
+        assert folder.finish(folder.on_ranks(3))[0] == expected
+
+
+def main():
+    random.seed(6)
+    program, source, mpiexec = sys.argv[1:]
+    check_tuning(program, source, mpiexec)
+    with open(os.path.join(source, "studies", "den_hartog.toml")) as file:
+        study = file.read()
+    with tempfile.TemporaryDirectory() as path:
+        folder = Folder(program, mpiexec, path, study)
+        expected, _ = folder.finish(folder.command("--threads", "1"))
+        assert len(expected) > 10 and expected["main_peak"][1] == (6, 25, 481)
+        check_numbers_of_ranks(folder, expected)
+        check_errors(folder, expected)
+        check_stops(folder, expected)
+        check_killed_ranks(folder, expected)
+    print("1, 2, 4 and 7 ranks, signals, killed ranks and errors of a rank: the same bytes in every dataset")
+
+
+if __name__ == "__main__":
+    main()

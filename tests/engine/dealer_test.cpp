@@ -1,0 +1,214 @@
+#include "engine/dealer.hpp"
+
+#include <catch2/catch.hpp>
+#include <deque>
+#include <map>
+#include <numeric>
+
+using namespace frahm::engine;
+using Catch::Matchers::Contains;
+using Kind = RankMessage::Kind;
+
+namespace {
+
+// Rank 0 among others that say what the test says.
+class ScriptedRanks : public Ranks {
+ public:
+  explicit ScriptedRanks(int size) : size_(size) {}
+  int rank() const override { return 0; }
+  int size() const override { return size_; }
+  int processors() const override { return 1; }
+  int take_machine() override { return 1; }
+  void send(int to, const Bytes& message) override { sent_[to].push_back(decode(message)); }
+  std::optional<Message> receive() override {
+    if (coming_.empty()) return std::nullopt;
+    Message message = std::move(coming_.front());
+    coming_.pop_front();
+    return message;
+  }
+
+  void say(int from, const RankMessage& message) { coming_.push_back({from, encode(message)}); }
+  // What rank 0 has told a rank since this was asked last.
+  std::vector<RankMessage> told(int rank) { return std::exchange(sent_[rank], {}); }
+
+ private:
+  int size_;
+  std::deque<Message> coming_;
+  std::map<int, std::vector<RankMessage>> sent_;
+};
+
+constexpr std::uint64_t mark = 77;
+
+std::vector<std::uint64_t> numbers(std::uint64_t count) {
+  std::vector<std::uint64_t> tiles(count);
+  std::iota(tiles.begin(), tiles.end(), 1000);
+  return tiles;
+}
+
+std::vector<std::uint64_t> empty(TileQueue& queue) {
+  std::vector<std::uint64_t> tiles;
+  while (!queue.is_empty()) tiles.push_back(*queue.take());
+  return tiles;
+}
+
+RankMessage ready(std::uint64_t threads) {
+  return {.kind = Kind::ready, .threads = threads, .text = "process 4711 on node17"};
+}
+
+}  // namespace
+
+TEST_CASE("a message between ranks comes as it was sent") {
+  const RankMessage sent{.kind = Kind::leave,
+                         .threads = 3,
+                         .study = ~std::uint64_t{0},
+                         .code = 6,
+                         .finished = {.tiles = 1, .points = 2, .failed = 3, .cpu_milliseconds = 4},
+                         .tiles = {9, 8, 7},
+                         .text = "stopped by SIGUSR1"};
+  const RankMessage come = decode(encode(sent));
+  CHECK(come.kind == sent.kind);
+  CHECK(come.threads == 3);
+  CHECK(come.study == sent.study);
+  CHECK(come.code == 6);
+  CHECK(come.finished.tiles == 1);
+  CHECK(come.finished.points == 2);
+  CHECK(come.finished.failed == 3);
+  CHECK(come.finished.cpu_milliseconds == 4);
+  CHECK(come.tiles == sent.tiles);
+  CHECK(come.text == sent.text);
+  CHECK(decode(encode({})).text.empty());
+}
+
+TEST_CASE("every tile is dealt out once, in order, in blocks that shrink to single ones") {
+  ScriptedRanks ranks(3);
+  TileQueue own;
+  Dealer dealer(ranks, mark, 2, numbers(500), own);
+  ranks.say(1, ready(4));
+  ranks.say(2, ready(1));
+  dealer.serve(false);
+  CHECK(ranks.told(1).at(0).kind == Kind::begin);
+  CHECK(ranks.told(2).at(0).study == mark);
+
+  std::vector<std::uint64_t> dealt;
+  std::size_t first = 0, last = 0;
+  for (bool open = true; open;) {
+    const auto mine = empty(own);
+    ranks.say(1, {.kind = Kind::ask});
+    ranks.say(2, {.kind = Kind::ask});
+    dealer.serve(false);
+    dealt.insert(dealt.end(), mine.begin(), mine.end());
+    open = false;
+    for (const int rank : {1, 2}) {
+      const RankMessage answer = ranks.told(rank).at(0);
+      CHECK((answer.kind == Kind::deal) == !answer.tiles.empty());
+      CHECK((answer.kind == Kind::deal || answer.kind == Kind::close));
+      dealt.insert(dealt.end(), answer.tiles.begin(), answer.tiles.end());
+      if (answer.tiles.empty()) continue;
+      open = true;
+      if (first == 0) first = answer.tiles.size();
+      last = answer.tiles.size();
+    }
+  }
+  const auto rest = empty(own);
+  dealt.insert(dealt.end(), rest.begin(), rest.end());
+  std::sort(dealt.begin(), dealt.end());
+  CHECK(dealt == numbers(500));
+  CHECK(first > 10);
+  CHECK(last == 1);
+  CHECK_FALSE(own.take());  // closed
+  CHECK(dealer.threads() == 7);
+
+  CHECK_FALSE(dealer.all_have_left());
+  ranks.say(1, {.kind = Kind::leave, .finished = {.tiles = 5, .points = 50}});
+  ranks.say(2, {.kind = Kind::leave, .finished = {.tiles = 7, .points = 70, .failed = 2}});
+  dealer.serve(false);
+  CHECK(dealer.all_have_left());
+  CHECK(dealer.finished().tiles == 12);
+  CHECK(dealer.finished().points == 120);
+  CHECK(dealer.finished().failed == 2);
+  CHECK(dealer.stop_reason().empty());
+  CHECK_NOTHROW(dealer.rethrow_failure());
+}
+
+TEST_CASE("asked to stop, rank 0 deals no more and tells the ranks at work, also one that comes late") {
+  ScriptedRanks ranks(3);
+  TileQueue own;
+  Dealer dealer(ranks, mark, 1, numbers(100), own);
+  ranks.say(1, ready(1));
+  dealer.serve(false);
+  ranks.told(1);
+  CHECK_FALSE(own.is_empty());
+  dealer.serve(true);
+  CHECK(own.is_empty());
+  CHECK_FALSE(own.take());
+  CHECK(ranks.told(1).at(0).kind == Kind::stop);
+
+  ranks.say(1, {.kind = Kind::ask});  // was on its way
+  ranks.say(2, ready(1));
+  dealer.serve(true);
+  CHECK(ranks.told(1).empty());
+  CHECK(ranks.told(2).at(0).kind == Kind::stop);
+  ranks.say(1, {.kind = Kind::leave});
+  ranks.say(2, {.kind = Kind::leave});
+  dealer.serve(true);
+  CHECK(dealer.all_have_left());
+}
+
+TEST_CASE("a rank that is stopped by a signal stops all, and is named as the reason") {
+  ScriptedRanks ranks(3);
+  TileQueue own;
+  Dealer dealer(ranks, mark, 1, numbers(100), own);
+  ranks.say(1, ready(1));
+  ranks.say(2, ready(1));
+  dealer.serve(false);
+  ranks.told(2);
+  ranks.say(1, {.kind = Kind::leave, .text = "stopped by SIGUSR1"});
+  dealer.serve(false);
+  CHECK(ranks.told(2).at(0).kind == Kind::stop);
+  CHECK(own.is_empty());
+  CHECK(dealer.stop_reason() == "stopped by SIGUSR1");
+  ranks.say(2, {.kind = Kind::leave});
+  dealer.serve(false);
+  CHECK(dealer.all_have_left());
+}
+
+TEST_CASE("a rank that fails stops all, and its error is thrown with its name and code") {
+  ScriptedRanks ranks(3);
+  TileQueue own;
+  Dealer dealer(ranks, mark, 1, numbers(100), own);
+  ranks.say(2, ready(1));
+  ranks.say(1, {.kind = Kind::fail, .code = 2, .text = "no study"});  // before it was ready
+  ranks.say(2, {.kind = Kind::fail, .code = 6, .text = "disk full"});
+  dealer.serve(false);
+  CHECK(dealer.all_have_left());
+  CHECK(own.is_empty());
+  CHECK_THROWS_WITH(dealer.rethrow_failure(), "rank 1: no study");
+  try {
+    dealer.rethrow_failure();
+  } catch (const RankFailed& failure) {
+    CHECK(failure.code() == 2);
+  }
+}
+
+TEST_CASE("the error of a rank at work names its process and machine") {
+  ScriptedRanks ranks(2);
+  TileQueue own;
+  Dealer dealer(ranks, mark, 1, numbers(3), own);
+  ranks.say(1, ready(1));
+  ranks.say(1, {.kind = Kind::fail, .code = 6, .text = "disk full"});
+  dealer.serve(false);
+  CHECK_THROWS_WITH(dealer.rethrow_failure(), "rank 1 (process 4711 on node17): disk full");
+}
+
+TEST_CASE("with nothing to compute all ranks are sent home at once") {
+  ScriptedRanks ranks(2);
+  TileQueue own;
+  Dealer dealer(ranks, mark, 1, {}, own);
+  ranks.say(1, ready(8));
+  ranks.say(1, {.kind = Kind::ask});
+  dealer.serve(false);
+  CHECK_FALSE(own.take());
+  const auto told = ranks.told(1);
+  REQUIRE(told.size() == 2);
+  CHECK(told[1].kind == Kind::close);
+}
