@@ -154,7 +154,7 @@ def check_no_files(bench, study, expected, files):
             make(place.path(name))
             for command in ("run", "study.toml", "-o", OUTPUT, "--progress", "none"), ("status", OUTPUT), ("merge", OUTPUT):
                 outcome = place.call(*command)
-                assert outcome.code == 6 and name in outcome.err, f"{make.__name__} {name}: {outcome}"
+                assert outcome.code == 6 and name in outcome.out + outcome.err, f"{make.__name__} {name}: {outcome}"
             shutil.rmtree(place.path(name)) if make is os.mkdir else os.remove(place.path(name))
             expected.check_resume(place, f"{make.__name__} {name}")
     whole = finished_log(bench, study)

@@ -99,7 +99,7 @@ def kill_chain(bench, study, expected, seed):
     rng = random.Random(seed)
     place, kills = bench.place(study), 0
     for _ in range(40):
-        fault = Fault(rng.randint(1, 150), rng.choice(["kill_before", "kill_half", "kill_after"]))
+        fault = Fault(rng.randint(1, 70), rng.choice(["kill_before", "kill_half", "kill_after"]))
         outcome = place.run("--threads", rng.choice("12"), "--progress", "none", fault=fault)
         assert outcome.code in (0, -signal.SIGKILL), f"seed {seed}, {fault}: {outcome}"
         if outcome.code == 0:
