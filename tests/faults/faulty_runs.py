@@ -204,7 +204,9 @@ class Expected:
         self.points = [json.loads(line) for line in outcome.err.splitlines() if line.startswith("{")][-1]["points"]
 
     def check_file(self, place, case):
-        assert raw_bytes(place.path(OUTPUT)) == self.bytes, f"{case}: other bytes"
+        found = raw_bytes(place.path(OUTPUT))
+        differing = [name for name in found.keys() | self.bytes.keys() if found.get(name) != self.bytes.get(name)]
+        assert not differing, f"{case}: other bytes in {differing}"
 
     def check_resume(self, place, case, *options):
         """The same command again ends well, leaves the file alone and the bytes of the uninterrupted run."""
