@@ -58,7 +58,9 @@ File File::open_for_writing(const std::filesystem::path& path) {
 }
 
 std::optional<File> File::open_if_present(const std::filesystem::path& path) {
-  const int descriptor = uninterrupted([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC); });
+  // O_NONBLOCK: a pipe of that name would wait for somebody to write to it.
+  const int descriptor =
+      uninterrupted([&] { return ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC); });
   if (descriptor < 0 && errno == ENOENT) return std::nullopt;
   if (descriptor < 0) throw IoError(path, "open for reading", errno);
   return File(path, descriptor);

@@ -51,6 +51,10 @@ int StopSignals::received() const {
   return first_signal;
 }
 
+void survive_broken_pipes() {
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
 std::string signal_name(int signal) {
   switch (signal) {
     case SIGTERM:

@@ -24,6 +24,10 @@ class StopSignals {
   struct sigaction user_before_ {};
 };
 
+// From now on a write to a pipe whose reader has gone fails, and does not end the process: whoever looks at a
+// run and leaves does not stop it.
+void survive_broken_pipes();
+
 // "SIGTERM", "SIGINT", "SIGUSR1".
 std::string signal_name(int signal);
 

@@ -135,25 +135,4 @@ void remove_logs(const std::vector<std::filesystem::path>& logs) {
   }
 }
 
-namespace {
-std::filesystem::path lock_file(const std::filesystem::path& output) {
-  return output.string() + ".frahm-lock";
-}
-}  // namespace
-
-AssemblyLock::AssemblyLock(const std::filesystem::path& output) : file_(open_locked(lock_file(output), 0)) {
-  const std::string owner = this_process();
-  file_.truncate(0);
-  file_.write_at(0, std::as_bytes(std::span(owner)));
-}
-
-AssemblyLock::~AssemblyLock() {
-  std::error_code ignored;  // a lock file left behind is harmless: it is the lock that counts
-  std::filesystem::remove(file_.path(), ignored);
-}
-
-void remove_assembly_lock(const std::filesystem::path& output) {
-  if (std::filesystem::exists(lock_file(output))) AssemblyLock{output};  // takes it, and removes it
-}
-
 }  // namespace frahm::engine

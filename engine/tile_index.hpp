@@ -94,21 +94,4 @@ void for_each_tile(const TileIndex& index, const TileVisitor& visit);
 // Removes logs that no process is writing. Throws Locked at the first that is in use, IoError.
 void remove_logs(const std::vector<std::filesystem::path>& logs);
 
-// Held by the one process that assembles `output` from its logs.
-class AssemblyLock {
- public:
-  // Throws Locked if another process is assembling, IoError.
-  explicit AssemblyLock(const std::filesystem::path& output);
-  ~AssemblyLock();
-  AssemblyLock(const AssemblyLock&) = delete;
-  AssemblyLock& operator=(const AssemblyLock&) = delete;
-
- private:
-  File file_;
-};
-
-// Removes the lock file of an assembly that was killed, if there is one. Throws Locked if one is at work,
-// IoError.
-void remove_assembly_lock(const std::filesystem::path& output);
-
 }  // namespace frahm::engine

@@ -116,15 +116,16 @@ std::int64_t numeric_type(Type type) {
 }
 
 Handle& Handle::operator=(Handle&& other) noexcept {
-  if (this != &other) {
-    Handle old(std::exchange(id_, other.release()));
-  }
+  std::swap(id_, other.id_);
+  std::swap(failure_, other.failure_);
   return *this;
 }
 
-// Failures to write are met earlier, by File::close(); here there is nobody left to tell.
+// A failure is told by File::close(); here there is nobody to tell.
 Handle::~Handle() {
-  if (id_ >= 0) H5Idec_ref(id_);
+  if (id_ < 0 || H5Idec_ref(id_) >= 0 || !failure_ || !failure_->empty()) return;
+  *failure_ = deepest_error();
+  if (failure_->empty()) *failure_ = "an object could not be closed";
 }
 
 std::int64_t Handle::release() noexcept {
@@ -241,13 +242,15 @@ Group Group::create_group(const std::string& name) {
   const Handle properties(checked(H5Pcreate(H5P_GROUP_CREATE), path, "cannot create"));
   order_by_creation(properties.get(), path);
   return Group(Handle(checked(H5Gcreate2(id(), name.c_str(), H5P_DEFAULT, properties.get(), H5P_DEFAULT),
-                              path, "cannot create the group")),
+                              path, "cannot create the group"),
+                      handle_.failure()),
                path);
 }
 
 Group Group::group(const std::string& name) const {
   const std::string path = path_of(name);
-  return Group(Handle(checked(H5Gopen2(id(), name.c_str(), H5P_DEFAULT), path, "cannot open the group")),
+  return Group(Handle(checked(H5Gopen2(id(), name.c_str(), H5P_DEFAULT), path, "cannot open the group"),
+                      handle_.failure()),
                path);
 }
 
@@ -256,7 +259,8 @@ File File::create(const std::filesystem::path& path) {
   const Handle properties(checked(H5Pcreate(H5P_FILE_CREATE), path.string(), "cannot create"));
   order_by_creation(properties.get(), path.string());
   return File(Handle(checked(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, properties.get(), access.get()),
-                             path.string(), "cannot create the file")),
+                             path.string(), "cannot create the file"),
+                     std::make_shared<std::string>()),
               path.string());
 }
 
@@ -268,14 +272,16 @@ File File::open(const std::filesystem::path& path) {
 }
 
 Group File::root() const {
-  return Group(
-      Handle(checked(H5Gopen2(handle_.get(), "/", H5P_DEFAULT), path_, "cannot open the root group")),
-      path_ + ":/");
+  return Group(Handle(checked(H5Gopen2(handle_.get(), "/", H5P_DEFAULT), path_, "cannot open the root group"),
+                      handle_.failure()),
+               path_ + ":/");
 }
 
 void File::close() {
   checked(H5Fflush(handle_.get(), H5F_SCOPE_GLOBAL), path_, "cannot write");
   checked(H5Fclose(handle_.release()), path_, "cannot close");
+  if (handle_.failure() && !handle_.failure()->empty())
+    throw StoreError(path_, "cannot write", *handle_.failure());
 }
 
 }  // namespace frahm::results::hdf5

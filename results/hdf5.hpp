@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,20 +18,26 @@
 // reason.
 namespace frahm::results::hdf5 {
 
+// Why the first object of a file that failed to close did so; empty: none has. HDF5 writes what it holds back
+// of a dataset when that is closed, and forgets it if the write fails.
+using CloseFailure = std::shared_ptr<std::string>;
+
 // The owner of one HDF5 identifier (hid_t).
 class Handle {
  public:
   Handle() = default;
-  explicit Handle(std::int64_t id) : id_(id) {}
-  Handle(Handle&& other) noexcept : id_(other.release()) {}
+  explicit Handle(std::int64_t id, CloseFailure failure = nullptr) : id_(id), failure_(std::move(failure)) {}
+  Handle(Handle&& other) noexcept : id_(other.release()), failure_(std::move(other.failure_)) {}
   Handle& operator=(Handle&& other) noexcept;
   ~Handle();
 
   std::int64_t get() const { return id_; }
   std::int64_t release() noexcept;  // gives the identifier away
+  const CloseFailure& failure() const { return failure_; }
 
  private:
   std::int64_t id_ = -1;
+  CloseFailure failure_;
 };
 
 // What carries attributes: a group or a dataset.
@@ -116,7 +123,8 @@ class File {
   static File open(const std::filesystem::path& path);    // to read
 
   Group root() const;
-  void close();  // everything written is with the operating system, or StoreError
+  // Everything written is with the operating system, or StoreError. Its groups and datasets must be closed.
+  void close();
 
  private:
   File(Handle handle, std::string path) : handle_(std::move(handle)), path_(std::move(path)) {}

@@ -164,13 +164,15 @@ Dataset Group::create_dataset(const std::string& name, const Storage& storage) {
   const Handle properties = creation_properties(storage, path);
   return Dataset(Handle(checked(H5Dcreate2(id(), name.c_str(), numeric_type(storage.type), space.get(),
                                            H5P_DEFAULT, properties.get(), H5P_DEFAULT),
-                                path, "cannot create the dataset")),
+                                path, "cannot create the dataset"),
+                        handle_.failure()),
                  path);
 }
 
 Dataset Group::dataset(const std::string& name) const {
   const std::string path = path_of(name);
-  return Dataset(Handle(checked(H5Dopen2(id(), name.c_str(), H5P_DEFAULT), path, "cannot open the dataset")),
+  return Dataset(Handle(checked(H5Dopen2(id(), name.c_str(), H5P_DEFAULT), path, "cannot open the dataset"),
+                        handle_.failure()),
                  path);
 }
 

@@ -17,13 +17,17 @@ namespace {
   throw StoreError(path.string(), what, std::strerror(error));
 }
 
-void sync(const std::filesystem::path& path, int flags) {
+// told: the path to name in a message.
+void sync(const std::filesystem::path& path, int flags, const std::filesystem::path& told) {
+  const bool is_directory = (flags & O_DIRECTORY) != 0;
   const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC);
-  if (descriptor < 0) fail(path, "cannot open to sync", errno);
+  if (descriptor < 0)
+    fail(told, is_directory ? "cannot open its directory to sync" : "cannot open to sync", errno);
   const int error = ::fsync(descriptor) == 0 ? 0 : errno;
   ::close(descriptor);
   // Some file systems cannot sync a directory and say EINVAL: there is nothing more to do then.
-  if (error != 0 && !(error == EINVAL && (flags & O_DIRECTORY))) fail(path, "cannot sync", error);
+  if (error == 0 || (error == EINVAL && is_directory)) return;
+  fail(told, is_directory ? "cannot sync its directory" : "cannot sync", error);
 }
 
 }  // namespace
@@ -35,11 +39,11 @@ PartFile::~PartFile() {
 }
 
 void PartFile::publish() {
-  sync(part_, O_RDWR);
+  sync(part_, O_RDWR, part_);
   if (std::rename(part_.c_str(), path_.c_str()) != 0) fail(path_, "cannot rename the part to it", errno);
   published_ = true;
   const std::filesystem::path directory = path_.parent_path();
-  sync(directory.empty() ? "." : directory, O_RDONLY | O_DIRECTORY);
+  sync(directory.empty() ? "." : directory, O_RDONLY | O_DIRECTORY, path_);
 }
 
 }  // namespace frahm::results

@@ -169,8 +169,8 @@ Assembly make_file(const MapPlan& plan, const RunRecord& run, const AssemblyOpti
 
 }  // namespace
 
-Assembly assemble(const MapPlan& plan, const RunRecord& run, const AssemblyOptions& options) {
-  const engine::AssemblyLock lock(options.output);
+Assembly assemble(const MapPlan& plan, const RunRecord& run, const AssemblyOptions& options,
+                  const engine::OutputLock&) {
   try {
     const Assembly assembly = make_file(plan, run, options);
     if (assembly.missing_tiles == 0) engine::remove_logs(options.logs);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "engine/output_lock.hpp"
 #include "studies/map/assembly_options.hpp"
 #include "studies/map/map_plan.hpp"
 #include "studies/map/map_record.hpp"
@@ -20,8 +21,9 @@ struct Assembly {
 // these logs. A team of threads makes its chunks; they are written one at a time in their order, so that the
 // file does not depend on the team. It appears complete or not at all. Memory is bounded: some chunks of each
 // thread, and 16 bytes a tile.
-// Throws engine::Locked when another process is assembling it, engine::ResumeRefused for logs of another
-// study, engine::IoError for tiles that are missing or damaged, results::StoreError.
-Assembly assemble(const MapPlan& plan, const RunRecord& run, const AssemblyOptions& options);
+// held: the lock of the output.  Throws engine::ResumeRefused for logs of another study, engine::IoError for
+// tiles that are missing or damaged, results::StoreError.
+Assembly assemble(const MapPlan& plan, const RunRecord& run, const AssemblyOptions& options,
+                  const engine::OutputLock& held);
 
 }  // namespace frahm::studies

@@ -13,15 +13,23 @@
 #include "studies/program/study_note.hpp"
 
 namespace frahm::studies {
+namespace {
 
-void remove_leftovers(const StudyPlan& plan, const std::filesystem::path& output) {
-  // In its place it may have grown from another file than it would now.
+// In its place a result may have grown from another file than it would now.
+std::vector<std::filesystem::path> logs_of_result(const StudyPlan& plan,
+                                                  const std::filesystem::path& output) {
   const engine::LogHeader own =
       plan.header_of_logs(provenance_text(results::MapReader(output), grown_from_identity));
   std::vector<std::filesystem::path> logs = engine::find_logs(output);
   std::erase_if(logs, [&](const auto& log) { return engine::study_of_log(log) != own; });
-  engine::remove_logs(logs);
-  engine::remove_assembly_lock(output);
+  return logs;
+}
+
+void remove_leftovers(const StudyPlan& plan, const std::filesystem::path& output) {
+  if (!logs_of_result(plan, output).empty() || std::filesystem::exists(engine::lock_path(output))) {
+    const engine::OutputLock lock(output);
+    engine::remove_logs(logs_of_result(plan, output));
+  }
   if (engine::find_logs(output).empty()) remove_study_notes(output);
 }
 
@@ -37,6 +45,23 @@ bool is_finished(const StudyPlan& plan, const std::filesystem::path& output) {
                         "is there with --fresh",
                         output.string())
           : "");
+}
+
+}  // namespace
+
+bool begin(const StudyPlan& plan, const engine::RunOptions& run, const std::filesystem::path& from,
+           std::optional<engine::OutputLock>& lock) {
+  const auto is_done = [&] {
+    return !run.fresh && !grows_in_place(plan, from, run.output) && is_finished(plan, run.output);
+  };
+  if (!is_done()) {
+    if (run.shard.count > 1) return true;
+    lock.emplace(run.output);
+    if (!is_done()) return true;
+    lock.reset();  // another process has finished it while this one waited
+  }
+  remove_leftovers(plan, run.output);
+  return false;
 }
 
 engine::Summary compute(const StudyPlan& plan, const engine::Job& job, const engine::RunOptions& run) {

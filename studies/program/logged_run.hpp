@@ -2,8 +2,10 @@
 
 #include <filesystem>
 #include <iosfwd>
+#include <optional>
 #include <string>
 
+#include "engine/output_lock.hpp"
 #include "engine/run.hpp"
 #include "engine/stop_request.hpp"
 #include "studies/map/study_plan.hpp"
@@ -11,11 +13,13 @@
 // What runs have in common whose tiles are kept in shard logs beside the output.
 namespace frahm::studies {
 
-// Removes what an earlier run that was killed between writing the file and removing its logs has left.
-void remove_leftovers(const StudyPlan& plan, const std::filesystem::path& output);
-
-// Whether the file is there already, and is that of this study. Throws engine::ResumeRefused for another's.
-bool is_finished(const StudyPlan& plan, const std::filesystem::path& output);
+// Whether there is anything to compute: false when the file is there already and is that of this study; what
+// a run killed between writing it and removing its logs has left is removed then. from: the result from which
+// a map grows; empty: none. lock: takes the lock of the output, unless the run is one shard of several.
+// Throws engine::ResumeRefused for the file of another study, engine::Locked when another process makes the
+// output, engine::IoError.
+bool begin(const StudyPlan& plan, const engine::RunOptions& run, const std::filesystem::path& from,
+           std::optional<engine::OutputLock>& lock);
 
 // Computes what is left of a plan's job, with the note of its study beside the logs. Throws as engine::run().
 engine::Summary compute(const StudyPlan& plan, const engine::Job& job, const engine::RunOptions& run);

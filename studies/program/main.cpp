@@ -1,5 +1,8 @@
 #include <dlfcn.h>
+#include <fcntl.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <exception>
 #include <iostream>
 
@@ -17,10 +20,20 @@ void keep_blas_to_one_thread() {
   if (set_threads) set_threads(1);
 }
 
+// A file opened where standard output or error is closed (`>&-`) would get its number, and what is printed
+// would end up in it: in a shard log. So these numbers are taken first.
+void occupy_standard_streams() {
+  for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream) {
+    if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF)
+      ::open("/dev/null", O_RDWR);  // the lowest free number
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
+    occupy_standard_streams();
     keep_blas_to_one_thread();
     return frahm::studies::run_program(argc, argv, std::cout);
   } catch (const std::exception& error) {

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "engine/io_error.hpp"
+#include "engine/output_lock.hpp"
 #include "engine/stop_request.hpp"
 #include "engine/tile_index.hpp"
 #include "studies/map/assemble.hpp"
@@ -80,13 +81,14 @@ void refuse_loss_of_source(const MergeOptions& options, const StudyPlan& plan) {
 }
 
 int merge_map(const MergeOptions& options, const std::vector<std::filesystem::path>& logs,
-              const engine::LogHeader& header, NotedStudy noted, std::ostream& out) {
+              const engine::LogHeader& header, NotedStudy noted, const engine::OutputLock& lock,
+              std::ostream& out) {
   MapPlan plan = plan_map(std::move(noted.study), noted.set);
   plan.grown_from = noted.grown_from;
   check_note_gives(plan, noted, header);
   refuse_loss_of_source(options, plan);
   const engine::StopRequest stop(std::nullopt);
-  const Assembly assembly = assemble(plan, record_of(options), assembly_of(options, logs, stop));
+  const Assembly assembly = assemble(plan, record_of(options), assembly_of(options, logs, stop), lock);
   if (!assembly.finished) return tell_stopped(options, stop);
   if (assembly.missing_tiles == 0) {
     remove_notes(options, logs);
@@ -98,11 +100,12 @@ int merge_map(const MergeOptions& options, const std::vector<std::filesystem::pa
 }
 
 int merge_tuning(const MergeOptions& options, const std::vector<std::filesystem::path>& logs,
-                 const engine::LogHeader& header, NotedStudy noted, std::ostream& out) {
+                 const engine::LogHeader& header, NotedStudy noted, const engine::OutputLock& lock,
+                 std::ostream& out) {
   const StudyPlan plan = plan_tuning(std::move(noted.study), noted.set);
   check_note_gives(plan, noted, header);
   const engine::StopRequest stop(std::nullopt);
-  const auto result = assemble_tuning(plan, record_of(options), assembly_of(options, logs, stop));
+  const auto result = assemble_tuning(plan, record_of(options), assembly_of(options, logs, stop), lock);
   if (!result) return tell_stopped(options, stop);
   const std::uint64_t missing = plan.tiles - result->starts.size();
   if (missing == 0) {
@@ -125,7 +128,6 @@ bool is_merged(const MergeOptions& options, std::vector<std::filesystem::path> l
     if (study && study->fingerprint != *kept) return false;
   }
   engine::remove_logs(logs);
-  engine::remove_assembly_lock(options.output);
   remove_notes(options, logs);
   fmt::print(out, "{} is finished already, nothing is left to merge\n", options.output.string());
   return true;
@@ -134,12 +136,15 @@ bool is_merged(const MergeOptions& options, std::vector<std::filesystem::path> l
 }  // namespace
 
 int merge_command(const MergeOptions& options, std::ostream& out) {
+  engine::survive_broken_pipes();
+  const engine::OutputLock lock(options.output);
   const auto logs = options.logs.empty() ? engine::find_logs(options.output) : options.logs;
   if (is_merged(options, logs, out)) return exit_code::done;
   const engine::LogHeader header = study_of(logs, options.output);
   NotedStudy noted = study_from_note(places_of_note(options, logs), header);
-  return noted.study.kind == StudyKind::tune ? merge_tuning(options, logs, header, std::move(noted), out)
-                                             : merge_map(options, logs, header, std::move(noted), out);
+  return noted.study.kind == StudyKind::tune
+             ? merge_tuning(options, logs, header, std::move(noted), lock, out)
+             : merge_map(options, logs, header, std::move(noted), lock, out);
 }
 
 }  // namespace frahm::studies

@@ -284,7 +284,9 @@ Ending carry_out(const Action& action, std::ostream& out) {
   try {
     const int code = action(out);
     out.flush();
-    return out ? Ending{code} : Ending{exit_code::input_output, "the output could not be written"};
+    return out ? Ending{code}
+               : Ending{exit_code::input_output,
+                        "standard output could not be written to; a file that was made is whole"};
   } catch (const StudyError& error) {
     return {exit_code::wrong_input, error.what()};
   } catch (const engine::ResumeRefused& error) {

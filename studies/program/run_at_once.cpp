@@ -7,6 +7,7 @@
 #include <string>
 
 #include "engine/fingerprint.hpp"
+#include "engine/output_lock.hpp"
 #include "engine/stop_request.hpp"
 #include "results/map_reader.hpp"
 #include "results/map_writer.hpp"
@@ -108,6 +109,7 @@ int run_at_once(const RunCommandOptions& options, StudyFile study, std::ostream&
       options.run.output.empty() ? default_output(options.study) : options.run.output;
   refuse_own_data(plan.study, output);
   check_result_place(output, options.study);
+  const engine::OutputLock lock(output);
   if (!options.run.fresh) refuse_another_study(plan, output);
 
   int code = exit_code::done;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/stop_signals.hpp"
 #include "studies/program/run_at_once.hpp"
 #include "studies/program/run_map.hpp"
 #include "studies/program/run_tuning.hpp"
@@ -14,6 +15,7 @@ std::filesystem::path default_output(const std::filesystem::path& study) {
 }
 
 int run_command(const RunCommandOptions& options, std::ostream& out) {
+  engine::survive_broken_pipes();
   StudyFile study = read_study_with(options.study, options.set);
   if (study.kind == StudyKind::sweep) return run_map(options, std::move(study), out);
   if (!options.from.empty())

@@ -11,7 +11,6 @@
 #include "studies/map/finished_file.hpp"
 #include "studies/map/known_points.hpp"
 #include "studies/program/exit_code.hpp"
-#include "studies/program/growing.hpp"
 #include "studies/program/logged_run.hpp"
 #include "studies/program/map_table.hpp"
 #include "studies/program/study_note.hpp"
@@ -32,9 +31,8 @@ int run_map(const RunCommandOptions& options, StudyFile study, std::ostream& out
   MapPlan plan = plan_map(std::move(study), options.set);
 
   check_result_place(run.output, options.study);
-  const bool in_place = grows_in_place(plan, options.from, run.output);
-  if (!run.fresh && !in_place && is_finished(plan, run.output)) {
-    remove_leftovers(plan, run.output);
+  std::optional<engine::OutputLock> lock;
+  if (!begin(plan, run, options.from, lock)) {
     fmt::print(out, "everything is computed already; --fresh computes it anew\n");
     return print_map_table(plan, options.study, run.output, std::nullopt, out);
   }
@@ -54,7 +52,8 @@ int run_map(const RunCommandOptions& options, StudyFile study, std::ostream& out
                                       .logs = engine::find_logs(run.output),
                                       .threads = summary.threads_here,
                                       .progress = run.progress,
-                                      .stop_asked = [&] { return stop.asked(); }});
+                                      .stop_asked = [&] { return stop.asked(); }},
+                                     *lock);
   if (!assembly.finished) return tell_unwritten(stop, run.output);
   remove_study_notes(run.output);
   const Effort effort{.points = summary.points.done - summary.points.resumed - summary.points.reused,

@@ -64,8 +64,8 @@ int run_tuning(const RunCommandOptions& options, StudyFile study, std::ostream& 
   const StudyPlan plan = plan_tuning(std::move(study), options.set);
 
   check_result_place(run.output, options.study);
-  if (!run.fresh && is_finished(plan, run.output)) {
-    remove_leftovers(plan, run.output);
+  std::optional<engine::OutputLock> lock;
+  if (!begin(plan, run, {}, lock)) {
     fmt::print(out, "everything is computed already; --fresh computes it anew\n");
     status_command(run.output, out);
     return code_of_file(run.output);
@@ -80,7 +80,8 @@ int run_tuning(const RunCommandOptions& options, StudyFile study, std::ostream& 
   const engine::StopRequest stop(run.time_budget, engine::StopRequest::Seconds(summary.seconds));
   const auto stop_asked = [&] { return stop.asked(); };
   const std::optional<TuningResult> result = assemble_tuning(
-      plan, record, {.output = run.output, .logs = engine::find_logs(run.output), .stop_asked = stop_asked});
+      plan, record, {.output = run.output, .logs = engine::find_logs(run.output), .stop_asked = stop_asked},
+      *lock);
   if (!result) return tell_unwritten(stop, run.output);
   remove_study_notes(run.output);
   const int code = tell_tuning(plan, *result, run.output, out);

@@ -4,11 +4,8 @@
 
 #include <algorithm>
 #include <boost/tokenizer.hpp>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstring>
-#include <iterator>
 
 #include "studies/reading/readable_file.hpp"
 #include "studies/reading/study_source.hpp"
@@ -28,9 +25,7 @@ std::string_view trimmed(std::string_view text) {
 }
 
 std::string text_of(const std::filesystem::path& path, const std::string& name) {
-  std::ifstream file = open_file(path, name);
-  std::string text(std::istreambuf_iterator<char>(file), {});
-  if (file.bad()) throw StudyError(fmt::format("{}: cannot be read: {}", name, std::strerror(errno)));
+  std::string text = read_file(path, name);
   if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
   if (text.find('\0') != std::string::npos)
     throw StudyError(fmt::format("{}: is no text in UTF-8: it contains zero bytes", name));

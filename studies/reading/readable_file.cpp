@@ -4,17 +4,36 @@
 
 #include <cerrno>
 #include <cstring>
+#include <fstream>
+#include <ios>
+#include <iterator>
 
 #include "studies/reading/study_source.hpp"
 
 namespace frahm::studies {
+namespace {
+
+[[noreturn]] void refuse(const std::string& name, const std::string& why) {
+  throw StudyError(fmt::format("{}: cannot be read: {}", name, why));
+}
 
 std::ifstream open_file(const std::filesystem::path& path, const std::string& name) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw StudyError(fmt::format("{}: cannot be read: {}", name, std::strerror(errno)));
-  if (std::filesystem::is_directory(path))
-    throw StudyError(fmt::format("{}: cannot be read: it is a directory", name));
+  if (!file) refuse(name, std::strerror(errno));
+  std::error_code ignored;  // reading will tell
+  if (std::filesystem::is_directory(path, ignored)) refuse(name, "it is a directory");
   return file;
+}
+
+}  // namespace
+
+std::string read_file(const std::filesystem::path& path, const std::string& name) {
+  std::ifstream file = open_file(path, name);
+  try {
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  } catch (const std::ios_base::failure& failure) {  // of the buffer itself: a disk that cannot read
+    refuse(name, failure.code().message());
+  }
 }
 
 void check_readable(const std::filesystem::path& path, const std::string& name) {

@@ -4,11 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 
+#include "studies/reading/readable_file.hpp"
 #include "studies/reading/spelling.hpp"
 #include "studies/reading/study_reading.hpp"
 
@@ -135,15 +132,7 @@ void check_whole(StudyFile& study) {
 }  // namespace
 
 StudyFile read_study(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path)) {
-    throw StudyError(fmt::format("{}: the study cannot be read: {}", path.string(),
-                                 file ? "it is a directory" : std::strerror(errno)));
-  }
-  std::string text(std::istreambuf_iterator<char>(file), {});
-  if (file.bad())
-    throw StudyError(fmt::format("{}: the study cannot be read: {}", path.string(), std::strerror(errno)));
-  return parse_study(std::move(text), path);
+  return parse_study(read_file(path, path.string()), path);
 }
 
 StudyFile parse_study(std::string text, const std::filesystem::path& name, DataFiles data) {

@@ -36,8 +36,7 @@ void write_file(const StudyPlan& plan, const RunRecord& run, const std::filesyst
 }  // namespace
 
 std::optional<TuningResult> assemble_tuning(const StudyPlan& plan, const RunRecord& run,
-                                            const AssemblyOptions& options) {
-  const engine::AssemblyLock lock(options.output);
+                                            const AssemblyOptions& options, const engine::OutputLock&) {
   const engine::TileIndex index =
       engine::index_tiles(options.logs, plan.log_header(), [](std::uint64_t, std::span<const std::byte>) {});
   const std::vector<std::uint64_t> missing = engine::missing_tiles(index);

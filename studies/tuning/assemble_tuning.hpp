@@ -11,6 +11,6 @@ namespace frahm::studies {
 // these logs; nothing if it was stopped, with the output as it was. Throws as assemble() does, StudyError
 // for a task without meaning.
 std::optional<TuningResult> assemble_tuning(const StudyPlan& plan, const RunRecord& run,
-                                            const AssemblyOptions& options);
+                                            const AssemblyOptions& options, const engine::OutputLock& held);
 
 }  // namespace frahm::studies

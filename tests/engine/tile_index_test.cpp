@@ -160,17 +160,6 @@ TEST_CASE("removed logs are gone, and a log that vanished is passed over") {
   CHECK_FALSE(study_of_log(logs[0]).has_value());
 }
 
-TEST_CASE("only one process at a time assembles an output") {
-  const Scratch scratch;
-  {
-    const AssemblyLock lock(scratch.output());
-    CHECK_THROWS_WITH(AssemblyLock(scratch.output()),
-                      Contains("map.h5.frahm-lock") && Contains(this_process()));
-  }
-  CHECK(std::filesystem::is_empty(scratch.directory()));
-  const AssemblyLock again(scratch.output());
-}
-
 TEST_CASE("a directory that is not there is an error naming it") {
   const Scratch scratch;
   CHECK_THROWS_WITH(find_logs(scratch.directory() / "absent" / "map.h5"),

@@ -1,0 +1,71 @@
+"""Killed at any call that changes a file, before it, half-way or after it, a run loses the tiles in hand only, and
+the same command ends with the bytes of an uninterrupted run.
+
+usage: kill_at_every_call.py FRAHM SOURCE_DIR
+"""
+
+from faulty_runs import (EVERYTHING, OUTPUT, Expected, Fault, in_parallel, main, resumed_points, sweep_study, tiles_of_log,
+                         tuning_study, whole_appends)
+
+BEFORE, HALF, AFTER = "kill_before", "kill_half", "kill_after"
+POINTS_OF_TILE = {"sweep": 129, "tuning": 1}
+
+
+def kill_points(calls):
+    """After a call is before the next one, but for what other threads do meanwhile."""
+    for call in calls:
+        yield Fault(call.number, BEFORE)
+        if call.bytes > 1:
+            yield Fault(call.number, HALF)
+        if EVERYTHING or call is calls[-1]:
+            yield Fault(call.number, AFTER)
+
+
+def kill_and_resume(bench, study, kind, threads, expected, fault):
+    case = f"{kind}, {threads} threads, {fault}"
+    place = bench.place(study)
+    killed = place.run("--threads", threads, "--progress", "none", fault=fault)
+    if killed.code == 0:  # two threads: a run may have fewer calls than the one that was counted
+        expected.check_file(place, case)
+        return 0
+    assert killed.code == -9, f"{case}: {killed}"
+    kept, is_published = whole_appends(place.calls()), OUTPUT in place.names()
+    if is_published:
+        expected.check_file(place, case)
+    else:
+        check_in_hand(place, threads, kept, case)
+    resumed = expected.check_resume(place, case, "--threads", threads)
+    if not is_published:
+        assert resumed_points(resumed) == kept * POINTS_OF_TILE[kind], f"{case}: {kept} tiles kept, {resumed}"
+    return 1
+
+
+def check_in_hand(place, threads, kept, case):
+    """Tiles are taken in order, so those below the last one kept are kept or were in hand."""
+    tiles = [tile for log in place.logs() for tile in tiles_of_log(place.read(log))]
+    assert len(tiles) == len(set(tiles)) == kept, f"{case}: {kept} appended, {tiles} in the log"
+    if tiles:
+        assert max(tiles) + 1 - kept <= int(threads) - 1, f"{case}: lost more than what was in hand: {tiles}"
+
+
+def kill_everywhere(bench, study, kind, threads):
+    place = bench.place(study)
+    expected = Expected(place)
+    place.clear()
+    assert place.run("--threads", threads, "--progress", "none", fault=Fault()).code == 0
+    calls = place.calls()
+    assert len(calls) > 30 and whole_appends(calls) >= 4, calls
+    faults = list(kill_points(calls))
+    killed = sum(in_parallel(lambda fault: kill_and_resume(bench, study, kind, threads, expected, fault), faults))
+    assert killed > 0.9 * len(faults), (killed, len(faults))
+    return killed
+
+
+def drill(bench):
+    sweep, tuning = sweep_study(bench.source), tuning_study(bench.source)
+    for kind, study, threads in (("sweep", sweep, "1"), ("sweep", sweep, "2"), ("tuning", tuning, "2")):
+        print(f"{kind} on {threads} threads: {kill_everywhere(bench, study, kind, threads)} kills", flush=True)
+
+
+if __name__ == "__main__":
+    main(drill)
