@@ -99,7 +99,8 @@ AssemblyOptions options_of(const std::filesystem::path& output, int threads, boo
 }
 
 Assembly assembled(const MapPlan& plan, const AssemblyOptions& options) {
-  return assemble(plan, {.command = "test", .threads = 1, .started = "then"}, options);
+  const frahm::engine::OutputLock lock(options.output);
+  return assemble(plan, {.command = "test", .threads = 1, .started = "then"}, options, lock);
 }
 
 // The number of points that are not what the tiles held, or missing where there was no tile.
