@@ -49,7 +49,7 @@ Bytes deflated(std::span<const std::byte> data, std::size_t spare) {
   }
   Bytes out(bound + spare);
   const auto workspace = std::make_unique_for_overwrite<std::uint8_t[]>(ISAL_DEF_LVL1_DEFAULT);
-  isal_zstream stream;
+  isal_zstream stream{};  // the call below leaves out hist_bits, on which the bytes depend
   isal_deflate_stateless_init(&stream);
   stream.gzip_flag = IGZIP_ZLIB;
   stream.level = 1;
