@@ -9,6 +9,7 @@
 #include "engine/rank_message.hpp"
 #include "engine/shard_log.hpp"
 #include "engine/stop_signals.hpp"
+#include "engine/team.hpp"
 #include "engine/team_work.hpp"
 #include "engine/watch.hpp"
 

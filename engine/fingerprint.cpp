@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace frahm::engine {
 namespace {
 
@@ -21,7 +23,8 @@ std::string difference(const Fingerprint& kept, const Fingerprint& wanted) {
                        wanted.physics);
   }
   return fmt::format(
-      "is the result of the same physics for another duration or other samples ({}, this study has {})",
+      "is the result of the same physics for other points, samples or another duration ({}, this study has "
+      "{})",
       kept.grid, wanted.grid);
 }
 
@@ -35,11 +38,15 @@ ResumeRefused::ResumeRefused(const std::filesystem::path& log, const LogHeader& 
       wanted_(wanted) {}
 
 ResumeRefused::ResumeRefused(const std::filesystem::path& result, const Fingerprint& kept,
-                             const Fingerprint& wanted)
-    : std::runtime_error(
-          fmt::format("{} {}; it is not replaced unasked", result.string(), difference(kept, wanted))),
+                             const Fingerprint& wanted, std::string advice)
+    : std::runtime_error(fmt::format("{} {}", result.string(), difference(kept, wanted))),
       log_(result),
       kept_({kept, 1}),
-      wanted_({wanted, 1}) {}
+      wanted_({wanted, 1}),
+      advice_(std::move(advice)) {}
+
+ResumeRefused::ResumeRefused(const ResumeRefused& refused, std::string advice) : ResumeRefused(refused) {
+  advice_ = std::move(advice);
+}
 
 }  // namespace frahm::engine

@@ -28,12 +28,17 @@ struct LogHeader {
 class ResumeRefused : public std::runtime_error {
  public:
   ResumeRefused(const std::filesystem::path& log, const LogHeader& kept, const LogHeader& wanted);
-  // Of a result without tiles: a single answer.
-  ResumeRefused(const std::filesystem::path& result, const Fingerprint& kept, const Fingerprint& wanted);
+  // Of a finished result.
+  ResumeRefused(const std::filesystem::path& result, const Fingerprint& kept, const Fingerprint& wanted,
+                std::string advice = "");
+  // The same refusal with advice for whoever meets it.
+  ResumeRefused(const ResumeRefused& refused, std::string advice);
 
   const std::filesystem::path& log() const { return log_; }
   const LogHeader& kept() const { return kept_; }      // in the log
   const LogHeader& wanted() const { return wanted_; }  // of the run that was refused
+  // What to do about it; empty: no more than is plain from what().
+  const std::string& advice() const { return advice_; }
   // false: the same physics on another grid, so that points could be reused by content.
   bool physics_differs() const { return kept_.fingerprint.physics != wanted_.fingerprint.physics; }
 
@@ -41,6 +46,7 @@ class ResumeRefused : public std::runtime_error {
   std::filesystem::path log_;
   LogHeader kept_;
   LogHeader wanted_;
+  std::string advice_;
 };
 
 }  // namespace frahm::engine

@@ -19,14 +19,17 @@ double percent(const Tally& tally) {
                            : 100.0 * static_cast<double>(tally.done) / static_cast<double>(tally.points);
 }
 
-// Points per second of this run; nothing before the first point.
+// Points per second that this run computes; nothing before the first one. Those that it finds in an earlier
+// result cost next to nothing, and may come first: they say nothing of the time the others take.
 std::optional<double> rate(const Tally& tally, double seconds) {
-  const std::uint64_t computed = tally.done - tally.resumed;
+  const std::uint64_t found = tally.resumed + tally.reused;
+  const std::uint64_t computed = tally.done > found ? tally.done - found : 0;
   if (computed == 0 || seconds <= 0.0) return std::nullopt;
   return static_cast<double>(computed) / seconds;
 }
 
-// Seconds until all is done at the rate so far; nothing when that is unknown.
+// Seconds until all is done at the rate so far, at most where points are reused; nothing when that is
+// unknown.
 std::optional<double> time_left(const Tally& tally, double seconds) {
   if (tally.done >= tally.points) return 0.0;
   const std::optional<double> speed = rate(tally, seconds);
@@ -34,13 +37,15 @@ std::optional<double> time_left(const Tally& tally, double seconds) {
   return static_cast<double>(tally.points - tally.done) / *speed;
 }
 
-std::string text(const Tally& tally, double seconds) {
+std::string text(const std::string& stage, const Tally& tally, double seconds) {
   // Rounded down: 100 % is said when all is done, not before.
   const double shown = std::floor(10.0 * percent(tally)) / 10.0;
-  std::string line = fmt::format("{:5.1f} %  {}/{} points", shown, tally.done, tally.points);
+  std::string line = stage.empty() ? "" : stage + " ";
+  line += fmt::format("{:5.1f} %  {}/{} points", shown, tally.done, tally.points);
   if (const auto speed = rate(tally, seconds)) line += fmt::format("  {:.3g} points/s", *speed);
   const auto left = time_left(tally, seconds);
   if (left && *left > 0.0) line += fmt::format("  {} left", readable_time(*left));
+  if (tally.reused > 0) line += fmt::format("  {} reused", tally.reused);
   if (tally.failed > 0) line += fmt::format("  {} failed", tally.failed);
   return line;
 }
@@ -51,15 +56,16 @@ std::string bar(const Tally& tally) {
   return fmt::format("{:=<{}}{:-<{}}", "", full, "", width - full);
 }
 
-std::string json(const Tally& tally, double seconds, bool last) {
+std::string json(const std::string& stage, const Tally& tally, double seconds, bool last) {
   const auto number = [](std::optional<double> value) {
     return value ? fmt::format("{:.6g}", *value) : "null";
   };
   return fmt::format(
-      R"({{"event":"{}","points":{},"done":{},"resumed":{},"failed":{},"percent":{:.3f},"seconds":{:.3f},)"
-      R"("points_per_second":{},"seconds_left":{}}})",
-      last ? "end" : "progress", tally.points, tally.done, tally.resumed, tally.failed, percent(tally),
-      seconds, number(rate(tally, seconds)), number(time_left(tally, seconds)));
+      R"({{"event":"{}",{}"points":{},"done":{},"resumed":{},"reused":{},"failed":{},"percent":{:.3f},)"
+      R"("seconds":{:.3f},"points_per_second":{},"seconds_left":{}}})",
+      last ? "end" : "progress", stage.empty() ? "" : fmt::format(R"("stage":"{}",)", stage), tally.points,
+      tally.done, tally.resumed, tally.reused, tally.failed, percent(tally), seconds,
+      number(rate(tally, seconds)), number(time_left(tally, seconds)));
 }
 
 std::chrono::milliseconds period(ProgressForm form) {
@@ -88,8 +94,9 @@ ProgressForm progress_form(ProgressStyle style) {
   return no_color != nullptr && *no_color != '\0' ? ProgressForm::bar : ProgressForm::coloured_bar;
 }
 
-Progress::Progress(ProgressForm form, std::ostream& out, std::function<Clock::time_point()> now)
-    : form_(form), out_(out), now_(std::move(now)), start_(now_()), next_(start_) {}
+Progress::Progress(ProgressForm form, std::ostream& out, std::function<Clock::time_point()> now,
+                   std::string stage)
+    : form_(form), out_(out), now_(std::move(now)), stage_(std::move(stage)), start_(now_()), next_(start_) {}
 
 void Progress::update(const Tally& tally) {
   if (now_() >= next_) report(tally, false);
@@ -107,17 +114,17 @@ void Progress::report(const Tally& tally, bool last) {
   // Each report is one write, so that lines of several processes on one terminal stay whole.
   switch (form_) {
     case ProgressForm::bar:
-      out_ << fmt::format("\r[{}] {}\x1b[K{}", bar(tally), text(tally, seconds), end);
+      out_ << fmt::format("\r[{}] {}\x1b[K{}", bar(tally), text(stage_, tally, seconds), end);
       break;
     case ProgressForm::coloured_bar:
       out_ << fmt::format("\r\x1b[3{}m[{}]\x1b[0m {}\x1b[K{}", tally.failed > 0 ? '3' : '2', bar(tally),
-                          text(tally, seconds), end);
+                          text(stage_, tally, seconds), end);
       break;
     case ProgressForm::plain:
-      out_ << text(tally, seconds) + "\n";
+      out_ << text(stage_, tally, seconds) + "\n";
       break;
     case ProgressForm::json:
-      out_ << json(tally, seconds, last) + "\n";
+      out_ << json(stage_, tally, seconds, last) + "\n";
       break;
     case ProgressForm::none:
       return;

@@ -20,6 +20,7 @@ struct Tally {
   std::uint64_t points = 0;   // to do in all
   std::uint64_t done = 0;     // finished, by earlier runs too
   std::uint64_t resumed = 0;  // of these, finished by earlier runs
+  std::uint64_t reused = 0;   // of those done since, not computed but found in an earlier result
   std::uint64_t failed = 0;   // of those done, the points whose answer is a failure
 };
 
@@ -34,7 +35,9 @@ class Progress {
   using Clock = std::chrono::steady_clock;
 
   // `out` must outlive it. The time of the run, from which the rate is found, begins here.
-  Progress(ProgressForm form, std::ostream& out, std::function<Clock::time_point()> now = Clock::now);
+  // stage: what is done, "writing"; empty: the tiles are computed.
+  Progress(ProgressForm form, std::ostream& out, std::function<Clock::time_point()> now = Clock::now,
+           std::string stage = {});
 
   void update(const Tally& tally);  // the first call always reports
   void finish(const Tally& tally);  // always reports; the last call
@@ -45,6 +48,7 @@ class Progress {
   ProgressForm form_;
   std::ostream& out_;
   std::function<Clock::time_point()> now_;
+  std::string stage_;
   Clock::time_point start_;
   Clock::time_point next_;  // time of the next report
 };

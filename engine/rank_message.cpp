@@ -7,13 +7,14 @@ namespace frahm::engine {
 namespace {
 
 constexpr std::size_t word = sizeof(std::uint64_t);
-constexpr std::size_t head_words = 9;
+constexpr std::size_t head_words = 10;
 
 }  // namespace
 
 Finished& Finished::operator+=(const Finished& other) {
   tiles += other.tiles;
   points += other.points;
+  reused += other.reused;
   failed += other.failed;
   cpu_milliseconds += other.cpu_milliseconds;
   return *this;
@@ -28,6 +29,7 @@ Bytes encode(const RankMessage& message) {
                                                    message.code,
                                                    finished.tiles,
                                                    finished.points,
+                                                   finished.reused,
                                                    finished.failed,
                                                    finished.cpu_milliseconds,
                                                    message.tiles.size()};
@@ -51,8 +53,8 @@ RankMessage decode(std::span<const std::byte> bytes) {
                       .threads = number(1),
                       .study = number(2),
                       .code = number(3),
-                      .finished = {number(4), number(5), number(6), number(7)}};
-  message.tiles.resize(number(8));
+                      .finished = {number(4), number(5), number(6), number(7), number(8)}};
+  message.tiles.resize(number(9));
   for (std::size_t i = 0; i < message.tiles.size(); ++i) message.tiles[i] = number(head_words + i);
   const auto text = bytes.subspan(word * (head_words + message.tiles.size()));
   message.text.assign(reinterpret_cast<const char*>(text.data()), text.size());

@@ -12,6 +12,7 @@ namespace frahm::engine {
 // What a rank has finished in this run.
 struct Finished {
   std::uint64_t tiles = 0, points = 0;
+  std::uint64_t reused = 0;            // of the points: not computed but found in an earlier result
   std::uint64_t failed = 0;            // of the points
   std::uint64_t cpu_milliseconds = 0;  // its process has used
 

@@ -11,7 +11,8 @@
 
 #include "engine/dealer.hpp"
 #include "engine/shard_log.hpp"
-#include "engine/stop_signals.hpp"
+#include "engine/stop_request.hpp"
+#include "engine/team.hpp"
 #include "engine/team_work.hpp"
 #include "engine/watch.hpp"
 
@@ -72,17 +73,13 @@ Remainder read_logs(const Job& job, const RunOptions& options, const LogHeader& 
   return remainder;
 }
 
-int team_size(const RunOptions& options, std::size_t tiles) {
-  const int wanted = options.threads > 0 ? options.threads : default_threads(options.ranks);
-  return static_cast<int>(std::min(static_cast<std::size_t>(wanted), std::max<std::size_t>(tiles, 1)));
-}
-
 // How far the whole run is.
 Tally tally_of(const Tally& found, const TeamWork& work, const std::optional<Dealer>& dealer) {
   Finished finished = work.finished();
   if (dealer) finished += dealer->finished();
   Tally now = found;
   now.done += finished.points;
+  now.reused += finished.reused;
   now.failed += finished.failed;
   return now;
 }
@@ -101,26 +98,6 @@ class Attendance {
  private:
   std::optional<Dealer>& dealer_;
   std::optional<Watch> watch_;
-};
-
-// What may end a run before its work is done: a signal, or the time budget, which begins with it.
-class StopRequest {
- public:
-  explicit StopRequest(const RunOptions& options) : budget_(options.time_budget) {}
-
-  bool asked() const { return signals_.received() != 0 || (budget_ && elapsed() >= budget_->count()); }
-  double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }  // [s]
-  // Why the run was stopped. elsewhere: the reason of another rank; empty if it had none.
-  std::string reason(const std::string& elsewhere) const {
-    if (signals_.received() != 0) return "stopped by " + signal_name(signals_.received());
-    if (!elsewhere.empty()) return elsewhere;
-    return fmt::format("the time budget of {} s is used up", budget_->count());
-  }
-
- private:
-  Clock::time_point start_ = Clock::now();
-  std::optional<std::chrono::duration<double>> budget_;
-  StopSignals signals_;
 };
 
 // Alone, a process has all tiles in its queue at once. Among ranks they are dealt out.
@@ -149,7 +126,7 @@ void count(const TeamWork& work, const std::optional<Dealer>& dealer, int thread
 
 Summary run(const Job& job, const RunOptions& options) {
   check(options);
-  const StopRequest stop(options);
+  const StopRequest stop(options.time_budget);
   const LogHeader study{.fingerprint = job.fingerprint, .tiles = job.tiles};
   if (options.fresh) discard_logs(options, study);
   ShardLog log(own_log(options), study);
@@ -159,7 +136,8 @@ Summary run(const Job& job, const RunOptions& options) {
   }
 
   TeamWork work(job, log);
-  const int threads = team_size(options, tiles.size());
+  const int wanted = options.threads > 0 ? options.threads : default_threads(options.ranks);
+  const int threads = team_size(wanted, tiles.size());
   std::optional<Dealer> dealer = supply(options, study, threads, tiles, work.queue());
   const auto give_up = [&] { return work.has_failed() || stop.asked(); };
   const auto tally = [&, &found = summary.points] { return tally_of(found, work, dealer); };
@@ -177,10 +155,11 @@ Summary run(const Job& job, const RunOptions& options) {
   if (dealer) dealer->rethrow_failure();
 
   count(work, dealer, threads, options.ranks, summary);
-  summary.seconds = stop.elapsed();
+  summary.seconds = stop.elapsed().count();
   const bool all = summary.tiles_computed == tiles.size();
   summary.outcome = all ? Outcome::complete : Outcome::stopped;
-  summary.reason = all ? "every tile is finished" : stop.reason(dealer ? dealer->stop_reason() : "");
+  summary.reason = all ? "every tile is finished" : stop.reason();
+  if (summary.reason.empty()) summary.reason = dealer->stop_reason();  // another rank asked
   return summary;
 }
 

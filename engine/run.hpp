@@ -39,6 +39,8 @@ struct Job {
   std::function<std::uint64_t(std::uint64_t tile)> points;  // points of a tile
   // Points of a finished tile that failed; may be empty: none ever do.
   std::function<std::uint64_t(std::uint64_t tile, std::span<const std::byte> record)> failed;
+  // Points that the kernels of this process have not computed but found in an earlier result; may be empty.
+  std::function<std::uint64_t()> reused = {};
 };
 
 // The part of the tiles a run computes: those with tile % count == index. Needs index < count.

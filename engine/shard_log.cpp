@@ -45,10 +45,11 @@ void ShardLog::begin(const LogHeader& header) {
 }
 
 void ShardLog::append(std::uint64_t tile, std::span<const std::byte> payload) {
+  Bytes record;  // made before the turn, which is for the file alone
+  encode_record(mark_, tile, payload, record);
   const std::lock_guard turn(append_turn_);
-  encode_record(mark_, tile, payload, record_);
   try {
-    file_.write_at(end_, record_);
+    file_.write_at(end_, record);
   } catch (const IoError&) {
     // Cut off the part that was written. Should even that fail, the reader will cut there, and the next
     // record is written over it.
@@ -58,7 +59,7 @@ void ShardLog::append(std::uint64_t tile, std::span<const std::byte> payload) {
     }
     throw;
   }
-  end_ += record_.size();
+  end_ += record.size();
 }
 
 void ShardLog::sync() {

@@ -5,7 +5,6 @@
 #include <mutex>
 #include <span>
 
-#include "engine/bytes.hpp"
 #include "engine/file.hpp"
 #include "engine/fingerprint.hpp"
 #include "engine/log_format.hpp"
@@ -42,10 +41,9 @@ class ShardLog {
   std::uint64_t mark_;  // of the study, in each record
   File file_;
   LogExtent found_;
-  std::mutex append_turn_;  // guards what follows
-  Bytes record_;
-  std::uint64_t end_ = 0;  // of the last good record
-  std::mutex sync_turn_;   // guards synced_end_
+  std::mutex append_turn_;  // guards end_ and the file's end
+  std::uint64_t end_ = 0;   // of the last good record
+  std::mutex sync_turn_;    // guards synced_end_
   std::uint64_t synced_end_ = 0;
 };
 

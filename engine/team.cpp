@@ -1,6 +1,12 @@
 #include "engine/team.hpp"
 
+#include <omp.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
 #include <mutex>
+#include <string_view>
 
 namespace frahm::engine {
 namespace {
@@ -34,6 +40,22 @@ void take_part(Team& team) {
 }
 
 }  // namespace
+
+int default_threads(const Ranks* ranks) {
+  if (std::getenv("OMP_NUM_THREADS")) return omp_get_max_threads();
+  if (const char* text = std::getenv("SLURM_CPUS_PER_TASK")) {
+    const std::string_view digits(text);
+    int processors = 0;
+    std::from_chars(digits.data(), digits.data() + digits.size(), processors);
+    if (processors > 0) return std::min(processors, omp_get_num_procs());
+  }
+  return ranks ? ranks->processors() : omp_get_num_procs();
+}
+
+int team_size(int wanted, std::uint64_t pieces) {
+  const auto most = static_cast<std::uint64_t>(wanted > 0 ? wanted : default_threads());
+  return static_cast<int>(std::clamp<std::uint64_t>(pieces, 1, most));
+}
 
 std::exception_ptr run_team(int threads, const std::function<void(const std::atomic<bool>& failed)>& work) {
   Team team{.work = work, .first_error_turn = {}, .first_error = {}};

@@ -1,12 +1,7 @@
 #include "engine/team_work.hpp"
 
-#include <omp.h>
-
-#include <algorithm>
-#include <charconv>
-#include <cstdlib>
 #include <ctime>
-#include <string_view>
+#include <utility>
 
 #include "engine/team.hpp"
 
@@ -67,19 +62,9 @@ Finished TeamWork::finished() const {
   const double cpu_seconds = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
   return {.tiles = tiles_,
           .points = points_,
+          .reused = job_.reused ? job_.reused() : 0,
           .failed = failed_points_,
           .cpu_milliseconds = static_cast<std::uint64_t>(1e3 * cpu_seconds)};
-}
-
-int default_threads(const Ranks* ranks) {
-  if (std::getenv("OMP_NUM_THREADS")) return omp_get_max_threads();
-  if (const char* text = std::getenv("SLURM_CPUS_PER_TASK")) {
-    const std::string_view digits(text);
-    int processors = 0;
-    std::from_chars(digits.data(), digits.data() + digits.size(), processors);
-    if (processors > 0) return std::min(processors, omp_get_num_procs());
-  }
-  return ranks ? ranks->processors() : omp_get_num_procs();
 }
 
 }  // namespace frahm::engine

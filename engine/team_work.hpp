@@ -47,9 +47,4 @@ class TeamWork {
   std::exception_ptr failure_;
 };
 
-// Threads of this process where the user names no number: OMP_NUM_THREADS, else the processors a Slurm task
-// was given (SLURM_CPUS_PER_TASK), else those that this process may use. ranks: among which it is; null if
-// alone.
-int default_threads(const Ranks* ranks);
-
 }  // namespace frahm::engine

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "engine/io_error.hpp"
 #include "engine/log_format.hpp"
@@ -43,33 +44,7 @@ void index_log(const File& file, TileIndex& index, const TileVisitor& visit) {
   }
 }
 
-// Logs opened when first needed. An array job may have left more of them than a process may hold open.
-class OpenLogs {
- public:
-  explicit OpenLogs(const std::vector<std::filesystem::path>& paths) : paths_(paths), files_(paths.size()) {}
-
-  const File& operator[](std::uint32_t log) {
-    if (!files_[log]) {
-      if (open_ == most_open) close_all();
-      files_[log] = File::open_if_present(paths_[log]);
-      if (!files_[log]) throw IoError(paths_[log], "this shard log was removed while its tiles were read");
-      ++open_;
-    }
-    return *files_[log];
-  }
-
- private:
-  static constexpr int most_open = 256;  // a quarter of the usual limit of 1024
-
-  void close_all() {
-    std::ranges::fill(files_, std::nullopt);
-    open_ = 0;
-  }
-
-  const std::vector<std::filesystem::path>& paths_;
-  std::vector<std::optional<File>> files_;
-  int open_ = 0;
-};
+constexpr int most_open_logs = 256;  // a quarter of the usual limit of 1024 files
 
 }  // namespace
 
@@ -114,20 +89,40 @@ std::vector<std::uint64_t> missing_tiles(const TileIndex& index) {
   return missing;
 }
 
+TileReader::TileReader(const TileIndex& index)
+    : index_(index), mark_(study_mark(index.study)), files_(index.logs.size()) {}
+
+std::span<const std::byte> TileReader::read(std::uint64_t tile, Bytes& record) {
+  const auto [log, offset] = index_.places[tile];
+  const std::shared_ptr<const File> file = open(log);
+  if (!read_record(*file, offset, file->size(), mark_, index_.study.tiles, record) ||
+      tile_of(record) != tile) {
+    throw IoError(
+        file->path(),
+        fmt::format("the record of tile {} at byte {} has been damaged since it was indexed", tile, offset));
+  }
+  return payload_of(record);
+}
+
+std::shared_ptr<const File> TileReader::open(std::uint32_t log) {
+  const std::lock_guard turn(turn_);
+  if (files_[log]) return files_[log];
+  if (open_ == most_open_logs) {
+    std::ranges::fill(files_, nullptr);
+    open_ = 0;
+  }
+  std::optional<File> file = File::open_if_present(index_.logs[log]);
+  if (!file) throw IoError(index_.logs[log], "this shard log was removed while its tiles were read");
+  files_[log] = std::make_shared<const File>(std::move(*file));
+  ++open_;
+  return files_[log];
+}
+
 void for_each_tile(const TileIndex& index, const TileVisitor& visit) {
-  const std::uint64_t mark = study_mark(index.study);
-  OpenLogs logs(index.logs);
+  TileReader reader(index);
   Bytes record;
   for (std::uint64_t tile = 0; tile < index.places.size(); ++tile) {
-    if (!index.has(tile)) continue;
-    const auto [log, offset] = index.places[tile];
-    const File& file = logs[log];
-    if (!read_record(file, offset, file.size(), mark, index.study.tiles, record) || tile_of(record) != tile) {
-      throw IoError(file.path(),
-                    fmt::format("the record of tile {} at byte {} has been damaged since it was indexed",
-                                tile, offset));
-    }
-    visit(tile, payload_of(record));
+    if (index.has(tile)) visit(tile, reader.read(tile, record));
   }
 }
 

@@ -4,11 +4,14 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "engine/bytes.hpp"
 #include "engine/file.hpp"
 #include "engine/fingerprint.hpp"
 
@@ -61,6 +64,28 @@ TileIndex index_tiles(const std::vector<std::filesystem::path>& logs, const LogH
 
 // The tiles that are in no log, in order.
 std::vector<std::uint64_t> missing_tiles(const TileIndex& index);
+
+// Reads finished tiles in any order. Logs are opened when first needed: an array job may have left more of
+// them than a process may hold open.
+class TileReader {
+ public:
+  explicit TileReader(const TileIndex& index);  // which must outlive it
+
+  // The bytes the kernel of a finished tile wrote. record: holds them until it is changed. May be called from
+  // several threads at once, each with a record of its own.
+  // Throws IoError when the record can no longer be read as it was indexed.
+  std::span<const std::byte> read(std::uint64_t tile, Bytes& record);
+
+ private:
+  // Shared: a log may be closed here while it is read there.
+  std::shared_ptr<const File> open(std::uint32_t log);
+
+  const TileIndex& index_;
+  std::uint64_t mark_;                              // of the study, in each record
+  std::mutex turn_;                                 // guards what follows
+  std::vector<std::shared_ptr<const File>> files_;  // of TileIndex::logs; null: closed
+  int open_ = 0;
+};
 
 // Calls visit for every finished tile in the order of their numbers, holding one record in memory at a time.
 // Throws IoError when a record can no longer be read as it was indexed, and what `visit` throws.

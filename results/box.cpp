@@ -25,15 +25,20 @@ std::uint64_t product(std::span<const std::uint64_t> shape) {
   return size;
 }
 
+bool contains(const Box& outer, const Box& inner) {
+  bool inside = inner.start.size() == outer.start.size() && inner.count.size() == outer.start.size();
+  for (std::size_t k = 0; inside && k < outer.start.size(); ++k) {
+    const std::uint64_t from = inner.start[k] - outer.start[k];
+    inside =
+        inner.start[k] >= outer.start[k] && from <= outer.count[k] && inner.count[k] <= outer.count[k] - from;
+  }
+  return inside;
+}
+
 void check_within(const std::string& what, const Box& box, const Shape& shape) {
-  bool inside = box.start.size() == shape.size() && box.count.size() == shape.size();
-  for (std::size_t k = 0; inside && k < shape.size(); ++k) {
-    inside = box.start[k] <= shape[k] && box.count[k] <= shape[k] - box.start[k];
-  }
-  if (!inside) {
-    throw std::invalid_argument(
-        fmt::format("{}: block of {} at {}: must lie within {}", what, box.count, box.start, shape));
-  }
+  if (contains({Shape(shape.size(), 0), shape}, box)) return;
+  throw std::invalid_argument(
+      fmt::format("{}: block of {} at {}: must lie within {}", what, box.count, box.start, shape));
 }
 
 Box common(const Box& a, const Box& b) {

@@ -18,6 +18,9 @@ struct Box {
   Shape start, count;
 };
 
+// Whether `inner` has the rank of `outer` and lies within it.
+bool contains(const Box& outer, const Box& inner);
+
 // Throws std::invalid_argument, naming `what`, unless the box has the rank of a grid of `shape` and lies
 // within it.
 void check_within(const std::string& what, const Box& box, const Shape& shape);

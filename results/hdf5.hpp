@@ -78,9 +78,6 @@ class Dataset : public Object {
              std::span<const std::byte> elements);  // as stored
   std::vector<double> read(std::span<const std::uint64_t> start, std::span<const std::uint64_t> count) const;
 
-  // The elements of a box, as stored, to the first corner of an array of shape `to_shape`, which it fits.
-  void read_elements(const Box& box, std::span<std::byte> to, const Shape& to_shape) const;
-
   void write_chunk(std::span<const std::uint64_t> start,
                    std::span<const std::byte> encoded);  // see encode_chunk
   void grow(std::uint64_t size);                         // sets the size of the unlimited dimension

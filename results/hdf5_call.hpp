@@ -19,6 +19,10 @@ Result checked(Result result, const std::string& where, const std::string& what)
   return result;
 }
 
+// Keeps HDF5 from printing errors, which are thrown. The setting is the calling thread's: whatever may be the
+// first call in a thread comes after it.
+void print_no_errors();
+
 // HDF5's identifier of the type in the file, which is also that of to_storage()'s bytes.
 std::int64_t numeric_type(Type type);
 

@@ -100,25 +100,16 @@ Shape Dataset::chunk() const {
 
 void Dataset::write(std::span<const std::uint64_t> start, std::span<const std::uint64_t> count,
                     std::span<const std::byte> elements) {
+  print_no_errors();
   const Selection box = select_box(id(), start, count, where_);
   checked(
       H5Dwrite(id(), numeric_type(type()), box.memory.get(), box.file.get(), H5P_DEFAULT, elements.data()),
       where_, "cannot write");
 }
 
-void Dataset::read_elements(const Box& box, std::span<std::byte> to, const Shape& to_shape) const {
-  const Selection from = select_box(id(), box.start, box.count, where_);
-  const Handle array(checked(H5Screate_simple(static_cast<int>(to_shape.size()), sizes(to_shape), nullptr),
-                             where_, "cannot select a box"));
-  const Shape corner(to_shape.size(), 0);
-  checked(H5Sselect_hyperslab(array.get(), H5S_SELECT_SET, sizes(corner), nullptr, sizes(box.count), nullptr),
-          where_, "cannot select a box");
-  checked(H5Dread(id(), numeric_type(type()), array.get(), from.file.get(), H5P_DEFAULT, to.data()), where_,
-          "cannot read");
-}
-
 std::vector<double> Dataset::read(std::span<const std::uint64_t> start,
                                   std::span<const std::uint64_t> count) const {
+  print_no_errors();
   std::vector<double> values(product(count));
   const Selection box = select_box(id(), start, count, where_);
   checked(H5Dread(id(), H5T_NATIVE_DOUBLE, box.memory.get(), box.file.get(), H5P_DEFAULT, values.data()),
@@ -127,6 +118,7 @@ std::vector<double> Dataset::read(std::span<const std::uint64_t> start,
 }
 
 void Dataset::write_chunk(std::span<const std::uint64_t> start, std::span<const std::byte> encoded) {
+  print_no_errors();
   constexpr std::uint32_t every_filter_applied = 0;
   checked(
       H5Dwrite_chunk(id(), H5P_DEFAULT, every_filter_applied, sizes(start), encoded.size(), encoded.data()),
@@ -134,6 +126,7 @@ void Dataset::write_chunk(std::span<const std::uint64_t> start, std::span<const 
 }
 
 void Dataset::grow(std::uint64_t size) {
+  print_no_errors();
   Shape grown = shape();
   grown.front() = size;
   checked(H5Dset_extent(id(), sizes(grown)), where_, "cannot grow");

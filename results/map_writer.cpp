@@ -1,11 +1,11 @@
 #include "results/map_writer.hpp"
 
 #include <fmt/core.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include "results/format.hpp"
 #include "results/storage.hpp"
@@ -13,9 +13,6 @@
 
 namespace frahm::results {
 namespace {
-
-constexpr std::size_t open_chunk_memory = std::size_t{256}
-                                          << 20;  // [bytes] of partly filled chunks, all variables
 
 // Names of the coordinates that are not dimensions, as CF's attribute `coordinates` lists them.
 std::string auxiliary_coordinates(const MapLayout& layout) {
@@ -75,7 +72,7 @@ void write_auxiliary_coordinates(hdf5::Group& root, const Axis& axis) {
 }  // namespace
 
 MapWriter::MapWriter(const std::filesystem::path& path, const MapLayout& layout)
-    : part_(path), file_(hdf5::File::create((check(layout), part_.part()))), variables_(layout.variables) {
+    : part_(path), file_(hdf5::File::create((check(layout), part_.part()))) {
   hdf5::Group root = file_.root();
   const std::string auxiliary = auxiliary_coordinates(layout);
   describe_file(root, layout, auxiliary);
@@ -86,35 +83,26 @@ MapWriter::MapWriter(const std::filesystem::path& path, const MapLayout& layout)
 }
 
 void MapWriter::create_variables(hdf5::Group& root, const MapLayout& layout, const std::string& auxiliary) {
-  Shape chunk = layout.chunk;
-  for (std::size_t k = 0; k < chunk.size(); ++k) {
-    shape_.push_back(layout.axes[k].size);
-    chunk[k] = std::min(chunk[k], shape_[k]);
-  }
-  for (const Variable& variable : variables_) {
+  Shape shape;
+  for (const Axis& axis : layout.axes) shape.push_back(axis.size);
+  const Shape chunk = chunk_shape(layout);
+  for (const Variable& variable : layout.variables) {
     hdf5::Dataset dataset =
-        root.create_dataset(variable.name, {.type = variable.type, .shape = shape_, .chunk = chunk});
+        root.create_dataset(variable.name, {.type = variable.type, .shape = shape, .chunk = chunk});
     describe(dataset, variable, true);
     if (!auxiliary.empty()) dataset.write_text("coordinates", auxiliary);
-    for (unsigned k = 0; k < shape_.size(); ++k) dataset.attach_scale(k, root.dataset(layout.axes[k].name));
-    const std::size_t chunks_memory = variables_.size() * product(chunk) * element_size(variable.type);
-    arrays_.emplace_back(std::move(dataset), std::max<std::size_t>(1, open_chunk_memory / chunks_memory));
+    for (unsigned k = 0; k < shape.size(); ++k) dataset.attach_scale(k, root.dataset(layout.axes[k].name));
+    variables_.push_back(std::move(dataset));
   }
 }
 
-void MapWriter::write_block(std::size_t variable, std::span<const std::uint64_t> start,
-                            std::span<const std::uint64_t> count, std::span<const double> values) {
-  if (variable >= arrays_.size()) {
-    throw std::invalid_argument(fmt::format("variable {}: must be below {}", variable, arrays_.size()));
+void MapWriter::write_chunk(const EncodedChunk& chunk) {
+  if (chunk.variables.size() != variables_.size()) {
+    throw std::invalid_argument(fmt::format("chunk of {} variables: must be {}, those of the map",
+                                            chunk.variables.size(), variables_.size()));
   }
-  const std::string& name = variables_[variable].name;
-  const Box block{{start.begin(), start.end()}, {count.begin(), count.end()}};
-  check_within(name, block, shape_);
-  if (values.size() != product(count)) {
-    throw std::invalid_argument(fmt::format("{}: {} values for a block of {}", name, values.size(), count));
-  }
-  if (values.empty()) return;
-  arrays_[variable].write(block, to_storage(variables_[variable], values));
+  for (std::size_t v = 0; v < variables_.size(); ++v)
+    variables_[v].write_chunk(chunk.start, chunk.variables[v]);
 }
 
 hdf5::Group MapWriter::group(const std::string& name) {
@@ -148,10 +136,9 @@ void MapWriter::append_ragged(std::size_t table, std::span<const double> row,
 }
 
 void MapWriter::finish() {
-  for (ChunkedArray& array : arrays_) array.flush();
   for (RaggedTable& table : tables_) table.flush();
   // HDF5 closes the file with its last object.
-  arrays_.clear();
+  variables_.clear();
   tables_.clear();
   file_.close();
   part_.publish();

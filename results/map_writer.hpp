@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "results/chunked_array.hpp"
 #include "results/columns.hpp"
 #include "results/hdf5.hpp"
 #include "results/layout.hpp"
+#include "results/map_chunk.hpp"
 #include "results/part_file.hpp"
 
 namespace frahm::results {
@@ -18,21 +18,18 @@ namespace frahm::results {
 // Writes one result file (FORMAT.md): as <path>.part beside its place until finish() puts it there in one
 // step. A writer destroyed before leaves nothing behind. Two writers of one path are the caller's to prevent.
 //
-// Memory is bounded whatever the size of the map: a few chunks of each variable, 256 MiB at most, or one
-// chunk of each variable if those are more. Blocks may come in any order, those that are unions of whole
-// chunks fastest; the bytes of the file depend on that order only.
+// The map comes in chunks that have been encoded before, in any order; where they lie in the file depends on
+// that order only. Nothing of them is kept in memory.
 //
 // Errors: StoreError where the file cannot be written; std::invalid_argument, naming the thing, its value and
-// the rule, for what must not be in it. Not thread-safe.
+// the rule, for what must not be in it. Not thread-safe, but write_chunk() and append_ragged() may be called
+// from one thread after the other.
 class MapWriter {
  public:
   MapWriter(const std::filesystem::path& path, const MapLayout& layout);
 
-  // values: one for each point of the box (start and count: one number for each axis), row-major, in the
-  // variable's unit, missing ones as NaN for floats, -1 for integers, 0 for flags.  variable: index into
-  // MapLayout::variables. A point never written is missing, one written twice has the later value.
-  void write_block(std::size_t variable, std::span<const std::uint64_t> start,
-                   std::span<const std::uint64_t> count, std::span<const double> values);
+  // Writes one chunk of every variable (MapChunk::encoded). A chunk never written is missing.
+  void write_chunk(const EncodedChunk& chunk);
 
   // Texts, UTF-8 of any length, as attributes of a group, which is made if need be: /provenance.
   void write_texts(const std::string& group, const std::vector<Text>& texts);
@@ -57,9 +54,7 @@ class MapWriter {
 
   PartFile part_;
   hdf5::File file_;
-  std::vector<Variable> variables_;
-  Shape shape_;                       // of the map
-  std::vector<ChunkedArray> arrays_;  // one for each variable
+  std::vector<hdf5::Dataset> variables_;  // of MapLayout::variables
   std::vector<RaggedTable> tables_;
 };
 

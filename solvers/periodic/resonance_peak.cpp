@@ -33,6 +33,7 @@ double root(const AnyFunction& f, double a, double b) {
   const double lo = std::min(a, b), hi = std::max(a, b);
   const double at_lo = f(lo), at_hi = f(hi);
   if (!(at_lo * at_hi <= 0.0)) return kNone;
+  if (lo == hi) return lo;  // a narrow interval about a place that rounding has closed
   std::uintmax_t evaluations = kMostEvaluations;
   const auto [left, right] = boost::math::tools::toms748_solve(
       f, lo, hi, at_lo, at_hi, boost::math::tools::eps_tolerance<double>(52), evaluations);

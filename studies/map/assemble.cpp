@@ -2,10 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <memory>
+#include <optional>
+
 #include "engine/io_error.hpp"
 #include "engine/tile_index.hpp"
 #include "results/map_writer.hpp"
 #include "studies/map/array_tasks.hpp"
+#include "studies/map/assembly_stage.hpp"
 #include "studies/map/tile_record.hpp"
 
 namespace frahm::studies {
@@ -13,43 +18,126 @@ namespace {
 
 constexpr std::size_t most_failures_told = 1000;  // in the record; their number is told anyway
 
-struct Stopped {};  // thrown through the engine, which has no other way to end its walk over the tiles
-
-// Writes tiles into the map, and notes the points that failed.
-class TileWriting {
+// The points that failed, in the order of their tiles.
+class Failures {
  public:
-  TileWriting(const MapPlan& plan, results::MapWriter& writer) : plan_(plan), writer_(writer) {}
-
-  void write(std::uint64_t tile, std::span<const std::byte> bytes) {
-    const MapBox box = plan_.grid.box(tile);
-    const std::uint64_t points = box.points();
-    decode(bytes, points * plan_.variables.size(), record_);
-    for (std::size_t q = 0; q < plan_.variables.size(); ++q) {
-      writer_.write_block(q, box.start, box.count, std::span(record_.values).subspan(q * points, points));
-    }
-    for (const FailedPoint& point : record_.failed) tell(box, point);
+  // A point of a tile.
+  void add(const MapBox& box, const FailedPoint& point) {
+    ++number_;
+    if (first_.size() < most_failures_told) first_.push_back({index_of(box, point.place), point.reason});
+  }
+  void add(const Failures& later) {
+    number_ += later.number_;
+    const std::size_t room = most_failures_told - first_.size();
+    first_.insert(first_.end(), later.first_.begin(),
+                  later.first_.begin() + static_cast<std::ptrdiff_t>(std::min(room, later.first_.size())));
   }
 
-  std::uint64_t failed() const { return failed_; }
-  const std::vector<std::string>& told() const { return told_; }
+  std::uint64_t number() const { return number_; }
+  std::vector<std::string> texts(const StudyFile& study) const {
+    std::vector<std::string> texts;
+    for (const Failure& failure : first_)
+      texts.push_back(fmt::format("{}: {}", point_text(study, failure.index), failure.reason));
+    return texts;
+  }
 
  private:
-  void tell(const MapBox& box, const FailedPoint& point) {
-    if (++failed_ > most_failures_told) return;
+  struct Failure {
+    std::vector<std::uint64_t> index;
+    std::string reason;
+  };
+
+  static std::vector<std::uint64_t> index_of(const MapBox& box, std::uint64_t place) {
     std::vector<std::uint64_t> index(box.start.size());
-    std::uint64_t place = point.place;
-    for (std::size_t d = index.size(); d-- > 0; place /= box.count[d]) {
+    for (std::size_t d = index.size(); d-- > 0; place /= box.count[d])
       index[d] = box.start[d] + place % box.count[d];
+    return index;
+  }
+
+  std::uint64_t number_ = 0;
+  std::vector<Failure> first_;
+};
+
+// One chunk of the map, made from its tiles.
+struct MadeChunk {
+  std::optional<results::EncodedChunk> data;  // nothing if none of its tiles is finished
+  Failures failures;
+};
+
+// Makes chunks; each thread has one.
+class ChunkMaking {
+ public:
+  ChunkMaking(const MapPlan& plan, const results::MapLayout& layout, const engine::TileIndex& index,
+              engine::TileReader& reader)
+      : plan_(plan), index_(index), reader_(reader), chunk_(layout) {}
+
+  MadeChunk make(std::uint64_t number) {
+    const MapBox box = plan_.grid.chunk_box(number);
+    MadeChunk made;
+    bool any = false;
+    chunk_.begin(box.start);
+    std::uint64_t tile = plan_.grid.tile_of(box.start);
+    for (std::uint64_t points = 0; points < box.points(); ++tile) {
+      const MapBox tile_box = plan_.grid.box(tile);
+      points += tile_box.points();
+      if (!index_.has(tile)) continue;
+      put(tile, tile_box, made.failures);
+      any = true;
     }
-    told_.push_back(fmt::format("{}: {}", point_text(plan_.study, index), point.reason));
+    if (any) made.data = chunk_.encoded();
+    return made;
+  }
+
+ private:
+  void put(std::uint64_t tile, const MapBox& box, Failures& failures) {
+    const std::uint64_t points = box.points();
+    decode(reader_.read(tile, bytes_), points * plan_.variables.size(), record_);
+    for (std::size_t q = 0; q < plan_.variables.size(); ++q)
+      chunk_.put(q, {box.start, box.count}, std::span(record_.values).subspan(q * points, points));
+    for (const FailedPoint& point : record_.failed) failures.add(box, point);
   }
 
   const MapPlan& plan_;
-  results::MapWriter& writer_;
+  const engine::TileIndex& index_;
+  engine::TileReader& reader_;
+  results::MapChunk chunk_;
+  engine::Bytes bytes_;
   TileRecord record_;
-  std::uint64_t failed_ = 0;
-  std::vector<std::string> told_;
 };
+
+// Returns the points that failed.
+Failures write_map(const MapPlan& plan, const results::MapLayout& layout, const engine::TileIndex& index,
+                   const AssemblyOptions& options, results::MapWriter& writer) {
+  Failures failures;
+  engine::TileReader reader(index);
+  const auto make_work = [&]() -> engine::PieceWork {
+    // Shared, as a PieceWork has to be copyable.
+    auto making = std::make_shared<ChunkMaking>(plan, layout, index, reader);
+    return [making, &failures, &writer](std::uint64_t number) {
+      return [made = making->make(number), &failures, &writer] {
+        if (made.data) writer.write_chunk(*made.data);
+        failures.add(made.failures);
+      };
+    };
+  };
+  carry_out({.name = "writing",
+             .pieces = plan.grid.chunks(),
+             .points = plan.grid.points(),
+             .points_of = [&](std::uint64_t chunk) { return plan.grid.chunk_box(chunk).points(); },
+             .make_work = make_work},
+            options);
+  return failures;
+}
+
+// Where the finished tiles lie: each record of each log is read and checked.
+engine::TileIndex read_logs(const MapPlan& plan, const AssemblyOptions& options) {
+  StageProgress progress("reading", plan.grid.points(), options.progress);
+  return engine::index_tiles(options.logs, plan.log_header(),
+                             [&](std::uint64_t tile, std::span<const std::byte>) {
+                               if (options.stop_asked()) throw AssemblyStopped{};
+                               progress.add(plan.grid.box(tile).points());
+                             });
+}
 
 void refuse_gaps(const AssemblyOptions& options, const std::vector<std::uint64_t>& missing,
                  std::uint64_t tiles) {
@@ -60,34 +148,36 @@ void refuse_gaps(const AssemblyOptions& options, const std::vector<std::uint64_t
                   tiles, missing.front(), missing_tasks_text(options.logs, missing)));
 }
 
+// Makes the file, whole and at its place.
+Assembly make_file(const MapPlan& plan, const RunRecord& run, const AssemblyOptions& options) {
+  const engine::TileIndex index = read_logs(plan, options);
+  const auto missing = engine::missing_tiles(index);
+  refuse_gaps(options, missing, index.places.size());
+  const results::MapLayout layout = map_layout(plan, run);
+  results::MapWriter writer(options.output, layout);
+  const Failures failures = write_map(plan, layout, index, options, writer);
+  write_orbits(plan, options, writer);
+  write_resonances(plan, options, writer);
+  writer.write_texts("provenance", provenance(plan, run, failures.texts(plan.study), missing.size()));
+  writer.finish();
+  return {.finished = true,
+          .tiles = index.places.size(),
+          .missing_tiles = missing.size(),
+          .missing_tasks = missing.empty() ? "" : missing_tasks_text(options.logs, missing),
+          .failed_points = failures.number()};
+}
+
 }  // namespace
 
 Assembly assemble(const MapPlan& plan, const RunRecord& run, const AssemblyOptions& options) {
   const engine::AssemblyLock lock(options.output);
-  const engine::TileIndex index =
-      engine::index_tiles(options.logs, plan.log_header(), [](std::uint64_t, std::span<const std::byte>) {});
-  const auto missing = engine::missing_tiles(index);
-  Assembly assembly{.finished = false, .tiles = index.places.size(), .missing_tiles = missing.size()};
-  if (!missing.empty()) assembly.missing_tasks = missing_tasks_text(options.logs, missing);
-  refuse_gaps(options, missing, assembly.tiles);
   try {
-    results::MapWriter writer(options.output, map_layout(plan, run));
-    TileWriting writing(plan, writer);
-    engine::for_each_tile(index, [&](std::uint64_t tile, std::span<const std::byte> bytes) {
-      if (options.stop_asked()) throw Stopped{};
-      writing.write(tile, bytes);
-    });
-    write_orbits(plan, writer);
-    write_resonances(plan, writer);
-    writer.write_texts("provenance", provenance(plan, run, writing.told(), missing.size()));
-    writer.finish();
-    assembly.finished = true;
-    assembly.failed_points = writing.failed();
-  } catch (const Stopped&) {
+    const Assembly assembly = make_file(plan, run, options);
+    if (assembly.missing_tiles == 0) engine::remove_logs(options.logs);
     return assembly;
+  } catch (const AssemblyStopped&) {
+    return {};
   }
-  if (missing.empty()) engine::remove_logs(options.logs);
-  return assembly;
 }
 
 }  // namespace frahm::studies

@@ -237,4 +237,16 @@ engine::Fingerprint fingerprint(const StudyFile& study, const Grid& grid,
   return {.physics = physics_hash(study, quantities), .grid = grid_hash(study, grid)};
 }
 
+engine::Fingerprint grown_fingerprint(const engine::Fingerprint& study, const std::string& identity) {
+  CanonicalText text;
+  text.line("grid {} grown from {}", study.grid, identity);
+  return {.physics = study.physics, .grid = text.hash()};
+}
+
+std::string identity_of(std::span<const results::Text> provenance) {
+  CanonicalText text;
+  for (const auto& [name, value] : provenance) text.line("{} {} {}", name, value.size(), value);
+  return text.hash();
+}
+
 }  // namespace frahm::studies

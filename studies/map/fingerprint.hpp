@@ -1,8 +1,10 @@
 #pragma once
 
 #include <span>
+#include <string>
 
 #include "engine/fingerprint.hpp"
+#include "results/layout.hpp"
 #include "solvers/periodic/quantity.hpp"
 #include "studies/map/grid.hpp"
 #include "studies/reading/study_file.hpp"
@@ -16,5 +18,12 @@ namespace frahm::studies {
 // units and coordinates beside the axes change neither.
 engine::Fingerprint fingerprint(const StudyFile& study, const Grid& grid,
                                 std::span<const periodic::Quantity> quantities);
+
+// Of the shard logs of such a study if its map grows from the result of this identity.
+engine::Fingerprint grown_fingerprint(const engine::Fingerprint& study, const std::string& identity);
+
+// What tells a result from every other, whatever it holds: its texts, among them the study, who computed it
+// and when, and what it grew from itself.
+std::string identity_of(std::span<const results::Text> provenance);
 
 }  // namespace frahm::studies

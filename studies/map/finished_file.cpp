@@ -9,9 +9,12 @@ namespace frahm::studies {
 
 std::optional<engine::Fingerprint> fingerprint_of_file(const std::filesystem::path& path) {
   if (!std::filesystem::exists(path)) return std::nullopt;
-  const results::MapReader map(path);
-  return engine::Fingerprint{.physics = provenance_text(map, "fingerprint_physics"),
-                             .grid = provenance_text(map, "fingerprint_grid")};
+  return fingerprint_of(results::MapReader(path));
+}
+
+engine::Fingerprint fingerprint_of(const results::MapReader& map) {
+  return {.physics = provenance_text(map, "fingerprint_physics"),
+          .grid = provenance_text(map, "fingerprint_grid")};
 }
 
 bool is_partial(const std::filesystem::path& path) {

@@ -13,9 +13,15 @@ namespace frahm::studies {
 // Throws results::StoreError for a file that is no result of this program.
 std::optional<engine::Fingerprint> fingerprint_of_file(const std::filesystem::path& path);
 
+// The same of a result at hand.
+engine::Fingerprint fingerprint_of(const results::MapReader& map);
+
 // The text of /provenance that tells how many tiles a file made by merge --partial does not hold.
 inline constexpr const char* missing_tiles_text = "missing_tiles";
-// Whether there is such a file.
+// That which tells the result from which it grew from every other.
+inline constexpr const char* grown_from_identity = "grown_from_identity";
+
+// Whether there is a file made by merge --partial.
 bool is_partial(const std::filesystem::path& path);
 
 // A result may be written where nothing stands, or in the place of another result; never over a study, a

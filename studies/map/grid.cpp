@@ -69,6 +69,25 @@ void join_into_chunks(Grid& grid) {
   }
 }
 
+// Boxes of the given extent that the map is cut into.
+std::uint64_t boxes(const Grid& grid, const std::vector<std::uint64_t>& extent) {
+  std::uint64_t result = 1;
+  for (std::size_t d = 0; d < extent.size(); ++d) result *= pieces(grid.shape[d], extent[d]);
+  return result;
+}
+
+// One of them, numbered in the order of computation.
+MapBox box_of(const Grid& grid, const std::vector<std::uint64_t>& extent, std::uint64_t number) {
+  MapBox result{std::vector<std::uint64_t>(extent.size()), std::vector<std::uint64_t>(extent.size())};
+  for (auto d = grid.order.rbegin(); d != grid.order.rend(); ++d) {
+    const std::uint64_t along = pieces(grid.shape[*d], extent[*d]);
+    result.start[*d] = number % along * extent[*d];
+    result.count[*d] = std::min(extent[*d], grid.shape[*d] - result.start[*d]);
+    number /= along;
+  }
+  return result;
+}
+
 }  // namespace
 
 std::uint64_t MapBox::points() const {
@@ -80,20 +99,25 @@ std::uint64_t Grid::points() const {
 }
 
 std::uint64_t Grid::tiles() const {
-  std::uint64_t result = 1;
-  for (std::size_t d = 0; d < shape.size(); ++d) result *= pieces(shape[d], tile[d]);
-  return result;
+  return boxes(*this, tile);
+}
+
+std::uint64_t Grid::chunks() const {
+  return boxes(*this, chunk);
 }
 
 MapBox Grid::box(std::uint64_t number) const {
-  MapBox result{std::vector<std::uint64_t>(shape.size()), std::vector<std::uint64_t>(shape.size())};
-  for (auto d = order.rbegin(); d != order.rend(); ++d) {
-    const std::uint64_t along = pieces(shape[*d], tile[*d]);
-    result.start[*d] = number % along * tile[*d];
-    result.count[*d] = std::min(tile[*d], shape[*d] - result.start[*d]);
-    number /= along;
-  }
-  return result;
+  return box_of(*this, tile, number);
+}
+
+MapBox Grid::chunk_box(std::uint64_t number) const {
+  return box_of(*this, chunk, number);
+}
+
+std::uint64_t Grid::tile_of(std::span<const std::uint64_t> index) const {
+  std::uint64_t number = 0;
+  for (const std::size_t d : order) number = number * pieces(shape[d], tile[d]) + index[d] / tile[d];
+  return number;
 }
 
 Grid grid_of(const StudyFile& study) {

@@ -32,8 +32,17 @@ struct Grid {
   std::uint64_t points() const;
   std::uint64_t tiles() const;
 
+  std::uint64_t chunks() const;
+
   // The points of a tile. Tiles are numbered in the order of computation.  tile: below tiles().
   MapBox box(std::uint64_t tile) const;
+
+  // The points of a chunk, numbered as the tiles are: its tiles follow each other, and those of the next
+  // chunk follow them.  chunk: below chunks().
+  MapBox chunk_box(std::uint64_t chunk) const;
+
+  // The tile that holds a point.  index: one number for each dimension of the map.
+  std::uint64_t tile_of(std::span<const std::uint64_t> index) const;
 };
 
 // A tile holds whole rows, as many as make a few hundred to two thousand points; rows longer than 4000 are

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "studies/map/comparison.hpp"
+#include "studies/map/known_points.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -27,9 +28,11 @@ bool matrices_change(const StudyFile& study) {
 
 }  // namespace
 
-MapKernel::MapKernel(const StudyFile& study, const Grid& grid, std::vector<periodic::Quantity> quantities)
+MapKernel::MapKernel(const StudyFile& study, const Grid& grid, std::vector<periodic::Quantity> quantities,
+                     KnownPoints* earlier)
     : study_(study),
       grid_(grid),
+      earlier_(earlier),
       quantities_(quantities.size()),
       own_(study, study.network, study.values, asked_for(study, quantities), matrices_change(study)),
       parameters_(study.parameters.nominal()),
@@ -50,6 +53,11 @@ void MapKernel::operator()(std::uint64_t tile, engine::Bytes& out) {
   const MapBox box = grid_.box(tile);
   record_.values.resize(point_.size() * box.points());
   record_.failed.clear();
+  if (earlier_) {
+    earlier_->take(box, record_.values, known_);
+  } else {
+    known_.assign(box.points(), 0);
+  }
   own_.forget();
   if (other_) other_->forget();
 
@@ -74,12 +82,12 @@ void MapKernel::compute_row(const MapBox& box) {
   if (other_) other_->begin_row();
   points_in_row_ = 0;
   const std::uint64_t points = box.points();
-  for (std::uint64_t i = 0; i < box.count[along]; ++i) {
+  for (std::uint64_t i = 0; i < box.count[along]; ++i, place += step) {
+    if (known_[place]) continue;
     studies::place(study_, along, box.start[along] + i, parameters_);
     compute_point();
     for (std::size_t q = 0; q < point_.size(); ++q) record_.values[q * points + place] = point_[q];
     if (!reason_.empty()) record_.failed.push_back({place, reason_});
-    place += step;
   }
 }
 

@@ -13,16 +13,20 @@
 
 namespace frahm::studies {
 
+class KnownPoints;
+
 // Computes the tiles of a study's map: of each point the quantities of its periodic response, and of the one
 // it is compared with. A point without one fails with a reason; it never ends the work. For one thread; each
 // has its own.
 //
 // Each tile starts from nothing and goes through its rows in a fixed order, each point starting from the
-// orbits before it, so that the record of a tile depends on the tile alone.
+// orbits computed before it, so that the record of a tile depends on the tile alone, and on the earlier
+// result from which the map grows.
 class MapKernel {
  public:
-  // study, grid: must outlive the kernel.
-  MapKernel(const StudyFile& study, const Grid& grid, std::vector<periodic::Quantity> quantities);
+  // study, grid, earlier: must outlive the kernel.  earlier: the points it has are not computed; may be null.
+  MapKernel(const StudyFile& study, const Grid& grid, std::vector<periodic::Quantity> quantities,
+            KnownPoints* earlier = nullptr);
 
   // Appends the record of a tile (tile_record.hpp) to `out`.
   void operator()(std::uint64_t tile, engine::Bytes& out);
@@ -34,6 +38,7 @@ class MapKernel {
 
   const StudyFile& study_;
   const Grid& grid_;
+  KnownPoints* earlier_;
   std::size_t quantities_;             // of the study's own record
   std::vector<std::size_t> compared_;  // where each compared quantity stands among those solved for
   RowSolver own_;
@@ -41,6 +46,7 @@ class MapKernel {
 
   // Workspace, of the tile, the row and the point in hand.
   TileRecord record_;
+  std::vector<char> known_;           // of each point of the tile: its values are those of the earlier result
   std::vector<std::uint64_t> index_;  // of the row's first point
   std::uint64_t points_in_row_ = 0;   // since the solver was told of a new one
   double omega_ = 0.0;                // of the point before [rad/s]

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "studies/map/fingerprint.hpp"
+#include "studies/map/known_points.hpp"
 #include "studies/map/map_kernel.hpp"
 #include "studies/map/output_quantities.hpp"
 #include "studies/map/tile_record.hpp"
@@ -33,20 +34,21 @@ StudyPlan plan_motion(StudyFile study, std::vector<std::string> set) {
   return plan;
 }
 
-engine::Job job_of(const MapPlan& plan) {
+engine::Job job_of(const MapPlan& plan, KnownPoints* earlier) {
   const auto points = [&plan](std::uint64_t tile) { return plan.grid.box(tile).points(); };
   return {.tiles = plan.tiles,
-          .fingerprint = plan.fingerprint,
-          .make_kernel = [&plan](const engine::StopAsked&) -> engine::Kernel {
+          .fingerprint = plan.log_header().fingerprint,
+          .make_kernel = [&plan, earlier](const engine::StopAsked&) -> engine::Kernel {
             // Shared, as an engine::Kernel has to be copyable.
-            auto kernel = std::make_shared<MapKernel>(plan.study, plan.grid, plan.quantities);
+            auto kernel = std::make_shared<MapKernel>(plan.study, plan.grid, plan.quantities, earlier);
             return [kernel](std::uint64_t tile, engine::Bytes& out) { (*kernel)(tile, out); };
           },
           .points = points,
           .failed =
               [&plan, points](std::uint64_t tile, std::span<const std::byte> record) {
                 return count_failed(record, points(tile) * plan.variables.size());
-              }};
+              },
+          .reused = [earlier] { return earlier ? earlier->taken() : std::uint64_t{0}; }};
 }
 
 }  // namespace frahm::studies

@@ -23,7 +23,10 @@ MapPlan plan_map(StudyFile study, std::vector<std::string> set);
 // The same of a decay or transient.
 StudyPlan plan_motion(StudyFile study, std::vector<std::string> set);
 
-// The work of a plan, which must outlive it.
-engine::Job job_of(const MapPlan& plan);
+class KnownPoints;
+
+// The work of a plan, which must outlive it.  earlier: the points it has are not computed; must outlive it
+// too; may be null.
+engine::Job job_of(const MapPlan& plan, KnownPoints* earlier = nullptr);
 
 }  // namespace frahm::studies

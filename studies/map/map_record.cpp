@@ -101,6 +101,10 @@ std::vector<results::Text> provenance(const StudyPlan& plan, const RunRecord& ru
       {"ranks", fmt::format("{}", run.ranks)},
       {"started", run.started},
       {"finished", utc_now()}};
+  if (plan.grown_from) {
+    texts.emplace_back("grown_from", plan.grown_from->file);
+    texts.emplace_back(grown_from_identity, plan.grown_from->identity);
+  }
   if (missing > 0) texts.emplace_back(missing_tiles_text, fmt::format("{}", missing));
   if (!failed.empty()) texts.emplace_back("failed_points", fmt::format("{}", fmt::join(failed, "\n")));
   return texts;

@@ -5,6 +5,7 @@
 
 #include "results/layout.hpp"
 #include "results/map_writer.hpp"
+#include "studies/map/assembly_options.hpp"
 #include "studies/map/map_plan.hpp"
 
 // What a result file says of a map, and of how it came about (results/FORMAT.md).
@@ -33,11 +34,11 @@ std::vector<results::Text> provenance(const StudyPlan& plan, const RunRecord& ru
                                       const std::vector<std::string>& failed, std::uint64_t missing = 0);
 
 // The time histories of the points that the study lists, solved and written to /orbits; nothing if it lists
-// none. An orbit that does not exist has a row without samples.
-void write_orbits(const MapPlan& plan, results::MapWriter& writer);
+// none. An orbit that does not exist has a row without samples. Throws AssemblyStopped.
+void write_orbits(const MapPlan& plan, const AssemblyOptions& options, results::MapWriter& writer);
 
 // Resonance and half-power frequencies of the masses that the study lists, solved for each point of the axes
-// other than the frequency, a curve of /resonance each; nothing if it lists none.
-void write_resonances(const MapPlan& plan, results::MapWriter& writer);
+// other than the frequency, a curve of /resonance each; nothing if it lists none. Throws AssemblyStopped.
+void write_resonances(const MapPlan& plan, const AssemblyOptions& options, results::MapWriter& writer);
 
 }  // namespace frahm::studies

@@ -3,6 +3,7 @@
 #include "solvers/mechanics/linear_system.hpp"
 #include "solvers/periodic/orbit.hpp"
 #include "solvers/response/periodic_response.hpp"
+#include "studies/map/assembly_stage.hpp"
 #include "studies/map/map_record.hpp"
 
 namespace frahm::studies {
@@ -73,23 +74,31 @@ std::vector<std::vector<double>> samples_of(const KeptOrbit& orbit, std::size_t 
 
 }  // namespace
 
-void write_orbits(const MapPlan& plan, results::MapWriter& writer) {
+void write_orbits(const MapPlan& plan, const AssemblyOptions& options, results::MapWriter& writer) {
   const StudyFile& study = plan.study;
-  if (study.output.orbits.empty()) return;
+  const auto& points = study.output.orbits;
+  if (points.empty()) return;
   const results::RaggedLayout layout{.group = "orbits",
                                      .row = "orbit",
                                      .row_variables = row_variables(study),
                                      .sample = "sample",
                                      .sample_variables = sample_variables(study)};
   const std::size_t table = writer.create_ragged(layout);
-  for (const auto& point : study.output.orbits) {
-    const KeptOrbit orbit = keep_orbit(plan, point);
+  const auto append = [&](const KeptOrbit& orbit) {
     std::vector<double> row;
-    for (const ParameterAxis& axis : study.axes) {
+    for (const ParameterAxis& axis : study.axes)
       row.push_back(orbit.parameters[axis.parameter] / axis.si_factor);
-    }
     writer.append_ragged(table, row, samples_of(orbit, layout.sample_variables.size()));
-  }
+  };
+  const engine::PieceWork keep = [&](std::uint64_t number) {
+    return [orbit = keep_orbit(plan, points[number]), &append] { append(orbit); };
+  };
+  carry_out({.name = "orbits",
+             .pieces = points.size(),
+             .points = points.size(),
+             .points_of = [](std::uint64_t) { return 1; },
+             .make_work = [&keep] { return keep; }},
+            options);
 }
 
 }  // namespace frahm::studies

@@ -3,15 +3,21 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <memory>
+#include <utility>
 
 #include "solvers/mechanics/linear_system.hpp"
 #include "solvers/periodic/orbit.hpp"
 #include "solvers/periodic/resonance_peak.hpp"
 #include "solvers/response/periodic_response.hpp"
+#include "studies/map/assembly_stage.hpp"
 #include "studies/map/map_record.hpp"
 
 namespace frahm::studies {
 namespace {
+
+constexpr double rounding = 1e-12;      // a component that is so small a part of the motion is none
+constexpr double least_motion = 1e-30;  // [m, or without dimension] what rounding leaves a stuck mass: 1e-47
 
 // Response curves of some masses along the frequency axis, the other parameters held: amplitudes at the
 // reference order over the axis's parameter.
@@ -69,8 +75,8 @@ class ResponseCurves {
     std::vector<double> found(2 * amplitudes.size());
     response_.quantities(found);
     for (std::size_t i = 0; i < amplitudes.size(); ++i) {
-      // A component that is rounding of the motion is none.
-      amplitudes[i] = found[2 * i] <= 1e-12 * found[2 * i + 1] ? 0.0 : found[2 * i];
+      const double amplitude = found[2 * i], motion = found[2 * i + 1];
+      amplitudes[i] = amplitude <= rounding * motion || motion < least_motion ? 0.0 : amplitude;
     }
     return amplitudes;
   }
@@ -84,12 +90,11 @@ class ResponseCurves {
 };
 
 // The coordinates of the rows, and of each mass its resonance.
-std::vector<results::Column> columns_of(const StudyFile& study, std::size_t frequency_dimension) {
-  std::vector<results::Column> columns;
+std::vector<results::Variable> row_variables(const StudyFile& study, std::size_t frequency_dimension) {
+  std::vector<results::Variable> variables;
   const auto add = [&](const std::string& name, const std::string& unit, const std::string& long_name) {
     const bool pure = unit.empty() || study.dimensionless;
-    columns.push_back({.variable = {.name = name, .unit = pure ? "1" : unit, .long_name = long_name},
-                       .dimension = "curve"});
+    variables.push_back({.name = name, .unit = pure ? "1" : unit, .long_name = long_name});
   };
   for (std::size_t d = 0; d < study.dimensions.size(); ++d) {
     if (d == frequency_dimension) continue;
@@ -106,51 +111,70 @@ std::vector<results::Column> columns_of(const StudyFile& study, std::size_t freq
     add(name + "_half_power_high", "rad s-1", "above it, where the amplitude is 1/sqrt(2) of that");
     add(name + "_half_power_damping", "1", "(high - low) / (2 resonance frequency)");
   }
-  return columns;
+  return variables;
 }
 
-// The next row of the counter over all dimensions but one; false after the last.
-bool next_row(const StudyFile& study, std::size_t left_out, std::vector<std::size_t>& index) {
+// The place of a curve along each dimension, 0 along the frequency; the last dimension runs fastest.
+std::vector<std::size_t> index_of(const StudyFile& study, std::size_t frequency_dimension,
+                                  std::uint64_t curve) {
+  std::vector<std::size_t> index(study.dimensions.size(), 0);
   for (std::size_t d = index.size(); d-- > 0;) {
-    if (d == left_out) continue;
-    if (++index[d] < study.dimensions[d].size) return true;
-    index[d] = 0;
+    if (d == frequency_dimension) continue;
+    index[d] = curve % study.dimensions[d].size;
+    curve /= study.dimensions[d].size;
   }
-  return false;
+  return index;
+}
+
+// The row of one curve; `curves` is the workspace.
+std::vector<double> solve_row(const StudyFile& study, std::size_t frequency_dimension, std::uint64_t number,
+                              ResponseCurves& curves) {
+  const ParameterAxis& axis = study.axes[study.dimensions[frequency_dimension].axes.front()];
+  const std::vector<std::size_t> index = index_of(study, frequency_dimension, number);
+  std::vector<double> parameters = study.parameters.nominal(), row;
+  for (std::size_t d = 0; d < index.size(); ++d) {
+    if (d == frequency_dimension) continue;
+    place(study, d, index[d], parameters);
+    for (const std::size_t a : study.dimensions[d].axes) row.push_back(study.axes[a].values[index[d]]);
+  }
+  curves.begin(std::move(parameters));
+  for (std::size_t curve = 0; curve < study.output.resonances.size(); ++curve) {
+    const auto peak =
+        periodic::find_resonance_peak([&](double at) { return curves.amplitude(curve, at); }, axis.si_values);
+    const double resonance = curves.angular_frequency(peak.at);
+    double low = curves.angular_frequency(peak.half_power_low),
+           high = curves.angular_frequency(peak.half_power_high);
+    if (low > high) std::swap(low, high);
+    row.insert(row.end(), {resonance, peak.value, low, high, (high - low) / (2.0 * resonance)});
+  }
+  return row;
 }
 
 }  // namespace
 
-void write_resonances(const MapPlan& plan, results::MapWriter& writer) {
+void write_resonances(const MapPlan& plan, const AssemblyOptions& options, results::MapWriter& writer) {
   const StudyFile& study = plan.study;
   if (study.output.resonances.empty()) return;
   const std::size_t along = *study.frequency_dimension;
-  const ParameterAxis& axis = study.axes[study.dimensions[along].axes.front()];
-  ResponseCurves curves(study, axis.parameter);
-  std::vector<results::Column> columns = columns_of(study, along);
-  std::vector<std::size_t> index(study.dimensions.size(), 0);
-  do {
-    std::vector<double> parameters = study.parameters.nominal();
-    std::size_t column = 0;
-    for (std::size_t d = 0; d < index.size(); ++d) {
-      if (d == along) continue;
-      place(study, d, index[d], parameters);
-      for (const std::size_t a : study.dimensions[d].axes)
-        columns[column++].values.push_back(study.axes[a].values[index[d]]);
-    }
-    curves.begin(std::move(parameters));
-    for (std::size_t curve = 0; curve < study.output.resonances.size(); ++curve) {
-      const auto peak = periodic::find_resonance_peak([&](double at) { return curves.amplitude(curve, at); },
-                                                      axis.si_values);
-      const double resonance = curves.angular_frequency(peak.at);
-      double low = curves.angular_frequency(peak.half_power_low),
-             high = curves.angular_frequency(peak.half_power_high);
-      if (low > high) std::swap(low, high);
-      for (const double value : {resonance, peak.value, low, high, (high - low) / (2.0 * resonance)})
-        columns[column++].values.push_back(value);
-    }
-  } while (next_row(study, along, index));
-  writer.write_columns("resonance", columns);
+  const std::size_t parameter = study.axes[study.dimensions[along].axes.front()].parameter;
+  const std::uint64_t frequencies = study.dimensions[along].size;
+  const std::size_t table = writer.create_ragged(
+      {.group = "resonance", .row = "curve", .row_variables = row_variables(study, along)});
+  const auto make_work = [&]() -> engine::PieceWork {
+    // Shared, as a PieceWork has to be copyable.
+    auto curves = std::make_shared<ResponseCurves>(study, parameter);
+    return [curves, &study, &writer, along, table](std::uint64_t number) {
+      return [row = solve_row(study, along, number, *curves), &writer, table] {
+        writer.append_ragged(table, row);
+      };
+    };
+  };
+  carry_out({.name = "resonances",
+             .pieces = plan.grid.points() / frequencies,
+             .points = plan.grid.points(),
+             .points_of = [frequencies](std::uint64_t) { return frequencies; },
+             .make_work = make_work},
+            options);
 }
 
 }  // namespace frahm::studies

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "studies/map/fingerprint.hpp"
 #include "studies/reading/assignment.hpp"
 
 namespace frahm::studies {
@@ -46,6 +47,11 @@ std::string overruled_by(const StudyFile& study, std::size_t parameter) {
 }
 
 }  // namespace
+
+engine::LogHeader StudyPlan::header_of_logs(const std::string& identity) const {
+  return {.fingerprint = identity.empty() ? fingerprint : grown_fingerprint(fingerprint, identity),
+          .tiles = tiles};
+}
 
 void refuse_overruled(const StudyFile& study, const std::vector<std::string>& set) {
   for (const std::string& text : set) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,14 +10,25 @@
 
 namespace frahm::studies {
 
+// The result from which a map takes over the points that it has already.
+struct EarlierResult {
+  std::string file;      // as given
+  std::string identity;  // hex text, that of no other result
+};
+
 // A study ready to be computed, of whatever kind: what its record and its shard logs are known by.
 struct StudyPlan {
   StudyFile study;               // with the values of --set
   std::vector<std::string> set;  // as given: name=value
   engine::Fingerprint fingerprint = {};
-  std::uint64_t tiles = 0;  // of the job; 0: it is no job
+  std::uint64_t tiles = 0;                                 // of the job; 0: it is no job
+  std::optional<EarlierResult> grown_from = std::nullopt;  // of a map only
 
-  engine::LogHeader log_header() const { return {.fingerprint = fingerprint, .tiles = tiles}; }
+  // Of its shard logs. Points taken over differ in their last digits from those computed here, so that the
+  // logs of a map that grows are not those of the same map computed from nothing, or from another result.
+  engine::LogHeader log_header() const { return header_of_logs(grown_from ? grown_from->identity : ""); }
+  // The same if it has grown from the result of this identity; empty: from none.
+  engine::LogHeader header_of_logs(const std::string& identity) const;
 };
 
 // A value on the command line that the study overrules, by an axis, a band or its scenarios, would be

@@ -1,6 +1,9 @@
 #include "studies/program/assist_command.hpp"
 
+#include <optional>
+
 #include "engine/assist.hpp"
+#include "studies/map/known_points.hpp"
 #include "studies/map/map_plan.hpp"
 #include "studies/reading/settings.hpp"
 #include "studies/tuning/tuning_plan.hpp"
@@ -12,8 +15,10 @@ int assist_command(const RunCommandOptions& options) {
   engine::RunOptions run = options.run;
   if (run.output.empty()) run.output = default_output(options.study);
   if (study.kind == StudyKind::sweep) {
-    const MapPlan plan = plan_map(std::move(study), options.set);
-    return engine::assist(job_of(plan), run);
+    MapPlan plan = plan_map(std::move(study), options.set);
+    std::optional<KnownPoints> earlier;
+    if (!options.from.empty()) plan.grown_from = earlier.emplace(plan, options.from).source();
+    return engine::assist(job_of(plan, earlier ? &*earlier : nullptr), run);
   }
   if (study.kind == StudyKind::tune) {
     const StudyPlan plan = plan_tuning(std::move(study), options.set);

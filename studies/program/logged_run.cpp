@@ -9,13 +9,17 @@
 #include "engine/tile_index.hpp"
 #include "studies/map/finished_file.hpp"
 #include "studies/program/exit_code.hpp"
+#include "studies/program/growing.hpp"
 #include "studies/program/study_note.hpp"
 
 namespace frahm::studies {
 
 void remove_leftovers(const StudyPlan& plan, const std::filesystem::path& output) {
+  // In its place it may have grown from another file than it would now.
+  const engine::LogHeader own =
+      plan.header_of_logs(provenance_text(results::MapReader(output), grown_from_identity));
   std::vector<std::filesystem::path> logs = engine::find_logs(output);
-  std::erase_if(logs, [&](const auto& log) { return engine::study_of_log(log) != plan.log_header(); });
+  std::erase_if(logs, [&](const auto& log) { return engine::study_of_log(log) != own; });
   engine::remove_logs(logs);
   engine::remove_assembly_lock(output);
   if (engine::find_logs(output).empty()) remove_study_notes(output);
@@ -25,18 +29,25 @@ bool is_finished(const StudyPlan& plan, const std::filesystem::path& output) {
   const auto kept = fingerprint_of_file(output);
   if (!kept) return false;
   if (*kept == plan.fingerprint) return !is_partial(output);
-  throw engine::ResumeRefused(output, {*kept, plan.tiles}, plan.log_header());
+  const bool could_grow = kept->physics == plan.fingerprint.physics && plan.study.kind == StudyKind::sweep;
+  throw engine::ResumeRefused(
+      output, *kept, plan.fingerprint,
+      could_grow
+          ? fmt::format("add --from {} to reuse its points, name another file with -o, or discard what "
+                        "is there with --fresh",
+                        output.string())
+          : "");
 }
 
 engine::Summary compute(const StudyPlan& plan, const engine::Job& job, const engine::RunOptions& run) {
   write_study_note(run.output, plan);
   try {
     return engine::run(job, run);
-  } catch (const engine::ResumeRefused&) {
-    remove_study_note(run.output, plan.fingerprint);
-    throw;
+  } catch (const engine::ResumeRefused& refused) {
+    remove_study_note(run.output, plan);
+    throw engine::ResumeRefused(refused, advice_about_logs(refused, plan, run.output));
   } catch (const StudyError&) {  // of the work itself: no log of this study will need the note
-    remove_study_note(run.output, plan.fingerprint);
+    remove_study_note(run.output, plan);
     throw;
   }
 }
@@ -59,6 +70,12 @@ int tell_stopped(const engine::Summary& summary, const std::filesystem::path& ou
       100.0 * static_cast<double>(summary.points.done) / static_cast<double>(summary.points.points);
   fmt::print(std::cerr, "{}: {:.1f} % is done and kept beside {}; the same command goes on from there\n",
              summary.reason, percent, output.string());
+  return exit_code::stopped;
+}
+
+int tell_unwritten(const engine::StopRequest& stop, const std::filesystem::path& output) {
+  fmt::print(std::cerr, "{}: all is computed and kept beside {}; the same command writes the file\n",
+             stop.reason(), output.string());
   return exit_code::stopped;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "engine/run.hpp"
+#include "engine/stop_request.hpp"
 #include "studies/map/study_plan.hpp"
 
 // What runs have in common whose tiles are kept in shard logs beside the output.
@@ -25,8 +26,10 @@ void tell_unused(const engine::Summary& summary);
 // "2 threads", "8 threads of 4 ranks".
 std::string team_text(int threads, int ranks);
 
-// The ends of a run that makes no file: stopped, or one shard of several. They return the exit code.
+// The ends of a run that makes no file: stopped while it computed, or while the file was made; one shard of
+// several. They return the exit code.
 int tell_stopped(const engine::Summary& summary, const std::filesystem::path& output);
+int tell_unwritten(const engine::StopRequest& stop, const std::filesystem::path& output);
 int tell_shard(const engine::RunOptions& run, const engine::Summary& summary, std::ostream& out);
 
 }  // namespace frahm::studies

@@ -69,6 +69,10 @@ int print_map_table(const MapPlan& plan, const std::filesystem::path& study,
   const std::vector<FlagCounts> flags = count_flags(map);
   print_flags(flags, points, out);
   if (effort) print_effort(*effort, out);
+  if (effort && plan.grown_from) {
+    fmt::print(out, "{:<22} {} points of {}, {} computed\n", "reused", effort->reused, plan.grown_from->file,
+               effort->points);
+  }
   fmt::print(out, "{:<22} {} ({} points, {} variables, {:.1f} MB)\n", "file", file.string(), points,
              variables.size(), static_cast<double>(std::filesystem::file_size(file)) / 1e6);
 

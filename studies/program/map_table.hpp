@@ -12,6 +12,7 @@ namespace frahm::studies {
 // What a run took.
 struct Effort {
   std::uint64_t points = 0;  // computed by it
+  std::uint64_t reused = 0;  // taken over by it from an earlier result
   double seconds = 0.0;      // wall time of the whole program
   double cpu_seconds = 0.0;  // of all threads
   int threads = 0;           // of all ranks

@@ -7,9 +7,10 @@
 #include <optional>
 
 #include "engine/io_error.hpp"
-#include "engine/stop_signals.hpp"
+#include "engine/stop_request.hpp"
 #include "engine/tile_index.hpp"
 #include "studies/map/assemble.hpp"
+#include "studies/map/fingerprint.hpp"
 #include "studies/map/finished_file.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/map_table.hpp"
@@ -48,14 +49,18 @@ RunRecord record_of(const MergeOptions& options) {
 }
 
 AssemblyOptions assembly_of(const MergeOptions& options, const std::vector<std::filesystem::path>& logs,
-                            const engine::StopSignals& signals) {
-  return {.output = options.output, .logs = logs, .partial = options.partial, .stop_asked = [&signals] {
-            return signals.received() != 0;
-          }};
+                            const engine::StopRequest& stop) {
+  return {.output = options.output,
+          .logs = logs,
+          .partial = options.partial,
+          .threads = options.threads,
+          .progress = options.progress,
+          .stop_asked = [&stop] { return stop.asked(); }};
 }
 
-int tell_stopped(const MergeOptions& options) {
-  fmt::print(std::cerr, "stopped; the shard logs are kept and {} is as it was\n", options.output.string());
+int tell_stopped(const MergeOptions& options, const engine::StopRequest& stop) {
+  fmt::print(std::cerr, "{}; the shard logs are kept and {} is as it was\n", stop.reason(),
+             options.output.string());
   return exit_code::stopped;
 }
 
@@ -63,13 +68,26 @@ void remove_notes(const MergeOptions& options, const std::vector<std::filesystem
   for (const auto& place : places_of_note(options, logs)) remove_study_notes(place);
 }
 
+// The result from which missing points are still to be taken must not be replaced by a part.
+void refuse_loss_of_source(const MergeOptions& options, const StudyPlan& plan) {
+  if (!options.partial || !plan.grown_from || !std::filesystem::exists(options.output)) return;
+  const results::MapReader there(options.output);
+  if (identity_of(there.texts("provenance")) != plan.grown_from->identity) return;
+  throw engine::IoError(
+      options.output, fmt::format("the missing points are to be taken from it, and a part would replace it: "
+                                  "frahm merge ANOTHER.h5 {}.*.frahm-log --partial",
+                                  options.output.string()));
+}
+
 int merge_map(const MergeOptions& options, const std::vector<std::filesystem::path>& logs,
               const engine::LogHeader& header, NotedStudy noted, std::ostream& out) {
-  const MapPlan plan = plan_map(std::move(noted.study), noted.set);
+  MapPlan plan = plan_map(std::move(noted.study), noted.set);
+  plan.grown_from = noted.grown_from;
   check_note_gives(plan, noted, header);
-  const engine::StopSignals signals;
-  const Assembly assembly = assemble(plan, record_of(options), assembly_of(options, logs, signals));
-  if (!assembly.finished) return tell_stopped(options);
+  refuse_loss_of_source(options, plan);
+  const engine::StopRequest stop(std::nullopt);
+  const Assembly assembly = assemble(plan, record_of(options), assembly_of(options, logs, stop));
+  if (!assembly.finished) return tell_stopped(options, stop);
   if (assembly.missing_tiles == 0) {
     remove_notes(options, logs);
   } else {
@@ -83,9 +101,9 @@ int merge_tuning(const MergeOptions& options, const std::vector<std::filesystem:
                  const engine::LogHeader& header, NotedStudy noted, std::ostream& out) {
   const StudyPlan plan = plan_tuning(std::move(noted.study), noted.set);
   check_note_gives(plan, noted, header);
-  const engine::StopSignals signals;
-  const auto result = assemble_tuning(plan, record_of(options), assembly_of(options, logs, signals));
-  if (!result) return tell_stopped(options);
+  const engine::StopRequest stop(std::nullopt);
+  const auto result = assemble_tuning(plan, record_of(options), assembly_of(options, logs, stop));
+  if (!result) return tell_stopped(options, stop);
   const std::uint64_t missing = plan.tiles - result->starts.size();
   if (missing == 0) {
     remove_notes(options, logs);

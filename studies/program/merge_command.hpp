@@ -4,12 +4,16 @@
 #include <iosfwd>
 #include <vector>
 
+#include "engine/progress.hpp"
+
 namespace frahm::studies {
 
 struct MergeOptions {
   std::filesystem::path output;
   std::vector<std::filesystem::path> logs;  // empty: all beside the output
   bool partial = false;                     // although tiles are missing; the logs are kept then
+  int threads = 0;                          // >= 0; 0: engine::default_threads()
+  engine::ProgressStyle progress = engine::ProgressStyle::automatic;
 };
 
 // Makes a result file from the logs of shards and prints the table of it that a run prints; where that

@@ -55,6 +55,7 @@ Examples:
   frahm run rig_atlas.toml --set "K=8200 N/m" -o stiffer.h5
   frahm run rig_atlas.toml --time-budget 50m  stops in time; the same command goes on
   mpirun -np 16 frahm run rig_atlas.toml      on the ranks of an MPI job
+  frahm run rig_atlas.toml --from rig_atlas.h5    after axes have grown: computes the new points only
   frahm run rig_decay_main.toml               one motion: a free decay, or a transient
   frahm run tune_classical.toml               a tuning: an optimum from each of its starts
   frahm run identify_rig_tmd.toml             an identification: a model from measurements
@@ -112,6 +113,16 @@ void add_threads(CLI::App& command, int& threads) {
   command.add_option("--threads", threads, "0: one on each processor")->check(CLI::Range(0, 4096));
 }
 
+void add_progress(CLI::App& command, engine::ProgressStyle& style) {
+  const std::map<std::string, engine::ProgressStyle> styles{{"auto", engine::ProgressStyle::automatic},
+                                                            {"plain", engine::ProgressStyle::plain},
+                                                            {"json", engine::ProgressStyle::json},
+                                                            {"none", engine::ProgressStyle::none}};
+  command.add_option("--progress", style, "auto, plain, json or none")
+      ->transform(CLI::Transformer(styles))
+      ->type_name("STYLE");
+}
+
 // What `run` is given as texts, to be read when the whole line is known.
 struct RunTexts {
   RunCommandOptions options;
@@ -130,16 +141,13 @@ void add_run(CLI::App& program, RunTexts& texts, Action& action) {
   run->add_option(
       "--shard", shard,
       "i/n: compute every n-th tile from i on, i from 0; in an array task of Slurm its own share");
+  run->add_option(
+      "--from", options.from,
+      "result of the same system on another grid: its points are taken over, the others computed");
   run->add_flag("--fresh", options.run.fresh, "discard what earlier runs have left");
   run->add_option("--time-budget", budget, "stop after 90s, 50m, 2h or 1d");
   add_set(*run, options.set);
-  const std::map<std::string, engine::ProgressStyle> styles{{"auto", engine::ProgressStyle::automatic},
-                                                            {"plain", engine::ProgressStyle::plain},
-                                                            {"json", engine::ProgressStyle::json},
-                                                            {"none", engine::ProgressStyle::none}};
-  run->add_option("--progress", options.run.progress, "auto, plain, json or none")
-      ->transform(CLI::Transformer(styles))
-      ->type_name("STYLE");
+  add_progress(*run, options.run.progress);
   run->callback([&] {
     action = [&](std::ostream& out) {
       options.run.shard = shard.empty() ? shard_of_array_task(std::getenv) : shard_of(shard);
@@ -193,6 +201,8 @@ void add_merge(CLI::App& program, MergeOptions& options, Action& action) {
   merge->add_option("FILE", options.output, "result file to make")->required();
   merge->add_option("SHARD", options.logs, "shard logs (*.frahm-log); else those beside FILE");
   merge->add_flag("--partial", options.partial, "although tiles are missing; keeps the logs");
+  add_threads(*merge, options.threads);
+  add_progress(*merge, options.progress);
   merge->callback([&] { action = [&](std::ostream& out) { return merge_command(options, out); }; });
 }
 
@@ -278,8 +288,11 @@ Ending carry_out(const Action& action, std::ostream& out) {
   } catch (const StudyError& error) {
     return {exit_code::wrong_input, error.what()};
   } catch (const engine::ResumeRefused& error) {
-    return {exit_code::resume_refused,
-            std::string(error.what()) + "\nname another file with -o, or discard what is there with --fresh"};
+    const std::string advice = error.advice().empty()
+                                   ? "it is not replaced unasked: name another file with -o, or discard what "
+                                     "is there with --fresh"
+                                   : error.advice();
+    return {exit_code::resume_refused, fmt::format("{}\n{}", error.what(), advice)};
   } catch (const engine::RankFailed& error) {
     return {error.code(), error.what()};
   } catch (const engine::IoError& error) {

@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
-#include <chrono>
 #include <iostream>
 #include <string>
 
 #include "engine/fingerprint.hpp"
-#include "engine/stop_signals.hpp"
+#include "engine/stop_request.hpp"
 #include "results/map_reader.hpp"
 #include "results/map_writer.hpp"
 #include "studies/identification/identification_record.hpp"
@@ -21,19 +20,15 @@
 namespace frahm::studies {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 // Why it has been stopped.
 struct Stopped {
   std::string reason;
 };
 
 // Throws Stopped on a signal, or when the time budget is used up.
-transient::Watch watch_for_stop(const engine::StopSignals& signals, const engine::RunOptions& run) {
-  return [&signals, &run, start = Clock::now()] {
-    if (signals.received() != 0) throw Stopped{"stopped by " + engine::signal_name(signals.received())};
-    if (run.time_budget && Clock::now() - start >= *run.time_budget)
-      throw Stopped{fmt::format("the time budget of {} s is used up", run.time_budget->count())};
+transient::Watch watch_for_stop(const engine::StopRequest& stop) {
+  return [&stop] {
+    if (stop.asked()) throw Stopped{stop.reason()};
   };
 }
 
@@ -117,8 +112,8 @@ int run_at_once(const RunCommandOptions& options, StudyFile study, std::ostream&
 
   int code = exit_code::done;
   try {
-    const engine::StopSignals signals;
-    code = compute(plan, record, output, watch_for_stop(signals, options.run), out);
+    const engine::StopRequest stop(options.run.time_budget);
+    code = compute(plan, record, output, watch_for_stop(stop), out);
   } catch (const Stopped& stopped) {
     fmt::print(std::cerr, "{}: nothing is kept of one piece of work, which begins anew\n", stopped.reason);
     return exit_code::stopped;

@@ -12,6 +12,7 @@ namespace frahm::studies {
 struct RunCommandOptions {
   std::filesystem::path study;
   std::vector<std::string> set;  // name=value, a unit behind the value or none
+  std::filesystem::path from;    // of a map: the result whose points are taken over; empty: none
   std::string command;           // as typed, for the record
   engine::RunOptions run;        // output empty: the study's name with .h5, in the working directory
 };

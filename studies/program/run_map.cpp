@@ -6,11 +6,12 @@
 #include <ctime>
 #include <optional>
 
-#include "engine/stop_signals.hpp"
 #include "engine/tile_index.hpp"
 #include "studies/map/assemble.hpp"
 #include "studies/map/finished_file.hpp"
+#include "studies/map/known_points.hpp"
 #include "studies/program/exit_code.hpp"
+#include "studies/program/growing.hpp"
 #include "studies/program/logged_run.hpp"
 #include "studies/program/map_table.hpp"
 #include "studies/program/study_note.hpp"
@@ -28,29 +29,36 @@ int run_map(const RunCommandOptions& options, StudyFile study, std::ostream& out
   RunRecord record{.command = options.command, .threads = 0, .started = utc_now()};
   engine::RunOptions run = options.run;
   if (run.output.empty()) run.output = default_output(options.study);
-  const MapPlan plan = plan_map(std::move(study), options.set);
+  MapPlan plan = plan_map(std::move(study), options.set);
 
   check_result_place(run.output, options.study);
-  if (!run.fresh && is_finished(plan, run.output)) {
+  const bool in_place = grows_in_place(plan, options.from, run.output);
+  if (!run.fresh && !in_place && is_finished(plan, run.output)) {
     remove_leftovers(plan, run.output);
     fmt::print(out, "everything is computed already; --fresh computes it anew\n");
     return print_map_table(plan, options.study, run.output, std::nullopt, out);
   }
-  const engine::Summary summary = compute(plan, job_of(plan), run);
+  std::optional<KnownPoints> earlier;
+  if (!options.from.empty()) plan.grown_from = earlier.emplace(plan, options.from).source();
+  const engine::Summary summary = compute(plan, job_of(plan, earlier ? &*earlier : nullptr), run);
   tell_unused(summary);
   if (summary.outcome == engine::Outcome::stopped) return tell_stopped(summary, run.output);
   if (run.shard.count > 1) return tell_shard(run, summary, out);
 
+  earlier.reset();  // the new file may take its place
   record.threads = summary.threads;
   record.ranks = summary.ranks;
-  const engine::StopSignals signals;
-  const Assembly assembly =
-      assemble(plan, record, {.output = run.output, .logs = engine::find_logs(run.output), .stop_asked = [&] {
-                                return signals.received() != 0;
-                              }});
-  if (!assembly.finished) return tell_stopped(summary, run.output);
+  const engine::StopRequest stop(run.time_budget, engine::StopRequest::Seconds(summary.seconds));
+  const Assembly assembly = assemble(plan, record,
+                                     {.output = run.output,
+                                      .logs = engine::find_logs(run.output),
+                                      .threads = summary.threads_here,
+                                      .progress = run.progress,
+                                      .stop_asked = [&] { return stop.asked(); }});
+  if (!assembly.finished) return tell_unwritten(stop, run.output);
   remove_study_notes(run.output);
-  const Effort effort{.points = summary.points.done - summary.points.resumed,
+  const Effort effort{.points = summary.points.done - summary.points.resumed - summary.points.reused,
+                      .reused = summary.points.reused,
                       .seconds = std::chrono::duration<double>(Clock::now() - start).count(),
                       .cpu_seconds = static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC +
                                      summary.cpu_seconds_elsewhere,

@@ -7,7 +7,6 @@
 #include <iostream>
 #include <optional>
 
-#include "engine/stop_signals.hpp"
 #include "engine/tile_index.hpp"
 #include "results/map_reader.hpp"
 #include "studies/map/finished_file.hpp"
@@ -78,11 +77,11 @@ int run_tuning(const RunCommandOptions& options, StudyFile study, std::ostream& 
 
   record.threads = summary.threads;
   record.ranks = summary.ranks;
-  const engine::StopSignals signals;
-  const auto stop_asked = [&] { return signals.received() != 0; };
+  const engine::StopRequest stop(run.time_budget, engine::StopRequest::Seconds(summary.seconds));
+  const auto stop_asked = [&] { return stop.asked(); };
   const std::optional<TuningResult> result = assemble_tuning(
       plan, record, {.output = run.output, .logs = engine::find_logs(run.output), .stop_asked = stop_asked});
-  if (!result) return tell_stopped(summary, run.output);
+  if (!result) return tell_unwritten(stop, run.output);
   remove_study_notes(run.output);
   const int code = tell_tuning(plan, *result, run.output, out);
   const double cpu_seconds =

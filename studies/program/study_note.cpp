@@ -6,6 +6,7 @@
 #include <iterator>
 #include <optional>
 #include <random>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -27,8 +28,22 @@ std::filesystem::path note_path(const std::filesystem::path& output, const engin
 struct StudyNote {
   std::filesystem::path study;
   std::vector<std::string> set;
+  std::optional<EarlierResult> grown_from;
   std::string text;
 };
+
+// The line behind the study's path, and that of the earlier result's if there is one. Returns the number of
+// overrides.
+std::size_t read_numbers(std::istream& file, StudyNote& note) {
+  std::string line;
+  std::getline(file, line);
+  std::istringstream numbers(line);
+  std::size_t overrides = 0;
+  if (!(numbers >> overrides)) file.setstate(std::ios::failbit);
+  EarlierResult earlier;
+  if (numbers >> earlier.identity && std::getline(file, earlier.file)) note.grown_from = earlier;
+  return overrides;
+}
 
 std::optional<StudyNote> read_note(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -37,9 +52,7 @@ std::optional<StudyNote> read_note(const std::filesystem::path& path) {
   std::string line;
   std::getline(file, line);
   note.study = line;
-  std::size_t overrides = 0;
-  file >> overrides;
-  file.ignore();
+  const std::size_t overrides = read_numbers(file, note);
   for (std::size_t i = 0; i < overrides && std::getline(file, line); ++i) note.set.push_back(line);
   if (!file) throw engine::IoError(path, "this note of a study is damaged; run the study again to mend it");
   note.text.assign(std::istreambuf_iterator<char>(file), {});
@@ -50,10 +63,12 @@ std::optional<StudyNote> read_note(const std::filesystem::path& path) {
 
 void write_study_note(const std::filesystem::path& output, const StudyPlan& plan) {
   std::string text =
-      fmt::format("{}\n{}\n", std::filesystem::absolute(plan.study.source.name).string(), plan.set.size());
+      fmt::format("{}\n{}", std::filesystem::absolute(plan.study.source.name).string(), plan.set.size());
+  if (plan.grown_from) text += fmt::format(" {}\n{}", plan.grown_from->identity, plan.grown_from->file);
+  text += '\n';
   for (const std::string& set : plan.set) text += set + '\n';
   text += plan.study.source.text;
-  const std::filesystem::path path = note_path(output, plan.fingerprint);
+  const std::filesystem::path path = note_path(output, plan.log_header().fingerprint);
   // Other shards may be writing the same note at this moment: each writes its own and puts it in place whole.
   const std::filesystem::path own = fmt::format("{}-{:08x}", path.string(), std::random_device()());
   write_whole_file(own, text);
@@ -73,10 +88,16 @@ NotedStudy study_from_note(const std::vector<std::filesystem::path>& outputs,
       const std::vector<Assignment> assignments = parse_assignments(study, "--set", set);
       study = with_parameters(std::move(study), assignments);
     }
-    return {std::move(study), note->set, path};
+    return {std::move(study), note->set, note->grown_from, path};
   }
   throw engine::IoError(note_path(outputs.front(), header.fingerprint),
                         "the study of the shard logs is not kept here; `frahm run` with it writes it");
+}
+
+std::optional<EarlierResult> source_of_logs(const std::filesystem::path& output,
+                                            const engine::LogHeader& header) {
+  const auto note = read_note(note_path(output, header.fingerprint));
+  return note ? note->grown_from : std::nullopt;
 }
 
 void check_note_gives(const StudyPlan& plan, const NotedStudy& noted, const engine::LogHeader& header) {
@@ -86,9 +107,9 @@ void check_note_gives(const StudyPlan& plan, const NotedStudy& noted, const engi
                         "or this program, has changed");
 }
 
-void remove_study_note(const std::filesystem::path& output, const engine::Fingerprint& fingerprint) {
+void remove_study_note(const std::filesystem::path& output, const StudyPlan& plan) {
   std::error_code ignored;  // a note left behind is harmless
-  std::filesystem::remove(note_path(output, fingerprint), ignored);
+  std::filesystem::remove(note_path(output, plan.log_header().fingerprint), ignored);
 }
 
 void remove_study_notes(const std::filesystem::path& output) {

@@ -19,7 +19,8 @@ KILLS = 10
 
 
 def raw_bytes(path):
-    """Of each dataset its type, its shape and its stored bytes, chunk by chunk, as compressed."""
+    """Of each dataset its type, its shape and its stored bytes, chunk by chunk, as compressed, and their order in
+    the file."""
     found = {}
 
     def take(name, item):
@@ -30,6 +31,8 @@ def raw_bytes(path):
         else:
             chunks = [item.id.get_chunk_info(i).chunk_offset for i in range(item.id.get_num_chunks())]
             stored = [(offset, item.id.read_direct_chunk(offset)) for offset in chunks]
+            places = [item.id.get_chunk_info(i).byte_offset for i in range(item.id.get_num_chunks())]
+            stored.append(sorted(range(len(places)), key=places.__getitem__))
         found[name] = (item.dtype.str, item.shape, stored)
 
     with h5py.File(path) as file:
@@ -93,10 +96,60 @@ def check_tuning(program, source):
         runs.killed(one, output, signal.SIGTERM, "--threads", "1")
 
 
+def check_assembly(program, source):
+    """A map of many chunks with resonances and orbits, assembled whole and in part by teams of any size."""
+    with open(os.path.join(source, "studies", "den_hartog.toml")) as file:
+        text = file.read()
+    assert text.count("values = [0, 0.02, 0.05, 0.1, 0.2, 0.5]") == 1
+    text = text.replace("values = [0, 0.02, 0.05, 0.1, 0.2, 0.5]", "from = 0.02\nto = 0.5\npoints = 12")
+    text += """
+[output]
+quantities = ["main_peak", "friction_regime", "friction_stops", "status"]
+resonances = ["main"]
+orbits = [{ zeta = 0.1, f = 0.2, r = 0.9 }, { zeta = 0.1, f = 0.7, r = 0.4 }, { zeta = 0.2, f = 1.1, r = 2 }]
+"""
+    with tempfile.TemporaryDirectory() as folder:
+        study_path, output = os.path.join(folder, "study.toml"), os.path.join(folder, "map.h5")
+        with open(study_path, "w") as file:
+            file.write(text)
+
+        def frahm(*words):
+            done = subprocess.run([program, *words], capture_output=True, text=True, timeout=120)
+            assert done.returncode == 0, done.stderr
+
+        def merged(threads, *options):
+            frahm("merge", output, "--threads", threads, *options)
+            found = raw_bytes(output)
+            os.remove(output)
+            return found
+
+        def kept():
+            return {name: open(os.path.join(folder, name), "rb").read() for name in os.listdir(folder)}
+
+        frahm("run", study_path, "-o", output, "--shard", "0/2")
+        part = merged("1", "--partial")
+        assert len(part["main_peak"][2]) > 5 and part["resonance/curve"][1] == (300,), "many chunks, many curves"
+        for threads in "2", "5":
+            assert merged(threads, "--partial") == part, threads
+        frahm("run", study_path, "-o", output, "--shard", "1/2")
+        logs = kept()
+        whole = {}
+        for threads in "1", "2", "5":
+            for name, data in logs.items():
+                with open(os.path.join(folder, name), "wb") as file:
+                    file.write(data)
+            whole[threads] = merged(threads)
+        assert whole["1"] == whole["2"] == whole["5"]
+        assert whole["1"] != part
+        runs = Runs(program, folder, study_path)
+        assert runs.finish(output, "--threads", "2") == whole["1"]
+
+
 def main():
     random.seed(2)
     program, source = sys.argv[1:]
     check_tuning(program, source)
+    check_assembly(program, source)
     with tempfile.TemporaryDirectory() as folder:
         study_path, output = os.path.join(folder, "study.toml"), os.path.join(folder, "map.h5")
         shutil.copy(os.path.join(source, "studies", "den_hartog.toml"), study_path)
@@ -107,7 +160,7 @@ def main():
             assert runs.finish(output, "--threads", threads) == one, threads
         runs.killed(one, output, signal.SIGKILL, "--threads", "2")
         runs.killed(one, output, signal.SIGTERM, "--threads", "1")
-    print("a map and a tuning on 1, 2 and more threads, SIGKILL and SIGTERM: the same bytes in every dataset")
+    print("a map, its assembly and a tuning on 1, 2 and more threads, SIGKILL and SIGTERM: the same bytes in every dataset")
 
 
 if __name__ == "__main__":

@@ -58,13 +58,14 @@ RankMessage ready(std::uint64_t threads) {
 }  // namespace
 
 TEST_CASE("a message between ranks comes as it was sent") {
-  const RankMessage sent{.kind = Kind::leave,
-                         .threads = 3,
-                         .study = ~std::uint64_t{0},
-                         .code = 6,
-                         .finished = {.tiles = 1, .points = 2, .failed = 3, .cpu_milliseconds = 4},
-                         .tiles = {9, 8, 7},
-                         .text = "stopped by SIGUSR1"};
+  const RankMessage sent{
+      .kind = Kind::leave,
+      .threads = 3,
+      .study = ~std::uint64_t{0},
+      .code = 6,
+      .finished = {.tiles = 1, .points = 2, .reused = 5, .failed = 3, .cpu_milliseconds = 4},
+      .tiles = {9, 8, 7},
+      .text = "stopped by SIGUSR1"};
   const RankMessage come = decode(encode(sent));
   CHECK(come.kind == sent.kind);
   CHECK(come.threads == 3);
@@ -72,6 +73,7 @@ TEST_CASE("a message between ranks comes as it was sent") {
   CHECK(come.code == 6);
   CHECK(come.finished.tiles == 1);
   CHECK(come.finished.points == 2);
+  CHECK(come.finished.reused == 5);
   CHECK(come.finished.failed == 3);
   CHECK(come.finished.cpu_milliseconds == 4);
   CHECK(come.tiles == sent.tiles);

@@ -38,6 +38,20 @@ TEST_CASE("plain progress says points, rate, time left and failures") {
   CHECK(watched.out.str() == " 50.0 %  1500/3000 points  100 points/s  15 s left  7 failed\n");
 }
 
+TEST_CASE("points found in an earlier result are told and do not count as computed") {
+  Watched watched(ProgressForm::plain);
+  watched.progress.update({.points = 3000, .done = 1000, .reused = 1000});
+  watched.time = 40s;
+  watched.progress.update({.points = 3000, .done = 2000, .resumed = 200, .reused = 1000});
+  // Tiles in hand have counted what they found before they are done:
+  watched.time = 80s;
+  watched.progress.update({.points = 3000, .done = 1000, .resumed = 200, .reused = 1000});
+  CHECK(watched.out.str() ==
+        " 33.3 %  1000/3000 points  1000 reused\n"
+        " 66.6 %  2000/3000 points  20 points/s  50 s left  1000 reused\n"
+        " 33.3 %  1000/3000 points  1000 reused\n");
+}
+
 TEST_CASE("plain progress writes at once, every 30 s and at the end") {
   Watched watched(ProgressForm::plain);
   for (watched.time = 0s; watched.time < 65s; watched.time += 100ms) watched.progress.update({.points = 10});
@@ -89,13 +103,23 @@ TEST_CASE("json progress is one object a line") {
   watched.progress.update({.points = 200});
   watched.time = 4s;
   watched.progress.finish({.points = 200, .done = 100, .resumed = 20, .failed = 3});
-  CHECK(watched.out.str() ==
-        R"({"event":"progress","points":200,"done":0,"resumed":0,"failed":0,"percent":0.000,"seconds":0.000,)"
-        R"("points_per_second":null,"seconds_left":null})"
-        "\n"
-        R"({"event":"end","points":200,"done":100,"resumed":20,"failed":3,"percent":50.000,"seconds":4.000,)"
-        R"("points_per_second":20,"seconds_left":5})"
-        "\n");
+  CHECK(
+      watched.out.str() ==
+      R"({"event":"progress","points":200,"done":0,"resumed":0,"reused":0,"failed":0,"percent":0.000,"seconds":0.000,)"
+      R"("points_per_second":null,"seconds_left":null})"
+      "\n"
+      R"({"event":"end","points":200,"done":100,"resumed":20,"reused":0,"failed":3,"percent":50.000,"seconds":4.000,)"
+      R"("points_per_second":20,"seconds_left":5})"
+      "\n");
+}
+
+TEST_CASE("the progress of a stage names it") {
+  std::ostringstream plain, json;
+  const auto now = [] { return Progress::Clock::time_point(); };
+  Progress(ProgressForm::plain, plain, now, "writing").update({.points = 200});
+  Progress(ProgressForm::json, json, now, "writing").update({.points = 200});
+  CHECK(plain.str() == "writing   0.0 %  0/200 points\n");
+  CHECK_THAT(json.str(), StartsWith(R"({"event":"progress","stage":"writing","points":200,)"));
 }
 
 TEST_CASE("progress of form none is silent") {

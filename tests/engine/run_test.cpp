@@ -144,6 +144,16 @@ TEST_CASE("a run takes up the tiles of all writers and computes the others only"
   CHECK(kept_tiles(scratch.output(), study_of(job)) == expected_tiles(40));
 }
 
+TEST_CASE("points that kernels found in an earlier result are in the summary") {
+  const Scratch scratch;
+  std::atomic<std::uint64_t> found = 0;
+  Job job = sample_job(20, [&](std::uint64_t) { found += 3; });
+  job.reused = [&] { return found.load(); };
+  const Summary summary = run(job, quiet(scratch));
+  CHECK(summary.points.reused == 60);
+  CHECK(summary.points.done == points_of(20));
+}
+
 TEST_CASE("an exception of a kernel is thrown on when the finished tiles are kept") {
   const Scratch scratch;
   const int threads = GENERATE(1, 4);

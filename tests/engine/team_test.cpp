@@ -25,3 +25,11 @@ TEST_CASE("a team works on after one that failed") {
   run_team(2, [](const auto&) { throw std::domain_error("our own bug"); });
   CHECK(run_team(2, [](const auto&) {}) == nullptr);
 }
+
+TEST_CASE("a team has no more threads than pieces of work, and one at least") {
+  CHECK(team_size(4, 100) == 4);
+  CHECK(team_size(4, 3) == 3);
+  CHECK(team_size(4, 0) == 1);
+  CHECK(team_size(0, 1) == 1);
+  CHECK(team_size(0, 1000000) >= 1);
+}

@@ -1,11 +1,13 @@
 #include "engine/tile_index.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <catch2/catch.hpp>
 
 #include "engine/io_error.hpp"
 #include "engine/log_format.hpp"
 #include "engine/shard_log.hpp"
+#include "engine/team.hpp"
 #include "tests/engine/sample_job.hpp"
 
 using namespace frahm::engine;
@@ -114,6 +116,37 @@ TEST_CASE("tiles are read from more logs than a process may hold open") {
     ShardLog(log_path(scratch.output(), std::to_string(tile % 300)), many).append(tile, sample(tile));
   }
   CHECK(kept_tiles(scratch.output(), many) == expected_tiles(many.tiles));
+}
+
+TEST_CASE("several threads read tiles from more logs than are open at once, in any order") {
+  const Scratch scratch;
+  const LogHeader many{.fingerprint = study.fingerprint, .tiles = 900};
+  for (std::uint64_t tile = 0; tile < many.tiles; ++tile) {
+    ShardLog(log_path(scratch.output(), std::to_string(tile % 300)), many).append(tile, sample(tile));
+  }
+  const TileIndex index = index_tiles(find_logs(scratch.output()), many, [](auto&&...) {});
+  TileReader reader(index);
+  std::atomic<std::uint64_t> right = 0, next_stride = 0;
+  const auto error = run_team(4, [&](const auto&) {
+    Bytes record;
+    const std::uint64_t stride = 12 * next_stride++ + 7;  // 7, 19, ... share no factor with 900
+    for (std::uint64_t i = 0; i < many.tiles; ++i) {
+      const std::uint64_t tile = i * stride % many.tiles;
+      if (std::ranges::equal(reader.read(tile, record), sample(tile))) ++right;
+    }
+  });
+  CHECK(error == nullptr);
+  CHECK(right == 4 * many.tiles);
+}
+
+TEST_CASE("a log removed while its tiles are read is an error naming it") {
+  const Scratch scratch;
+  write_log(scratch, "a", {1});
+  const TileIndex index = index_all(scratch);
+  TileReader reader(index);
+  std::filesystem::remove(log_path(scratch.output(), "a"));
+  Bytes record;
+  CHECK_THROWS_WITH(reader.read(1, record), Contains("map.h5.a.frahm-log") && Contains("was removed while"));
 }
 
 TEST_CASE("removed logs are gone, and a log that vanished is passed over") {

@@ -1,10 +1,10 @@
 #include "sample.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
+#include "results/map_chunk.hpp"
 #include "results/map_writer.hpp"
 
 namespace sample {
@@ -18,17 +18,30 @@ bool is_missing(std::size_t i, std::size_t j) {
   return i == missing_design && j >= missing_from && j < missing_from + tile_width;
 }
 
-void write_map(MapWriter& writer) {
-  for (std::size_t i = 0; i < designs; ++i) {
-    for (std::size_t from = 0; from < frequencies; from += tile_width) {
+// The tiles of one chunk, without the missing one.
+void put_tiles(MapChunk& chunk, std::size_t first_design, std::size_t first_frequency) {
+  for (std::size_t i = first_design; i < std::min(first_design + chunk_designs, designs); ++i) {
+    const std::size_t end = std::min(first_frequency + chunk_frequencies, frequencies);
+    for (std::size_t from = first_frequency; from < end; from += tile_width) {
       if (is_missing(i, from)) continue;
-      const std::size_t width = std::min(tile_width, frequencies - from);
+      const std::size_t width = std::min(tile_width, end - from);
       for (std::size_t v = peak; v <= status; ++v) {
         std::vector<double> values(width);
         for (std::size_t j = 0; j < width; ++j) values[j] = value(v, i, from + j);
-        writer.write_block(v, std::array<std::uint64_t, 2>{i, from}, std::array<std::uint64_t, 2>{1, width},
-                           values);
+        chunk.put(v, {{i, from}, {1, width}}, values);
       }
+    }
+  }
+}
+
+void write_map(MapWriter& writer) {
+  const MapLayout map = layout();
+  MapChunk chunk(map);
+  for (std::size_t i = 0; i < designs; i += chunk_designs) {
+    for (std::size_t j = 0; j < frequencies; j += chunk_frequencies) {
+      chunk.begin({i, j});
+      put_tiles(chunk, i, j);
+      writer.write_chunk(chunk.encoded());
     }
   }
 }
@@ -131,7 +144,7 @@ MapLayout layout() {
                {.name = "guide_stops", .unit = "1", .long_name = "stops of guide", .type = Type::int32},
                {.name = "guide_regime", .long_name = "regime of guide", .type = Type::flag, .flags = regimes},
                {.name = "status", .long_name = "status", .type = Type::flag, .flags = statuses}},
-          .chunk = {2, 32}};
+          .chunk = {chunk_designs, chunk_frequencies}};
 }
 
 std::string study_text() {

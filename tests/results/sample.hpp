@@ -9,7 +9,8 @@
 namespace sample {
 
 inline constexpr std::size_t designs = 5, frequencies = 70;
-// Tiles are one design by this many frequencies, chunks 2 x 32; this tile is left out.
+inline constexpr std::size_t chunk_designs = 2, chunk_frequencies = 32;
+// Tiles are one design by this many frequencies; this one is left out.
 inline constexpr std::size_t tile_width = 16, missing_design = 4, missing_from = 48;
 
 enum Variable : std::size_t { peak, phase, stops, regime, status };

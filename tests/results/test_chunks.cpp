@@ -7,8 +7,10 @@
 #include <thread>
 
 #include "results/chunk_codec.hpp"
-#include "results/chunked_array.hpp"
 #include "results/hdf5.hpp"
+#include "results/map_chunk.hpp"
+#include "results/map_reader.hpp"
+#include "results/map_writer.hpp"
 #include "temporary_directory.hpp"
 
 using namespace frahm::results;
@@ -39,6 +41,13 @@ std::vector<double> values_of(const Box& box) {
   return values;
 }
 
+bool overlap(const Box& a, const Box& b) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (a.start[k] >= b.start[k] + b.count[k] || b.start[k] >= a.start[k] + a.count[k]) return false;
+  }
+  return true;
+}
+
 // The grid as boxes of `tile` points, clipped to it.
 std::vector<Box> tiles(const Shape& tile) {
   std::vector<Box> boxes;
@@ -52,60 +61,62 @@ std::vector<Box> tiles(const Shape& tile) {
   return boxes;
 }
 
-// Writes the boxes in turn, through a file, and reads all of the grid.
-std::vector<double> written_and_read(const std::vector<Box>& boxes, std::size_t max_open) {
-  const TemporaryDirectory directory;
-  {
-    hdf5::File file = hdf5::File::create(directory / "array.h5");
-    {
-      ChunkedArray array(
-          file.root().create_dataset("x", {.type = Type::float64, .shape = grid, .chunk = chunk}), max_open);
-      for (const Box& box : boxes) array.write(box, as_bytes(values_of(box)));
-      array.flush();
-    }
-    file.close();
+const MapLayout layout{
+    .axes = {{.name = "a", .size = grid[0]}, {.name = "b", .size = grid[1]}, {.name = "c", .size = grid[2]}},
+    .variables = {{.name = "x", .unit = "m", .long_name = "x"}},
+    .chunk = chunk};
+
+// The parts of the boxes that lie in one chunk, in turn, as it is stored.
+EncodedChunk made_of(const std::vector<Box>& boxes, const Box& within) {
+  MapChunk made(layout);
+  made.begin(within.start);
+  for (const Box& box : boxes) {
+    if (overlap(box, within)) made.put(0, common(box, within), values_of(common(box, within)));
   }
-  const hdf5::File file = hdf5::File::open(directory / "array.h5");
-  return file.root().dataset("x").read(Shape{0, 0, 0}, grid);
+  return made.encoded();
 }
 
 }  // namespace
 
-TEST_CASE("blocks of any shape and order, with few or many chunks open, give the same array") {
-  const std::vector<double> expected = values_of({{0, 0, 0}, grid});
+TEST_CASE("blocks of any shape and order give the same chunks, which read back as the array") {
   const std::vector<Shape> shapes = {{5, 7, 11}, {2, 3, 4}, {1, 1, 1}, {4, 6, 8}, {3, 2, 5}, {1, 7, 11}};
   std::mt19937 shuffler(1);
   for (const Shape& shape : shapes) {
     std::vector<Box> boxes = tiles(shape);
-    for (const std::size_t max_open : {1u, 3u, 1000u}) {
-      INFO("blocks of " << shape[0] << " x " << shape[1] << " x " << shape[2] << ", " << max_open << " open");
-      CHECK(written_and_read(boxes, max_open) == expected);
-      std::vector<Box> shuffled = boxes;
-      std::shuffle(shuffled.begin(), shuffled.end(), shuffler);
-      CHECK(written_and_read(shuffled, max_open) == expected);
+    const std::vector<Box> again = tiles({3, 3, 3});  // points that come twice
+    boxes.insert(boxes.end(), again.begin(), again.end());
+    std::shuffle(boxes.begin(), boxes.end(), shuffler);
+    INFO("blocks of " << shape[0] << " x " << shape[1] << " x " << shape[2]);
+    const TemporaryDirectory directory;
+    {
+      MapWriter writer(directory / "array.h5", layout);
+      for (const Box& within : tiles(chunk)) {
+        const EncodedChunk encoded = made_of(boxes, within);
+        CHECK(encoded.variables == made_of({within}, within).variables);
+        writer.write_chunk(encoded);
+      }
+      writer.finish();
     }
+    CHECK(MapReader(directory / "array.h5").read(0, Shape{0, 0, 0}, grid) == values_of({{0, 0, 0}, grid}));
   }
 }
 
-TEST_CASE("blocks that come twice or overlap leave every point right") {
-  std::vector<Box> boxes = tiles({1, 2, 3});
-  const std::vector<Box> again = tiles({3, 3, 3});
-  boxes.insert(boxes.end(), again.begin(), again.end());
-  boxes.insert(boxes.begin(), again.begin(), again.begin() + 5);
-  boxes.insert(boxes.begin(), again.begin(), again.begin() + 5);
-  CHECK(written_and_read(boxes, 2) == values_of({{0, 0, 0}, grid}));
-}
-
-TEST_CASE("a later block overwrites an earlier one") {
-  const TemporaryDirectory directory;
-  hdf5::File file = hdf5::File::create(directory / "array.h5");
-  hdf5::Group root = file.root();
-  ChunkedArray array(root.create_dataset("x", {.type = Type::float64, .shape = {6}, .chunk = {3}}), 1);
-  array.write({{0}, {2}}, as_bytes({1, 1}));
-  array.write({{0}, {6}}, as_bytes({2, 2, 2, 2, 2, 2}));
-  array.write({{2}, {2}}, as_bytes({3, 3}));
-  array.flush();
-  CHECK(root.dataset("x").read(Shape{0}, Shape{6}) == std::vector<double>{2, 2, 3, 3, 2, 2});
+TEST_CASE(
+    "of a point put twice the later value counts, and a chunk begun anew knows nothing of the one before") {
+  const MapLayout line{.axes = {{.name = "a", .size = 6}},
+                       .variables = {{.name = "x", .unit = "m", .long_name = "x"}},
+                       .chunk = {3}};
+  MapChunk made(line), expected(line);
+  made.put(0, {{0}, {3}}, std::vector<double>{1, 1, 1});
+  made.put(0, {{1}, {2}}, std::vector<double>{2, 3});
+  expected.put(0, {{0}, {3}}, std::vector<double>{1, 2, 3});
+  CHECK(made.encoded().variables == expected.encoded().variables);
+  made.begin({3});
+  expected.begin({0});
+  for (MapChunk* chunk_of : {&made, &expected})
+    chunk_of->put(0, {{chunk_of == &made ? 4u : 1u}, {1}}, std::vector<double>{5});
+  CHECK(made.encoded().start == Shape{3});
+  CHECK(made.encoded().variables == expected.encoded().variables);
 }
 
 TEST_CASE("the checksum is HDF5's") {
@@ -137,9 +148,8 @@ TEST_CASE("a chunk that does not compress, and one that compresses to nothing, r
   for (const std::vector<double>& values : {noise, std::vector<double>(size, 1.5)}) {
     hdf5::File file = hdf5::File::create(directory / "array.h5");
     hdf5::Group root = file.root();
-    ChunkedArray array(root.create_dataset("x", {.type = Type::float64, .shape = {size}, .chunk = {size}}),
-                       1);
-    array.write({{0}, {size}}, as_bytes(values));
+    hdf5::Dataset array = root.create_dataset("x", {.type = Type::float64, .shape = {size}, .chunk = {size}});
+    array.write_chunk(Shape{0}, encode_chunk(as_bytes(values), sizeof(double)));
     CHECK(root.dataset("x").read(Shape{0}, Shape{size}) == values);
   }
 }

@@ -11,6 +11,7 @@
 #include "results/map_writer.hpp"
 #include "sample.hpp"
 #include "temporary_directory.hpp"
+#include "whole_map.hpp"
 
 using namespace frahm::results;
 
@@ -73,7 +74,9 @@ TEST_CASE("a map read back has the layout it was written with") {
     check_same(read.variables[v], written.variables[v]);
 }
 
-TEST_CASE("a map written in parts of chunks reads back, with missing values where nothing was written") {
+TEST_CASE(
+    "a map whose chunks are put together from tiles reads back, with missing values where nothing was "
+    "written") {
   const TemporaryDirectory directory;
   sample::write(directory / "map.h5");
   const MapReader reader(directory / "map.h5");
@@ -85,6 +88,29 @@ TEST_CASE("a map written in parts of chunks reads back, with missing values wher
     INFO(reader.layout().variables[v].name);
     CHECK(same(reader.read(v, origin, whole), expected));
   }
+}
+
+TEST_CASE(
+    "a chunk never written is missing in every variable, and the others stand, in whatever order they came") {
+  const TemporaryDirectory directory;
+  const MapLayout layout = sample::layout();
+  {
+    MapWriter writer(directory / "map.h5", layout);
+    MapChunk chunk(layout);
+    for (const std::uint64_t from : {64u, 0u}) {
+      chunk.begin({2, from});
+      chunk.put(sample::peak, {{3, from + 5}, {1, 1}}, std::vector{static_cast<double>(from) + 0.5});
+      writer.write_chunk(chunk.encoded());
+    }
+    writer.finish();
+  }
+  const MapReader reader(directory / "map.h5");
+  std::vector<double> expected(sample::designs * sample::frequencies, missing);
+  expected[3 * sample::frequencies + 5] = 0.5;
+  expected[3 * sample::frequencies + 69] = 64.5;
+  CHECK(same(reader.read(sample::peak, origin, whole), expected));
+  CHECK(same(reader.read(sample::stops, origin, whole), std::vector<double>(expected.size(), -1.0)));
+  CHECK(same(reader.read(sample::regime, origin, whole), std::vector<double>(expected.size(), 0.0)));
 }
 
 TEST_CASE("a box of a map reads as the same box of the whole") {
@@ -106,12 +132,11 @@ TEST_CASE("a map of one axis keeps variables and derived coordinates apart") {
   Axis axis{.name = "r", .size = 3};
   axis.coordinates = {{"r", "1", "frequency ratio", {0.5, 1.0, 1.5}},
                       {"omega", "rad s-1", "frequency", {5, 10, 15}}};
+  const MapLayout layout{
+      .axes = {axis}, .variables = {{.name = "x", .unit = "m", .long_name = "x"}}, .chunk = {1000}};
   {
-    MapWriter writer(
-        directory / "map.h5",
-        {.axes = {axis}, .variables = {{.name = "x", .unit = "m", .long_name = "x"}}, .chunk = {1000}});
-    writer.write_block(0, std::array<std::uint64_t, 1>{0}, std::array<std::uint64_t, 1>{3},
-                       std::vector{1.0, missing, 3.0});
+    MapWriter writer(directory / "map.h5", layout);
+    write_whole_map(writer, layout, {{1.0, missing, 3.0}});
     writer.finish();
   }
   const MapReader reader(directory / "map.h5");
@@ -154,9 +179,10 @@ TEST_CASE("numbers at the limits of their types survive") {
       variable.unit.clear();
       variable.flags = {{"not_computed", 0}, {"ok", 1}, {"last", 127}};
     }
+    const MapLayout layout{.axes = {axis}, .variables = {variable}, .chunk = {4}};
     {
-      MapWriter writer(directory / "map.h5", {.axes = {axis}, .variables = {variable}, .chunk = {4}});
-      writer.write_block(0, std::array<std::uint64_t, 1>{0}, std::array<std::uint64_t, 1>{4}, values);
+      MapWriter writer(directory / "map.h5", layout);
+      write_whole_map(writer, layout, {values});
       writer.finish();
     }
     const MapReader reader(directory / "map.h5");

@@ -1,3 +1,4 @@
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <array>
@@ -6,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <random>
+#include <thread>
 
 #include "results/hdf5.hpp"
 #include "results/map_reader.hpp"
@@ -13,6 +15,7 @@
 #include "results/store_error.hpp"
 #include "sample.hpp"
 #include "temporary_directory.hpp"
+#include "whole_map.hpp"
 
 using namespace frahm::results;
 using Catch::Matchers::Contains;
@@ -34,6 +37,25 @@ std::string refusal(const std::function<void()>& act) {
   }
   return "";
 }
+
+// As long as it lives, what the process prints on stderr goes to a file.
+class StderrInFile {
+ public:
+  explicit StderrInFile(const std::filesystem::path& path) : before_(::dup(STDERR_FILENO)) {
+    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    ::dup2(file, STDERR_FILENO);
+    ::close(file);
+  }
+  StderrInFile(const StderrInFile&) = delete;
+  StderrInFile& operator=(const StderrInFile&) = delete;
+  ~StderrInFile() {
+    ::dup2(before_, STDERR_FILENO);
+    ::close(before_);
+  }
+
+ private:
+  int before_;
+};
 
 // The refusal of the sample's layout after a change.
 std::string refusal_of(const std::function<void(MapLayout&)>& change) {
@@ -119,10 +141,10 @@ TEST_CASE("columns and rows that do not fit together are refused") {
 }
 
 TEST_CASE("a value its type cannot hold is refused by variable, value and rule") {
-  const TemporaryDirectory directory;
-  MapWriter writer(directory / "map.h5", sample::layout());
+  const MapLayout layout = sample::layout();
+  MapChunk chunk(layout);
   const auto write = [&](std::size_t variable, double value) {
-    return refusal([&] { writer.write_block(variable, origin, one, std::vector<double>{value}); });
+    return refusal([&] { chunk.put(variable, {{0, 0}, {1, 1}}, std::vector<double>{value}); });
   };
   CHECK(write(sample::peak, missing).empty());
   CHECK_THAT(write(sample::stops, missing), Contains("'guide_stops': value nan: must be a whole number"));
@@ -134,20 +156,40 @@ TEST_CASE("a value its type cannot hold is refused by variable, value and rule")
   CHECK_THAT(write(sample::phase, 1e39), Contains("float32"));
 }
 
-TEST_CASE("a block outside the map, or with other than its values, is refused") {
-  const TemporaryDirectory directory;
-  MapWriter writer(directory / "map.h5", sample::layout());
-  const auto write = [&](std::vector<std::uint64_t> start, std::vector<std::uint64_t> count,
-                         std::size_t values) {
-    return refusal([&] { writer.write_block(0, start, count, std::vector<double>(values)); });
+TEST_CASE("a block outside its chunk or the map, or with other than its values, is refused") {
+  const MapLayout layout = sample::layout();
+  MapChunk chunk(layout);
+  chunk.begin({4, 64});  // its last design and its last 26 frequencies are beyond the map's edge
+  const auto put = [&](std::vector<std::uint64_t> start, std::vector<std::uint64_t> count,
+                       std::size_t values) {
+    return refusal([&] { chunk.put(0, {start, count}, std::vector<double>(values)); });
   };
-  CHECK_THAT(write({4, 60}, {1, 11}, 11),
-             Contains("main_peak: block of [1, 11] at [4, 60]: must lie within [5, 70]"));
-  CHECK_THAT(write({6, 0}, {1, 1}, 1), Contains("must lie within"));
-  CHECK_THAT(write({1, 0}, {std::numeric_limits<std::uint64_t>::max(), 1}, 1), Contains("must lie within"));
-  CHECK_THAT(write({0}, {1}, 1), Contains("must lie within"));
-  CHECK_THAT(write({0, 0}, {2, 3}, 5), Contains("5 values for a block of [2, 3]"));
-  CHECK_THAT(refusal([&] { writer.write_block(5, origin, one, std::vector{1.0}); }), Contains("variable 5"));
+  CHECK(put({4, 64}, {1, 6}, 6).empty());
+  CHECK_THAT(
+      put({4, 64}, {1, 7}, 7),
+      Contains("main_peak: block of [1, 7] at [4, 64]: must lie within the chunk of [1, 6] at [4, 64]"));
+  CHECK_THAT(put({3, 64}, {1, 6}, 6), Contains("must lie within"));
+  CHECK_THAT(put({5, 64}, {1, 6}, 6), Contains("must lie within"));
+  CHECK_THAT(put({4, 65}, {1, std::numeric_limits<std::uint64_t>::max()}, 1), Contains("must lie within"));
+  CHECK_THAT(put({4}, {1}, 1), Contains("must lie within"));
+  CHECK_THAT(put({4, 64}, {1, 3}, 5), Contains("5 values for a block of [1, 3]"));
+  CHECK_THAT(refusal([&] { chunk.put(5, {{4, 64}, {1, 1}}, std::vector{1.0}); }), Contains("variable 5"));
+}
+
+TEST_CASE("a chunk that does not begin where the map has one is refused, and one of other variables") {
+  const MapLayout layout = sample::layout();
+  MapChunk chunk(layout);
+  const auto begin = [&](std::vector<std::uint64_t> start) { return refusal([&] { chunk.begin(start); }); };
+  CHECK(begin({2, 32}).empty());
+  CHECK_THAT(begin({1, 32}),
+             Contains("chunk at [1, 32]: must begin at a multiple of [2, 32] within [5, 70]"));
+  CHECK_THAT(begin({6, 0}), Contains("must begin"));
+  CHECK_THAT(begin({0}), Contains("must begin"));
+  const TemporaryDirectory directory;
+  MapWriter writer(directory / "map.h5", layout);
+  EncodedChunk encoded = chunk.encoded();
+  encoded.variables.pop_back();
+  CHECK_THAT(refusal([&] { writer.write_chunk(encoded); }), Contains("chunk of 4 variables: must be 5"));
 }
 
 TEST_CASE("a text that is not UTF-8 is refused") {
@@ -237,6 +279,21 @@ TEST_CASE("reading what is not there is refused") {
              Contains("map.h5:/decay") && Contains("cannot open the group"));
 }
 
+TEST_CASE(
+    "a write that fails in a thread that did not open the file is thrown there, and HDF5 prints nothing") {
+  const TemporaryDirectory directory;
+  sample::write(directory / "map.h5");
+  hdf5::File to_read = hdf5::File::open(directory / "map.h5");
+  hdf5::Dataset peak = to_read.root().dataset("main_peak");
+  const StderrInFile printed(directory / "stderr");
+  std::string chunk_refusal, growth_refusal;
+  std::jthread([&] { chunk_refusal = refusal([&] { peak.write_chunk(Shape{0, 0}, Bytes(10)); }); }).join();
+  std::jthread([&] { growth_refusal = refusal([&] { peak.grow(6); }); }).join();
+  CHECK_THAT(chunk_refusal, Contains("map.h5:/main_peak: cannot write a chunk"));
+  CHECK_THAT(growth_refusal, Contains("map.h5:/main_peak: cannot grow"));
+  CHECK(std::filesystem::file_size(directory / "stderr") == 0);
+}
+
 TEST_CASE("a damaged chunk is an error, not a wrong number") {
   const TemporaryDirectory directory;
   const auto path = directory / "map.h5";
@@ -244,11 +301,12 @@ TEST_CASE("a damaged chunk is an error, not a wrong number") {
   std::mt19937_64 random(1);
   std::vector<double> noise(64 * 64);
   for (double& value : noise) value = std::uniform_real_distribution<double>(1.0, 2.0)(random);
+  const MapLayout layout{.axes = {{.name = "p", .size = 64}, {.name = "q", .size = 64}},
+                         .variables = {{.name = "x", .unit = "m", .long_name = "x"}},
+                         .chunk = {64, 64}};
   {
-    MapWriter writer(path, {.axes = {{.name = "p", .size = 64}, {.name = "q", .size = 64}},
-                            .variables = {{.name = "x", .unit = "m", .long_name = "x"}},
-                            .chunk = {64, 64}});
-    writer.write_block(0, origin, shape, noise);
+    MapWriter writer(path, layout);
+    write_whole_map(writer, layout, {noise});
     writer.finish();
   }
   CHECK(MapReader(path).read(0, origin, shape) == noise);

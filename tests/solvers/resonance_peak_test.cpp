@@ -122,6 +122,13 @@ TEST_CASE("without damping the peak is unbounded, whether or not the resonance i
   }
 }
 
+TEST_CASE("a response at one place alone ends the search, as its peak has no width") {
+  const auto peak = find_resonance_peak([](double r) { return r == 1.5 ? 1e-47 : 0.0; }, grid(1.0, 2.0, 11));
+  CHECK(peak.at == 1.5);
+  CHECK(std::isnan(peak.half_power_low));
+  CHECK(std::isnan(peak.half_power_high));
+}
+
 TEST_CASE("a coarse grid does not choose between two modes of nearly one height") {
   const auto two = [](double r) { return viscous(r, 0.005) + 0.98 * viscous(r / 1.5, 0.005); };
   for (const int points : {11, 21, 41, 101, 1001}) {

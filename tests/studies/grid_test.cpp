@@ -32,7 +32,27 @@ std::vector<int> visits(const Grid& grid) {
   return visited;
 }
 
+// Chunks hold tile after tile, each in one chunk.
+void check_tiles_of_chunks(const Grid& grid) {
+  std::uint64_t next = 0;  // the tile to come
+  for (std::uint64_t chunk = 0; chunk < grid.chunks(); ++chunk) {
+    const MapBox box = grid.chunk_box(chunk);
+    CHECK(grid.tile_of(box.start) == next);
+    for (std::uint64_t points = 0; points < box.points(); ++next) {
+      const MapBox tile = grid.box(next);
+      CHECK(grid.tile_of(tile.start) == next);
+      for (std::size_t d = 0; d < tile.start.size(); ++d) {
+        REQUIRE(tile.start[d] >= box.start[d]);
+        REQUIRE(tile.start[d] + tile.count[d] <= box.start[d] + box.count[d]);
+      }
+      points += tile.points();
+    }
+  }
+  CHECK(next == grid.tiles());
+}
+
 void check_chunks(const Grid& grid) {
+  check_tiles_of_chunks(grid);
   for (std::size_t d = 0; d < grid.shape.size(); ++d) {
     INFO("dimension " << d << ": chunk " << grid.chunk[d] << ", tile " << grid.tile[d]);
     CHECK((grid.chunk[d] % grid.tile[d] == 0 || grid.chunk[d] == grid.shape[d]));
@@ -43,7 +63,8 @@ TEST_CASE("the tiles of a map hold each of its points once, and its chunks are u
   for (const std::string& axes :
        {axis("r", 0.1, 2, 7), axis("r", 0.1, 2, 9001), axis("f", 0, 1, 31) + axis("r", 0.1, 2, 401),
         axis("r", 0.1, 2, 401) + axis("f", 0, 1, 31), axis("f", 0, 1, 5) + axis("zeta", 0, 1, 600),
-        axis("zeta", 0, 1, 3) + axis("r", 0.1, 2, 5) + axis("f", 0, 1, 700)}) {
+        axis("zeta", 0, 1, 3) + axis("r", 0.1, 2, 5) + axis("f", 0, 1, 700),
+        axis("zeta", 0, 1, 53) + axis("r", 0.1, 2, 301) + axis("f", 0, 1, 41)}) {
     INFO(axes);
     const Grid grid = grid_of(study_of(axes));
     const std::vector<int> visited = visits(grid);

@@ -1,0 +1,18 @@
+#include "engine/stop_request.hpp"
+
+#include <fmt/format.h>
+
+namespace frahm::engine {
+
+bool StopRequest::asked() const {
+  return signals_.received() != 0 || (budget_ && elapsed() >= *budget_);
+}
+
+std::string StopRequest::reason() const {
+  if (signals_.received() != 0) return "stopped by " + signal_name(signals_.received());
+  if (budget_ && elapsed() >= *budget_)
+    return fmt::format("the time budget of {} s is used up", budget_->count());
+  return "";
+}
+
+}  // namespace frahm::engine

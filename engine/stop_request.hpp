@@ -1,0 +1,32 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include "engine/stop_signals.hpp"
+
+namespace frahm::engine {
+
+// What may end a piece of work before it is done: a signal (engine/stop_signals), or the end of a time budget
+// of which a part may be used already. Only one may live at a time, as of the signals.
+class StopRequest {
+ public:
+  using Seconds = std::chrono::duration<double>;
+
+  explicit StopRequest(std::optional<Seconds> budget, Seconds used = Seconds(0.0))
+      : budget_(budget), used_(used) {}
+
+  bool asked() const;
+  Seconds elapsed() const { return used_ + (std::chrono::steady_clock::now() - start_); }
+  // "stopped by SIGTERM", "the time budget of 60 s is used up"; empty if nothing was asked.
+  std::string reason() const;
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::optional<Seconds> budget_;
+  Seconds used_;
+  StopSignals signals_;
+};
+
+}  // namespace frahm::engine

@@ -1,0 +1,115 @@
+#include "studies/map/earlier_axes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "studies/map/value_match.hpp"
+#include "studies/reading/units.hpp"
+
+namespace frahm::studies {
+namespace {
+
+// A parameter on an axis of the earlier map, and its axis here.
+struct CommonParameter {
+  std::size_t axis = 0;                // index in StudyFile::axes
+  std::vector<double> earlier_values;  // SI
+};
+
+[[noreturn]] void fail(const std::string& file, const std::string& why) {
+  throw StudyError(fmt::format("--from {}: {}", file, why));
+}
+
+// As the values of the study's own axes become SI, so that the same values are the same to the last bit.
+std::vector<double> si_values(const Parameter& parameter, const results::Coordinate& coordinate,
+                              const UnitSystem& units) {
+  std::vector<double> values = coordinate.values;
+  if (coordinate.unit == "1") return values;  // a pure number, or SI
+  const double factor = si_factor(parameter, units.parse(coordinate.unit));
+  for (double& value : values) value *= factor;
+  return values;
+}
+
+std::vector<CommonParameter> parameters_on(const StudyFile& study, const results::Axis& earlier,
+                                           const UnitSystem& units, const std::string& file) {
+  std::vector<CommonParameter> found;
+  for (std::size_t a = 0; a < study.axes.size(); ++a) {
+    const Parameter& parameter = study.parameters.list[study.axes[a].parameter];
+    const auto coordinate =
+        std::ranges::find(earlier.coordinates, parameter.name, &results::Coordinate::name);
+    if (coordinate == earlier.coordinates.end()) continue;
+    try {
+      found.push_back({a, si_values(parameter, *coordinate, units)});
+    } catch (const UnitError& error) {
+      fail(file, fmt::format("axis \"{}\": {}", parameter.name, error.what()));
+    }
+  }
+  if (found.empty()) fail(file, fmt::format("its axis \"{}\" is none of this study's", earlier.name));
+  return found;
+}
+
+// The dimension of the study that holds all these parameters.
+std::size_t common_dimension(const StudyFile& study, const std::vector<CommonParameter>& parameters,
+                             const std::string& earlier, const std::string& file) {
+  for (std::size_t d = 0; d < study.dimensions.size(); ++d) {
+    const auto& axes = study.dimensions[d].axes;
+    const auto is_here = [&](const CommonParameter& each) {
+      return std::ranges::find(axes, each.axis) != axes.end();
+    };
+    if (std::ranges::all_of(parameters, is_here)) return d;
+  }
+  fail(file, fmt::format("the parameters of its dimension \"{}\" advance together there and have dimensions "
+                         "of their own here, so that its points cannot be found on this grid",
+                         earlier));
+}
+
+// For each index the numbers of the known values that its parameters have; nothing if one has none.
+using Place = std::vector<std::uint32_t>;
+
+std::optional<Place> place_of(const std::vector<std::vector<std::uint32_t>>& numbers, std::size_t index) {
+  Place place;
+  for (const auto& of_parameter : numbers) {
+    if (of_parameter[index] == ValueMatch::none) return std::nullopt;
+    place.push_back(of_parameter[index]);
+  }
+  return place;
+}
+
+EarlierDimension match(const StudyFile& study, const results::Axis& earlier, const UnitSystem& units,
+                       const std::string& file) {
+  const std::vector<CommonParameter> parameters = parameters_on(study, earlier, units, file);
+  EarlierDimension dimension{.along = common_dimension(study, parameters, earlier.name, file), .index = {}};
+  std::vector<std::vector<std::uint32_t>> known, wanted;
+  for (const CommonParameter& each : parameters) {
+    ValueMatch same = match_values(each.earlier_values, study.axes[each.axis].si_values);
+    known.push_back(std::move(same.known));
+    wanted.push_back(std::move(same.wanted));
+  }
+  std::map<Place, std::uint64_t> index_of;  // the first, where points of a zip are the same
+  for (std::uint64_t i = 0; i < earlier.size; ++i) index_of.emplace(*place_of(known, i), i);
+  bool any = false;
+  for (std::size_t i = 0; i < study.dimensions[dimension.along].size; ++i) {
+    const auto place = place_of(wanted, i);
+    const auto found = place ? index_of.find(*place) : index_of.end();
+    any = any || found != index_of.end();
+    dimension.index.push_back(found == index_of.end() ? EarlierDimension::nowhere : found->second);
+  }
+  if (!any)
+    fail(file, fmt::format("\"{}\" has no value in common with this study's: there is no point to take over",
+                           earlier.name));
+  return dimension;
+}
+
+}  // namespace
+
+std::vector<EarlierDimension> match_axes(const StudyFile& study, const results::MapLayout& earlier,
+                                         const std::string& file) {
+  const UnitSystem units;
+  std::vector<EarlierDimension> dimensions;
+  for (const results::Axis& axis : earlier.axes) dimensions.push_back(match(study, axis, units, file));
+  return dimensions;
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "results/layout.hpp"
+#include "studies/reading/study_file.hpp"
+
+namespace frahm::studies {
+
+// Where the points of a study's map lie along one dimension of an earlier map.
+struct EarlierDimension {
+  static constexpr std::uint64_t nowhere = std::numeric_limits<std::uint64_t>::max();
+
+  std::size_t along = 0;             // the dimension of the study on which it depends
+  std::vector<std::uint64_t> index;  // of each index of that: in the earlier map, or `nowhere`
+};
+
+// Of each dimension of an earlier map of the same physics. Parameters are compared by their SI values
+// (value_match.hpp), so that the axes may have other values, steps, units and order.
+// file: the earlier map, for messages.  Throws StudyError where an axis has no value in common, and where
+// parameters that advanced together have dimensions of their own now.
+std::vector<EarlierDimension> match_axes(const StudyFile& study, const results::MapLayout& earlier,
+                                         const std::string& file);
+
+}  // namespace frahm::studies

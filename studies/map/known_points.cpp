@@ -1,0 +1,166 @@
+#include "studies/map/known_points.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+
+#include "engine/fingerprint.hpp"
+#include "results/store_error.hpp"
+#include "solvers/periodic/orbit.hpp"
+#include "studies/map/fingerprint.hpp"
+#include "studies/map/finished_file.hpp"
+
+namespace frahm::studies {
+namespace {
+
+using periodic::QuantityKind;
+
+void refuse_another_physics(const MapPlan& plan, const results::MapReader& earlier,
+                            const std::filesystem::path& file) {
+  const engine::Fingerprint kept = fingerprint_of(earlier);
+  if (kept.physics == plan.fingerprint.physics) return;
+  throw engine::ResumeRefused(file, kept, plan.fingerprint,
+                              "none of its points can be taken over; leave --from out to compute them all");
+}
+
+std::size_t variable_named(const results::MapLayout& layout, const std::string& name,
+                           const std::filesystem::path& file) {
+  const auto found = std::ranges::find(layout.variables, name, &results::Variable::name);
+  if (found == layout.variables.end())
+    throw results::StoreError(file.string() + ":/" + name, "is not in the map, though its study records it",
+                              "");
+  return static_cast<std::size_t>(std::distance(layout.variables.begin(), found));
+}
+
+bool is_missing(double value, QuantityKind kind) {
+  if (kind == QuantityKind::flag) return value == 0.0;
+  return kind == QuantityKind::count ? value == -1.0 : std::isnan(value);
+}
+
+// The index of a point from its number, row-major.
+std::vector<std::uint64_t> index_of(std::uint64_t offset, const results::MapLayout& layout) {
+  std::vector<std::uint64_t> index(layout.axes.size());
+  for (std::size_t d = index.size(); d-- > 0; offset /= layout.axes[d].size)
+    index[d] = offset % layout.axes[d].size;
+  return index;
+}
+
+}  // namespace
+
+KnownPoints::KnownPoints(const MapPlan& plan, const std::filesystem::path& file)
+    : plan_(plan), file_(file), reader_(file) {
+  refuse_another_physics(plan, reader_, file);
+  source_ = {.file = file.string(), .identity = identity_of(reader_.texts("provenance"))};
+  dimensions_ = match_axes(plan.study, reader_.layout(), file.string());
+  for (const auto& variable : plan.variables)
+    variables_.push_back(variable_named(reader_.layout(), variable.name, file));
+  for (std::size_t q = 0; q < plan.variables.size(); ++q) {
+    const std::string& name = plan.variables[q].name;
+    if (name == "status" || name == "status_compared") statuses_.push_back(q);
+    has_own_status_ = has_own_status_ || name == "status";
+  }
+}
+
+void KnownPoints::take(const MapBox& box, std::span<double> values, std::vector<char>& known) {
+  const std::uint64_t points = box.points();
+  known.assign(points, 0);
+  const std::vector<Found> found = find(box);
+  for (auto begin = found.begin(); begin != found.end();) {
+    const auto end =
+        std::find_if(begin, found.end(), [&](const Found& f) { return f.chunk != begin->chunk; });
+    read_chunk({begin, end}, points, values);
+    begin = end;
+  }
+  std::uint64_t taken = 0;
+  for (const Found& point : found) {
+    if (!is_answer(values, points, point.place)) continue;
+    known[point.place] = 1;
+    ++taken;
+  }
+  taken_ += taken;
+}
+
+// The points of a tile that the earlier map has, those of one chunk after the other.
+std::vector<KnownPoints::Found> KnownPoints::find(const MapBox& box) const {
+  const results::MapLayout& layout = reader_.layout();
+  std::vector<std::size_t> dimensions(box.start.size());
+  std::iota(dimensions.begin(), dimensions.end(), std::size_t{0});
+  std::vector<Found> found;
+  std::vector<std::uint64_t> index = box.start;
+  std::uint64_t place = 0;
+  do {
+    Found point{.place = place++};
+    bool is_there = true;
+    for (std::size_t d = 0; d < dimensions_.size() && is_there; ++d) {
+      const std::uint64_t at = dimensions_[d].index[index[dimensions_[d].along]];
+      const std::uint64_t size = layout.axes[d].size, chunk = layout.chunk[d];
+      is_there = at != EarlierDimension::nowhere;
+      point.offset = point.offset * size + at;
+      point.chunk = point.chunk * ((size + chunk - 1) / chunk) + at / chunk;
+    }
+    if (is_there) found.push_back(point);
+  } while (next_point(box, dimensions, index));
+  std::ranges::stable_sort(found, {}, &Found::chunk);
+  return found;
+}
+
+// The values of points that lie in one chunk of the earlier map.
+void KnownPoints::read_chunk(std::span<const Found> points, std::uint64_t points_of_tile,
+                             std::span<double> values) {
+  const MapBox box = box_around(points);
+  std::vector<std::uint64_t> from(points.size());  // of each point within the box
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::vector<std::uint64_t> index = index_of(points[i].offset, reader_.layout());
+    for (std::size_t d = 0; d < index.size(); ++d) from[i] = from[i] * box.count[d] + index[d] - box.start[d];
+  }
+  const std::lock_guard turn(reading_);
+  for (std::size_t q = 0; q < variables_.size(); ++q) {
+    const std::vector<double> read = read_variable(variables_[q], box);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      values[q * points_of_tile + points[i].place] = read[from[i]];
+  }
+}
+
+std::vector<double> KnownPoints::read_variable(std::size_t variable, const MapBox& box) const {
+  try {
+    return reader_.read(variable, box.start, box.count);
+  } catch (const results::StoreError& error) {
+    throw results::StoreError(error.what(), "so its points cannot be taken over",
+                              "without --from all points are computed anew");
+  }
+}
+
+MapBox KnownPoints::box_around(std::span<const Found> points) const {
+  std::vector<std::uint64_t> first = index_of(points.front().offset, reader_.layout()), last = first;
+  for (const Found& point : points) {
+    const std::vector<std::uint64_t> index = index_of(point.offset, reader_.layout());
+    for (std::size_t d = 0; d < index.size(); ++d) {
+      first[d] = std::min(first[d], index[d]);
+      last[d] = std::max(last[d], index[d]);
+    }
+  }
+  MapBox box{.start = first, .count = last};
+  for (std::size_t d = 0; d < first.size(); ++d) box.count[d] = last[d] - first[d] + 1;
+  return box;
+}
+
+// Whether a point of the earlier map was computed and has not failed.
+bool KnownPoints::is_answer(std::span<const double> values, std::uint64_t points_of_tile,
+                            std::uint64_t place) const {
+  const auto value = [&](std::size_t variable) { return values[variable * points_of_tile + place]; };
+  for (const std::size_t status : statuses_) {
+    if (value(status) == static_cast<double>(periodic::Status::not_computed) ||
+        value(status) == static_cast<double>(periodic::Status::failed))
+      return false;
+  }
+  if (has_own_status_) return true;
+  for (std::size_t q = 0; q < plan_.quantities.size(); ++q) {
+    if (!is_missing(value(q), plan_.variables[q].kind)) return true;
+  }
+  return false;
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "results/map_reader.hpp"
+#include "studies/map/earlier_axes.hpp"
+#include "studies/map/map_plan.hpp"
+
+namespace frahm::studies {
+
+// The points of a map that an earlier result of the same physics holds, on whatever grid: reused by content,
+// the SI values of their parameters. Not reused are points that failed there or were not computed, and where
+// no status is recorded those of which nothing is.
+//
+// For all threads together: the file is read by one at a time, as HDF5 is. It is read by chunks as they are
+// needed; memory is bounded by one chunk for each thread and the chunk cache of HDF5.
+class KnownPoints {
+ public:
+  // plan: of the map to be; must outlive this.  file: finished or partial.  Throws engine::ResumeRefused for
+  // a result of another physics, StudyError where no point can be common, results::StoreError.
+  KnownPoints(const MapPlan& plan, const std::filesystem::path& file);
+
+  // Puts the values of the tile's known points in their places among `values` (of a TileRecord) and marks
+  // these places in `known`, one for each point of the box.  Throws results::StoreError for damaged data.
+  void take(const MapBox& box, std::span<double> values, std::vector<char>& known);
+
+  EarlierResult source() const { return source_; }
+  std::uint64_t taken() const { return taken_; }  // points so far
+
+ private:
+  // A point of a tile that the earlier map has.
+  struct Found {
+    std::uint64_t chunk = 0;   // number of its chunk in the earlier map
+    std::uint64_t offset = 0;  // in the earlier map, row-major
+    std::uint64_t place = 0;   // in the tile
+  };
+
+  std::vector<Found> find(const MapBox& box) const;
+  void read_chunk(std::span<const Found> points, std::uint64_t points_of_tile, std::span<double> values);
+  std::vector<double> read_variable(std::size_t variable, const MapBox& box) const;
+  MapBox box_around(std::span<const Found> points) const;
+  bool is_answer(std::span<const double> values, std::uint64_t points_of_tile, std::uint64_t place) const;
+
+  const MapPlan& plan_;
+  std::filesystem::path file_;
+  results::MapReader reader_;
+  EarlierResult source_;
+  std::vector<EarlierDimension> dimensions_;  // of the earlier map
+  std::vector<std::size_t> variables_;        // in the earlier map, of each of the plan's
+  std::vector<std::size_t> statuses_;         // those of the plan's variables that say how a response ended
+  bool has_own_status_ = false;               // that of the study's own response is among them
+  std::mutex reading_;
+  std::atomic<std::uint64_t> taken_ = 0;
+};
+
+}  // namespace frahm::studies

@@ -1,0 +1,40 @@
+#include "studies/program/growing.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <system_error>
+
+#include "studies/map/finished_file.hpp"
+#include "studies/program/study_note.hpp"
+
+namespace frahm::studies {
+
+bool grows_in_place(const StudyPlan& plan, const std::filesystem::path& from,
+                    const std::filesystem::path& output) {
+  std::error_code ignored;  // one that is not there is not the other
+  if (from.empty() || !std::filesystem::equivalent(from, output, ignored)) return false;
+  return fingerprint_of_file(output) != plan.fingerprint || is_partial(output);
+}
+
+std::string advice_about_logs(const engine::ResumeRefused& refused, const StudyPlan& plan,
+                              const std::filesystem::path& output) {
+  if (refused.physics_differs() || plan.study.kind != StudyKind::sweep) return "";
+  constexpr const char* otherwise = "name another file with -o, or discard what is there with --fresh";
+  if (refused.kept() == plan.header_of_logs(""))
+    return fmt::format("it was begun without --from: leave that out to go on, {}", otherwise);
+  const auto source = source_of_logs(output, refused.kept());
+  if (source && refused.kept() == plan.header_of_logs(source->identity)) {
+    if (!plan.grown_from)
+      return fmt::format("it was begun with --from {0}: add --from {0} to go on, {1}", source->file,
+                         otherwise);
+    return fmt::format("it was begun with --from {}, as that was then: give the same file to go on, {}",
+                       source->file, otherwise);
+  }
+  return fmt::format(
+      "finish that run first, or make a map of what there is with \"frahm merge {0} --partial\"; then add "
+      "--from {0} -o ANOTHER.h5 to reuse its points; or {1}",
+      output.string(), otherwise);
+}
+
+}  // namespace frahm::studies

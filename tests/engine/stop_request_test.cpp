@@ -1,0 +1,29 @@
+#include "engine/stop_request.hpp"
+
+#include <catch2/catch.hpp>
+#include <csignal>
+
+using namespace frahm::engine;
+using namespace std::chrono_literals;
+
+TEST_CASE("without a budget only a signal asks to stop, and is the reason") {
+  const StopRequest stop(std::nullopt);
+  CHECK_FALSE(stop.asked());
+  CHECK(stop.reason().empty());
+  std::raise(SIGTERM);
+  CHECK(stop.asked());
+  CHECK(stop.reason() == "stopped by SIGTERM");
+}
+
+TEST_CASE("a time budget asks to stop when it is used up, and not before") {
+  const StopRequest long_one(1h);
+  CHECK_FALSE(long_one.asked());
+  CHECK(long_one.reason().empty());
+}
+
+TEST_CASE("a part of the budget may be used before") {
+  const StopRequest stop(60s, 61s);
+  CHECK(stop.asked());
+  CHECK(stop.elapsed() >= 61s);
+  CHECK(stop.reason() == "the time budget of 60 s is used up");
+}
