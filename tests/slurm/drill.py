@@ -37,9 +37,6 @@ class Drill:
         script = [os.path.join(self.scripts, word) if word.endswith(".sh") else word for word in words]
         return self.cluster.run("sbatch", "--parsable", *script).strip()
 
-    def status(self, output):
-        return self.cluster.run("frahm", "status", output)
-
     def fields(self, job):
         return dict(re.findall(r"(\w+)=(\S*)", self.cluster.run("scontrol", "show", "job", job)))
 
@@ -62,37 +59,44 @@ def told(text):
     print(f"slurm: {text}", flush=True)
 
 
+def at_work(drill, output):
+    """How many tasks of an array, or 1 for a run of the whole; 0 if none, or nothing is there yet."""
+    found = subprocess.run(["frahm", "status", output], env=drill.cluster.environment, capture_output=True, text=True,
+                           timeout=20).stdout
+    several = re.search(r"at work +(\d+) of \d+ array tasks", found)
+    return int(several[1]) if several else int("a run of the whole" in found)
+
+
 def check_array(drill):
     """The array job: one task requeued, one stopped by its time limit, one node killed; merged by a job of its own."""
     cluster = drill.cluster
+    timed, requeued = 2, 1
+    script = "array.sh", str(TASKS), "study.toml", "array.h5"
     drill.wait_for_time_check()
-    array = drill.submit(f"--array=0-{TASKS - 1}", "--time=10", "array.sh", str(TASKS), "study.toml", "array.h5")
-    merge = drill.submit(f"--dependency=afterok:{array}", "--time=10", "merge.sh", "array.h5")
-    everybody = f"{TASKS} of {TASKS} array tasks: 0-{TASKS - 1}"
-    wait_until("all tasks are at work", 20, lambda: os.path.exists("frahm-%s_%d.log" % (array, TASKS - 1)) and
-               everybody in subprocess.run(["frahm", "status", "array.h5"], env=cluster.environment, capture_output=True,
-                                           text=True, timeout=20).stdout)
-    # Now its time is up, 90 s before which Slurm gives notice: at slurmctld's next look.
-    cluster.run("scontrol", "update", f"JobId={array}_2", "TimeLimit=1")
-    status = drill.status("array.h5")
-    assert re.search(r"points +\d+ of \d+ done", status) and f"--array=0-{TASKS - 1}" in status, status
-    cluster.run("scontrol", "requeue", f"{array}_1")
-    victims = {task: drill.fields(f"{array}_{task}")["NodeList"] for task in range(TASKS)}
-    node = next(node for node in victims.values() if node not in (victims[1], victims[2]))
+    # Submitted by itself, a task still means the same shard. It has less time than its script wants to be told ahead.
+    alone = drill.submit(f"--array={timed}", "--time=1", *script)
+    rest = drill.submit(f"--array=0-{timed - 1},{timed + 1}-{TASKS - 1}", "--time=10", *script)
+    merge = drill.submit(f"--dependency=afterok:{alone}:{rest}", "--time=10", "merge.sh", "array.h5")
+    tasks = [f"{alone if task == timed else rest}_{task}" for task in range(TASKS)]
+    wait_until("the tasks are at work", 30, lambda: at_work(drill, "array.h5") >= TASKS - 1)
+    cluster.run("scontrol", "requeue", tasks[requeued])
+    nodes = [drill.fields(task)["NodeList"] for task in tasks]
+    node = next(node for node in nodes if node not in (nodes[timed], nodes[requeued]))
     cluster.kill_node(node)
     cluster.run("scontrol", "update", f"NodeName={node}", "State=DOWN", "Reason=drill")
-    wait_until("task 2 is stopped by its time limit", 40,
-               lambda: "goes back into the queue" in open(f"frahm-{array}_2.log").read())
-    told("array: task 1 requeued, task 2 stopped by its time limit, node %s killed" % node)
-    print(drill.status("array.h5"), end="")
+    log = f"frahm-{tasks[timed]}.log"
+    wait_until(f"task {timed} is stopped by its time limit", 40, lambda: "goes back into the queue" in open(log).read())
+    assert "stopped by SIGUSR1" in open(log).read()
+    told(f"array: task {requeued} requeued, task {timed} stopped by its time limit, node {node} killed")
+    status = cluster.run("frahm", "status", "array.h5")
+    print(status, end="")
+    assert re.search(r"points +\d+ of \d+ done", status) and "missing tasks" in status and "--array=" in status
     cluster.start_node(node)
     cluster.run("scontrol", "update", f"NodeName={node}", "State=RESUME")
-    tasks = [f"{array}_{task}" for task in range(TASKS)]
     drill.wait_for_end([*tasks, merge])
-    assert "stopped by SIGUSR1" in open(f"frahm-{array}_2.log").read()
-    again = [task for task, where in victims.items() if task in (1, 2) or where == node]
+    again = [task for task, where in enumerate(nodes) if task in (timed, requeued) or where == node]
     assert all(drill.restarts(tasks[task]) >= 1 for task in again), again
-    assert "finished" in drill.status("array.h5")
+    assert "finished" in cluster.run("frahm", "status", "array.h5")
     assert "nothing is left to merge" in cluster.run("frahm", "merge", "array.h5")
     told(f"array: tasks {again} ran again, the rest once; merged")
 
@@ -101,24 +105,45 @@ def check_mpi(drill):
     """The MPI job on two nodes: stopped by a signal that the script hands on to the ranks, then requeued by hand."""
     cluster = drill.cluster
     job = drill.submit("--nodes=2", "--ntasks=4", "--time=10", "mpi.sh", "study.toml", "mpi.h5")
-    running = lambda: subprocess.run(["frahm", "status", "mpi.h5"], env=cluster.environment, capture_output=True, text=True,
-                                     timeout=20).stdout
-    wait_until("the ranks are at work", 30, lambda: "a run of the whole" in running())
+    wait_until("the ranks are at work", 30, lambda: at_work(drill, "mpi.h5"))
     cluster.run("scancel", "--signal=USR1", "--batch", job)
     log = f"frahm-{job}.log"
     wait_until("the ranks have stopped", 30, lambda: "goes back into the queue" in open(log).read())
     assert "stopped by SIGUSR1" in open(log).read()
-    wait_until("the job runs again", 60, lambda: "a run of the whole" in running())
+    wait_until("the job runs again", 60, lambda: at_work(drill, "mpi.h5"))
     cluster.run("scontrol", "requeue", job)
     drill.wait_for_end([job])
     assert drill.restarts(job) == 2
     told("mpi: stopped by a signal, requeued, finished")
 
 
-def reduced_study(source, path):
+def check_printed_lines(drill, source, raw_bytes):
+    """The lines that `frahm check` prints, given to a shell as they stand; names and values need quoting."""
+    reduced_study(source, "a small study.toml", 5, frequencies=101)
+    replaced = "--set", "K=8200 N/m"
+    printed = drill.cluster.run("frahm", "check", "a small study.toml", *replaced)
+    assert "may have 1001 here" in printed, printed  # MaxArraySize of this Slurm
+    lines = [line.strip() for line in printed.splitlines() if line.startswith(("  sbatch ", "  frahm merge "))]
+    assert len(lines) == 2, printed
+    job = drill.cluster.run("sh", "-c", lines[0]).split()[-1]
+    drill.wait_for_end([f"{job}_0", f"{job}_1"])
+    drill.cluster.run("sh", "-c", lines[1])
+    drill.cluster.run("frahm", "run", "a small study.toml", *replaced, "-o", "small.h5")
+    check_same(raw_bytes("a small study.h5"), raw_bytes("small.h5"), "the lines that check prints")
+    told("the lines that check prints were submitted as they stand")
+
+
+def check_same(found, expected, what):
+    differing = [name for name in {*found, *expected} if found.get(name) != expected.get(name)]
+    assert not differing, f"{what}: other bytes in {', '.join(sorted(differing))}"
+
+
+def reduced_study(source, path, frictions, frequencies=401):
     with open(os.path.join(source, "studies", "rig_atlas.toml")) as file:
-        text, count = re.subn(r"(?m)^points = 31$", f"points = {FRICTIONS}", file.read())
-    assert count == 1
+        text = file.read()
+    for before, after in ((31, frictions), (401, frequencies)):
+        text, count = re.subn(rf"(?m)^points = {before}$", f"points = {after}", text)
+        assert count == 1
     with open(path, "w") as file:
         file.write(text)
 
@@ -137,13 +162,14 @@ def run_drill(program, source):
     with tempfile.TemporaryDirectory(prefix="frahm-drill-") as folder, Cluster(nodes=3, processors=2) as cluster:
         drill = Drill(program, source, folder, cluster)
         try:
-            reduced_study(source, "study.toml")
+            reduced_study(source, "study.toml", FRICTIONS)
             plain_run(program)
             plain = raw_bytes("plain.h5")
+            check_printed_lines(drill, source, raw_bytes)
             check_array(drill)
-            assert raw_bytes("array.h5") == plain, "the array job's file has other bytes"
+            check_same(raw_bytes("array.h5"), plain, "the array job")
             check_mpi(drill)
-            assert raw_bytes("mpi.h5") == plain, "the MPI job's file has other bytes"
+            check_same(raw_bytes("mpi.h5"), plain, "the MPI job")
         except BaseException:
             for name in sorted(os.listdir(".")):
                 if name.endswith(".log"):
