@@ -127,7 +127,8 @@ void assemble(const studies::MapPlan& plan, const std::filesystem::path& output,
   const Clock::time_point start = Clock::now();
   const double cpu_start = cpu_seconds();
   studies::assemble(plan, {.command = "benchmark", .threads = threads, .started = studies::utc_now()},
-                    {.output = made, .logs = links, .threads = threads, .stop_asked = [] { return false; }});
+                    {.output = made, .logs = links, .threads = threads, .stop_asked = [] { return false; }},
+                    engine::OutputLock(made));
   const double cpu = cpu_seconds() - cpu_start, wall = seconds_since(start);
   const double megabytes = 1e-6 * bytes_of_point(plan) * static_cast<double>(plan.grid.points());
   const double millions = 1e-6 * static_cast<double>(plan.grid.points());
