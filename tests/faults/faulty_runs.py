@@ -135,10 +135,10 @@ class Place:
                            FAULT_DO=fault.do, FAULT_ERRNO=str(fault.error))
         return environment
 
-    def start(self, *arguments, environment=None, **how):
-        """The program with its standard streams in pipes, its folder the working directory, in a group of its own."""
+    def start(self, *arguments, environment=None, program=None, **how):
+        """The program (or another) with its standard streams in pipes, its folder the working directory, in a group of its own."""
         how = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "stdin": subprocess.DEVNULL} | how
-        return subprocess.Popen([self.bench.program, *arguments], cwd=self.folder, text=True, errors="replace",
+        return subprocess.Popen([program or self.bench.program, *arguments], cwd=self.folder, text=True, errors="replace",
                                 start_new_session=True, env=environment or dict(os.environ), **how)
 
     def call(self, *arguments, fault=None):

@@ -1,0 +1,120 @@
+"""Ranks of an MPI job killed at random moments and at chosen calls of one of them, one or all at once: the job ends,
+nothing that was finished is lost, and any other way to run the study goes on from there to the same bytes.
+
+usage: ranks.py FRAHM SOURCE_DIR MPIEXEC
+"""
+
+import os
+import random
+import signal
+import sys
+import time
+
+import faulty_runs
+from faulty_runs import (EVERYTHING, OUTPUT, Expected, Fault, ended, in_parallel, larger_sweep, sampled, sweep_study,
+                         tiles_of_log)
+
+RANKS = 3
+KILLS = 15 if EVERYTHING else 4  # at random moments, in each of several series
+CALLS = 40 if EVERYTHING else 5  # of each rank, each before, half-way and after
+AT_ONCE = 4                      # jobs, which mostly wait for their launchers
+ALLOWED = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+           "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_hwloc_base_binding_policy": "none"}
+
+
+class Launcher:
+    """Starts the program on ranks, as Place.start() does on its own."""
+
+    def __init__(self, mpiexec):
+        self.mpiexec = mpiexec
+
+    def start(self, place, ranks, environment=None):
+        command = ["-np", str(ranks), place.bench.program, "run", "study.toml", "-o", OUTPUT, "--threads", "1",
+                   "--progress", "none"]
+        return place.start(*command, environment=dict(environment or os.environ, **ALLOWED), program=self.mpiexec)
+
+
+def ranks_of(process):
+    """The processes that a launcher has started."""
+    with open(f"/proc/{process.pid}/task/{process.pid}/children") as file:
+        return [int(pid) for pid in file.read().split()]
+
+
+def kept(place):
+    return {tile for log in place.logs() for tile in tiles_of_log(place.read(log))}
+
+
+def go_on(launcher, place, expected, case):
+    """By any other way of running."""
+    ranks = random.choice([0, 2, 3])
+    if ranks > 0:
+        outcome = ended(launcher.start(place, ranks))
+        assert outcome.code == 0, f"{case}: on {ranks} ranks: {outcome}"
+    expected.check_resume(place, case)
+
+
+def kill_at_calls(launcher, bench, study, expected):
+    """A rank is killed by its own k-th call; the launcher ends the others."""
+    faults = []
+    for rank in range(RANKS):
+        place = bench.place(study)
+        environment = dict(place.environment(Fault()), FAULT_RANK=str(rank))
+        assert ended(launcher.start(place, RANKS, environment)).code == 0
+        faults += [(rank, Fault(call.number, how)) for call in sampled(place.calls(), CALLS)
+                   for how in ("kill_before", "kill_half", "kill_after")]
+
+    def kill(item):
+        rank, fault = item
+        place = bench.place(study)
+        environment = dict(place.environment(fault), FAULT_RANK=str(rank))
+        outcome = ended(launcher.start(place, RANKS, environment))
+        if outcome.code == 0:  # the tiles were dealt out otherwise: this rank had fewer calls
+            expected.check_file(place, f"rank {rank}, {fault}")
+            return 0
+        go_on(launcher, place, expected, f"rank {rank}, {fault}")
+        return 1
+
+    kills = sum(in_parallel(kill, faults, AT_ONCE))
+    print(f"{kills} kills at calls of a rank", flush=True)
+    assert kills > CALLS
+
+
+def kill_at_random(launcher, bench, study, expected):
+    """One rank, or all of them at once with their launcher."""
+    place, kills, before = bench.place(study), 0, set()
+    while kills < KILLS:
+        process = launcher.start(place, RANKS)
+        time.sleep(random.uniform(0.1, 0.6))
+        ranks = ranks_of(process) if process.poll() is None else []
+        if ranks and random.random() < 0.5:
+            os.kill(random.choice(ranks), signal.SIGKILL)
+        elif ranks:
+            for pid in (process.pid, *ranks):
+                os.kill(pid, signal.SIGKILL)
+        outcome = ended(process)
+        kills += outcome.code != 0
+        if OUTPUT in place.names():
+            expected.check_file(place, "killed ranks")
+            expected.check_resume(place, "killed ranks")
+            place.clear()
+        else:
+            assert before <= kept(place), "tiles were lost"
+        before = kept(place)
+    go_on(launcher, place, expected, "killed ranks")
+    return kills
+
+
+def drill(bench):
+    random.seed(4)
+    launcher = Launcher(mpiexec)
+    study = sweep_study(bench.source)
+    kill_at_calls(launcher, bench, study, Expected(bench.place(study)))
+    study = larger_sweep(bench.source)
+    expected = Expected(bench.place(study))
+    kills = sum(in_parallel(lambda _: kill_at_random(launcher, bench, study, expected), range(AT_ONCE), AT_ONCE))
+    print(f"{kills} random kills of one rank or of all", flush=True)
+
+
+if __name__ == "__main__":
+    mpiexec = sys.argv.pop()
+    faulty_runs.main(drill)
