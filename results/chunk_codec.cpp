@@ -1,12 +1,12 @@
 #include "results/chunk_codec.hpp"
 
 #include <fmt/core.h>
-#include <isa-l/igzip_lib.h>
+#include <libdeflate.h>
 
 #include <algorithm>
 #include <cstring>
-#include <limits>
 #include <memory>
+#include <new>
 #include <stdexcept>
 
 namespace frahm::results {
@@ -39,34 +39,21 @@ Bytes shuffled(std::span<const std::byte> elements, std::size_t element_size) {
   }
 }
 
+struct FreeCompressor {
+  void operator()(libdeflate_compressor* compressor) const { libdeflate_free_compressor(compressor); }
+};
+
 // In zlib's format, with `spare` bytes left free at the end.
 Bytes deflated(std::span<const std::byte> data, std::size_t spare) {
-  // Data that does not compress is stored in blocks of at most 65535 bytes with 5 bytes of header each;
-  // zlib's header and checksum take 6 more. Twice that is kept.
-  const std::size_t bound = data.size() + 10 * (data.size() / 65535 + 1) + 64;
-  if (bound > std::numeric_limits<std::uint32_t>::max()) {
-    throw std::invalid_argument(fmt::format("chunk of {} bytes: must be below 4 GiB", data.size()));
-  }
-  Bytes out(bound + spare);
-  const auto workspace = std::make_unique_for_overwrite<std::uint8_t[]>(ISAL_DEF_LVL1_DEFAULT);
-  isal_zstream stream{};  // the call below leaves out hist_bits, on which the bytes depend
-  isal_deflate_stateless_init(&stream);
-  stream.gzip_flag = IGZIP_ZLIB;
-  stream.level = 1;
-  stream.level_buf = workspace.get();
-  stream.level_buf_size = ISAL_DEF_LVL1_DEFAULT;
-  stream.end_of_stream = 1;
-  stream.flush = NO_FLUSH;
-  // ISA-L does not write to its input; its interface only lacks the const.
-  stream.next_in = const_cast<std::uint8_t*>(reinterpret_cast<const std::uint8_t*>(data.data()));
-  stream.avail_in = static_cast<std::uint32_t>(data.size());
-  stream.next_out = reinterpret_cast<std::uint8_t*>(out.data());
-  stream.avail_out = static_cast<std::uint32_t>(bound);
-  if (const int status = isal_deflate_stateless(&stream); status != COMP_OK) {
-    throw std::logic_error(
-        fmt::format("isal_deflate_stateless of {} bytes returned {}", data.size(), status));
-  }
-  out.resize(stream.total_out + spare);
+  constexpr int level = 1;
+  const std::unique_ptr<libdeflate_compressor, FreeCompressor> compressor(libdeflate_alloc_compressor(level));
+  if (!compressor) throw std::bad_alloc();
+  Bytes out(libdeflate_zlib_compress_bound(compressor.get(), data.size()) + spare);
+  const std::size_t size =
+      libdeflate_zlib_compress(compressor.get(), data.data(), data.size(), out.data(), out.size() - spare);
+  if (size == 0)
+    throw std::logic_error(fmt::format("{} bytes do not compress into their bound", data.size()));
+  out.resize(size + spare);
   return out;
 }
 
