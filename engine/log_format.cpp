@@ -99,7 +99,9 @@ std::optional<LogHeader> read_header(const File& log) {
   Bytes bytes(header_size);
   if (log.read_at(0, bytes) < header_size) return std::nullopt;
   if (std::memcmp(bytes.data(), file_magic.data(), file_magic.size()) != 0) {
-    throw IoError(log.path(), "not a shard log, or its header is damaged (it does not begin with FRAHMLOG)");
+    throw IoError(log.path(),
+                  "not a shard log, or its header is damaged (it does not begin with FRAHMLOG); remove the "
+                  "file to have its tiles computed again");
   }
   const auto version = get_little_endian<std::uint32_t>(&bytes[version_at]);
   if (version != log_version) {

@@ -51,8 +51,9 @@ int StopSignals::received() const {
   return first_signal;
 }
 
-void survive_broken_pipes() {
+void let_failed_writes_return() {
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 std::string signal_name(int signal) {

@@ -24,9 +24,9 @@ class StopSignals {
   struct sigaction user_before_ {};
 };
 
-// From now on a write to a pipe whose reader has gone fails, and does not end the process: whoever looks at a
-// run and leaves does not stop it.
-void survive_broken_pipes();
+// From now on a write to a pipe whose reader has gone, or beyond the size a file may have (ulimit -f), fails,
+// and does not end the process.
+void let_failed_writes_return();
 
 // "SIGTERM", "SIGINT", "SIGUSR1".
 std::string signal_name(int signal);

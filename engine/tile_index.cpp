@@ -1,6 +1,7 @@
 #include "engine/tile_index.hpp"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <string_view>
@@ -44,7 +45,12 @@ void index_log(const File& file, TileIndex& index, const TileVisitor& visit) {
   }
 }
 
-constexpr int most_open_logs = 256;  // a quarter of the usual limit of 1024 files
+// Logs held open at a time: a quarter of the files that this process may have open.
+int most_open_logs() {
+  rlimit files{};
+  ::getrlimit(RLIMIT_NOFILE, &files);
+  return static_cast<int>(std::clamp<rlim_t>(files.rlim_cur / 4, 1, 256));
+}
 
 }  // namespace
 
@@ -90,7 +96,10 @@ std::vector<std::uint64_t> missing_tiles(const TileIndex& index) {
 }
 
 TileReader::TileReader(const TileIndex& index)
-    : index_(index), mark_(study_mark(index.study)), files_(index.logs.size()) {}
+    : index_(index),
+      mark_(study_mark(index.study)),
+      most_open_(most_open_logs()),
+      files_(index.logs.size()) {}
 
 std::span<const std::byte> TileReader::read(std::uint64_t tile, Bytes& record) {
   const auto [log, offset] = index_.places[tile];
@@ -107,7 +116,7 @@ std::span<const std::byte> TileReader::read(std::uint64_t tile, Bytes& record) {
 std::shared_ptr<const File> TileReader::open(std::uint32_t log) {
   const std::lock_guard turn(turn_);
   if (files_[log]) return files_[log];
-  if (open_ == most_open_logs) {
+  if (open_ >= most_open_) {
     std::ranges::fill(files_, nullptr);
     open_ = 0;
   }
@@ -133,6 +142,18 @@ void remove_logs(const std::vector<std::filesystem::path>& logs) {
     std::filesystem::remove(log, error);
     if (error) throw IoError(log, "remove", error.value());
   }
+}
+
+std::vector<std::string> remove_free_logs(const std::vector<std::filesystem::path>& logs) {
+  std::vector<std::string> in_use;
+  for (const auto& log : logs) {
+    try {
+      remove_logs({log});
+    } catch (const Locked& locked) {
+      in_use.emplace_back(locked.what());
+    }
+  }
+  return in_use;
 }
 
 }  // namespace frahm::engine

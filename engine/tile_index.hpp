@@ -82,6 +82,7 @@ class TileReader {
 
   const TileIndex& index_;
   std::uint64_t mark_;                              // of the study, in each record
+  int most_open_;                                   // logs at a time
   std::mutex turn_;                                 // guards what follows
   std::vector<std::shared_ptr<const File>> files_;  // of TileIndex::logs; null: closed
   int open_ = 0;
@@ -93,5 +94,8 @@ void for_each_tile(const TileIndex& index, const TileVisitor& visit);
 
 // Removes logs that no process is writing. Throws Locked at the first that is in use, IoError.
 void remove_logs(const std::vector<std::filesystem::path>& logs);
+
+// The same, but leaves those in use; returns what is said of each (Locked::what()).
+std::vector<std::string> remove_free_logs(const std::vector<std::filesystem::path>& logs);
 
 }  // namespace frahm::engine

@@ -142,10 +142,10 @@ engine::TileIndex read_logs(const MapPlan& plan, const AssemblyOptions& options)
 void refuse_gaps(const AssemblyOptions& options, const std::vector<std::uint64_t>& missing,
                  std::uint64_t tiles) {
   if (missing.empty() || options.partial) return;
-  throw engine::IoError(
-      options.output,
-      fmt::format("{} of its {} tiles are in no shard log yet (the first is tile {}){}", missing.size(),
-                  tiles, missing.front(), missing_tasks_text(options.logs, missing)));
+  throw engine::IoError(options.output, fmt::format("{} of its {} tiles are in no shard log yet (the first "
+                                                    "is tile {}){}; --partial makes a file of the rest",
+                                                    missing.size(), tiles, missing.front(),
+                                                    missing_tasks_text(options.logs, missing)));
 }
 
 // Makes the file, whole and at its place.
@@ -173,7 +173,7 @@ Assembly assemble(const MapPlan& plan, const RunRecord& run, const AssemblyOptio
                   const engine::OutputLock&) {
   try {
     const Assembly assembly = make_file(plan, run, options);
-    if (assembly.missing_tiles == 0) engine::remove_logs(options.logs);
+    if (assembly.missing_tiles == 0) remove_used_logs(options);
     return assembly;
   } catch (const AssemblyStopped&) {
     return {};

@@ -1,6 +1,10 @@
 #include "studies/map/assembly_stage.hpp"
 
+#include <fmt/ostream.h>
+
 #include <iostream>
+
+#include "engine/tile_index.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -39,6 +43,11 @@ void carry_out(const AssemblyStage& stage, const AssemblyOptions& options) {
   const bool all = engine::make_in_order(
       options.threads, stage.pieces, [&] { return counted(stage, progress); }, options.stop_asked);
   if (!all) throw AssemblyStopped{};
+}
+
+void remove_used_logs(const AssemblyOptions& options) {
+  for (const std::string& in_use : engine::remove_free_logs(options.logs))
+    fmt::print(std::cerr, "note: {} is made of all logs; one is left: {}\n", options.output.string(), in_use);
 }
 
 }  // namespace frahm::studies

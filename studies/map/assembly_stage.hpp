@@ -45,6 +45,10 @@ struct AssemblyStage {
   std::function<engine::PieceWork()> make_work;  // called once in each thread
 };
 
+// Removes the logs a file was made of, when it is in its place. One that is in use by a shard still at work
+// stays, which is noted on stderr.
+void remove_used_logs(const AssemblyOptions& options);
+
 // An assembly was asked to stop.
 struct AssemblyStopped {};
 

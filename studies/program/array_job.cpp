@@ -57,16 +57,17 @@ std::uint64_t tasks_of(const ArrayJob& job) {
 void print_array_job(const ArrayJob& job, std::ostream& out) {
   const std::uint64_t tasks = tasks_of(job);
   if (tasks < 2) {
-    fmt::print(out, "\nThe {} is a single tile, or this cluster takes no arrays: tasks cannot share it.\n",
-               job.noun);
+    fmt::print(out, "\nThe {} {}.\n", job.noun,
+               job.tiles < 2 ? "is a single tile, which tasks cannot share"
+                             : fmt::format("cannot be shared by the {} task of an array", job.most_tasks));
     return;
   }
   const std::string output = shell_word(job.study.stem().string() + ".h5");
-  fmt::print(
-      out, "\nAs an array of {} tasks on a cluster (an array may have {} here){}:\n", tasks, job.most_tasks,
-      job.core_seconds ? fmt::format(", each about {} on one core of this machine",
-                                     engine::readable_time(*job.core_seconds / static_cast<double>(tasks)))
-                       : "");
+  fmt::print(out, "\nAs an array of {} tasks on a cluster (of at most {}){}:\n", tasks, job.most_tasks,
+             job.core_seconds
+                 ? fmt::format(", each about {} on one core of this machine",
+                               engine::readable_time(*job.core_seconds / static_cast<double>(tasks)))
+                 : "");
   fmt::print(out, "  sbatch --array=0-{} --cpus-per-task=1 --wrap {}\n", tasks - 1,
              shell_word(run_of_task(job, output, tasks)));
   fmt::print(out, "  frahm status {}   # how far it is, and which tasks to submit again\n", output);

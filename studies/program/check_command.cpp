@@ -205,8 +205,8 @@ int check_command(const CheckOptions& options, std::ostream& out) {
   const auto start = Clock::now();
   StudyFile read = read_study_with(options.study, options.set);
   if (options.simulate_ranks > 0 && read.kind != StudyKind::sweep)
-    throw StudyError(options.study.string() + ": --simulate-ranks is for maps; this study is a " +
-                     std::string(kind_name(read.kind)));
+    throw StudyError(options.study.string() + ": --simulate-ranks is for maps; this study is " +
+                     std::string(kind_noun(read.kind)));
   if (read.kind == StudyKind::tune) return check_tune(options, std::move(read), out);
   if (read.identify) return check_identification(options, std::move(read), out);
   if (read.kind != StudyKind::sweep) return check_motion(read, out);

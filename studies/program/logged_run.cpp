@@ -6,6 +6,7 @@
 #include <iostream>
 #include <vector>
 
+#include "engine/io_error.hpp"
 #include "engine/tile_index.hpp"
 #include "studies/map/finished_file.hpp"
 #include "studies/program/exit_code.hpp"
@@ -54,6 +55,9 @@ bool begin(const StudyPlan& plan, const engine::RunOptions& run, const std::file
   const auto is_done = [&] {
     return !run.fresh && !grows_in_place(plan, from, run.output) && is_finished(plan, run.output);
   };
+  if (run.fresh && run.shard.count > 1 && std::filesystem::exists(run.output))
+    throw engine::IoError(run.output,
+                          "is there already, and one shard made afresh cannot replace it: remove it first");
   if (!is_done()) {
     if (run.shard.count > 1) return true;
     lock.emplace(run.output);
@@ -65,14 +69,14 @@ bool begin(const StudyPlan& plan, const engine::RunOptions& run, const std::file
 }
 
 engine::Summary compute(const StudyPlan& plan, const engine::Job& job, const engine::RunOptions& run) {
-  write_study_note(run.output, plan);
+  const bool is_new = write_study_note(run.output, plan);
   try {
     return engine::run(job, run);
   } catch (const engine::ResumeRefused& refused) {
-    remove_study_note(run.output, plan);
+    if (is_new) remove_study_note(run.output, plan);
     throw engine::ResumeRefused(refused, advice_about_logs(refused, plan, run.output));
   } catch (const StudyError&) {  // of the work itself: no log of this study will need the note
-    remove_study_note(run.output, plan);
+    if (is_new) remove_study_note(run.output, plan);
     throw;
   }
 }

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <optional>
 
+#include "engine/fingerprint.hpp"
 #include "engine/io_error.hpp"
 #include "engine/output_lock.hpp"
 #include "engine/stop_request.hpp"
@@ -80,6 +81,19 @@ void refuse_loss_of_source(const MergeOptions& options, const StudyPlan& plan) {
                                   options.output.string()));
 }
 
+// A result of something else is not replaced, unless the map grows from it in its place.
+void refuse_another_result(const MergeOptions& options, const StudyPlan& plan) {
+  const auto kept = fingerprint_of_file(options.output);
+  if (!kept || *kept == plan.fingerprint) return;
+  const bool grows_from_it =
+      plan.grown_from &&
+      identity_of(results::MapReader(options.output).texts("provenance")) == plan.grown_from->identity;
+  if (grows_from_it) return;
+  throw engine::ResumeRefused(
+      options.output, *kept, plan.fingerprint,
+      "it is not replaced: give merge another file to make, or remove this one first");
+}
+
 int merge_map(const MergeOptions& options, const std::vector<std::filesystem::path>& logs,
               const engine::LogHeader& header, NotedStudy noted, const engine::OutputLock& lock,
               std::ostream& out) {
@@ -87,6 +101,7 @@ int merge_map(const MergeOptions& options, const std::vector<std::filesystem::pa
   plan.grown_from = noted.grown_from;
   check_note_gives(plan, noted, header);
   refuse_loss_of_source(options, plan);
+  refuse_another_result(options, plan);
   const engine::StopRequest stop(std::nullopt);
   const Assembly assembly = assemble(plan, record_of(options), assembly_of(options, logs, stop), lock);
   if (!assembly.finished) return tell_stopped(options, stop);
@@ -104,6 +119,7 @@ int merge_tuning(const MergeOptions& options, const std::vector<std::filesystem:
                  std::ostream& out) {
   const StudyPlan plan = plan_tuning(std::move(noted.study), noted.set);
   check_note_gives(plan, noted, header);
+  refuse_another_result(options, plan);
   const engine::StopRequest stop(std::nullopt);
   const auto result = assemble_tuning(plan, record_of(options), assembly_of(options, logs, stop), lock);
   if (!result) return tell_stopped(options, stop);
@@ -136,15 +152,20 @@ bool is_merged(const MergeOptions& options, std::vector<std::filesystem::path> l
 }  // namespace
 
 int merge_command(const MergeOptions& options, std::ostream& out) {
-  engine::survive_broken_pipes();
+  engine::let_failed_writes_return();
   const engine::OutputLock lock(options.output);
   const auto logs = options.logs.empty() ? engine::find_logs(options.output) : options.logs;
   if (is_merged(options, logs, out)) return exit_code::done;
   const engine::LogHeader header = study_of(logs, options.output);
   NotedStudy noted = study_from_note(places_of_note(options, logs), header);
-  return noted.study.kind == StudyKind::tune
-             ? merge_tuning(options, logs, header, std::move(noted), lock, out)
-             : merge_map(options, logs, header, std::move(noted), lock, out);
+  try {
+    return noted.study.kind == StudyKind::tune
+               ? merge_tuning(options, logs, header, std::move(noted), lock, out)
+               : merge_map(options, logs, header, std::move(noted), lock, out);
+  } catch (const engine::ResumeRefused& refused) {
+    if (!refused.advice().empty()) throw;
+    throw engine::ResumeRefused(refused, fmt::format("leave {} out, or remove it", refused.log().string()));
+  }
 }
 
 }  // namespace frahm::studies

@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <sstream>
+#include <system_error>
 
 #include "engine/assist.hpp"
 #include "engine/dealer.hpp"
@@ -110,7 +111,11 @@ void add_set(CLI::App& command, std::vector<std::string>& set) {
 }
 
 void add_threads(CLI::App& command, int& threads) {
-  command.add_option("--threads", threads, "0: one on each processor")->check(CLI::Range(0, 4096));
+  command
+      .add_option("--threads", threads,
+                  "0: OMP_NUM_THREADS, else SLURM_CPUS_PER_TASK, else one on each processor")
+      ->check(CLI::Range(0, 4096))
+      ->take_last();
 }
 
 void add_progress(CLI::App& command, engine::ProgressStyle& style) {
@@ -120,7 +125,8 @@ void add_progress(CLI::App& command, engine::ProgressStyle& style) {
                                                             {"none", engine::ProgressStyle::none}};
   command.add_option("--progress", style, "auto, plain, json or none")
       ->transform(CLI::Transformer(styles))
-      ->type_name("STYLE");
+      ->type_name("STYLE")
+      ->take_last();
 }
 
 // What `run` is given as texts, to be read when the whole line is known.
@@ -141,17 +147,17 @@ void add_run(CLI::App& program, RunTexts& texts, Action& action) {
   run->add_option(
       "--shard", shard,
       "i/n: compute every n-th tile from i on, i from 0; in an array task of Slurm its own share");
-  run->add_option(
-      "--from", options.from,
-      "result of the same system on another grid: its points are taken over, the others computed");
+  run->add_option("--from", options.from,
+                  "result of the same system on another grid: its points are taken over, the others computed")
+      ->check(CLI::ExistingFile);
   run->add_flag("--fresh", options.run.fresh, "discard what earlier runs have left");
   run->add_option("--time-budget", budget, "stop after 90s, 50m, 2h or 1d");
   add_set(*run, options.set);
   add_progress(*run, options.run.progress);
-  run->callback([&] {
-    action = [&](std::ostream& out) {
-      options.run.shard = shard.empty() ? shard_of_array_task(std::getenv) : shard_of(shard);
-      if (!budget.empty()) options.run.time_budget = time_span_of("--time-budget", budget);
+  run->callback([&, run] {
+    action = [&, run](std::ostream& out) {
+      options.run.shard = run->count("--shard") == 0 ? shard_of_array_task(std::getenv) : shard_of(shard);
+      if (run->count("--time-budget") > 0) options.run.time_budget = time_span_of("--time-budget", budget);
       const bool leads = !options.run.ranks || options.run.ranks->rank() == 0;
       return leads ? run_command(options, out) : assist_command(options);
     };
@@ -200,7 +206,7 @@ void add_merge(CLI::App& program, MergeOptions& options, Action& action) {
       add_command(program, "merge", "make the result file from the logs of shards", merge_examples);
   merge->add_option("FILE", options.output, "result file to make")->required();
   merge->add_option("SHARD", options.logs, "shard logs (*.frahm-log); else those beside FILE");
-  merge->add_flag("--partial", options.partial, "although tiles are missing; keeps the logs");
+  merge->add_flag("--partial", options.partial, "although tiles are missing; the logs are kept then");
   add_threads(*merge, options.threads);
   add_progress(*merge, options.progress);
   merge->callback([&] { action = [&](std::ostream& out) { return merge_command(options, out); }; });
@@ -305,6 +311,9 @@ Ending carry_out(const Action& action, std::ostream& out) {
     return {exit_code::input_output, error.what()};
   } catch (const std::bad_alloc&) {
     return {exit_code::input_output, "there is not enough memory"};
+  } catch (const std::system_error& error) {
+    return {exit_code::input_output,
+            fmt::format("the system refuses a thread or another of its means: {}", error.what())};
   } catch (const std::exception& error) {
     return {exit_code::internal_error, fmt::format("internal error, please report it: {}", error.what())};
   }

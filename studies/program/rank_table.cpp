@@ -26,6 +26,11 @@ void print_row(const RankCosts& costs, int ranks, int threads, std::ostream& out
 
 void print_limit(const RankCosts& costs, int ranks, int threads, std::ostream& out) {
   const int limit = ranks_with_efficiency(costs, threads, enough, ranks);
+  if (limit == 0) {
+    fmt::print(out, "Efficiency is below {:.0f} % on one rank already: the map is too small for more.\n",
+               100.0 * enough);
+    return;
+  }
   fmt::print(out, "Efficiency {} {:.0f} % {} {} ranks.\n", limit == ranks ? "stays above" : "falls below",
              100.0 * enough, limit == ranks ? "up to" : "beyond", limit);
 }

@@ -15,7 +15,7 @@ std::filesystem::path default_output(const std::filesystem::path& study) {
 }
 
 int run_command(const RunCommandOptions& options, std::ostream& out) {
-  engine::survive_broken_pipes();
+  engine::let_failed_writes_return();
   StudyFile study = read_study_with(options.study, options.set);
   if (study.kind == StudyKind::sweep) return run_map(options, std::move(study), out);
   if (!options.from.empty())

@@ -43,7 +43,8 @@ int run_map(const RunCommandOptions& options, StudyFile study, std::ostream& out
   if (summary.outcome == engine::Outcome::stopped) return tell_stopped(summary, run.output);
   if (run.shard.count > 1) return tell_shard(run, summary, out);
 
-  earlier.reset();  // the new file may take its place
+  earlier.reset();                                // the new file may take its place
+  check_result_place(run.output, options.study);  // as it was before, still
   record.threads = summary.threads;
   record.ranks = summary.ranks;
   const engine::StopRequest stop(run.time_budget, engine::StopRequest::Seconds(summary.seconds));

@@ -75,6 +75,7 @@ int run_tuning(const RunCommandOptions& options, StudyFile study, std::ostream& 
   if (summary.outcome == engine::Outcome::stopped) return tell_stopped(summary, run.output);
   if (run.shard.count > 1) return tell_shard(run, summary, out);
 
+  check_result_place(run.output, options.study);  // as it was before, still
   record.threads = summary.threads;
   record.ranks = summary.ranks;
   const engine::StopRequest stop(run.time_budget, engine::StopRequest::Seconds(summary.seconds));

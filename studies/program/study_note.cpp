@@ -61,7 +61,7 @@ std::optional<StudyNote> read_note(const std::filesystem::path& path) {
 
 }  // namespace
 
-void write_study_note(const std::filesystem::path& output, const StudyPlan& plan) {
+bool write_study_note(const std::filesystem::path& output, const StudyPlan& plan) {
   std::string text =
       fmt::format("{}\n{}", std::filesystem::absolute(plan.study.source.name).string(), plan.set.size());
   if (plan.grown_from) text += fmt::format(" {}\n{}", plan.grown_from->identity, plan.grown_from->file);
@@ -73,8 +73,10 @@ void write_study_note(const std::filesystem::path& output, const StudyPlan& plan
   const std::filesystem::path own = fmt::format("{}-{:08x}", path.string(), std::random_device()());
   write_whole_file(own, text);
   std::error_code error;
+  const bool is_new = !std::filesystem::exists(path, error);
   std::filesystem::rename(own, path, error);
   if (error) throw engine::IoError(path, "write", error.value());
+  return is_new;
 }
 
 NotedStudy study_from_note(const std::vector<std::filesystem::path>& outputs,
@@ -90,8 +92,10 @@ NotedStudy study_from_note(const std::vector<std::filesystem::path>& outputs,
     }
     return {std::move(study), note->set, note->grown_from, path};
   }
-  throw engine::IoError(note_path(outputs.front(), header.fingerprint),
-                        "the study of the shard logs is not kept here; `frahm run` with it writes it");
+  throw engine::IoError(
+      note_path(outputs.front(), header.fingerprint),
+      fmt::format("the study of the shard logs is not kept here; frahm run STUDY -o {} writes it",
+                  outputs.front().string()));
 }
 
 std::optional<EarlierResult> source_of_logs(const std::filesystem::path& output,

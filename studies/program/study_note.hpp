@@ -14,8 +14,8 @@
 // the identity of the result it grows from, and on the next line that file's name.
 namespace frahm::studies {
 
-// Throws engine::IoError.
-void write_study_note(const std::filesystem::path& output, const StudyPlan& plan);
+// Returns whether there was none before. Throws engine::IoError.
+bool write_study_note(const std::filesystem::path& output, const StudyPlan& plan);
 
 // A study as its note keeps it.
 struct NotedStudy {

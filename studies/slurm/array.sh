@@ -46,6 +46,8 @@ case $code in
     if [ "${SLURM_RESTART_COUNT:-0}" -lt 100 ]; then
       echo "stopped before the end; task $SLURM_ARRAY_TASK_ID goes back into the queue"
       scontrol requeue "$SLURM_JOB_ID"
+    else
+      echo "stopped before the end for the hundredth time; not put into the queue again" >&2
     fi
     ;;
   3)  # finished, some points failed; the merged file lists them, and afterok should not wait for ever

@@ -45,6 +45,8 @@ case $code in
     if [ "${SLURM_RESTART_COUNT:-0}" -lt 100 ]; then
       echo "stopped before the end; the job goes back into the queue"
       scontrol requeue "$SLURM_JOB_ID"
+    else
+      echo "stopped before the end for the hundredth time; not put into the queue again" >&2
     fi
     ;;
   3)  # finished, some points failed; the file lists them

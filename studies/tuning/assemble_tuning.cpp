@@ -6,6 +6,7 @@
 #include "engine/tile_index.hpp"
 #include "results/map_writer.hpp"
 #include "studies/map/array_tasks.hpp"
+#include "studies/map/assembly_stage.hpp"
 #include "studies/map/map_record.hpp"
 #include "studies/tuning/optimum_record.hpp"
 #include "studies/tuning/tuning_record.hpp"
@@ -18,9 +19,10 @@ void refuse_gaps(const AssemblyOptions& options, const std::vector<std::uint64_t
   if (missing.size() == starts)
     throw engine::IoError(options.output, fmt::format("none of its {} starts is in a shard log yet", starts));
   if (missing.empty() || options.partial) return;
-  throw engine::IoError(options.output,
-                        fmt::format("{} of its {} starts are in no shard log yet{}", missing.size(), starts,
-                                    missing_tasks_text(options.logs, missing)));
+  throw engine::IoError(
+      options.output,
+      fmt::format("{} of its {} starts are in no shard log yet{}; --partial makes a file of the rest",
+                  missing.size(), starts, missing_tasks_text(options.logs, missing)));
 }
 
 void write_file(const StudyPlan& plan, const RunRecord& run, const std::filesystem::path& output,
@@ -49,7 +51,7 @@ std::optional<TuningResult> assemble_tuning(const StudyPlan& plan, const RunReco
   TuningResult result = tuning_result(plan.study, std::move(starts));
   if (options.stop_asked()) return std::nullopt;
   write_file(plan, run, options.output, result, missing.size());
-  if (missing.empty()) engine::remove_logs(options.logs);
+  if (missing.empty()) remove_used_logs(options);
   return result;
 }
 

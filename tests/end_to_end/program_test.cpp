@@ -6,6 +6,9 @@
 #include <fstream>
 #include <iterator>
 
+#include "engine/file.hpp"
+#include "engine/log_format.hpp"
+#include "engine/tile_index.hpp"
 #include "results/map_reader.hpp"
 #include "tests/end_to_end/runs.hpp"
 #include "tests/studies/small_studies.hpp"
@@ -18,7 +21,8 @@ using small_studies::axis;
 using small_studies::oscillator;
 using Names = std::vector<std::string>;
 
-const std::string small = oscillator() + axis("f", 0, 1, 5) + axis("r", 0.2, 2, 31);
+const std::string small = oscillator() + axis("f", 0, 1, 5) + axis("r", 0.2, 2, 31);  // a single tile
+const std::string of_many_tiles = oscillator() + axis("f", 0, 1, 30) + axis("r", 0.2, 2, 101);
 
 runs::Outcome run(const std::string& study, const std::string& output, const Names& more = {}) {
   Names arguments{"run", study, "-o", output, "--threads", "1", "--progress", "none"};
@@ -42,7 +46,8 @@ TEST_CASE("wrong usage ends with code 2 and says what is wrong") {
   const Folder folder;
   const std::string study = folder.write("small.toml", small);
   for (const Names& wrong :
-       {Names{"--shard", "4/4"}, Names{"--time-budget", "50"}, Names{"--threads", "-1"},
+       {Names{"--shard", "4/4"}, Names{"--time-budget", "50"}, Names{"--threads", "-1"}, Names{"--shard", ""},
+        Names{"--time-budget", ""}, Names{"--from", ""}, Names{"--from", "no-such-file.h5"},
         Names{"--set", "q=1"}, Names{"--set", "f=0.5"}, Names{"--progress", "loud"}, Names{"--colour"}}) {
     INFO(wrong.front());
     const auto outcome = run(study, folder / "small.h5", wrong);
@@ -184,6 +189,82 @@ TEST_CASE("a second merge says that all is done, and removes what a killed one h
   CHECK(text_of(parts) == bytes);
   CHECK(folder.names() == Names{"kept", "parts.h5", "small.toml"});
   CHECK(frahm({"merge", folder / "none.h5"}).code == 6);
+}
+
+TEST_CASE("merge does not replace the result of another study") {
+  const Folder folder;
+  const std::string study = folder.write("small.toml", of_many_tiles), result = folder / "small.h5";
+  CHECK(run(study, result).code == 0);
+  const std::string bytes = text_of(result);
+  const std::string others = folder / "others.h5";
+  for (const std::string shard : {"0/2", "1/2"})
+    CHECK(run(study, others, {"--shard", shard, "--set", "zeta=0.2"}).code == 0);
+  const std::vector<std::filesystem::path> logs = ::frahm::engine::find_logs(others);
+  REQUIRE(logs.size() == 2);
+  for (const bool partial : {false, true}) {
+    Names arguments{"merge", result, logs[0].string(), logs[1].string()};
+    if (partial) arguments.emplace_back("--partial");
+    const auto outcome = frahm(arguments);
+    CHECK(outcome.code == 5);
+    CHECK_THAT(outcome.err, Catch::Contains("another physics") && Catch::Contains("give merge another file"));
+    CHECK(text_of(result) == bytes);
+  }
+  CHECK(frahm({"merge", others}).code == 0);  // nothing of it was lost
+}
+
+TEST_CASE("a log of another study among those merged is named, with what to do") {
+  const Folder folder;
+  const std::string study = folder.write("small.toml", of_many_tiles), a = folder / "a.h5",
+                    b = folder / "b.h5";
+  CHECK(run(study, a, {"--shard", "0/2"}).code == 0);
+  CHECK(run(study, b, {"--shard", "1/2", "--set", "zeta=0.2"}).code == 0);
+  const std::string foreign = ::frahm::engine::find_logs(b).front().string();
+  const auto outcome = frahm({"merge", a, ::frahm::engine::find_logs(a).front().string(), foreign});
+  CHECK(outcome.code == 5);
+  CHECK_THAT(outcome.err, Catch::Contains("leave " + foreign + " out, or remove it"));
+}
+
+TEST_CASE("shards made afresh are refused where a file stands that they would not replace") {
+  const Folder folder;
+  const std::string study = folder.write("small.toml", of_many_tiles), result = folder / "small.h5";
+  CHECK(run(study, result).code == 0);
+  const auto outcome = run(study, result, {"--shard", "0/2", "--fresh"});
+  CHECK(outcome.code == 6);
+  CHECK_THAT(outcome.err, Catch::Contains("small.h5") && Catch::Contains("remove it first"));
+  std::filesystem::remove(result);
+  CHECK(run(study, result, {"--shard", "0/2", "--fresh"}).code == 0);
+}
+
+TEST_CASE("a file made beside a shard still at work is made, and the shard's log is left and told of") {
+  const Folder folder;
+  const std::string study = folder.write("small.toml", of_many_tiles), result = folder / "small.h5";
+  CHECK(run(study, result, {"--shard", "0/2"}).code == 0);
+  const auto log = ::frahm::engine::find_logs(result).front();
+  {
+    const auto held = ::frahm::engine::open_locked(log, ::frahm::engine::owner_offset);
+    const auto outcome = run(study, result);
+    CHECK(outcome.code == 0);
+    CHECK_THAT(outcome.err, Catch::Contains("one is left: " + log.string()) && Catch::Contains("in use by"));
+    CHECK(std::filesystem::exists(log));
+  }
+  CHECK(run(study, result).code == 0);  // everything is computed already
+  CHECK(folder.names() == Names{"small.h5", "small.toml"});
+}
+
+TEST_CASE("a refused run leaves the note of the study that its logs belong to") {
+  const Folder folder;
+  const std::string study = folder.write("small.toml", of_many_tiles), result = folder / "small.h5";
+  CHECK(run(study, result, {"--shard", "0/2"}).code == 0);
+  const Names before = folder.names();
+  const std::string others = folder / "others.h5";
+  CHECK(run(study, others, {"--shard", "1/2", "--set", "zeta=0.2"}).code == 0);
+  const std::string foreign = result + ".shard-1-of-2.frahm-log";
+  std::filesystem::rename(::frahm::engine::find_logs(others).front(), foreign);
+  CHECK(run(study, result).code == 5);
+  std::filesystem::remove(foreign);
+  for (const std::string& name : before) CHECK(std::filesystem::exists(folder / name));
+  CHECK(run(study, result, {"--shard", "1/2"}).code == 0);
+  CHECK(frahm({"merge", result}).code == 0);
 }
 
 TEST_CASE("status tells the tasks of every number of shards, and tiles where the study's note is gone") {

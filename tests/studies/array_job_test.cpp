@@ -33,7 +33,9 @@ TEST_CASE("the highest index of the array is one below the number of tasks") {
   CHECK_THAT(out.str(),
              Catch::Contains("sbatch --array=0-1000 ") && Catch::Contains("$SLURM_ARRAY_TASK_ID/1001 "));
   print_array_job(job(1, 1e9, 1001), out);
-  CHECK_THAT(out.str(), Catch::Contains("cannot share it"));
+  CHECK_THAT(out.str(), Catch::Contains("is a single tile, which tasks cannot share"));
+  print_array_job(job(50, 1e9, 1), out);
+  CHECK_THAT(out.str(), Catch::Contains("cannot be shared by the 1 task of an array"));
 }
 
 TEST_CASE("MaxArraySize is read from Slurm's configuration") {
