@@ -37,7 +37,9 @@ LoggedJob job_of_note(const std::filesystem::path& output, const engine::LogHead
     known.unit = "starts";
     check_note_gives(*known.tuning, noted, study);
   } else {
-    known.map = std::make_unique<const MapPlan>(plan_map(std::move(noted.study), noted.set));
+    MapPlan plan = plan_map(std::move(noted.study), noted.set);
+    plan.grown_from = noted.grown_from;
+    known.map = std::make_unique<const MapPlan>(std::move(plan));
     known.job = job_of(*known.map);
     known.unit = "points";
     check_note_gives(*known.map, noted, study);

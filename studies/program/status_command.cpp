@@ -10,6 +10,7 @@
 #include "engine/io_error.hpp"
 #include "engine/tile_index.hpp"
 #include "studies/identification/identification_record.hpp"
+#include "studies/map/fingerprint.hpp"
 #include "studies/map/finished_file.hpp"
 #include "studies/map/map_summary.hpp"
 #include "studies/program/exit_code.hpp"
@@ -104,21 +105,35 @@ FoundLogs logs_beside(const std::filesystem::path& file) {
   return found;
 }
 
+// Whether a result is a part that was made of these logs.
+bool is_part_of(const std::filesystem::path& file, const engine::LogHeader& logs) {
+  if (!is_partial(file)) return false;
+  const results::MapReader part(file);
+  const engine::Fingerprint study = fingerprint_of(part);
+  const std::string source = provenance_text(part, grown_from_identity);
+  return logs.fingerprint == (source.empty() ? study : grown_fingerprint(study, source));
+}
+
+std::string state_of_logs(const std::filesystem::path& file, const engine::LogHeader& logs) {
+  if (!std::filesystem::exists(file)) return "unfinished";
+  return is_part_of(file, logs) ? "a part was made of the logs beside it, which go on"
+                                : "a newer run is in progress or was stopped";
+}
+
 }  // namespace
 
 int status_command(const std::filesystem::path& file, std::ostream& out) {
   const bool is_there = std::filesystem::exists(file);
   const FoundLogs found = logs_beside(file);
-  if (is_there) print_file(file, out);
   if (!is_there && found.studies.empty() && found.unreadable.empty())
     throw engine::IoError(file, "there is no such file, and no shard log beside it");
   for (const auto& [study, logs] : found.studies) {
-    fmt::print(out, "{}: {}\n", file.string(),
-               is_there ? "a newer run is in progress or was stopped" : "unfinished");
+    fmt::print(out, "{}: {}\n", file.string(), state_of_logs(file, study));
     print_log_status(file, logs, study, out);
   }
   for (const std::string& problem : found.unreadable)
     fmt::print(out, "{:<22} {}\n", "unreadable log", problem);
+  if (is_there) print_file(file, out);
   return found.unreadable.empty() ? exit_code::done : exit_code::input_output;
 }
 
