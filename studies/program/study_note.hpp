@@ -26,8 +26,8 @@ struct NotedStudy {
 };
 
 // The study that the logs with this header belong to. outputs: files beside which its note may lie. Throws
-// engine::IoError if it is beside none, StudyError if tables it reads have changed so that it can no longer
-// be read.
+// engine::IoError if it is beside none, StudyError if tables it reads are neither where they
+// were nor beside the note, or can no longer be read.
 NotedStudy study_from_note(const std::vector<std::filesystem::path>& outputs,
                            const engine::LogHeader& header);
 

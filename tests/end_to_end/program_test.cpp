@@ -292,6 +292,31 @@ TEST_CASE("status tells the tasks of every number of shards, and tiles where the
                               Catch::Contains("not a shard log"));
 }
 
+TEST_CASE("logs are told of and merged in a folder that was moved with its study and the table it reads") {
+  const Folder first, moved;
+  first.write("zeta.csv", "0,0.1\n1,0.2\n");
+  const std::string study = first.write(
+      "map.toml", runs::replaced(small, "zeta = 0.05", "zeta = { table = \"zeta.csv\", of = \"f\" }"));
+  REQUIRE(run(study, first / "whole.h5").code == 0);
+  for (const std::string shard : {"0/2", "1/2"})
+    REQUIRE(run(study, first / "map.h5", {"--shard", shard}).code == 0);
+  for (const std::string& name : first.names()) std::filesystem::rename(first / name, moved / name);
+  const std::string output = moved / "map.h5";
+  CHECK_THAT(frahm({"status", output}).out, Catch::Contains("155 of 155 done"));
+
+  moved.write("zeta.csv", "0,0.1\n1,0.3\n");
+  const auto another = frahm({"merge", output});
+  CHECK(another.code == 6);
+  CHECK_THAT(another.err, Catch::Contains("no longer gives what the logs were made from"));
+  std::filesystem::remove(moved / "zeta.csv");
+  const auto without = frahm({"merge", output});
+  CHECK(without.code == 2);
+  CHECK_THAT(without.err, Catch::Contains(first / "zeta.csv"));
+  moved.write("zeta.csv", "0,0.1\n1,0.2\n");
+  CHECK(frahm({"merge", output}).code == 0);
+  CHECK(runs::read_map(output)["main_peak"] == runs::read_map(moved / "whole.h5")["main_peak"]);
+}
+
 TEST_CASE(
     "failed points end with code 3, are listed in the file, and come with the command that repeats them") {
   const Folder folder;
