@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "studies/map/value_match.hpp"
 #include "studies/reading/units.hpp"
@@ -80,7 +81,8 @@ std::optional<Place> place_of(const std::vector<std::vector<std::uint32_t>>& num
 EarlierDimension match(const StudyFile& study, const results::Axis& earlier, const UnitSystem& units,
                        const std::string& file) {
   const std::vector<CommonParameter> parameters = parameters_on(study, earlier, units, file);
-  EarlierDimension dimension{.along = common_dimension(study, parameters, earlier.name, file), .index = {}};
+  EarlierDimension dimension{
+      .along = common_dimension(study, parameters, earlier.name, file), .index = {}, .places = 0};
   std::vector<std::vector<std::uint32_t>> known, wanted;
   for (const CommonParameter& each : parameters) {
     ValueMatch same = match_values(each.earlier_values, study.axes[each.axis].si_values);
@@ -89,6 +91,7 @@ EarlierDimension match(const StudyFile& study, const results::Axis& earlier, con
   }
   std::map<Place, std::uint64_t> index_of;  // the first, where points of a zip are the same
   for (std::uint64_t i = 0; i < earlier.size; ++i) index_of.emplace(*place_of(known, i), i);
+  dimension.places = index_of.size();
   bool any = false;
   for (std::size_t i = 0; i < study.dimensions[dimension.along].size; ++i) {
     const auto place = place_of(wanted, i);
@@ -110,6 +113,26 @@ std::vector<EarlierDimension> match_axes(const StudyFile& study, const results::
   std::vector<EarlierDimension> dimensions;
   for (const results::Axis& axis : earlier.axes) dimensions.push_back(match(study, axis, units, file));
   return dimensions;
+}
+
+std::uint64_t points_off_grid(const std::vector<EarlierDimension>& dimensions) {
+  // Dimensions of the earlier map that advance together here are counted together.
+  std::map<std::size_t, std::vector<const EarlierDimension*>> of_study;
+  std::uint64_t all = 1, common = 1;
+  for (const EarlierDimension& dimension : dimensions) {
+    of_study[dimension.along].push_back(&dimension);
+    all *= dimension.places;
+  }
+  for (const auto& [along, together] : of_study) {
+    std::set<std::vector<std::uint64_t>> reached;
+    for (std::size_t i = 0; i < together.front()->index.size(); ++i) {
+      std::vector<std::uint64_t> place;
+      for (const EarlierDimension* dimension : together) place.push_back(dimension->index[i]);
+      if (std::ranges::find(place, EarlierDimension::nowhere) == place.end()) reached.insert(place);
+    }
+    common *= reached.size();
+  }
+  return all - common;
 }
 
 }  // namespace frahm::studies

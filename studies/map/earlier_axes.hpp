@@ -17,7 +17,11 @@ struct EarlierDimension {
 
   std::size_t along = 0;             // the dimension of the study on which it depends
   std::vector<std::uint64_t> index;  // of each index of that: in the earlier map, or `nowhere`
+  std::uint64_t places = 0;          // different ones that the earlier map has along it
 };
+
+// How many points of an earlier map, the same ones counted once, the study's map has not.
+std::uint64_t points_off_grid(const std::vector<EarlierDimension>& dimensions);
 
 // Of each dimension of an earlier map of the same physics. Parameters are compared by their SI values
 // (value_match.hpp), so that the axes may have other values, steps, units and order.

@@ -32,6 +32,8 @@ class KnownPoints {
 
   EarlierResult source() const { return source_; }
   std::uint64_t taken() const { return taken_; }  // points so far
+  // How many points of the earlier map's grid the map to be has not.
+  std::uint64_t off_grid() const { return points_off_grid(dimensions_); }
 
  private:
   // A point of a tile that the earlier map has.

@@ -17,6 +17,18 @@ bool grows_in_place(const StudyPlan& plan, const std::filesystem::path& from,
   return fingerprint_of_file(output) != plan.fingerprint || is_partial(output);
 }
 
+void refuse_loss(const MapPlan& plan, const KnownPoints& earlier, const std::filesystem::path& from,
+                 const std::filesystem::path& output) {
+  std::error_code ignored;  // one that is not there is not the other
+  const std::uint64_t lost = earlier.off_grid();
+  if (lost == 0 || !std::filesystem::equivalent(from, output, ignored)) return;
+  throw engine::ResumeRefused(
+      output, *fingerprint_of_file(output), plan.fingerprint,
+      fmt::format("it holds {} points that this grid has not, and they would be lost: name another file "
+                  "with -o; --from {} reuses its points there too",
+                  lost, from.string()));
+}
+
 std::string advice_about_logs(const engine::ResumeRefused& refused, const StudyPlan& plan,
                               const std::filesystem::path& output) {
   if (refused.physics_differs() || plan.study.kind != StudyKind::sweep) return "";

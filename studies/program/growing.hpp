@@ -4,7 +4,8 @@
 #include <string>
 
 #include "engine/fingerprint.hpp"
-#include "studies/map/study_plan.hpp"
+#include "studies/map/known_points.hpp"
+#include "studies/map/map_plan.hpp"
 
 // `frahm run --from OLD.h5`: what has to be seen to when a map takes points over from an earlier result.
 namespace frahm::studies {
@@ -13,6 +14,11 @@ namespace frahm::studies {
 // then no obstacle, and stays there until the new one is complete.  from: empty: the run has no --from.
 bool grows_in_place(const StudyPlan& plan, const std::filesystem::path& from,
                     const std::filesystem::path& output);
+
+// Refuses a result that would take the place of the one it grows from and has not all of its points: these
+// would be lost. earlier: those of `from`. Throws engine::ResumeRefused.
+void refuse_loss(const MapPlan& plan, const KnownPoints& earlier, const std::filesystem::path& from,
+                 const std::filesystem::path& output);
 
 // What to do about logs beside the output that the run may not go on with; empty: no more than about those of
 // any other study.

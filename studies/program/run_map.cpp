@@ -11,6 +11,7 @@
 #include "studies/map/finished_file.hpp"
 #include "studies/map/known_points.hpp"
 #include "studies/program/exit_code.hpp"
+#include "studies/program/growing.hpp"
 #include "studies/program/logged_run.hpp"
 #include "studies/program/map_table.hpp"
 #include "studies/program/study_note.hpp"
@@ -38,6 +39,7 @@ int run_map(const RunCommandOptions& options, StudyFile study, std::ostream& out
   }
   std::optional<KnownPoints> earlier;
   if (!options.from.empty()) plan.grown_from = earlier.emplace(plan, options.from).source();
+  if (earlier) refuse_loss(plan, *earlier, options.from, run.output);
   const engine::Summary summary = compute(plan, job_of(plan, earlier ? &*earlier : nullptr), run);
   tell_unused(summary);
   if (summary.outcome == engine::Outcome::stopped) return tell_stopped(summary, run.output);
