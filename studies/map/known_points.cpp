@@ -1,15 +1,18 @@
 #include "studies/map/known_points.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numeric>
 
 #include "engine/fingerprint.hpp"
 #include "results/store_error.hpp"
 #include "solvers/periodic/orbit.hpp"
+#include "studies/map/earlier_file.hpp"
 #include "studies/map/fingerprint.hpp"
 #include "studies/map/finished_file.hpp"
 
@@ -40,6 +43,16 @@ bool is_missing(double value, QuantityKind kind) {
   return kind == QuantityKind::count ? value == -1.0 : std::isnan(value);
 }
 
+// Whether a run could have recorded the value. One that it could not is the work of a hand or another
+// program.
+bool is_possible(double value, const periodic::QuantityDescription& variable) {
+  if (variable.kind == QuantityKind::count)
+    return value >= -1.0 && value <= std::numeric_limits<std::int32_t>::max() && value == std::trunc(value);
+  if (variable.kind != QuantityKind::flag || value == 0.0) return true;
+  return std::ranges::any_of(variable.flags,
+                             [&](const auto& flag) { return static_cast<double>(flag.second) == value; });
+}
+
 // The index of a point from its number, row-major.
 std::vector<std::uint64_t> index_of(std::uint64_t offset, const results::MapLayout& layout) {
   std::vector<std::uint64_t> index(layout.axes.size());
@@ -51,7 +64,7 @@ std::vector<std::uint64_t> index_of(std::uint64_t offset, const results::MapLayo
 }  // namespace
 
 KnownPoints::KnownPoints(const MapPlan& plan, const std::filesystem::path& file)
-    : plan_(plan), file_(file), reader_(file) {
+    : plan_(plan), file_(file), reader_(open_earlier_map(file)) {
   refuse_another_physics(plan, reader_, file);
   source_ = {.file = file.string(), .identity = identity_of(reader_.texts("provenance"))};
   dimensions_ = match_axes(plan.study, reader_.layout(), file.string());
@@ -60,7 +73,11 @@ KnownPoints::KnownPoints(const MapPlan& plan, const std::filesystem::path& file)
   for (std::size_t q = 0; q < plan.variables.size(); ++q) {
     const std::string& name = plan.variables[q].name;
     if (name == "status" || name == "status_compared") statuses_.push_back(q);
-    has_own_status_ = has_own_status_ || name == "status";
+    if (name == "status") {
+      own_status_ = q;
+    } else if (q < plan.quantities.size()) {
+      answers_.push_back(q);
+    }
   }
 }
 
@@ -119,9 +136,22 @@ void KnownPoints::read_chunk(std::span<const Found> points, std::uint64_t points
   const std::lock_guard turn(reading_);
   for (std::size_t q = 0; q < variables_.size(); ++q) {
     const std::vector<double> read = read_variable(variables_[q], box);
-    for (std::size_t i = 0; i < points.size(); ++i)
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      check_possible(q, read[from[i]], points[i]);
       values[q * points_of_tile + points[i].place] = read[from[i]];
+    }
   }
+}
+
+void KnownPoints::check_possible(std::size_t variable, double value, const Found& point) const {
+  const periodic::QuantityDescription& description = plan_.variables[variable];
+  if (is_possible(value, description)) return;
+  throw results::StoreError(
+      fmt::format("{}:/{}[{}]", file_.string(), description.name,
+                  fmt::join(index_of(point.offset, reader_.layout()), ",")),
+      fmt::format("{} is {}, so its points cannot be taken over", value,
+                  description.kind == QuantityKind::flag ? "none of its flags" : "no count"),
+      "without --from all points are computed anew");
 }
 
 std::vector<double> KnownPoints::read_variable(std::size_t variable, const MapBox& box) const {
@@ -156,11 +186,11 @@ bool KnownPoints::is_answer(std::span<const double> values, std::uint64_t points
         value(status) == static_cast<double>(periodic::Status::failed))
       return false;
   }
-  if (has_own_status_) return true;
-  for (std::size_t q = 0; q < plan_.quantities.size(); ++q) {
-    if (!is_missing(value(q), plan_.variables[q].kind)) return true;
-  }
-  return false;
+  if (own_status_ &&
+      (answers_.empty() || value(*own_status_) == static_cast<double>(periodic::Status::unbounded)))
+    return true;
+  return std::ranges::any_of(answers_,
+                             [&](std::size_t q) { return !is_missing(value(q), plan_.variables[q].kind); });
 }
 
 }  // namespace frahm::studies

@@ -16,7 +16,7 @@ namespace frahm::studies {
 
 // The points of a map that an earlier result of the same physics holds, on whatever grid: reused by content,
 // the SI values of their parameters. Not reused are points that failed there or were not computed, and where
-// no status is recorded those of which nothing is.
+// no status is recorded, or one that has values, those of which nothing else is.
 //
 // For all threads together: the file is read by one at a time, as HDF5 is. It is read by chunks as they are
 // needed; memory is bounded by one chunk for each thread and the chunk cache of HDF5.
@@ -45,6 +45,8 @@ class KnownPoints {
 
   std::vector<Found> find(const MapBox& box) const;
   void read_chunk(std::span<const Found> points, std::uint64_t points_of_tile, std::span<double> values);
+  // Throws results::StoreError for a value that no run records.
+  void check_possible(std::size_t variable, double value, const Found& point) const;
   std::vector<double> read_variable(std::size_t variable, const MapBox& box) const;
   MapBox box_around(std::span<const Found> points) const;
   bool is_answer(std::span<const double> values, std::uint64_t points_of_tile, std::uint64_t place) const;
@@ -56,7 +58,8 @@ class KnownPoints {
   std::vector<EarlierDimension> dimensions_;  // of the earlier map
   std::vector<std::size_t> variables_;        // in the earlier map, of each of the plan's
   std::vector<std::size_t> statuses_;         // those of the plan's variables that say how a response ended
-  bool has_own_status_ = false;               // that of the study's own response is among them
+  std::optional<std::size_t> own_status_;     // that of the study's own response
+  std::vector<std::size_t> answers_;          // the other variables of that
   std::mutex reading_;
   std::atomic<std::uint64_t> taken_ = 0;
 };

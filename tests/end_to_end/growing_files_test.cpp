@@ -1,10 +1,13 @@
 // run --from: files that cannot be grown from, results that grow in their own place, and their logs.
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 
 #include "tests/end_to_end/grown_maps.hpp"
 #include "tests/end_to_end/runs.hpp"
+#include "tests/results/whole_map.hpp"
 #include "tests/studies/small_studies.hpp"
 
 namespace {
@@ -91,7 +94,18 @@ TEST_CASE("what cannot be grown from is refused: another physics, no map, no com
   CHECK_THAT(refused(oscillator() + axis("f", 2, 3, 5) + axis("r", 0.2, 2, 31), folder / "old.h5", 2),
              Catch::Contains("\"f\" has no value in common"));
   CHECK_THAT(refused(small, folder / "none.h5", 6), Catch::Contains("none.h5"));
-  CHECK_THAT(refused(small, study, 6), Catch::Contains("small.toml"));
+  CHECK_THAT(refused(small, study, 6), Catch::Contains("small.toml: is not an HDF5 file"));
+  const std::string empty = folder.write("empty.h5", "");
+  CHECK_THAT(refused(small, empty, 6), Catch::Contains("empty.h5: is not an HDF5 file"));
+  std::filesystem::remove(empty);
+  const Folder another;
+  CHECK_THAT(refused(small, another / "", 6), Catch::Contains("is a folder"));
+  for (const auto& [name, kind] : {std::pair{"tune_classical", "is a tuning, not a map"},
+                                   std::pair{"lecture_free_vibration", "is one motion, not a map"}}) {
+    const std::string result = another / "other.h5";
+    REQUIRE(run(another.write("other.toml", reduced(name, {})), result, {"--fresh"}).code == 0);
+    CHECK_THAT(refused(small, result, 2), Catch::Contains("--from " + result + ": " + kind));
+  }
   for (const std::string name : {"tune_classical", "lecture_free_vibration"}) {
     CHECK_THAT(refused(reduced(name, {}), folder / "old.h5", 2), Catch::Contains("--from is for maps"));
   }
@@ -223,6 +237,60 @@ TEST_CASE("a damaged earlier file is told by its name, and ends the run without 
   CHECK_THAT(grown_from_damaged({0.0}), Catch::Contains(earlier));
   CHECK_THAT(grown_from_damaged({0.25, 0.3, 0.4, 0.5, 0.55, 0.6, 0.7, 0.75, 0.8, 0.9, 0.95, 0.99}),
              Catch::Contains(earlier));
+}
+
+// A result with other values of some variables.
+void edit(const std::string& path, const std::function<void(Map&)>& change) {
+  Map map = read_map(path);
+  const auto texts = ::frahm::results::MapReader(path).texts("provenance");
+  change(map);
+  for (std::size_t d = 0; d < map.layout.axes.size(); ++d) map.layout.chunk[d] = map.layout.axes[d].size;
+  std::vector<std::vector<double>> values;
+  for (auto& variable : map.layout.variables) {
+    if (!variable.flags.empty()) variable.flags.push_back({"by_hand", 77});
+    values.push_back(map[variable.name]);
+  }
+  ::frahm::results::MapWriter writer(path, map.layout);
+  write_whole_map(writer, map.layout, values);
+  writer.write_texts("provenance", texts);
+  writer.finish();
+}
+
+TEST_CASE("a value that no run records is told by its place and never taken over") {
+  const Folder folder;
+  const std::string earlier = folder / "old.h5", output = folder / "new.h5";
+  const std::string study = folder.write("old.toml", small);
+  folder.write("new.toml", larger);
+  for (const auto& [variable, value] :
+       {std::pair{"status", 77.0}, std::pair{"friction_regime", 77.0}, std::pair{"friction_stops", -7.0}}) {
+    REQUIRE(run(study, earlier, {"--fresh"}).code == 0);
+    edit(earlier, [&](Map& map) { map.values.at(variable)[2 * 31 + 7] = value; });
+    const auto outcome = run(folder / "new.toml", output, {"--from", earlier});
+    CHECK(outcome.code == 6);
+    CHECK_THAT(outcome.err,
+               Catch::Contains(earlier + ":/" + variable + "[2,7]: ") &&
+                   Catch::Contains(value == 77.0 ? "77 is none of its flags" : "-7 is no count"));
+    CHECK_FALSE(std::filesystem::exists(output));
+    REQUIRE(run(study, earlier, {"--fresh"}).code == 0);
+    CHECK(run(folder / "new.toml", output, {"--from", earlier, "--fresh"}).code == 0);
+    std::filesystem::remove(output);
+  }
+}
+
+TEST_CASE("a point whose status is ok and that has no value is computed") {
+  const Folder folder;
+  const std::string earlier = folder / "old.h5", study = folder.write("old.toml", small);
+  REQUIRE(run(study, earlier).code == 0);
+  edit(earlier, [](Map& map) {
+    for (const auto& variable : map.layout.variables) {
+      const bool is_count = variable.type == ::frahm::results::Type::int32;
+      if (variable.name != "status")
+        map.values.at(variable.name)[5] = !variable.flags.empty() ? 0.0 : is_count ? -1.0 : std::nan("");
+    }
+  });
+  const auto outcome = run(folder.write("new.toml", larger), folder / "new.h5", {"--from", earlier});
+  CHECK(points_of(outcome.out) == Points{5 * 31 - 1, 9 * 61 - 5 * 31 + 1});
+  CHECK(read_map(folder / "new.h5")["main_peak"][10] > 0.0);
 }
 
 }  // namespace

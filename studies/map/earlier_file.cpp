@@ -1,0 +1,48 @@
+#include "studies/map/earlier_file.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cerrno>
+#include <fstream>
+#include <string_view>
+
+#include "engine/io_error.hpp"
+#include "studies/reading/study_source.hpp"
+
+namespace frahm::studies {
+namespace {
+
+constexpr std::string_view hdf5_signature = "\x89HDF\r\n\x1a\n";  // HDF5 file format, III.A: superblock
+
+void check_is_hdf5(const std::filesystem::path& path) {
+  std::error_code ignored;  // opening will tell
+  if (std::filesystem::is_directory(path, ignored))
+    throw engine::IoError(path, "is a folder; --from needs the result of a map");
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw engine::IoError(path, "open", errno);
+  std::array<char, hdf5_signature.size()> start = {};
+  file.read(start.data(), start.size());
+  if (std::string_view(start.data(), start.size()) != hdf5_signature)
+    throw engine::IoError(path, "is not an HDF5 file; --from needs the result of a map");
+}
+
+// What a result without a map holds.
+std::string_view kind_of(const results::MapReader& result) {
+  if (result.has_group("identification")) return "an identification";
+  if (result.has_group("optimum")) return "a tuning";
+  return "one motion";
+}
+
+}  // namespace
+
+results::MapReader open_earlier_map(const std::filesystem::path& file) {
+  check_is_hdf5(file);
+  results::MapReader result(file);
+  if (!result.layout().axes.empty()) return result;
+  throw StudyError(fmt::format("--from {}: is {}, not a map: there is no point to take over", file.string(),
+                               kind_of(result)));
+}
+
+}  // namespace frahm::studies
