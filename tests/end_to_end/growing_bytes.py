@@ -32,7 +32,7 @@ class Growing:
         with open(coarse, "w") as file:
             file.write(text)
         with open(self.study, "w") as file:
-            file.write(text.replace("points = 481", "points = 961").replace("points = 25\n", "points = 37\n"))
+            file.write(text.replace("points = 481", "points = 961").replace("points = 25\n", "points = 49\n"))
         self.finish("run", coarse, "-o", self.earlier)
         self.names = sorted(os.listdir(folder))
 
@@ -78,10 +78,10 @@ def check(program, source, folder):
     output = os.path.join(folder, "map.h5")
     table = growing.finish(*growing.grow(output, growing.earlier, "--threads", "1"))
     counted = re.search(r"reused +(\d+) points of .*, (\d+) computed", table)
-    known = 6 * 13 * 481  # every second one of 25 values of f is one of the 37, every one of r one of the 961
-    assert [int(n) for n in counted.groups()] == [known, 6 * 37 * 961 - known], counted.groups()
+    known = 6 * 25 * 481  # all: what grows in its place must have every point
+    assert [int(n) for n in counted.groups()] == [known, 6 * 49 * 961 - known], counted.groups()
     one = growing.taken(output)
-    assert len(one) > 10 and one["main_peak"][1] == (6, 37, 961)
+    assert len(one) > 10 and one["main_peak"][1] == (6, 49, 961)
     for threads in "2", "5":
         growing.finish(*growing.grow(output, growing.earlier, "--threads", threads))
         assert growing.taken(output) == one, threads
