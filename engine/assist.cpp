@@ -24,7 +24,7 @@ using namespace std::chrono_literals;
 RankMessage next_message(Ranks& ranks) {
   for (;;) {
     if (const auto message = ranks.receive()) return decode(message->bytes);
-    std::this_thread::sleep_for(5ms);
+    std::this_thread::sleep_for(2ms);
   }
 }
 
@@ -77,7 +77,7 @@ Finished compute_tiles(const Job& job, const RunOptions& options, int threads, c
   const auto stop_asked = [&] { return work.has_failed() || signals.received() != 0; };
   {
     Asking asking(*options.ranks, work);
-    const Watch conversation(1ms, [&] { asking.look(stop_asked()); });
+    const Watch conversation(2ms, [&] { asking.look(stop_asked()); });
     const Watch syncing(1s, [&] { work.keep_on_disk(); });
     work.compute(threads, stop_asked);
   }

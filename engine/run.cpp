@@ -88,7 +88,7 @@ Tally tally_of(const Tally& found, const TeamWork& work, const std::optional<Dea
 class Attendance {
  public:
   Attendance(std::optional<Dealer>& dealer, StopAsked stop_asked) : dealer_(dealer) {
-    if (dealer) watch_.emplace(1ms, [&dealer, stop = std::move(stop_asked)] { dealer->serve(stop()); });
+    if (dealer) watch_.emplace(2ms, [&dealer, stop = std::move(stop_asked)] { dealer->serve(stop()); });
   }
   // Returns when the others have left.
   void wait() const {
