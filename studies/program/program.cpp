@@ -147,9 +147,9 @@ void add_run(CLI::App& program, RunTexts& texts, Action& action) {
   run->add_option(
       "--shard", shard,
       "i/n: compute every n-th tile from i on, i from 0; in an array task of Slurm its own share");
-  run->add_option("--from", options.from,
-                  "result of the same system on another grid: its points are taken over, the others computed")
-      ->check(CLI::ExistingFile);
+  run->add_option(
+      "--from", options.from,
+      "result of the same system on another grid: its points are taken over, the others computed");
   run->add_flag("--fresh", options.run.fresh, "discard what earlier runs have left");
   run->add_option("--time-budget", budget, "stop after 90s, 50m, 2h or 1d");
   add_set(*run, options.set);
@@ -157,6 +157,8 @@ void add_run(CLI::App& program, RunTexts& texts, Action& action) {
   run->callback([&, run] {
     action = [&, run](std::ostream& out) {
       options.run.shard = run->count("--shard") == 0 ? shard_of_array_task(std::getenv) : shard_of(shard);
+      if (run->count("--from") > 0 && options.from.empty())
+        throw StudyError("--from \"\": name the result whose points are taken over");
       if (run->count("--time-budget") > 0) options.run.time_budget = time_span_of("--time-budget", budget);
       const bool leads = !options.run.ranks || options.run.ranks->rank() == 0;
       return leads ? run_command(options, out) : assist_command(options);

@@ -16,6 +16,7 @@ from same_bytes import raw_bytes
 
 TIME_LIMIT = 120.0  # s of any one run: a hang is a failure
 KILLS = 8
+SHARDS = 5
 
 ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
                    OMPI_MCA_rmaps_base_oversubscribe="1", OMPI_MCA_hwloc_base_binding_policy="none")
@@ -83,6 +84,17 @@ def check_numbers_of_ranks(folder, expected):
             assert out.count("status ") == 1, "said by more than one rank"
 
 
+def check_shards(folder, expected):
+    for shard in range(SHARDS):
+        ranks = 1 + shard % 2
+        code, _, message = folder.call(folder.on_ranks(ranks, "--shard", f"{shard}/{SHARDS}"))
+        assert code == 0, message
+    code, _, message = folder.call([folder.program, "merge", folder.output])
+    assert code == 0, message
+    assert raw_bytes(folder.output) == expected, "shards"
+    folder.forget()
+
+
 def check_stops(folder, expected):
     for how in signal.SIGUSR1, signal.SIGTERM, signal.SIGINT:
         process = folder.start(folder.on_ranks(3, "--threads", "1"))
@@ -136,7 +148,7 @@ def check_errors(folder, expected):
     with tempfile.TemporaryDirectory() as elsewhere:
         other = os.path.join(elsewhere, "study.toml")
         with open(folder.study) as file, open(other, "w") as changed:
-            changed.write(file.read().replace("points = 481", "points = 480"))
+            changed.write(file.read().replace("points = 401", "points = 400"))
         code, _, message = folder.call(folder.of_different(folder.command(), folder.command(study=other)))
     assert code == 6 and message.count("another study") == 1, (code, message)
     folder.forget()
@@ -176,13 +188,16 @@ def main():
     random.seed(6)
     program, source, mpiexec = sys.argv[1:]
     check_tuning(program, source, mpiexec)
-    with open(os.path.join(source, "studies", "den_hartog.toml")) as file:
+    with open(os.path.join(source, "studies", "rig_atlas.toml")) as file:
         study = file.read()
+    assert study.count("points = 42\n") == 1
+    study = study.replace("points = 42\n", "points = 6\n")
     with tempfile.TemporaryDirectory() as path:
         folder = Folder(program, mpiexec, path, study)
         expected, _ = folder.finish(folder.command("--threads", "1"))
-        assert len(expected) > 10 and expected["main_peak"][1] == (6, 25, 481)
+        assert len(expected) > 10 and expected["main_peak"][1] == (6, 31, 401)
         check_numbers_of_ranks(folder, expected)
+        check_shards(folder, expected)
         check_errors(folder, expected)
         check_stops(folder, expected)
         check_killed_ranks(folder, expected)
