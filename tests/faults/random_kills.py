@@ -128,7 +128,7 @@ def stop_runs(bench, study, expected):
         outcome = ended(process)
         if outcome.code == 4:
             stops += 1
-            assert f"stopped by {how.name}" in outcome.err and "the same command goes on" in outcome.err, outcome
+            assert f"stopped by {how.name}" in outcome.err and "the same command " in outcome.err, outcome
             assert OUTPUT not in place.names()
         else:
             # Behind its work it just ends; the file is whole.
