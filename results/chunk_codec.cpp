@@ -1,67 +1,15 @@
 #include "results/chunk_codec.hpp"
 
-#include <fmt/core.h>
-#include <libdeflate.h>
-
 #include <algorithm>
 #include <cstring>
-#include <memory>
-#include <new>
-#include <stdexcept>
+
+#include "results/deflate.hpp"
 
 namespace frahm::results {
-namespace {
-
-// Byte 0 of every element, then byte 1 of every element, ...: the slowly changing sign and exponent bytes of
-// neighbours come together and compress.
-template <std::size_t Size>
-void shuffle(std::span<const std::byte> elements, std::span<std::byte> shuffled) {
-  const std::size_t count = elements.size() / Size;
-  for (std::size_t b = 0; b < Size; ++b) {
-    for (std::size_t i = 0; i < count; ++i) shuffled[b * count + i] = elements[i * Size + b];
-  }
-}
-
-Bytes shuffled(std::span<const std::byte> elements, std::size_t element_size) {
-  Bytes bytes(elements.size());
-  switch (element_size) {
-    case 1:
-      shuffle<1>(elements, bytes);
-      return bytes;
-    case 4:
-      shuffle<4>(elements, bytes);
-      return bytes;
-    case 8:
-      shuffle<8>(elements, bytes);
-      return bytes;
-    default:
-      throw std::logic_error(fmt::format("element of {} bytes: must be 1, 4 or 8", element_size));
-  }
-}
-
-struct FreeCompressor {
-  void operator()(libdeflate_compressor* compressor) const { libdeflate_free_compressor(compressor); }
-};
-
-// In zlib's format, with `spare` bytes left free at the end.
-Bytes deflated(std::span<const std::byte> data, std::size_t spare) {
-  constexpr int level = 1;
-  const std::unique_ptr<libdeflate_compressor, FreeCompressor> compressor(libdeflate_alloc_compressor(level));
-  if (!compressor) throw std::bad_alloc();
-  Bytes out(libdeflate_zlib_compress_bound(compressor.get(), data.size()) + spare);
-  const std::size_t size =
-      libdeflate_zlib_compress(compressor.get(), data.data(), data.size(), out.data(), out.size() - spare);
-  if (size == 0)
-    throw std::logic_error(fmt::format("{} bytes do not compress into their bound", data.size()));
-  out.resize(size + spare);
-  return out;
-}
-
-}  // namespace
-
 Bytes encode_chunk(std::span<const std::byte> chunk, std::size_t element_size) {
   constexpr std::size_t checksum_size = 4;
-  Bytes encoded = deflated(shuffled(chunk, element_size), checksum_size);
+  constexpr int level = 1;
+  Bytes encoded = deflated(shuffled(chunk, element_size), level, checksum_size);
   const std::size_t size = encoded.size() - checksum_size;
   const std::uint32_t checksum = fletcher32({encoded.data(), size});
   std::memcpy(encoded.data() + size, &checksum, checksum_size);

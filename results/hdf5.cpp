@@ -208,7 +208,7 @@ bool Group::has_dataset(const std::string& name) const {
 
 // One link after the other: where the list is damaged, H5Literate of HDF5 1.10 frees names that it has not
 // read.
-std::vector<std::string> Group::dataset_names() const {
+std::vector<std::string> Group::names_in_order() const {
   const std::string what = "cannot list the group";
   H5G_info_t info;
   checked(H5Gget_info(id(), &info), where_, what);
@@ -221,8 +221,20 @@ std::vector<std::string> Group::dataset_names() const {
     };
     std::string name(get(nullptr, 0), '\0');
     get(name.data(), name.size() + 1);
-    if (has_dataset(name)) names.push_back(std::move(name));
+    names.push_back(std::move(name));
   }
+  return names;
+}
+
+std::vector<std::string> Group::dataset_names() const {
+  std::vector<std::string> names = names_in_order();
+  std::erase_if(names, [&](const std::string& name) { return !has_dataset(name); });
+  return names;
+}
+
+std::vector<std::string> Group::group_names() const {
+  std::vector<std::string> names = names_in_order();
+  std::erase_if(names, [&](const std::string& name) { return has_dataset(name); });
   return names;
 }
 

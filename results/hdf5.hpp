@@ -104,6 +104,7 @@ class Group : public Object {
   bool has(const std::string& name) const;
   bool has_dataset(const std::string& name) const;
   std::vector<std::string> dataset_names() const;  // in order of creation
+  std::vector<std::string> group_names() const;    // in order of creation
   std::vector<std::string> link_names() const;     // of all it holds, by name; of any file
 
   Group create_group(const std::string& name);
@@ -115,6 +116,7 @@ class Group : public Object {
   friend class File;
   using Object::Object;
   std::string path_of(const std::string& name) const;
+  std::vector<std::string> names_in_order() const;  // of creation
 };
 
 class File {

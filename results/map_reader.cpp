@@ -73,6 +73,14 @@ MapLayout read_layout(const hdf5::Group& root) {
   return layout;
 }
 
+// Appends the paths of all groups within `group`, whose own path is `path` (with a slash, empty of the root).
+void add_groups(const hdf5::Group& group, const std::string& path, std::vector<std::string>& paths) {
+  for (const std::string& name : group.group_names()) {
+    paths.push_back(path + name);
+    add_groups(group.group(name), path + name + '/', paths);
+  }
+}
+
 }  // namespace
 
 MapReader::MapReader(const std::filesystem::path& path) : file_(hdf5::File::open(path)) {
@@ -102,6 +110,12 @@ std::vector<double> MapReader::read(std::size_t variable, std::span<const std::u
 bool MapReader::has_group(const std::string& name) const {
   const hdf5::Group root = file_.root();
   return root.has(name) && !root.has_dataset(name);
+}
+
+std::vector<std::string> MapReader::groups() const {
+  std::vector<std::string> paths;
+  add_groups(file_.root(), "", paths);
+  return paths;
 }
 
 std::vector<Text> MapReader::texts(const std::string& group) const {

@@ -27,6 +27,7 @@ class MapReader {
                            std::span<const std::uint64_t> count) const;
 
   bool has_group(const std::string& name) const;
+  std::vector<std::string> groups() const;  // their paths ("optimum", "optimum/front")
 
   // The texts of a group ("provenance"), in order of writing. StoreError if there is no such group.
   std::vector<Text> texts(const std::string& group) const;

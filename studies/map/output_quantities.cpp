@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "studies/map/comparison.hpp"
@@ -71,6 +72,19 @@ std::vector<std::pair<std::string, std::string>> names_of_groups(const StudyFile
   return names;
 }
 
+// A page shows what is recorded.
+void check_report(const StudyFile& study, const std::vector<periodic::QuantityDescription>& recorded) {
+  std::vector<std::string> names;
+  for (const periodic::QuantityDescription& quantity : recorded) names.push_back(quantity.name);
+  for (const OutputChoice::Name& name : study.report_quantities) {
+    if (std::find(names.begin(), names.end(), name.text) != names.end()) continue;
+    throw study.source.error_at(
+        name.position, fmt::format("[report]: quantities: \"{}\" is not recorded by this study{}; [output] "
+                                   "quantities chooses what is",
+                                   name.text, suggestion(name.text, names)));
+  }
+}
+
 }  // namespace
 
 std::vector<periodic::Quantity> output_quantities(const StudyFile& study) {
@@ -111,6 +125,7 @@ std::vector<periodic::QuantityDescription> output_variables(
         fmt::format("\"{}\" is the name of {} and of a result ({}), which stand in one file; rename it",
                     variable.name, other->second.what, variable.long_name));
   }
+  check_report(study, result);
   return result;
 }
 

@@ -25,6 +25,7 @@
 #include "studies/program/merge_command.hpp"
 #include "studies/program/option_values.hpp"
 #include "studies/program/point_command.hpp"
+#include "studies/program/report_command.hpp"
 #include "studies/program/run_command.hpp"
 #include "studies/program/status_command.hpp"
 #include "studies/program/verify_command.hpp"
@@ -43,6 +44,7 @@ A study file describes a system and the axes of a map. From there:
   frahm point study.toml --at r=0.9,f=0.1     one response, told in full
   frahm run study.toml                        the whole map, into study.h5; run again to resume
   frahm status study.h5                       what is in a file, or how far it is
+  frahm report study.h5                       its page: maps, curves and numbers to look at
 Every command has its own help: frahm run --help
 
 Exit codes: 0 done, 1 internal error, 2 wrong usage or study, 3 some points failed, 4 stopped (run again to
@@ -92,6 +94,13 @@ Examples:
   frahm export found.h5 --study model.toml    a study in which the estimates of an identification stand
   frahm export rig_decay_main.toml --data decay.csv --rate "500 Hz" --noise "0.05 mm" --seed 7
                                               measurements as a sensor would take them, to try an experiment)";
+
+constexpr const char* report_examples = R"(
+Examples:
+  frahm report rig_atlas.h5                   the page rig_atlas.html: opens in any browser, alone and offline
+  frahm report rig_atlas.h5 -o for_client.html --quantities main_peak,tmd_peak,guide_regime
+  frahm report tuned.h5 --figures figures     its figures for a paper: SVG, CSV, and PDF with rsvg-convert or
+                                              inkscape)";
 
 using Action = std::function<int(std::ostream&)>;  // of the command that was given
 
@@ -252,6 +261,22 @@ void add_export(CLI::App& program, ExportOptions& options, Action& action) {
   command->callback([&] { action = [&](std::ostream& out) { return export_command(options, out); }; });
 }
 
+void add_report(CLI::App& program, ReportOptions& options, Action& action) {
+  CLI::App* command = add_command(
+      program, "report", "make the page of a result: figures, tables, where they come from", report_examples);
+  command->add_option("FILE", options.file, "result file")->required();
+  command->add_option("-o,--output", options.output, "the page, - for stdout; else FILE with .html");
+  command
+      ->add_option("--quantities", options.quantities,
+                   "of a map: name,... to show; else those of the study's [report], else peaks, strokes, "
+                   "regimes, stops and status")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--figures", options.figures,
+                      "no page: every figure as SVG, CSV and PDF into this folder; needs Node.js");
+  command->callback([&] { action = [&](std::ostream& out) { return report_command(options, out); }; });
+}
+
 // Everything the command line can give a value to.
 struct CommandLine {
   RunTexts run;
@@ -260,6 +285,7 @@ struct CommandLine {
   std::filesystem::path status;
   MergeOptions merge;
   ExportOptions table;
+  ReportOptions report;
   bool version = false, verbose = false;
   Action action;
 };
@@ -276,6 +302,7 @@ void describe(CLI::App& program, CommandLine& line) {
   add_status(program, line.status, line.action);
   add_merge(program, line.merge, line.action);
   add_export(program, line.table, line.action);
+  add_report(program, line.report, line.action);
   program
       .add_subcommand("verify",
                       "solve the classical cases on this machine and compare with their closed forms")

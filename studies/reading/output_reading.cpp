@@ -129,4 +129,11 @@ void read_output(const StudyContext& context, const TomlValue& root, StudyFile& 
   read_resonances(context, section, study);
 }
 
+void read_report(const StudyContext& context, const TomlValue& root, StudyFile& study) {
+  const TomlEntry* entry = find_entry(root, "report");
+  if (!entry) return;
+  const TomlSection section(context.source, entry->value, "[report]", {"quantities"});
+  if (section.find("quantities")) study.report_quantities = read_quantity_names(section);
+}
+
 }  // namespace frahm::studies

@@ -16,7 +16,8 @@ constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // some editors be
 
 // The sections of each kind of study, in the order of StudyKind.
 const std::array<std::vector<std::string>, 5> sections_of_kind{
-    {{"study", "parameters", "mass", "element", "excitation", "axis", "coordinate", "output", "compare"},
+    {{"study", "parameters", "mass", "element", "excitation", "axis", "coordinate", "output", "compare",
+      "report"},
      {"study", "parameters", "mass", "element", "decay", "initial"},
      {"study", "parameters", "mass", "element", "excitation", "transient", "initial"},
      {"study", "parameters", "mass", "element", "excitation", "tune", "design", "constraint", "scenario",
@@ -164,6 +165,7 @@ StudyFile parse_study(std::string text, const std::filesystem::path& name, DataF
     read_coordinates(context, root, study);
     find_frequency_dimension(study);
     read_output(context, root, study);
+    read_report(context, root, study);
   } else if (study.kind == StudyKind::tune) {
     read_tuning(context, root, study);
   } else if (study.kind == StudyKind::identify) {

@@ -107,6 +107,7 @@ struct StudyFile {
   std::vector<GridDimension> dimensions;  // the first varies slowest; at least one
   std::vector<DerivedCoordinate> coordinates;
   OutputChoice output;
+  std::vector<OutputChoice::Name> report_quantities;  // of the report's page; empty: its own choice
   std::optional<Comparison> comparison;
 
   // The dimension along which the excitation frequency changes, which runs innermost in the computation; if

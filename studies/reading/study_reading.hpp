@@ -72,10 +72,11 @@ void refuse_smooth_friction(const StudyFile& study);
 void check_masses_are_held(const StudyContext& context, const NetworkOfStudy& system,
                            const std::vector<Position>& masses);
 
-// [[axis]] into study.axes and study.dimensions; [[coordinate]]; [output].
+// [[axis]] into study.axes and study.dimensions; [[coordinate]]; [output]; [report].
 void read_axes(const StudyContext& context, const TomlValue& root, StudyFile& study);
 void read_coordinates(const StudyContext& context, const TomlValue& root, StudyFile& study);
 void read_output(const StudyContext& context, const TomlValue& root, StudyFile& study);
+void read_report(const StudyContext& context, const TomlValue& root, StudyFile& study);
 
 // The names in the array `quantities` of a section, each once.
 std::vector<OutputChoice::Name> read_quantity_names(const TomlSection& section);

@@ -1,0 +1,9 @@
+// Instead of what bundle.mjs makes, where there is no Node.js.
+#include "results/report/page_parts.hpp"
+
+namespace frahm::results {
+
+const std::string_view page_before_title, page_before_data, page_after_data;
+const std::string_view figures_script;
+
+}  // namespace frahm::results

@@ -1,0 +1,81 @@
+// The axes of a map in words and places: labels, spacing, which point lies nearest.
+import { numberText, unitText, withUnit, words } from "./units.js";
+
+const greek = {
+  alpha: "\u03b1", beta: "\u03b2", gamma: "\u03b3", delta: "\u03b4", epsilon: "\u03b5", zeta: "\u03b6", eta: "\u03b7", theta: "\u03b8",
+  kappa: "\u03ba", lambda: "\u03bb", mu: "\u03bc", nu: "\u03bd", xi: "\u03be", rho: "\u03c1", sigma: "\u03c3", tau: "\u03c4", phi: "\u03c6", psi: "\u03c8", omega: "\u03c9", Omega: "\u03a9", Delta: "\u0394",
+};
+
+// A parameter's name as a symbol: "omega" to "ω", "zeta_1" to "ζ 1".
+export function symbolText(name) {
+  return name.split("_").map((part) => greek[part] ?? part).join(" ");
+}
+
+// The label of an axis or of a derived coordinate with its unit.
+export function coordinateLabel({ name, unit, long_name }) {
+  const plain = !long_name || long_name === `parameter ${name}`;
+  const text = plain ? symbolText(name) : words(name);
+  return withUnit(text, unitText(unit));
+}
+
+// "I = 6.36 kg".
+export function coordinateText({ name, unit, values }, i) {
+  const after = unitText(unit);
+  return `${symbolText(name)} = ${numberText(values[i])}${after ? ` ${after}` : ""}`;
+}
+
+// Whether values lie evenly, on a linear or a logarithmic scale: "linear", "log", or "" for neither.
+export function spacing(values) {
+  const even = (of) => {
+    const step = (of(values.at(-1)) - of(values[0])) / (values.length - 1);
+    return values.every((value, i) => Math.abs(of(value) - of(values[0]) - i * step) <= 1e-6 * Math.abs(step));
+  };
+  if (values.length < 2 || even((value) => value)) return "linear";
+  return values.every((value) => value > 0) && even(Math.log) ? "log" : "";
+}
+
+export function isMonotone(values) {
+  const sign = Math.sign(values[1] - values[0]);
+  return sign !== 0 && values.every((value, i) => i === 0 || Math.sign(value - values[i - 1]) === sign);
+}
+
+// The index whose value lies nearest (of a monotone axis, on its scale).
+export function nearest(values, at, type = "linear") {
+  const of = type === "log" ? Math.log : (value) => value;
+  let best = 0;
+  for (let i = 1; i < values.length; ++i) {
+    if (Math.abs(of(values[i]) - of(at)) < Math.abs(of(values[best]) - of(at))) best = i;
+  }
+  return best;
+}
+
+// The edges between the cells of a map, one more than there are values: half way between neighbours.
+export function cellEdges(values, type) {
+  const to = type === "log" ? Math.log : (value) => value, from = type === "log" ? Math.exp : (value) => value;
+  const places = Array.from(values, to);
+  if (places.length === 1) return [from(places[0] - 0.5), from(places[0] + 0.5)];
+  const inner = places.slice(1).map((place, i) => (place + places[i]) / 2);
+  const first = places[0] - (inner[0] - places[0]), last = places.at(-1) + (places.at(-1) - inner.at(-1));
+  return [first, ...inner, last].map(from);
+}
+
+// The place of a value along a monotone axis as a fractional index, NaN outside.
+export function fractionalIndex(values, at) {
+  const rising = values.at(-1) >= values[0];
+  for (let i = 0; i + 1 < values.length; ++i) {
+    const [low, high] = rising ? [values[i], values[i + 1]] : [values[i + 1], values[i]];
+    if (at < low || at > high) continue;
+    return i + (at - values[i]) / (values[i + 1] - values[i]);
+  }
+  return values.length === 1 && at === values[0] ? 0 : NaN;
+}
+
+// The command that computes this point again, in the units of the study.
+export function pointCommand(record, index) {
+  const quoted = (text) => (/^[A-Za-z0-9_.,=\/-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
+  const at = record.map.axes.flatMap((axis, a) => axis.coordinates
+    .filter(({ name, long_name }) => long_name === `parameter ${name}` || name === axis.name)
+    .map(({ name, unit, values }) => `${name}=${values[index[a]]}${unit && unit !== "1" ? ` ${unit}` : ""}`));
+  const set = record.provenance.overrides;
+  return `frahm point ${quoted(record.provenance.study_file ?? "study.toml")} --at ${quoted(at.join(","))}${set ? ` --set ${quoted(set)}` : ""}`;
+}

@@ -1,0 +1,15 @@
+// Columns as CSV: "name [unit]" above its numbers, as frahm's own exports have them; what is missing is empty.
+export function csvText(columns) {
+  const rows = Math.max(0, ...columns.map((column) => column.values.length));
+  const quoted = (text) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
+  const head = columns.map(({ name, unit }) => quoted(unit && unit !== "1" ? `${name} [${unit}]` : name));
+  const lines = [head.join(",")];
+  for (let row = 0; row < rows; ++row) {
+    lines.push(columns.map(({ values }) => {
+      const value = values[row];
+      if (typeof value === "string") return quoted(value);
+      return value === undefined || Number.isNaN(value) ? "" : String(value);
+    }).join(","));
+  }
+  return lines.join("\n") + "\n";
+}

@@ -1,0 +1,116 @@
+// What all figures share: one look for screen, export and paper, drawn by Observable Plot.
+//
+// A figure is {name, title, caption, draw(canvas), table()}:
+//   name     of its files, [a-z0-9_]+
+//   draw     returns an SVG element.  canvas: {width, height, document, image, interactive}; image(width, height,
+//            rgba) gives a picture's data URL
+//   table    its numbers, for a CSV file: [{name, unit, values}], in the units of the record
+import * as Plot from "@observablehq/plot";
+
+export const fontSize = 12;
+const fontFamily = "system-ui, -apple-system, 'Segoe UI', 'DejaVu Sans', Arial, sans-serif";
+const lineHeight = 18;
+const characterWidth = 0.56 * fontSize;  // of a sans-serif font, on average
+
+// Okabe and Ito's colours, told apart by all; black and yellow are left out, for dark and for light pages.
+export const lineColours = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#8C6D31", "#7F7F7F"];
+export const lineDashes = ["", "6 3", "2 2", "8 3 2 3", "4 4", "1 3", "10 4", "3 5"];
+
+// Of the regimes of a contact, one everywhere; not_computed has none.
+export const regimeColours = {
+  no_friction: "#9A9A9A", non_stop: "#0072B2", one_stop: "#E69F00", multi_stop: "#D55E00", stuck: "#6F4E9B",
+};
+
+function textWidth(text) {
+  return text.length * characterWidth;
+}
+
+// Entries of a legend in rows that fit the width.
+function legendRows(legend, width) {
+  const rows = [[]];
+  let used = 0;
+  for (const entry of legend) {
+    const needed = 30 + textWidth(entry.text) + 14;
+    if (used > 0 && used + needed > width) {
+      rows.push([]);
+      used = 0;
+    }
+    rows.at(-1).push({ ...entry, x: used });
+    used += needed;
+  }
+  return rows;
+}
+
+export function svgElement(document, name, attributes, text) {
+  const element = document.createElementNS("http://www.w3.org/2000/svg", name);
+  for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, String(value));
+  if (text !== undefined) element.appendChild(document.createTextNode(text));
+  return element;
+}
+
+// The legend above the frame: a stroke (or a filled square) and its words.
+function legendMark(rows, marginLeft) {
+  return (index, scales, values, dimensions, { document }) => {
+    const group = svgElement(document, "g", { "aria-label": "legend", "text-anchor": "start", fill: "currentColor" });
+    rows.forEach((row, r) => {
+      for (const { x, text, stroke, dash = "", fill, symbol } of row) {
+        const left = marginLeft + x, middle = 10 + r * lineHeight;
+        if (fill) group.appendChild(svgElement(document, "rect", { x: left + 6, y: middle - 5, width: 12, height: 10, fill, stroke: "none" }));
+        if (symbol) group.appendChild(svgElement(document, "circle", { cx: left + 11, cy: middle, r: 4, fill: symbol === "open" ? "none" : stroke, stroke, "stroke-width": 1.5 }));
+        if (stroke && !symbol) group.appendChild(svgElement(document, "path", { d: `M${left},${middle}h22`, stroke, "stroke-width": 2, "stroke-dasharray": dash, fill: "none" }));
+        group.appendChild(svgElement(document, "text", { x: left + 28, y: middle, dy: "0.32em", stroke: "none" }, text));
+      }
+    });
+    return group;
+  };
+}
+
+const ticksLength = 5;
+
+// One pair of axes in a frame. x, y: Plot's scale options and {label}; legend: [{text, stroke, dash, fill, symbol}].
+export function drawFrame(canvas, { x, y, marks, legend = [], marginRight = 20, marginLeft = 68, scales = {} }) {
+  const rows = legend.length ? legendRows(legend, canvas.width - marginLeft - marginRight) : [];
+  const axis = (options) => ({ labelAnchor: "center", labelArrow: "none", nice: false, ...options });
+  return Plot.plot({
+    document: canvas.document,
+    width: canvas.width,
+    height: canvas.height + rows.length * lineHeight,
+    marginLeft, marginRight, marginTop: 14 + rows.length * lineHeight, marginBottom: 46,
+    style: { fontFamily, fontSize: `${fontSize}px`, background: "none", overflow: "visible" },
+    x: axis({ ...x, label: null }),
+    y: axis({ ...y, label: null }),
+    ...scales,
+    marks: [
+      ...marks,
+      Plot.frame({ stroke: "currentColor", strokeWidth: 1 }),
+      Plot.axisX({ label: x.label, labelAnchor: "center", labelArrow: "none", labelOffset: 38, tickSize: ticksLength, tickPadding: 4, tickFormat: x.tickFormat, ticks: x.ticks, fontSize, tickSpacing: 70 }),
+      Plot.axisY({ label: y.label, labelAnchor: "center", labelArrow: "none", labelOffset: 58, tickSize: ticksLength, tickPadding: 4, tickFormat: y.tickFormat, ticks: y.ticks, fontSize, tickSpacing: 40 }),
+      ...(rows.length ? [legendMark(rows, marginLeft)] : []),
+    ],
+  });
+}
+
+// The faint lines behind curves.
+export function grid() {
+  return [Plot.gridX({ strokeOpacity: 0.12, tickSpacing: 70 }), Plot.gridY({ strokeOpacity: 0.12, tickSpacing: 40 })];
+}
+
+// A line through (x[i], y[i]), broken where y is no number.
+export function curve(x, y, options = {}) {
+  const points = Array.from(x, (value, i) => [value, Number.isFinite(y[i]) ? y[i] : NaN]);
+  return Plot.line(points, { strokeWidth: 1.6, ...options });
+}
+
+export function dots(x, y, options = {}) {
+  const points = Array.from(x, (value, i) => [value, y[i]]).filter(([, value]) => Number.isFinite(value));
+  return Plot.dot(points, { r: 3, ...options });
+}
+
+// Shows x and y of the nearest point of the curves to a pointer, where there is one. rows: [{x, y, text}].
+export function tips(canvas, rows) {
+  if (!canvas.interactive) return [];
+  return [Plot.tip(rows, Plot.pointer({ x: "x", y: "y", title: "text", fontSize, fill: "var(--card, white)", lineHeight: 1.3 }))];
+}
+
+// The numbers of an axis as it writes them, for tips.
+export { numberText, withUnit } from "../units.js";

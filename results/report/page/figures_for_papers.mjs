@@ -1,0 +1,21 @@
+// Every figure of a result as SVG and its numbers as CSV, without a browser:  node FIGURES.mjs FOLDER < DATA.json
+import { readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { DOMImplementation, XMLSerializer } from "@xmldom/xmldom";
+import { csvText } from "./csv.js";
+import { figuresOf } from "./pages/pages.js";
+import { about } from "./parts/heading.js";
+import { unpackRecord } from "./record.js";
+import { pngImage } from "./png.mjs";
+import { svgFile } from "./svg_file.js";
+
+const folder = process.argv[2];
+const record = await unpackRecord(JSON.parse(readFileSync(0, "utf8")));
+const document = new DOMImplementation().createDocument("http://www.w3.org/1999/xhtml", "html");
+for (const figure of figuresOf(record)) {
+  const width = 720, height = Math.round(width * (figure.ratio ?? 0.6));
+  const svg = figure.draw({ width, height, document, image: pngImage, interactive: false });
+  writeFileSync(join(folder, `${figure.name}.svg`), new XMLSerializer().serializeToString(svgFile(svg, figure.title, about(record))));
+  writeFileSync(join(folder, `${figure.name}.csv`), csvText(figure.table()));
+  process.stdout.write(`${figure.name}\n`);
+}

@@ -1,0 +1,45 @@
+// Unpacks the numbers of the page's data (results/report/page_numbers.hpp).
+
+function bytesOf(base64) {
+  const binary = atob(base64);
+  const bytes = new Uint8Array(binary.length);
+  for (let i = 0; i < bytes.length; ++i) bytes[i] = binary.charCodeAt(i);
+  return bytes;
+}
+
+async function inflated(base64) {
+  const stream = new Blob([bytesOf(base64)]).stream().pipeThrough(new DecompressionStream("deflate"));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
+// Bytes b of all elements stand together; `size` of them make an element.
+function unshuffled(bytes, size) {
+  const count = bytes.length / size;
+  const elements = new Uint8Array(bytes.length);
+  for (let b = 0; b < size; ++b) {
+    for (let i = 0, from = b * count; i < count; ++i) elements[i * size + b] = bytes[from + i];
+  }
+  return elements.buffer;
+}
+
+export async function unpackNumbers(base64) {
+  return new Float64Array(unshuffled(await inflated(base64), 8));
+}
+
+// Levels along lines of `size` numbers, `stride` apart: undoes the second differences. Level 0 is missing (NaN),
+// level n is low + (n - 1) step.
+export async function unpackLevels({ levels, low, step }, { size, stride }) {
+  const differences = new Uint32Array(unshuffled(await inflated(levels), 4));
+  const whole = new Float64Array(differences.length);
+  const values = new Float64Array(differences.length);
+  for (let i = 0; i < whole.length; ++i) {
+    const code = differences[i];
+    const difference = code & 1 ? -(code + 1) / 2 : code / 2;
+    const along = Math.floor(i / stride) % size;
+    const before = along > 0 ? whole[i - stride] : 0;
+    const beforeThat = along > 1 ? whole[i - 2 * stride] : 0;
+    whole[i] = difference + 2 * before - beforeThat;
+    values[i] = whole[i] === 0 ? NaN : low + (whole[i] - 1) * step;
+  }
+  return values;
+}

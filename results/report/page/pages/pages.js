@@ -1,0 +1,15 @@
+// Which parts a result has: those of its map, and those of each of its groups.
+import { sweepFigures, sweepParts } from "./sweep.js";
+
+// parts(record): elements of the page.  figures(record): figures that need no hand, for papers.
+const kinds = [
+  { has: (record) => record.map !== null, parts: sweepParts, figures: sweepFigures },
+];
+
+export function partsOf(record) {
+  return kinds.filter(({ has }) => has(record)).flatMap(({ parts }) => parts(record));
+}
+
+export function figuresOf(record) {
+  return kinds.filter(({ has }) => has(record)).flatMap(({ figures }) => figures(record));
+}

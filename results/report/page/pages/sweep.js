@@ -1,0 +1,6 @@
+export function sweepParts() {
+  return [];
+}
+export function sweepFigures() {
+  return [];
+}

@@ -1,0 +1,33 @@
+// The page's elements. Texts go in as text, never as markup.
+
+// element("p", {class: "note"}, "text", other element, ...)
+export function element(name, attributes = {}, ...children) {
+  const made = document.createElement(name);
+  for (const [key, value] of Object.entries(attributes)) {
+    if (key.startsWith("on")) made.addEventListener(key.slice(2), value);
+    else if (value === true) made.setAttribute(key, "");
+    else if (value !== false && value !== undefined && value !== null) made.setAttribute(key, String(value));
+  }
+  made.append(...children.flat().filter((child) => child !== null && child !== undefined));
+  return made;
+}
+
+// head: texts; rows: arrays of texts or elements; a cell that is a number stands right.
+export function table(head, rows, { caption, numeric = [] } = {}) {
+  const cell = (name, content, column) => element(name, numeric.includes(column) ? { class: "number" } : {}, content ?? "");
+  return element("div", { class: "scroll" }, element("table", {},
+    caption ? element("caption", {}, caption) : null,
+    element("thead", {}, element("tr", {}, head.map((text, c) => cell("th", text, c)))),
+    element("tbody", {}, rows.map((row) => element("tr", {}, row.map((content, c) => cell("td", content, c)))))));
+}
+
+// A drop-down list of [value, text]; chosen(value) is called when another is taken.
+export function choice(label, options, selected, chosen) {
+  const list = element("select", { onchange: (event) => chosen(event.target.value) },
+    options.map(([value, text]) => element("option", { value, selected: String(value) === String(selected) }, text)));
+  return element("label", { class: "control" }, element("span", {}, label), list);
+}
+
+export function section(title, ...children) {
+  return element("section", { class: "part" }, element("h2", {}, title), ...children);
+}

@@ -1,0 +1,15 @@
+// The head of the page: title, and what kind of result this is.
+import { element } from "./elements.js";
+
+export function heading(record) {
+  const made = record.provenance.finished ?? "";
+  return element("header", { class: "top" },
+    element("h1", {}, record.title || record.file),
+    element("p", { class: "sub" }, [record.file, record.source, made].filter(Boolean).join(" \u00b7 ")));
+}
+
+// One line on where a figure comes from, for its files.
+export function about(record) {
+  const fingerprint = record.provenance.fingerprint_physics ?? "";
+  return `${record.title}; ${record.file}; ${record.source}; fingerprint ${fingerprint}`;
+}

@@ -1,0 +1,110 @@
+// A result as its page sees it: axes, variables on them, groups of columns, texts. Plain data and look-ups.
+import { unpackLevels, unpackNumbers } from "./numbers.js";
+
+// A flag's or count's value that means "nothing here".
+const missing = { flag: 0, count: -1 };
+
+// One column of a group: name, unit, long_name, kind, flags, dimension, values (Float64Array).
+export class Group {
+  constructor(texts, columns) {
+    this.texts = texts;
+    this.columns = columns;
+    this.byName = new Map(columns.map((column) => [column.name, column]));
+  }
+  has(name) {
+    return this.byName.has(name);
+  }
+  // The column, or undefined.
+  column(name) {
+    return this.byName.get(name);
+  }
+  values(name) {
+    return this.byName.get(name)?.values;
+  }
+  // A single number, or NaN where there is none.
+  number(name) {
+    return this.byName.get(name)?.values[0] ?? NaN;
+  }
+  // The word of a flag (a single one, or that of row i).
+  word(name, i = 0) {
+    const column = this.byName.get(name);
+    return column ? meaningOf(column, column.values[i]) : "";
+  }
+  along(dimension) {
+    return this.columns.filter((column) => column.dimension === dimension);
+  }
+}
+
+export function meaningOf(variable, value) {
+  return variable.flags?.find(([code]) => code === value)?.[1] ?? "";
+}
+
+// Axes: {name, size, stride, coordinates: [{name, unit, long_name, values}]}; an axis whose own parameter is
+// not among its coordinates (several zipped together) has its first coordinate speak for it.
+export class ResponseMap {
+  constructor(axes, variables, leftOut) {
+    this.axes = axes;
+    this.variables = variables;
+    this.leftOut = leftOut;
+    this.byName = new Map(variables.map((variable) => [variable.name, variable]));
+    this.points = axes.reduce((points, axis) => points * axis.size, 1);
+  }
+  variable(name) {
+    return this.byName.get(name);
+  }
+  offset(index) {
+    return index.reduce((offset, i, axis) => offset + i * this.axes[axis].stride, 0);
+  }
+  // The value at a point, NaN where there is none.
+  value(variable, index) {
+    const value = variable.values[this.offset(index)];
+    return value === missing[variable.kind] ? NaN : value;
+  }
+  // Values along an axis through a point.
+  line(variable, index, axis) {
+    const { size, stride } = this.axes[axis];
+    const start = this.offset(index) - index[axis] * stride;
+    const none = missing[variable.kind];
+    return Float64Array.from({ length: size }, (_, i) => {
+      const value = variable.values[start + i * stride];
+      return value === none ? NaN : value;
+    });
+  }
+}
+
+async function unpackMap(data) {
+  const sizes = data.axes.map((axis) => axis.size);
+  const strides = sizes.map((_, i) => sizes.slice(i + 1).reduce((a, b) => a * b, 1));
+  const axes = data.axes.map((axis, i) => ({ ...axis, stride: strides[i] }));
+  for (const axis of axes) {
+    if (axis.coordinates.length === 0) {
+      const values = Array.from({ length: axis.size }, (_, i) => i);
+      axis.coordinates.push({ name: axis.name, unit: "1", long_name: "index along " + axis.name, values });
+    }
+  }
+  const line = { size: sizes[data.along], stride: strides[data.along] };
+  const variables = await Promise.all(data.variables.map(async (variable) => {
+    const from = variable.levels_of ? data.variables.find(({ name }) => name === variable.levels_of) : variable;
+    const values = await unpackLevels({ levels: from.levels, low: variable.low, step: variable.step }, line);
+    const { levels, levels_of, ...described } = variable;
+    return { ...described, values };
+  }));
+  return new ResponseMap(axes, variables, data.left_out);
+}
+
+async function unpackGroup({ texts, columns }) {
+  return new Group(texts, await Promise.all(columns.map(async (column) => (
+    { ...column, values: await unpackNumbers(column.values) }))));
+}
+
+// data: the page's JSON. The record: {file, title, source, history, map (or null), groups: Map, provenance}.
+export async function unpackRecord(data) {
+  if (data.format !== 1) throw new Error(`the page's data are of format ${data.format}, its script reads format 1`);
+  const groups = new Map();
+  for (const [name, group] of Object.entries(data.groups)) groups.set(name, await unpackGroup(group));
+  return {
+    file: data.file, title: data.title, source: data.source, history: data.history,
+    map: data.map ? await unpackMap(data.map) : null,
+    groups, provenance: data.provenance,
+  };
+}

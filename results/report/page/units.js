@@ -1,0 +1,59 @@
+// Units as readers write them, and numbers in them.
+
+const superscripts = { "-": "\u207b", 0: "\u2070", 1: "\u00b9", 2: "\u00b2", 3: "\u00b3", 4: "\u2074", 5: "\u2075", 6: "\u2076" };
+
+// "m s-2" to "m/s²", "N s m-1" to "N s/m", "rad s-1" to "rad/s"; "1" to "".
+export function unitText(unit) {
+  if (!unit || unit === "1") return "";
+  const above = [], below = [];
+  for (const factor of unit.split(/[ .*]+/)) {
+    const parts = /^(.*?)(?:\^?(-?\d+))?$/.exec(factor);
+    const power = Number(parts[2] ?? 1);
+    if (!/^[A-Za-zµ%°]+$/.test(parts[1])) return unit;
+    const raised = Math.abs(power) === 1 ? parts[1] : parts[1] + [...String(Math.abs(power))].map((c) => superscripts[c]).join("");
+    (power > 0 ? above : below).push(raised);
+  }
+  if (below.length === 0) return above.join(" ");
+  const denominator = below.length > 1 ? `(${below.join(" ")})` : below[0];
+  return `${above.join(" ") || "1"}/${denominator}`;
+}
+
+// Lengths and forces are shown in the unit in which the largest has one to three digits before the point.
+const prefixed = {
+  m: [[1, "m"], [1e-3, "mm"], [1e-6, "\u00b5m"]],
+  N: [[1e6, "MN"], [1e3, "kN"], [1, "N"], [1e-3, "mN"]],
+  J: [[1e3, "kJ"], [1, "J"], [1e-3, "mJ"]],
+};
+
+// {factor, text}: a value in `unit` is value x factor in `text`.
+export function shownUnit(unit, values) {
+  const steps = prefixed[unit];
+  if (!steps) return { factor: 1, text: unitText(unit) };
+  let largest = 0;
+  for (const value of values) if (Number.isFinite(value)) largest = Math.max(largest, Math.abs(value));
+  const [scale, text] = steps.find(([size]) => largest >= size) ?? (largest === 0 ? [1, unit] : steps.at(-1));
+  return { factor: 1 / scale, text };
+}
+
+// "peak of main (mm)".
+export function withUnit(text, unit) {
+  return unit ? `${text} (${unit})` : text;
+}
+
+// Six significant digits, plainly written where that is readable.
+export function numberText(value, digits = 6) {
+  if (Number.isNaN(value) || value === undefined) return "\u2013";
+  if (!Number.isFinite(value)) return value > 0 ? "\u221e" : "\u2212\u221e";
+  const size = Math.abs(value);
+  if (size !== 0 && (size < 1e-4 || size >= 1e7)) {
+    const [mantissa, exponent] = value.toExponential(digits - 1).split("e");
+    const power = [...String(Number(exponent))].map((c) => superscripts[c] ?? { 7: "\u2077", 8: "\u2078", 9: "\u2079" }[c]).join("");
+    return `${Number(mantissa)}\u00d710${power}`.replaceAll("-", "\u2212");
+  }
+  return String(Number(value.toPrecision(digits))).replace("-", "\u2212");
+}
+
+// "main_peak" to "main peak"; words of flags too.
+export function words(name) {
+  return name.replaceAll("_", " ");
+}

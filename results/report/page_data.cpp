@@ -1,0 +1,176 @@
+#include "results/report/page_data.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+
+#include "results/box.hpp"
+#include "results/report/page_numbers.hpp"
+
+namespace frahm::results {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int page_format = 1;
+constexpr const char* provenance_group = "provenance";
+
+const char* kind_of(Type type) {
+  switch (type) {
+    case Type::float64:
+    case Type::float32:
+      return "float";
+    case Type::int64:
+    case Type::int32:
+      return "count";
+    case Type::flag:
+      break;
+  }
+  return "flag";
+}
+
+Json described(const Variable& variable) {
+  Json json{{"name", variable.name}, {"unit", variable.unit}, {"long_name", variable.long_name}};
+  json["kind"] = kind_of(variable.type);
+  if (variable.type != Type::flag) return json;
+  json["flags"] = Json::array();
+  for (const Flag& flag : variable.flags) json["flags"].push_back({flag.value, flag.meaning});
+  return json;
+}
+
+Json axis_json(const Axis& axis) {
+  Json json{{"name", axis.name}, {"size", axis.size}, {"coordinates", Json::array()}};
+  for (const Coordinate& coordinate : axis.coordinates) {
+    json["coordinates"].push_back({{"name", coordinate.name},
+                                   {"unit", coordinate.unit},
+                                   {"long_name", coordinate.long_name},
+                                   {"values", coordinate.values}});
+  }
+  return json;
+}
+
+Shape shape_of(const MapLayout& layout) {
+  Shape shape;
+  for (const Axis& axis : layout.axes) shape.push_back(axis.size);
+  return shape;
+}
+
+// The longest axis: along it neighbours are most alike.
+std::size_t longest(const Shape& shape) {
+  return static_cast<std::size_t>(std::max_element(shape.begin(), shape.end()) - shape.begin());
+}
+
+LineShape lines_along(const Shape& shape, std::size_t axis) {
+  return {shape[axis], product(std::span(shape).subspan(axis + 1))};
+}
+
+// What has been packed; suspension and main mass, say, may move alike.
+struct Packed {
+  std::string name;
+  PackedLevels levels;
+};
+
+Json packed_variable(const MapReader& result, std::size_t v, std::vector<Packed>& before) {
+  const Variable& variable = result.layout().variables[v];
+  const Shape shape = shape_of(result.layout());
+  std::vector<double> values = result.read(v, Shape(shape.size(), 0), shape);
+  const bool whole = variable.type == Type::flag || variable.type == Type::int32;
+  const PackedLevels packed = pack_levels(values, lines_along(shape, longest(shape)), whole ? 1.0 : 0.0);
+  Json json = described(variable);
+  json["low"] = packed.low;
+  json["step"] = packed.step;
+  const auto same = std::find_if(before.begin(), before.end(),
+                                 [&](const Packed& other) { return other.levels.levels == packed.levels; });
+  if (same == before.end()) {
+    json["levels"] = packed.levels;
+    before.push_back({variable.name, packed});
+  } else {
+    json["levels_of"] = same->name;
+  }
+  return json;
+}
+
+std::size_t index_of(const MapLayout& layout, const std::string& name) {
+  const auto found = std::find_if(layout.variables.begin(), layout.variables.end(),
+                                  [&](const Variable& variable) { return variable.name == name; });
+  if (found != layout.variables.end()) return static_cast<std::size_t>(found - layout.variables.begin());
+  throw std::invalid_argument(fmt::format("the map has no quantity \"{}\"", name));
+}
+
+Json map_json(const MapReader& result, const std::vector<std::string>& chosen) {
+  const MapLayout& layout = result.layout();
+  Json json{{"axes", Json::array()}, {"along", longest(shape_of(layout))}};
+  for (const Axis& axis : layout.axes) json["axes"].push_back(axis_json(axis));
+  json["variables"] = json["left_out"] = Json::array();
+  std::vector<Packed> packed;
+  for (const std::string& name : chosen)
+    json["variables"].push_back(packed_variable(result, index_of(layout, name), packed));
+  for (const Variable& variable : layout.variables) {
+    if (std::find(chosen.begin(), chosen.end(), variable.name) == chosen.end())
+      json["left_out"].push_back(described(variable));
+  }
+  return json;
+}
+
+Json column_json(const Column& column) {
+  Json json = described(column.variable);
+  json["dimension"] = column.dimension;
+  json["values"] = packed_numbers(column.values);
+  return json;
+}
+
+Json texts_json(const std::vector<Text>& texts) {
+  Json json = Json::object();
+  for (const auto& [name, text] : texts) json[name] = text;
+  return json;
+}
+
+Json group_json(const std::vector<Text>& texts, const std::vector<Column>& columns) {
+  Json json{{"texts", texts_json(texts)}, {"columns", Json::array()}};
+  for (const Column& column : columns) json["columns"].push_back(column_json(column));
+  return json;
+}
+
+// Every group of the file but the provenance, by its path.
+Json groups_json(const MapReader& result, const PageContent& content) {
+  Json json = Json::object();
+  for (const std::string& name : result.groups()) {
+    if (name == provenance_group) continue;
+    json[name] = group_json(result.texts(name), result.columns(name));
+  }
+  for (const PageGroup& group : content.groups) json[group.name] = group_json({}, group.columns);
+  return json;
+}
+
+std::string without_markup(std::string text) {
+  std::string escaped;
+  escaped.reserve(text.size());
+  for (const char c : text) {
+    if (c == '<') {
+      escaped += "\\u003c";
+    } else {
+      escaped += c;
+    }
+  }
+  return escaped;
+}
+
+}  // namespace
+
+std::string page_data(const MapReader& result, const PageContent& content) {
+  const MapLayout& layout = result.layout();
+  Json json{{"format", page_format},
+            {"file", content.file},
+            {"title", layout.title},
+            {"source", layout.source},
+            {"history", layout.history}};
+  json["map"] = layout.axes.empty() ? Json() : map_json(result, content.variables);
+  json["groups"] = groups_json(result, content);
+  json["provenance"] = texts_json(result.texts(provenance_group));
+  return without_markup(json.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+}  // namespace frahm::results

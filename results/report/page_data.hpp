@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "results/layout.hpp"
+#include "results/map_reader.hpp"
+
+namespace frahm::results {
+
+// A group that the page shows though the file does not hold it.
+struct PageGroup {
+  std::string name;
+  std::vector<Column> columns;
+};
+
+// What of a result goes into its page.
+struct PageContent {
+  std::string file;                         // its name, as the page tells it
+  std::vector<std::string> variables = {};  // of the map; the others are named without their values
+  std::vector<PageGroup> groups = {};       // besides those of the file
+};
+
+// The result as JSON, the data of its page (page/record.js reads it): attributes of the root; axes with their
+// coordinates; variables to six digits of their range; every group's numbers and texts; the provenance. No
+// "<" stands in it, so that no text of the study can end the script element that holds it. Throws
+// std::invalid_argument for a variable that the map does not have, StoreError.
+std::string page_data(const MapReader& result, const PageContent& content);
+
+}  // namespace frahm::results

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+// Numbers as the page of a report carries them: text, compressed. Its script unpacks them (page/numbers.js).
+namespace frahm::results {
+
+// Base64 of zlib of the float64s' bytes, little-endian, all first bytes first, then all second ones ...
+std::string packed_numbers(std::span<const double> values);
+
+// Numbers to six digits of their range: level 0 is a missing value (NaN, or an infinite one), level n the
+// value low + (n - 1) step.
+struct PackedLevels {
+  double low = 0.0, step = 0.0;
+  std::string levels;  // packed, see pack_levels
+};
+
+constexpr double levels_in_range = 1e6;
+
+// Lines of numbers: those i, i + stride, i + 2 stride, ... (`size` of them) follow each other along one axis.
+struct LineShape {
+  std::uint64_t size = 1, stride = 1;
+};
+
+// Along each line a smooth response is nearly straight, so of its levels the second differences are kept
+// (what stands before the first one counts as level 0), with the sign in the lowest bit, as 32-bit numbers
+// whose bytes are shuffled and deflated as above.  step: 0 for a millionth of the range, else it (1 of whole
+// numbers).
+PackedLevels pack_levels(std::span<const double> values, const LineShape& line, double step = 0.0);
+
+}  // namespace frahm::results

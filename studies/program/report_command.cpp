@@ -1,0 +1,122 @@
+#include "studies/program/report_command.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <algorithm>
+#include <iostream>
+#include <optional>
+
+#include "results/map_reader.hpp"
+#include "results/report/page_data.hpp"
+#include "results/report/report_page.hpp"
+#include "studies/map/finished_file.hpp"
+#include "studies/map/stored_study.hpp"
+#include "studies/program/paper_figures.hpp"
+#include "studies/program/whole_file.hpp"
+
+namespace frahm::studies {
+namespace {
+
+// The study that the result holds, if it can be read again: a table that it reads may have stayed elsewhere.
+std::optional<StudyFile> study_of(const results::MapReader& result, const std::filesystem::path& file) {
+  try {
+    return read_stored_study(result, file).study;
+  } catch (const StudyError& error) {
+    std::cerr << fmt::format("frahm: the study in {} cannot be read again, the report goes without it: {}\n",
+                             file.string(), error.what());
+    return std::nullopt;
+  }
+}
+
+// What an atlas shows: peaks of the masses, strokes, regimes, stops and the status.
+bool is_shown_by_default(const std::string& name) {
+  const auto ends = [&](std::string_view end) { return name.ends_with(end); };
+  if (ends("_velocity_peak") || ends("_acceleration_peak") || ends("_force_peak")) return false;
+  return ends("_peak") || ends("_stroke") || ends("_regime") || ends("_stops") || name == "status";
+}
+
+// All recorded quantities if it is none of those.
+std::vector<std::string> default_quantities(const results::MapLayout& layout) {
+  std::vector<std::string> shown, all;
+  bool any_number = false;
+  for (const results::Variable& variable : layout.variables) {
+    all.push_back(variable.name);
+    if (!is_shown_by_default(variable.name)) continue;
+    shown.push_back(variable.name);
+    any_number = any_number || variable.type != results::Type::flag;
+  }
+  return any_number ? shown : all;
+}
+
+void check_quantities(const std::vector<std::string>& asked, const results::MapLayout& layout) {
+  for (const std::string& name : asked) {
+    const auto& known = layout.variables;
+    const bool is_known = std::any_of(
+        known.begin(), known.end(), [&](const results::Variable& variable) { return variable.name == name; });
+    if (is_known) continue;
+    std::string names;
+    for (const results::Variable& variable : known) names += (names.empty() ? "" : ", ") + variable.name;
+    throw StudyError(fmt::format("--quantities: the result has no quantity \"{}\"; it has {}", name,
+                                 names.empty() ? "no map" : names));
+  }
+}
+
+std::vector<std::string> shown_quantities(const ReportOptions& options, const results::MapLayout& layout,
+                                          const std::optional<StudyFile>& study) {
+  check_quantities(options.quantities, layout);
+  if (!options.quantities.empty()) return options.quantities;
+  if (!study || study->report_quantities.empty()) return default_quantities(layout);
+  std::vector<std::string> names;
+  for (const OutputChoice::Name& name : study->report_quantities) names.push_back(name.text);
+  return names;
+}
+
+results::PageContent content_of(const ReportOptions& options, const results::MapReader& result) {
+  const std::optional<StudyFile> study = study_of(result, options.file);
+  return {.file = options.file.filename().string(),
+          .variables = shown_quantities(options, result.layout(), study)};
+}
+
+void require_page_parts() {
+  if (results::has_report_page()) return;
+  throw StudyError(
+      "report: this frahm was built without the page's parts, which come with Node.js and npm. Install them "
+      "(Debian: apt-get install nodejs npm), configure and build again (cmake --preset release && cmake "
+      "--build "
+      "--preset release); all else in this program is complete");
+}
+
+void write_page(const ReportOptions& options, const results::MapReader& result, std::ostream& out) {
+  const std::filesystem::path output = options.output.empty()
+                                           ? std::filesystem::path(options.file).replace_extension(".html")
+                                           : options.output;
+  const std::string title =
+      result.layout().title.empty() ? options.file.filename().string() : result.layout().title;
+  const std::string page =
+      results::report_page(title, results::page_data(result, content_of(options, result)));
+  if (output == "-") {
+    out << page;
+    return;
+  }
+  check_output_is_not_input(output, options.file);
+  write_whole_file(output, page);
+  fmt::print(out, "{} ({:.1f} MB)\n", output.string(), static_cast<double>(page.size()) * 1e-6);
+}
+
+}  // namespace
+
+int report_command(const ReportOptions& options, std::ostream& out) {
+  require_page_parts();
+  if (!options.figures.empty() && !options.output.empty())
+    throw StudyError("--output: --figures writes into its own folder, no page");
+  const results::MapReader result(options.file);
+  if (options.figures.empty()) {
+    write_page(options, result, out);
+  } else {
+    write_paper_figures(results::page_data(result, content_of(options, result)), options.figures, out);
+  }
+  return 0;
+}
+
+}  // namespace frahm::studies
