@@ -5,6 +5,7 @@ const superscripts = { "-": "\u207b", 0: "\u2070", 1: "\u00b9", 2: "\u00b2", 3: 
 // "m s-2" to "m/s²", "N s m-1" to "N s/m", "rad s-1" to "rad/s"; "1" to "".
 export function unitText(unit) {
   if (!unit || unit === "1") return "";
+  if (unit === "percent") return "%";
   const above = [], below = [];
   for (const factor of unit.split(/[ .*]+/)) {
     const parts = /^(.*?)(?:\^?(-?\d+))?$/.exec(factor);
@@ -51,6 +52,12 @@ export function numberText(value, digits = 6) {
     return `${Number(mantissa)}\u00d710${power}`.replaceAll("-", "\u2212");
   }
   return String(Number(value.toPrecision(digits))).replace("-", "\u2212");
+}
+
+// "31.91 mm": a number with its unit.
+export function quantityText(value, unit, digits = 6) {
+  const { factor, text } = shownUnit(unit, [value]);
+  return text && !Number.isNaN(value) ? `${numberText(value * factor, digits)} ${text}` : numberText(value * factor, digits);
 }
 
 // "main_peak" to "main peak"; words of flags too.

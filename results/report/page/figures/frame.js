@@ -25,18 +25,37 @@ function textWidth(text) {
   return text.length * characterWidth;
 }
 
-// Entries of a legend in rows that fit the width.
+// A text in lines that fit the width: broken at blanks, a longer word where it must be.
+export function wrapped(text, width) {
+  const most = Math.max(4, Math.floor(width / characterWidth));
+  const lines = [""];
+  for (let word of text.split(" ")) {
+    const joined = lines.at(-1) === "" ? word : `${lines.at(-1)} ${word}`;
+    if (joined.length <= most) {
+      lines[lines.length - 1] = joined;
+      continue;
+    }
+    if (lines.at(-1) !== "") lines.push("");
+    for (; word.length > most; word = word.slice(most)) lines.splice(-1, 0, word.slice(0, most));
+    lines[lines.length - 1] = word;
+  }
+  return lines;
+}
+
+// Entries of a legend in rows that fit the width; one that is longer takes rows of its own.
 function legendRows(legend, width) {
   const rows = [[]];
   let used = 0;
   for (const entry of legend) {
-    const needed = 30 + textWidth(entry.text) + 14;
-    if (used > 0 && used + needed > width) {
+    const lines = wrapped(entry.text, width - 30);
+    const needed = 30 + textWidth(lines[0]) + 14;
+    if (used > 0 && (used + needed > width || lines.length > 1)) {
       rows.push([]);
       used = 0;
     }
-    rows.at(-1).push({ ...entry, x: used });
-    used += needed;
+    rows.at(-1).push({ ...entry, text: lines[0], x: used });
+    for (const text of lines.slice(1)) rows.push([{ text, x: 0 }]);
+    used = lines.length > 1 ? width : used + needed;
   }
   return rows;
 }
@@ -65,17 +84,22 @@ function legendMark(rows, marginLeft) {
   };
 }
 
-const ticksLength = 5;
+const ticksLength = 5, labelLineHeight = 15;
 
 // One pair of axes in a frame. x, y: Plot's scale options and {label}; legend: [{text, stroke, dash, fill, symbol}].
+// Labels longer than their axis take several lines.
 export function drawFrame(canvas, { x, y, marks, legend = [], marginRight = 20, marginLeft = 68, scales = {} }) {
-  const rows = legend.length ? legendRows(legend, canvas.width - marginLeft - marginRight) : [];
+  const yLabel = wrapped(y.label ?? "", canvas.height - 60), yMore = (yLabel.length - 1) * labelLineHeight;
+  const xLabel = wrapped(x.label ?? "", canvas.width - marginLeft - marginRight - yMore);
+  const xMore = (xLabel.length - 1) * labelLineHeight;
+  const rows = legend.length ? legendRows(legend, canvas.width - marginLeft - marginRight - yMore) : [];
   const axis = (options) => ({ labelAnchor: "center", labelArrow: "none", nice: false, ...options });
+  const ticks = { labelAnchor: "center", labelArrow: "none", tickSize: ticksLength, tickPadding: 4, fontSize };
   return Plot.plot({
     document: canvas.document,
     width: canvas.width,
-    height: canvas.height + rows.length * lineHeight,
-    marginLeft, marginRight, marginTop: 14 + rows.length * lineHeight, marginBottom: 46,
+    height: canvas.height + rows.length * lineHeight + xMore,
+    marginLeft: marginLeft + yMore, marginRight, marginTop: 14 + rows.length * lineHeight, marginBottom: 46 + xMore,
     style: { fontFamily, fontSize: `${fontSize}px`, background: "none", overflow: "visible" },
     x: axis({ ...x, label: null }),
     y: axis({ ...y, label: null }),
@@ -83,9 +107,9 @@ export function drawFrame(canvas, { x, y, marks, legend = [], marginRight = 20, 
     marks: [
       ...marks,
       Plot.frame({ stroke: "currentColor", strokeWidth: 1 }),
-      Plot.axisX({ label: x.label, labelAnchor: "center", labelArrow: "none", labelOffset: 38, tickSize: ticksLength, tickPadding: 4, tickFormat: x.tickFormat, ticks: x.ticks, fontSize, tickSpacing: 70 }),
-      Plot.axisY({ label: y.label, labelAnchor: "center", labelArrow: "none", labelOffset: 58, tickSize: ticksLength, tickPadding: 4, tickFormat: y.tickFormat, ticks: y.ticks, fontSize, tickSpacing: 40 }),
-      ...(rows.length ? [legendMark(rows, marginLeft)] : []),
+      Plot.axisX({ ...ticks, label: xLabel.join("\n"), labelOffset: 38 + xMore, tickFormat: x.tickFormat, ticks: x.ticks, tickSpacing: 70 }),
+      Plot.axisY({ ...ticks, label: yLabel.join("\n"), labelOffset: marginLeft - 10 + yMore, tickFormat: y.tickFormat, ticks: y.ticks, tickSpacing: 40 }),
+      ...(rows.length ? [legendMark(rows, marginLeft + yMore)] : []),
     ],
   });
 }
