@@ -2,10 +2,12 @@
 
 const superscripts = { "-": "\u207b", 0: "\u2070", 1: "\u00b9", 2: "\u00b2", 3: "\u00b3", 4: "\u2074", 5: "\u2075", 6: "\u2076" };
 
-// "m s-2" to "m/s²", "N s m-1" to "N s/m", "rad s-1" to "rad/s"; "1" to "".
+// "m s-2" to "m/s²", "N s m-1" to "N s/m", "rad s-1" to "rad/s", "(m)2" to "m²"; "1" to "".
 export function unitText(unit) {
   if (!unit || unit === "1") return "";
   if (unit === "percent") return "%";
+  const square = /^\((.*)\)2$/.exec(unit);
+  if (square) return /^\w+$/.test(square[1]) ? `${square[1]}\u00b2` : `(${unitText(square[1])})\u00b2`;
   const above = [], below = [];
   for (const factor of unit.split(/[ .*]+/)) {
     const parts = /^(.*?)(?:\^?(-?\d+))?$/.exec(factor);

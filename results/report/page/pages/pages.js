@@ -1,9 +1,11 @@
 // Which parts a result has: those of its map, and those of each of its groups.
+import { tuningFigures, tuningParts } from "./tuning.js";
 import { sweepFigures, sweepParts } from "./sweep.js";
 
 // parts(record): elements of the page.  figures(record): figures that need no hand, for papers.
 const kinds = [
   { has: (record) => record.map !== null, parts: sweepParts, figures: sweepFigures },
+  { has: (record) => record.groups.has("optimum"), parts: tuningParts, figures: tuningFigures },
 ];
 
 export function partsOf(record) {

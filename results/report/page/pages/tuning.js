@@ -1,0 +1,163 @@
+// The page of a tuning: what it means, the optimum and what holds it, and how it came about.
+import { symbolText } from "../axes.js";
+import { columnFigure, responseFigure, scheduleFigure, weightFigure } from "../figures/tuning_response.js";
+import { detuningFigure, frontFigure, gapFigure, objectiveLabel, roundsFigure, startsFigure } from "../figures/tuning_progress.js";
+import { heldBounds, knotsAtBounds, tuningOf } from "../tuning.js";
+import { outcomeWarning, whatItMeans } from "../tuning_words.js";
+import { element, section, table } from "../parts/elements.js";
+import { figureCards } from "../parts/figure_cards.js";
+import { numberText, quantityText, unitText, withUnit, words } from "../units.js";
+
+function meaning(tuning) {
+  const paragraphs = whatItMeans(tuning).map((sentences) => element("p", { class: "words" }, sentences.join(" ")));
+  return section("What this means", ...paragraphs);
+}
+
+function per(value, objectiveUnit, unit) {
+  return `${quantityText(value, objectiveUnit)} per ${unitText(unit) || "unit"}`;
+}
+
+function heldText(tuning, parameter) {
+  return heldBounds(parameter, tuning.objective).map(({ end, knots, multiplier, gain }) => {
+    const where = parameter.scheduled ? ` at ${knots} knots, sum of` : ":";
+    return `${end} bound${where} ${per(multiplier, tuning.unit, parameter.unit)}; 1 % of the range more gives ${numberText(100 * gain, 3)} %`;
+  }).join("; ") || "\u2013";
+}
+
+function optimumText({ scheduled, values, name }) {
+  if (!scheduled) return numberText(values[0] ?? NaN, 8);
+  const least = Math.min(...values), greatest = Math.max(...values);
+  return `${numberText(least)} to ${numberText(greatest)}: schedule, see figure of ${symbolText(name)}`;
+}
+
+function changeText({ scheduled, values, before }) {
+  if (scheduled || !(before !== 0)) return "\u2013";
+  const change = 100 * (values[0] / before - 1);
+  return `${change > 0 ? "+" : ""}${numberText(change, 3)} %`;
+}
+
+function optimumTable(tuning) {
+  const { parameters } = tuning;
+  const anyConstant = parameters.some(({ constant }) => Number.isFinite(constant));
+  const head = ["parameter", "optimum", "before", "change", ...(anyConstant ? ["best constant"] : []), "lower bound", "upper bound", "held by (multiplier)"];
+  const rows = parameters.map((parameter) => [
+    withUnit(symbolText(parameter.name), unitText(parameter.unit)), optimumText(parameter), numberText(parameter.before), changeText(parameter),
+    ...(anyConstant ? [numberText(parameter.constant)] : []), numberText(parameter.lower), numberText(parameter.upper), heldText(tuning, parameter)]);
+  return table(head, rows, { numeric: head.map((_, i) => i).slice(2, -1) });
+}
+
+function schedulesTables({ parameters, band }) {
+  return parameters.filter(({ scheduled }) => scheduled).map((parameter) => element("details", {},
+    element("summary", {}, `Knots of the schedule of ${symbolText(parameter.name)}`),
+    table([withUnit(symbolText(band.name), unitText(band.unit)), withUnit(symbolText(parameter.name), unitText(parameter.unit))],
+      Array.from(parameter.knots, (knot, i) => [numberText(knot), numberText(parameter.values[i])]), { numeric: [0, 1] })));
+}
+
+// 1 -> "active", and so on: the shares of peaks in what holds the optimum.
+function shareText({ active, share }) {
+  return active ? `${numberText(100 * share, 4)} %` : "not active";
+}
+
+function peaksTable({ peaks, parameters, band, unit, scenarios, quantity }) {
+  if (peaks.length === 0) return null;
+  const several = scenarios.length > 1;
+  const head = [withUnit(symbolText(band.name), unitText(band.unit)), ...(several ? ["scenario"] : []), words(quantity), "share in what holds it",
+    ...parameters.map(({ name, unit: of }) => `by ${symbolText(name)}, per ${unitText(of) || "unit"}`)];
+  const rows = peaks.map((peak) => [numberText(peak.at), ...(several ? [words(peak.scenario)] : []), quantityText(peak.value, unit), shareText(peak),
+    ...parameters.map(({ sensitivity }) => quantityText(sensitivity[peak.number] ?? NaN, unit, 4))]);
+  const numeric = head.map((_, i) => i).filter((i) => !(several && i === 1));
+  return table(head, rows, { numeric, caption: "Peaks at the optimum and their sensitivities: how the peak changes with each parameter (of a schedule: moved as a whole)." });
+}
+
+function limitsTable(tuning) {
+  const { limits, band, scenarios } = tuning;
+  if (limits.length === 0) return null;
+  const place = ({ at, scenario }) => [Number.isFinite(at) && band ? quantityText(at, band.unit) : "\u2013", scenarios.length > 1 && scenario ? words(scenario) : ""].filter(Boolean).join(", ");
+  const rows = limits.map((limit) => [withUnit(words(limit.name), unitText(limit.unit)), numberText(limit.value), place(limit), numberText(limit.lower), numberText(limit.upper),
+    limit.active ? per(limit.multiplier, tuning.unit, limit.unit) : "does not bind"]);
+  return table(["limit on", "nearest to it", "at", "at least", "at most", "relaxing it gives"], rows,
+    { numeric: [1, 3, 4], caption: "Limits." });
+}
+
+function factsTable(tuning) {
+  const { group, texts, kind } = tuning;
+  const count = (name) => numberText(group.number(name), 12);
+  const rows = [
+    [objectiveLabel(tuning), quantityText(tuning.objective, tuning.unit, 8)],
+    ...(kind === "minimax" ? [["certificate gap", numberText(group.number("certificate_gap"), 3)]] : [["its root", quantityText(Math.sqrt(tuning.objective), tuning.root, 8)]]),
+    ["KKT residual", numberText(group.number("kkt_residual"), 3)], ["violation of limits, relative", numberText(group.number("violation"), 3)],
+    ["outcome", words(tuning.outcome)], ["reason", tuning.reason], ["iterations", count("iterations")],
+    ["orbits", count("orbits")], ["gradients", count("gradients")], ["solver", texts.solver ?? ""],
+    ["starts", `${group.values("start_objective")?.length ?? 1} (${texts.start ?? "given"}); best: ${count("best_start")}`],
+  ];
+  return table(["", ""], rows.filter(([, text]) => text !== ""));
+}
+
+function worstTable(tuning) {
+  const names = { before: "before", after: "tuned", constant: "best constant", rule: "by the rule" };
+  const known = Object.entries(names).filter(([design]) => Number.isFinite(tuning.worst[design]));
+  if (known.length === 0) return null;
+  const rows = known.map(([design, name]) => [name, quantityText(tuning.worst[design], tuning.unit)]);
+  return table(["design", objectiveLabel(tuning)], rows, { numeric: [1] });
+}
+
+function roundsTable({ group, unit, kind }) {
+  const active = group.values("round_active");
+  if (!active) return null;
+  const of = (name, i) => group.values(name)[i];
+  const rows = Array.from(active, (count, i) => [String(i + 1), String(count), String(of("round_iterations", i)), quantityText(of("round_bound", i), unit),
+    ...(kind === "minimax" ? [quantityText(of("round_worst", i), unit)] : []), numberText(of("round_violation", i), 3)]);
+  const head = ["round", "active frequencies", "iterations", "bound", ...(kind === "minimax" ? ["worst"] : []), "violation"];
+  return table(head, rows, { numeric: head.map((_, i) => i), caption: "Rounds of the tuning." });
+}
+
+function frontTable({ front, parameters, limits, unit }) {
+  if (!front) return null;
+  const limit = front.column("trade_off"), of = (name, i) => front.values(name)?.[i];
+  const constants = parameters.filter(({ name }) => front.has(name));
+  const head = [withUnit(`limit of ${words(limits.at(-1)?.name ?? "trade-off")}`, unitText(limit.unit)), "objective",
+    ...constants.map(({ name, unit: of }) => withUnit(symbolText(name), unitText(of))), "certificate gap", "violation", "outcome"];
+  const rows = Array.from(limit.values, (value, i) => [numberText(value), quantityText(of("objective", i), unit),
+    ...constants.map(({ name }) => numberText(of(name, i))), numberText(of("certificate_gap", i), 2), numberText(of("violation", i), 2), words(front.word("outcome", i))]);
+  return table(head, rows, { numeric: head.map((_, i) => i).slice(0, -1), caption: "The front." });
+}
+
+function resultFigures(tuning) {
+  const { band, parameters, columns } = tuning;
+  if (!band) return [];
+  return [
+    ...(tuning.responses.length ? [responseFigure(tuning)] : []),
+    ...parameters.filter(({ scheduled, values }) => scheduled && values.length).map((parameter) => scheduleFigure(tuning, parameter, knotsAtBounds(parameter))),
+    ...columns.map((column) => columnFigure(tuning, column)),
+    ...(tuning.weight ? [weightFigure(tuning)] : []),
+  ];
+}
+
+function progressFigures(tuning) {
+  const { group, kind, front } = tuning;
+  const several = (name) => (group.values(name)?.length ?? 0) > 1;
+  return [
+    ...(front ? [frontFigure(tuning)] : []),
+    ...(group.has("change") ? [detuningFigure(tuning)] : []),
+    ...(several("round_bound") ? [roundsFigure(tuning), ...(kind === "minimax" ? [gapFigure(tuning)] : [])] : []),
+    ...(several("start_objective") ? [startsFigure(tuning)] : []),
+  ];
+}
+
+export function tuningParts(record) {
+  const tuning = tuningOf(record), warning = outcomeWarning(tuning);
+  const [first, ...others] = resultFigures(tuning);
+  return [
+    ...(warning ? [element("p", { class: "warning" }, warning)] : []),
+    meaning(tuning),
+    section("Optimum", optimumTable(tuning), ...schedulesTables(tuning), worstTable(tuning)),
+    ...(first ? [section("Response", ...figureCards([first], record, "wide"), ...figureCards(others, record))] : []),
+    section("What holds it", ...[peaksTable(tuning), limitsTable(tuning)].filter(Boolean), ...figureCards(progressFigures(tuning), record)),
+    section("How it was found", ...[factsTable(tuning), roundsTable(tuning), frontTable(tuning)].filter(Boolean)),
+  ];
+}
+
+export function tuningFigures(record) {
+  const tuning = tuningOf(record);
+  return [...resultFigures(tuning), ...progressFigures(tuning)];
+}
