@@ -6,6 +6,7 @@
 //            rgba) gives a picture's data URL
 //   table    its numbers, for a CSV file: [{name, unit, values}], in the units of the record
 import * as Plot from "@observablehq/plot";
+import { tickFormat, ticks } from "d3";
 
 export const fontSize = 12;
 const fontFamily = "system-ui, -apple-system, 'Segoe UI', 'DejaVu Sans', Arial, sans-serif";
@@ -85,16 +86,27 @@ function legendMark(rows, marginLeft) {
 }
 
 const ticksLength = 5, labelLineHeight = 15;
+const digitWidth = 0.64 * fontSize, besideTicks = 40;  // of the widest common font; the label and its gaps
+
+// Room at the left for the numbers of an axis and its label.
+function leftMargin(axis, height) {
+  if (typeof axis.domain?.[0] !== "number") return 0;
+  const count = Math.max(2, height / 40), [low, high] = axis.domain;
+  const places = Array.isArray(axis.ticks) ? axis.ticks : ticks(low, high, count);
+  const text = typeof axis.tickFormat === "function" ? axis.tickFormat : tickFormat(low, high, count, axis.tickFormat);
+  return besideTicks + digitWidth * Math.max(0, ...places.map((place) => String(text(place)).length));
+}
 
 // One pair of axes in a frame. x, y: Plot's scale options and {label}; legend: [{text, stroke, dash, fill, symbol}].
 // Labels longer than their axis take several lines.
-export function drawFrame(canvas, { x, y, marks, legend = [], marginRight = 20, marginLeft = 68, scales = {} }) {
+export function drawFrame(canvas, { x, y, marks, legend = [], marginRight = 20, marginLeft: leastLeft = 68, scales = {} }) {
+  const marginLeft = Math.max(leastLeft, leftMargin(y, canvas.height));
   const yLabel = wrapped(y.label ?? "", canvas.height - 60), yMore = (yLabel.length - 1) * labelLineHeight;
   const xLabel = wrapped(x.label ?? "", canvas.width - marginLeft - marginRight - yMore);
   const xMore = (xLabel.length - 1) * labelLineHeight;
   const rows = legend.length ? legendRows(legend, canvas.width - marginLeft - marginRight - yMore) : [];
   const axis = (options) => ({ labelAnchor: "center", labelArrow: "none", nice: false, ...options });
-  const ticks = { labelAnchor: "center", labelArrow: "none", tickSize: ticksLength, tickPadding: 4, fontSize };
+  const tickOptions = { labelAnchor: "center", labelArrow: "none", tickSize: ticksLength, tickPadding: 4, fontSize };
   return Plot.plot({
     document: canvas.document,
     width: canvas.width,
@@ -107,8 +119,8 @@ export function drawFrame(canvas, { x, y, marks, legend = [], marginRight = 20, 
     marks: [
       ...marks,
       Plot.frame({ stroke: "currentColor", strokeWidth: 1 }),
-      Plot.axisX({ ...ticks, label: xLabel.join("\n"), labelOffset: 38 + xMore, tickFormat: x.tickFormat, ticks: x.ticks, tickSpacing: 70 }),
-      Plot.axisY({ ...ticks, label: yLabel.join("\n"), labelOffset: marginLeft - 10 + yMore, tickFormat: y.tickFormat, ticks: y.ticks, tickSpacing: 40 }),
+      Plot.axisX({ ...tickOptions, label: xLabel.join("\n"), labelOffset: 38 + xMore, tickFormat: x.tickFormat, ticks: x.ticks, tickSpacing: 70 }),
+      Plot.axisY({ ...tickOptions, label: yLabel.join("\n"), labelOffset: marginLeft - 10 + yMore, tickFormat: y.tickFormat, ticks: y.ticks, tickSpacing: 40 }),
       ...(rows.length ? [legendMark(rows, marginLeft + yMore)] : []),
     ],
   });
