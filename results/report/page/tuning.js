@@ -80,6 +80,15 @@ export function knotsAtBounds({ values, lower, upper }) {
   };
 }
 
+// How many rounds at the end settle what the worst peak of a schedule leaves free: their bound is a mean response.
+export function settlingRounds({ group, kind, parameters, objective }) {
+  const bounds = group.values("round_bound") ?? [];
+  if (kind !== "minimax" || !parameters.some(({ scheduled }) => scheduled)) return 0;
+  const bound = objective * (1 - group.number("certificate_gap"));
+  const decisive = bounds.findLastIndex((value) => Math.abs(value - bound) <= 1e-6 * Math.abs(bound));
+  return decisive < 0 ? 0 : bounds.length - 1 - decisive;
+}
+
 export function tuningOf(record) {
   const group = record.groups.get("optimum"), { texts } = group;
   const band = texts.band_parameter, objective = group.number("objective");

@@ -93,22 +93,24 @@ function scenarioText({ scenarios, kind }) {
 function reductionSentences(tuning) {
   const level = (objective) => quantityText(amplitude(tuning, objective), tuning.root, digits);
   const over = tuning.kind !== "variance" && tuning.band ? ` over ${bandText(tuning)}` : "";
-  const sentences = [`${capital(spoken(tuning))}${over}${scenarioText(tuning)}: ${level(tuning.objective)} with the design found.`];
   const { before, constant, rule, after } = tuning.worst;
   const tuned = amplitude(tuning, Number.isFinite(after) ? after : tuning.objective);
-  const compare = (name, other) => {
-    if (Number.isFinite(other) && other > 0) sentences.push(`${name}: ${level(other)}; the design found has ${lessText(amplitude(tuning, other), tuned)}.`);
-  };
-  compare("Before", before);
-  compare("Best design without a schedule", constant);
-  compare("By the rule", rule);
-  return sentences;
+  const against = (name, other) => (Number.isFinite(other) && other > 0
+    ? [`Against ${name} (${level(other)}): ${lessText(amplitude(tuning, other), tuned)}.`] : []);
+  return [
+    `${capital(spoken(tuning))}${over}${scenarioText(tuning)}: ${level(tuning.objective)}.`,
+    ...against("the design before", before), ...against("the best design without a schedule", constant), ...against("the rule", rule),
+  ];
+}
+
+function listText(texts) {
+  return texts.length < 2 ? texts.join("") : `${texts.slice(0, -1).join(", ")} and ${texts.at(-1)}`;
 }
 
 function intervalText(tuning, { intervals, share }) {
   if (share > 1 - 1e-9) return "over the whole band";
   const told = intervals.length > mostIntervals ? `${intervals.length} stretches`
-    : intervals.map(([from, to]) => `${numberText(from, digits)} to ${placeText(tuning, to)}`).join(" and ");
+    : listText(intervals.map(([from, to]) => `${numberText(from, digits)} to ${placeText(tuning, to)}`));
   return `over ${percentText(100 * share)} of the band${intervals.length ? ` (${told})` : ""}`;
 }
 

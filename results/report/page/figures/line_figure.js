@@ -5,6 +5,7 @@ import { drawFrame, grid, lineColours, lineDashes, tips } from "./frame.js";
 import { thinnedHistory, thinnedPath } from "./line_thinning.js";
 
 const marginLeft = 68, marginRight = 20;
+const leastSpan = 1e-3;  // of an axis, relative to its numbers: what differs by less is level
 const pathTolerance = 0.2;  // pixels
 const dashesOf = (number) => lineDashes[number % lineDashes.length];
 
@@ -33,6 +34,8 @@ function domainOf(spec, axis) {
   if (zero) [low, high] = [Math.min(low, 0), Math.max(high, 0)];
   const room = (high - low) * 0.05 || Math.abs(high) * 0.05 || 0.5;
   if (tight && high > low) return [low, high];
+  const least = leastSpan * Math.max(Math.abs(low), Math.abs(high)), more = Math.max(0, least - (high - low)) / 2;
+  [low, high] = [low - more, high + more];
   return [zero && low === 0 ? 0 : low - room, zero && high === 0 ? 0 : high + room];
 }
 

@@ -1,5 +1,6 @@
 // How a tuning came about and how firm it stands: detuning, rounds of exchange, starts, the front of a trade-off.
 import { symbolText } from "../axes.js";
+import { settlingRounds } from "../tuning.js";
 import { words } from "../units.js";
 import { lineFigure, style } from "./line_figure.js";
 import { lineColours } from "./frame.js";
@@ -32,36 +33,49 @@ export function detuningFigure({ group, parameters, kind }) {
     name: "detuning", title: "What a parameter that is off costs",
     caption: `One parameter is changed, the others stay. Where the ${grows} falls, a bound or a limit stands in the way of the change.`,
     x: { label: "change of one parameter", name: "change", unit: "percent" }, y: { label: `growth of the ${grows}`, unit: "percent" },
-    lines, points: lines.map((line) => ({ ...line, silent: true, text: "" })),
+    lines, points: dotted(lines),
   });
 }
 
+// The rounds that press the objective down, without those that settle what it leaves free.
+function pressingRounds(tuning) {
+  const { group } = tuning;
+  const count = group.values("round_bound").length - settlingRounds(tuning);
+  const of = (name) => group.values(name)?.subarray(0, count);
+  return { x: Float64Array.from({ length: count }, (_, i) => i + 1), bound: of("round_bound"), worst: of("round_worst"), violation: of("round_violation") };
+}
+
+function settlingText(tuning) {
+  const count = settlingRounds(tuning);
+  if (count === 0) return "";
+  return ` The last ${count === 1 ? "round is" : `${count} rounds are`} not drawn: with the worst peak held, ${count === 1 ? "it presses" : "they press"} the mean response down.`;
+}
+
+const roundAxis = (x) => ({ label: "round", unit: "1", ticks: whole(x.length), tickFormat: "d" });
+const dotted = (lines) => lines.map((drawn) => ({ ...drawn, silent: true, text: "" }));
+
 export function roundsFigure(tuning) {
-  const { group, kind, unit } = tuning;
-  const x = Float64Array.from(group.values("round_bound"), (_, i) => i + 1);
-  const line = (name, text, number) => ({ name, text, x, y: group.values(name), ...style(number) });
-  const lines = [line("round_bound", kind === "minimax" ? "bound: over the active frequencies" : "objective", 0),
-    ...(kind === "minimax" ? [line("round_worst", "worst: over the whole band", 1)] : [])];
+  const { kind, unit, parameters } = tuning;
+  const { x, bound, worst } = pressingRounds(tuning);
+  const lines = [{ name: "round_bound", text: kind === "minimax" ? "bound: over the active frequencies" : "objective", x, y: bound, ...style(0) },
+    ...(kind === "minimax" ? [{ name: "round_worst", text: "worst: over the whole band", x, y: worst, ...style(1) }] : [])];
+  const constants = parameters.some(({ scheduled }) => scheduled) ? " The best constants come first, then the schedule." : "";
   return lineFigure({
     name: "rounds", title: "Rounds of the tuning",
-    caption: kind === "minimax" ? "Each round adds the peaks found to the active frequencies, until bound and worst peak meet." : "",
-    x: { label: "round", unit: "1", ticks: whole(x.length), tickFormat: "d" }, y: { label: objectiveLabel(tuning), unit },
-    lines, points: lines.map((drawn) => ({ ...drawn, silent: true, text: "" })),
+    caption: `${kind === "minimax" ? "Each round adds the peaks found to the active frequencies, until bound and worst peak meet." : ""}${constants}${settlingText(tuning)}`,
+    x: roundAxis(x), y: { label: objectiveLabel(tuning), unit }, lines, points: dotted(lines),
   });
 }
 
 // What is left between bound and worst peak, relative, by rounds.
-export function gapFigure({ group }) {
-  const bound = group.values("round_bound"), worst = group.values("round_worst");
-  const x = Float64Array.from(bound, (_, i) => i + 1);
+export function gapFigure(tuning) {
+  const { x, bound, worst, violation } = pressingRounds(tuning);
   const gap = Float64Array.from(bound, (value, i) => Math.abs(worst[i] - value) / Math.abs(worst[i]));
-  const violation = group.values("round_violation");
-  const drawn = [{ name: "round_gap", text: "gap: (worst \u2212 bound) / worst, magnitude", x, y: gap, ...style(0) }];
-  if (violation?.some((value) => value > 0)) drawn.push({ name: "round_violation", text: "violation of the limits", x, y: violation, ...style(1) });
+  const lines = [{ name: "round_gap", text: "|worst \u2212 bound| / worst", x, y: gap, ...style(0) }];
+  if (violation?.some((value) => value > 0)) lines.push({ name: "round_violation", text: "violation of the limits", x, y: violation, ...style(1) });
   return lineFigure({
-    name: "gap", title: "Gap by rounds", caption: "On a logarithmic scale; what is exactly zero is not drawn.",
-    x: { label: "round", unit: "1", ticks: whole(x.length), tickFormat: "d" }, y: { label: "relative", unit: "1", type: "log" },
-    lines: drawn, points: drawn.map((line) => ({ ...line, silent: true, text: "" })),
+    name: "gap", title: "Gap by rounds", caption: "What is exactly zero is not drawn on the logarithmic scale.",
+    x: roundAxis(x), y: { label: "relative gap", unit: "1", type: "log" }, lines, points: dotted(lines),
   });
 }
 

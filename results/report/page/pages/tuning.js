@@ -18,10 +18,22 @@ function per(value, objectiveUnit, unit) {
 }
 
 function heldText(tuning, parameter) {
-  return heldBounds(parameter, tuning.objective).map(({ end, knots, multiplier, gain }) => {
-    const where = parameter.scheduled ? ` at ${knots} knots, sum of` : ":";
-    return `${end} bound${where} ${per(multiplier, tuning.unit, parameter.unit)}; 1 % of the range more gives ${numberText(100 * gain, 3)} %`;
-  }).join("; ") || "\u2013";
+  return heldBounds(parameter, tuning.objective).map(({ end, knots }) => (
+    `${end} bound${parameter.scheduled ? `, at ${knots} knots` : ""}`)).join("; ") || "\u2013";
+}
+
+// What moving the bounds that hold the design outwards gives.
+function boundsTable(tuning) {
+  const rows = tuning.parameters.flatMap((parameter) => heldBounds(parameter, tuning.objective).map(({ end, knots, multiplier, gain }) => [
+    symbolText(parameter.name), `${end}${parameter.scheduled ? `, at ${knots} knots` : ""}`,
+    per(multiplier, tuning.unit, parameter.unit), quantityText((parameter.upper - parameter.lower) / 100, parameter.unit, 4), `${numberText(100 * gain, 3)} %`]));
+  if (rows.length === 0) return [];
+  return [note("Bounds that hold it: how the objective falls as the bound is moved outwards (to first order; of a schedule the sum over its knots)."),
+    table(["parameter", "bound", "multiplier", "1 % of the range", "gives"], rows, { numeric: [2, 3, 4] })];
+}
+
+function note(text) {
+  return element("p", { class: "note" }, text);
 }
 
 function optimumText({ scheduled, values, name }) {
@@ -39,7 +51,7 @@ function changeText({ scheduled, values, before }) {
 function optimumTable(tuning) {
   const { parameters } = tuning;
   const anyConstant = parameters.some(({ constant }) => Number.isFinite(constant));
-  const head = ["parameter", "optimum", "before", "change", ...(anyConstant ? ["best constant"] : []), "lower bound", "upper bound", "held by (multiplier)"];
+  const head = ["parameter", "optimum", "before", "change", ...(anyConstant ? ["best constant"] : []), "lower bound", "upper bound", "held by"];
   const rows = parameters.map((parameter) => [
     withUnit(symbolText(parameter.name), unitText(parameter.unit)), optimumText(parameter), numberText(parameter.before), changeText(parameter),
     ...(anyConstant ? [numberText(parameter.constant)] : []), numberText(parameter.lower), numberText(parameter.upper), heldText(tuning, parameter)]);
@@ -53,30 +65,29 @@ function schedulesTables({ parameters, band }) {
       Array.from(parameter.knots, (knot, i) => [numberText(knot), numberText(parameter.values[i])]), { numeric: [0, 1] })));
 }
 
-// 1 -> "active", and so on: the shares of peaks in what holds the optimum.
 function shareText({ active, share }) {
   return active ? `${numberText(100 * share, 4)} %` : "not active";
 }
 
 function peaksTable({ peaks, parameters, band, unit, scenarios, quantity }) {
-  if (peaks.length === 0) return null;
+  if (peaks.length === 0) return [];
   const several = scenarios.length > 1;
   const head = [withUnit(symbolText(band.name), unitText(band.unit)), ...(several ? ["scenario"] : []), words(quantity), "share in what holds it",
-    ...parameters.map(({ name, unit: of }) => `by ${symbolText(name)}, per ${unitText(of) || "unit"}`)];
+    ...parameters.map(({ name, unit: of }) => `by ${symbolText(name)}: per ${unitText(of) || "unit"}`)];
   const rows = peaks.map((peak) => [numberText(peak.at), ...(several ? [words(peak.scenario)] : []), quantityText(peak.value, unit), shareText(peak),
     ...parameters.map(({ sensitivity }) => quantityText(sensitivity[peak.number] ?? NaN, unit, 4))]);
   const numeric = head.map((_, i) => i).filter((i) => !(several && i === 1));
-  return table(head, rows, { numeric, caption: "Peaks at the optimum and their sensitivities: how the peak changes with each parameter (of a schedule: moved as a whole)." });
+  return [note("Peaks at the optimum, and how each changes with each parameter (a schedule is moved as a whole)."), table(head, rows, { numeric })];
 }
 
 function limitsTable(tuning) {
   const { limits, band, scenarios } = tuning;
-  if (limits.length === 0) return null;
+  if (limits.length === 0) return [];
   const place = ({ at, scenario }) => [Number.isFinite(at) && band ? quantityText(at, band.unit) : "\u2013", scenarios.length > 1 && scenario ? words(scenario) : ""].filter(Boolean).join(", ");
   const rows = limits.map((limit) => [withUnit(words(limit.name), unitText(limit.unit)), numberText(limit.value), place(limit), numberText(limit.lower), numberText(limit.upper),
     limit.active ? per(limit.multiplier, tuning.unit, limit.unit) : "does not bind"]);
-  return table(["limit on", "nearest to it", "at", "at least", "at most", "relaxing it gives"], rows,
-    { numeric: [1, 3, 4], caption: "Limits." });
+  return [note("Limits: the quantity where it is nearest to its limit, and how the objective falls as the limit is relaxed."),
+    table(["limit on", "nearest", "at", "at least", "at most", "multiplier"], rows, { numeric: [1, 3, 4] })];
 }
 
 function factsTable(tuning) {
@@ -152,7 +163,7 @@ export function tuningParts(record) {
     meaning(tuning),
     section("Optimum", optimumTable(tuning), ...schedulesTables(tuning), worstTable(tuning)),
     ...(first ? [section("Response", ...figureCards([first], record, "wide"), ...figureCards(others, record))] : []),
-    section("What holds it", ...[peaksTable(tuning), limitsTable(tuning)].filter(Boolean), ...figureCards(progressFigures(tuning), record)),
+    section("What holds it", ...peaksTable(tuning), ...boundsTable(tuning), ...limitsTable(tuning), ...figureCards(progressFigures(tuning), record)),
     section("How it was found", ...[factsTable(tuning), roundsTable(tuning), frontTable(tuning)].filter(Boolean)),
   ];
 }
