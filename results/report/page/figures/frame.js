@@ -126,9 +126,9 @@ export function drawFrame(canvas, { x, y, marks, legend = [], marginRight = 20, 
   });
 }
 
-// The faint lines behind curves.
-export function grid() {
-  return [Plot.gridX({ strokeOpacity: 0.12, tickSpacing: 70 }), Plot.gridY({ strokeOpacity: 0.12, tickSpacing: 40 })];
+// The faint lines behind curves, at the ticks given or where ticks are by default.
+export function grid(x = {}, y = {}) {
+  return [Plot.gridX({ strokeOpacity: 0.12, tickSpacing: 70, ticks: x.ticks }), Plot.gridY({ strokeOpacity: 0.12, tickSpacing: 40, ticks: y.ticks })];
 }
 
 // A line through (x[i], y[i]), broken where y is no number.

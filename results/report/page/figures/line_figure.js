@@ -124,7 +124,7 @@ function drawLines(canvas, spec) {
     x: x.options, y: y.options, legend, marginLeft, marginRight,
     marks: [
       ...bands.map((band) => bandMark(band, x)),
-      ...grid(),
+      ...grid(x.options, y.options),
       ...levels.map((level) => levelMark(level, y)),
       ...lines.map((line) => lineMark(line, canvas, x, y)),
       ...points.map((point) => pointMark(point, x, y)),

@@ -41,7 +41,7 @@ export function responseFigure(tuning) {
     y: { label: `${weight ? "weighted " : ""}${words(quantity)}`, unit: kind === "minimax" ? unit : root, zero: true },
     lines,
     points: peakPoints(tuning),
-    levels: worstPeak ? [{ text: "worst, tuned", y: worst.after, stroke: colours.after, dash: "2 3" }] : [],
+    levels: worstPeak ? [{ text: "worst, tuned", y: worst.after, stroke: colours.after, dash: "10 4" }] : [],
   });
 }
 

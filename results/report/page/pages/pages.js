@@ -1,11 +1,13 @@
 // Which parts a result has: those of its map, and those of each of its groups.
 import { tuningFigures, tuningParts } from "./tuning.js";
+import { identificationFigures, identificationParts } from "./identification.js";
 import { sweepFigures, sweepParts } from "./sweep.js";
 
 // parts(record): elements of the page.  figures(record): figures that need no hand, for papers.
 const kinds = [
   { has: (record) => record.map !== null, parts: sweepParts, figures: sweepFigures },
   { has: (record) => record.groups.has("optimum"), parts: tuningParts, figures: tuningFigures },
+  { has: (record) => record.groups.has("identification"), parts: identificationParts, figures: identificationFigures },
 ];
 
 export function partsOf(record) {
