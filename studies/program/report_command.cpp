@@ -72,9 +72,23 @@ std::vector<std::string> shown_quantities(const ReportOptions& options, const re
   return names;
 }
 
+// The names of what runs along the axes of the map.
+std::vector<std::string> axis_parameters(const results::MapLayout& layout,
+                                         const std::optional<StudyFile>& study) {
+  std::vector<std::string> names;
+  if (study) {
+    for (const ParameterAxis& axis : study->axes)
+      names.push_back(study->parameters.list[axis.parameter].name);
+  } else {
+    for (const results::Axis& axis : layout.axes) names.push_back(axis.name);
+  }
+  return names;
+}
+
 results::PageContent content_of(const ReportOptions& options, const results::MapReader& result) {
   const std::optional<StudyFile> study = study_of(result, options.file);
   return {.file = options.file.filename().string(),
+          .parameters = axis_parameters(result.layout(), study),
           .variables = shown_quantities(options, result.layout(), study)};
 }
 

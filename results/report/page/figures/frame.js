@@ -71,12 +71,11 @@ const ticksLength = 5;
 export function drawFrame(canvas, { x, y, marks, legend = [], marginRight = 20, marginLeft = 68, scales = {} }) {
   const rows = legend.length ? legendRows(legend, canvas.width - marginLeft - marginRight) : [];
   const axis = (options) => ({ labelAnchor: "center", labelArrow: "none", nice: false, ...options });
-  return Plot.plot({
+  const svg = Plot.plot({
     document: canvas.document,
     width: canvas.width,
     height: canvas.height + rows.length * lineHeight,
     marginLeft, marginRight, marginTop: 14 + rows.length * lineHeight, marginBottom: 46,
-    style: { fontFamily, fontSize: `${fontSize}px`, background: "none", overflow: "visible" },
     x: axis({ ...x, label: null }),
     y: axis({ ...y, label: null }),
     ...scales,
@@ -88,6 +87,9 @@ export function drawFrame(canvas, { x, y, marks, legend = [], marginRight = 20, 
       ...(rows.length ? [legendMark(rows, marginLeft)] : []),
     ],
   });
+  svg.setAttribute("font-family", fontFamily);
+  svg.setAttribute("font-size", fontSize);
+  return svg;
 }
 
 // The faint lines behind curves.
