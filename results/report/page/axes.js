@@ -13,7 +13,7 @@ export function symbolText(name) {
 
 // The record tells where the study uses a parameter: "[excitation]: frequency", 'element "inerter": inertance'.
 function plainMeaning(longName = "") {
-  const use = /^(?:\[(\w+)\]|\w+ "(\w+)"): (\w+)$/.exec(longName);
+  const use = /^(?:\[(\w+)\]|.* "(\w+)"): (\w+)$/.exec(longName);
   if (!use) return longName;
   return use[1] ? `${use[1]} ${words(use[3])}` : `${words(use[3])} of ${words(use[2])}`;
 }

@@ -6,6 +6,11 @@ import { drawFrame, lineColours } from "./frame.js";
 
 export const shareEnd = "_energy_share";
 
+// Those that dissipate at all.
+export function dissipating(variables) {
+  return variables.filter(({ name, values }) => name.endsWith(shareEnd) && values.some((value) => value > 0));
+}
+
 export function energyShares(canvas, map, variables, { axis, coordinate, index }) {
   const x = map.axes[axis].coordinates[coordinate];
   const below = new Float64Array(x.values.length);

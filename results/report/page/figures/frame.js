@@ -70,7 +70,8 @@ const ticksLength = 5;
 // One pair of axes in a frame. x, y: Plot's scale options and {label}; legend: [{text, stroke, dash, fill, symbol}].
 export function drawFrame(canvas, { x, y, marks, legend = [], marginRight = 20, marginLeft = 68, scales = {} }) {
   const rows = legend.length ? legendRows(legend, canvas.width - marginLeft - marginRight) : [];
-  const axis = (options) => ({ labelAnchor: "center", labelArrow: "none", nice: false, ...options });
+  const axis = (options) => ({ nice: false, ...options });
+  const format = (scale) => scale.tickFormat ?? (scale.type === "log" ? "~g" : undefined);
   const svg = Plot.plot({
     document: canvas.document,
     width: canvas.width,
@@ -82,8 +83,8 @@ export function drawFrame(canvas, { x, y, marks, legend = [], marginRight = 20, 
     marks: [
       ...marks,
       Plot.frame({ stroke: "currentColor", strokeWidth: 1 }),
-      Plot.axisX({ label: x.label, labelAnchor: "center", labelArrow: "none", labelOffset: 38, tickSize: ticksLength, tickPadding: 4, tickFormat: x.tickFormat, ticks: x.ticks, fontSize, tickSpacing: 70 }),
-      Plot.axisY({ label: y.label, labelAnchor: "center", labelArrow: "none", labelOffset: 58, tickSize: ticksLength, tickPadding: 4, tickFormat: y.tickFormat, ticks: y.ticks, fontSize, tickSpacing: 40 }),
+      Plot.axisX({ label: x.label, labelAnchor: "center", labelArrow: "none", labelOffset: 38, tickSize: ticksLength, tickPadding: 4, tickFormat: format(x), ticks: x.ticks, fontSize, tickSpacing: 70 }),
+      Plot.axisY({ label: y.label, labelAnchor: "center", labelArrow: "none", labelOffset: 58, tickSize: ticksLength, tickPadding: 4, tickFormat: format(y), ticks: y.ticks, fontSize, tickSpacing: 40 }),
       ...(rows.length ? [legendMark(rows, marginLeft)] : []),
     ],
   });
@@ -95,6 +96,22 @@ export function drawFrame(canvas, { x, y, marks, legend = [], marginRight = 20, 
 // The faint lines behind curves.
 export function grid() {
   return [Plot.gridX({ strokeOpacity: 0.12, tickSpacing: 70 }), Plot.gridY({ strokeOpacity: 0.12, tickSpacing: 40 })];
+}
+
+const leastSpread = 1e-4;  // below it the labels of an axis would need too many digits
+
+// Options of an axis for these values: where they are all but equal, some room about them.
+export function roomFor(values) {
+  let low = Infinity, high = -Infinity;
+  for (const value of values) {
+    if (!Number.isFinite(value)) continue;
+    low = Math.min(low, value);
+    high = Math.max(high, value);
+  }
+  const size = Math.max(Math.abs(low), Math.abs(high));
+  if (!(low <= high) || high - low > leastSpread * size || size === 0) return { nice: true };
+  const middle = (low + high) / 2;
+  return { domain: [middle - 0.01 * size, middle + 0.01 * size] };
 }
 
 // A line through (x[i], y[i]), broken where y is no number.

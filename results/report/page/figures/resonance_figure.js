@@ -2,7 +2,7 @@
 // the others.
 import { symbolText } from "../axes.js";
 import { numberText, shownUnit, unitText, withUnit, words } from "../units.js";
-import { curve, dots, drawFrame, grid, lineColours } from "./frame.js";
+import { curve, dots, drawFrame, grid, lineColours, roomFor } from "./frame.js";
 
 const mostCurves = 8;
 
@@ -38,7 +38,7 @@ export function resonanceFigure(canvas, group, quantity, x) {
   const curves = curvesOver(group, x);
   return drawFrame(canvas, {
     x: { label: withUnit(symbolText(x.name), unitText(x.unit)) },
-    y: { label: withUnit(words(quantity.name), text), nice: true },
+    y: { label: withUnit(words(quantity.name), text), ...roomFor(Array.from(quantity.values, (value) => value * factor)) },
     legend: curves.length > 1 ? curves.map((one, n) => ({ text: one.text, stroke: lineColours[n % lineColours.length] })) : [],
     marks: [...grid(), ...curves.flatMap(({ rows }, n) => {
       const xs = rows.map((row) => x.values[row]), ys = rows.map((row) => quantity.values[row] * factor);

@@ -1,7 +1,7 @@
 // The page of a map: heat map with sliders and regime borders, response curves, the picked point, kept orbits,
 // resonances, what is missing.
 import { coordinateLabel, coordinateText, symbolText } from "../axes.js";
-import { energyShares, energySharesTable, shareEnd } from "../figures/energy_shares.js";
+import { dissipating, energyShares, energySharesTable } from "../figures/energy_shares.js";
 import { orbitFigures, orbitLabel, orbitSamples } from "../figures/orbit_figures.js";
 import { resonanceFigure, resonanceParameters, resonanceQuantities, resonanceTable } from "../figures/resonance_figure.js";
 import { responseCurves, responseCurvesTable } from "../figures/response_curves.js";
@@ -80,7 +80,7 @@ function explorer(record) {
   const place = element("div", {});
   const mapShown = state.y === null ? null : figureCard(mapFigure(map, state), about(record));
   const curvesShown = figureCard(curveFigure(map, state), about(record));
-  const shares = map.variables.filter(({ name }) => name.endsWith(shareEnd));
+  const shares = dissipating(map.variables);
   const sharesShown = shares.length && wide.length ? figureCard({
     name: "damping_budget", title: "Damping budget: who dissipates", caption: "Along the axis of the curves, through the point of the sliders.",
     draw: (canvas) => energyShares(canvas, map, shares, { axis: state.curveAxis, coordinate: state.coordinates[state.curveAxis], index: state.index }),

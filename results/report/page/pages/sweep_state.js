@@ -4,10 +4,14 @@ import { meaningOf } from "../record.js";
 
 const sliding = (map) => map.axes.map((_, a) => a).filter((a) => map.axes[a].size > 1);
 
+const manyPoints = 8;
+
 // The frequency, or whatever has most points, lies along x; the next along y.
 function axesOf(map) {
   const bySize = sliding(map).sort((a, b) => map.axes[b].size - map.axes[a].size);
-  return { x: bySize[0] ?? 0, y: bySize[1] ?? null };
+  const isFrequency = (a) => map.axes[a].size >= manyPoints && map.axes[a].coordinates.some(({ long_name: meaning }) => meaning === "[excitation]: frequency");
+  const x = bySize.find(isFrequency) ?? bySize[0] ?? 0;
+  return { x, y: bySize.find((axis) => axis !== x) ?? null };
 }
 
 // Crossings of /borders of one contact: {place: fractional index along each axis, axis: along which, key}.
