@@ -73,7 +73,10 @@ class Driven {
     for (std::size_t k = 0; k < system_.orders.size(); ++k) {
       const auto column = static_cast<Eigen::Index>(k);
       const std::complex<double> rate(0.0, system_.orders[k] * alpha);
-      system_.force.col(column) -= rate * (system_.M_support * system_.motion.col(column));
+      const Eigen::VectorXcd force = -rate * (system_.M_support * system_.motion.col(column));
+      system_.force.col(column) += force;
+      system_.applied_force.col(column) +=
+          force;  // the supports' jumps between stairs do the rest of its work
     }
   }
 
@@ -153,6 +156,7 @@ ForcedMotion run(const Problem& problem, int stairs) {
   motion.discretisation_error = std::numeric_limits<double>::quiet_NaN();
   if (!complete) motion.failure = driven.trajectory.failure();
   if (complete) driven.trajectory.finish();
+  motion.energy = driven.trajectory.energy_budget();
   motion.history = driven.trajectory.samples();
   for (const double t : motion.history.time) motion.frequency.push_back(sweep.frequency(t));
   motion.peaks = peaks_of(driven.trajectory, problem.assembly.network().masses.size(), problem.initial);

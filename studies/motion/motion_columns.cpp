@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "studies/motion/energy_columns.hpp"
+
 namespace frahm::studies {
 
 void MotionColumns::add(const std::string& name, const char* unit, const std::string& long_name,
@@ -25,6 +27,12 @@ void MotionColumns::add_samples(const transient::Samples& samples) {
     const std::string& mass = study_.network.masses[i];
     add(mass + "_displacement", "m", "displacement of " + mass, "time", samples.displacement[i]);
     add(mass + "_velocity", "m s-1", "velocity of " + mass, "time", samples.velocity[i]);
+  }
+  for (std::size_t e = 0; e < study_.network.elements.size(); ++e) {
+    if (!dissipates(study_.network.elements[e].type)) continue;
+    const std::string& name = study_.network.elements[e].name;
+    add(name + "_dissipated", "J", "energy dissipated by " + name + " until then", "time",
+        samples.dissipated[e]);
   }
 }
 
