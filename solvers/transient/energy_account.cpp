@@ -132,8 +132,8 @@ void EnergyAccount::integrate(const Mode& mode, const Expansion& step, double le
   const Eigen::Map<const Eigen::Matrix<double, kNodes, 1>> weight(periodic::kNodeWeight);
   const double seconds = length * flow_.equations().step;
   using Values = Eigen::Matrix<double, Eigen::Dynamic, kNodes>;
-  Values values = of_z_ * (step.z.transpose() * at);
-  values.noalias() += of_u_ * (step.u.transpose() * at);
+  Values values = of_z_.lazyProduct((step.z.transpose().lazyProduct(at)).eval());
+  values += of_u_.lazyProduct((step.u.transpose().lazyProduct(at)).eval());
 
   Index row = 0;
   for (const Loss& loss : losses_) {

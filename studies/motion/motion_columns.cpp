@@ -10,10 +10,10 @@ namespace frahm::studies {
 void MotionColumns::add(const std::string& name, const char* unit, const std::string& long_name,
                         const std::string& dimension, std::vector<double> values, std::size_t size) {
   values.resize(std::max(size, values.size()), std::numeric_limits<double>::quiet_NaN());
-  columns_.push_back(
-      {.variable = {.name = name, .unit = study_.dimensionless ? "1" : unit, .long_name = long_name},
-       .dimension = dimension,
-       .values = std::move(values)});
+  const bool bare = study_.dimensionless && std::string(unit) != "rad";
+  columns_.push_back({.variable = {.name = name, .unit = bare ? "1" : unit, .long_name = long_name},
+                      .dimension = dimension,
+                      .values = std::move(values)});
 }
 
 void MotionColumns::add_number(const std::string& name, const char* unit, const std::string& long_name,

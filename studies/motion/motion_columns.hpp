@@ -9,7 +9,7 @@
 
 namespace frahm::studies {
 
-// Columns of a group, with the units of the study.
+// Columns of a group, with the units of the study: of one without units only angles keep theirs.
 class MotionColumns {
  public:
   explicit MotionColumns(const StudyFile& study) : study_(study) {}
