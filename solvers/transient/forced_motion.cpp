@@ -102,15 +102,18 @@ bool keep_frequency(Driven& driven, double omega, double phase, double until) {
   return true;
 }
 
-// Through a range of frequencies on `count` stairs, to time `until` <= sweep.time.
+// Through a range of frequencies on `count` stairs, to time `until` <= sweep.time. It starts and ends at the
+// frequency that is there then, half a stair from that of the first and the last: with their energies.
 bool climb(Driven& driven, const Sweep& sweep, double until, int count) {
   const double tau = until / count, lag = sweep.alpha * tau * tau / 12.0;
+  driven.drive(sweep.from, sweep.alpha, 0.0);
   for (int i = 0; i < count; ++i) {
     const double start = tau * i;
     const double phase = std::remainder(sweep.phase(start) - lag, kTurn);
     driven.drive(sweep.frequency(start + 0.5 * tau), sweep.alpha, phase);
     if (!driven.trajectory.advance(tau, phase)) return false;
   }
+  driven.drive(sweep.frequency(until), 0.0, std::remainder(sweep.phase(until), kTurn));
   return true;
 }
 

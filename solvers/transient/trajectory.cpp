@@ -59,13 +59,13 @@ Trajectory::Trajectory(const mechanics::Assembly& assembly, std::vector<double> 
 }
 
 void Trajectory::set_system(const mechanics::LinearSystem& system, double phase) {
-  const double energy = has_mode_ ? energy_now() : 0.0;
+  const double energy = has_started() ? energy_now() : 0.0;
   flow_.set_system(system);
   take_forcing(system, phase, energy);
 }
 
 void Trajectory::set_forcing(const mechanics::LinearSystem& system, double phase) {
-  take_forcing(system, phase, has_mode_ ? energy_now() : 0.0);
+  take_forcing(system, phase, has_started() ? energy_now() : 0.0);
 }
 
 void Trajectory::take_forcing(const mechanics::LinearSystem& system, double phase, double energy_before) {
@@ -73,7 +73,7 @@ void Trajectory::take_forcing(const mechanics::LinearSystem& system, double phas
   flow_.set_forcing(system);
   account_.set_system(system);
   phase_ = phase;
-  if (!has_mode_) return;
+  if (!has_started()) return;
   carry_over(old_step);
   account_.put_in(energy_now() - energy_before);
 }

@@ -64,6 +64,7 @@ class Trajectory {
   using State = typename Flow::S::State;
   using Step = periodic::OrbitStep<Eigen::Dynamic, Eigen::Dynamic>;
 
+  bool has_started() const { return z_.size() > 0; }
   double energy_now() const { return account_.energy_of(z_, phase_); }  // [J]
   void take_forcing(const mechanics::LinearSystem& system, double phase, double energy_before);
   void carry_over(double old_step);
