@@ -11,6 +11,21 @@ namespace frahm::transient {
 using Eigen::Index;
 using periodic::contains, periodic::kNodes;
 
+bool dissipates(mechanics::ElementType type) {
+  using mechanics::ElementType;
+  switch (type) {
+    case ElementType::damper:
+    case ElementType::coulomb:
+    case ElementType::hysteretic:
+    case ElementType::maxwell:
+      return true;
+    case ElementType::spring:
+    case ElementType::inerter:
+      break;
+  }
+  return false;
+}
+
 EnergyAccount::EnergyAccount(const mechanics::Assembly& assembly, const Flow& flow)
     : assembly_(assembly), flow_(flow), forms_(assembly, flow) {
   const auto masses = static_cast<Index>(assembly.network().masses.size());

@@ -67,7 +67,8 @@ class Driven {
 
  private:
   // y'' = (i k alpha - (k omega)^2) Y_k e^{i k phi}: the supports exert -M_s y'' through inerters, of which
-  // the assembly has taken the second part.
+  // the assembly has taken the second part. It works at the masses' velocities; for the rest of its work the
+  // supports' velocities jump from stair to stair.
   void add_angular_acceleration(double alpha) {
     if (alpha == 0.0 || system_.motion.rows() == 0) return;
     for (std::size_t k = 0; k < system_.orders.size(); ++k) {
@@ -75,8 +76,7 @@ class Driven {
       const std::complex<double> rate(0.0, system_.orders[k] * alpha);
       const Eigen::VectorXcd force = -rate * (system_.M_support * system_.motion.col(column));
       system_.force.col(column) += force;
-      system_.applied_force.col(column) +=
-          force;  // the supports' jumps between stairs do the rest of its work
+      system_.applied_force.col(column) += force;
     }
   }
 

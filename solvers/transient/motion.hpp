@@ -34,7 +34,8 @@ struct Samples {
   std::vector<double> time;  // [s]
   // Of each mass, a value for each time: [m], [m/s], [m/s^2]; where the acceleration jumps, what it jumps to.
   std::vector<std::vector<double>> displacement, velocity, acceleration;
-  std::vector<std::vector<double>> dissipated;  // by each element since t = 0 [J]
+  // By each element since t = 0 [J]; of those that never dissipate, no values.
+  std::vector<std::vector<double>> dissipated;
 };
 
 // Where the energy of a motion comes from and goes to:  initial + input = final + sum of dissipated.

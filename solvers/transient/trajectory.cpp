@@ -233,7 +233,9 @@ void Trajectory::keep_state(const State& z, const Eigen::VectorXd& acceleration,
     samples_.velocity[mass].push_back(z[n + i] / h);
     samples_.acceleration[mass].push_back(acceleration[i] / (h * h));
   }
-  for (std::size_t e = 0; e < dissipated.size(); ++e) samples_.dissipated[e].push_back(dissipated[e]);
+  for (std::size_t e = 0; e < dissipated.size(); ++e) {
+    if (dissipates(assembly_.network().elements[e].type)) samples_.dissipated[e].push_back(dissipated[e]);
+  }
 }
 
 void Trajectory::come_to_rest() {

@@ -5,27 +5,14 @@
 
 #include <ostream>
 
-namespace frahm::studies {
+#include "solvers/transient/energy_account.hpp"
 
-bool dissipates(mechanics::ElementType type) {
-  using mechanics::ElementType;
-  switch (type) {
-    case ElementType::damper:
-    case ElementType::coulomb:
-    case ElementType::hysteretic:
-    case ElementType::maxwell:
-      return true;
-    case ElementType::spring:
-    case ElementType::inerter:
-      break;
-  }
-  return false;
-}
+namespace frahm::studies {
 
 void add_energies(const StudyFile& study, const transient::EnergyBudget& energy, MotionColumns& columns) {
   const auto& elements = study.network.elements;
   for (std::size_t e = 0; e < elements.size(); ++e) {
-    if (!dissipates(elements[e].type)) continue;
+    if (!transient::dissipates(elements[e].type)) continue;
     const std::string& name = elements[e].name;
     columns.add_number(name + "_energy", "J", "energy dissipated by " + name, energy.dissipated[e]);
     columns.add_number(name + "_energy_share", "1", "share of " + name + " in the energy dissipated",
@@ -49,7 +36,7 @@ void print_energies(const StudyFile& study, const transient::EnergyBudget& energ
   if (study.kind == StudyKind::transient) line("work of the excitation", energy.input, "");
   const auto& elements = study.network.elements;
   for (std::size_t e = 0; e < elements.size(); ++e) {
-    if (!dissipates(elements[e].type)) continue;
+    if (!transient::dissipates(elements[e].type)) continue;
     line("lost in " + elements[e].name, energy.dissipated[e],
          fmt::format("{:.2f} %", 100.0 * energy.share[e]));
   }

@@ -7,11 +7,8 @@
 // Where the energy of a motion goes: in its record, and as a short table.
 namespace frahm::studies {
 
-// Whether elements of this type dissipate: dampers, hysteretic and Maxwell elements, friction.
-bool dissipates(mechanics::ElementType type);
-
-// <element>_energy, <element>_energy_share of those; initial_energy, final_energy, energy_balance, and of a
-// transient energy_input.
+// <element>_energy, <element>_energy_share of those that dissipate; initial_energy, final_energy,
+// energy_balance, and of a transient energy_input.
 void add_energies(const StudyFile& study, const transient::EnergyBudget& energy, MotionColumns& columns);
 
 void print_energies(const StudyFile& study, const transient::EnergyBudget& energy, std::ostream& out);

@@ -19,7 +19,7 @@ class MotionColumns {
            const std::string& dimension, std::vector<double> values, std::size_t size = 0);
   void add_number(const std::string& name, const char* unit, const std::string& long_name, double value);
 
-  // time, and along it displacement and velocity of each mass and what each element has dissipated.
+  // time, and along it displacement and velocity of each mass and what each element has dissipated that can.
   void add_samples(const transient::Samples& samples);
 
   std::vector<results::Column> take() { return std::move(columns_); }
