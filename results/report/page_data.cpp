@@ -100,9 +100,11 @@ std::size_t index_of(const MapLayout& layout, const std::string& name) {
   throw std::invalid_argument(fmt::format("the map has no quantity \"{}\"", name));
 }
 
-Json map_json(const MapReader& result, const std::vector<std::string>& chosen) {
+Json map_json(const MapReader& result, const PageContent& content) {
+  const std::vector<std::string>& chosen = content.variables;
   const MapLayout& layout = result.layout();
-  Json json{{"axes", Json::array()}, {"along", longest(shape_of(layout))}};
+  Json json{
+      {"axes", Json::array()}, {"along", longest(shape_of(layout))}, {"parameters", content.parameters}};
   for (const Axis& axis : layout.axes) json["axes"].push_back(axis_json(axis));
   json["variables"] = json["left_out"] = Json::array();
   std::vector<Packed> packed;
@@ -167,7 +169,7 @@ std::string page_data(const MapReader& result, const PageContent& content) {
             {"title", layout.title},
             {"source", layout.source},
             {"history", layout.history}};
-  json["map"] = layout.axes.empty() ? Json() : map_json(result, content.variables);
+  json["map"] = layout.axes.empty() ? Json() : map_json(result, content);
   json["groups"] = groups_json(result, content);
   json["provenance"] = texts_json(result.texts(provenance_group));
   return without_markup(json.dump(-1, ' ', false, Json::error_handler_t::replace));

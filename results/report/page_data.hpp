@@ -16,9 +16,10 @@ struct PageGroup {
 
 // What of a result goes into its page.
 struct PageContent {
-  std::string file;                         // its name, as the page tells it
-  std::vector<std::string> variables = {};  // of the map; the others are named without their values
-  std::vector<PageGroup> groups = {};       // besides those of the file
+  std::string file;                          // its name, as the page tells it
+  std::vector<std::string> parameters = {};  // coordinates of the map that are the study's own parameters
+  std::vector<std::string> variables = {};   // of the map; the others are named without their values
+  std::vector<PageGroup> groups = {};        // besides those of the file
 };
 
 // The result as JSON, the data of its page (page/record.js reads it): attributes of the root; axes with their

@@ -4,7 +4,7 @@
 set(FRAHM_REPORT AUTO CACHE STRING "The page of frahm report: ON, OFF, or AUTO (where Node.js and npm are found)")
 
 set(report_source ${CMAKE_CURRENT_SOURCE_DIR}/report)
-set(report_build ${CMAKE_CURRENT_BINARY_DIR}/report)
+set(FRAHM_REPORT_BUILD ${CMAKE_CURRENT_BINARY_DIR}/report)
 set(page_parts ${report_source}/no_page_parts.cpp)
 set(FRAHM_WITH_REPORT FALSE)
 
@@ -19,16 +19,16 @@ endfunction()
 # The packages of the lock file, beside the build; again only where that has changed.
 function(install_page_packages)
   file(SHA256 ${report_source}/package-lock.json lock)
-  set(stamp ${report_build}/installed.sha256)
+  set(stamp ${FRAHM_REPORT_BUILD}/installed.sha256)
   set(installed "")
   if(EXISTS ${stamp})
     file(READ ${stamp} installed)
   endif()
   if(NOT installed STREQUAL lock)
     file(COPY ${report_source}/package.json ${report_source}/package-lock.json ${report_source}/.npmrc
-      DESTINATION ${report_build})
+      DESTINATION ${FRAHM_REPORT_BUILD})
     execute_process(COMMAND ${FRAHM_NPM} ci --ignore-scripts --loglevel=error
-      WORKING_DIRECTORY ${report_build} RESULT_VARIABLE failed OUTPUT_QUIET ERROR_VARIABLE complaint TIMEOUT 300)
+      WORKING_DIRECTORY ${FRAHM_REPORT_BUILD} RESULT_VARIABLE failed OUTPUT_QUIET ERROR_VARIABLE complaint TIMEOUT 300)
     if(failed)
       refuse_report("npm could not install its packages: ${complaint}")
       return()
@@ -49,10 +49,10 @@ if(FRAHM_REPORT)
 endif()
 
 if(FRAHM_WITH_REPORT)
-  set(page_parts ${report_build}/page_parts.cpp)
+  set(page_parts ${FRAHM_REPORT_BUILD}/page_parts.cpp)
   file(GLOB_RECURSE page_sources CONFIGURE_DEPENDS ${report_source}/page/*)
   add_custom_command(OUTPUT ${page_parts}
-    COMMAND ${FRAHM_NODE} ${report_source}/bundle.mjs ${report_build}/node_modules ${page_parts}
+    COMMAND ${FRAHM_NODE} ${report_source}/bundle.mjs ${FRAHM_REPORT_BUILD}/node_modules ${page_parts}
     DEPENDS ${report_source}/bundle.mjs ${report_source}/package-lock.json ${page_sources}
     COMMENT "Bundling the report's page"
     VERBATIM)

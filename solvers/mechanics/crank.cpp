@@ -61,8 +61,8 @@ std::vector<double> even_cosines(int count, const Function& f) {
 
 }  // namespace
 
-double crank_displacement(double radius, double rod, double theta) {
-  return radius * std::sin(theta) + rod_part(radius, rod, theta, 0);
+double crank_displacement(double radius, double rod, double theta, int taylor_order) {
+  return radius * std::sin(theta) + rod_part(radius, rod, theta, taylor_order);
 }
 
 std::vector<double> crank_even_orders(double radius, double rod, int count, int taylor_order) {

@@ -11,11 +11,11 @@ namespace frahm::mechanics {
 //            = R sin(theta) + sum_{m >= 0} even[m] cos(2 m theta)
 //
 // The rod's part is periodic with pi, so only even orders join the first.
-double crank_displacement(double radius, double rod, double theta);
-
-// even[m], m = 0 .. count [m]: by the trapezoidal rule, which converges as fast as the series does.
 // taylor_order 1, 2 or 4: of the Taylor series in R/L cut there,
 //   a = R sin(theta) - R^2 cos^2(theta) / (2 L) - R^4 cos^4(theta) / (8 L^3);   0: exact.
+double crank_displacement(double radius, double rod, double theta, int taylor_order = 0);
+
+// even[m], m = 0 .. count [m]: by the trapezoidal rule, which converges as fast as the series does.
 std::vector<double> crank_even_orders(double radius, double rod, int count, int taylor_order = 0);
 
 // The derivative of crank_even_orders along a change of radius and rod by radius_by and rod_by [m per unit].

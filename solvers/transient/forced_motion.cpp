@@ -67,13 +67,16 @@ class Driven {
 
  private:
   // y'' = (i k alpha - (k omega)^2) Y_k e^{i k phi}: the supports exert -M_s y'' through inerters, of which
-  // the assembly has taken the second part.
+  // the assembly has taken the second part. It works at the masses' velocities; for the rest of its work the
+  // supports' velocities jump from stair to stair.
   void add_angular_acceleration(double alpha) {
     if (alpha == 0.0 || system_.motion.rows() == 0) return;
     for (std::size_t k = 0; k < system_.orders.size(); ++k) {
       const auto column = static_cast<Eigen::Index>(k);
       const std::complex<double> rate(0.0, system_.orders[k] * alpha);
-      system_.force.col(column) -= rate * (system_.M_support * system_.motion.col(column));
+      const Eigen::VectorXcd force = -rate * (system_.M_support * system_.motion.col(column));
+      system_.force.col(column) += force;
+      system_.applied_force.col(column) += force;
     }
   }
 
@@ -99,15 +102,18 @@ bool keep_frequency(Driven& driven, double omega, double phase, double until) {
   return true;
 }
 
-// Through a range of frequencies on `count` stairs, to time `until` <= sweep.time.
+// Through a range of frequencies on `count` stairs, to time `until` <= sweep.time. It starts and ends at the
+// frequency that is there then, half a stair from that of the first and the last: with their energies.
 bool climb(Driven& driven, const Sweep& sweep, double until, int count) {
   const double tau = until / count, lag = sweep.alpha * tau * tau / 12.0;
+  driven.drive(sweep.from, sweep.alpha, 0.0);
   for (int i = 0; i < count; ++i) {
     const double start = tau * i;
     const double phase = std::remainder(sweep.phase(start) - lag, kTurn);
     driven.drive(sweep.frequency(start + 0.5 * tau), sweep.alpha, phase);
     if (!driven.trajectory.advance(tau, phase)) return false;
   }
+  driven.drive(sweep.frequency(until), 0.0, std::remainder(sweep.phase(until), kTurn));
   return true;
 }
 
@@ -153,6 +159,7 @@ ForcedMotion run(const Problem& problem, int stairs) {
   motion.discretisation_error = std::numeric_limits<double>::quiet_NaN();
   if (!complete) motion.failure = driven.trajectory.failure();
   if (complete) driven.trajectory.finish();
+  motion.energy = driven.trajectory.energy_budget();
   motion.history = driven.trajectory.samples();
   for (const double t : motion.history.time) motion.frequency.push_back(sweep.frequency(t));
   motion.peaks = peaks_of(driven.trajectory, problem.assembly.network().masses.size(), problem.initial);

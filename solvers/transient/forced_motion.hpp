@@ -34,6 +34,7 @@ struct ForcedMotion {
   std::vector<double> frequency;         // at the history's times [rad/s]
   std::vector<Extremum> peaks;           // of each mass, the largest |displacement|
   std::vector<std::vector<Stop>> stops;  // of each friction contact
+  EnergyBudget energy;                   // to the duration
   // Of a run-up: the largest change of any sample [m] when the stairs were last halved; NaN otherwise. The
   // error that remains is a fraction of it, as halving divides it by four or more.
   double discretisation_error = 0.0;

@@ -51,6 +51,7 @@ Decaying set_up(const mechanics::Assembly& assembly, mechanics::NetworkValues& v
 struct Ending {
   DecayEnd end = DecayEnd::cut_off;
   double remainder = kNone;  // FreeDecay::remainder
+  EnergyBudget energy = {};
 };
 
 // [s] At most so far.
@@ -89,7 +90,11 @@ Ending march(const Decaying& decaying, double duration, Trajectory& trajectory) 
       ending.end = within ? DecayEnd::failed : DecayEnd::cut_off;
       return ending;
     }
-    if (start_norm == 0.0) return {.end = DecayEnd::at_rest};
+    if (within) ending.energy = trajectory.energy_budget();
+    if (start_norm == 0.0) {
+      ending.end = DecayEnd::at_rest;
+      return ending;
+    }
     const double left = trajectory.distance_from_rest() / start_norm;
     if (within) ending.remainder = left;
     const std::optional<DecayEnd> end = seen_end(trajectory, left);
@@ -170,6 +175,7 @@ FreeDecay free_decay(const mechanics::Network& network, mechanics::NetworkValues
   const Ending ending = march(decaying, options.duration, trajectory);
   decay.end = ending.end;
   decay.remainder = ending.remainder;
+  decay.energy = ending.energy;
   if (decay.end == DecayEnd::failed) decay.reason = trajectory.failure();
   decay.duration = given ? options.duration : found_duration(decaying, trajectory, ending);
   const double rest = decay.end == DecayEnd::at_rest ? rest_since(trajectory, ending) : kNone;

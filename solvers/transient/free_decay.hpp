@@ -62,6 +62,7 @@ struct FreeDecay {
   double remainder = 0.0;
   double hysteretic_omega = 0.0;  // omega_h [rad/s] that was used
   std::vector<DecayOfMass> masses;
+  EnergyBudget energy;  // to the duration; of one found at rest, until nothing changes any more
   Samples history;
 };
 

@@ -34,6 +34,22 @@ struct Samples {
   std::vector<double> time;  // [s]
   // Of each mass, a value for each time: [m], [m/s], [m/s^2]; where the acceleration jumps, what it jumps to.
   std::vector<std::vector<double>> displacement, velocity, acceleration;
+  // By each element since t = 0 [J]; of those that never dissipate, no values.
+  std::vector<std::vector<double>> dissipated;
+};
+
+// Where the energy of a motion comes from and goes to:  initial + input = final + sum of dissipated.
+struct EnergyBudget {
+  // Kinetic and potential energy [J] at t = 0 and at the end, of Maxwell elements that of their springs.
+  double initial = 0.0, final = 0.0;
+  // [J] Work of the excitation. Of a run-up also what changes of elements put in, and the jumps of its
+  // supports' velocities from stair to stair.
+  double input = 0.0;
+  // What the equation fails to close by, relative to the largest of its terms (of the input, the integral of
+  // the size of its power); 0 where nothing moves.
+  double balance = 0.0;
+  std::vector<double> dissipated = {};  // by each element [J], 0 of those that dissipate nothing
+  std::vector<double> share = {};       // of each element in all that is dissipated; 0 where nothing is
 };
 
 // Called every few hundred steps while a motion is followed; what it throws ends the motion and is passed on.

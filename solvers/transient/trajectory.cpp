@@ -46,6 +46,7 @@ std::vector<double> sample_times(double duration, int count) {
 Trajectory::Trajectory(const mechanics::Assembly& assembly, std::vector<double> times, Watch watch)
     : assembly_(assembly),
       steps_(flow_),
+      account_(assembly, flow_),
       held_since_(kNever),
       turning_points_(assembly.network().masses.size()),
       stops_(assembly.contacts()),
@@ -54,23 +55,33 @@ Trajectory::Trajectory(const mechanics::Assembly& assembly, std::vector<double> 
   samples_.displacement.resize(turning_points_.size());
   samples_.velocity.resize(turning_points_.size());
   samples_.acceleration.resize(turning_points_.size());
+  samples_.dissipated.resize(assembly.network().elements.size());
 }
 
 void Trajectory::set_system(const mechanics::LinearSystem& system, double phase) {
+  const double energy = has_started() ? energy_now() : 0.0;
   flow_.set_system(system);
-  set_forcing(system, phase);
+  take_forcing(system, phase, energy);
 }
 
 void Trajectory::set_forcing(const mechanics::LinearSystem& system, double phase) {
-  const double old_step = flow_.equations().step;
-  flow_.set_forcing(system);
-  if (has_mode_) carry_over(old_step, phase);
+  take_forcing(system, phase, has_started() ? energy_now() : 0.0);
 }
 
-void Trajectory::carry_over(double old_step, double phase) {
+void Trajectory::take_forcing(const mechanics::LinearSystem& system, double phase, double energy_before) {
+  const double old_step = flow_.equations().step;
+  flow_.set_forcing(system);
+  account_.set_system(system);
+  phase_ = phase;
+  if (!has_started()) return;
+  carry_over(old_step);
+  account_.put_in(energy_now() - energy_before);
+}
+
+void Trajectory::carry_over(double old_step) {
   const Index n = flow_.equations().masses();
   z_.segment(n, n) *= flow_.equations().step / old_step;
-  if (stuck_ != 0) z_ = flow_.brought_to_rest(z_, phase, stuck_);
+  if (stuck_ != 0) z_ = flow_.brought_to_rest(z_, phase_, stuck_);
 }
 
 void Trajectory::start(const InitialState& initial) {
@@ -91,6 +102,7 @@ void Trajectory::start(const InitialState& initial) {
   set(initial.velocity, n, eq.step, "velocity");
   deceleration_.setZero(eq.contacts());
   acceleration_.setZero(n);
+  account_.open(energy_now());
 }
 
 bool Trajectory::advance(double duration, double phase) {
@@ -124,6 +136,7 @@ bool Trajectory::pass(double length, double phase) {
   steps_.lay_out(stretch_);
   for (Step& step : steps_.steps()) follow(step);
   z_ = stretch_.passage.end;
+  phase_ = phase + length * flow_.fundamental_rate();
   return true;
 }
 
@@ -144,6 +157,7 @@ void Trajectory::follow(Step& step) {
          .speed_scale = std::sqrt(2.0 * eq.M_inverse(i, i)) * energy_scale_});
   }
   keep_samples(step, at);
+  account_.follow(mode, x, step.length);
   for (Index j = 0; j < eq.contacts(); ++j) {
     if (!contains(mode.stuck, j)) deceleration_[j] = std::abs(flow_.sliding_speed(step.right, j).slope);
   }
@@ -202,13 +216,15 @@ void Trajectory::keep_samples(Step& step, double at) {
     const double s = std::max(0.0, (samples_.time[next_sample_] - at) / h);
     State z;
     Flow::evaluate(expansion, s, z);
-    keep_state(z, acceleration_in(expansion.z, flow_.equations().masses(), s));
+    keep_state(z, acceleration_in(expansion.z, flow_.equations().masses(), s),
+               account_.dissipated_within(flow_.mode(step.mode), expansion, s));
   }
   if (!samples_.time.empty())
     acceleration_ = acceleration_in(expansion.z, flow_.equations().masses(), step.length);
 }
 
-void Trajectory::keep_state(const State& z, const Eigen::VectorXd& acceleration) {
+void Trajectory::keep_state(const State& z, const Eigen::VectorXd& acceleration,
+                            const std::vector<double>& dissipated) {
   const Index n = flow_.equations().masses();
   const double h = flow_.equations().step;
   for (Index i = 0; i < n; ++i) {
@@ -216,6 +232,9 @@ void Trajectory::keep_state(const State& z, const Eigen::VectorXd& acceleration)
     samples_.displacement[mass].push_back(z[i]);
     samples_.velocity[mass].push_back(z[n + i] / h);
     samples_.acceleration[mass].push_back(acceleration[i] / (h * h));
+  }
+  for (std::size_t e = 0; e < dissipated.size(); ++e) {
+    if (dissipates(assembly_.network().elements[e].type)) samples_.dissipated[e].push_back(dissipated[e]);
   }
 }
 
@@ -227,7 +246,8 @@ void Trajectory::come_to_rest() {
 }
 
 void Trajectory::finish() {
-  for (; next_sample_ < samples_.time.size(); ++next_sample_) keep_state(z_, acceleration_);
+  for (; next_sample_ < samples_.time.size(); ++next_sample_)
+    keep_state(z_, acceleration_, account_.dissipated());
 }
 
 // With q = q_0 + B y, B the free directions, the forces balance along them:

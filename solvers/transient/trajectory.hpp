@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "solvers/periodic/orbit_steps.hpp"
+#include "solvers/transient/energy_account.hpp"
 #include "solvers/transient/motion.hpp"
 #include "solvers/transient/turning_points.hpp"
 
@@ -57,25 +58,31 @@ class Trajectory {
   const TurningPoints& turning_points(std::size_t mass) const { return turning_points_[mass]; }
   const std::vector<Stop>& stops(std::size_t contact) const { return stops_[contact]; }
   const Samples& samples() const { return samples_; }
+  EnergyBudget energy_budget() const { return account_.budget(energy_now()); }  // of the motion so far
 
  private:
   using State = typename Flow::S::State;
   using Step = periodic::OrbitStep<Eigen::Dynamic, Eigen::Dynamic>;
 
-  void carry_over(double old_step, double phase);
+  bool has_started() const { return z_.size() > 0; }
+  double energy_now() const { return account_.energy_of(z_, phase_); }  // [J]
+  void take_forcing(const mechanics::LinearSystem& system, double phase, double energy_before);
+  void carry_over(double old_step);
   bool pass(double length, double phase);
   void follow(Step& step);
   void note_mode(const periodic::Mode<Eigen::Dynamic, Eigen::Dynamic>& mode, double at, const State& z);
   void find_free_directions();
   void keep_samples(Step& step, double at);
-  void keep_state(const State& z, const Eigen::VectorXd& acceleration);
+  void keep_state(const State& z, const Eigen::VectorXd& acceleration, const std::vector<double>& dissipated);
   Eigen::VectorXd resting_place(const State& z) const;
 
   const mechanics::Assembly& assembly_;
   Flow flow_;
   periodic::OrbitSteps<Eigen::Dynamic, Eigen::Dynamic> steps_;
   periodic::Orbit<Eigen::Dynamic, Eigen::Dynamic> stretch_;  // the passage in hand
+  EnergyAccount account_;
   State z_;
+  double phase_ = 0.0;            // omega t of the fundamental where z_ is [rad]
   Eigen::VectorXd acceleration_;  // where z_ is [m a step^2]
   double time_ = 0.0;
   double steps_taken_ = 0.0;

@@ -8,6 +8,7 @@
 #include "solvers/mechanics/linear_system.hpp"
 #include "solvers/periodic/linear_modes.hpp"
 #include "solvers/response/periodic_response.hpp"
+#include "studies/motion/energy_columns.hpp"
 #include "studies/motion/motion_columns.hpp"
 #include "studies/motion/motion_record.hpp"
 
@@ -115,6 +116,7 @@ std::vector<results::Column> decay_columns(const StudyFile& study, const FreeDec
   columns.add_number("duration", "s", "time until which the motion is recorded", decay.duration);
   columns.add_number("reference_frequency", "rad s-1", "angular frequency of the loss factors",
                      decay.hysteretic_omega);
+  add_energies(study, decay.energy, columns);
   if (!decay.history.time.empty()) columns.add_samples(decay.history);
   return columns.take();
 }
@@ -139,6 +141,7 @@ void print_decay(const StudyFile& study, const FreeDecay& decay, std::ostream& o
     }
     if (extrema.size() > most_rows) fmt::print(out, "{:>6}  and {} more\n", "", extrema.size() - most_rows);
   }
+  print_energies(study, decay.energy, out);
 }
 
 }  // namespace frahm::studies

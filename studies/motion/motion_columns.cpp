@@ -3,15 +3,17 @@
 #include <algorithm>
 #include <limits>
 
+#include "solvers/transient/energy_account.hpp"
+
 namespace frahm::studies {
 
 void MotionColumns::add(const std::string& name, const char* unit, const std::string& long_name,
                         const std::string& dimension, std::vector<double> values, std::size_t size) {
   values.resize(std::max(size, values.size()), std::numeric_limits<double>::quiet_NaN());
-  columns_.push_back(
-      {.variable = {.name = name, .unit = study_.dimensionless ? "1" : unit, .long_name = long_name},
-       .dimension = dimension,
-       .values = std::move(values)});
+  const bool bare = study_.dimensionless && std::string(unit) != "rad";
+  columns_.push_back({.variable = {.name = name, .unit = bare ? "1" : unit, .long_name = long_name},
+                      .dimension = dimension,
+                      .values = std::move(values)});
 }
 
 void MotionColumns::add_number(const std::string& name, const char* unit, const std::string& long_name,
@@ -25,6 +27,12 @@ void MotionColumns::add_samples(const transient::Samples& samples) {
     const std::string& mass = study_.network.masses[i];
     add(mass + "_displacement", "m", "displacement of " + mass, "time", samples.displacement[i]);
     add(mass + "_velocity", "m s-1", "velocity of " + mass, "time", samples.velocity[i]);
+  }
+  for (std::size_t e = 0; e < study_.network.elements.size(); ++e) {
+    if (!transient::dissipates(study_.network.elements[e].type)) continue;
+    const std::string& name = study_.network.elements[e].name;
+    add(name + "_dissipated", "J", "energy dissipated by " + name + " until then", "time",
+        samples.dissipated[e]);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "solvers/mechanics/linear_system.hpp"
+#include "studies/motion/energy_columns.hpp"
 #include "studies/motion/motion_columns.hpp"
 #include "studies/motion/motion_record.hpp"
 
@@ -90,6 +91,7 @@ std::vector<results::Column> transient_columns(const StudyFile& study, const For
     columns.add_number(name + "_peak_time", "s", "time of the largest displacement of " + name,
                        motion.peaks[i].time);
   }
+  add_energies(study, motion.energy, columns);
   const auto elements = stops_of_elements(study, motion);
   std::size_t rows = 1;
   for (const auto& element : elements) rows = std::max(rows, element.stops.size());
@@ -118,6 +120,7 @@ void print_transient(const StudyFile& study, const ForcedMotion& motion, std::os
         out, "{}\n",
         stops.empty() ? "" : fmt::format(", the last from {:.10g}{}", stops.back().onset, si ? " s" : ""));
   }
+  print_energies(study, motion.energy, out);
   if (!study.motion.sweep_to) return;
   fmt::print(out,
              "the run-up's frequency on {} stairs: no displacement changes by more than {:.2g}{} with half "

@@ -29,20 +29,32 @@ std::optional<StudyFile> study_of(const results::MapReader& result, const std::f
   }
 }
 
-// What an atlas shows: peaks of the masses, strokes, regimes, stops and the status.
-bool is_shown_by_default(const std::string& name) {
+bool is_stroke_of_no_spring(const std::string& name, const std::optional<StudyFile>& study) {
+  if (!study || !name.ends_with("_stroke")) return false;
+  const auto& elements = study->network.elements;
+  return std::none_of(elements.begin(), elements.end(), [&](const mechanics::Element& element) {
+    return element.type == mechanics::ElementType::spring && name == element.name + "_stroke";
+  });
+}
+
+// What an atlas shows: peaks of the masses, strokes of the springs, regimes, stops, the damping budget and
+// the status.
+bool is_shown_by_default(const std::string& name, const std::optional<StudyFile>& study) {
   const auto ends = [&](std::string_view end) { return name.ends_with(end); };
   if (ends("_velocity_peak") || ends("_acceleration_peak") || ends("_force_peak")) return false;
-  return ends("_peak") || ends("_stroke") || ends("_regime") || ends("_stops") || name == "status";
+  if (is_stroke_of_no_spring(name, study)) return false;
+  return ends("_peak") || ends("_stroke") || ends("_regime") || ends("_stops") || ends("_energy_share") ||
+         name == "status";
 }
 
 // All recorded quantities if it is none of those.
-std::vector<std::string> default_quantities(const results::MapLayout& layout) {
+std::vector<std::string> default_quantities(const results::MapLayout& layout,
+                                            const std::optional<StudyFile>& study) {
   std::vector<std::string> shown, all;
   bool any_number = false;
   for (const results::Variable& variable : layout.variables) {
     all.push_back(variable.name);
-    if (!is_shown_by_default(variable.name)) continue;
+    if (!is_shown_by_default(variable.name, study)) continue;
     shown.push_back(variable.name);
     any_number = any_number || variable.type != results::Type::flag;
   }
@@ -66,15 +78,29 @@ std::vector<std::string> shown_quantities(const ReportOptions& options, const re
                                           const std::optional<StudyFile>& study) {
   check_quantities(options.quantities, layout);
   if (!options.quantities.empty()) return options.quantities;
-  if (!study || study->report_quantities.empty()) return default_quantities(layout);
+  if (!study || study->report_quantities.empty()) return default_quantities(layout, study);
   std::vector<std::string> names;
   for (const OutputChoice::Name& name : study->report_quantities) names.push_back(name.text);
+  return names;
+}
+
+// The names of what runs along the axes of the map.
+std::vector<std::string> axis_parameters(const results::MapLayout& layout,
+                                         const std::optional<StudyFile>& study) {
+  std::vector<std::string> names;
+  if (study) {
+    for (const ParameterAxis& axis : study->axes)
+      names.push_back(study->parameters.list[axis.parameter].name);
+  } else {
+    for (const results::Axis& axis : layout.axes) names.push_back(axis.name);
+  }
   return names;
 }
 
 results::PageContent content_of(const ReportOptions& options, const results::MapReader& result) {
   const std::optional<StudyFile> study = study_of(result, options.file);
   return {.file = options.file.filename().string(),
+          .parameters = axis_parameters(result.layout(), study),
           .variables = shown_quantities(options, result.layout(), study)};
 }
 

@@ -148,8 +148,23 @@ void refuse_smooth_friction(const StudyFile& study) {
   }
 }
 
+// The energies of a motion stand beside those of its elements, <element>_energy.
+void refuse_names_of_energies(const StudyContext& context, const StudyFile& study) {
+  const auto& elements = study.network.elements;
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    const std::string& name = elements[e].name;
+    if (name != "initial" && name != "final") continue;
+    throw context.source.error_at(
+        study.values.element[e].position,
+        fmt::format("element \"{}\": the record of a motion has a number {}_energy of its own; the element "
+                    "needs another name",
+                    name, name));
+  }
+}
+
 void read_motion(const StudyContext& context, const TomlValue& root, StudyFile& study) {
   refuse_smooth_friction(study);
+  if (study.kind != StudyKind::identify) refuse_names_of_energies(context, study);
   NetworkReading reading(context, study.parameters);
   reading.result = {study.network, study.values};
   read_initial(reading, root, study.motion);

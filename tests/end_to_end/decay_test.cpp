@@ -141,6 +141,8 @@ TEST_CASE("A decay's file is exported, summed up, recomputed for its study and r
   const runs::Outcome first = runs::frahm({"run", study, "-o", file});
   CHECK(first.code == 0);
   CHECK_THAT(first.out, Catch::Contains("comes to rest at 1.570796327 s"));
+  // From 52 mm to 2 mm, 10 mm a cycle: five cycles of 800/2 (52^2 - 2^2) 1e-6 J in all.
+  CHECK_THAT(first.out, Catch::Contains("lost in") && Catch::Contains("1.08  100.00 %"));
   CHECK(runs::frahm({"run", study, "-o", file}).code == 0);
   const runs::Outcome other = runs::frahm({"run", study, "-o", file, "--set", "F=3 N"});
   CHECK(other.code == 5);

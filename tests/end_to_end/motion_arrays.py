@@ -13,6 +13,18 @@ import numpy as np
 import xarray as xr
 
 
+def check_energies(ds, elements):
+    lost = sum(float(ds[e + "_energy"]) for e in elements)
+    assert {name for name in ds if name.endswith("_dissipated")} == {e + "_dissipated" for e in elements}
+    for e in elements:
+        assert ds[e + "_energy"].attrs["units"] == "J" and ds[e + "_energy_share"].attrs["units"] == "1"
+        assert abs(float(ds[e + "_energy_share"]) - float(ds[e + "_energy"]) / lost) < 1e-14
+        assert ds[e + "_dissipated"].dims == ("time",) and float(ds[e + "_dissipated"][0]) == 0.0
+        assert abs(float(ds[e + "_dissipated"][-1]) - float(ds[e + "_energy"])) < 1e-12 * lost
+    given = float(ds.initial_energy) + (float(ds.energy_input) if "energy_input" in ds else 0.0)
+    assert abs(given - lost - float(ds.final_energy)) < 1e-12 * given and float(ds.energy_balance) < 1e-12
+
+
 def check_decay(path, engine):
     with xr.open_dataset(path, engine=engine) as ds:
         assert not ds.sizes and not ds.variables and ds.attrs["Conventions"] == "CF-1.10"
@@ -23,6 +35,8 @@ def check_decay(path, engine):
         assert abs(float(ds.stop_time) - 10.774157851747) < 1e-11
         assert float(ds.main_extremum[0]) == 0.03 and np.isnan(ds.main_log_decrement[-1])
         assert ds.main_displacement.dims == ("time",) and float(ds.time[-1]) == float(ds.stop_time)
+        check_energies(ds, ["guide_damper", "guide"])
+        assert "energy_input" not in ds
     with xr.open_dataset(path, engine=engine, group="provenance") as ds:
         assert 'kind   = "decay"' in ds.attrs["study"] and len(ds.attrs["fingerprint_physics"]) == 32
 
@@ -33,6 +47,8 @@ def check_transient(path, engine):
         assert ds.main_velocity.attrs["units"] == "m s-1" and float(ds.guide_stop_onset[0]) == 0.0
         assert ds.guide_release.dims == ("stop",) and float(ds.time[-1]) == 60.0
         assert float(ds.main_peak) >= float(abs(ds.main_displacement).max())
+        check_energies(ds, ["guide_damper", "guide", "tmd_damper", "tmd_friction"])
+        assert ds.energy_input.attrs["units"] == "J"
 
 
 def main():

@@ -14,6 +14,7 @@ namespace {
 
 using periodic::random_network, periodic::RandomNetwork;
 constexpr double kIntegrated = 1e-8;  // relative; the reference's own error over dozens of events
+constexpr double kBalance = 1e-11;    // of the energies, with impulses of up to six contacts at once
 
 struct Start {
   InitialState state;
@@ -73,6 +74,8 @@ TEST_CASE("Random networks let go decay as the independent integration says") {
     INFO("trial " << trial << " " << decay.reason);
     REQUIRE(decay.end != DecayEnd::failed);
     CHECK(decay.end != DecayEnd::cut_off);  // every mass is damped
+    CHECK(decay.energy.balance < kBalance);
+    CHECK(decay.energy.input == 0.0);
     at_rest += decay.end == DecayEnd::at_rest;
     const mechanics::LinearSystem system = system_of(drawn);
     periodic::EventIntegrator reference(system);
@@ -103,11 +106,36 @@ TEST_CASE("Random networks shaken from random initial values move as the indepen
                       {.from = drawn.values.omega, .duration = duration, .samples = 21});
     INFO("trial " << trial);
     REQUIRE(motion.failure.empty());
+    CHECK(motion.energy.balance < kBalance);
     const mechanics::LinearSystem system = system_of(drawn);
     periodic::EventIntegrator reference(system);
     reference.start(0.0, start.q, start.v);
     CHECK(largest_error(motion.history, reference) <
           kIntegrated * std::max(1.0, std::abs(motion.peaks[0].displacement)));
+  }
+}
+
+TEST_CASE("Random networks in a run-up lose what they are given") {
+  std::mt19937 random(20240613);
+  for (int trial = 0; trial < 16; ++trial) {
+    const RandomNetwork drawn = random_network({.masses = 1 + trial % 3,
+                                                .contacts = trial % 4,
+                                                .maxwell_elements = trial / 4 % 2,
+                                                .hysteretic = trial % 8 == 5,
+                                                .orders = {1}},
+                                               random);
+    const Start start = random_start(drawn.network.masses.size(), random);
+    const ValuesAt values_at = [&](double omega) {
+      mechanics::NetworkValues values = drawn.values;
+      values.omega = omega;
+      return values;
+    };
+    const ForcedMotion motion =
+        forced_motion(drawn.network, values_at, start.state,
+                      {.from = 0.5, .sweep = {1.5, 0.1}, .duration = 12.0, .samples = 21});
+    INFO("trial " << trial);
+    REQUIRE(motion.failure.empty());
+    CHECK(motion.energy.balance < kBalance);
   }
 }
 

@@ -11,11 +11,20 @@ export function symbolText(name) {
   return name.split("_").map((part) => greek[part] ?? part).join(" ");
 }
 
-// The label of an axis or of a derived coordinate with its unit.
-export function coordinateLabel({ name, unit, long_name }) {
-  const plain = !long_name || long_name === `parameter ${name}`;
-  const text = plain ? symbolText(name) : words(name);
-  return withUnit(text, unitText(unit));
+// The record tells where the study uses a parameter: "[excitation]: frequency", 'element "inerter": inertance'.
+function plainMeaning(longName = "") {
+  const use = /^(?:\[(\w+)\]|.* "(\w+)"): (\w+)$/.exec(longName);
+  if (!use) return longName;
+  return use[1] ? `${use[1]} ${words(use[3])}` : `${words(use[3])} of ${words(use[2])}`;
+}
+
+const shortEnough = 34;  // characters of a label
+
+// The label of an axis or of a derived coordinate with its unit: "excitation frequency ω (rpm)".
+export function coordinateLabel({ name, unit, long_name: longName }) {
+  const meaning = plainMeaning(longName);
+  const told = meaning && meaning !== `parameter ${name}` && meaning !== name && meaning.length <= shortEnough;
+  return withUnit(told ? `${meaning} ${symbolText(name)}` : symbolText(name), unitText(unit));
 }
 
 // "I = 6.36 kg".
@@ -74,7 +83,7 @@ export function fractionalIndex(values, at) {
 export function pointCommand(record, index) {
   const quoted = (text) => (/^[A-Za-z0-9_.,=\/-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
   const at = record.map.axes.flatMap((axis, a) => axis.coordinates
-    .filter(({ name, long_name }) => long_name === `parameter ${name}` || name === axis.name)
+    .filter(({ name }) => record.map.parameters.has(name))
     .map(({ name, unit, values }) => `${name}=${values[index[a]]}${unit && unit !== "1" ? ` ${unit}` : ""}`));
   const set = record.provenance.overrides;
   return `frahm point ${quoted(record.provenance.study_file ?? "study.toml")} --at ${quoted(at.join(","))}${set ? ` --set ${quoted(set)}` : ""}`;

@@ -30,16 +30,16 @@ export async function unpackNumbers(base64) {
 // level n is low + (n - 1) step.
 export async function unpackLevels({ levels, low, step }, { size, stride }) {
   const differences = new Uint32Array(unshuffled(await inflated(levels), 4));
-  const whole = new Float64Array(differences.length);
-  const values = new Float64Array(differences.length);
-  for (let i = 0; i < whole.length; ++i) {
-    const code = differences[i];
-    const difference = code & 1 ? -(code + 1) / 2 : code / 2;
-    const along = Math.floor(i / stride) % size;
-    const before = along > 0 ? whole[i - stride] : 0;
-    const beforeThat = along > 1 ? whole[i - 2 * stride] : 0;
-    whole[i] = difference + 2 * before - beforeThat;
-    values[i] = whole[i] === 0 ? NaN : low + (whole[i] - 1) * step;
+  const whole = new Int32Array(differences.length), values = new Float64Array(differences.length);
+  const block = size * stride;  // lines side by side
+  for (let from = 0; from < whole.length; from += block) {
+    for (let i = from; i < from + block; ++i) {
+      const code = differences[i];
+      const before = i - stride >= from ? whole[i - stride] : 0;
+      const beforeThat = i - 2 * stride >= from ? whole[i - 2 * stride] : 0;
+      whole[i] = (code & 1 ? -((code + 1) / 2) : code / 2) + 2 * before - beforeThat;
+      values[i] = whole[i] === 0 ? NaN : low + (whole[i] - 1) * step;
+    }
   }
   return values;
 }

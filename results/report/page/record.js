@@ -42,10 +42,11 @@ export function meaningOf(variable, value) {
 // Axes: {name, size, stride, coordinates: [{name, unit, long_name, values}]}; an axis whose own parameter is
 // not among its coordinates (several zipped together) has its first coordinate speak for it.
 export class ResponseMap {
-  constructor(axes, variables, leftOut) {
+  constructor(axes, variables, { parameters, left_out }) {
     this.axes = axes;
     this.variables = variables;
-    this.leftOut = leftOut;
+    this.parameters = new Set(parameters);  // coordinates that are the study's own
+    this.leftOut = left_out;
     this.byName = new Map(variables.map((variable) => [variable.name, variable]));
     this.points = axes.reduce((points, axis) => points * axis.size, 1);
   }
@@ -89,7 +90,7 @@ async function unpackMap(data) {
     const { levels, levels_of, ...described } = variable;
     return { ...described, values };
   }));
-  return new ResponseMap(axes, variables, data.left_out);
+  return new ResponseMap(axes, variables, data);
 }
 
 async function unpackGroup({ texts, columns }) {

@@ -105,30 +105,49 @@ export function drawFrame(canvas, { x, y, marks, legend = [], marginRight = 20, 
   const xLabel = wrapped(x.label ?? "", canvas.width - marginLeft - marginRight - yMore);
   const xMore = (xLabel.length - 1) * labelLineHeight;
   const rows = legend.length ? legendRows(legend, canvas.width - marginLeft - marginRight - yMore) : [];
-  const axis = (options) => ({ labelAnchor: "center", labelArrow: "none", nice: false, ...options });
+  const axis = (options) => ({ nice: false, ...options });
   const tickOptions = { labelAnchor: "center", labelArrow: "none", tickSize: ticksLength, tickPadding: 4, fontSize };
-  return Plot.plot({
+  const format = (scale) => scale.tickFormat ?? (scale.type === "log" ? "~g" : undefined);
+  const svg = Plot.plot({
     document: canvas.document,
     width: canvas.width,
     height: canvas.height + rows.length * lineHeight + xMore,
     marginLeft: marginLeft + yMore, marginRight, marginTop: 14 + rows.length * lineHeight, marginBottom: 46 + xMore,
-    style: { fontFamily, fontSize: `${fontSize}px`, background: "none", overflow: "visible" },
     x: axis({ ...x, label: null }),
     y: axis({ ...y, label: null }),
     ...scales,
     marks: [
       ...marks,
       Plot.frame({ stroke: "currentColor", strokeWidth: 1 }),
-      Plot.axisX({ ...tickOptions, label: xLabel.join("\n"), labelOffset: 38 + xMore, tickFormat: x.tickFormat, ticks: x.ticks, tickSpacing: 70 }),
-      Plot.axisY({ ...tickOptions, label: yLabel.join("\n"), labelOffset: marginLeft - 10 + yMore, tickFormat: y.tickFormat, ticks: y.ticks, tickSpacing: 40 }),
+      Plot.axisX({ ...tickOptions, label: xLabel.join("\n"), labelOffset: 38 + xMore, tickFormat: format(x), ticks: x.ticks, tickSpacing: 70 }),
+      Plot.axisY({ ...tickOptions, label: yLabel.join("\n"), labelOffset: marginLeft - 10 + yMore, tickFormat: format(y), ticks: y.ticks, tickSpacing: 40 }),
       ...(rows.length ? [legendMark(rows, marginLeft + yMore)] : []),
     ],
   });
+  svg.setAttribute("font-family", fontFamily);
+  svg.setAttribute("font-size", fontSize);
+  return svg;
 }
 
 // The faint lines behind curves, at the ticks given or where ticks are by default.
 export function grid(x = {}, y = {}) {
   return [Plot.gridX({ strokeOpacity: 0.12, tickSpacing: 70, ticks: x.ticks }), Plot.gridY({ strokeOpacity: 0.12, tickSpacing: 40, ticks: y.ticks })];
+}
+
+const leastSpread = 1e-4;  // below it the labels of an axis would need too many digits
+
+// Options of an axis for these values: where they are all but equal, some room about them.
+export function roomFor(values) {
+  let low = Infinity, high = -Infinity;
+  for (const value of values) {
+    if (!Number.isFinite(value)) continue;
+    low = Math.min(low, value);
+    high = Math.max(high, value);
+  }
+  const size = Math.max(Math.abs(low), Math.abs(high));
+  if (!(low <= high) || high - low > leastSpread * size || size === 0) return { nice: true };
+  const middle = (low + high) / 2;
+  return { domain: [middle - 0.01 * size, middle + 0.01 * size] };
 }
 
 // A line through (x[i], y[i]), broken where y is no number.

@@ -162,6 +162,17 @@ function borderMarks(crossings, state, map, axes) {
   return { marks, legend };
 }
 
+// The points picked, by number; those that differ in other axes only lie at one place.
+function pickedMarks({ picked = [], x, y }, axes) {
+  const places = new Map();
+  picked.forEach((index, n) => {
+    const place = `${index[x]},${index[y]}`;
+    const before = places.get(place);
+    places.set(place, { x: axes.x.values[index[x]], y: axes.y.values[index[y]], number: before ? `${before.number},${n + 1}` : String(n + 1) });
+  });
+  return [...places.values()];
+}
+
 // state: {x, y: axes; coordinates: of each axis which one; index: of all axes; scale: "linear" or "log";
 // crossings: of a contact's borders; picked: points marked, [index]}.
 export function responseMap(canvas, map, variable, state) {
@@ -174,7 +185,7 @@ export function responseMap(canvas, map, variable, state) {
   const paint = painterOf(variable, range, { ...state, scale });
   const borders = borderMarks(state.crossings ?? [], state, map, axes);
   const regimes = flag ? [...flagColours(variable).values()].map(({ word, colour }) => ({ text: words(word), fill: colour })) : [];
-  const picked = (state.picked ?? []).map((index, number) => ({ x: axes.x.values[index[state.x]], y: axes.y.values[index[state.y]], number: String(number + 1) }));
+  const picked = pickedMarks(state, axes);
   return drawFrame(canvas, {
     x: { label: axes.x.label, type: axes.x.scale, domain: axes.x.domain },
     y: { label: axes.y.label, type: axes.y.scale, domain: axes.y.domain },

@@ -1,0 +1,69 @@
+// What of a map is being looked at: quantity, axes, the point of the sliders and those picked for curves.
+import { fractionalIndex } from "../axes.js";
+import { meaningOf } from "../record.js";
+
+const sliding = (map) => map.axes.map((_, a) => a).filter((a) => map.axes[a].size > 1);
+
+const manyPoints = 8;
+
+// The frequency, or whatever has most points, lies along x; the next along y.
+function axesOf(map) {
+  const bySize = sliding(map).sort((a, b) => map.axes[b].size - map.axes[a].size);
+  const isFrequency = (a) => map.axes[a].size >= manyPoints && map.axes[a].coordinates.some(({ long_name: meaning }) => meaning === "[excitation]: frequency");
+  const x = bySize.find(isFrequency) ?? bySize[0] ?? 0;
+  return { x, y: bySize.find((axis) => axis !== x) ?? null };
+}
+
+// Crossings of /borders of one contact: {place: fractional index along each axis, axis: along which, key}.
+export function crossingsOf(record, contact) {
+  const group = record.groups.get("borders");
+  if (!group) return [];
+  const element = group.column("element"), axis = group.column("axis");
+  const below = group.column("regime_below"), above = group.column("regime_above");
+  if (!element?.values.length) return [];
+  const axes = record.map.axes;
+  const columns = axes.map((one) => group.column(one.coordinates[0].name));
+  return Array.from(element.values, (code, row) => ({ code, row }))
+    .filter(({ code }) => meaningOf(element, code) === contact)
+    .map(({ row }) => ({
+      place: axes.map((one, a) => fractionalIndex(one.coordinates[0].values, columns[a].values[row])),
+      axis: axes.findIndex((one) => one.name === meaningOf(axis, axis.values[row])),
+      key: [meaningOf(below, below.values[row]), meaningOf(above, above.values[row])].sort().join("|"),
+    }));
+}
+
+// Contacts that have a regime among the page's quantities, or borders.
+export function contactsOf(record) {
+  const fromRegimes = record.map.variables.filter(({ name }) => name.endsWith("_regime")).map(({ name }) => name.slice(0, -7));
+  const element = record.groups.get("borders")?.column("element");
+  const fromBorders = (element?.flags ?? []).map(([, word]) => word).filter((word) => word !== "not_computed");
+  return [...new Set([...fromRegimes, ...fromBorders])];
+}
+
+// Colours go by powers of ten where the largest value is far above most.
+const farAbove = 8;
+function scaleOf(variable) {
+  if (variable.kind !== "float") return "linear";
+  const values = Array.from(variable.values).filter(Number.isFinite).sort((a, b) => a - b);
+  return values[0] > 0 && values.at(-1) > farAbove * values[values.length >> 1] ? "log" : "linear";
+}
+
+export function firstState(record) {
+  const { map } = record;
+  const { x, y } = axesOf(map);
+  const index = map.axes.map((axis) => Math.floor((axis.size - 1) / 2));
+  const contacts = contactsOf(record);
+  const variable = map.variables.find(({ kind }) => kind === "float") ?? map.variables[0];
+  return {
+    variable, x, y, index, curveAxis: x, coordinates: map.axes.map(() => 0),
+    scale: scaleOf(variable), curveScale: "linear", colours: "viridis",
+    contact: contacts[0] ?? "", colourByRegime: false, kept: [],
+    crossings: new Map(contacts.map((contact) => [contact, crossingsOf(record, contact)])),
+  };
+}
+
+// The points whose curves are shown: those kept, then the current one if it is not among them.
+export function curvePoints(state) {
+  const same = (a, b) => a.every((i, axis) => axis === state.curveAxis || i === b[axis]);
+  return state.kept.some((index) => same(index, state.index)) ? state.kept : [...state.kept, state.index];
+}

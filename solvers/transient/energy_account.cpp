@@ -1,0 +1,182 @@
+#include "solvers/transient/energy_account.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "solvers/periodic/integrals.hpp"
+
+namespace frahm::transient {
+
+using Eigen::Index;
+using periodic::contains, periodic::kNodes;
+
+bool dissipates(mechanics::ElementType type) {
+  using mechanics::ElementType;
+  switch (type) {
+    case ElementType::damper:
+    case ElementType::coulomb:
+    case ElementType::hysteretic:
+    case ElementType::maxwell:
+      return true;
+    case ElementType::spring:
+    case ElementType::inerter:
+      break;
+  }
+  return false;
+}
+
+EnergyAccount::EnergyAccount(const mechanics::Assembly& assembly, const Flow& flow)
+    : assembly_(assembly), flow_(flow), forms_(assembly, flow) {
+  const auto masses = static_cast<Index>(assembly.network().masses.size());
+  const auto supports = static_cast<Index>(assembly.network().prescribed.size());
+  for (Index i = 0; i < masses; ++i) {
+    mass_incidences_.push_back({Eigen::VectorXd::Unit(masses, i), Eigen::VectorXd::Zero(supports)});
+  }
+  total_.dissipated.assign(assembly.network().elements.size(), 0.0);
+}
+
+void EnergyAccount::set_system(const mechanics::LinearSystem& system) {
+  mass_ = system.mass;
+  laws_ = system.laws;
+  forcing_ = std::max(forcing_, flow_.static_norm());
+  prepared_ = false;
+}
+
+double EnergyAccount::energy_of(const State& z, double phase) const {
+  const auto& eq = flow_.equations();
+  const Index n = eq.masses();
+  typename Flow::S::Oscillators u(eq.oscillators());
+  eq.oscillators_at(phase, flow_.orders(), u);
+  const auto half_square = [&](const Form& form) {
+    const double value = form.z.dot(z) + form.u.dot(u);
+    return 0.5 * value * value;
+  };
+  double energy = 0.5 * mass_.dot(z.segment(n, n).cwiseAbs2()) / (eq.step * eq.step);
+  for (std::size_t e = 0; e < laws_.size(); ++e) {
+    const mechanics::Incidence& at = assembly_.incidences()[e];
+    if (laws_[e].stiffness != 0.0) energy += laws_[e].stiffness * half_square(forms_.displacement(at));
+    if (laws_[e].inertance != 0.0) energy += laws_[e].inertance * half_square(forms_.velocity(at));
+    if (laws_[e].maxwell < 0) continue;
+    const double force = z[2 * n + laws_[e].maxwell];
+    energy += 0.5 * force * force / eq.maxwell_stiffness[laws_[e].maxwell];
+  }
+  return energy;
+}
+
+void EnergyAccount::put_in(double energy) {
+  total_.input += energy;
+  total_.input_size += std::abs(energy);
+}
+
+void EnergyAccount::follow(const Mode& mode, const Expansion& step, double length) {
+  prepare(mode);
+  integrate(mode, step, length, total_);
+}
+
+std::vector<double> EnergyAccount::dissipated_within(const Mode& mode, const Expansion& step, double length) {
+  prepare(mode);
+  Energies energies = total_;
+  integrate(mode, step, length, energies);
+  return energies.dissipated;
+}
+
+void EnergyAccount::prepare(const Mode& mode) {
+  if (prepared_ && mode.stuck == stuck_ && mode.positive == positive_) return;
+  prepared_ = true;
+  stuck_ = mode.stuck;
+  positive_ = mode.positive;
+  std::vector<Form> forms = loss_forms();
+  for (Form& form : drive_forms(mode)) forms.push_back(std::move(form));
+  const auto rows = static_cast<Index>(forms.size());
+  of_z_.resize(rows, flow_.equations().states());
+  of_u_.resize(rows, flow_.equations().oscillators());
+  for (Index row = 0; row < rows; ++row) {
+    of_z_.row(row) = forms[static_cast<std::size_t>(row)].z.transpose();
+    of_u_.row(row) = forms[static_cast<std::size_t>(row)].u.transpose();
+  }
+}
+
+// The velocity of each element that damps or rubs, the force of each Maxwell element.
+std::vector<EnergyAccount::Form> EnergyAccount::loss_forms() {
+  std::vector<Form> forms;
+  losses_.clear();
+  for (std::size_t e = 0; e < laws_.size(); ++e) {
+    const mechanics::ElementLaw& law = laws_[e];
+    if (law.damping != 0.0) {
+      losses_.push_back({e, law.damping});
+      forms.push_back(forms_.velocity(assembly_.incidences()[e]));
+    }
+    if (law.maxwell >= 0) {
+      losses_.push_back({e, 1.0 / law.maxwell_damping});
+      forms.push_back(forms_.zero());
+      forms.back().z[2 * flow_.equations().masses() + law.maxwell] = 1.0;
+    }
+    if (law.friction != 0.0) {
+      losses_.push_back({e, law.friction, static_cast<Index>(assembly_.shares()[e].contact)});
+      forms.push_back(forms_.velocity(assembly_.incidences()[e]));
+    }
+  }
+  return forms;
+}
+
+// Force and velocity of each mass on which an outside force acts, and of each prescribed node.
+std::vector<EnergyAccount::Form> EnergyAccount::drive_forms(const Mode& mode) const {
+  const auto& eq = flow_.equations();
+  std::vector<Form> forms;
+  for (Index i = 0; i < eq.masses(); ++i) {
+    if (eq.applied_force.row(i).isZero(0.0)) continue;
+    forms.push_back(forms_.zero());
+    forms.back().u = eq.applied_force.row(i).transpose();
+    forms.push_back(forms_.velocity(mass_incidences_[static_cast<std::size_t>(i)]));
+  }
+  for (Index s = 0; s < eq.motion.rows(); ++s) {
+    const mechanics::Node node{mechanics::NodeKind::prescribed, static_cast<std::size_t>(s)};
+    forms.push_back(forms_.node_force(node, laws_, mode));
+    forms.push_back(forms_.zero());
+    forms.back().u = eq.motion_velocity.row(s).transpose() / eq.step;
+  }
+  return forms;
+}
+
+void EnergyAccount::integrate(const Mode& mode, const Expansion& step, double length,
+                              Energies& energies) const {
+  if (of_z_.rows() == 0) return;
+  Eigen::Matrix<double, periodic::kTerms, kNodes> at;
+  for (int i = 0; i < kNodes; ++i) at.col(i) = periodic::powers(length * periodic::kNodeAt[i]);
+  const Eigen::Map<const Eigen::Matrix<double, kNodes, 1>> weight(periodic::kNodeWeight);
+  const double seconds = length * flow_.equations().step;
+  using Values = Eigen::Matrix<double, Eigen::Dynamic, kNodes>;
+  Values values = of_z_.lazyProduct((step.z.transpose().lazyProduct(at)).eval());
+  values += of_u_.lazyProduct((step.u.transpose().lazyProduct(at)).eval());
+
+  Index row = 0;
+  for (const Loss& loss : losses_) {
+    const auto x = values.row(row++);
+    if (loss.contact >= 0 && contains(mode.stuck, loss.contact)) continue;
+    const double mean = loss.contact >= 0 ? x.cwiseAbs().dot(weight) : x.cwiseAbs2().dot(weight);
+    energies.dissipated[loss.element] += loss.coefficient * seconds * mean;
+  }
+  for (; row < values.rows(); row += 2) {
+    const Eigen::Matrix<double, 1, kNodes> power = values.row(row).cwiseProduct(values.row(row + 1));
+    energies.input += seconds * power.dot(weight);
+    energies.input_size += seconds * power.cwiseAbs().dot(weight);
+  }
+}
+
+EnergyBudget EnergyAccount::budget(double energy_now) const {
+  EnergyBudget budget{.initial = initial_, .final = energy_now, .input = total_.input};
+  budget.dissipated = total_.dissipated;
+  const double dissipated = std::accumulate(budget.dissipated.begin(), budget.dissipated.end(), 0.0);
+  const double stored = std::max(std::abs(initial_), std::abs(energy_now));
+  const double forcing = forcing_ * forcing_;
+  // Where nothing moves there is the rounding of velocities, of which work is a first, losses a second power.
+  const double size = std::max({stored, dissipated, total_.input_size});
+  const double missing = initial_ + total_.input - energy_now - dissipated;
+  budget.balance = size > 1e-11 * forcing ? std::abs(missing) / size : 0.0;
+  const bool nothing = dissipated <= 1e-26 * std::max(forcing, stored);
+  for (const double each : budget.dissipated) budget.share.push_back(nothing ? 0.0 : each / dissipated);
+  return budget;
+}
+
+}  // namespace frahm::transient

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "solvers/periodic/linear_form.hpp"
+#include "solvers/transient/motion.hpp"
+
+namespace frahm::transient {
+
+// Whether elements of this type dissipate: dampers, hysteretic and Maxwell elements, friction.
+bool dissipates(mechanics::ElementType type);
+
+// The energies of a motion on the exact flow, step after step: what each element dissipates,
+//   integral of c v^2 (damper, hysteretic), of s^2 / c (Maxwell), of F |v| (friction that slides),
+// and the work of the excitation: of the outside forces on the masses, and of what drives each prescribed
+// node. Six-point Gauss-Legendre between the events, as of a periodic orbit (periodic/integrals.hpp).
+class EnergyAccount {
+ public:
+  using Flow = periodic::Flow<Eigen::Dynamic, Eigen::Dynamic>;
+  using State = typename Flow::S::State;
+  using Mode = periodic::Mode<Eigen::Dynamic, Eigen::Dynamic>;
+  using Expansion = periodic::Expansion<Eigen::Dynamic, Eigen::Dynamic>;
+
+  // Both must outlive the account.
+  EnergyAccount(const mechanics::Assembly& assembly, const Flow& flow);
+
+  // Masses, element laws and forcing from now on; after the flow has got them.
+  void set_system(const mechanics::LinearSystem& system);
+
+  // Kinetic energy of masses and inerters, potential energy of springs, those in Maxwell elements too [J];
+  // phase: omega t of the fundamental [rad].
+  double energy_of(const State& z, double phase) const;
+
+  void open(double energy) { initial_ = energy; }  // [J] at the start
+  void put_in(double energy);  // [J] at an instant, by another system or the jump of a support
+
+  // The first `length` of a step in this mode.
+  void follow(const Mode& mode, const Expansion& step, double length);
+  // What each element has dissipated when that will have been followed [J].
+  std::vector<double> dissipated_within(const Mode& mode, const Expansion& step, double length);
+
+  const std::vector<double>& dissipated() const { return total_.dissipated; }  // by each element so far [J]
+  EnergyBudget budget(double energy_now) const;
+
+ private:
+  using Form = periodic::LinearForm<Eigen::Dynamic, Eigen::Dynamic>;
+
+  // coefficient x^2, or coefficient |x| of the friction of a contact, with x the form in the row of its
+  // index.
+  struct Loss {
+    std::size_t element = 0;
+    double coefficient = 0.0;
+    Eigen::Index contact = -1;  // -1: no friction
+  };
+  struct Energies {
+    std::vector<double> dissipated;        // [J] of each element
+    double input = 0.0, input_size = 0.0;  // integrals of the excitation's power and of its size [J]
+  };
+
+  void prepare(const Mode& mode);
+  std::vector<Form> loss_forms();
+  std::vector<Form> drive_forms(const Mode& mode) const;
+  void integrate(const Mode& mode, const Expansion& step, double length, Energies& energies) const;
+
+  const mechanics::Assembly& assembly_;
+  const Flow& flow_;
+  periodic::Forms<Eigen::Dynamic, Eigen::Dynamic> forms_;
+  std::vector<mechanics::Incidence> mass_incidences_;  // the displacement of each mass by itself
+
+  Eigen::VectorXd mass_;  // [kg]
+  std::vector<mechanics::ElementLaw> laws_;
+  double forcing_ = 0.0;  // largest energy norm of the static response so far [sqrt(J)]
+
+  // Of the mode in hand: a row of z and u for each loss, then force and velocity of each drive.
+  bool prepared_ = false;
+  periodic::ContactMask stuck_ = 0, positive_ = 0;
+  std::vector<Loss> losses_;
+  Eigen::MatrixXd of_z_, of_u_;
+
+  double initial_ = 0.0;  // [J]
+  Energies total_;
+};
+
+}  // namespace frahm::transient

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "results/layout.hpp"
+#include "studies/reading/study_file.hpp"
+
+namespace frahm::studies {
+
+inline constexpr int kCrankAngles = 361;  // of one turn: a degree apart, both ends
+
+// What a study's cranks do in one turn, at the parameters as the study states them; empty if it has none.
+// Along the dimension "angle":
+//   angle                                  of the crank, 0 to 2 pi [rad]
+//   <node>_motion                          displacement a(angle) of its slider [m]
+//   <node>_taylor_1, _2, _4                of the Taylor series in crank over rod, cut at that order [m]
+//   <node>_taylor_1_error, _2_error, ...   how far that is from a, relative to l_AC = a + rod [1]
+// with <node> the node driven; a second crank on it has the name <node>_2, and so on.
+std::vector<results::Column> crank_motions(const StudyFile& study);
+
+}  // namespace frahm::studies

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <iosfwd>
+
+#include "studies/motion/motion_columns.hpp"
+
+// Where the energy of a motion goes: in its record, and as a short table.
+namespace frahm::studies {
+
+// <element>_energy, <element>_energy_share of those that dissipate; initial_energy, final_energy,
+// energy_balance, and of a transient energy_input.
+void add_energies(const StudyFile& study, const transient::EnergyBudget& energy, MotionColumns& columns);
+
+void print_energies(const StudyFile& study, const transient::EnergyBudget& energy, std::ostream& out);
+
+}  // namespace frahm::studies
