@@ -24,8 +24,8 @@ function draw(canvas, estimates) {
     x: "x", y: "y", text: ({ value }) => numberText(value, 3), fill: ({ value }) => (Math.abs(value) > 0.6 ? "white" : "black"), stroke: "none" })];
   return drawFrame(canvas, {
     marginLeft,
-    x: { type: "band", domain: numbers, label: "estimate, by its number" },
-    y: { type: "band", domain: numbers, label: "", tickFormat: (number) => wrapped(names[Number(number) - 1], marginLeft - 16).join("\n") },
+    x: { type: "band", padding: 0.03, domain: numbers, label: "estimate, by its number" },
+    y: { type: "band", padding: 0.03, domain: numbers, label: "", tickFormat: (number) => wrapped(names[Number(number) - 1], marginLeft - 16).join("\n") },
     legend: [-1, -0.5, 0, 0.5, 1].map((value) => ({ text: numberText(value), fill: colourOf(value) })),
     marks: [Plot.cell(cells, { x: "x", y: "y", fill: ({ value }) => colourOf(value), inset: 0.5 }), ...texts],
   });

@@ -6,7 +6,7 @@ import { lineFigure } from "./line_figure.js";
 import { lineColours } from "./frame.js";
 
 const mostPoints = 400;  // beyond which data are drawn as a line
-const data = lineColours[7], model = lineColours[0], left = lineColours[1];
+const data = lineColours[4], model = lineColours[0], left = lineColours[1];
 
 function titleOf({ record, quantity }) {
   return record ? `${words(record)}: ${words(quantity)}` : words(quantity);
@@ -20,7 +20,7 @@ function xAxis({ along, over }) {
 function drawnData(series) {
   const { along, measured } = series;
   const drawn = { name: measured.name, text: "data", x: along.values, y: measured.values, stroke: data };
-  return along.values.length > mostPoints ? { lines: [{ ...drawn, width: 4, opacity: 0.45 }], points: [] }
+  return along.values.length > mostPoints ? { lines: [{ ...drawn, width: 4, opacity: 0.6 }], points: [] }
     : { lines: [], points: [{ ...drawn, r: 2.6, symbol: "open" }] };
 }
 

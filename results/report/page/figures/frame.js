@@ -169,3 +169,8 @@ export function tips(canvas, rows) {
 
 // The numbers of an axis as it writes them, for tips.
 export { numberText, withUnit } from "../units.js";
+
+// A name that is good for a file, from one that may hold anything.
+export function fileName(text) {
+  return text.replaceAll(/[^A-Za-z0-9_]+/g, "_");
+}

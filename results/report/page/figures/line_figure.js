@@ -1,7 +1,7 @@
 // A figure of curves, points, bands and levels over one pair of axes, with its legend, tips and CSV.
 import * as Plot from "@observablehq/plot";
 import { numberText, shownUnit, withUnit } from "../units.js";
-import { drawFrame, grid, lineColours, lineDashes, tips } from "./frame.js";
+import { drawFrame, fileName, grid, lineColours, lineDashes, tips } from "./frame.js";
 import { thinnedHistory, thinnedPath } from "./line_thinning.js";
 
 const marginLeft = 68, marginRight = 20;
@@ -101,6 +101,10 @@ function levelMark(level, y) {
   return Plot.ruleY([level.y * y.factor], { stroke: level.stroke ?? "currentColor", strokeDasharray: level.dash ?? "4 3", strokeWidth: 1.2 });
 }
 
+function momentMark(moment, x) {
+  return Plot.ruleX([moment.x * x.factor], { stroke: moment.stroke ?? "currentColor", strokeDasharray: moment.dash, strokeWidth: 1.2 });
+}
+
 function tipRows(spec, canvas, x, y) {
   const say = (axis, value, shown) => `${axis.label} ${numberText(value)}${shown.unit ? ` ${shown.unit}` : ""}`;
   return [...spec.lines ?? [], ...spec.points ?? []].filter(({ silent }) => !silent).flatMap((drawn) => {
@@ -113,10 +117,10 @@ function tipRows(spec, canvas, x, y) {
 
 function drawLines(canvas, spec) {
   const x = shownAxis(spec, "x"), y = shownAxis(spec, "y");
-  const { lines = [], points = [], bands = [], levels = [] } = spec;
+  const { lines = [], points = [], bands = [], levels = [], moments = [] } = spec;
   const legend = [
     ...lines.filter(({ text }) => text).map(({ text, stroke, dash }) => ({ text, stroke, dash })),
-    ...levels.filter(({ text }) => text).map(({ text, stroke = "currentColor", dash = "4 3" }) => ({ text, stroke, dash })),
+    ...[...levels, ...moments].filter(({ text }) => text).map(({ text, stroke = "currentColor", dash = "4 3" }) => ({ text, stroke, dash })),
     ...points.filter(({ text }) => text).map(({ text, stroke, symbol = "full" }) => ({ text, stroke, symbol })),
     ...bands.filter(({ text }) => text).map(({ text, fill }) => ({ text, fill })),
   ];
@@ -126,6 +130,7 @@ function drawLines(canvas, spec) {
       ...bands.map((band) => bandMark(band, x)),
       ...grid(x.options, y.options),
       ...levels.map((level) => levelMark(level, y)),
+      ...moments.map((moment) => momentMark(moment, x)),
       ...lines.map((line) => lineMark(line, canvas, x, y)),
       ...points.map((point) => pointMark(point, x, y)),
       ...tips(canvas, canvas.interactive ? tipRows(spec, canvas, x, y) : []),
@@ -151,9 +156,9 @@ function tableOf(spec) {
 // spec: {name, title, caption, ratio, x and y: {label, name, unit, type: "linear" or "log", zero, tight, domain},
 //   lines: [{name, text, x, y, stroke, dash, width, path}]  text: in the legend; path: x does not rise
 //   points: [{name, text, x, y, stroke, symbol}]             symbol: "open" or "full"
-//   bands: [{text, from, to, fill}], levels: [{text, y, stroke, dash}]}
+//   bands: [{text, from, to, fill}], levels: [{text, y, stroke, dash}], moments: [{text, x, stroke, dash}]}
 // What is `silent` has neither tip nor CSV column. Numbers in the units named; lengths and forces are drawn with prefixes.
 export function lineFigure(spec) {
   const { name, title, caption, ratio } = spec;
-  return { name, title, caption, ratio, draw: (canvas) => drawLines(canvas, spec), table: () => tableOf(spec) };
+  return { name: fileName(name), title, caption, ratio, draw: (canvas) => drawLines(canvas, spec), table: () => tableOf(spec) };
 }

@@ -18,7 +18,7 @@ function estimateRow(estimate) {
   const state = certainty(estimate);
   const interval = state === "determined" ? `${shown(low)} to ${shown(high)}` : intervalWords[state];
   return [withUnit(symbolText(name), text), Number.isNaN(value) ? "not determined" : shown(value), interval,
-    state === "undetermined" ? "\u2013" : numberText(standardError * factor, 4), numberText(degreesOfFreedom, 5), meaning];
+    state === "undetermined" ? "\u2013" : numberText(standardError * factor, 4), numberText(degreesOfFreedom, 5), meaning === `fitted ${name}` ? "parameter of the study" : meaning];
 }
 
 function estimatesTable(estimates) {

@@ -1,6 +1,7 @@
 // Which parts a result has: those of its map, and those of each of its groups.
 import { tuningFigures, tuningParts } from "./tuning.js";
 import { identificationFigures, identificationParts } from "./identification.js";
+import { hasMotion, motionFigures, motionParts } from "./motion.js";
 import { sweepFigures, sweepParts } from "./sweep.js";
 
 // parts(record): elements of the page.  figures(record): figures that need no hand, for papers.
@@ -8,6 +9,7 @@ const kinds = [
   { has: (record) => record.map !== null, parts: sweepParts, figures: sweepFigures },
   { has: (record) => record.groups.has("optimum"), parts: tuningParts, figures: tuningFigures },
   { has: (record) => record.groups.has("identification"), parts: identificationParts, figures: identificationFigures },
+  { has: hasMotion, parts: motionParts, figures: motionFigures },
 ];
 
 export function partsOf(record) {
