@@ -78,3 +78,20 @@ export function interpolated(x, y, at) {
   high = Math.max(1, high);
   return y[high - 1] + (y[high] - y[high - 1]) * (at - x[high - 1]) / (x[high] - x[high - 1]);
 }
+
+// The time within which, from the start or back from the end, every mass changes its sense of motion `turns` times;
+// null where that is more than a quarter of all.
+export function stretch({ time, masses }, turns, end) {
+  const count = time.values.length, step = end === "first" ? 1 : -1;
+  let longest = 0;
+  for (const { velocity } of masses) {
+    if (!velocity) return null;
+    let seen = 0, i = end === "first" ? 1 : count - 2, steps = 1;
+    for (; seen < turns && i > 0 && i < count - 1; i += step, ++steps) {
+      if (velocity.values[i] * velocity.values[i + step] <= 0 && velocity.values[i] !== 0) ++seen;
+    }
+    longest = Math.max(longest, steps);
+  }
+  if (longest > count / 4) return null;
+  return end === "first" ? { from: 0, to: longest + 1 } : { from: count - 1 - longest, to: count };
+}

@@ -13,7 +13,7 @@ function restSentence({ kind, stopTime, duration }) {
 
 function decayOf({ name, unit, turningPoints, decrements, rest }) {
   const sentences = [];
-  if (turningPoints.length > 0) sentences.push(`${words(name)} turns ${turningPoints.length} times, first at ${quantityText(turningPoints[0], unit, digits)}, last at ${quantityText(turningPoints.at(-1), unit, digits)}.`);
+  if (turningPoints.length > 0) sentences.push(`mass ${words(name)} turns ${turningPoints.length} times, first at ${quantityText(turningPoints[0], unit, digits)}, last at ${quantityText(turningPoints.at(-1), unit, digits)}.`);
   const first = decrements[0], last = decrements.at(-1);
   if (decrements.length > 0) sentences.push(`Its logarithmic decrement is ${numberText(first, digits)} in the first cycle (as of ${percentText(dampingRatio(first))} viscous damping)${decrements.length > 1 ? ` and ${numberText(last, digits)} in the last` : ""}.`);
   if (Number.isFinite(rest)) sentences.push(`It comes to lie at ${quantityText(rest, unit, digits)}.`);
@@ -23,13 +23,13 @@ function decayOf({ name, unit, turningPoints, decrements, rest }) {
 function peakOf({ name, unit, peak, peakTime }, { time, frequency }) {
   if (!Number.isFinite(peak)) return [];
   const there = frequency ? `, where the excitation has ${quantityText(interpolated(time.values, frequency.values, peakTime), frequency.unit, digits)}` : "";
-  return [`The largest displacement of ${words(name)} is ${quantityText(peak, unit, digits)}, at ${quantityText(peakTime, "s", digits)}${there}.`];
+  return [`The largest displacement of mass ${words(name)} is ${quantityText(peak, unit, digits)}, at ${quantityText(peakTime, "s", digits)}${there}.`];
 }
 
 function stopSentences({ stops }) {
   return stops.map(({ name, from, to }) => {
     const total = from.reduce((sum, start, i) => sum + to[i] - start, 0);
-    return `${words(name)} sticks ${from.length === 1 ? "once" : `${from.length} times`}, ${quantityText(total, "s", digits)} in all.`;
+    return `contact ${words(name)} sticks ${from.length === 1 ? "once" : `${from.length} times`}, ${quantityText(total, "s", digits)} in all.`;
   });
 }
 
@@ -46,7 +46,7 @@ function energySentences({ energies, group }) {
   if (!(total > 0)) return [];
   const shares = [...energies].sort((a, b) => b.share - a.share).map(({ name, share }) => `${percentText(share)} in ${words(name)}`);
   const balance = group.number("energy_balance");
-  return [`Of ${quantityText(total, "J", digits)} dissipated, ${shares.join(", ")}${Number.isFinite(balance) ? `; energies close to ${numberText(balance, 2)}` : ""}.`];
+  return [`Of ${quantityText(total, "J", digits)} dissipated, ${shares.join(", ")}${Number.isFinite(balance) ? `; the energy balance closes to ${numberText(balance, 2)}` : ""}.`];
 }
 
 // Paragraphs of sentences: [[sentence, ...], ...].

@@ -23,9 +23,9 @@ export function unitText(unit) {
 
 // Lengths and forces are shown in the unit in which the largest has one to three digits before the point.
 const prefixed = {
-  m: [[1, "m"], [1e-3, "mm"], [1e-6, "\u00b5m"]],
+  m: [[1, "m"], [1e-3, "mm"], [1e-6, "\u00b5m"], [1e-9, "nm"]],
   N: [[1e6, "MN"], [1e3, "kN"], [1, "N"], [1e-3, "mN"]],
-  J: [[1e3, "kJ"], [1, "J"], [1e-3, "mJ"]],
+  J: [[1e3, "kJ"], [1, "J"], [1e-3, "mJ"], [1e-6, "\u00b5J"]],
 };
 
 // {factor, text}: a value in `unit` is value x factor in `text`.

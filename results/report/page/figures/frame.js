@@ -90,7 +90,7 @@ const digitWidth = 0.64 * fontSize, besideTicks = 40;  // of the widest common f
 
 // Room at the left for the numbers of an axis and its label.
 function leftMargin(axis, height) {
-  if (typeof axis.domain?.[0] !== "number") return 0;
+  if (typeof axis.domain?.[0] !== "number" || axis.type === "band") return 0;
   const count = Math.max(2, height / 40), [low, high] = axis.domain;
   const places = Array.isArray(axis.ticks) ? axis.ticks : ticks(low, high, count);
   const text = typeof axis.tickFormat === "function" ? axis.tickFormat : tickFormat(low, high, count, axis.tickFormat);

@@ -6,6 +6,7 @@ import { thinnedHistory, thinnedPath } from "./line_thinning.js";
 
 const marginLeft = 68, marginRight = 20;
 const leastSpan = 1e-3;  // of an axis, relative to its numbers: what differs by less is level
+const mostDecades = 1e-14;  // of a logarithmic axis, downwards from its largest number
 const pathTolerance = 0.2;  // pixels
 const dashesOf = (number) => lineDashes[number % lineDashes.length];
 
@@ -30,7 +31,7 @@ function domainOf(spec, axis) {
     high = Math.max(high, value);
   }
   if (low > high) return type === "log" ? [1, 10] : [0, 1];
-  if (type === "log") return [low / 1.3, high * 1.3];
+  if (type === "log") return [Math.max(low, high * mostDecades) / 1.3, high * 1.3];
   if (zero) [low, high] = [Math.min(low, 0), Math.max(high, 0)];
   const room = (high - low) * 0.05 || Math.abs(high) * 0.05 || 0.5;
   if (tight && high > low) return [low, high];

@@ -1,11 +1,12 @@
 // Histories of a motion, its turning points, phase portraits, decrements, and where its energy goes.
-import { envelope } from "../motion.js";
+import { envelope, stretch } from "../motion.js";
 import { numberText, quantityText, words } from "../units.js";
 import { barFigure } from "./bar_figure.js";
 import { lineFigure, style } from "./line_figure.js";
 import { lineColours } from "./frame.js";
 
 const bandColours = [lineColours[4], lineColours[3], lineColours[2], lineColours[6], lineColours[1], lineColours[5]];
+const shownTurns = 12;  // of a stretch at the start or at the end
 const timeAxis = { label: "time", name: "time", unit: "s", tight: true };
 
 function stuckBands({ stops }) {
@@ -18,15 +19,55 @@ function moments({ stopTime }) {
 
 const several = (masses) => masses.length > 1;
 
+// Masses that move farthest first, so that they do not hide the others; each keeps its colour.
+function farthestFirst(masses, quantity) {
+  const extent = ({ values }) => values.reduce((most, value) => Math.max(most, Math.abs(value)), 0);
+  return masses.map((mass, i) => ({ mass, stroke: style(i).stroke, extent: extent(mass[quantity]) })).sort((a, b) => b.extent - a.extent);
+}
+
+function historyLines(motion, quantity, { from, to } = { from: 0, to: motion.time.values.length }) {
+  const shown = motion.masses.filter((mass) => mass[quantity]);
+  const x = motion.time.values.subarray(from, to);
+  return farthestFirst(shown, quantity).map(({ mass, stroke }) => (
+    { name: mass[quantity].name, text: several(shown) ? words(mass.name) : "", x, y: mass[quantity].values.subarray(from, to), width: 1.3, stroke }));
+}
+
+function titleOf(motion, quantity) {
+  const shown = motion.masses.filter((mass) => mass[quantity]);
+  const [one, many] = quantity === "velocity" ? ["Velocity", "Velocities"] : ["Displacement", "Displacements"];
+  return several(shown) ? `${many} of the masses` : `${one} of ${words(shown[0].name)}`;
+}
+
+const unitOf = (motion, quantity) => motion.masses.find((mass) => mass[quantity])[quantity].unit;
+
 function historyFigure(motion, quantity) {
-  const { time, masses } = motion;
-  const shown = masses.filter((mass) => mass[quantity]);
+  const displacement = quantity === "displacement";
   return lineFigure({
-    name: quantity, title: several(shown) ? `${quantity === "velocity" ? "Velocities" : "Displacements"} of the masses` : `${quantity === "velocity" ? "Velocity" : "Displacement"} of ${words(shown[0].name)}`,
-    caption: "", ratio: quantity === "displacement" ? 0.45 : undefined,
-    x: timeAxis, y: { label: quantity, unit: shown[0][quantity].unit },
-    lines: shown.map((mass, i) => ({ name: mass[quantity].name, text: several(shown) ? words(mass.name) : "", x: time.values, y: mass[quantity].values, width: 1.3, stroke: style(i).stroke })),
-    bands: quantity === "displacement" ? stuckBands(motion) : [], moments: quantity === "displacement" ? moments(motion) : [],
+    name: quantity, title: titleOf(motion, quantity), caption: "", ratio: displacement ? 0.45 : undefined,
+    x: timeAxis, y: { label: quantity, unit: unitOf(motion, quantity) }, lines: historyLines(motion, quantity),
+    bands: displacement ? stuckBands(motion) : [], moments: displacement ? moments(motion) : [],
+  });
+}
+
+// The stops that reach into a stretch of time, cut to it.
+function within(bands, low, high) {
+  return bands.map(({ from, to, ...band }) => {
+    const rows = Array.from(from, (_, i) => i).filter((i) => to[i] >= low && from[i] <= high);
+    return { ...band, from: rows.map((i) => Math.max(low, from[i])), to: rows.map((i) => Math.min(high, to[i])) };
+  }).filter(({ from }) => from.length > 0);
+}
+
+// The first or the last few cycles, of a motion so long that its history shows none of them.
+function cyclesFigures(motion) {
+  return ["first", "last"].flatMap((end) => {
+    const part = stretch(motion, shownTurns, end);
+    if (!part) return [];
+    const lines = historyLines(motion, "displacement", part), { x } = lines[0];
+    return [lineFigure({
+      name: `displacement_${end}_cycles`, title: `The ${end} cycles`, caption: "",
+      x: timeAxis, y: { label: "displacement", unit: unitOf(motion, "displacement") }, lines,
+      bands: within(stuckBands(motion), x[0], x[x.length - 1]),
+    })];
   });
 }
 
@@ -108,7 +149,7 @@ export function motionFigureParts(motion) {
   const { masses, time, frequency, energies } = motion;
   const histories = time && masses.some(({ displacement }) => displacement);
   return {
-    histories: histories ? [historyFigure(motion, "displacement"), ...(frequency ? [runFigure(motion), frequencyFigure(motion)] : []),
+    histories: histories ? [historyFigure(motion, "displacement"), ...cyclesFigures(motion), ...(frequency ? [runFigure(motion), frequencyFigure(motion)] : []),
       ...(masses.some(({ velocity }) => velocity) ? [historyFigure(motion, "velocity")] : []),
       ...masses.filter(({ displacement, velocity }) => displacement && velocity).map(portraitFigure)] : [],
     turning: [...masses.filter(({ turningPoints }) => turningPoints.length > 0).map((mass) => turningFigure(motion, mass)),
