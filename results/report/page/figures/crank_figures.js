@@ -50,7 +50,7 @@ export function crankErrorFigure(crank) {
   return lineFigure({
     name: `crank_errors_${name}`, title: `What the series of ${words(name)} misses`,
     caption: `Relative to ${isThrow ? "the throw" : "the largest displacement"}, ${quantityText(length, motion.unit)}.`,
-    x: angleAxis(crank), y: { label: "relative error", unit: "1", type: "log" },
+    x: angleAxis(crank), y: { label: "relative error", unit: "1", type: "log", decades: 6 },
     lines: cuts.map((cut, i) => ({ name: `${name}_error_${cut.order}`, text: orderText(cut.order), x: angle.values, y: cutErrors(crank, cut), ...style(i + 1) })),
   });
 }

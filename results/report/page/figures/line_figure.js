@@ -1,12 +1,11 @@
 // A figure of curves, points, bands and levels over one pair of axes, with its legend, tips and CSV.
 import * as Plot from "@observablehq/plot";
-import { numberText, shownUnit, withUnit } from "../units.js";
+import { numberText, shownUnit, superscript, withUnit } from "../units.js";
 import { drawFrame, fileName, grid, lineColours, lineDashes, tips } from "./frame.js";
 import { thinnedHistory, thinnedPath } from "./line_thinning.js";
 
 const marginLeft = 68, marginRight = 20;
 const leastSpan = 1e-3;  // of an axis, relative to its numbers: what differs by less is level
-const mostDecades = 1e-14;  // of a logarithmic axis, downwards from its largest number
 const pathTolerance = 0.2;  // pixels
 const dashesOf = (number) => lineDashes[number % lineDashes.length];
 
@@ -22,7 +21,7 @@ function* valuesOf(spec, axis) {
 
 // Least and greatest number in `unit`, with room around; with the zero where the axis asks for it.
 function domainOf(spec, axis) {
-  const { type, zero, tight, domain } = spec[axis];
+  const { type, zero, tight, domain, decades = 14 } = spec[axis];
   if (domain) return domain;
   let low = Infinity, high = -Infinity;
   for (const value of valuesOf(spec, axis)) {
@@ -31,7 +30,7 @@ function domainOf(spec, axis) {
     high = Math.max(high, value);
   }
   if (low > high) return type === "log" ? [1, 10] : [0, 1];
-  if (type === "log") return [Math.max(low, high * mostDecades) / 1.3, high * 1.3];
+  if (type === "log") return [Math.max(low, high * 10 ** -decades) / 1.3, high * 1.3];
   if (zero) [low, high] = [Math.min(low, 0), Math.max(high, 0)];
   const room = (high - low) * 0.05 || Math.abs(high) * 0.05 || 0.5;
   if (tight && high > low) return [low, high];
@@ -45,7 +44,7 @@ function shownAxis(spec, axis) {
   const inUnit = domainOf(spec, axis);
   const { factor, text } = shownUnit(unit, inUnit);
   const domain = inUnit.map((value) => value * factor);
-  const logarithmic = type === "log" ? { ticks: powerTicks(domain), tickFormat: powerText } : { ticks, tickFormat };
+  const logarithmic = type === "log" ? { ticks: powerTicks(domain), tickFormat: powerText(domain) } : { ticks, tickFormat };
   return { factor, unit: text, options: { label: withUnit(label, text), type, domain, ...logarithmic } };
 }
 
@@ -60,9 +59,14 @@ export function powerTicks([low, high]) {
   return ticks.filter((tick) => tick >= low && tick <= high);
 }
 
-export function powerText(value) {
-  if (value >= 1e-3 && value < 1e5) return numberText(value);
-  return numberText(value, 3).replace("1\u00d710", "10");
+// How a logarithmic axis over this domain writes its ticks: plainly, or where that takes many zeros as powers of ten.
+export function powerText([low, high]) {
+  if (low >= 1e-3 && high < 1e5) return (value) => numberText(value);
+  return (value) => {
+    const power = Math.round(Math.log10(value)), digit = Math.round(value / 10 ** power * 10) / 10;
+    const ten = power === 0 ? "1" : `10${superscript(power)}`;
+    return digit === 1 ? ten : numberText(value, 1);
+  };
 }
 
 function thinnedLine(line, canvas, x, y) {
@@ -154,7 +158,7 @@ function tableOf(spec) {
   return columns;
 }
 
-// spec: {name, title, caption, ratio, x and y: {label, name, unit, type: "linear" or "log", zero, tight, domain},
+// spec: {name, title, caption, ratio, x and y: {label, name, unit, type: "linear" or "log", zero, tight, domain, decades: at most so many of a logarithmic axis},
 //   lines: [{name, text, x, y, stroke, dash, width, path}]  text: in the legend; path: x does not rise
 //   points: [{name, text, x, y, stroke, symbol}]             symbol: "open" or "full"
 //   bands: [{text, from, to, fill}], levels: [{text, y, stroke, dash}], moments: [{text, x, stroke, dash}]}
