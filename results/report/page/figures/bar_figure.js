@@ -1,10 +1,10 @@
 // Named amounts as horizontal bars, each with its number.
 import * as Plot from "@observablehq/plot";
 import { numberText, shownUnit, withUnit } from "../units.js";
-import { drawFrame, fileName, fontSize, lineColours, wrapped } from "./frame.js";
+import { drawFrame, fileName, lineColours } from "./frame.js";
+import { digitWidth, wrapped } from "./text_lines.js";
 
 const barHeight = 30, aroundBars = 64;
-const digitWidth = 0.64 * fontSize;
 
 function draw(canvas, { label, unit, bars }) {
   const { factor, text } = shownUnit(unit, bars.map(({ value }) => value));

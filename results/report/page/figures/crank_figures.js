@@ -1,31 +1,10 @@
 // What a crank drives: its motion over the angle, with the Taylor series cut after an order, and what the cuts miss.
+import { cutErrors } from "../crank.js";
 import { numberText, quantityText, words } from "../units.js";
 import { lineFigure, style } from "./line_figure.js";
 
 const quarter = Math.PI / 2;
 const quarterWords = ["0", "\u03c0/2", "\u03c0", "3\u03c0/2", "2\u03c0"];
-
-// Each node that a crank drives: {name, angle, motion, cuts: [{order, column}], length: what errors are relative to}.
-export function cranksOf(record) {
-  const group = record.groups.get("crank"), angle = group.column("angle");
-  return group.columns.filter(({ name, dimension }) => name.endsWith("_motion") && dimension === angle?.dimension).map((motion) => {
-    const name = motion.name.slice(0, -"_motion".length);
-    const throwLength = group.number(`${name}_throw`);
-    const cuts = group.columns.filter((column) => column.name.startsWith(`${name}_taylor_`))
-      .map((column) => ({ order: Number(column.name.slice(`${name}_taylor_`.length)), column }));
-    const largest = motion.values.reduce((most, value) => Math.max(most, Math.abs(value)), 0);
-    return { name, angle, motion, cuts, length: Number.isFinite(throwLength) ? throwLength : largest, isThrow: Number.isFinite(throwLength) };
-  });
-}
-
-// What a cut misses, relative to the length.
-export function cutErrors({ motion, length }, { column }) {
-  return Float64Array.from(motion.values, (value, i) => Math.abs(column.values[i] - value) / length);
-}
-
-export function largestError(crank, cut) {
-  return cutErrors(crank, cut).reduce((most, value) => Math.max(most, value), 0);
-}
 
 function angleAxis({ angle }) {
   const turn = Math.abs(angle.values.at(-1) - 4 * quarter) < 0.1;

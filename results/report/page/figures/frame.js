@@ -7,11 +7,10 @@
 //   table    its numbers, for a CSV file: [{name, unit, values}], in the units of the record
 import * as Plot from "@observablehq/plot";
 import { tickFormat, ticks } from "d3";
+import { digitWidth, fontSize, textWidth, wrapped } from "./text_lines.js";
 
-export const fontSize = 12;
 const fontFamily = "system-ui, -apple-system, 'Segoe UI', 'DejaVu Sans', Arial, sans-serif";
 const lineHeight = 18;
-const characterWidth = 0.56 * fontSize;  // of a sans-serif font, on average
 
 // Okabe and Ito's colours, told apart by all; black and yellow are left out, for dark and for light pages.
 export const lineColours = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#8C6D31", "#7F7F7F"];
@@ -21,27 +20,6 @@ export const lineDashes = ["", "6 3", "2 2", "8 3 2 3", "4 4", "1 3", "10 4", "3
 export const regimeColours = {
   no_friction: "#9A9A9A", non_stop: "#0072B2", one_stop: "#E69F00", multi_stop: "#D55E00", stuck: "#6F4E9B",
 };
-
-function textWidth(text) {
-  return text.length * characterWidth;
-}
-
-// A text in lines that fit the width: broken at blanks, a longer word where it must be.
-export function wrapped(text, width) {
-  const most = Math.max(4, Math.floor(width / characterWidth));
-  const lines = [""];
-  for (let word of text.split(" ")) {
-    const joined = lines.at(-1) === "" ? word : `${lines.at(-1)} ${word}`;
-    if (joined.length <= most) {
-      lines[lines.length - 1] = joined;
-      continue;
-    }
-    if (lines.at(-1) !== "") lines.push("");
-    for (; word.length > most; word = word.slice(most)) lines.splice(-1, 0, word.slice(0, most));
-    lines[lines.length - 1] = word;
-  }
-  return lines;
-}
 
 // Entries of a legend in rows that fit the width; one that is longer takes rows of its own.
 function legendRows(legend, width) {
@@ -86,7 +64,7 @@ function legendMark(rows, marginLeft) {
 }
 
 const ticksLength = 5, labelLineHeight = 15;
-const digitWidth = 0.64 * fontSize, besideTicks = 40;  // of the widest common font; the label and its gaps
+const besideTicks = 40;  // the label and its gaps
 
 // Room at the left for the numbers of an axis and its label.
 function leftMargin(axis, height) {

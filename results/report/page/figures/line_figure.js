@@ -1,8 +1,9 @@
 // A figure of curves, points, bands and levels over one pair of axes, with its legend, tips and CSV.
 import * as Plot from "@observablehq/plot";
-import { numberText, shownUnit, superscript, withUnit } from "../units.js";
+import { numberText, shownUnit, withUnit } from "../units.js";
 import { drawFrame, fileName, grid, lineColours, lineDashes, tips } from "./frame.js";
 import { thinnedHistory, thinnedPath } from "./line_thinning.js";
+import { powerText, powerTicks } from "./power_ticks.js";
 
 const marginLeft = 68, marginRight = 20;
 const leastSpan = 1e-3;  // of an axis, relative to its numbers: what differs by less is level
@@ -46,27 +47,6 @@ function shownAxis(spec, axis) {
   const domain = inUnit.map((value) => value * factor);
   const logarithmic = type === "log" ? { ticks: powerTicks(domain), tickFormat: powerText(domain) } : { ticks, tickFormat };
   return { factor, unit: text, options: { label: withUnit(label, text), type, domain, ...logarithmic } };
-}
-
-// Places of the ticks of a logarithmic axis: powers of ten, or 1, 2, 5 of each where there are few.
-export function powerTicks([low, high]) {
-  const decades = Math.log10(high / low), step = Math.ceil(decades / 8);
-  const ticks = [];
-  for (let power = Math.floor(Math.log10(low)); power <= Math.log10(high); ++power) {
-    if (power % step !== 0) continue;
-    for (const digit of decades < 2 ? [1, 2, 5] : [1]) ticks.push(digit * 10 ** power);
-  }
-  return ticks.filter((tick) => tick >= low && tick <= high);
-}
-
-// How a logarithmic axis over this domain writes its ticks: plainly, or where that takes many zeros as powers of ten.
-export function powerText([low, high]) {
-  if (low >= 1e-3 && high < 1e5) return (value) => numberText(value);
-  return (value) => {
-    const power = Math.round(Math.log10(value)), digit = Math.round(value / 10 ** power * 10) / 10;
-    const ten = power === 0 ? "1" : `10${superscript(power)}`;
-    return digit === 1 ? ten : numberText(value, 1);
-  };
 }
 
 function thinnedLine(line, canvas, x, y) {

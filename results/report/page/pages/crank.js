@@ -1,5 +1,6 @@
 // The part of a page that tells what its crank does.
-import { crankErrorFigure, crankMotionFigure, cranksOf, largestError } from "../figures/crank_figures.js";
+import { cranksOf, largestError } from "../crank.js";
+import { crankErrorFigure, crankMotionFigure } from "../figures/crank_figures.js";
 import { section, table } from "../parts/elements.js";
 import { figureCards } from "../parts/figure_cards.js";
 import { numberText, quantityText, words } from "../units.js";
