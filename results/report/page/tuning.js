@@ -56,7 +56,10 @@ function responsesOf(group, suffixes) {
 
 function extraColumns(group, band) {
   return group.along(band).filter(({ name }) => group.has(`${name}_range`) && group.column(`${name}_range`).kind === "flag")
-    .map((column) => ({ ...column, range: group.column(`${column.name}_range`) }));
+    .map((column) => ({
+      ...column, range: group.column(`${column.name}_range`),
+      lower: group.number(`${column.name}_range_lower`), upper: group.number(`${column.name}_range_upper`),
+    }));
 }
 
 // Bounds of a parameter that hold the design: [{end, knots, multiplier, gain}], gain: relative fall of the objective

@@ -60,7 +60,7 @@ function lessText(before, after) {
   return `${change} (${decibel > 0 ? "+" : ""}${numberText(decibel, 3)} dB)`;
 }
 
-const kindWords = { minimax: "worst", mean_square: "root mean square over the band of", variance: "standard deviation of" };
+const kindWords = { minimax: "worst", mean_square: "root mean square of", variance: "standard deviation of" };
 
 function spoken(tuning) {
   return tuning.kind === "minimax" ? `worst ${tuning.weight ? "weighted " : ""}${words(tuning.quantity)}`
@@ -123,7 +123,7 @@ function bandSentences(tuning) {
   return sentences;
 }
 
-function certificateSentences({ kind, group, band }) {
+function certificateSentences({ kind, group, band, outcome }) {
   const gap = group.number("certificate_gap"), kkt = group.number("kkt_residual"), starts = group.values("start_objective")?.length ?? 1;
   const sentences = [];
   if (kind === "minimax" && band && Number.isFinite(gap)) {
@@ -131,7 +131,8 @@ function certificateSentences({ kind, group, band }) {
     sentences.push(`Certificate: all peaks of the band were solved, and none exceeds the bound of the tuning by more than ${by}.`);
   }
   if (Number.isFinite(kkt)) sentences.push(`The conditions of a local optimum hold to ${numberText(kkt, 2)} (relative).`);
-  sentences.push(starts > 1 ? `${startsText(group)}.` : "That no better design lies elsewhere within the bounds is not proved: one start was made.");
+  if (starts > 1) sentences.push(`${startsText(group)}.`);
+  else if (outcome === "converged") sentences.push("That no better design lies elsewhere within the bounds is not proved: one start was made.");
   return sentences;
 }
 
@@ -156,13 +157,23 @@ export function holders(tuning) {
 
 function holdingSentences(tuning) {
   const held = holders(tuning);
-  const sentences = held.length ? [`The design is held by ${held.join("; ")}.`] : ["Neither bound nor limit holds the design: it is free on all sides."];
+  const free = tuning.outcome === "converged" ? ["Neither bound nor limit holds the design: it is free on all sides."] : [];
+  const sentences = held.length ? [`The design is held by ${held.join("; ")}.`] : free;
   const knots = tuning.parameters.filter(({ scheduled }) => scheduled).map((parameter) => {
     const { lower, upper } = knotsAtBounds(parameter);
     return `${symbolText(parameter.name)} lies on its lower bound at ${lower.length} and on its upper at ${upper.length} of ${parameter.knots.length} knots`;
   });
   if (knots.length) sentences.push(`${knots.join("; ")}.`);
   return sentences;
+}
+
+// Where what stands beside the schedule leaves its range.
+function columnSentences(tuning) {
+  return tuning.columns.filter(({ lower, upper }) => Number.isFinite(lower) || Number.isFinite(upper)).map(({ name, values, lower, upper }) => {
+    const room = Float64Array.from(values, (value) => Math.min(Number.isFinite(lower) ? value - lower : Infinity, Number.isFinite(upper) ? upper - value : Infinity));
+    const inside = nonNegative(tuning.band.values, room);
+    return `${words(name)} is within its range ${intervalText(tuning, inside)}.`;
+  });
 }
 
 function detuningSentences(tuning) {
@@ -179,7 +190,7 @@ export function whatItMeans(tuning) {
   return [
     [...reductionSentences(tuning), ...bandSentences(tuning)],
     certificateSentences(tuning),
-    [...holdingSentences(tuning), ...detuningSentences(tuning)],
+    [...holdingSentences(tuning), ...columnSentences(tuning), ...detuningSentences(tuning)],
   ].filter((paragraph) => paragraph.length > 0);
 }
 

@@ -96,7 +96,7 @@ test("knots on a bound are counted", () => {
 test("of a mean square the words are of roots, and the decibels of amplitudes", () => {
   const record = minimax({ objective: ["(m)2", "", 4e-6], worst_before: ["(m)2", "", 16e-6], worst_after: ["(m)2", "", 4e-6] }, 1, { objective_kind: "mean_square" });
   const text = whatItMeans(tuningOf(record)).flat().join(" ");
-  assert.match(text, /Root mean square over the band of main peak over 10 to 20 rad\/s of ω: 2 mm\./);
+  assert.match(text, /Root mean square of main peak over 10 to 20 rad\/s of ω: 2 mm\./);
   assert.match(text, /\(4 mm\): 50 % less \(−6\.02 dB\)/);
   assert.doesNotMatch(text, /Certificate/);
   assert.equal(rootUnit("(m)2"), "m");
@@ -118,4 +118,17 @@ test("rounds that settle a schedule are told from those that press the worst pea
   const scheduled = { k: ["N/m", "knots_k", [600, 900]], knots_k: ["rad s-1", "knots_k", [10, 20]], round_bound: ["m", "round", bounds] };
   assert.equal(settlingRounds(tuningOf(minimax(scheduled))), 2);
   assert.equal(settlingRounds(tuningOf(minimax({ round_bound: ["m", "round", bounds] }))), 0);
+});
+
+test("where what stands beside the schedule leaves its range is told", () => {
+  const ratio = { ratio: ["1", "omega", [0.5, 0.7, 0.9, 1.1, 1.5]], ratio_range_lower: ["1", "", 0.6], ratio_range_upper: ["1", "", 1.1] };
+  const record = minimax(ratio);
+  const group = record.groups.get("optimum");
+  group.byName.set("ratio_range", { name: "ratio_range", kind: "flag", dimension: "omega", flags: [[1, "within"]], values: Float64Array.from([2, 1, 1, 1, 3]) });
+  assert.match(whatItMeans(tuningOf(record)).flat().join(" "), /ratio is within its range over 50 % of the band \(11 to 16 rad\/s\)\./);
+});
+
+test("of a design that did not converge nothing is said of its being free or best", () => {
+  const text = whatItMeans(tuningOf(minimax({ k_upper_multiplier: ["m (N/m)-1", "", 0], peak_multiplier: ["1", "peak", [0, 0]] }, 3))).flat().join(" ");
+  assert.doesNotMatch(text, /free on all sides|no better design/);
 });

@@ -15,12 +15,12 @@ function responseLine({ band, scenarios }, { design, scenario, values }) {
     stroke: colours[design], width: design === "after" ? 2.2 : 1.6, dash };
 }
 
-function peakPoints({ peaks }) {
+function peakPoints({ peaks, kind }) {
   const of = (chosen) => ({ x: chosen.map(({ at }) => at), y: chosen.map(({ value }) => value) });
   const points = (name, text, symbol, chosen) => ({ name, text, symbol, stroke: colours.after, r: 4.5, ...of(chosen) });
   return [
     points("active_peak", "active peak", "full", peaks.filter(({ active }) => active)),
-    points("other_peak", "other peak", "open", peaks.filter(({ active }) => !active)),
+    points("other_peak", kind === "minimax" ? "other peak" : "peak", "open", peaks.filter(({ active }) => !active)),
   ].filter(({ x }) => x.length > 0);
 }
 
@@ -35,7 +35,7 @@ export function responseFigure(tuning) {
   const worstPeak = kind === "minimax" && Number.isFinite(worst.after);
   return lineFigure({
     name: "tuned_response", title: `Response over the band: ${words(quantity)}`,
-    caption: `${worstPeak ? "Peaks are solved, not sampled; those that hold the optimum are filled." : "Sampled over the band."}${weightText(tuning)}`,
+    caption: `${worstPeak ? "Peaks are solved, not sampled; those that hold the optimum are filled." : "Peaks are solved, not sampled."}${weightText(tuning)}`,
     ratio: 0.5,
     x: { ...axisOf(band), tight: true },
     y: { label: `${weight ? "weighted " : ""}${words(quantity)}`, unit: kind === "minimax" ? unit : root, zero: true },
@@ -71,7 +71,6 @@ function knotPoints({ knots, values, lower, upper }, { lower: low, upper: high }
 export function scheduleFigure({ band }, parameter, atBounds) {
   const { name, unit, schedule, rule, constant, before, lower, upper, knots, values } = parameter;
   const over = schedule ? band.values : knots, y = schedule ?? values;
-  const level = (text, at, stroke, dash) => (Number.isFinite(at) ? [{ text, y: at, stroke, dash }] : []);
   return lineFigure({
     name: `schedule_${name}`, title: `Schedule of ${symbolText(name)}`, caption: "Linear between its knots.",
     x: { ...axisOf(band), tight: true }, y: { label: symbolText(name), unit },
@@ -87,19 +86,22 @@ export function scheduleFigure({ band }, parameter, atBounds) {
   });
 }
 
-export function columnFigure({ band }, { name, unit, values, range }) {
+const level = (text, at, stroke, dash) => (Number.isFinite(at) ? [{ text, y: at, stroke, dash }] : []);
+
+// What stands beside the schedule (a CVT's ratio), with its range where it has one.
+export function columnFigure({ band }, { name, unit, values, range, lower, upper }) {
   const flagged = (word, text, symbol) => {
     const code = range.flags.find(([, meaning]) => meaning === word)?.[0];
     const rows = Array.from(values, (_, i) => i).filter((i) => range.values[i] === code);
     return { name: `${name}_${word}`, text, symbol, stroke: colours.constant, r: 2.6, x: rows.map((i) => band.values[i]), y: rows.map((i) => values[i]) };
   };
   const outside = [flagged("below", "below its range", "open"), flagged("above", "above its range", "full")].filter(({ x }) => x.length > 0);
-  const known = range.values.some((code) => code !== 0);
+  const ends = [...level("lower end of its range", lower, "currentColor", "1 3"), ...level("upper end of its range", upper, "currentColor", "5 3")];
   return lineFigure({
     name: `column_${name}`, title: `${words(name)} over the band`,
-    caption: outside.length ? "Places outside its range are marked." : known ? "Within its range over the whole band." : "",
+    caption: ends.length === 0 ? "" : outside.length ? "Places outside its range are marked." : "Within its range over the whole band.",
     x: { ...axisOf(band), tight: true }, y: { label: words(name), unit },
-    lines: [{ name, text: outside.length ? words(name) : "", x: band.values, y: values, stroke: colours.after }],
-    points: outside,
+    lines: [{ name, text: ends.length ? words(name) : "", x: band.values, y: values, stroke: colours.after }],
+    points: outside, levels: ends,
   });
 }

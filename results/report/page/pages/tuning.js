@@ -99,7 +99,7 @@ function factsTable(tuning) {
     ["KKT residual", numberText(group.number("kkt_residual"), 3)], ["violation of limits, relative", numberText(group.number("violation"), 3)],
     ["outcome", words(tuning.outcome)], ["reason", tuning.reason], ["iterations", count("iterations")],
     ["orbits", count("orbits")], ["gradients", count("gradients")], ["solver", texts.solver ?? ""],
-    ["starts", `${group.values("start_objective")?.length ?? 1} (${texts.start ?? "given"}); best: ${count("best_start")}`],
+    ["starts", `${group.values("start_objective")?.length ?? 1} (${words(texts.start ?? "given")}); chosen: start ${count("best_start")}`],
   ];
   return table(["", ""], rows.filter(([, text]) => text !== ""));
 }
