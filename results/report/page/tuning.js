@@ -1,4 +1,5 @@
 // A tuning as its page sees it, read from the group /optimum: designs, responses, peaks, limits.
+import { words } from "./units.js";
 
 export const designNames = { before: "before", after: "tuned", constant: "best constant", rule: "rule" };
 const heldFrom = 1e-6;  // share, or relative gain, from which something counts as holding the design
@@ -6,6 +7,12 @@ const heldFrom = 1e-6;  // share, or relative gain, from which something counts 
 // "(m)2" to "m": the unit of the root of a mean square or a variance.
 export function rootUnit(unit) {
   return /^\((.*)\)2$/.exec(unit)?.[1] ?? unit;
+}
+
+// The quantity tuned in words; a variance is of the motion, not of its root mean square.
+export function quantityWords({ kind, quantity }) {
+  const text = words(quantity);
+  return kind === "variance" ? text.replace(/ rms$/, "") : text;
 }
 
 function listOf(text) {

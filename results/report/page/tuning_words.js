@@ -1,6 +1,6 @@
 // What a tuning means, in sentences of numbers: each is computed here from what the record holds.
 import { symbolText } from "./axes.js";
-import { heldBounds, knotsAtBounds } from "./tuning.js";
+import { heldBounds, knotsAtBounds, quantityWords } from "./tuning.js";
 import { numberText, quantityText, unitText, words } from "./units.js";
 
 const digits = 4;
@@ -63,8 +63,8 @@ function lessText(before, after) {
 const kindWords = { minimax: "worst", mean_square: "root mean square of", variance: "standard deviation of" };
 
 function spoken(tuning) {
-  return tuning.kind === "minimax" ? `worst ${tuning.weight ? "weighted " : ""}${words(tuning.quantity)}`
-    : `${kindWords[tuning.kind] ?? words(tuning.kind)} ${tuning.kind === "variance" ? words(tuning.quantity).replace(/ rms$/, "") : words(tuning.quantity)}`;
+  const weighted = tuning.kind === "minimax" && tuning.weight ? "weighted " : "";
+  return `${kindWords[tuning.kind] ?? words(tuning.kind)} ${weighted}${quantityWords(tuning)}`;
 }
 
 // The objective as an amplitude: itself, or the root of a mean square or variance.
@@ -186,7 +186,7 @@ function detuningSentences(tuning) {
 
 // What holds of the tuning, as paragraphs: [[sentence, ...], ...].
 export function whatItMeans(tuning) {
-  if (!Number.isFinite(tuning.objective)) return [];
+  if (!Number.isFinite(tuning.objective)) return [[`There is no number for the ${spoken(tuning)} of this design.`]];
   return [
     [...reductionSentences(tuning), ...bandSentences(tuning)],
     certificateSentences(tuning),

@@ -30,7 +30,7 @@ function domainOf(spec, axis) {
     low = Math.min(low, value);
     high = Math.max(high, value);
   }
-  if (low > high) return type === "log" ? [1, 10] : [0, 1];
+  if (low > high || (zero && low === 0 && high === 0)) return type === "log" ? [1, 10] : [0, 1];
   if (type === "log") return [Math.max(low, high * 10 ** -decades) / 1.3, high * 1.3];
   if (zero) [low, high] = [Math.min(low, 0), Math.max(high, 0)];
   const room = (high - low) * 0.05 || Math.abs(high) * 0.05 || 0.5;

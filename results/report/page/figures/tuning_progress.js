@@ -1,14 +1,14 @@
 // How a tuning came about and how firm it stands: detuning, rounds of exchange, starts, the front of a trade-off.
 import { symbolText } from "../axes.js";
-import { settlingRounds } from "../tuning.js";
+import { quantityWords, settlingRounds } from "../tuning.js";
 import { words } from "../units.js";
 import { lineFigure, style } from "./line_figure.js";
 import { lineColours } from "./frame.js";
 
 const objectiveWords = { minimax: "worst", mean_square: "mean square of", variance: "variance of" };
 
-export function objectiveLabel({ kind, quantity, weight }) {
-  return `${objectiveWords[kind] ?? words(kind)} ${weight ? "weighted " : ""}${words(quantity)}`;
+export function objectiveLabel(tuning) {
+  return `${objectiveWords[tuning.kind] ?? words(tuning.kind)} ${tuning.weight ? "weighted " : ""}${quantityWords(tuning)}`;
 }
 
 function percent(values) {

@@ -24,6 +24,11 @@ function peakPoints({ peaks, kind }) {
   ].filter(({ x }) => x.length > 0);
 }
 
+function peaksText({ peaks, kind }) {
+  if (peaks.length === 0) return "";
+  return kind === "minimax" ? "Peaks are solved, not sampled; those that hold the optimum are filled." : "Peaks are solved, not sampled.";
+}
+
 function weightText({ weight }) {
   return weight ? " The response is multiplied by the study's weight, which is a figure of its own." : "";
 }
@@ -35,7 +40,7 @@ export function responseFigure(tuning) {
   const worstPeak = kind === "minimax" && Number.isFinite(worst.after);
   return lineFigure({
     name: "tuned_response", title: `Response over the band: ${words(quantity)}`,
-    caption: `${worstPeak ? "Peaks are solved, not sampled; those that hold the optimum are filled." : "Peaks are solved, not sampled."}${weightText(tuning)}`,
+    caption: `${peaksText(tuning)}${weightText(tuning)}`.trim(),
     ratio: 0.5,
     x: { ...axisOf(band), tight: true },
     y: { label: `${weight ? "weighted " : ""}${words(quantity)}`, unit: kind === "minimax" ? unit : root, zero: true },

@@ -130,7 +130,7 @@ function frontTable({ front, parameters, limits, unit }) {
     ...constants.map(({ name, unit: of }) => withUnit(symbolText(name), unitText(of))), "certificate gap", "violation", "outcome"];
   const rows = Array.from(limit.values, (value, i) => [numberText(value), quantityText(of("objective", i), unit),
     ...constants.map(({ name }) => numberText(of(name, i))), numberText(of("certificate_gap", i), 2), numberText(of("violation", i), 2), words(front.word("outcome", i))]);
-  return table(head, rows, { numeric: head.map((_, i) => i).slice(0, -1), caption: "The front." });
+  return table(head, rows, { numeric: head.map((_, i) => i).slice(0, -1) });
 }
 
 function resultFigures(tuning) {
@@ -144,15 +144,27 @@ function resultFigures(tuning) {
   ];
 }
 
+function frontFigures(tuning) {
+  return tuning.front ? [frontFigure(tuning)] : [];
+}
+
+function detuningFigures(tuning) {
+  return tuning.parameters.some(({ detuning }) => detuning?.some(Number.isFinite)) ? [detuningFigure(tuning)] : [];
+}
+
 function progressFigures(tuning) {
-  const { group, kind, front } = tuning;
+  const { group, kind } = tuning;
   const several = (name) => (group.values(name)?.length ?? 0) > 1;
   return [
-    ...(front ? [frontFigure(tuning)] : []),
-    ...(group.has("change") ? [detuningFigure(tuning)] : []),
     ...(several("round_bound") ? [roundsFigure(tuning), ...(kind === "minimax" ? [gapFigure(tuning)] : [])] : []),
     ...(several("start_objective") ? [startsFigure(tuning)] : []),
   ];
+}
+
+// No section for nothing.
+function sectionOf(title, children) {
+  const known = children.filter((child) => child !== null);
+  return known.length ? [section(title, ...known)] : [];
 }
 
 export function tuningParts(record) {
@@ -161,14 +173,15 @@ export function tuningParts(record) {
   return [
     ...(warning ? [element("p", { class: "warning" }, warning)] : []),
     meaning(tuning),
-    section("Optimum", optimumTable(tuning), ...schedulesTables(tuning), worstTable(tuning)),
-    ...(first ? [section("Response", ...figureCards([first], record, "wide"), ...figureCards(others, record))] : []),
-    section("What holds it", ...peaksTable(tuning), ...boundsTable(tuning), ...limitsTable(tuning), ...figureCards(progressFigures(tuning), record)),
-    section("How it was found", ...[factsTable(tuning), roundsTable(tuning), frontTable(tuning)].filter(Boolean)),
+    ...sectionOf("Optimum", [optimumTable(tuning), ...schedulesTables(tuning), worstTable(tuning)]),
+    ...sectionOf("Response", first ? [...figureCards([first], record, "wide"), ...figureCards(others, record)] : []),
+    ...sectionOf("Trade-off", [...figureCards(frontFigures(tuning), record), frontTable(tuning)]),
+    ...sectionOf("What holds it", [...peaksTable(tuning), ...boundsTable(tuning), ...limitsTable(tuning), ...figureCards(detuningFigures(tuning), record)]),
+    ...sectionOf("How it was found", [factsTable(tuning), ...figureCards(progressFigures(tuning), record), roundsTable(tuning)]),
   ];
 }
 
 export function tuningFigures(record) {
   const tuning = tuningOf(record);
-  return [...resultFigures(tuning), ...progressFigures(tuning)];
+  return [...resultFigures(tuning), ...frontFigures(tuning), ...detuningFigures(tuning), ...progressFigures(tuning)];
 }
