@@ -67,4 +67,11 @@ TEST_CASE("a coordinate may not have the name of a group of the file, or of what
   }
 }
 
+TEST_CASE("a report may only show what is recorded") {
+  const std::string chosen = base + "[output]\nquantities = [\"main_peak\"]\n[report]\nquantities = ";
+  CHECK_THROWS_WITH(variables_of(chosen + "[\"main_rms\"]\n"),
+                    Catch::Contains("[report]: quantities: \"main_rms\" is not recorded by this study"));
+  CHECK_NOTHROW(variables_of(chosen + "[\"main_peak\"]\n"));
+}
+
 }  // namespace

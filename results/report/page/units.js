@@ -53,6 +53,11 @@ export function numberText(value, digits = 6) {
   return String(Number(value.toPrecision(digits))).replace("-", "\u2212");
 }
 
+// With its first letter large.
+export function sentence(text) {
+  return text.charAt(0).toUpperCase() + text.slice(1);
+}
+
 // "main_peak" to "main peak"; words of flags too.
 export function words(name) {
   return name.replaceAll("_", " ");

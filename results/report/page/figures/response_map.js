@@ -36,12 +36,14 @@ function painterOf(variable, range, state) {
   const to = state.scale === "log" ? Math.log : (value) => value;
   const low = to(range[0]), span = to(range[1]) - low || 1;
   return (value, rgba, at) => {
-    const place = (to(value) - low) / span;
-    if (!(place > -1e-9 && place < 1 + 1e-9)) return rgba.set(missingColour, at);
+    if (Number.isNaN(value) || (variable.kind === "count" && value < 0)) return rgba.set(missingColour, at);
+    const place = (to(Math.max(value, range[0])) - low) / span;
     const step = 4 * Math.max(0, Math.min(colourSteps - 1, Math.round(place * (colourSteps - 1))));
     for (let c = 0; c < 4; ++c) rgba[at + c] = table[step + c];
   };
 }
+
+const logSpan = 1e-4;  // of the largest: what lies below has the lowest colour on a logarithmic scale
 
 // Least and largest value of all the map, so that a slider moves along one scale; on a log scale of the positive.
 export function rangeOf(map, variable, scale) {
@@ -51,7 +53,7 @@ export function rangeOf(map, variable, scale) {
     if (value < low) low = value;
     if (value > high) high = value;
   }
-  if (scale === "log") low = Math.max(low, high * 1e-6);
+  if (scale === "log") low = Math.max(low, high * logSpan);
   return low <= high ? [low, high] : [0, 1];
 }
 

@@ -12,7 +12,7 @@ import { about } from "../parts/heading.js";
 import { followPointer } from "../parts/map_pointer.js";
 import { pointCard, pointTip } from "../parts/point_table.js";
 import { meaningOf } from "../record.js";
-import { unitText, words } from "../units.js";
+import { sentence, unitText, words } from "../units.js";
 import { crossingsOf, contactsOf, curvePoints, firstState } from "./sweep_state.js";
 
 const regimeOf = (map, contact) => map.variable(`${contact}_regime`);
@@ -22,7 +22,7 @@ function mapFigure(map, state) {
   const slice = () => map.axes.map((axis, a) => (a === state.x || a === state.y || axis.size < 2 ? "" : coordinateText(axis.coordinates[0], state.index[a]))).filter(Boolean).join(", ");
   return {
     name: () => `map_${state.variable.name}`,
-    get title() { return [state.variable.long_name || words(state.variable.name), slice()].filter(Boolean).join("; "); },
+    get title() { return sentence([state.variable.long_name || words(state.variable.name), slice()].filter(Boolean).join("; ")); },
     get caption() {
       const borders = (state.crossings.get(state.contact) ?? []).length;
       return `Grey: no number.${borders ? ` Lines: borders between the regimes of ${words(state.contact)}, solved, not sampled.` : ""}`;
@@ -40,7 +40,7 @@ function curveState(map, state) {
 function curveFigure(map, state) {
   return {
     name: () => `curves_${state.variable.name}`,
-    get title() { return `${words(state.variable.name)} along ${symbolText(map.axes[state.curveAxis].coordinates[state.coordinates[state.curveAxis]].name)}`; },
+    get title() { return sentence(`${words(state.variable.name)} along ${symbolText(map.axes[state.curveAxis].coordinates[state.coordinates[state.curveAxis]].name)}`); },
     get caption() {
       return curvePoints(state).length > 1 ? "" : map.axes.map((axis, a) => (a === state.curveAxis || axis.size < 2 ? "" : coordinateText(axis.coordinates[0], state.index[a]))).filter(Boolean).join(", ");
     },
@@ -153,7 +153,7 @@ function explorer(record) {
 
   arrange();
   if (mapShown) followPointer(mapShown, map, state, (index) => pointTip(map, index, state.variable), pick);
-  const hint = mapShown ? element("p", { class: "note" }, "Point at the map to read it; click to take a point for the curves, with Shift to keep the one before.") : null;
+  const hint = mapShown ? element("p", { class: "note hint" }, "Point at the map to read it; click to take a point for the curves, with Shift to keep the one before.") : null;
   return [
     section(mapShown ? "Response map" : "Response", controls, sliders, mapShown ? mapShown.card : null, hint),
     section("Response curves", curveControls, curvesShown.card, sharesShown?.card ?? null),
@@ -217,7 +217,7 @@ function resonanceSection(record) {
     const rows = resonanceQuantities(group).map(({ name, unit, values }) => [words(name), String(Number(values[0].toPrecision(8))), unitText(unit)]);
     return section("Resonance", table(["", "value", "unit"], rows, { numeric: [1] }));
   }
-  const shown = figureCard({ name: "resonance", get title() { return state.quantity.long_name || words(state.quantity.name); },
+  const shown = figureCard({ name: "resonance", get title() { return sentence(state.quantity.long_name || words(state.quantity.name)); },
     caption: "Solved along the frequency axis, not sampled.",
     draw: (canvas) => resonanceFigure(canvas, group, state.quantity, state.x), table: () => resonanceTable(group) }, about(record));
   const chooser = (label, columns, key) => choice(label, columns.map(({ name }) => [name, words(name)]), state[key].name, (name) => { state[key] = group.column(name); shown.redraw(); });

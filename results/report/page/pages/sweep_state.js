@@ -45,17 +45,28 @@ const farAbove = 8;
 function scaleOf(variable) {
   if (variable.kind !== "float") return "linear";
   const values = Array.from(variable.values).filter(Number.isFinite).sort((a, b) => a - b);
-  return values[0] > 0 && values.at(-1) > farAbove * values[values.length >> 1] ? "log" : "linear";
+  return values[0] >= 0 && values.at(-1) > farAbove * values[values.length >> 1] ? "log" : "linear";
+}
+
+// The point nearest the middle of the axes that has a number.
+function middleWithNumber(map, variable) {
+  const middle = map.axes.map((axis) => Math.floor((axis.size - 1) / 2));
+  if (!Number.isNaN(map.value(variable, middle))) return middle;
+  const centre = map.offset(middle);
+  let best = -1;
+  variable.values.forEach((value, i) => {
+    if (!Number.isNaN(value) && (best < 0 || Math.abs(i - centre) < Math.abs(best - centre))) best = i;
+  });
+  return best < 0 ? middle : map.axes.map(({ size, stride }) => Math.floor(best / stride) % size);
 }
 
 export function firstState(record) {
   const { map } = record;
   const { x, y } = axesOf(map);
-  const index = map.axes.map((axis) => Math.floor((axis.size - 1) / 2));
   const contacts = contactsOf(record);
   const variable = map.variables.find(({ kind }) => kind === "float") ?? map.variables[0];
   return {
-    variable, x, y, index, curveAxis: x, coordinates: map.axes.map(() => 0),
+    variable, x, y, index: middleWithNumber(map, variable), curveAxis: x, coordinates: map.axes.map(() => 0),
     scale: scaleOf(variable), curveScale: "linear", colours: "viridis",
     contact: contacts[0] ?? "", colourByRegime: false, kept: [],
     crossings: new Map(contacts.map((contact) => [contact, crossingsOf(record, contact)])),
