@@ -168,11 +168,9 @@ function gaps(record) {
   const add = (text) => notes.push(element("p", { class: "warning" }, text));
   if (provenance.missing_tiles) add(`This is part of a map: ${provenance.missing_tiles} of its tiles were not computed. Their points are grey. frahm run, or frahm merge when all tasks are done, completes the file.`);
   const status = map.variable("status");
-  const counts = new Map();
-  for (const value of status?.values ?? []) {
-    const word = meaningOf(status, value) || "not_computed";
-    counts.set(word, (counts.get(word) ?? 0) + 1);
-  }
+  const codes = new Map();
+  for (const value of status?.values ?? []) codes.set(value, (codes.get(value) ?? 0) + 1);
+  const counts = new Map([...codes].map(([code, count]) => [meaningOf(status, code) || "not_computed", count]));
   const told = { failed: "failed (no number; the reasons are below)", unbounded: "have no bounded response (an undamped mode driven at resonance)", not_computed: "were not computed" };
   for (const [word, text] of Object.entries(told)) if (counts.get(word)) add(`${counts.get(word)} of ${map.points} points ${text}.`);
   if (counts.get("grazing")) notes.push(element("p", { class: "note" }, `${counts.get("grazing")} of ${map.points} points only just touch another regime (grazing): right responses, without a derivative.`));
