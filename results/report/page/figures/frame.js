@@ -71,7 +71,7 @@ const ticksLength = 5;
 export function drawFrame(canvas, { x, y, marks, legend = [], marginRight = 20, marginLeft = 68, scales = {} }) {
   const rows = legend.length ? legendRows(legend, canvas.width - marginLeft - marginRight) : [];
   const axis = (options) => ({ nice: false, ...options });
-  const format = (scale) => scale.tickFormat ?? (scale.type === "log" ? "~g" : undefined);
+  const format = (scale) => scale.tickFormat ?? (scale.type === "log" ? ((scale.domain?.[1] ?? 0) >= 1e5 ? "~e" : "~g") : undefined);
   const svg = Plot.plot({
     document: canvas.document,
     width: canvas.width,

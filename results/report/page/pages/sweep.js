@@ -3,7 +3,7 @@
 import { coordinateLabel, coordinateText, symbolText } from "../axes.js";
 import { dissipating, energyShares, energySharesTable } from "../figures/energy_shares.js";
 import { orbitFigures, orbitLabel, orbitSamples } from "../figures/orbit_figures.js";
-import { resonanceFigure, resonanceParameters, resonanceQuantities, resonanceTable } from "../figures/resonance_figure.js";
+import { curveNumbers, firstParameter, resonanceFigure, resonanceParameters, resonanceQuantities, resonanceTable } from "../figures/resonance_figure.js";
 import { responseCurves, responseCurvesTable } from "../figures/response_curves.js";
 import { responseMap, responseMapTable } from "../figures/response_map.js";
 import { choice, element, section, table } from "../parts/elements.js";
@@ -68,7 +68,8 @@ function tick(label, checked, changed) {
 
 // Axes with more than one point, and of each which of its coordinates.
 function coordinateChoices(map, axes) {
-  return axes.flatMap((axis) => map.axes[axis].coordinates.map((coordinate, c) => [`${axis}:${c}`, coordinateLabel(coordinate)]));
+  return axes.flatMap((axis) => map.axes[axis].coordinates.map((coordinate, c) => [`${axis}:${c}`, coordinate])
+    .filter(([, { monotone }]) => monotone).map(([key, coordinate]) => [key, coordinateLabel(coordinate)]));
 }
 
 function explorer(record) {
@@ -210,16 +211,16 @@ function orbitSection(record) {
 function resonanceSection(record) {
   const group = record.groups.get("resonance");
   if (!group?.along("curve").length) return null;
-  const state = { quantity: resonanceQuantities(group)[0], x: resonanceParameters(group)[0] };
-  if (!state.x) {
+  const state = { quantity: resonanceQuantities(group)[0], x: firstParameter(group) };
+  if (!resonanceParameters(group).length) {
     const rows = resonanceQuantities(group).map(({ name, unit, values }) => [words(name), String(Number(values[0].toPrecision(8))), unitText(unit)]);
     return section("Resonance", table(["", "value", "unit"], rows, { numeric: [1] }));
   }
   const shown = figureCard({ name: "resonance", get title() { return sentence(state.quantity.long_name || words(state.quantity.name)); },
     caption: "Solved along the frequency axis, not sampled.",
     draw: (canvas) => resonanceFigure(canvas, group, state.quantity, state.x), table: () => resonanceTable(group) }, about(record));
-  const chooser = (label, columns, key) => choice(label, columns.map(({ name }) => [name, words(name)]), state[key].name, (name) => { state[key] = group.column(name); shown.redraw(); });
-  return section("Resonance", element("div", { class: "controls" }, chooser("quantity", resonanceQuantities(group), "quantity"), chooser("over", resonanceParameters(group), "x")), shown.card);
+  const chooser = (label, columns, key) => choice(label, columns.map(({ name }) => [name, words(name)]), state[key].name, (name) => { state[key] = columns.find((column) => column.name === name); shown.redraw(); });
+  return section("Resonance", element("div", { class: "controls" }, chooser("quantity", resonanceQuantities(group), "quantity"), chooser("over", [...resonanceParameters(group), curveNumbers(group)], "x")), shown.card);
 }
 
 export function sweepParts(record) {
@@ -251,7 +252,7 @@ export function sweepFigures(record) {
   const resonance = record.groups.get("resonance");
   if (resonance && resonanceParameters(resonance).length) {
     for (const quantity of resonanceQuantities(resonance)) {
-      figures.push({ name: quantity.name, title: quantity.long_name, draw: (canvas) => resonanceFigure(canvas, resonance, quantity, resonanceParameters(resonance)[0]), table: () => resonanceTable(resonance) });
+      figures.push({ name: quantity.name, title: quantity.long_name, draw: (canvas) => resonanceFigure(canvas, resonance, quantity, firstParameter(resonance)), table: () => resonanceTable(resonance) });
     }
   }
   return figures;

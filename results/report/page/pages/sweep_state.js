@@ -14,6 +14,19 @@ function axesOf(map) {
   return { x, y: bySize.find((axis) => axis !== x) ?? null };
 }
 
+// Row of /borders -> place along an axis: an index where all its parameters have a value of the grid, else between
+// two by the first of them that rises or falls all along; NaN if none does.
+function placeAlong({ coordinates, size }, group) {
+  const known = coordinates.filter(({ name }) => group.has(name));
+  const ordered = known.find(({ monotone }) => monotone);
+  return (row) => {
+    const isAt = (i) => known.every(({ name, values }) => values[i] === group.values(name)[row]);
+    const whole = ordered ? -1 : Array.from({ length: size }, (_, i) => i).findIndex(isAt);
+    if (whole >= 0) return whole;
+    return ordered ? fractionalIndex(ordered.values, group.values(ordered.name)[row]) : NaN;
+  };
+}
+
 // Crossings of /borders of one contact: {place: fractional index along each axis, axis: along which, key}.
 export function crossingsOf(record, contact) {
   const group = record.groups.get("borders");
@@ -22,11 +35,11 @@ export function crossingsOf(record, contact) {
   const below = group.column("regime_below"), above = group.column("regime_above");
   if (!element?.values.length) return [];
   const axes = record.map.axes;
-  const columns = axes.map((one) => group.column(one.coordinates[0].name));
+  const places = axes.map((one) => placeAlong(one, group));
   return Array.from(element.values, (code, row) => ({ code, row }))
     .filter(({ code }) => meaningOf(element, code) === contact)
     .map(({ row }) => ({
-      place: axes.map((one, a) => fractionalIndex(one.coordinates[0].values, columns[a].values[row])),
+      place: places.map((place) => place(row)),
       axis: axes.findIndex((one) => one.name === meaningOf(axis, axis.values[row])),
       key: [meaningOf(below, below.values[row]), meaningOf(above, above.values[row])].sort().join("|"),
     }));
