@@ -46,7 +46,7 @@ bool is_shown_by_default(const std::string& name, const std::optional<StudyFile>
   if (ends("_velocity_peak") || ends("_acceleration_peak") || ends("_force_peak")) return false;
   if (is_stroke_of_no_spring(name, study)) return false;
   return ends("_peak") || ends("_stroke") || ends("_regime") || ends("_stops") || ends("_energy_share") ||
-         name == "status";
+         ends("_difference") || name == "status";
 }
 
 // All recorded quantities if it is none of those.

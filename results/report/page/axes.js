@@ -25,7 +25,8 @@ export function coordinateLabel({ name, unit, long_name: longName }) {
   const meaning = plainMeaning(longName);
   const told = meaning && meaning !== `parameter ${name}` && meaning !== name && meaning.length <= shortEnough;
   const isSymbol = !name.includes("_");
-  const text = told ? (isSymbol ? `${meaning} ${symbolText(name)}` : meaning) : symbolText(name);
+  const saysName = meaning.endsWith(name);
+  const text = told ? (isSymbol && !saysName ? `${meaning} ${symbolText(name)}` : meaning) : symbolText(name);
   return withUnit(text, unitText(unit));
 }
 

@@ -153,7 +153,7 @@ function explorer(record) {
   }
 
   arrange();
-  if (mapShown) followPointer(mapShown, map, state, (index) => pointTip(map, index, state.variable), pick);
+  if (mapShown) followPointer(mapShown, map, state, (index) => pointTip(record, index, state.variable), pick);
   const hint = mapShown ? element("p", { class: "note hint" }, "Point at the map to read it; click to take a point for the curves, with Shift to keep the one before.") : null;
   return [
     section(mapShown ? "Response map" : "Response", controls, sliders, mapShown ? mapShown.card : null, hint),
