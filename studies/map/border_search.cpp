@@ -18,6 +18,35 @@ std::vector<periodic::Quantity> regimes_of(const mechanics::Network& network) {
   return regimes;
 }
 
+// A border that is met on one edge after the other.
+class BorderCurve {
+ public:
+  std::optional<CrossingForecast> forecast() const {
+    if (places_ == 0) return std::nullopt;
+    return CrossingForecast{places_ == 1 ? last_ : last_ + step_, std::max(least_reach, error_)};
+  }
+
+  void follow(const std::vector<RegimeCrossing>& crossings) {
+    if (crossings.size() != 1) {
+      places_ = 0;
+      return;
+    }
+    const double at = crossings.front().at;
+    error_ = places_ == 0 ? first_reach : std::abs(at - forecast()->at);
+    step_ = at - last_;
+    last_ = at;
+    ++places_;
+  }
+
+ private:
+  static constexpr double least_reach = 1e-4, first_reach = 0.05;  // of an edge
+
+  int places_ = 0;      // met in turn
+  double last_ = 0.0;   // of them
+  double step_ = 0.0;   // to it
+  double error_ = 0.0;  // of its forecast
+};
+
 }  // namespace
 
 BorderSearch::BorderSearch(const StudyFile& study, const Grid& grid)
@@ -99,25 +128,30 @@ void BorderSearch::find_regimes_of_point(const Index& index) {
 // The edges along a dimension that begin at the points of a row.
 void BorderSearch::search_row(const Index& row, std::size_t dimension, std::vector<Border>& borders) {
   const std::size_t along = grid_.order.back();
+  std::vector<BorderCurve> curves(elements_);
   Index lower = row;
   for (std::uint64_t i = 0; i < tile_.count[along]; ++i) {
     lower[along] = tile_.start[along] + i;
     if (lower[dimension] + 1 == grid_.shape[dimension]) continue;
-    for (std::size_t element = 0; element < elements_; ++element)
-      search_edge(lower, dimension, element, borders);
+    std::uint64_t point = 0;
+    for (std::size_t d = 0; d < lower.size(); ++d) point = point * tile_.count[d] + lower[d] - tile_.start[d];
+    for (std::size_t element = 0; element < elements_; ++element) {
+      const auto crossings = crossings_on_edge(lower, dimension, element, curves[element].forecast());
+      curves[element].follow(crossings);
+      for (const RegimeCrossing& crossing : crossings)
+        borders.push_back({point, dimension, element, crossing});
+    }
   }
 }
 
-void BorderSearch::search_edge(const Index& lower, std::size_t dimension, std::size_t element,
-                               std::vector<Border>& borders) {
+std::vector<RegimeCrossing> BorderSearch::crossings_on_edge(const Index& lower, std::size_t dimension,
+                                                            std::size_t element,
+                                                            const std::optional<CrossingForecast>& forecast) {
   Index upper = lower;
   ++upper[dimension];
-  const auto crossings =
-      find_crossings(regimes_[place(lower) + element], regimes_[place(upper) + element],
-                     [&](double at) { return point_on_edge(lower, dimension, element, at); });
-  std::uint64_t place = 0;
-  for (std::size_t d = 0; d < lower.size(); ++d) place = place * tile_.count[d] + lower[d] - tile_.start[d];
-  for (const RegimeCrossing& crossing : crossings) borders.push_back({place, dimension, element, crossing});
+  return find_crossings(
+      regimes_[place(lower) + element], regimes_[place(upper) + element],
+      [&](double at) { return point_on_edge(lower, dimension, element, at); }, forecast);
 }
 
 // All parameters of a dimension go along an edge together, linearly in SI. Each search starts from the orbit

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,8 +37,9 @@ class BorderSearch {
   void find_regimes_of_row(Index index);
   void find_regimes_of_point(const Index& index);
   void search_row(const Index& row, std::size_t dimension, std::vector<Border>& borders);
-  void search_edge(const Index& lower, std::size_t dimension, std::size_t element,
-                   std::vector<Border>& borders);
+  std::vector<RegimeCrossing> crossings_on_edge(const Index& lower, std::size_t dimension,
+                                                std::size_t element,
+                                                const std::optional<CrossingForecast>& forecast);
   RegimePoint point_on_edge(const Index& lower, std::size_t dimension, std::size_t element, double at);
 
   const StudyFile& study_;

@@ -13,6 +13,9 @@ using periodic::Regime;
 
 // Parts of parts that are searched where third regimes are met: 2^5 crossings of an edge at most.
 constexpr int deepest_part = 5;
+// Looks around a forecast, each farther than the one before; then it has misled.
+constexpr int most_forecast_steps = 4;
+constexpr double widening = 4.0;
 // Steps by extrapolation that may leave more than half of the bracket, one after the other.
 constexpr int most_poor_steps = 2;
 
@@ -24,8 +27,9 @@ int richness(Regime regime) {
 // One crossing between two places of different regimes.
 class Bracket {
  public:
-  Bracket(double low, Regime below, double high, Regime above)
-      : low_(low), high_(high), below_(below), above_(above) {}
+  Bracket(double low, Regime below, double high, Regime above,
+          const std::optional<CrossingForecast>& forecast = std::nullopt)
+      : low_(low), high_(high), below_(below), above_(above), forecast_(forecast) {}
 
   double width() const { return high_ - low_; }
   bool is_narrow() const { return width() <= crossing_width; }
@@ -44,6 +48,7 @@ class Bracket {
     above_ = regime;
     seen_.clear();
     estimate_.reset();
+    forecast_.reset();
   }
 
  private:
@@ -52,6 +57,7 @@ class Bracket {
   };
 
   std::optional<double> extrapolated() const;
+  std::optional<double> forecast();
 
   double low_, high_;
   Regime below_, above_;
@@ -59,6 +65,8 @@ class Bracket {
   std::optional<double> estimate_;  // of the crossing, the last one
   double error_ = 0.0;              // of it, by its last change
   int poor_steps_ = 0;
+  std::optional<CrossingForecast> forecast_;  // nothing once the crossing is known to lie near, or not to
+  int forecast_steps_ = 0;
 };
 
 // Where the briefest event vanishes: the place as a polynomial of its length. The length is proportional to
@@ -79,13 +87,31 @@ std::optional<double> Bracket::extrapolated() const {
   return at;
 }
 
+// At the forecast, then ever farther on that side of it where the crossing is.
+std::optional<double> Bracket::forecast() {
+  if (!forecast_) return std::nullopt;
+  double at = forecast_->at;
+  const bool was_seen = forecast_steps_ > 0;
+  if (was_seen) at = at <= low_ ? low_ + forecast_->reach : high_ - forecast_->reach;
+  if (was_seen) forecast_->reach *= widening;
+  ++forecast_steps_;
+  const bool encloses = low_ > 0.0 && high_ < 1.0;
+  if (!encloses && forecast_steps_ <= most_forecast_steps && at > low_ && at < high_) return at;
+  forecast_.reset();
+  poor_steps_ = 0;
+  return std::nullopt;
+}
+
 double Bracket::proposal() {
+  if (const auto at = forecast()) return *at;
   const double middle = 0.5 * (low_ + high_);
   if (poor_steps_ >= most_poor_steps) {
     poor_steps_ = 0;
     return middle;
   }
   const std::optional<double> estimate = extrapolated();
+  // A second place to extrapolate from is more likely near the first.
+  if (seen_.size() == 1) return seen_.front().at == low_ ? low_ + 0.25 * width() : high_ - 0.25 * width();
   if (!estimate) return middle;
   // On the far side of the estimate, so that the bracket closes from both ends.
   if (!estimate_) {
@@ -160,10 +186,11 @@ RegimePoint regime_point(Regime regime, const std::vector<periodic::Stretch>& st
 }
 
 std::vector<RegimeCrossing> find_crossings(Regime first, Regime last,
-                                           const std::function<RegimePoint(double)>& probe) {
+                                           const std::function<RegimePoint(double)>& probe,
+                                           const std::optional<CrossingForecast>& forecast) {
   std::vector<RegimeCrossing> crossings;
   if (first != last && has_regime(first) && has_regime(last))
-    search(Bracket(0.0, first, 1.0, last), 0, probe, crossings);
+    search(Bracket(0.0, first, 1.0, last, forecast), 0, probe, crossings);
   return crossings;
 }
 

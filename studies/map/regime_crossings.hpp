@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "solvers/periodic/quantity.hpp"
@@ -33,12 +34,19 @@ bool has_regime(periodic::Regime regime);
 RegimePoint regime_point(periodic::Regime regime, const std::vector<periodic::Stretch>& stretches,
                          std::size_t element);
 
+// Where a crossing is likely to be, and about how far from it at most.
+struct CrossingForecast {
+  double at = 0.0;
+  double reach = 0.0;  // > 0
+};
+
 // The crossings between two places whose regimes, first and last, differ, in ascending order: none if either
 // end has no regime. Wherever a regime is met that is neither of the two, both parts are searched; pairs of
 // crossings between points of one regime are not seen.
-// probe: the point at a place inside.  It is asked some ten times a crossing, at most 72 times, and there are
-// at most 32 crossings, however the regimes change.
+// probe: the point at a place inside. forecast: where to look first.  It is asked some ten times a crossing,
+// at most 72 times, and there are at most 32 crossings, however the regimes change.
 std::vector<RegimeCrossing> find_crossings(periodic::Regime first, periodic::Regime last,
-                                           const std::function<RegimePoint(double at)>& probe);
+                                           const std::function<RegimePoint(double at)>& probe,
+                                           const std::optional<CrossingForecast>& forecast = std::nullopt);
 
 }  // namespace frahm::studies
