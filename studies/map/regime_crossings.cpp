@@ -11,6 +11,10 @@ namespace {
 
 using periodic::Regime;
 
+// [rad] What is shorter is no stop to the regimes (1e-9 of a period), and what is little longer is about to
+// vanish.
+constexpr double shortest_event = 2e-9 * std::numbers::pi;
+constexpr double nearly_vanished = 3.0;
 // Parts of parts that are searched where third regimes are met: 2^5 crossings of an edge at most.
 constexpr int deepest_part = 5;
 // Looks around a forecast, each farther than the one before; then it has misled.
@@ -29,12 +33,13 @@ class Bracket {
  public:
   Bracket(double low, Regime below, double high, Regime above,
           const std::optional<CrossingForecast>& forecast = std::nullopt)
-      : low_(low), high_(high), below_(below), above_(above), forecast_(forecast) {}
+      : first_(low), last_(high), low_(low), high_(high), below_(below), above_(above), forecast_(forecast) {}
 
   double width() const { return high_ - low_; }
   bool is_narrow() const { return width() <= crossing_width; }
   bool holds(Regime regime) const { return regime == below_ || regime == above_; }
-  RegimeCrossing crossing() const { return {0.5 * (low_ + high_), below_, above_}; }
+  // Where the briefest event has vanished, if it was seen to.
+  RegimeCrossing crossing() const;
   double high() const { return high_; }
   Regime above() const { return above_; }
 
@@ -44,7 +49,7 @@ class Bracket {
   void narrow(double at, const RegimePoint& point);
   // The part below `at`, where another regime was met.
   void cut(double at, Regime regime) {
-    high_ = at;
+    last_ = high_ = at;
     above_ = regime;
     seen_.clear();
     estimate_.reset();
@@ -56,9 +61,11 @@ class Bracket {
     double at, briefest;
   };
 
+  double vanishing_place() const;
   std::optional<double> extrapolated() const;
   std::optional<double> forecast();
 
+  double first_, last_;  // the whole part that is searched
   double low_, high_;
   Regime below_, above_;
   std::vector<Seen> seen_;          // on the side where more happens, the last three
@@ -72,19 +79,31 @@ class Bracket {
 // Where the briefest event vanishes: the place as a polynomial of its length. The length is proportional to
 // the distance, or to its square root, where a velocity only just touches zero; the quadratic polynomial is
 // both.
-std::optional<double> Bracket::extrapolated() const {
-  const std::size_t n = seen_.size();
-  if (n < 2) return std::nullopt;
+double Bracket::vanishing_place() const {
   double at = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < seen_.size(); ++i) {
     double weight = 1.0;
-    for (std::size_t k = 0; k < n; ++k) {
+    for (std::size_t k = 0; k < seen_.size(); ++k) {
       if (k != i) weight *= seen_[k].briefest / (seen_[k].briefest - seen_[i].briefest);
     }
     at += weight * seen_[i].at;
   }
+  return at;
+}
+
+std::optional<double> Bracket::extrapolated() const {
+  if (seen_.size() < 2) return std::nullopt;
+  const double at = vanishing_place();
   if (!(at > low_ && at < high_)) return std::nullopt;
   return at;
+}
+
+RegimeCrossing Bracket::crossing() const {
+  double at = 0.5 * (low_ + high_);
+  const bool vanishes = std::ranges::any_of(
+      seen_, [](const Seen& seen) { return seen.briefest < nearly_vanished * shortest_event; });
+  if (vanishes && seen_.size() == 3) at = std::clamp(vanishing_place(), first_, last_);
+  return {at, below_, above_};
 }
 
 // At the forecast, then ever farther on that side of it where the crossing is.
@@ -178,8 +197,7 @@ RegimePoint regime_point(Regime regime, const std::vector<periodic::Stretch>& st
     const periodic::Stretch& stretch = stretches[(first + i) % n];
     length += stretch.length;
     if (sticks(stretch) == sticks(stretches[(first + i + 1) % n])) continue;
-    // What is shorter is no stop to the regimes either.
-    if (length > 2e-9 * std::numbers::pi) briefest = std::min(briefest, length);
+    if (length > shortest_event) briefest = std::min(briefest, length);
     length = 0.0;
   }
   return {regime, briefest};

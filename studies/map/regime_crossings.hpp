@@ -20,7 +20,9 @@ struct RegimePoint {
 
 // The change from one regime to another; `below` is at smaller t.
 struct RegimeCrossing {
-  double at = 0.0;  // within half of crossing_width
+  // To half of crossing_width, or where stops were seen to shrink to nothing, there: regimes count stops from
+  // 1e-9 of a period on, which is farther from it where stops grow slowly along the line.
+  double at = 0.0;
   periodic::Regime below = periodic::Regime::not_computed, above = periodic::Regime::not_computed;
 };
 
@@ -44,7 +46,7 @@ struct CrossingForecast {
 // end has no regime. Wherever a regime is met that is neither of the two, both parts are searched; pairs of
 // crossings between points of one regime are not seen.
 // probe: the point at a place inside. forecast: where to look first.  It is asked some ten times a crossing,
-// at most 72 times, and there are at most 32 crossings, however the regimes change.
+// at most 80 times, and there are at most 32 crossings, however the regimes change.
 std::vector<RegimeCrossing> find_crossings(periodic::Regime first, periodic::Regime last,
                                            const std::function<RegimePoint(double at)>& probe,
                                            const std::optional<CrossingForecast>& forecast = std::nullopt);

@@ -20,9 +20,7 @@ using small_studies::axis;
 using small_studies::axis_of;
 using small_studies::oscillator;
 
-// Of an edge. The search takes 5e-8 of it; stops below 1e-9 of a period count as none, which moves a border
-// where they grow slowly along the edge.
-constexpr double place_tolerance = 1e-6;
+constexpr double place_tolerance = 1e-7;  // of an edge: half as much is the search's, the rest is rounding
 constexpr double non_stop = 2, stuck = 5;
 
 const std::string with_borders = "[output]\nborders = true\nquantities = [\"main_peak\"]\n";
@@ -206,6 +204,20 @@ TEST_CASE("the map's values have no borders to thank for, nor have the borders p
         grown_maps::provenance(folder / "new.h5", "fingerprint_grid"));
   CHECK(grown_maps::provenance(folder / "old.h5", "fingerprint_physics") ==
         grown_maps::provenance(folder / "new.h5", "fingerprint_physics"));
+}
+
+TEST_CASE("points that fail end no border, and the others have theirs") {
+  const Folder folder;
+  const std::string study = oscillator("\"k\"") + axis_of("k", "[1, -1, 1.2]") +
+                            axis_of("f", "[0, 0.3, 1.1]") + axis_of("r", "[0.6, 0.8]") + with_borders;
+  REQUIRE(grown_maps::run(folder.write("map.toml", study), folder / "map.h5").code == 3);
+  const Borders found(folder / "map.h5");
+  REQUIRE(found.size() > 0);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    CHECK(found["k"][i] >= 1.0);
+    CHECK(found["f"][i] > 0.3);
+    CHECK(found["axis"][i] != 1);
+  }
 }
 
 TEST_CASE("a map without a border has an empty group of them") {
