@@ -15,6 +15,8 @@ using periodic::Regime;
 // vanish.
 constexpr double shortest_event = 2e-9 * std::numbers::pi;
 constexpr double nearly_vanished = 3.0;
+// From where regimes change to where the event has vanished; beyond it rounding has told the way.
+constexpr double most_correction = 1e-4;
 // Parts of parts that are searched where third regimes are met: 2^5 crossings of an edge at most.
 constexpr int deepest_part = 5;
 // Looks around a forecast, each farther than the one before; then it has misled.
@@ -102,7 +104,10 @@ RegimeCrossing Bracket::crossing() const {
   double at = 0.5 * (low_ + high_);
   const bool vanishes = std::ranges::any_of(
       seen_, [](const Seen& seen) { return seen.briefest < nearly_vanished * shortest_event; });
-  if (vanishes && seen_.size() == 3) at = std::clamp(vanishing_place(), first_, last_);
+  if (vanishes && seen_.size() == 3) {
+    const double there = std::clamp(vanishing_place(), first_, last_);
+    if (std::abs(there - at) < most_correction) at = there;
+  }
   return {at, below_, above_};
 }
 
@@ -150,7 +155,9 @@ void Bracket::narrow(double at, const RegimePoint& point) {
   (point.regime == below_ ? low_ : high_) = at;
   poor_steps_ = width() > 0.5 * before ? poor_steps_ + 1 : 0;
   const Regime richer = richness(below_) > richness(above_) ? below_ : above_;
-  if (point.regime != richer || richness(below_) == richness(above_) || !(point.briefest > 0.0)) return;
+  if (point.regime != richer || richness(below_) == richness(above_) ||
+      !(point.briefest > 0.0 && std::isfinite(point.briefest)))
+    return;
   std::erase_if(seen_, [&](const Seen& seen) { return seen.briefest == point.briefest; });
   if (seen_.size() == 3) seen_.erase(seen_.begin());
   seen_.push_back({at, point.briefest});

@@ -46,7 +46,7 @@ struct CrossingForecast {
 // end has no regime. Wherever a regime is met that is neither of the two, both parts are searched; pairs of
 // crossings between points of one regime are not seen.
 // probe: the point at a place inside. forecast: where to look first.  It is asked some ten times a crossing,
-// at most 80 times, and there are at most 32 crossings, however the regimes change.
+// at most 100 times, and there are at most 32 crossings, however the regimes change.
 std::vector<RegimeCrossing> find_crossings(periodic::Regime first, periodic::Regime last,
                                            const std::function<RegimePoint(double at)>& probe,
                                            const std::optional<CrossingForecast>& forecast = std::nullopt);

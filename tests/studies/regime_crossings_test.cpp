@@ -13,7 +13,7 @@ using frahm::periodic::Stretch;
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 constexpr double place_tolerance = 0.5 * crossing_width;
-constexpr int most_probes = 80;  // of a crossing, as promised
+constexpr int most_probes = 100;  // of a crossing, as promised
 
 // Counts the points asked for.
 struct Line {
@@ -78,6 +78,21 @@ TEST_CASE("the crossing is found by bisection where the lengths of stops tell no
   const auto crossings = jump.crossings();
   REQUIRE(crossings.size() == 1);
   check(crossings[0], 0.7, Regime::stuck, Regime::non_stop);
+}
+
+TEST_CASE("where regimes count stops from a length on, the crossing is where they have none") {
+  constexpr double counted = 2e-9 * std::numbers::pi;
+  for (const double slope : {1e-1, 1e-2, 1e-3}) {
+    Line line{[=](double at) -> RegimePoint {
+      const double length = slope * (at - 0.3183) * (1.0 + at);
+      if (length < counted) return {Regime::non_stop, nothing};
+      return {Regime::one_stop, length};
+    }};
+    const auto crossings = line.crossings();
+    INFO(slope);
+    REQUIRE(crossings.size() == 1);
+    check(crossings[0], 0.3183, Regime::non_stop, Regime::one_stop);
+  }
 }
 
 TEST_CASE("lengths that mislead cost no more points than were promised") {
