@@ -60,6 +60,11 @@ TEST_CASE("a coordinate may not have the name of a group of the file, or of what
     CHECK_NOTHROW(variables_of(base + clash(name)));
     CHECK_THROWS_WITH(variables_of(base + clash(name) + resonances), Catch::Contains("rename it"));
   }
+  for (const char* name : {"borders", "border", "element", "axis", "regime_below", "regime_above"}) {
+    CHECK_NOTHROW(variables_of(base + clash(name)));
+    CHECK_THROWS_WITH(variables_of(base + clash(name) + "[output]\nborders = true\n"),
+                      Catch::Contains("rename it"));
+  }
   const std::string orbits = "[output]\norbits = [{ r = 0.5 }]\n";
   for (const char* name : {"orbits", "time", "row_start"}) {
     CHECK_NOTHROW(variables_of(base + clash(name)));
