@@ -144,7 +144,7 @@ function niceStep(rough) {
   return [1, 2, 5, 10].map((digit) => digit * power).find((step) => step >= rough * (1 - 1e-12));
 }
 
-const borderDashes = { "non_stop|one_stop": "", "multi_stop|one_stop": "5 3", "multi_stop|non_stop": "2 2", "one_stop|stuck": "9 3", "non_stop|stuck": "9 3 2 3", "multi_stop|stuck": "1 2" };
+const borderDashes = { "non_stop|one_stop": "", "one_stop|multi_stop": "5 3", "non_stop|multi_stop": "2 2", "one_stop|stuck": "9 3", "non_stop|stuck": "9 3 2 3", "multi_stop|stuck": "1 2" };
 
 // Places between the grid's values by straight lines (on its own scale by those of the values).
 function at(values, place) {

@@ -41,7 +41,7 @@ export function crossingsOf(record, contact) {
     .map(({ row }) => ({
       place: places.map((place) => place(row)),
       axis: axes.findIndex((one) => one.name === meaningOf(axis, axis.values[row])),
-      key: [meaningOf(below, below.values[row]), meaningOf(above, above.values[row])].sort().join("|"),
+      key: [below, above].map((regime) => regime.values[row]).sort().map((code) => meaningOf(below, code)).join("|"),
     }));
 }
 
@@ -78,13 +78,14 @@ function middleWithNumber(map, variable) {
 export function firstState(record) {
   const { map } = record;
   const { x, y } = axesOf(map);
-  const contacts = contactsOf(record);
+  const crossings = new Map(contactsOf(record).map((contact) => [contact, crossingsOf(record, contact)]));
+  const contacts = [...crossings.keys()].sort((a, b) => crossings.get(b).length - crossings.get(a).length);
   const variable = map.variables.find(({ kind }) => kind === "float") ?? map.variables[0];
   return {
     variable, x, y, index: middleWithNumber(map, variable), curveAxis: x, coordinates: map.axes.map(() => 0),
     scale: scaleOf(variable), curveScale: "linear", colours: "viridis",
     contact: contacts[0] ?? "", colourByRegime: false, kept: [],
-    crossings: new Map(contacts.map((contact) => [contact, crossingsOf(record, contact)])),
+    crossings,
   };
 }
 
