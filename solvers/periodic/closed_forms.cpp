@@ -36,30 +36,47 @@ int samples_over(double length, double rate) {
   return 64 + static_cast<int>(kPerRadian * length * rate);
 }
 
-// sup of a smooth function over [lo, hi]: every local maximum among the samples is refined by golden
-// sections. The value there is then exact to rounding, as it is stationary.
+// The largest value of a smooth function between a and b, where it has one maximum, by golden sections. It is
+// exact to rounding, as the function is stationary there.
+double maximum_between(const std::function<double(double)>& function, double a, double b) {
+  constexpr double kGolden = 0.6180339887498949;
+  const double close = 0.5e-8 * (b - a);
+  double c = b - kGolden * (b - a), d = a + kGolden * (b - a), at_c = function(c), at_d = function(d);
+  while (b - a > close) {
+    if (at_c > at_d) {
+      b = d, d = c, at_d = at_c;
+      c = b - kGolden * (b - a), at_c = function(c);
+    } else {
+      a = c, c = d, at_c = at_d;
+      d = a + kGolden * (b - a), at_d = function(d);
+    }
+  }
+  return std::max(at_c, at_d);
+}
+
+// The same between an end and the sample next to it: a maximum there, which no sample shows, is looked for
+// ever nearer to the end. What is narrower than the last step is below rounding.
+double maximum_beside(const std::function<double(double)>& function, double end, double step) {
+  constexpr int kHalvings = 8;
+  const double at_end = function(end);
+  double size = step;
+  for (int i = 0; i < kHalvings; ++i) {
+    size *= 0.5;
+    if (function(end + size) <= at_end) continue;
+    return maximum_between(function, end + std::min(0.0, 2.0 * size), end + std::max(0.0, 2.0 * size));
+  }
+  return at_end;
+}
+
+// sup of a smooth function over [lo, hi]: every local maximum among the samples is refined.
 double supremum(const std::function<double(double)>& function, double lo, double hi, int samples) {
   const double spacing = (hi - lo) / samples;
-  double best = -std::numeric_limits<double>::infinity(), before = function(lo),
-         here = function(lo + spacing);
-  best = std::max(before, function(hi));
+  double best = std::max(maximum_beside(function, lo, spacing), maximum_beside(function, hi, -spacing));
+  double before = function(lo), here = function(lo + spacing);
   for (int i = 1; i < samples; ++i) {
     const double after = i + 1 < samples ? function(lo + (i + 1) * spacing) : function(hi);
-    if (here >= before && here >= after) {
-      double a = lo + (i - 1) * spacing, b = lo + (i + 1) * spacing;
-      constexpr double kGolden = 0.6180339887498949;
-      double c = b - kGolden * (b - a), d = a + kGolden * (b - a), at_c = function(c), at_d = function(d);
-      while (b - a > 1e-8 * spacing) {
-        if (at_c > at_d) {
-          b = d, d = c, at_d = at_c;
-          c = b - kGolden * (b - a), at_c = function(c);
-        } else {
-          a = c, c = d, at_c = at_d;
-          d = a + kGolden * (b - a), at_d = function(d);
-        }
-      }
-      best = std::max({best, at_c, at_d});
-    }
+    if (here >= before && here >= after)
+      best = std::max(best, maximum_between(function, lo + (i - 1) * spacing, lo + (i + 1) * spacing));
     before = here;
     here = after;
   }

@@ -62,6 +62,7 @@ class Failures {
 struct MadeChunk {
   std::optional<results::EncodedChunk> data;  // nothing if none of its tiles is finished
   Failures failures;
+  std::vector<std::vector<double>> borders = {};  // their rows
 };
 
 // Makes chunks; each thread has one.
@@ -81,7 +82,7 @@ class ChunkMaking {
       const MapBox tile_box = plan_.grid.box(tile);
       points += tile_box.points();
       if (!index_.has(tile)) continue;
-      put(tile, tile_box, made.failures);
+      put(tile, tile_box, made);
       any = true;
     }
     if (any) made.data = chunk_.encoded();
@@ -89,12 +90,15 @@ class ChunkMaking {
   }
 
  private:
-  void put(std::uint64_t tile, const MapBox& box, Failures& failures) {
+  void put(std::uint64_t tile, const MapBox& box, MadeChunk& made) {
     const std::uint64_t points = box.points();
     decode(reader_.read(tile, bytes_), points * plan_.variables.size(), record_);
     for (std::size_t q = 0; q < plan_.variables.size(); ++q)
       chunk_.put(q, {box.start, box.count}, std::span(record_.values).subspan(q * points, points));
-    for (const FailedPoint& point : record_.failed) failures.add(box, point);
+    for (const FailedPoint& point : record_.failed) made.failures.add(box, point);
+    if (!record_.borders) return;
+    for (const Border& border : *record_.borders)
+      made.borders.push_back(border_row(plan_.study, box, border));
   }
 
   const MapPlan& plan_;
@@ -105,17 +109,19 @@ class ChunkMaking {
   TileRecord record_;
 };
 
-// Returns the points that failed.
+// The map, and the borders on it. Returns the points that failed.
 Failures write_map(const MapPlan& plan, const results::MapLayout& layout, const engine::TileIndex& index,
                    const AssemblyOptions& options, results::MapWriter& writer) {
   Failures failures;
+  const std::size_t borders = plan.study.output.borders ? create_borders(plan, writer) : 0;
   engine::TileReader reader(index);
   const auto make_work = [&]() -> engine::PieceWork {
     // Shared, as a PieceWork has to be copyable.
     auto making = std::make_shared<ChunkMaking>(plan, layout, index, reader);
-    return [making, &failures, &writer](std::uint64_t number) {
-      return [made = making->make(number), &failures, &writer] {
+    return [making, borders, &failures, &writer](std::uint64_t number) {
+      return [made = making->make(number), borders, &failures, &writer] {
         if (made.data) writer.write_chunk(*made.data);
+        for (const std::vector<double>& row : made.borders) writer.append_ragged(borders, row);
         failures.add(made.failures);
       };
     };

@@ -218,6 +218,7 @@ std::string grid_hash(const StudyFile& study, const Grid& grid) {
     for (const Assignment& at : orbit) text.line("orbit {} {}", at.parameter, at.value);
     text.line("orbit ends");
   }
+  if (study.output.borders) text.line("borders");
   text.line("resonances {}", fmt::join(study.output.resonances, " "));
   if (study.kind == StudyKind::decay || study.kind == StudyKind::transient)
     text.line("samples {}", study.motion.samples);

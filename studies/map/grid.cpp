@@ -133,6 +133,10 @@ Grid grid_of(const StudyFile& study) {
   return grid;
 }
 
+bool matrices_change_along_rows(const StudyFile& study) {
+  return !study.frequency_dimension || study.values_depend_on_frequency;
+}
+
 bool next_point(const MapBox& box, std::span<const std::size_t> dimensions,
                 std::vector<std::uint64_t>& index) {
   for (auto d = dimensions.rbegin(); d != dimensions.rend(); ++d) {

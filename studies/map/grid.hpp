@@ -49,6 +49,9 @@ struct Grid {
 // cut.
 Grid grid_of(const StudyFile& study);
 
+// Whether masses or elements change along a row, and not from row to row alone.
+bool matrices_change_along_rows(const StudyFile& study);
+
 // Moves `index` to the next point of the box along `dimensions`, the last of which runs fastest; false, and
 // back at the start, after its last point.
 bool next_point(const MapBox& box, std::span<const std::size_t> dimensions,

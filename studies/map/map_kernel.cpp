@@ -22,10 +22,6 @@ std::vector<periodic::Quantity> asked_for(const StudyFile& study,
   return quantities;
 }
 
-bool matrices_change(const StudyFile& study) {
-  return !study.frequency_dimension || study.values_depend_on_frequency;
-}
-
 }  // namespace
 
 MapKernel::MapKernel(const StudyFile& study, const Grid& grid, std::vector<periodic::Quantity> quantities,
@@ -34,9 +30,11 @@ MapKernel::MapKernel(const StudyFile& study, const Grid& grid, std::vector<perio
       grid_(grid),
       earlier_(earlier),
       quantities_(quantities.size()),
-      own_(study, study.network, study.values, asked_for(study, quantities), matrices_change(study)),
+      own_(study, study.network, study.values, asked_for(study, quantities),
+           matrices_change_along_rows(study)),
       parameters_(study.parameters.nominal()),
       point_(quantities.size()) {
+  if (study.output.borders) border_search_.emplace(study, grid);
   if (!study.comparison) return;
   const std::vector<periodic::Quantity> asked = asked_for(study, std::move(quantities));
   for (const periodic::Quantity& compared : study.comparison->quantities) {
@@ -46,7 +44,7 @@ MapKernel::MapKernel(const StudyFile& study, const Grid& grid, std::vector<perio
   own_compared_.resize(compared_.size());
   point_.resize(quantities_ + compared_variables(study).size());
   other_.emplace(study, compared_network(study), compared_values(study), compared_quantities(study),
-                 matrices_change(study));
+                 matrices_change_along_rows(study));
 }
 
 void MapKernel::operator()(std::uint64_t tile, engine::Bytes& out) {
@@ -66,6 +64,10 @@ void MapKernel::operator()(std::uint64_t tile, engine::Bytes& out) {
   do {
     compute_row(box);
   } while (next_point(box, rows, index_));
+  if (border_search_) {
+    record_.borders.emplace();
+    border_search_->find(box, *record_.borders);
+  }
   encode(record_, out);
 }
 
@@ -80,7 +82,6 @@ void MapKernel::compute_row(const MapBox& box) {
   }
   own_.begin_row();
   if (other_) other_->begin_row();
-  points_in_row_ = 0;
   const std::uint64_t points = box.points();
   for (std::uint64_t i = 0; i < box.count[along]; ++i, place += step) {
     if (known_[place]) continue;
@@ -94,7 +95,6 @@ void MapKernel::compute_row(const MapBox& box) {
 // Fills point_, and reason_ if the point fails.
 void MapKernel::compute_point() {
   own_.place(parameters_);
-  begin_row_where_frequency_turns();
   const std::span<const double> own = own_.solve(reason_);
   std::copy_n(own.begin(), quantities_, point_.begin());
   if (!other_) return;
@@ -103,21 +103,6 @@ void MapKernel::compute_point() {
   other_->place(parameters_);
   compare(own_compared_, other_->solve(reason), std::span(point_).subspan(quantities_));
   if (reason_.empty() && !reason.empty()) reason_ = fmt::format("compared: {}", reason);
-}
-
-// Along a row the solver extrapolates over the frequency, which has to go one way: axes that advance together
-// may turn back or stand still, and without a frequency axis it stands still always.
-void MapKernel::begin_row_where_frequency_turns() {
-  const double step = own_.omega() - omega_;
-  const bool onwards = points_in_row_ == 1 ? step != 0.0 : step * direction_ > 0.0;
-  if (points_in_row_ == 0 || !onwards) {
-    own_.turn();
-    if (other_) other_->turn();
-    points_in_row_ = 0;
-  }
-  direction_ = step;
-  omega_ = own_.omega();
-  ++points_in_row_;
 }
 
 }  // namespace frahm::studies

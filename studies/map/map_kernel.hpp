@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/bytes.hpp"
+#include "studies/map/border_search.hpp"
 #include "studies/map/grid.hpp"
 #include "studies/map/row_solver.hpp"
 #include "studies/map/tile_record.hpp"
@@ -16,8 +17,8 @@ namespace frahm::studies {
 class KnownPoints;
 
 // Computes the tiles of a study's map: of each point the quantities of its periodic response, and of the one
-// it is compared with. A point without one fails with a reason; it never ends the work. For one thread; each
-// has its own.
+// it is compared with, and where its regimes change. A point without a response fails with a reason; it never
+// ends the work. For one thread; each has its own.
 //
 // Each tile starts from nothing and goes through its rows in a fixed order, each point starting from the
 // orbits computed before it, so that the record of a tile depends on the tile alone, and on the earlier
@@ -34,7 +35,6 @@ class MapKernel {
  private:
   void compute_row(const MapBox& box);
   void compute_point();
-  void begin_row_where_frequency_turns();
 
   const StudyFile& study_;
   const Grid& grid_;
@@ -43,14 +43,12 @@ class MapKernel {
   std::vector<std::size_t> compared_;  // where each compared quantity stands among those solved for
   RowSolver own_;
   std::optional<RowSolver> other_;
+  std::optional<BorderSearch> border_search_;
 
   // Workspace, of the tile, the row and the point in hand.
   TileRecord record_;
   std::vector<char> known_;           // of each point of the tile: its values are those of the earlier result
   std::vector<std::uint64_t> index_;  // of the row's first point
-  std::uint64_t points_in_row_ = 0;   // since the solver was told of a new one
-  double omega_ = 0.0;                // of the point before [rad/s]
-  double direction_ = 0.0;            // and the step to it
   std::vector<double> parameters_;    // SI
   std::vector<double> point_;         // its variables
   std::vector<double> own_compared_;  // of the study's response, those that are compared

@@ -7,6 +7,7 @@
 #include "results/map_writer.hpp"
 #include "studies/map/assembly_options.hpp"
 #include "studies/map/map_plan.hpp"
+#include "studies/map/tile_record.hpp"
 
 // What a result file says of a map, and of how it came about (results/FORMAT.md).
 namespace frahm::studies {
@@ -36,6 +37,12 @@ std::vector<results::Text> provenance(const StudyPlan& plan, const RunRecord& ru
 // The time histories of the points that the study lists, solved and written to /orbits; nothing if it lists
 // none. An orbit that does not exist has a row without samples. Throws AssemblyStopped.
 void write_orbits(const MapPlan& plan, const AssemblyOptions& options, results::MapWriter& writer);
+
+// The group /borders, without a border. Returns its number, for MapWriter::append_ragged.
+std::size_t create_borders(const MapPlan& plan, results::MapWriter& writer);
+
+// The row of a border in it.  tile: the points among which it has its place.
+std::vector<double> border_row(const StudyFile& study, const MapBox& tile, const Border& border);
 
 // Resonance and half-power frequencies of the masses that the study lists, solved for each point of the axes
 // other than the frequency, a curve of /resonance each; nothing if it lists none. Throws AssemblyStopped.

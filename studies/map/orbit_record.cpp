@@ -1,5 +1,9 @@
 #include <fmt/format.h>
 
+#include <Eigen/Core>
+#include <algorithm>
+#include <complex>
+
 #include "solvers/mechanics/linear_system.hpp"
 #include "solvers/periodic/orbit.hpp"
 #include "solvers/response/periodic_response.hpp"
@@ -15,11 +19,61 @@ constexpr std::size_t samples_in_period = 512;
 struct KeptOrbit {
   std::vector<double> parameters;  // SI
   periodic::History history;
+  std::vector<std::vector<double>> sliding;  // of each Coulomb element in turn: displacement, velocity
 };
+
+bool is_coulomb(const mechanics::Element& element) {
+  return element.type == mechanics::ElementType::coulomb;
+}
+
+// Displacement and velocity of the prescribed nodes at a time: y_0 + Re sum_k Y_k e^{i order_k omega t}.
+struct SupportMotion {
+  Eigen::VectorXd displacement, velocity;  // [m], [m/s]
+
+  SupportMotion(const mechanics::LinearSystem& system, double time)
+      : displacement(system.constant_motion), velocity(Eigen::VectorXd::Zero(displacement.size())) {
+    for (std::size_t k = 0; k < system.orders.size(); ++k) {
+      const std::complex<double> i_rate(0.0, system.orders[k] * system.omega);
+      const Eigen::VectorXcd motion =
+          system.motion.col(static_cast<Eigen::Index>(k)) * std::exp(i_rate * time);
+      displacement += motion.real();
+      velocity += (i_rate * motion).real();
+    }
+  }
+};
+
+// Relative displacement u = w^T q + p^T y of each Coulomb element and its velocity, at the instants of a
+// history, whose first columns are q and q' of one mass after the other.
+std::vector<std::vector<double>> sliding_motions(const mechanics::Network& network,
+                                                 const mechanics::NetworkValues& values,
+                                                 const periodic::History& history) {
+  const mechanics::Assembly assembly(network);
+  mechanics::LinearSystem system;
+  assembly.set_values(values, system);
+  assembly.set_forcing(values, system);
+  const auto coulomb = std::ranges::count_if(network.elements, is_coulomb);
+  std::vector<std::vector<double>> motions(2 * static_cast<std::size_t>(coulomb));
+  Eigen::VectorXd q(system.masses()), v(system.masses());
+  for (std::size_t i = 0; i < history.time.size(); ++i) {
+    for (Eigen::Index mass = 0; mass < q.size(); ++mass) {
+      q[mass] = history.columns[static_cast<std::size_t>(2 * mass)][i];
+      v[mass] = history.columns[static_cast<std::size_t>(2 * mass + 1)][i];
+    }
+    const SupportMotion support(system, history.time[i]);
+    auto column = motions.begin();
+    for (std::size_t e = 0; e < network.elements.size(); ++e) {
+      if (!is_coulomb(network.elements[e])) continue;
+      const mechanics::Incidence& incidence = assembly.incidences()[e];
+      (column++)->push_back(incidence.w.dot(q) + incidence.p.dot(support.displacement));
+      (column++)->push_back(incidence.w.dot(v) + incidence.p.dot(support.velocity));
+    }
+  }
+  return motions;
+}
 
 KeptOrbit keep_orbit(const MapPlan& plan, const std::vector<Assignment>& point) {
   const StudyFile& study = plan.study;
-  KeptOrbit orbit{.parameters = study.parameters.nominal(), .history = {}};
+  KeptOrbit orbit{.parameters = study.parameters.nominal(), .history = {}, .sliding = {}};
   for (const Assignment& assignment : point) orbit.parameters[assignment.parameter] = assignment.value;
   mechanics::NetworkValues values;
   evaluate(study.values, study.parameters, orbit.parameters, values);
@@ -32,6 +86,7 @@ KeptOrbit keep_orbit(const MapPlan& plan, const std::vector<Assignment>& point) 
   const periodic::Status status = response.solve().status;
   if (status == periodic::Status::ok || status == periodic::Status::grazing) {
     orbit.history = response.history(periodic::phases_of_a_period(samples_in_period));
+    orbit.sliding = sliding_motions(study.network, values, orbit.history);
   }
   return orbit;
 }
@@ -51,6 +106,11 @@ std::vector<results::Variable> sample_variables(const StudyFile& study) {
     add(element.name + "_force", "N", "force of " + element.name);
   for (const std::string& mass : study.network.masses)
     add(mass + "_acceleration", "m s-2", "acceleration of " + mass);
+  for (const auto& element : study.network.elements) {
+    if (!is_coulomb(element)) continue;
+    add(element.name + "_displacement", "m", "relative displacement across " + element.name);
+    add(element.name + "_sliding_velocity", "m s-1", "relative velocity across " + element.name);
+  }
   return variables;
 }
 
@@ -69,6 +129,7 @@ std::vector<std::vector<double>> samples_of(const KeptOrbit& orbit, std::size_t 
   if (orbit.history.time.empty()) return std::vector<std::vector<double>>(variables);
   std::vector<std::vector<double>> samples{orbit.history.time};
   samples.insert(samples.end(), orbit.history.columns.begin(), orbit.history.columns.end());
+  samples.insert(samples.end(), orbit.sliding.begin(), orbit.sliding.end());
   return samples;
 }
 

@@ -61,6 +61,11 @@ std::vector<std::pair<std::string, std::string>> names_of_groups(const StudyFile
     for (const char* name : {"orbit", "sample", "row_start", "time"})
       add(name, "a variable of the orbits kept");
   }
+  if (study.output.borders) {
+    add("borders", "a group of the file");
+    for (const char* name : {"border", "element", "axis", "regime_below", "regime_above"})
+      add(name, "a variable of the borders");
+  }
   if (study.output.resonances.empty()) return names;
   add("resonance", "a group of the file");
   add("curve", "the index of the resonances");

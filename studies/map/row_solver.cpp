@@ -37,12 +37,18 @@ RowSolver::RowSolver(const StudyFile& study, const mechanics::Network& network, 
       response_(network, std::move(quantities)),
       point_(missing_.size()) {}
 
+void RowSolver::begin_row() {
+  matrices_set_ = false;
+  turn();
+}
+
 void RowSolver::place(std::span<double> parameters) {
   evaluate(values_, parameters_, parameters, numbers_);
 }
 
 std::span<const double> RowSolver::solve(std::string& reason) {
   reason.clear();
+  turn_where_frequency_does();
   try {
     set_point();
   } catch (const mechanics::MechanicsError& error) {
@@ -54,6 +60,20 @@ std::span<const double> RowSolver::solve(std::string& reason) {
   if (summary.status == periodic::Status::failed) reason = summary.reason;
   response_.quantities(point_);
   return point_;
+}
+
+// Along a row the solver extrapolates over the frequency, which has to go one way: axes that advance together
+// may turn back or stand still, and without a frequency axis it stands still always.
+void RowSolver::turn_where_frequency_does() {
+  const double step = numbers_.omega - omega_;
+  const bool onwards = points_onwards_ == 1 ? step != 0.0 : step * direction_ > 0.0;
+  if (points_onwards_ == 0 || !onwards) {
+    response_.begin_row();
+    points_onwards_ = 0;
+  }
+  direction_ = step;
+  omega_ = numbers_.omega;
+  ++points_onwards_;
 }
 
 void RowSolver::set_point() {

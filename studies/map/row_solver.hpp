@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -9,8 +10,8 @@
 
 namespace frahm::studies {
 
-// Responses of one network along the rows of a map. A point without one fails with a reason; it never ends
-// the work.
+// Responses of one network along the rows of a map, each starting from those before it. A point without one
+// fails with a reason; it never ends the work.
 class RowSolver {
  public:
   // study: whose parameters the values read; must outlive the solver. matrices_change: masses or elements
@@ -18,24 +19,30 @@ class RowSolver {
   RowSolver(const StudyFile& study, const mechanics::Network& network, StudyValues values,
             std::vector<periodic::Quantity> quantities, bool matrices_change);
 
-  void forget() { response_.forget(); }        // all earlier points
-  void begin_row() { matrices_set_ = false; }  // of element values
-  void turn() { response_.begin_row(); }       // the frequency does not go on in its direction
+  void forget() { response_.forget(); }  // all earlier points
+  void begin_row();                      // of element values
+  // The next point starts from the first one of the row or stretch of frequencies in hand.
+  void turn() { points_onwards_ = 0; }
   // Completes the parameters (SI) and puts the point's numbers in place.
   void place(std::span<double> parameters);
-  double omega() const { return numbers_.omega; }  // of the point in place [rad/s]
   // The quantities of the point in place; `reason` is why it fails, empty if it does not.
   std::span<const double> solve(std::string& reason);
+  // How its orbit goes, if it has one (PeriodicResponse::stretches).
+  std::vector<periodic::Stretch> stretches() const { return response_.stretches(); }
 
  private:
   void set_point();
+  void turn_where_frequency_does();
 
   const Parameters& parameters_;
   StudyValues values_;
   std::vector<double> missing_;  // of each quantity: what a point has that failed before it was solved
   bool matrices_change_;
   periodic::PeriodicResponse response_;
-  bool matrices_set_ = false;  // to the row's
+  bool matrices_set_ = false;         // to the row's
+  std::uint64_t points_onwards_ = 0;  // along which the frequency has gone one way
+  double omega_ = 0.0;                // of the last of them [rad/s]
+  double direction_ = 0.0;            // the step to it
   mechanics::NetworkValues numbers_;
   std::vector<double> point_;
 };

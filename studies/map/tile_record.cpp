@@ -26,24 +26,51 @@ class RecordReading {
   std::span<const std::byte> bytes_;
 };
 
+void append(std::uint64_t number, engine::Bytes& out) {
+  out.resize(out.size() + word);
+  engine::put_little_endian(out.data() + out.size() - word, number);
+}
+
+// In the last word of a border.
+constexpr unsigned element_shift = 16, below_shift = 32, above_shift = 48;
+
+void append(const Border& border, engine::Bytes& out) {
+  append(border.place, out);
+  append(std::bit_cast<std::uint64_t>(border.crossing.at), out);
+  append(std::uint64_t{border.dimension} | std::uint64_t{border.element} << element_shift |
+             static_cast<std::uint64_t>(border.crossing.below) << below_shift |
+             static_cast<std::uint64_t>(border.crossing.above) << above_shift,
+         out);
+}
+
+Border take_border(RecordReading& reading) {
+  Border border{.place = reading.number()};
+  border.crossing.at = std::bit_cast<double>(reading.number());
+  const std::uint64_t rest = reading.number();
+  border.dimension = static_cast<std::uint16_t>(rest);
+  border.element = static_cast<std::uint16_t>(rest >> element_shift);
+  border.crossing.below = static_cast<periodic::Regime>(static_cast<std::uint16_t>(rest >> below_shift));
+  border.crossing.above = static_cast<periodic::Regime>(static_cast<std::uint16_t>(rest >> above_shift));
+  return border;
+}
+
 }  // namespace
 
 void encode(const TileRecord& record, engine::Bytes& out) {
-  const auto append = [&out](std::uint64_t number) {
-    out.resize(out.size() + word);
-    engine::put_little_endian(out.data() + out.size() - word, number);
-  };
   const std::size_t begin = out.size();
   out.resize(begin + word * record.values.size());
   for (std::size_t i = 0; i < record.values.size(); ++i) {
     engine::put_little_endian(out.data() + begin + word * i, std::bit_cast<std::uint64_t>(record.values[i]));
   }
   for (const FailedPoint& point : record.failed) {
-    append(point.place);
-    append(point.reason.size());
+    append(point.place, out);
+    append(point.reason.size(), out);
     const auto text = std::as_bytes(std::span(point.reason));
     out.insert(out.end(), text.begin(), text.end());
   }
+  if (!record.borders) return;
+  append(no_point, out);
+  for (const Border& border : *record.borders) append(border, out);
 }
 
 void decode(std::span<const std::byte> bytes, std::size_t values, TileRecord& record) {
@@ -55,8 +82,14 @@ void decode(std::span<const std::byte> bytes, std::size_t values, TileRecord& re
         std::bit_cast<double>(engine::get_little_endian<std::uint64_t>(numbers.data() + word * i));
   }
   record.failed.clear();
+  record.borders.reset();
   while (!reading.at_end()) {
     const std::uint64_t place = reading.number();
+    if (place == no_point) {
+      record.borders.emplace();
+      while (!reading.at_end()) record.borders->push_back(take_border(reading));
+      return;
+    }
     const auto text = reading.take(reading.number());
     record.failed.push_back({place, {reinterpret_cast<const char*>(text.data()), text.size()}});
   }
@@ -67,7 +100,7 @@ std::uint64_t count_failed(std::span<const std::byte> bytes, std::size_t values)
   reading.take(word * values);
   std::uint64_t count = 0;
   for (; !reading.at_end(); ++count) {
-    reading.number();
+    if (reading.number() == no_point) break;
     reading.take(reading.number());
   }
   return count;

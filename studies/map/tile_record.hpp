@@ -2,25 +2,41 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "engine/bytes.hpp"
+#include "studies/map/regime_crossings.hpp"
 
 // The record of a finished tile, little-endian: for one quantity after the other its values (float64) at the
 // points of the tile, row-major in the map's order of dimensions; then for each failed point its place among
-// them (u64), the length of the reason (u64) and the reason.
+// them (u64), the length of the reason (u64) and the reason. Of a study with borders then no_point (u64) and
+// for each border the place of the edge's lower point (u64), t (float64), the dimension, the element and the
+// regimes below and above (u16 each).
 namespace frahm::studies {
+
+inline constexpr std::uint64_t no_point = std::numeric_limits<std::uint64_t>::max();
 
 struct FailedPoint {
   std::uint64_t place = 0;  // among the points of the tile, row-major
   std::string reason;
 };
 
+// A change of regime between a point of the tile and its neighbour along a dimension.
+struct Border {
+  std::uint64_t place = 0;       // of the point among those of the tile, row-major
+  std::size_t dimension = 0;     // of the map, slowest first
+  std::size_t element = 0;       // among the network's Coulomb elements
+  RegimeCrossing crossing = {};  // t from 0 at the point to 1 at its neighbour
+};
+
 struct TileRecord {
   std::vector<double> values;
   std::vector<FailedPoint> failed;
+  std::optional<std::vector<Border>> borders = std::nullopt;  // of a study with borders
 };
 
 // Appends the record to `out`.

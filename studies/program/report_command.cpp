@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <iostream>
 #include <optional>
+#include <utility>
 
 #include "results/map_reader.hpp"
 #include "results/report/page_data.hpp"
 #include "results/report/report_page.hpp"
 #include "studies/map/finished_file.hpp"
 #include "studies/map/stored_study.hpp"
+#include "studies/motion/crank_motion.hpp"
 #include "studies/program/paper_figures.hpp"
 #include "studies/program/whole_file.hpp"
 
@@ -44,7 +46,7 @@ bool is_shown_by_default(const std::string& name, const std::optional<StudyFile>
   if (ends("_velocity_peak") || ends("_acceleration_peak") || ends("_force_peak")) return false;
   if (is_stroke_of_no_spring(name, study)) return false;
   return ends("_peak") || ends("_stroke") || ends("_regime") || ends("_stops") || ends("_energy_share") ||
-         name == "status";
+         ends("_difference") || name == "status";
 }
 
 // All recorded quantities if it is none of those.
@@ -97,11 +99,20 @@ std::vector<std::string> axis_parameters(const results::MapLayout& layout,
   return names;
 }
 
+// What the page shows besides the file: the motion of the study's cranks.
+std::vector<results::PageGroup> further_groups(const std::optional<StudyFile>& study) {
+  std::vector<results::Column> cranks;
+  if (study) cranks = crank_motions(*study);
+  if (cranks.empty()) return {};
+  return {{.name = "crank", .columns = std::move(cranks)}};
+}
+
 results::PageContent content_of(const ReportOptions& options, const results::MapReader& result) {
   const std::optional<StudyFile> study = study_of(result, options.file);
   return {.file = options.file.filename().string(),
           .parameters = axis_parameters(result.layout(), study),
-          .variables = shown_quantities(options, result.layout(), study)};
+          .variables = shown_quantities(options, result.layout(), study),
+          .groups = further_groups(study)};
 }
 
 void require_page_parts() {

@@ -8,6 +8,8 @@
 namespace frahm::studies {
 namespace {
 
+constexpr std::size_t most_bordered_elements = 127;  // values of a flag
+
 void read_quantities(const TomlSection& section, OutputChoice& output) {
   const TomlValue* value = section.find("quantities");
   if (!value) return;
@@ -44,6 +46,26 @@ void read_orbits(const StudyContext& context, const TomlSection& section, StudyF
       assignments.push_back(read_assignment(context, study, "[output]: orbits", entry));
     study.output.orbits.push_back(std::move(assignments));
   }
+}
+
+void read_borders(const TomlSection& section, StudyFile& study) {
+  study.output.borders = section.boolean_or("borders", false);
+  if (!study.output.borders) return;
+  std::size_t contacts = 0;
+  for (const mechanics::Element& element : study.network.elements) {
+    if (element.type != mechanics::ElementType::coulomb) continue;
+    if (element.law != mechanics::FrictionLaw::exact) {
+      section.fail("borders", fmt::format("element \"{}\" follows the arctan law, under which nothing sticks "
+                                          "and there are no regimes to border on each other",
+                                          element.name));
+    }
+    ++contacts;
+  }
+  if (contacts == 0)
+    section.fail("borders", "borders are those between regimes of coulomb elements, and there is none");
+  if (contacts > most_bordered_elements)
+    section.fail("borders", fmt::format("of {} coulomb elements; at most {} can be told apart", contacts,
+                                        most_bordered_elements));
 }
 
 // Whether each frequency along a dimension belongs to one place of it.
@@ -123,8 +145,7 @@ void read_output(const StudyContext& context, const TomlValue& root, StudyFile& 
                             {"quantities", "precision", "borders", "orbits", "resonances"});
   read_quantities(section, study.output);
   study.output.single_precision = section.choice_or("precision", {"double", "single"}) == "single";
-  if (section.boolean_or("borders", false))
-    section.fail("borders", "borders are not available in this version");
+  read_borders(section, study);
   read_orbits(context, section, study);
   read_resonances(context, section, study);
 }

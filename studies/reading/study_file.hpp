@@ -55,6 +55,7 @@ struct OutputChoice {
   Quantities quantities = Quantities::standard;
   std::vector<Name> names;  // of Quantities::listed, not empty then; the program knows which names exist
   bool single_precision = false;
+  bool borders = false;                         // whether those between regimes are solved; exact law only
   std::vector<std::vector<Assignment>> orbits;  // points whose time histories are kept
   std::vector<std::size_t> resonances;          // masses whose resonance is sought along the frequency axis
 };

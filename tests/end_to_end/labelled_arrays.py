@@ -22,7 +22,8 @@ def reduced_study(source):
     for parameter, points in REDUCED.items():
         text, count = re.subn(rf'(parameter = "{parameter}"\n(?:unit.*\n)?from.*\nto.*\npoints = )\d+', rf"\g<1>{points}", text)
         assert count == 1, parameter
-    return text + '\n[output]\norbits = [{ omega = 250, I = 6.36 }]\n'
+    assert text.count("\n[output]\n") == 1
+    return text.replace("\n[output]\n", "\n[output]\norbits = [{ omega = 250, I = 6.36 }]\n")
 
 
 def check_map(path, engine, study):
@@ -47,6 +48,19 @@ def check_map(path, engine, study):
         assert float(ds.omega[0]) == 250.0 and ds.omega.attrs["units"] == "rpm" and ds.time.attrs["units"] == "s"
         assert abs(float(ds.time[-1]) - 60 / 250) < 1e-12
         assert ds.guide_force.attrs["units"] == "N"
+        np.testing.assert_array_equal(ds.guide_displacement, ds.main_displacement)
+        np.testing.assert_array_equal(ds.guide_sliding_velocity, ds.main_velocity)
+        np.testing.assert_allclose(ds.tmd_friction_displacement, ds.tmd_displacement - ds.main_displacement, atol=1e-15)
+        assert ds.tmd_friction_sliding_velocity.attrs["units"] == "m s-1"
+    with xr.open_dataset(path, engine=engine, group="borders") as ds:
+        assert set(ds.data_vars) == {"I", "FP", "omega", "element", "axis", "regime_below", "regime_above"}
+        assert ds.sizes["border"] > 0 and ds.omega.attrs["units"] == "rpm" and ds.I.attrs["units"] == "kg"
+        assert ds.element.attrs["flag_meanings"] == "not_computed guide tmd_friction"
+        assert ds.axis.attrs["flag_meanings"] == "not_computed I FP omega" and set(ds.axis.values) <= {1, 2, 3}
+        assert ds.regime_below.attrs["flag_meanings"].split()[2:] == ["non_stop", "one_stop", "multi_stop", "stuck"]
+        assert (ds.element == 2).all() and (ds.regime_below != ds.regime_above).all()
+        for name, least, most in (("I", 4.72, 12.9), ("FP", 0, 0.3), ("omega", 150, 350)):
+            assert ds[name].dtype == "f8" and (ds[name] >= least).all() and (ds[name] <= most).all()
 
 
 def main():

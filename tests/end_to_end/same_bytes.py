@@ -97,7 +97,7 @@ def check_tuning(program, source):
 
 
 def check_assembly(program, source):
-    """A map of many chunks with resonances and orbits, assembled whole and in part by teams of any size."""
+    """A map of many chunks with borders, resonances and orbits, assembled whole and in part by teams of any size."""
     with open(os.path.join(source, "studies", "den_hartog.toml")) as file:
         text = file.read()
     assert text.count("values = [0, 0.02, 0.05, 0.1, 0.2, 0.5]") == 1
@@ -105,6 +105,7 @@ def check_assembly(program, source):
     text += """
 [output]
 quantities = ["main_peak", "friction_regime", "friction_stops", "status"]
+borders = true
 resonances = ["main"]
 orbits = [{ zeta = 0.1, f = 0.2, r = 0.9 }, { zeta = 0.1, f = 0.7, r = 0.4 }, { zeta = 0.2, f = 1.1, r = 2 }]
 """
@@ -129,6 +130,7 @@ orbits = [{ zeta = 0.1, f = 0.2, r = 0.9 }, { zeta = 0.1, f = 0.7, r = 0.4 }, { 
         frahm("run", study_path, "-o", output, "--shard", "0/2")
         part = merged("1", "--partial")
         assert len(part["main_peak"][2]) > 5 and part["resonance/curve"][1] == (300,), "many chunks, many curves"
+        assert part["borders/border"][1][0] > 4096, "chunks of borders"
         for threads in "2", "5":
             assert merged(threads, "--partial") == part, threads
         frahm("run", study_path, "-o", output, "--shard", "1/2")
@@ -143,6 +145,7 @@ orbits = [{ zeta = 0.1, f = 0.2, r = 0.9 }, { zeta = 0.1, f = 0.7, r = 0.4 }, { 
         assert whole["1"] != part
         runs = Runs(program, folder, study_path)
         assert runs.finish(output, "--threads", "2") == whole["1"]
+        runs.killed(whole["1"], output, signal.SIGKILL, "--threads", "2")
 
 
 def main():

@@ -60,11 +60,23 @@ TEST_CASE("a coordinate may not have the name of a group of the file, or of what
     CHECK_NOTHROW(variables_of(base + clash(name)));
     CHECK_THROWS_WITH(variables_of(base + clash(name) + resonances), Catch::Contains("rename it"));
   }
+  for (const char* name : {"borders", "border", "element", "axis", "regime_below", "regime_above"}) {
+    CHECK_NOTHROW(variables_of(base + clash(name)));
+    CHECK_THROWS_WITH(variables_of(base + clash(name) + "[output]\nborders = true\n"),
+                      Catch::Contains("rename it"));
+  }
   const std::string orbits = "[output]\norbits = [{ r = 0.5 }]\n";
   for (const char* name : {"orbits", "time", "row_start"}) {
     CHECK_NOTHROW(variables_of(base + clash(name)));
     CHECK_THROWS_WITH(variables_of(base + clash(name) + orbits), Catch::Contains("rename it"));
   }
+}
+
+TEST_CASE("a report may only show what is recorded") {
+  const std::string chosen = base + "[output]\nquantities = [\"main_peak\"]\n[report]\nquantities = ";
+  CHECK_THROWS_WITH(variables_of(chosen + "[\"main_rms\"]\n"),
+                    Catch::Contains("[report]: quantities: \"main_rms\" is not recorded by this study"));
+  CHECK_NOTHROW(variables_of(chosen + "[\"main_peak\"]\n"));
 }
 
 }  // namespace

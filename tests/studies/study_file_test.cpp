@@ -240,4 +240,21 @@ TEST_CASE("parts of a study cut off anywhere are read or refused, never a crash"
   CHECK(refused > 200);
 }
 
+TEST_CASE("more friction elements than a flag can name have no borders") {
+  const auto study = [](int elements) {
+    std::string text =
+        "[study]\nschema = 1\nkind = \"sweep\"\nunits = \"dimensionless\"\n[parameters]\nr = 1\n"
+        "[[mass]]\nname = \"main\"\nmass = 1\n[[element]]\nname = \"spring\"\ntype = \"spring\"\n"
+        "between = [\"ground\", \"main\"]\nstiffness = 1\n";
+    for (int i = 0; i < elements; ++i)
+      text += "[[element]]\nname = \"guide_" + std::to_string(i) +
+              "\"\ntype = \"coulomb\"\nbetween = [\"ground\", \"main\"]\nforce = 0.01\n";
+    return text +
+           "[excitation]\nfrequency = \"r\"\n[[excitation.force]]\non = \"main\"\namplitude = 1\n"
+           "[[axis]]\nparameter = \"r\"\nvalues = [0.5, 2]\n[output]\nborders = true\n";
+  };
+  CHECK(complaint_about(study(127)) == "none");
+  CHECK_THAT(complaint_about(study(128)), Catch::Contains("borders: of 128 coulomb elements; at most 127"));
+}
+
 }  // namespace

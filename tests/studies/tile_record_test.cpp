@@ -25,6 +25,37 @@ TEST_CASE("a tile's record gives back its values and its failed points") {
   CHECK(count_failed(bytes, sample.values.size()) == 2);
 }
 
+TEST_CASE("a tile's record gives back its borders, also where there are none, and counts no failure more") {
+  using frahm::periodic::Regime;
+  const Border border{3, 2, 1, {0.625, Regime::one_stop, Regime::stuck}};
+  for (const std::size_t borders : {0, 2}) {
+    TileRecord record = sample;
+    record.borders.emplace(borders, border);
+    frahm::engine::Bytes bytes;
+    encode(record, bytes);
+    CHECK(count_failed(bytes, sample.values.size()) == 2);
+    TileRecord read;
+    decode(bytes, sample.values.size(), read);
+    CHECK(read.failed.size() == 2);
+    REQUIRE(read.borders);
+    REQUIRE(read.borders->size() == borders);
+    for (const Border& back : *read.borders) {
+      CHECK(back.place == 3);
+      CHECK(back.dimension == 2);
+      CHECK(back.element == 1);
+      CHECK(back.crossing.at == 0.625);
+      CHECK(back.crossing.below == Regime::one_stop);
+      CHECK(back.crossing.above == Regime::stuck);
+    }
+  }
+  frahm::engine::Bytes bytes;
+  encode(sample, bytes);
+  TileRecord read;
+  read.borders.emplace();
+  decode(bytes, sample.values.size(), read);
+  CHECK_FALSE(read.borders);
+}
+
 TEST_CASE("values are kept least significant byte first") {
   frahm::engine::Bytes bytes;
   encode({.values = {1.0}, .failed = {}}, bytes);

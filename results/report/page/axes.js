@@ -24,7 +24,10 @@ const shortEnough = 34;  // characters of a label
 export function coordinateLabel({ name, unit, long_name: longName }) {
   const meaning = plainMeaning(longName);
   const told = meaning && meaning !== `parameter ${name}` && meaning !== name && meaning.length <= shortEnough;
-  return withUnit(told ? `${meaning} ${symbolText(name)}` : symbolText(name), unitText(unit));
+  const isSymbol = !name.includes("_");
+  const saysName = meaning.endsWith(name);
+  const text = told ? (isSymbol && !saysName ? `${meaning} ${symbolText(name)}` : meaning) : symbolText(name);
+  return withUnit(text, unitText(unit));
 }
 
 // "I = 6.36 kg".
@@ -41,11 +44,6 @@ export function spacing(values) {
   };
   if (values.length < 2 || even((value) => value)) return "linear";
   return values.every((value) => value > 0) && even(Math.log) ? "log" : "";
-}
-
-export function isMonotone(values) {
-  const sign = Math.sign(values[1] - values[0]);
-  return sign !== 0 && values.every((value, i) => i === 0 || Math.sign(value - values[i - 1]) === sign);
 }
 
 // The index whose value lies nearest (of a monotone axis, on its scale).

@@ -39,8 +39,8 @@ export function meaningOf(variable, value) {
   return variable.flags?.find(([code]) => code === value)?.[1] ?? "";
 }
 
-// Axes: {name, size, stride, coordinates: [{name, unit, long_name, values}]}; an axis whose own parameter is
-// not among its coordinates (several zipped together) has its first coordinate speak for it.
+// Axes: {name, size, stride, coordinates: [{name, unit, long_name, values, monotone}]}; the first coordinate
+// rises or falls all along, and speaks for the axis.
 export class ResponseMap {
   constructor(axes, variables, { parameters, left_out }) {
     this.axes = axes;
@@ -73,15 +73,23 @@ export class ResponseMap {
   }
 }
 
+function isMonotone(values) {
+  const sign = Math.sign(values.at(-1) - values[0]);
+  return values.every((value, i) => i === 0 || (value - values[i - 1]) * sign > 0);
+}
+
+// Parameters zipped together may turn back, so that none of them can be an axis of a figure.
+function indexAlong({ name, size }) {
+  return { name, unit: "1", long_name: "", monotone: true, values: Array.from({ length: size }, (_, i) => i) };
+}
+
 async function unpackMap(data) {
   const sizes = data.axes.map((axis) => axis.size);
   const strides = sizes.map((_, i) => sizes.slice(i + 1).reduce((a, b) => a * b, 1));
   const axes = data.axes.map((axis, i) => ({ ...axis, stride: strides[i] }));
   for (const axis of axes) {
-    if (axis.coordinates.length === 0) {
-      const values = Array.from({ length: axis.size }, (_, i) => i);
-      axis.coordinates.push({ name: axis.name, unit: "1", long_name: "index along " + axis.name, values });
-    }
+    for (const coordinate of axis.coordinates) coordinate.monotone = isMonotone(coordinate.values);
+    if (axis.coordinates.length === 0 || !axis.coordinates[0].monotone) axis.coordinates.unshift(indexAlong(axis));
   }
   const line = { size: sizes[data.along], stride: strides[data.along] };
   const variables = await Promise.all(data.variables.map(async (variable) => {

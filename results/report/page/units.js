@@ -66,6 +66,11 @@ export function quantityText(value, unit, digits = 6) {
   return text && !Number.isNaN(value) ? `${numberText(value * factor, digits)} ${text}` : numberText(value * factor, digits);
 }
 
+// With its first letter large.
+export function sentence(text) {
+  return text.charAt(0).toUpperCase() + text.slice(1);
+}
+
 // "main_peak" to "main peak"; words of flags too.
 export function words(name) {
   return name.replaceAll("_", " ");

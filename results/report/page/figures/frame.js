@@ -85,7 +85,7 @@ export function drawFrame(canvas, { x, y, marks, legend = [], marginRight = 20, 
   const rows = legend.length ? legendRows(legend, canvas.width - marginLeft - marginRight - yMore) : [];
   const axis = (options) => ({ nice: false, ...options });
   const tickOptions = { labelAnchor: "center", labelArrow: "none", tickSize: ticksLength, tickPadding: 4, fontSize };
-  const format = (scale) => scale.tickFormat ?? (scale.type === "log" ? "~g" : undefined);
+  const format = (scale) => scale.tickFormat ?? (scale.type === "log" ? ((scale.domain?.[1] ?? 0) >= 1e5 ? "~e" : "~g") : undefined);
   const svg = Plot.plot({
     document: canvas.document,
     width: canvas.width,

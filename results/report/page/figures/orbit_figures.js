@@ -10,6 +10,8 @@ export function orbitSamples(group, k) {
   return new Map(along.map((column) => [column.name, { ...column, values: column.values.slice(start[k], end) }]));
 }
 
+const inset = 8;  // pixels between curves and frame: a friction force stays at its limits
+
 // A closed period: the first sample again at the end of a trace around a loop.
 const closed = (values) => (values.length ? [...values, values[0]] : values);
 
@@ -34,7 +36,7 @@ function traces(canvas, samples, names, axis, symbol) {
   const { factor, text } = shownUnit(all[0].unit, all.flatMap(({ values }) => Array.from(values)));
   return drawFrame(canvas, {
     x: { label: withUnit("time t", time.unit === "1" ? "" : time.unit) },
-    y: { label: withUnit(axis, text), nice: true },
+    y: { label: withUnit(axis, text), nice: true, inset },
     legend: names.map((name, n) => ({ text: words(name.replace(symbol, "")), stroke: lineColours[n % lineColours.length] })),
     marks: [...grid(), ...all.map(({ values }, n) => curve(time.values, values.map((value) => value * factor), { stroke: lineColours[n % lineColours.length] }))],
   });
@@ -43,7 +45,7 @@ function traces(canvas, samples, names, axis, symbol) {
 function loop(canvas, xColumn, yColumn, xLabel, yLabel) {
   const x = shownColumn(xColumn), y = shownColumn(yColumn);
   return drawFrame(canvas, {
-    x: { label: withUnit(xLabel, x.unit), nice: true }, y: { label: withUnit(yLabel, y.unit), nice: true },
+    x: { label: withUnit(xLabel, x.unit), nice: true, inset }, y: { label: withUnit(yLabel, y.unit), nice: true, inset },
     marks: [...grid(), curve(closed(x.values), closed(y.values), { stroke: lineColours[0] })],
   });
 }

@@ -16,6 +16,18 @@ export function resonanceParameters(group) {
   return group.along("curve").filter(({ name }) => !solved.test(name));
 }
 
+// The curves by their number, where no parameter orders them.
+export function curveNumbers(group) {
+  const { length } = resonanceQuantities(group)[0].values;
+  return { name: "curve", unit: "1", values: Float64Array.from({ length }, (_, i) => i + 1) };
+}
+
+// The first parameter along which some curve has two points or more, else the curves' number.
+export function firstParameter(group) {
+  const joins = (x) => curvesOver(group, x).some(({ rows }) => rows.length > 1);
+  return resonanceParameters(group).find(joins) ?? curveNumbers(group);
+}
+
 // Evenly chosen ones of many.
 function some(list) {
   if (list.length <= mostCurves) return list;
@@ -24,7 +36,7 @@ function some(list) {
 
 // Rows of the group by the values of the other parameters: [{text, rows}].
 function curvesOver(group, x) {
-  const others = resonanceParameters(group).filter(({ name }) => name !== x.name);
+  const others = x.name === "curve" ? [] : resonanceParameters(group).filter(({ name }) => name !== x.name);
   const curves = new Map();
   for (let row = 0; row < x.values.length; ++row) {
     const text = others.map(({ name, unit, values }) => `${symbolText(name)} = ${numberText(values[row], 4)}${unitText(unit) ? ` ${unitText(unit)}` : ""}`).join(", ");

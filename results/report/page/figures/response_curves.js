@@ -1,6 +1,6 @@
 // Response curves: a quantity along one axis through one or several points of the map.
 import * as Plot from "@observablehq/plot";
-import { coordinateLabel, coordinateText, isMonotone, spacing } from "../axes.js";
+import { coordinateLabel, coordinateText, spacing } from "../axes.js";
 import { meaningOf } from "../record.js";
 import { numberText, shownUnit, unitText, withUnit, words } from "../units.js";
 import { curve, dots, drawFrame, grid, lineColours, lineDashes, regimeColours, tips } from "./frame.js";
@@ -67,10 +67,10 @@ export function responseCurves(canvas, map, variable, state) {
   const low = Math.min(...values.map((y) => Math.min(...y.filter((value) => value > 0))));
   const scaled = state.scale === "log" && Number.isFinite(low) ? { type: "log", domain: logDomain(values, low) } : { zero: state.scale === "linear" };
   return drawFrame(canvas, {
-    x: { label: coordinateLabel(x), type: spacing(x.values) === "log" ? "log" : "linear", ...(isMonotone(x.values) ? {} : {}) },
+    x: { label: coordinateLabel(x), type: spacing(x.values) === "log" ? "log" : "linear", domain: [Math.min(...x.values), Math.max(...x.values)] },
     y: { label: yLabel(variable, state.scale, shown), nice: state.scale !== "log", ...scaled },
     legend: [...legend, ...regimes],
-    marks: [...grid(), ...marks, ...tips(canvas, rows)],
+    marks: rows.length ? [...grid(), ...marks, ...tips(canvas, rows)] : [Plot.text(["no number along this line"], { frameAnchor: "middle", fontSize: 13 })],
   });
 }
 

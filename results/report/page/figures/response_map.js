@@ -36,12 +36,14 @@ function painterOf(variable, range, state) {
   const to = state.scale === "log" ? Math.log : (value) => value;
   const low = to(range[0]), span = to(range[1]) - low || 1;
   return (value, rgba, at) => {
-    const place = (to(value) - low) / span;
-    if (!(place > -1e-9 && place < 1 + 1e-9)) return rgba.set(missingColour, at);
+    if (Number.isNaN(value) || (variable.kind === "count" && value < 0)) return rgba.set(missingColour, at);
+    const place = (to(Math.max(value, range[0])) - low) / span;
     const step = 4 * Math.max(0, Math.min(colourSteps - 1, Math.round(place * (colourSteps - 1))));
     for (let c = 0; c < 4; ++c) rgba[at + c] = table[step + c];
   };
 }
+
+const logSpan = 1e-4;  // of the largest: what lies below has the lowest colour on a logarithmic scale
 
 // Least and largest value of all the map, so that a slider moves along one scale; on a log scale of the positive.
 export function rangeOf(map, variable, scale) {
@@ -51,7 +53,7 @@ export function rangeOf(map, variable, scale) {
     if (value < low) low = value;
     if (value > high) high = value;
   }
-  if (scale === "log") low = Math.max(low, high * 1e-6);
+  if (scale === "log") low = Math.max(low, high * logSpan);
   return low <= high ? [low, high] : [0, 1];
 }
 
@@ -142,7 +144,7 @@ function niceStep(rough) {
   return [1, 2, 5, 10].map((digit) => digit * power).find((step) => step >= rough * (1 - 1e-12));
 }
 
-const borderDashes = { "non_stop|one_stop": "", "multi_stop|one_stop": "5 3", "multi_stop|non_stop": "2 2", "one_stop|stuck": "9 3", "non_stop|stuck": "9 3 2 3", "multi_stop|stuck": "1 2" };
+const borderDashes = { "non_stop|one_stop": "", "one_stop|multi_stop": "5 3", "non_stop|multi_stop": "2 2", "one_stop|stuck": "9 3", "non_stop|stuck": "9 3 2 3", "multi_stop|stuck": "1 2" };
 
 // Places between the grid's values by straight lines (on its own scale by those of the values).
 function at(values, place) {

@@ -3,7 +3,7 @@
 import { coordinateLabel, coordinateText, symbolText } from "../axes.js";
 import { dissipating, energyShares, energySharesTable } from "../figures/energy_shares.js";
 import { orbitFigures, orbitLabel, orbitSamples } from "../figures/orbit_figures.js";
-import { resonanceFigure, resonanceParameters, resonanceQuantities, resonanceTable } from "../figures/resonance_figure.js";
+import { curveNumbers, firstParameter, resonanceFigure, resonanceParameters, resonanceQuantities, resonanceTable } from "../figures/resonance_figure.js";
 import { responseCurves, responseCurvesTable } from "../figures/response_curves.js";
 import { responseMap, responseMapTable } from "../figures/response_map.js";
 import { choice, element, section, table } from "../parts/elements.js";
@@ -12,7 +12,7 @@ import { about } from "../parts/heading.js";
 import { followPointer } from "../parts/map_pointer.js";
 import { pointCard, pointTip } from "../parts/point_table.js";
 import { meaningOf } from "../record.js";
-import { unitText, words } from "../units.js";
+import { sentence, unitText, words } from "../units.js";
 import { crossingsOf, contactsOf, curvePoints, firstState } from "./sweep_state.js";
 
 const regimeOf = (map, contact) => map.variable(`${contact}_regime`);
@@ -22,7 +22,7 @@ function mapFigure(map, state) {
   const slice = () => map.axes.map((axis, a) => (a === state.x || a === state.y || axis.size < 2 ? "" : coordinateText(axis.coordinates[0], state.index[a]))).filter(Boolean).join(", ");
   return {
     name: () => `map_${state.variable.name}`,
-    get title() { return [state.variable.long_name || words(state.variable.name), slice()].filter(Boolean).join("; "); },
+    get title() { return sentence([state.variable.long_name || words(state.variable.name), slice()].filter(Boolean).join("; ")); },
     get caption() {
       const borders = (state.crossings.get(state.contact) ?? []).length;
       return `Grey: no number.${borders ? ` Lines: borders between the regimes of ${words(state.contact)}, solved, not sampled.` : ""}`;
@@ -40,7 +40,7 @@ function curveState(map, state) {
 function curveFigure(map, state) {
   return {
     name: () => `curves_${state.variable.name}`,
-    get title() { return `${words(state.variable.name)} along ${symbolText(map.axes[state.curveAxis].coordinates[state.coordinates[state.curveAxis]].name)}`; },
+    get title() { return sentence(`${words(state.variable.name)} along ${symbolText(map.axes[state.curveAxis].coordinates[state.coordinates[state.curveAxis]].name)}`); },
     get caption() {
       return curvePoints(state).length > 1 ? "" : map.axes.map((axis, a) => (a === state.curveAxis || axis.size < 2 ? "" : coordinateText(axis.coordinates[0], state.index[a]))).filter(Boolean).join(", ");
     },
@@ -68,7 +68,8 @@ function tick(label, checked, changed) {
 
 // Axes with more than one point, and of each which of its coordinates.
 function coordinateChoices(map, axes) {
-  return axes.flatMap((axis) => map.axes[axis].coordinates.map((coordinate, c) => [`${axis}:${c}`, coordinateLabel(coordinate)]));
+  return axes.flatMap((axis) => map.axes[axis].coordinates.map((coordinate, c) => [`${axis}:${c}`, coordinate])
+    .filter(([, { monotone }]) => monotone).map(([key, coordinate]) => [key, coordinateLabel(coordinate)]));
 }
 
 function explorer(record) {
@@ -152,8 +153,8 @@ function explorer(record) {
   }
 
   arrange();
-  if (mapShown) followPointer(mapShown, map, state, (index) => pointTip(map, index, state.variable), pick);
-  const hint = mapShown ? element("p", { class: "note" }, "Point at the map to read it; click to take a point for the curves, with Shift to keep the one before.") : null;
+  if (mapShown) followPointer(mapShown, map, state, (index) => pointTip(record, index, state.variable), pick);
+  const hint = mapShown ? element("p", { class: "note hint" }, "Point at the map to read it; click to take a point for the curves, with Shift to keep the one before.") : null;
   return [
     section(mapShown ? "Response map" : "Response", controls, sliders, mapShown ? mapShown.card : null, hint),
     section("Response curves", curveControls, curvesShown.card, sharesShown?.card ?? null),
@@ -168,11 +169,9 @@ function gaps(record) {
   const add = (text) => notes.push(element("p", { class: "warning" }, text));
   if (provenance.missing_tiles) add(`This is part of a map: ${provenance.missing_tiles} of its tiles were not computed. Their points are grey. frahm run, or frahm merge when all tasks are done, completes the file.`);
   const status = map.variable("status");
-  const counts = new Map();
-  for (const value of status?.values ?? []) {
-    const word = meaningOf(status, value) || "not_computed";
-    counts.set(word, (counts.get(word) ?? 0) + 1);
-  }
+  const codes = new Map();
+  for (const value of status?.values ?? []) codes.set(value, (codes.get(value) ?? 0) + 1);
+  const counts = new Map([...codes].map(([code, count]) => [meaningOf(status, code) || "not_computed", count]));
   const told = { failed: "failed (no number; the reasons are below)", unbounded: "have no bounded response (an undamped mode driven at resonance)", not_computed: "were not computed" };
   for (const [word, text] of Object.entries(told)) if (counts.get(word)) add(`${counts.get(word)} of ${map.points} points ${text}.`);
   if (counts.get("grazing")) notes.push(element("p", { class: "note" }, `${counts.get("grazing")} of ${map.points} points only just touch another regime (grazing): right responses, without a derivative.`));
@@ -212,16 +211,16 @@ function orbitSection(record) {
 function resonanceSection(record) {
   const group = record.groups.get("resonance");
   if (!group?.along("curve").length) return null;
-  const state = { quantity: resonanceQuantities(group)[0], x: resonanceParameters(group)[0] };
-  if (!state.x) {
+  const state = { quantity: resonanceQuantities(group)[0], x: firstParameter(group) };
+  if (!resonanceParameters(group).length) {
     const rows = resonanceQuantities(group).map(({ name, unit, values }) => [words(name), String(Number(values[0].toPrecision(8))), unitText(unit)]);
     return section("Resonance", table(["", "value", "unit"], rows, { numeric: [1] }));
   }
-  const shown = figureCard({ name: "resonance", get title() { return state.quantity.long_name || words(state.quantity.name); },
+  const shown = figureCard({ name: "resonance", get title() { return sentence(state.quantity.long_name || words(state.quantity.name)); },
     caption: "Solved along the frequency axis, not sampled.",
     draw: (canvas) => resonanceFigure(canvas, group, state.quantity, state.x), table: () => resonanceTable(group) }, about(record));
-  const chooser = (label, columns, key) => choice(label, columns.map(({ name }) => [name, words(name)]), state[key].name, (name) => { state[key] = group.column(name); shown.redraw(); });
-  return section("Resonance", element("div", { class: "controls" }, chooser("quantity", resonanceQuantities(group), "quantity"), chooser("over", resonanceParameters(group), "x")), shown.card);
+  const chooser = (label, columns, key) => choice(label, columns.map(({ name }) => [name, words(name)]), state[key].name, (name) => { state[key] = columns.find((column) => column.name === name); shown.redraw(); });
+  return section("Resonance", element("div", { class: "controls" }, chooser("quantity", resonanceQuantities(group), "quantity"), chooser("over", [...resonanceParameters(group), curveNumbers(group)], "x")), shown.card);
 }
 
 export function sweepParts(record) {
@@ -253,7 +252,7 @@ export function sweepFigures(record) {
   const resonance = record.groups.get("resonance");
   if (resonance && resonanceParameters(resonance).length) {
     for (const quantity of resonanceQuantities(resonance)) {
-      figures.push({ name: quantity.name, title: quantity.long_name, draw: (canvas) => resonanceFigure(canvas, resonance, quantity, resonanceParameters(resonance)[0]), table: () => resonanceTable(resonance) });
+      figures.push({ name: quantity.name, title: quantity.long_name, draw: (canvas) => resonanceFigure(canvas, resonance, quantity, firstParameter(resonance)), table: () => resonanceTable(resonance) });
     }
   }
   return figures;

@@ -14,6 +14,19 @@ function axesOf(map) {
   return { x, y: bySize.find((axis) => axis !== x) ?? null };
 }
 
+// Row of /borders -> place along an axis: an index where all its parameters have a value of the grid, else between
+// two by the first of them that rises or falls all along; NaN if none does.
+function placeAlong({ coordinates, size }, group) {
+  const known = coordinates.filter(({ name }) => group.has(name));
+  const ordered = known.find(({ monotone }) => monotone);
+  return (row) => {
+    const isAt = (i) => known.every(({ name, values }) => values[i] === group.values(name)[row]);
+    const whole = ordered ? -1 : Array.from({ length: size }, (_, i) => i).findIndex(isAt);
+    if (whole >= 0) return whole;
+    return ordered ? fractionalIndex(ordered.values, group.values(ordered.name)[row]) : NaN;
+  };
+}
+
 // Crossings of /borders of one contact: {place: fractional index along each axis, axis: along which, key}.
 export function crossingsOf(record, contact) {
   const group = record.groups.get("borders");
@@ -22,13 +35,13 @@ export function crossingsOf(record, contact) {
   const below = group.column("regime_below"), above = group.column("regime_above");
   if (!element?.values.length) return [];
   const axes = record.map.axes;
-  const columns = axes.map((one) => group.column(one.coordinates[0].name));
+  const places = axes.map((one) => placeAlong(one, group));
   return Array.from(element.values, (code, row) => ({ code, row }))
     .filter(({ code }) => meaningOf(element, code) === contact)
     .map(({ row }) => ({
-      place: axes.map((one, a) => fractionalIndex(one.coordinates[0].values, columns[a].values[row])),
+      place: places.map((place) => place(row)),
       axis: axes.findIndex((one) => one.name === meaningOf(axis, axis.values[row])),
-      key: [meaningOf(below, below.values[row]), meaningOf(above, above.values[row])].sort().join("|"),
+      key: [below, above].map((regime) => regime.values[row]).sort().map((code) => meaningOf(below, code)).join("|"),
     }));
 }
 
@@ -42,23 +55,37 @@ export function contactsOf(record) {
 
 // Colours go by powers of ten where the largest value is far above most.
 const farAbove = 8;
+const sampled = 10_000;  // values are enough to tell
 function scaleOf(variable) {
   if (variable.kind !== "float") return "linear";
-  const values = Array.from(variable.values).filter(Number.isFinite).sort((a, b) => a - b);
-  return values[0] > 0 && values.at(-1) > farAbove * values[values.length >> 1] ? "log" : "linear";
+  const step = Math.ceil(variable.values.length / sampled);
+  const values = variable.values.filter((value, i) => i % step === 0 && Number.isFinite(value)).sort();
+  return values[0] >= 0 && values.at(-1) > farAbove * values[values.length >> 1] ? "log" : "linear";
+}
+
+// The point nearest the middle of the axes that has a number.
+function middleWithNumber(map, variable) {
+  const middle = map.axes.map((axis) => Math.floor((axis.size - 1) / 2));
+  if (!Number.isNaN(map.value(variable, middle))) return middle;
+  const centre = map.offset(middle);
+  let best = -1;
+  variable.values.forEach((value, i) => {
+    if (!Number.isNaN(value) && (best < 0 || Math.abs(i - centre) < Math.abs(best - centre))) best = i;
+  });
+  return best < 0 ? middle : map.axes.map(({ size, stride }) => Math.floor(best / stride) % size);
 }
 
 export function firstState(record) {
   const { map } = record;
   const { x, y } = axesOf(map);
-  const index = map.axes.map((axis) => Math.floor((axis.size - 1) / 2));
-  const contacts = contactsOf(record);
+  const crossings = new Map(contactsOf(record).map((contact) => [contact, crossingsOf(record, contact)]));
+  const contacts = [...crossings.keys()].sort((a, b) => crossings.get(b).length - crossings.get(a).length);
   const variable = map.variables.find(({ kind }) => kind === "float") ?? map.variables[0];
   return {
-    variable, x, y, index, curveAxis: x, coordinates: map.axes.map(() => 0),
+    variable, x, y, index: middleWithNumber(map, variable), curveAxis: x, coordinates: map.axes.map(() => 0),
     scale: scaleOf(variable), curveScale: "linear", colours: "viridis",
     contact: contacts[0] ?? "", colourByRegime: false, kept: [],
-    crossings: new Map(contacts.map((contact) => [contact, crossingsOf(record, contact)])),
+    crossings,
   };
 }
 

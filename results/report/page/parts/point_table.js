@@ -20,10 +20,11 @@ export function pointPlace(map, index) {
 }
 
 // For a pointer over the map.
-export function pointTip(map, index, first) {
+export function pointTip(record, index, first) {
+  const { map } = record;
   const shown = [first, ...map.variables.filter((variable) => variable !== first)].slice(0, 14);
   return element("div", {}, element("strong", {}, pointPlace(map, index).join(", ")),
-    table(["", "", ""], pointRows(map, index, shown), { numeric: [1] }));
+    table(["", "", ""], pointRows(map, index, shown), { numeric: [1] }), element("code", {}, pointCommand(record, index)));
 }
 
 export function pointCard(record, index) {

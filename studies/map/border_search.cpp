@@ -1,0 +1,175 @@
+#include "studies/map/border_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace frahm::studies {
+namespace {
+
+using periodic::Regime;
+
+std::vector<periodic::Quantity> regimes_of(const mechanics::Network& network) {
+  std::vector<periodic::Quantity> regimes;
+  for (std::size_t e = 0; e < network.elements.size(); ++e) {
+    if (network.elements[e].type == mechanics::ElementType::coulomb)
+      regimes.push_back({periodic::Measure::regime, e});
+  }
+  return regimes;
+}
+
+// A border that is met on one edge after the other.
+class BorderCurve {
+ public:
+  std::optional<CrossingForecast> forecast() const {
+    if (places_ == 0) return std::nullopt;
+    return CrossingForecast{places_ == 1 ? last_ : last_ + step_, std::max(least_reach, error_)};
+  }
+
+  void follow(const std::vector<RegimeCrossing>& crossings) {
+    if (crossings.size() != 1) {
+      places_ = 0;
+      return;
+    }
+    const double at = crossings.front().at;
+    error_ = places_ == 0 ? first_reach : std::abs(at - forecast()->at);
+    step_ = at - last_;
+    last_ = at;
+    ++places_;
+  }
+
+ private:
+  static constexpr double least_reach = 1e-4, first_reach = 0.05;  // of an edge
+
+  int places_ = 0;      // met in turn
+  double last_ = 0.0;   // of them
+  double step_ = 0.0;   // to it
+  double error_ = 0.0;  // of its forecast
+};
+
+}  // namespace
+
+BorderSearch::BorderSearch(const StudyFile& study, const Grid& grid)
+    : study_(study),
+      grid_(grid),
+      elements_(regimes_of(study.network).size()),
+      solver_(study, study.network, study.values, regimes_of(study.network),
+              matrices_change_along_rows(study)),
+      parameters_(study.parameters.nominal()) {}
+
+void BorderSearch::find(const MapBox& tile, std::vector<Border>& borders) {
+  tile_ = wide_ = tile;
+  for (std::size_t d = 0; d < tile.start.size(); ++d) {
+    if (tile.start[d] + tile.count[d] < grid_.shape[d]) ++wide_.count[d];
+  }
+  find_regimes();
+  solver_.forget();
+  const auto rows = std::span(grid_.order).first(grid_.order.size() - 1);
+  Index row = tile.start;
+  do {
+    for (std::size_t d = 0; d < row.size(); ++d) search_row(row, d, borders);
+  } while (next_point(tile, rows, row));
+}
+
+// Whether a point of wide_ lies beyond the tile's upper face along a dimension.
+bool BorderSearch::is_beyond(const Index& index, std::size_t dimension) const {
+  return index[dimension] == tile_.start[dimension] + tile_.count[dimension];
+}
+
+// Of the first element's regime at a point.
+std::size_t BorderSearch::place(const Index& index) const {
+  std::size_t place = 0;
+  for (std::size_t d = 0; d < index.size(); ++d) place = place * wide_.count[d] + index[d] - wide_.start[d];
+  return place * elements_;
+}
+
+void BorderSearch::find_regimes() {
+  regimes_.assign(wide_.points() * elements_, Regime::not_computed);
+  const auto rows = std::span(grid_.order).first(grid_.order.size() - 1);
+  Index row = wide_.start;
+  do {
+    // Beyond two faces at once no edge of the tile ends.
+    const auto beyond = std::ranges::count_if(rows, [&](std::size_t d) { return is_beyond(row, d); });
+    if (beyond <= 1) find_regimes_of_row(row);
+  } while (next_point(wide_, rows, row));
+}
+
+// Of the row that begins at `index`, within the tile's extent along it; then of the neighbour beyond, the
+// first point of the next tile, which starts from nothing as it does there.
+void BorderSearch::find_regimes_of_row(Index index) {
+  const std::size_t along = grid_.order.back();
+  bool is_own = true;
+  for (std::size_t d = 0; d < index.size(); ++d) {
+    studies::place(study_, d, index[d], parameters_);
+    is_own = is_own && !is_beyond(index, d);
+  }
+  const std::uint64_t points = is_own ? wide_.count[along] : tile_.count[along];
+  for (std::uint64_t i = 0; i < points; ++i) {
+    if (i == 0 || i == tile_.count[along]) {
+      solver_.forget();
+      solver_.begin_row();
+    }
+    index[along] = tile_.start[along] + i;
+    find_regimes_of_point(index);
+  }
+}
+
+// All dimensions but that of the row are in place.
+void BorderSearch::find_regimes_of_point(const Index& index) {
+  const std::size_t along = grid_.order.back();
+  studies::place(study_, along, index[along], parameters_);
+  solver_.place(parameters_);
+  std::string reason;  // the map tells it
+  const std::span<const double> found = solver_.solve(reason);
+  std::ranges::transform(found, regimes_.begin() + static_cast<std::ptrdiff_t>(place(index)),
+                         [](double regime) { return static_cast<Regime>(regime); });
+}
+
+// The edges along a dimension that begin at the points of a row.
+void BorderSearch::search_row(const Index& row, std::size_t dimension, std::vector<Border>& borders) {
+  const std::size_t along = grid_.order.back();
+  std::vector<BorderCurve> curves(elements_);
+  Index lower = row;
+  for (std::uint64_t i = 0; i < tile_.count[along]; ++i) {
+    lower[along] = tile_.start[along] + i;
+    if (lower[dimension] + 1 == grid_.shape[dimension]) continue;
+    std::uint64_t point = 0;
+    for (std::size_t d = 0; d < lower.size(); ++d) point = point * tile_.count[d] + lower[d] - tile_.start[d];
+    for (std::size_t element = 0; element < elements_; ++element) {
+      const auto crossings = crossings_on_edge(lower, dimension, element, curves[element].forecast());
+      curves[element].follow(crossings);
+      for (const RegimeCrossing& crossing : crossings)
+        borders.push_back({point, dimension, element, crossing});
+    }
+  }
+}
+
+std::vector<RegimeCrossing> BorderSearch::crossings_on_edge(const Index& lower, std::size_t dimension,
+                                                            std::size_t element,
+                                                            const std::optional<CrossingForecast>& forecast) {
+  Index upper = lower;
+  ++upper[dimension];
+  return find_crossings(
+      regimes_[place(lower) + element], regimes_[place(upper) + element],
+      [&](double at) { return point_on_edge(lower, dimension, element, at); }, forecast);
+}
+
+// All parameters of a dimension go along an edge together, linearly in SI. Each search starts from the orbit
+// of the one before, which lies near.
+RegimePoint BorderSearch::point_on_edge(const Index& lower, std::size_t dimension, std::size_t element,
+                                        double at) {
+  for (std::size_t d = 0; d < lower.size(); ++d) studies::place(study_, d, lower[d], parameters_);
+  for (const std::size_t a : study_.dimensions[dimension].axes) {
+    const ParameterAxis& axis = study_.axes[a];
+    parameters_[axis.parameter] =
+        std::lerp(axis.si_values[lower[dimension]], axis.si_values[lower[dimension] + 1], at);
+  }
+  solver_.begin_row();
+  solver_.place(parameters_);
+  std::string reason;
+  const auto regime = static_cast<Regime>(solver_.solve(reason)[element]);
+  if (!has_regime(regime)) return {regime};
+  return regime_point(regime, solver_.stretches(), element);
+}
+
+}  // namespace frahm::studies

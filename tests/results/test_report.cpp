@@ -1,0 +1,115 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "results/map_writer.hpp"
+#include "results/report/page_data.hpp"
+#include "results/report/page_numbers.hpp"
+#include "results/report/report_page.hpp"
+#include "sample.hpp"
+#include "temporary_directory.hpp"
+
+using namespace frahm::results;
+
+namespace {
+
+using Json = nlohmann::json;
+
+std::set<std::string> names_in(const Json& list) {
+  std::set<std::string> names;
+  for (const Json& item : list) names.insert(item["name"]);
+  return names;
+}
+
+Json data_of_sample(const std::vector<std::string>& variables) {
+  const TemporaryDirectory directory;
+  sample::write(directory / "sample.h5");
+  return Json::parse(
+      page_data(MapReader(directory / "sample.h5"), {.file = "sample.h5", .variables = variables}));
+}
+
+TEST_CASE("a page has the axes, the variables asked for, and the names of the others") {
+  const MapLayout layout = sample::layout();
+  const std::string first = layout.variables.front().name;
+  const Json data = data_of_sample({first});
+  CHECK(data["title"] == layout.title);
+  REQUIRE(data["map"]["axes"].size() == layout.axes.size());
+  CHECK(data["map"]["axes"][0]["coordinates"][0]["values"] == layout.axes[0].coordinates[0].values);
+  CHECK(names_in(data["map"]["variables"]) == std::set<std::string>{first});
+  CHECK(data["map"]["left_out"].size() == layout.variables.size() - 1);
+  CHECK(data["provenance"]["study"] == sample::study_text());
+}
+
+TEST_CASE("a page has every group of the file but the provenance, and those that are added") {
+  const TemporaryDirectory directory;
+  sample::write(directory / "sample.h5");
+  const MapReader result(directory / "sample.h5");
+  const Column angle{
+      .variable = {.name = "angle", .unit = "rad"}, .dimension = "angle", .values = {0.0, 1.0}};
+  const Json data = Json::parse(page_data(result, {.file = "sample.h5", .groups = {{"crank", {angle}}}}));
+  for (const std::string& group : result.groups())
+    CHECK(data["groups"].contains(group) == (group != "provenance"));
+  CHECK(names_in(data["groups"]["crank"]["columns"]) == std::set<std::string>{"angle"});
+}
+
+TEST_CASE("a variable that the map does not have is refused by name") {
+  CHECK_THROWS_WITH(data_of_sample({"velocity"}), Catch::Contains("no quantity \"velocity\""));
+}
+
+TEST_CASE("no text of a study can end the element that holds the page's data") {
+  const TemporaryDirectory directory;
+  MapLayout layout = sample::layout();
+  layout.title = "</script><!-- <script>";
+  MapWriter writer(directory / "hostile.h5", layout);
+  writer.write_texts("provenance", {{"study", "title = \"</script>\""}});
+  writer.finish();
+  const std::string data = page_data(MapReader(directory / "hostile.h5"), {.file = "<b>.h5"});
+  CHECK(data.find('<') == std::string::npos);
+  CHECK(Json::parse(data)["title"] == layout.title);
+}
+
+TEST_CASE("variables of the same levels are carried once") {
+  const TemporaryDirectory directory;
+  MapLayout layout = sample::layout();
+  layout.variables.resize(1);
+  layout.variables.push_back(layout.variables.front());
+  layout.variables.back().name = "twin";
+  MapWriter writer(directory / "twins.h5", layout);
+  writer.write_texts("provenance", {{"study", ""}});
+  writer.finish();
+  const std::string first = layout.variables.front().name;
+  const Json data = Json::parse(
+      page_data(MapReader(directory / "twins.h5"), {.file = "twins.h5", .variables = {first, "twin"}}));
+  CHECK(data["map"]["variables"][1]["levels_of"] == first);
+  CHECK_FALSE(data["map"]["variables"][1].contains("levels"));
+}
+
+TEST_CASE("levels have six digits of the range of the finite values") {
+  const double none = std::numeric_limits<double>::quiet_NaN(),
+               endless = std::numeric_limits<double>::infinity();
+  const std::vector<double> values{3.0, none, 5.0, endless};
+  const PackedLevels packed = pack_levels(values, {.size = 4, .stride = 1});
+  CHECK(packed.low == 3.0);
+  CHECK(packed.step == 2.0 / levels_in_range);
+  CHECK(pack_levels(std::vector<double>{7.0, 7.0}, {.size = 2, .stride = 1}).step == 0.0);
+  CHECK(pack_levels(std::vector<double>{1.0, 4.0}, {.size = 2, .stride = 1}, 1.0).step == 1.0);
+  CHECK(pack_levels(std::vector<double>{none, none}, {.size = 2, .stride = 1}).step == 0.0);
+}
+
+TEST_CASE("the page stands around its data") {
+  if (!has_report_page()) {
+    CHECK_THROWS_AS(report_page("a", "{}"), std::logic_error);
+    return;
+  }
+  const std::string page = report_page("<i> & co", "{\"format\":1}");
+  CHECK(page.starts_with("<!doctype html>"));
+  CHECK(page.find("<title>&lt;i> &amp; co</title>") != std::string::npos);
+  CHECK(page.find("id=\"data\">{\"format\":1}</script>") != std::string::npos);
+  CHECK(figure_script().size() > 10'000);
+}
+
+}  // namespace
