@@ -6,7 +6,7 @@
 //            rgba) gives a picture's data URL
 //   table    its numbers, for a CSV file: [{name, unit, values}], in the units of the record
 import * as Plot from "@observablehq/plot";
-import { tickFormat, ticks } from "d3";
+import { format, tickFormat, ticks } from "d3";
 import { digitWidth, fontSize, textWidth, wrapped } from "./text_lines.js";
 
 const fontFamily = "system-ui, -apple-system, 'Segoe UI', 'DejaVu Sans', Arial, sans-serif";
@@ -66,12 +66,16 @@ function legendMark(rows, marginLeft) {
 const ticksLength = 5, labelLineHeight = 15;
 const besideTicks = 40;  // the label and its gaps
 
+const formatOf = (scale) => scale.tickFormat ?? (scale.type === "log" ? ((scale.domain?.[1] ?? 0) >= 1e5 ? "~e" : "~g") : undefined);
+
 // Room at the left for the numbers of an axis and its label.
 function leftMargin(axis, height) {
-  if (typeof axis.domain?.[0] !== "number" || axis.type === "band") return 0;
-  const count = Math.max(2, height / 40), [low, high] = axis.domain;
-  const places = Array.isArray(axis.ticks) ? axis.ticks : ticks(low, high, count);
-  const text = typeof axis.tickFormat === "function" ? axis.tickFormat : tickFormat(low, high, count, axis.tickFormat);
+  const [low, high] = axis.domain ?? [];
+  if (typeof low !== "number" || axis.type === "band") return 0;
+  const count = Math.max(2, height / 40), given = formatOf(axis), logarithmic = axis.type === "log";
+  const powers = () => [low, high].map((end) => 10 ** Math.round(Math.log10(end)));
+  const places = Array.isArray(axis.ticks) ? axis.ticks : logarithmic ? powers() : ticks(low, high, count);
+  const text = typeof given === "function" ? given : logarithmic ? format(given) : tickFormat(low, high, count, given);
   return besideTicks + digitWidth * Math.max(0, ...places.map((place) => String(text(place)).length));
 }
 
@@ -85,7 +89,6 @@ export function drawFrame(canvas, { x, y, marks, legend = [], marginRight = 20, 
   const rows = legend.length ? legendRows(legend, canvas.width - marginLeft - marginRight - yMore) : [];
   const axis = (options) => ({ nice: false, ...options });
   const tickOptions = { labelAnchor: "center", labelArrow: "none", tickSize: ticksLength, tickPadding: 4, fontSize };
-  const format = (scale) => scale.tickFormat ?? (scale.type === "log" ? ((scale.domain?.[1] ?? 0) >= 1e5 ? "~e" : "~g") : undefined);
   const svg = Plot.plot({
     document: canvas.document,
     width: canvas.width,
@@ -97,8 +100,8 @@ export function drawFrame(canvas, { x, y, marks, legend = [], marginRight = 20, 
     marks: [
       ...marks,
       Plot.frame({ stroke: "currentColor", strokeWidth: 1 }),
-      Plot.axisX({ ...tickOptions, label: xLabel.join("\n"), labelOffset: 38 + xMore, tickFormat: format(x), ticks: x.ticks, tickSpacing: 70 }),
-      Plot.axisY({ ...tickOptions, label: yLabel.join("\n"), labelOffset: marginLeft - 10 + yMore, tickFormat: format(y), ticks: y.ticks, tickSpacing: 40 }),
+      Plot.axisX({ ...tickOptions, label: xLabel.join("\n"), labelOffset: 38 + xMore, tickFormat: formatOf(x), ticks: x.ticks, tickSpacing: 70 }),
+      Plot.axisY({ ...tickOptions, label: yLabel.join("\n"), labelOffset: marginLeft - 10 + yMore, tickFormat: formatOf(y), ticks: y.ticks, tickSpacing: 40 }),
       ...(rows.length ? [legendMark(rows, marginLeft + yMore)] : []),
     ],
   });
