@@ -1,23 +1,20 @@
-// The motion that a crank gives a node, read from the group /crank: exact, and by its series cut after an order.
+// The motion that each crank of the study gives its node, from the group "crank": exact, and by its series cut after an order.
 
-// Each node that a crank drives: {name, angle, motion, cuts: [{order, column}], length: what errors are relative to}.
+// [{name, angle, motion, cuts: [{order, series, error}]}]; errors are relative to the distance l_AC from the crank's
+// bearing to the driven node.
 export function cranksOf(record) {
-  const group = record.groups.get("crank"), angle = group.column("angle");
-  return group.columns.filter(({ name, dimension }) => name.endsWith("_motion") && dimension === angle?.dimension).map((motion) => {
-    const name = motion.name.slice(0, -"_motion".length);
-    const throwLength = group.number(`${name}_throw`);
-    const cuts = group.columns.filter((column) => column.name.startsWith(`${name}_taylor_`))
-      .map((column) => ({ order: Number(column.name.slice(`${name}_taylor_`.length)), column }));
-    const largest = motion.values.reduce((most, value) => Math.max(most, Math.abs(value)), 0);
-    return { name, angle, motion, cuts, length: Number.isFinite(throwLength) ? throwLength : largest, isThrow: Number.isFinite(throwLength) };
+  const group = record.groups.get("crank");
+  return group.columns.filter(({ name }) => name.endsWith("_motion")).map((motion) => {
+    const name = motion.name.slice(0, -"_motion".length), start = `${name}_taylor_`;
+    const cuts = group.columns.filter((column) => column.name.startsWith(start) && group.has(`${column.name}_error`))
+      .map((series) => ({ order: Number(series.name.slice(start.length)), series, error: group.column(`${series.name}_error`) }));
+    return { name, angle: group.column("angle"), motion, cuts };
   });
 }
 
-// What a cut misses, relative to the length.
-export function cutErrors({ motion, length }, { column }) {
-  return Float64Array.from(motion.values, (value, i) => Math.abs(column.values[i] - value) / length);
-}
+const largest = (values) => values.reduce((most, value) => Math.max(most, Math.abs(value)), 0);
 
-export function largestError(crank, cut) {
-  return cutErrors(crank, cut).reduce((most, value) => Math.max(most, value), 0);
+// How far a cut is from the motion at most: {length in the motion's unit, relative}.
+export function largestErrors({ motion }, { series, error }) {
+  return { length: largest(motion.values.map((value, i) => series.values[i] - value)), relative: largest(error.values) };
 }

@@ -1,7 +1,7 @@
 // What the page of a motion reads from it.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { cranksOf, cutErrors, largestError } from "../../../results/report/page/crank.js";
+import { cranksOf, largestErrors } from "../../../results/report/page/crank.js";
 import { dampingRatio, envelope, interpolated, motionOf, stretch } from "../../../results/report/page/motion.js";
 import { whatItMeans } from "../../../results/report/page/motion_words.js";
 import { sampleGroup, sampleRecord } from "./sample_record.mjs";
@@ -69,12 +69,13 @@ test("the last cycles are a stretch at the end, of a short motion there is none"
   assert.equal(stretch(motion(10), 12, "last"), null);
 });
 
-test("what a cut of the crank's series misses is relative to the throw", () => {
-  const crank = (extra) => cranksOf(sampleRecord({ crank: sampleGroup({}, {
-    angle: ["rad", "angle", [0, 1, 2]], exciter_motion: ["m", "angle", [0.1, 0.05, -0.2]], exciter_taylor_1: ["m", "angle", [0.1, 0.06, -0.2]], ...extra }) }))[0];
-  const known = crank({ exciter_throw: ["m", "", 0.1] });
-  assert.ok(Math.abs(largestError(known, known.cuts[0]) - 0.1) < rounding);
-  const unknown = crank({});
-  assert.equal(unknown.length, 0.2);
-  assert.equal(cutErrors(unknown, unknown.cuts[0])[0], 0);
+test("the largest errors of a cut are those of its columns, and a second crank on a node is another", () => {
+  const cranks = cranksOf(sampleRecord({ crank: sampleGroup({}, {
+    angle: ["rad", "angle", [0, 1, 2]], exciter_motion: ["m", "angle", [0.1, 0.05, -0.2]],
+    exciter_taylor_1: ["m", "angle", [0.1, 0.06, -0.2]], exciter_taylor_1_error: ["1", "angle", [0, 0.02, 0]],
+    exciter_2_motion: ["m", "angle", [0, 0, 0]] }) }));
+  assert.deepEqual(cranks.map(({ name, cuts }) => [name, cuts.map(({ order }) => order)]), [["exciter", [1]], ["exciter_2", []]]);
+  const { length, relative } = largestErrors(cranks[0], cranks[0].cuts[0]);
+  assert.ok(Math.abs(length - 0.01) < rounding);
+  assert.equal(relative, 0.02);
 });

@@ -1,5 +1,5 @@
 // The part of a page that tells what its crank does.
-import { cranksOf, largestError } from "../crank.js";
+import { cranksOf, largestErrors } from "../crank.js";
 import { crankErrorFigure, crankMotionFigure } from "../figures/crank_figures.js";
 import { section, table } from "../parts/elements.js";
 import { figureCards } from "../parts/figure_cards.js";
@@ -7,10 +7,10 @@ import { numberText, quantityText, words } from "../units.js";
 
 function errorTable(cranks) {
   const rows = cranks.flatMap((crank) => crank.cuts.map((cut) => {
-    const error = largestError(crank, cut);
-    return [words(crank.name), numberText(cut.order), quantityText(error * crank.length, crank.motion.unit, 4), `${numberText(100 * error, 4)} %`];
+    const { length, relative } = largestErrors(crank, cut);
+    return [words(crank.name), numberText(cut.order), quantityText(length, crank.motion.unit, 4), `${numberText(100 * relative, 4)} %`];
   }));
-  return rows.length ? [table(["driven by a crank", "series to order", "largest error", `relative to ${cranks[0].isThrow ? "the throw" : "the largest displacement"}`], rows, { numeric: [1, 2, 3] })] : [];
+  return rows.length ? [table(["node driven", "series to order", "largest error", "largest relative error"], rows, { numeric: [1, 2, 3] })] : [];
 }
 
 export function crankParts(record) {
