@@ -44,7 +44,8 @@ function historyFigure(motion, quantity) {
   const displacement = quantity === "displacement";
   return lineFigure({
     name: quantity, title: titleOf(motion, quantity), caption: "", ratio: displacement ? 0.45 : undefined,
-    x: timeAxis, y: { label: quantity, unit: unitOf(motion, quantity) }, lines: historyLines(motion, quantity),
+    x: Number.isFinite(motion.stopTime) ? { ...timeAxis, tight: false, zero: true } : timeAxis,
+    y: { label: quantity, unit: unitOf(motion, quantity) }, lines: historyLines(motion, quantity),
     bands: displacement ? stuckBands(motion) : [], moments: displacement ? moments(motion) : [],
   });
 }

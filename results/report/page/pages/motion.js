@@ -38,7 +38,7 @@ function massesTable({ masses }) {
 function factsTable({ group, stopTime, duration, discretisationError, masses, kind }) {
   const rows = [
     ["recorded until", duration, "s"], ["all at rest from", stopTime, "s"],
-    ["frequency of hysteretic elements", group.number("reference_frequency"), "rad s-1"], ["discretisation error of the run", discretisationError, masses[0]?.unit ?? "m"],
+    ["reference frequency of hysteretic elements", group.number("reference_frequency"), "rad s-1"], ["discretisation error of the run", discretisationError, masses[0]?.unit ?? "m"],
   ].filter(([name, value]) => Number.isFinite(value) || (name === "all at rest from" && kind === "decay"))
     .map(([name, value, unit]) => [name, Number.isFinite(value) ? quantityText(value, unit, 8) : "not within the duration"]);
   return rows.length ? [table(["", ""], rows)] : [];
