@@ -2,7 +2,7 @@
 import { words } from "./units.js";
 
 export const designNames = { before: "before", after: "tuned", constant: "best constant", rule: "rule" };
-const heldFrom = 1e-6;  // share, or relative gain, from which something counts as holding the design
+const heldFrom = 1e-6; // share, or relative gain, from which something counts as holding the design
 
 // "(m)2" to "m": the unit of the root of a mean square or a variance.
 export function rootUnit(unit) {
@@ -24,12 +24,21 @@ function parameterOf(group, name) {
   const number = (suffix) => group.number(`${name}_${suffix}`);
   const knots = group.values(`knots_${name}`);
   return {
-    name, unit: column?.unit ?? "1", values: column?.values ?? new Float64Array(0), knots,
+    name,
+    unit: column?.unit ?? "1",
+    values: column?.values ?? new Float64Array(0),
+    knots,
     scheduled: knots !== undefined,
-    lower: number("lower"), upper: number("upper"), before: number("before"), constant: number("constant"),
-    lowerMultiplier: group.values(`${name}_lower_multiplier`) ?? [], upperMultiplier: group.values(`${name}_upper_multiplier`) ?? [],
-    schedule: group.values(`${name}_schedule`), rule: group.values(`${name}_rule`),
-    sensitivity: group.values(`${name}_sensitivity`) ?? [], detuning: group.values(`${name}_detuning`),
+    lower: number("lower"),
+    upper: number("upper"),
+    before: number("before"),
+    constant: number("constant"),
+    lowerMultiplier: group.values(`${name}_lower_multiplier`) ?? [],
+    upperMultiplier: group.values(`${name}_upper_multiplier`) ?? [],
+    schedule: group.values(`${name}_schedule`),
+    rule: group.values(`${name}_rule`),
+    sensitivity: group.values(`${name}_sensitivity`) ?? [],
+    detuning: group.values(`${name}_detuning`),
   };
 }
 
@@ -38,7 +47,11 @@ function peaksOf(group, band, scenarios) {
   return Array.from(values, (value, i) => {
     const share = group.values("peak_multiplier")[i];
     return {
-      at: group.values(`peak_${band}`)[i], value, share, active: share > heldFrom, number: i,
+      at: group.values(`peak_${band}`)[i],
+      value,
+      share,
+      active: share > heldFrom,
+      number: i,
       scenario: scenarios[group.values("peak_scenario")[i]] ?? "",
     };
   });
@@ -47,25 +60,43 @@ function peaksOf(group, band, scenarios) {
 function limitsOf(group, names, scenarios, objective) {
   return names.map((name) => {
     const number = (suffix) => group.number(`${name}_${suffix}`);
-    const multiplier = number("limit_multiplier"), limit = number("upper_limit");
+    const multiplier = number("limit_multiplier"),
+      limit = number("upper_limit");
     return {
-      name, unit: group.column(`${name}_limited`)?.unit ?? "1", value: number("limited"), at: number("limited_at"),
-      scenario: scenarios[number("limited_scenario")] ?? "", lower: number("lower_limit"), upper: limit,
-      multiplier, active: multiplier * Math.abs(Number.isFinite(limit) ? limit : number("lower_limit")) > heldFrom * objective,
+      name,
+      unit: group.column(`${name}_limited`)?.unit ?? "1",
+      value: number("limited"),
+      at: number("limited_at"),
+      scenario: scenarios[number("limited_scenario")] ?? "",
+      lower: number("lower_limit"),
+      upper: limit,
+      multiplier,
+      active: multiplier * Math.abs(Number.isFinite(limit) ? limit : number("lower_limit")) > heldFrom * objective,
     };
   });
 }
 
 function responsesOf(group, suffixes) {
-  return Object.keys(designNames).flatMap((design) => suffixes.map(({ suffix, scenario }) => (
-    { design, scenario, values: group.values(`response_${design}${suffix}`) }))).filter(({ values }) => values);
+  return Object.keys(designNames)
+    .flatMap((design) =>
+      suffixes.map(({ suffix, scenario }) => ({
+        design,
+        scenario,
+        values: group.values(`response_${design}${suffix}`),
+      })),
+    )
+    .filter(({ values }) => values);
 }
 
 function extraColumns(group, band) {
-  return group.along(band).filter(({ name }) => group.has(`${name}_range`) && group.column(`${name}_range`).kind === "flag")
+  return group
+    .along(band)
+    .filter(({ name }) => group.has(`${name}_range`) && group.column(`${name}_range`).kind === "flag")
     .map((column) => ({
-      ...column, range: group.column(`${column.name}_range`),
-      lower: group.number(`${column.name}_range_lower`), upper: group.number(`${column.name}_range_upper`),
+      ...column,
+      range: group.column(`${column.name}_range`),
+      lower: group.number(`${column.name}_range_lower`),
+      upper: group.number(`${column.name}_range_upper`),
     }));
 }
 
@@ -73,17 +104,23 @@ function extraColumns(group, band) {
 // when that bound is moved outwards by a hundredth of the range.
 export function heldBounds(parameter, objective) {
   const room = (parameter.upper - parameter.lower) / 100;
-  return [["lower", parameter.lowerMultiplier], ["upper", parameter.upperMultiplier]].map(([end, multipliers]) => {
-    const gains = Array.from(multipliers, (multiplier) => multiplier * room / objective);
-    const held = gains.filter((gain) => gain > heldFrom).length;
-    const sum = (values) => Array.from(values).reduce((a, b) => a + b, 0);
-    return { end, knots: held, multiplier: sum(multipliers), gain: sum(gains) };
-  }).filter(({ knots }) => knots > 0);
+  return [
+    ["lower", parameter.lowerMultiplier],
+    ["upper", parameter.upperMultiplier],
+  ]
+    .map(([end, multipliers]) => {
+      const gains = Array.from(multipliers, (multiplier) => (multiplier * room) / objective);
+      const held = gains.filter((gain) => gain > heldFrom).length;
+      const sum = (values) => Array.from(values).reduce((a, b) => a + b, 0);
+      return { end, knots: held, multiplier: sum(multipliers), gain: sum(gains) };
+    })
+    .filter(({ knots }) => knots > 0);
 }
 
 // Knots of a schedule that lie on a bound: {lower, upper}, each an array of numbers of knots.
 export function knotsAtBounds({ values, lower, upper }) {
-  const near = 1e-5 * (upper - lower), numbers = Array.from(values, (_, i) => i);
+  const near = 1e-5 * (upper - lower),
+    numbers = Array.from(values, (_, i) => i);
   return {
     lower: numbers.filter((i) => values[i] <= lower + near),
     upper: numbers.filter((i) => values[i] >= upper - near),
@@ -100,16 +137,26 @@ export function settlingRounds({ group, kind, parameters, objective }) {
 }
 
 export function tuningOf(record) {
-  const group = record.groups.get("optimum"), { texts } = group;
-  const band = texts.band_parameter, objective = group.number("objective");
+  const group = record.groups.get("optimum"),
+    { texts } = group;
+  const band = texts.band_parameter,
+    objective = group.number("objective");
   const scenarios = listOf(texts.scenarios);
   const several = scenarios.some((scenario) => group.has(`response_after_${scenario}`)) || scenarios.length > 1;
-  const suffixes = several ? scenarios.map((scenario) => ({ scenario, suffix: `_${scenario}` })) : [{ scenario: "", suffix: "" }];
+  const suffixes = several
+    ? scenarios.map((scenario) => ({ scenario, suffix: `_${scenario}` }))
+    : [{ scenario: "", suffix: "" }];
   const unit = group.column("objective")?.unit ?? "1";
   return {
-    group, texts, kind: texts.objective_kind, quantity: texts.quantity, objective,
-    unit, root: texts.objective_kind === "minimax" ? unit : rootUnit(unit),
-    outcome: group.word("outcome"), reason: texts.reason ?? "",
+    group,
+    texts,
+    kind: texts.objective_kind,
+    quantity: texts.quantity,
+    objective,
+    unit,
+    root: texts.objective_kind === "minimax" ? unit : rootUnit(unit),
+    outcome: group.word("outcome"),
+    reason: texts.reason ?? "",
     scenarios: several ? scenarios : [],
     parameters: listOf(texts.parameters).map((name) => parameterOf(group, name)),
     peaks: peaksOf(group, band, several ? scenarios : []),

@@ -9,16 +9,38 @@ const estimate = (value, low, high, unit = "N") => ({ name: "d", unit, value, lo
 
 function identified(columns = {}, outcome = 1) {
   const texts = { method: "grey_box", estimates: "c d", records: "run run_2", notes: "one\ntwo" };
-  return identificationOf(sampleRecord({ identification: sampleGroup(texts, {
-    c: ["N s m-1", "", 26.5], c_low: ["N s m-1", "", -1], c_high: ["N s m-1", "", 54], c_standard_error: ["N s m-1", "", 13],
-    d: ["N", "", 15], d_low: ["N", "", 14], d_high: ["N", "", 16], d_standard_error: ["N", "", 0.5],
-    c_correlation: ["1", "estimate", [1, -0.99]], d_correlation: ["1", "estimate", [-0.99, 1]],
-    nrmse: ["percent", "record", [99.5, 98]],
-    run_time: ["s", "run_time", [0, 1]], run_2_time: ["s", "run_2_time", [0, 1]],
-    run_x_measured: ["m", "run_time", [1, 2]], run_x_fitted: ["m", "run_time", [1, 1]], run_x_residual: ["m", "run_time", [0, 1]], run_x_nrmse: ["percent", "", 99.5],
-    run_2_x_measured: ["m", "run_2_time", [3, 4]], run_2_x_fitted: ["m", "run_2_time", [0, 0]], run_2_x_residual: ["m", "run_2_time", [3, 4]], run_2_x_nrmse: ["percent", "", 98],
-    ...columns,
-  }, { outcome: ["", outcome, ["not_computed", "converged", "not_converged"]] }) }));
+  return identificationOf(
+    sampleRecord({
+      identification: sampleGroup(
+        texts,
+        {
+          c: ["N s m-1", "", 26.5],
+          c_low: ["N s m-1", "", -1],
+          c_high: ["N s m-1", "", 54],
+          c_standard_error: ["N s m-1", "", 13],
+          d: ["N", "", 15],
+          d_low: ["N", "", 14],
+          d_high: ["N", "", 16],
+          d_standard_error: ["N", "", 0.5],
+          c_correlation: ["1", "estimate", [1, -0.99]],
+          d_correlation: ["1", "estimate", [-0.99, 1]],
+          nrmse: ["percent", "record", [99.5, 98]],
+          run_time: ["s", "run_time", [0, 1]],
+          run_2_time: ["s", "run_2_time", [0, 1]],
+          run_x_measured: ["m", "run_time", [1, 2]],
+          run_x_fitted: ["m", "run_time", [1, 1]],
+          run_x_residual: ["m", "run_time", [0, 1]],
+          run_x_nrmse: ["percent", "", 99.5],
+          run_2_x_measured: ["m", "run_2_time", [3, 4]],
+          run_2_x_fitted: ["m", "run_2_time", [0, 0]],
+          run_2_x_residual: ["m", "run_2_time", [3, 4]],
+          run_2_x_nrmse: ["percent", "", 98],
+          ...columns,
+        },
+        { outcome: ["", outcome, ["not_computed", "converged", "not_converged"]] },
+      ),
+    }),
+  );
 }
 
 test("an estimate is told with its interval in one unit", () => {
@@ -36,7 +58,13 @@ test("what the data do not determine is said so", () => {
 
 test("series go to the record whose name is longest", () => {
   const { series } = identified();
-  assert.deepEqual(series.map(({ record, quantity, over }) => [record, quantity, over]), [["run", "x", "time"], ["run_2", "x", "time"]]);
+  assert.deepEqual(
+    series.map(({ record, quantity, over }) => [record, quantity, over]),
+    [
+      ["run", "x", "time"],
+      ["run_2", "x", "time"],
+    ],
+  );
   assert.equal(residualRms(series[1]), Math.sqrt(12.5));
 });
 

@@ -3,7 +3,8 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { thinnedHistory, thinnedPath } from "../../../results/report/page/figures/line_thinning.js";
 
-const count = 200000, columns = 600;
+const count = 200000,
+  columns = 600;
 const time = Float64Array.from({ length: count }, (_, i) => i * 1e-3);
 
 test("a history of 200000 samples keeps its spikes, its ends and the order of its points", () => {
@@ -21,17 +22,26 @@ test("a history of 200000 samples keeps its spikes, its ends and the order of it
 
 test("every column of pixels keeps its own least and greatest value", () => {
   const y = time.map((t) => Math.sin(40 * t) * t);
-  const thin = thinnedHistory(time, y, columns), width = (time[count - 1] - time[0]) / columns;
+  const thin = thinnedHistory(time, y, columns),
+    width = (time[count - 1] - time[0]) / columns;
   for (const column of [0, 17, 300, 599]) {
     const within = (x) => Math.floor(x / width) === column;
-    const whole = y.filter((_, i) => within(time[i])), kept = thin.y.filter((_, i) => within(thin.x[i]));
-    assert.equal(Math.max(...kept), whole.reduce((a, b) => Math.max(a, b)));
-    assert.equal(Math.min(...kept), whole.reduce((a, b) => Math.min(a, b)));
+    const whole = y.filter((_, i) => within(time[i])),
+      kept = thin.y.filter((_, i) => within(thin.x[i]));
+    assert.equal(
+      Math.max(...kept),
+      whole.reduce((a, b) => Math.max(a, b)),
+    );
+    assert.equal(
+      Math.min(...kept),
+      whole.reduce((a, b) => Math.min(a, b)),
+    );
   }
 });
 
 test("a short history stays as it is", () => {
-  const x = [0, 1, 2], y = [3, NaN, 5];
+  const x = [0, 1, 2],
+    y = [3, NaN, 5];
   assert.deepEqual(thinnedHistory(x, y, columns), { x, y });
 });
 
@@ -39,7 +49,8 @@ test("a short history stays as it is", () => {
 function distance([px, py], { x, y }) {
   let least = Infinity;
   for (let i = 0; i + 1 < x.length; ++i) {
-    const [dx, dy] = [x[i + 1] - x[i], y[i + 1] - y[i]], square = dx * dx + dy * dy;
+    const [dx, dy] = [x[i + 1] - x[i], y[i + 1] - y[i]],
+      square = dx * dx + dy * dy;
     const along = square === 0 ? 0 : Math.max(0, Math.min(1, ((px - x[i]) * dx + (py - y[i]) * dy) / square));
     least = Math.min(least, Math.hypot(px - x[i] - along * dx, py - y[i] - along * dy));
   }
@@ -47,16 +58,20 @@ function distance([px, py], { x, y }) {
 }
 
 test("a thinned spiral lies within the tolerance of all its points", () => {
-  const turns = 5, points = 20000, tolerance = 0.2;
-  const phase = Array.from({ length: points }, (_, i) => 2 * Math.PI * turns * i / points);
-  const x = phase.map((p) => 200 * Math.exp(-0.02 * p) * Math.cos(p)), y = phase.map((p) => 200 * Math.exp(-0.02 * p) * Math.sin(p));
+  const turns = 5,
+    points = 20000,
+    tolerance = 0.2;
+  const phase = Array.from({ length: points }, (_, i) => (2 * Math.PI * turns * i) / points);
+  const x = phase.map((p) => 200 * Math.exp(-0.02 * p) * Math.cos(p)),
+    y = phase.map((p) => 200 * Math.exp(-0.02 * p) * Math.sin(p));
   const thin = thinnedPath(x, y, { x: 1, y: 1 }, tolerance);
   assert.ok(thin.x.length < points / 20, `${thin.x.length} points`);
   for (let i = 0; i < points; i += 7) assert.ok(distance([x[i], y[i]], thin) <= 1.001 * tolerance);
 });
 
 test("a path that goes forth and back keeps its turning points", () => {
-  const x = [0, 1, 2, 3, 2, 1, 0, -1, 0], y = x.map(() => 0);
+  const x = [0, 1, 2, 3, 2, 1, 0, -1, 0],
+    y = x.map(() => 0);
   const thin = thinnedPath(x, y, { x: 10, y: 10 }, 0.2);
   assert.deepEqual(thin.x, [0, 3, -1, 0]);
 });

@@ -26,7 +26,8 @@ test("quantities stand in the unit that reads best", () => {
 });
 
 test("a long label falls into lines at its blanks, a long word where it must, and nothing is lost", () => {
-  const text = "the growth of the worst_peak_of_a_mass_with_a_name_that_goes_on_and_on (mm)", lines = wrapped(text, 120);
+  const text = "the growth of the worst_peak_of_a_mass_with_a_name_that_goes_on_and_on (mm)",
+    lines = wrapped(text, 120);
   assert.ok(lines.length > 3);
   assert.ok(lines.every((line) => line.length <= Math.floor(120 / (0.56 * 12))));
   assert.equal(lines.join("").replaceAll(" ", ""), text.replaceAll(" ", ""));

@@ -5,9 +5,10 @@ import { drawFrame, fileName, grid, lineColours, lineDashes, tips } from "./fram
 import { thinnedHistory, thinnedPath } from "./line_thinning.js";
 import { powerText, powerTicks } from "./power_ticks.js";
 
-const marginLeft = 68, marginRight = 20;
-const leastSpan = 1e-3;  // of an axis, relative to its numbers: what differs by less is level
-const pathTolerance = 0.2;  // pixels
+const marginLeft = 68,
+  marginRight = 20;
+const leastSpan = 1e-3; // of an axis, relative to its numbers: what differs by less is level
+const pathTolerance = 0.2; // pixels
 const dashesOf = (number) => lineDashes[number % lineDashes.length];
 
 // A curve's look by its number: colour and dashes differ, so that it is told apart in black and white too.
@@ -16,7 +17,7 @@ export function style(number) {
 }
 
 function* valuesOf(spec, axis) {
-  for (const { [axis]: values } of [...spec.lines ?? [], ...spec.points ?? []]) yield* values;
+  for (const { [axis]: values } of [...(spec.lines ?? []), ...(spec.points ?? [])]) yield* values;
   if (axis === "y") for (const { y } of spec.levels ?? []) yield y;
 }
 
@@ -24,7 +25,8 @@ function* valuesOf(spec, axis) {
 function domainOf(spec, axis) {
   const { type, zero, tight, domain, decades = 14 } = spec[axis];
   if (domain) return domain;
-  let low = Infinity, high = -Infinity;
+  let low = Infinity,
+    high = -Infinity;
   for (const value of valuesOf(spec, axis)) {
     if (!Number.isFinite(value) || (type === "log" && value <= 0)) continue;
     low = Math.min(low, value);
@@ -35,7 +37,8 @@ function domainOf(spec, axis) {
   if (zero) [low, high] = [Math.min(low, 0), Math.max(high, 0)];
   const room = (high - low) * 0.05 || Math.abs(high) * 0.05 || 0.5;
   if (tight && high > low) return [low, high];
-  const least = leastSpan * Math.max(Math.abs(low), Math.abs(high)), more = Math.max(0, least - (high - low)) / 2;
+  const least = leastSpan * Math.max(Math.abs(low), Math.abs(high)),
+    more = Math.max(0, least - (high - low)) / 2;
   [low, high] = [low - more, high + more];
   return [zero && low === 0 ? 0 : low - room, zero && high === 0 ? 0 : high + room];
 }
@@ -45,14 +48,15 @@ function shownAxis(spec, axis) {
   const inUnit = domainOf(spec, axis);
   const { factor, text } = shownUnit(unit, inUnit);
   const domain = inUnit.map((value) => value * factor);
-  const logarithmic = type === "log" ? { ticks: powerTicks(domain), tickFormat: powerText(domain) } : { ticks, tickFormat };
+  const logarithmic =
+    type === "log" ? { ticks: powerTicks(domain), tickFormat: powerText(domain) } : { ticks, tickFormat };
   return { factor, unit: text, options: { label: withUnit(label, text), type, domain, ...logarithmic } };
 }
 
 function thinnedLine(line, canvas, x, y) {
   const columns = canvas.width - marginLeft - marginRight;
   if (!line.path) return thinnedHistory(line.x, line.y, columns);
-  const extent = ({ options, factor }, pixels) => pixels * factor / (options.domain[1] - options.domain[0]);
+  const extent = ({ options, factor }, pixels) => (pixels * factor) / (options.domain[1] - options.domain[0]);
   return thinnedPath(line.x, line.y, { x: extent(x, columns), y: extent(y, canvas.height - 60) }, pathTolerance);
 }
 
@@ -62,55 +66,100 @@ function scaled(values, { factor, options }) {
 
 function lineMark(line, canvas, x, y) {
   const thin = thinnedLine(line, canvas, x, y);
-  const xs = scaled(thin.x, x), ys = scaled(thin.y, y);
-  return Plot.line(xs.map((value, i) => [value, ys[i]]), {
-    stroke: line.stroke, strokeWidth: line.width ?? 1.6, strokeDasharray: line.dash || undefined,
-    strokeOpacity: line.opacity, clip: "frame", curve: line.curve,
-  });
+  const xs = scaled(thin.x, x),
+    ys = scaled(thin.y, y);
+  return Plot.line(
+    xs.map((value, i) => [value, ys[i]]),
+    {
+      stroke: line.stroke,
+      strokeWidth: line.width ?? 1.6,
+      strokeDasharray: line.dash || undefined,
+      strokeOpacity: line.opacity,
+      clip: "frame",
+      curve: line.curve,
+    },
+  );
 }
 
 function pointMark(points, x, y) {
-  const xs = scaled(points.x, x), ys = scaled(points.y, y);
+  const xs = scaled(points.x, x),
+    ys = scaled(points.y, y);
   const places = xs.map((value, i) => [value, ys[i]]).filter(([a, b]) => Number.isFinite(a) && Number.isFinite(b));
   const open = points.symbol === "open";
-  return Plot.dot(places, { r: points.r ?? 3.2, stroke: points.stroke, strokeWidth: 1.4, fill: open ? "none" : points.stroke });
+  return Plot.dot(places, {
+    r: points.r ?? 3.2,
+    stroke: points.stroke,
+    strokeWidth: 1.4,
+    fill: open ? "none" : points.stroke,
+  });
 }
 
 // Intervals of x over the whole height.
 function bandMark(band, x) {
   const spans = Array.from(band.from, (from, i) => ({ from: from * x.factor, to: band.to[i] * x.factor }));
-  return Plot.rectX(spans, { x1: "from", x2: "to", fill: band.fill, fillOpacity: 0.16, stroke: band.fill, strokeOpacity: 0.3, clip: "frame" });
+  return Plot.rectX(spans, {
+    x1: "from",
+    x2: "to",
+    fill: band.fill,
+    fillOpacity: 0.16,
+    stroke: band.fill,
+    strokeOpacity: 0.3,
+    clip: "frame",
+  });
 }
 
 function levelMark(level, y) {
-  return Plot.ruleY([level.y * y.factor], { stroke: level.stroke ?? "currentColor", strokeDasharray: level.dash ?? "4 3", strokeWidth: 1.2 });
+  return Plot.ruleY([level.y * y.factor], {
+    stroke: level.stroke ?? "currentColor",
+    strokeDasharray: level.dash ?? "4 3",
+    strokeWidth: 1.2,
+  });
 }
 
 function momentMark(moment, x) {
-  return Plot.ruleX([moment.x * x.factor], { stroke: moment.stroke ?? "currentColor", strokeDasharray: moment.dash, strokeWidth: 1.2 });
+  return Plot.ruleX([moment.x * x.factor], {
+    stroke: moment.stroke ?? "currentColor",
+    strokeDasharray: moment.dash,
+    strokeWidth: 1.2,
+  });
 }
 
 function tipRows(spec, canvas, x, y) {
   const say = (axis, value, shown) => `${axis.label} ${numberText(value)}${shown.unit ? ` ${shown.unit}` : ""}`;
-  return [...spec.lines ?? [], ...spec.points ?? []].filter(({ silent }) => !silent).flatMap((drawn) => {
-    const thin = spec.lines?.includes(drawn) ? thinnedLine(drawn, canvas, x, y) : drawn;
-    const xs = scaled(thin.x, x), ys = scaled(thin.y, y);
-    return xs.map((value, i) => ({ x: value, y: ys[i], text: [drawn.text ?? drawn.name, say(spec.x, value, x), say(spec.y, ys[i], y)].join("\n") }))
-      .filter((row) => Number.isFinite(row.x) && Number.isFinite(row.y));
-  });
+  return [...(spec.lines ?? []), ...(spec.points ?? [])]
+    .filter(({ silent }) => !silent)
+    .flatMap((drawn) => {
+      const thin = spec.lines?.includes(drawn) ? thinnedLine(drawn, canvas, x, y) : drawn;
+      const xs = scaled(thin.x, x),
+        ys = scaled(thin.y, y);
+      return xs
+        .map((value, i) => ({
+          x: value,
+          y: ys[i],
+          text: [drawn.text ?? drawn.name, say(spec.x, value, x), say(spec.y, ys[i], y)].join("\n"),
+        }))
+        .filter((row) => Number.isFinite(row.x) && Number.isFinite(row.y));
+    });
 }
 
 function drawLines(canvas, spec) {
-  const x = shownAxis(spec, "x"), y = shownAxis(spec, "y");
+  const x = shownAxis(spec, "x"),
+    y = shownAxis(spec, "y");
   const { lines = [], points = [], bands = [], levels = [], moments = [] } = spec;
   const legend = [
     ...lines.filter(({ text }) => text).map(({ text, stroke, dash }) => ({ text, stroke, dash })),
-    ...[...levels, ...moments].filter(({ text }) => text).map(({ text, stroke = "currentColor", dash = "4 3" }) => ({ text, stroke, dash })),
+    ...[...levels, ...moments]
+      .filter(({ text }) => text)
+      .map(({ text, stroke = "currentColor", dash = "4 3" }) => ({ text, stroke, dash })),
     ...points.filter(({ text }) => text).map(({ text, stroke, symbol = "full" }) => ({ text, stroke, symbol })),
     ...bands.filter(({ text }) => text).map(({ text, fill }) => ({ text, fill })),
   ];
   return drawFrame(canvas, {
-    x: x.options, y: y.options, legend, marginLeft, marginRight,
+    x: x.options,
+    y: y.options,
+    legend,
+    marginLeft,
+    marginRight,
     marks: [
       ...bands.map((band) => bandMark(band, x)),
       ...grid(x.options, y.options),
@@ -127,23 +176,36 @@ function drawLines(canvas, spec) {
 function tableOf(spec) {
   const columns = [];
   let last = null;
-  for (const { name, x, y } of [...spec.lines ?? [], ...spec.points ?? []].filter(({ silent }) => !silent)) {
+  for (const { name, x, y } of [...(spec.lines ?? []), ...(spec.points ?? [])].filter(({ silent }) => !silent)) {
     if (x !== last) columns.push({ name: spec.x.name ?? spec.x.label, unit: spec.x.unit, values: x });
     last = x;
     columns.push({ name, unit: spec.y.unit, values: y });
   }
   for (const { text, from, to } of spec.bands ?? []) {
-    columns.push({ name: `${text}, from`, unit: spec.x.unit, values: from }, { name: `${text}, to`, unit: spec.x.unit, values: to });
+    columns.push(
+      { name: `${text}, from`, unit: spec.x.unit, values: from },
+      { name: `${text}, to`, unit: spec.x.unit, values: to },
+    );
   }
   return columns;
 }
 
-// spec: {name, title, caption, ratio, x and y: {label, name, unit, type: "linear" or "log", zero, tight, domain, decades: at most so many of a logarithmic axis},
+// spec: {name, title, caption, ratio,
+//   x, y: {label, name, unit, type: "linear" or "log", zero, tight, domain, ticks, tickFormat,
+//          decades: at most so many of a logarithmic axis},
 //   lines: [{name, text, x, y, stroke, dash, width, path}]  text: in the legend; path: x does not rise
 //   points: [{name, text, x, y, stroke, symbol}]             symbol: "open" or "full"
 //   bands: [{text, from, to, fill}], levels: [{text, y, stroke, dash}], moments: [{text, x, stroke, dash}]}
-// What is `silent` has neither tip nor CSV column. Numbers in the units named; lengths and forces are drawn with prefixes.
+// What is `silent` has neither tip nor CSV column. Numbers in the units named; lengths and forces are drawn with
+// prefixes.
 export function lineFigure(spec) {
   const { name, title, caption, ratio } = spec;
-  return { name: fileName(name), title, caption, ratio, draw: (canvas) => drawLines(canvas, spec), table: () => tableOf(spec) };
+  return {
+    name: fileName(name),
+    title,
+    caption,
+    ratio,
+    draw: (canvas) => drawLines(canvas, spec),
+    table: () => tableOf(spec),
+  };
 }

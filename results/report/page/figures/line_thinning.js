@@ -4,11 +4,13 @@
 // Returns {x, y}; of no more than four points a column the history itself.
 export function thinnedHistory(x, y, columns) {
   if (x.length <= 4 * columns) return { x, y };
-  const low = x[0], width = (x[x.length - 1] - low) / columns;
+  const low = x[0],
+    width = (x[x.length - 1] - low) / columns;
   const kept = [];
   for (let from = 0, to; from < x.length; from = to) {
     const column = Math.floor((x[from] - low) / width);
-    let least = from, greatest = from;
+    let least = from,
+      greatest = from;
     for (to = from; to < x.length && Math.floor((x[to] - low) / width) === column; ++to) {
       if (!(y[to] >= y[least])) least = to;
       if (!(y[to] <= y[greatest])) greatest = to;
@@ -30,7 +32,11 @@ function turned(angle, from) {
 export function thinnedPath(x, y, scale, tolerance) {
   const at = (i) => [x[i] * scale.x, y[i] * scale.y];
   const kept = [0];
-  let from = at(0), low = -Infinity, high = Infinity, far = 0, ahead = null;
+  let from = at(0),
+    low = -Infinity,
+    high = Infinity,
+    far = 0,
+    ahead = null;
   const restart = (i) => {
     kept.push(i);
     from = at(i);
@@ -40,7 +46,9 @@ export function thinnedPath(x, y, scale, tolerance) {
     ahead = null;
   };
   const passes = (i) => {
-    const place = at(i), away = [place[0] - from[0], place[1] - from[1]], distance = Math.hypot(...away);
+    const place = at(i),
+      away = [place[0] - from[0], place[1] - from[1]],
+      distance = Math.hypot(...away);
     if (!(distance >= far)) return false;
     far = distance;
     if (distance <= tolerance) return true;

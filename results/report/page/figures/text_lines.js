@@ -1,8 +1,8 @@
 // How wide texts are, about, and how they fall into lines.
 
 export const fontSize = 12;
-export const digitWidth = 0.64 * fontSize;  // of the widest common font
-const characterWidth = 0.56 * fontSize;     // of a sans-serif font, on average
+export const digitWidth = 0.64 * fontSize; // of the widest common font
+const characterWidth = 0.56 * fontSize; // of a sans-serif font, on average
 
 export function textWidth(text) {
   return text.length * characterWidth;

@@ -19,7 +19,11 @@ function motionsOf(record) {
 // Columns of the table of masses that any mass has.
 const massColumns = [
   ["turning points", ({ turningPoints }) => turningPoints.length || NaN, (value) => numberText(value)],
-  ["first turning point", ({ turningPoints }) => turningPoints[0] ?? NaN, (value, { unit }) => quantityText(value, unit)],
+  [
+    "first turning point",
+    ({ turningPoints }) => turningPoints[0] ?? NaN,
+    (value, { unit }) => quantityText(value, unit),
+  ],
   ["decrement of the first cycle", ({ decrements }) => decrements[0] ?? NaN, (value) => numberText(value)],
   ["as viscous damping ratio", ({ decrements }) => dampingRatio(decrements[0] ?? NaN), (value) => numberText(value)],
   ["decrement of the last cycle", ({ decrements }) => decrements.at(-1) ?? NaN, (value) => numberText(value)],
@@ -37,43 +41,110 @@ function massesTable({ masses }) {
 
 function factsTable({ group, stopTime, duration, discretisationError, masses, kind }) {
   const rows = [
-    ["recorded until", duration, "s"], ["all at rest from", stopTime, "s"],
-    ["reference frequency of hysteretic elements", group.number("reference_frequency"), "rad s-1"], ["discretisation error of the run", discretisationError, masses[0]?.unit ?? "m"],
-  ].filter(([name, value]) => Number.isFinite(value) || (name === "all at rest from" && kind === "decay"))
-    .map(([name, value, unit]) => [name, Number.isFinite(value) ? quantityText(value, unit, 8) : "not within the duration"]);
+    ["recorded until", duration, "s"],
+    ["all at rest from", stopTime, "s"],
+    ["reference frequency of hysteretic elements", group.number("reference_frequency"), "rad s-1"],
+    ["discretisation error of the run", discretisationError, masses[0]?.unit ?? "m"],
+  ]
+    .filter(([name, value]) => Number.isFinite(value) || (name === "all at rest from" && kind === "decay"))
+    .map(([name, value, unit]) => [
+      name,
+      Number.isFinite(value) ? quantityText(value, unit, 8) : "not within the duration",
+    ]);
   return rows.length ? [table(["", ""], rows)] : [];
 }
 
 function turningTable({ name, unit, turningTimes, turningPoints, decrements }) {
-  const rows = Array.from(turningTimes, (time, i) => [String(i + 1), numberText(time, 8), quantityText(turningPoints[i], unit), numberText(decrements[i] ?? NaN)]);
-  return element("details", {}, element("summary", {}, `Turning points of ${words(name)}`),
-    table(["number", "time (s)", "displacement", "logarithmic decrement"], rows, { numeric: [0, 1, 2, 3] }));
+  const rows = Array.from(turningTimes, (time, i) => [
+    String(i + 1),
+    numberText(time, 8),
+    quantityText(turningPoints[i], unit),
+    numberText(decrements[i] ?? NaN),
+  ]);
+  return element(
+    "details",
+    {},
+    element("summary", {}, `Turning points of ${words(name)}`),
+    table(["number", "time (s)", "displacement", "logarithmic decrement"], rows, { numeric: [0, 1, 2, 3] }),
+  );
 }
 
 function energyTable({ energies, group }) {
-  const whole = [["energy at the start", "initial_energy"], ["work of the excitation", "energy_input"], ["energy at the end", "final_energy"]]
-    .filter(([, name]) => group.has(name)).map(([text, name]) => [text, quantityText(group.number(name), "J"), ""]);
-  const rows = energies.map(({ name, energy, share }) => [`dissipated by ${words(name)}`, quantityText(energy, "J"), `${numberText(100 * share, 5)} %`]);
+  const whole = [
+    ["energy at the start", "initial_energy"],
+    ["work of the excitation", "energy_input"],
+    ["energy at the end", "final_energy"],
+  ]
+    .filter(([, name]) => group.has(name))
+    .map(([text, name]) => [text, quantityText(group.number(name), "J"), ""]);
+  const rows = energies.map(({ name, energy, share }) => [
+    `dissipated by ${words(name)}`,
+    quantityText(energy, "J"),
+    `${numberText(100 * share, 5)} %`,
+  ]);
   const balance = group.number("energy_balance");
   if (rows.length + whole.length === 0) return [];
-  return [table(["", "energy", "share"], [...whole, ...rows, ...(Number.isFinite(balance) ? [["balance, relative", numberText(balance, 3), ""]] : [])], { numeric: [1, 2] })];
+  return [
+    table(
+      ["", "energy", "share"],
+      [...whole, ...rows, ...(Number.isFinite(balance) ? [["balance, relative", numberText(balance, 3), ""]] : [])],
+      { numeric: [1, 2] },
+    ),
+  ];
 }
 
 function stopsTable({ stops }) {
-  const rows = stops.flatMap(({ name, from, to }) => Array.from(from, (start, i) => [words(name), numberText(start, 8), numberText(to[i], 8), numberText(to[i] - start, 4)]));
+  const rows = stops.flatMap(({ name, from, to }) =>
+    Array.from(from, (start, i) => [
+      words(name),
+      numberText(start, 8),
+      numberText(to[i], 8),
+      numberText(to[i] - start, 4),
+    ]),
+  );
   if (rows.length === 0) return [];
-  return [element("details", {}, element("summary", {}, `Stops (${rows.length})`),
-    table(["contact", "sticks from (s)", "to (s)", "for (s)"], rows, { numeric: [1, 2, 3] }))];
+  return [
+    element(
+      "details",
+      {},
+      element("summary", {}, `Stops (${rows.length})`),
+      table(["contact", "sticks from (s)", "to (s)", "for (s)"], rows, { numeric: [1, 2, 3] }),
+    ),
+  ];
 }
 
 function partsOf(record, motion) {
-  const { histories: [first, ...others], turning, energies } = motionFigureParts(motion);
+  const {
+    histories: [first, ...others],
+    turning,
+    energies,
+  } = motionFigureParts(motion);
   const energy = energyTable(motion);
   return [
-    section("What this means", ...whatItMeans(motion).map((sentences) => element("p", { class: "words" }, sentences.join(" ")))),
+    section(
+      "What this means",
+      ...whatItMeans(motion).map((sentences) => element("p", { class: "words" }, sentences.join(" "))),
+    ),
     section("Numbers", ...massesTable(motion), ...factsTable(motion)),
-    ...(first ? [section("Motion", ...figureCards([first], record, "wide"), ...figureCards(others, record), ...stopsTable(motion))] : []),
-    ...(turning.length ? [section("Decay", ...figureCards(turning, record), ...motion.masses.filter(({ turningTimes }) => turningTimes.length > 0).map(turningTable))] : []),
+    ...(first
+      ? [
+          section(
+            "Motion",
+            ...figureCards([first], record, "wide"),
+            ...figureCards(others, record),
+            ...stopsTable(motion),
+          ),
+        ]
+      : []),
+    ...(turning.length
+      ? [
+          section(
+            "Decay",
+            ...figureCards(turning, record),
+            ...motion.masses.filter(({ turningTimes }) => turningTimes.length > 0).map(turningTable),
+          ),
+        ]
+      : []),
     ...(energy.length ? [section("Energy", ...energy, ...figureCards(energies, record))] : []),
   ];
 }
