@@ -72,6 +72,12 @@ void add_column(const TuningAbout& about, const ColumnChoice& column, GroupColum
   for (const double value : values) flags.push_back(range_flag(column, value));
   columns.add_flag(column.name + "_range", "whether " + column.name + " is within its range", about.band,
                    {"within", "below", "above"}, flags);
+  if (std::isfinite(column.lower))
+    columns.add_number(column.name + "_range_lower", column.unit, "lower end of the range of " + column.name,
+                       column.lower);
+  if (std::isfinite(column.upper))
+    columns.add_number(column.name + "_range_upper", column.unit, "upper end of the range of " + column.name,
+                       column.upper);
 }
 
 }  // namespace

@@ -89,6 +89,8 @@ TEST_CASE("the record of a tuning is in the units of its study") {
   CHECK(named(columns, "response_after").dimension == "n");
   CHECK_THAT(values("I_schedule")[1], Catch::WithinRel(8.0, rounding));
   CHECK(values("ratio_range") == std::vector<double>{1, 1, 1});
+  CHECK(values("ratio_range_lower") == std::vector<double>{0.5});
+  CHECK(values("ratio_range_upper") == std::vector<double>{0.8});
   CHECK(values("outcome") == std::vector<double>{1});
   CHECK(values("best_start") == std::vector<double>{1});
   CHECK(values("start_objective") == std::vector<double>{0.03, 0.02});

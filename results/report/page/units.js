@@ -1,16 +1,24 @@
 // Units as readers write them, and numbers in them.
 
-const superscripts = { "-": "\u207b", 0: "\u2070", 1: "\u00b9", 2: "\u00b2", 3: "\u00b3", 4: "\u2074", 5: "\u2075", 6: "\u2076" };
+const superscripts = { "-": "\u207b", 0: "\u2070", 1: "\u00b9", 2: "\u00b2", 3: "\u00b3", 4: "\u2074", 5: "\u2075", 6: "\u2076", 7: "\u2077", 8: "\u2078", 9: "\u2079" };
 
-// "m s-2" to "m/s²", "N s m-1" to "N s/m", "rad s-1" to "rad/s"; "1" to "".
+// -12 to "⁻¹²".
+export function superscript(power) {
+  return [...String(power)].map((digit) => superscripts[digit]).join("");
+}
+
+// "m s-2" to "m/s²", "N s m-1" to "N s/m", "rad s-1" to "rad/s", "(m)2" to "m²"; "1" to "".
 export function unitText(unit) {
   if (!unit || unit === "1") return "";
+  if (unit === "percent") return "%";
+  const square = /^\((.*)\)2$/.exec(unit);
+  if (square) return /^\w+$/.test(square[1]) ? `${square[1]}\u00b2` : `(${unitText(square[1])})\u00b2`;
   const above = [], below = [];
   for (const factor of unit.split(/[ .*]+/)) {
     const parts = /^(.*?)(?:\^?(-?\d+))?$/.exec(factor);
     const power = Number(parts[2] ?? 1);
     if (!/^[A-Za-zµ%°]+$/.test(parts[1])) return unit;
-    const raised = Math.abs(power) === 1 ? parts[1] : parts[1] + [...String(Math.abs(power))].map((c) => superscripts[c]).join("");
+    const raised = Math.abs(power) === 1 ? parts[1] : parts[1] + superscript(Math.abs(power));
     (power > 0 ? above : below).push(raised);
   }
   if (below.length === 0) return above.join(" ");
@@ -20,9 +28,9 @@ export function unitText(unit) {
 
 // Lengths and forces are shown in the unit in which the largest has one to three digits before the point.
 const prefixed = {
-  m: [[1, "m"], [1e-3, "mm"], [1e-6, "\u00b5m"]],
+  m: [[1, "m"], [1e-3, "mm"], [1e-6, "\u00b5m"], [1e-9, "nm"]],
   N: [[1e6, "MN"], [1e3, "kN"], [1, "N"], [1e-3, "mN"]],
-  J: [[1e3, "kJ"], [1, "J"], [1e-3, "mJ"]],
+  J: [[1e3, "kJ"], [1, "J"], [1e-3, "mJ"], [1e-6, "\u00b5J"]],
 };
 
 // {factor, text}: a value in `unit` is value x factor in `text`.
@@ -47,10 +55,15 @@ export function numberText(value, digits = 6) {
   const size = Math.abs(value);
   if (size !== 0 && (size < 1e-4 || size >= 1e7)) {
     const [mantissa, exponent] = value.toExponential(digits - 1).split("e");
-    const power = [...String(Number(exponent))].map((c) => superscripts[c] ?? { 7: "\u2077", 8: "\u2078", 9: "\u2079" }[c]).join("");
-    return `${Number(mantissa)}\u00d710${power}`.replaceAll("-", "\u2212");
+    return `${Number(mantissa)}\u00d710${superscript(Number(exponent))}`.replaceAll("-", "\u2212");
   }
   return String(Number(value.toPrecision(digits))).replace("-", "\u2212");
+}
+
+// "31.91 mm": a number with its unit.
+export function quantityText(value, unit, digits = 6) {
+  const { factor, text } = shownUnit(unit, [value]);
+  return text && !Number.isNaN(value) ? `${numberText(value * factor, digits)} ${text}` : numberText(value * factor, digits);
 }
 
 // With its first letter large.

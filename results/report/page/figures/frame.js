@@ -6,11 +6,11 @@
 //            rgba) gives a picture's data URL
 //   table    its numbers, for a CSV file: [{name, unit, values}], in the units of the record
 import * as Plot from "@observablehq/plot";
+import { format, tickFormat, ticks } from "d3";
+import { digitWidth, fontSize, textWidth, wrapped } from "./text_lines.js";
 
-export const fontSize = 12;
 const fontFamily = "system-ui, -apple-system, 'Segoe UI', 'DejaVu Sans', Arial, sans-serif";
 const lineHeight = 18;
-const characterWidth = 0.56 * fontSize;  // of a sans-serif font, on average
 
 // Okabe and Ito's colours, told apart by all; black and yellow are left out, for dark and for light pages.
 export const lineColours = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#8C6D31", "#7F7F7F"];
@@ -21,22 +21,20 @@ export const regimeColours = {
   no_friction: "#9A9A9A", non_stop: "#0072B2", one_stop: "#E69F00", multi_stop: "#D55E00", stuck: "#6F4E9B",
 };
 
-function textWidth(text) {
-  return text.length * characterWidth;
-}
-
-// Entries of a legend in rows that fit the width.
+// Entries of a legend in rows that fit the width; one that is longer takes rows of its own.
 function legendRows(legend, width) {
   const rows = [[]];
   let used = 0;
   for (const entry of legend) {
-    const needed = 30 + textWidth(entry.text) + 14;
-    if (used > 0 && used + needed > width) {
+    const lines = wrapped(entry.text, width - 30);
+    const needed = 30 + textWidth(lines[0]) + 14;
+    if (used > 0 && (used + needed > width || lines.length > 1)) {
       rows.push([]);
       used = 0;
     }
-    rows.at(-1).push({ ...entry, x: used });
-    used += needed;
+    rows.at(-1).push({ ...entry, text: lines[0], x: used });
+    for (const text of lines.slice(1)) rows.push([{ text, x: 0 }]);
+    used = lines.length > 1 ? width : used + needed;
   }
   return rows;
 }
@@ -65,27 +63,46 @@ function legendMark(rows, marginLeft) {
   };
 }
 
-const ticksLength = 5;
+const ticksLength = 5, labelLineHeight = 15;
+const besideTicks = 40;  // the label and its gaps
+
+const formatOf = (scale) => scale.tickFormat ?? (scale.type === "log" ? ((scale.domain?.[1] ?? 0) >= 1e5 ? "~e" : "~g") : undefined);
+
+// Room at the left for the numbers of an axis and its label.
+function leftMargin(axis, height) {
+  const [low, high] = axis.domain ?? [];
+  if (typeof low !== "number" || axis.type === "band") return 0;
+  const count = Math.max(2, height / 40), given = formatOf(axis), logarithmic = axis.type === "log";
+  const powers = () => [low, high].map((end) => 10 ** Math.round(Math.log10(end)));
+  const places = Array.isArray(axis.ticks) ? axis.ticks : logarithmic ? powers() : ticks(low, high, count);
+  const text = typeof given === "function" ? given : logarithmic ? format(given) : tickFormat(low, high, count, given);
+  return besideTicks + digitWidth * Math.max(0, ...places.map((place) => String(text(place)).length));
+}
 
 // One pair of axes in a frame. x, y: Plot's scale options and {label}; legend: [{text, stroke, dash, fill, symbol}].
-export function drawFrame(canvas, { x, y, marks, legend = [], marginRight = 20, marginLeft = 68, scales = {} }) {
-  const rows = legend.length ? legendRows(legend, canvas.width - marginLeft - marginRight) : [];
+// Labels longer than their axis take several lines.
+export function drawFrame(canvas, { x, y, marks, legend = [], marginRight = 20, marginLeft: leastLeft = 68, scales = {} }) {
+  const marginLeft = Math.max(leastLeft, leftMargin(y, canvas.height));
+  const yLabel = wrapped(y.label ?? "", canvas.height - 60), yMore = (yLabel.length - 1) * labelLineHeight;
+  const xLabel = wrapped(x.label ?? "", canvas.width - marginLeft - marginRight - yMore);
+  const xMore = (xLabel.length - 1) * labelLineHeight;
+  const rows = legend.length ? legendRows(legend, canvas.width - marginLeft - marginRight - yMore) : [];
   const axis = (options) => ({ nice: false, ...options });
-  const format = (scale) => scale.tickFormat ?? (scale.type === "log" ? ((scale.domain?.[1] ?? 0) >= 1e5 ? "~e" : "~g") : undefined);
+  const tickOptions = { labelAnchor: "center", labelArrow: "none", tickSize: ticksLength, tickPadding: 4, fontSize };
   const svg = Plot.plot({
     document: canvas.document,
     width: canvas.width,
-    height: canvas.height + rows.length * lineHeight,
-    marginLeft, marginRight, marginTop: 14 + rows.length * lineHeight, marginBottom: 46,
+    height: canvas.height + rows.length * lineHeight + xMore,
+    marginLeft: marginLeft + yMore, marginRight, marginTop: 14 + rows.length * lineHeight, marginBottom: 46 + xMore,
     x: axis({ ...x, label: null }),
     y: axis({ ...y, label: null }),
     ...scales,
     marks: [
       ...marks,
       Plot.frame({ stroke: "currentColor", strokeWidth: 1 }),
-      Plot.axisX({ label: x.label, labelAnchor: "center", labelArrow: "none", labelOffset: 38, tickSize: ticksLength, tickPadding: 4, tickFormat: format(x), ticks: x.ticks, fontSize, tickSpacing: 70 }),
-      Plot.axisY({ label: y.label, labelAnchor: "center", labelArrow: "none", labelOffset: 58, tickSize: ticksLength, tickPadding: 4, tickFormat: format(y), ticks: y.ticks, fontSize, tickSpacing: 40 }),
-      ...(rows.length ? [legendMark(rows, marginLeft)] : []),
+      Plot.axisX({ ...tickOptions, label: xLabel.join("\n"), labelOffset: 38 + xMore, tickFormat: formatOf(x), ticks: x.ticks, tickSpacing: 70 }),
+      Plot.axisY({ ...tickOptions, label: yLabel.join("\n"), labelOffset: marginLeft - 10 + yMore, tickFormat: formatOf(y), ticks: y.ticks, tickSpacing: 40 }),
+      ...(rows.length ? [legendMark(rows, marginLeft + yMore)] : []),
     ],
   });
   svg.setAttribute("font-family", fontFamily);
@@ -93,9 +110,9 @@ export function drawFrame(canvas, { x, y, marks, legend = [], marginRight = 20, 
   return svg;
 }
 
-// The faint lines behind curves.
-export function grid() {
-  return [Plot.gridX({ strokeOpacity: 0.12, tickSpacing: 70 }), Plot.gridY({ strokeOpacity: 0.12, tickSpacing: 40 })];
+// The faint lines behind curves, at the ticks given or where ticks are by default.
+export function grid(x = {}, y = {}) {
+  return [Plot.gridX({ strokeOpacity: 0.12, tickSpacing: 70, ticks: x.ticks }), Plot.gridY({ strokeOpacity: 0.12, tickSpacing: 40, ticks: y.ticks })];
 }
 
 const leastSpread = 1e-4;  // below it the labels of an axis would need too many digits
@@ -133,3 +150,8 @@ export function tips(canvas, rows) {
 
 // The numbers of an axis as it writes them, for tips.
 export { numberText, withUnit } from "../units.js";
+
+// A name that is good for a file, from one that may hold anything.
+export function fileName(text) {
+  return text.replaceAll(/[^A-Za-z0-9_]+/g, "_");
+}

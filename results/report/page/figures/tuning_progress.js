@@ -1,0 +1,190 @@
+// How a tuning came about and how firm it stands: detuning, rounds of exchange, starts, the front of a trade-off.
+import { symbolText } from "../axes.js";
+import { quantityWords, settlingRounds } from "../tuning.js";
+import { words } from "../units.js";
+import { lineFigure, style } from "./line_figure.js";
+import { lineColours } from "./frame.js";
+
+const objectiveWords = { minimax: "worst", mean_square: "mean square of", variance: "variance of" };
+
+export function objectiveLabel(tuning) {
+  return (
+    `${objectiveWords[tuning.kind] ?? words(tuning.kind)} ` +
+    `${tuning.weight ? "weighted " : ""}${quantityWords(tuning)}`
+  );
+}
+
+function percent(values) {
+  return Float64Array.from(values, (value) => 100 * value);
+}
+
+// Curves through the optimum itself, where nothing has changed.
+export function detuningFigure({ group, parameters, kind }) {
+  const changes = Array.from(group.values("change"));
+  const order = [...changes.keys()].sort((a, b) => changes[a] - changes[b]);
+  const place = order.findIndex((i) => changes[i] > 0);
+  const withOptimum = (values) => {
+    const sorted = order.map((i) => values[i]);
+    sorted.splice(place < 0 ? sorted.length : place, 0, 0);
+    return percent(sorted);
+  };
+  const x = withOptimum(changes);
+  const lines = parameters
+    .filter(({ detuning }) => detuning)
+    .map(({ name, detuning }, i) => ({
+      name: `${name}_detuning`,
+      text: symbolText(name),
+      x,
+      y: withOptimum(detuning),
+      ...style(i),
+    }));
+  const grows = kind === "minimax" ? "worst peak" : "objective";
+  return lineFigure({
+    name: "detuning",
+    title: "What a parameter that is off costs",
+    caption:
+      `One parameter is changed, the others stay. Where the ${grows} falls, a bound or a limit stands in ` +
+      `the way of the change.`,
+    x: { label: "change of one parameter", name: "change", unit: "percent" },
+    y: { label: `growth of the ${grows}`, unit: "percent" },
+    lines,
+    points: dotted(lines),
+  });
+}
+
+// The rounds that press the objective down, without those that settle what it leaves free.
+function pressingRounds(tuning) {
+  const { group } = tuning;
+  const count = group.values("round_bound").length - settlingRounds(tuning);
+  const of = (name) => group.values(name)?.subarray(0, count);
+  return {
+    x: Float64Array.from({ length: count }, (_, i) => i + 1),
+    bound: of("round_bound"),
+    worst: of("round_worst"),
+    violation: of("round_violation"),
+  };
+}
+
+function settlingText(tuning) {
+  const count = settlingRounds(tuning);
+  if (count === 0) return "";
+  return (
+    ` The last ${count === 1 ? "round is" : `${count} rounds are`} not drawn: with the worst peak held, ` +
+    `${count === 1 ? "it presses" : "they press"} the mean response down.`
+  );
+}
+
+const roundAxis = (x) => ({ label: "round", unit: "1", ticks: whole(x.length), tickFormat: "d" });
+const dotted = (lines) => lines.map((drawn) => ({ ...drawn, silent: true, text: "" }));
+
+export function roundsFigure(tuning) {
+  const { kind, unit, parameters } = tuning;
+  const { x, bound, worst } = pressingRounds(tuning);
+  const lines = [
+    {
+      name: "round_bound",
+      text: kind === "minimax" ? "bound: over the active frequencies" : "objective",
+      x,
+      y: bound,
+      ...style(0),
+    },
+    ...(kind === "minimax"
+      ? [{ name: "round_worst", text: "worst: over the whole band", x, y: worst, ...style(1) }]
+      : []),
+  ];
+  const adds = "Each round adds the peaks found to the active frequencies, until bound and worst peak meet.";
+  const exchange = kind === "minimax" ? adds : "";
+  const constants = parameters.some(({ scheduled }) => scheduled)
+    ? " The best constants come first, then the schedule."
+    : "";
+  return lineFigure({
+    name: "rounds",
+    title: "Rounds of the tuning",
+    caption: `${exchange}${constants}${settlingText(tuning)}`.trim(),
+    x: roundAxis(x),
+    y: { label: objectiveLabel(tuning), unit },
+    lines,
+    points: dotted(lines),
+  });
+}
+
+// What is left between bound and worst peak, relative, by rounds.
+export function gapFigure(tuning) {
+  const { x, bound, worst, violation } = pressingRounds(tuning);
+  const gap = Float64Array.from(bound, (value, i) => Math.abs(worst[i] - value) / Math.abs(worst[i]));
+  const lines = [{ name: "round_gap", text: "|worst \u2212 bound| / worst", x, y: gap, ...style(0) }];
+  if (violation?.some((value) => value > 0))
+    lines.push({ name: "round_violation", text: "violation of the limits", x, y: violation, ...style(1) });
+  return lineFigure({
+    name: "gap",
+    title: "Gap by rounds",
+    caption: "What is exactly zero is not drawn on the logarithmic scale.",
+    x: roundAxis(x),
+    y: { label: "relative gap", unit: "1", type: "log" },
+    lines,
+    points: dotted(lines),
+  });
+}
+
+function whole(count) {
+  const step = Math.ceil(count / 12);
+  return Array.from({ length: count }, (_, i) => i + 1).filter((i) => (i - 1) % step === 0);
+}
+
+const outcomeColours = {
+  converged: lineColours[0],
+  not_converged: lineColours[4],
+  infeasible: lineColours[1],
+  stopped: lineColours[5],
+};
+
+function byOutcome(group, column, x, y, name) {
+  const outcomes = group.column(column);
+  return outcomes.flags
+    .map(([code, word]) => {
+      const rows = Array.from(x, (_, i) => i).filter((i) => outcomes.values[i] === code);
+      return {
+        name: `${name}_${word}`,
+        text: words(word),
+        stroke: outcomeColours[word] ?? lineColours[6],
+        r: 4,
+        symbol: word === "converged" ? "full" : "open",
+        x: rows.map((i) => x[i]),
+        y: rows.map((i) => y[i]),
+      };
+    })
+    .filter((points) => points.x.length > 0);
+}
+
+export function startsFigure(tuning) {
+  const { group, unit } = tuning;
+  const x = group.values("start"),
+    y = group.values("start_objective");
+  return lineFigure({
+    name: "starts",
+    title: "What each start found",
+    caption: `The best is start ${group.number("best_start")}.`,
+    x: { label: "start", unit: "1", tickFormat: "d", ticks: whole(x.length).map((i) => x[i - 1]) },
+    y: { label: objectiveLabel(tuning), unit },
+    points: byOutcome(group, "start_outcome", x, y, "objective"),
+    levels: [{ text: "chosen", y: group.number("objective"), stroke: lineColours[7], dash: "4 3" }],
+  });
+}
+
+export function frontFigure(tuning) {
+  const { front, limits, unit } = tuning;
+  const limit = front.column("trade_off"),
+    y = front.values("objective");
+  const name = words(limits.at(-1)?.name ?? "limit");
+  const order = [...limit.values.keys()].sort((a, b) => limit.values[a] - limit.values[b]);
+  const sorted = (values) => Float64Array.from(order, (i) => values[i]);
+  return lineFigure({
+    name: "front",
+    title: `Front: ${objectiveLabel(tuning)} against the limit of ${name}`,
+    caption: "Each point is tuned for itself; where the front is level the limit does not bind.",
+    x: { label: `limit of ${name}`, name: "trade_off", unit: limit.unit },
+    y: { label: objectiveLabel(tuning), unit },
+    lines: [{ name: "objective", x: sorted(limit.values), y: sorted(y), stroke: lineColours[7], width: 1.2 }],
+    points: byOutcome(front, "outcome", limit.values, y, "objective").map((points) => ({ ...points, silent: true })),
+  });
+}

@@ -1,0 +1,122 @@
+// One motion as its page sees it, a free vibration (/decay) or a forced one (/transient): masses, stops, energies.
+
+function namesWith(group, end, dimension) {
+  return group.columns
+    .filter((column) => column.name.endsWith(end) && (dimension === undefined || column.dimension === dimension))
+    .map(({ name }) => name.slice(0, -end.length));
+}
+
+// Leading numbers of a column that ends in NaN.
+function known(values) {
+  let count = values?.length ?? 0;
+  while (count > 0 && Number.isNaN(values[count - 1])) --count;
+  return values?.subarray(0, count) ?? new Float64Array(0);
+}
+
+function massOf(group, name) {
+  const number = (suffix) => group.number(`${name}_${suffix}`);
+  const turningTimes = known(group.values(`${name}_extremum_time`));
+  return {
+    name,
+    displacement: group.column(`${name}_displacement`),
+    velocity: group.column(`${name}_velocity`),
+    unit:
+      (group.column(`${name}_displacement`) ?? group.column(`${name}_extremum`) ?? group.column(`${name}_peak`))
+        ?.unit ?? "1",
+    turningTimes,
+    turningPoints: group.values(`${name}_extremum`)?.subarray(0, turningTimes.length) ?? new Float64Array(0),
+    decrements: known(group.values(`${name}_log_decrement`)),
+    rest: number("rest"),
+    peak: number("peak"),
+    peakTime: number("peak_time"),
+  };
+}
+
+// Where a contact sticks; one that is not released sticks to the end.
+function stopsOf(group, name, end) {
+  const from = known(group.values(`${name}_stop_onset`));
+  const released = group.values(`${name}_release`);
+  return { name, from, to: Float64Array.from(from, (_, i) => (Number.isNaN(released[i]) ? end : released[i])) };
+}
+
+function energiesOf(group) {
+  return namesWith(group, "_energy_share", "").map((name) => ({
+    name,
+    energy: group.number(`${name}_energy`),
+    share: group.number(`${name}_energy_share`),
+    dissipated: group.column(`${name}_dissipated`),
+  }));
+}
+
+// kind: "decay" or "transient".
+export function motionOf(record, kind) {
+  const group = record.groups.get(kind);
+  const time = group.column("time");
+  const duration = Number.isFinite(group.number("duration")) ? group.number("duration") : (time?.values.at(-1) ?? NaN);
+  const names = new Set([
+    ...namesWith(group, "_displacement", "time"),
+    ...namesWith(group, "_extremum", "extremum"),
+    ...namesWith(group, "_peak", ""),
+  ]);
+  const frequency = group.column("frequency");
+  return {
+    kind,
+    group,
+    time,
+    duration,
+    stopTime: group.number("stop_time"),
+    masses: [...names].map((name) => massOf(group, name)),
+    stops: namesWith(group, "_stop_onset", "stop")
+      .map((name) => stopsOf(group, name, duration))
+      .filter(({ from }) => from.length > 0),
+    energies: energiesOf(group),
+    frequency: frequency?.dimension === "time" ? frequency : null,
+    discretisationError: group.number("discretisation_error"),
+  };
+}
+
+// Turning points above and below their neighbours: {upper: {x, y}, lower: {x, y}}.
+export function envelope({ turningTimes, turningPoints }) {
+  const upper = { x: [], y: [] },
+    lower = { x: [], y: [] };
+  turningPoints.forEach((value, i) => {
+    const other = i + 1 < turningPoints.length ? turningPoints[i + 1] : turningPoints[i - 1];
+    const side = other === undefined || value > other ? upper : lower;
+    side.x.push(turningTimes[i]);
+    side.y.push(value);
+  });
+  return { upper, lower };
+}
+
+// The damping ratio of viscous damping with this logarithmic decrement of a full cycle.
+export function dampingRatio(decrement) {
+  return decrement / Math.hypot(2 * Math.PI, decrement);
+}
+
+// y at `at` by straight lines between the samples.
+export function interpolated(x, y, at) {
+  let high = x.findIndex((value) => value >= at);
+  if (high < 0) return NaN;
+  high = Math.max(1, high);
+  return y[high - 1] + ((y[high] - y[high - 1]) * (at - x[high - 1])) / (x[high] - x[high - 1]);
+}
+
+// The time within which, from the start or back from the end, every mass changes its sense of motion `turns` times;
+// null where that is more than a quarter of all.
+export function stretch({ time, masses }, turns, end) {
+  const count = time.values.length,
+    step = end === "first" ? 1 : -1;
+  let longest = 0;
+  for (const { velocity } of masses) {
+    if (!velocity) return null;
+    let seen = 0,
+      i = end === "first" ? 1 : count - 2,
+      steps = 1;
+    for (; seen < turns && i > 0 && i < count - 1; i += step, ++steps) {
+      if (velocity.values[i] * velocity.values[i + step] <= 0 && velocity.values[i] !== 0) ++seen;
+    }
+    longest = Math.max(longest, steps);
+  }
+  if (longest > count / 4) return null;
+  return end === "first" ? { from: 0, to: longest + 1 } : { from: count - 1 - longest, to: count };
+}

@@ -1,0 +1,317 @@
+// The page of a tuning: what it means, the optimum and what holds it, and how it came about.
+import { symbolText } from "../axes.js";
+import { columnFigure, responseFigure, scheduleFigure, weightFigure } from "../figures/tuning_response.js";
+import {
+  detuningFigure,
+  frontFigure,
+  gapFigure,
+  objectiveLabel,
+  roundsFigure,
+  startsFigure,
+} from "../figures/tuning_progress.js";
+import { heldBounds, knotsAtBounds, tuningOf } from "../tuning.js";
+import { outcomeWarning, whatItMeans } from "../tuning_words.js";
+import { element, section, table } from "../parts/elements.js";
+import { figureCards } from "../parts/figure_cards.js";
+import { numberText, quantityText, unitText, withUnit, words } from "../units.js";
+
+function meaning(tuning) {
+  const paragraphs = whatItMeans(tuning).map((sentences) => element("p", { class: "words" }, sentences.join(" ")));
+  return section("What this means", ...paragraphs);
+}
+
+function per(value, objectiveUnit, unit) {
+  return `${quantityText(value, objectiveUnit)} per ${unitText(unit) || "unit"}`;
+}
+
+function heldText(tuning, parameter) {
+  return (
+    heldBounds(parameter, tuning.objective)
+      .map(({ end, knots }) => `${end} bound${parameter.scheduled ? `, at ${knots} knots` : ""}`)
+      .join("; ") || "\u2013"
+  );
+}
+
+// What moving the bounds that hold the design outwards gives.
+function boundsTable(tuning) {
+  const rows = tuning.parameters.flatMap((parameter) =>
+    heldBounds(parameter, tuning.objective).map(({ end, knots, multiplier, gain }) => [
+      symbolText(parameter.name),
+      `${end}${parameter.scheduled ? `, at ${knots} knots` : ""}`,
+      per(multiplier, tuning.unit, parameter.unit),
+      quantityText((parameter.upper - parameter.lower) / 100, parameter.unit, 4),
+      `${numberText(100 * gain, 3)} %`,
+    ]),
+  );
+  if (rows.length === 0) return [];
+  return [
+    note(
+      "Bounds that hold it: how the objective falls as the bound is moved outwards (to first order; of a schedule " +
+        "the sum over its knots).",
+    ),
+    table(["parameter", "bound", "multiplier", "1 % of the range", "gives"], rows, { numeric: [2, 3, 4] }),
+  ];
+}
+
+function note(text) {
+  return element("p", { class: "note" }, text);
+}
+
+function optimumText({ scheduled, values, name }) {
+  if (!scheduled) return numberText(values[0] ?? NaN, 8);
+  const least = Math.min(...values),
+    greatest = Math.max(...values);
+  return `${numberText(least)} to ${numberText(greatest)}: schedule, see figure of ${symbolText(name)}`;
+}
+
+function changeText({ scheduled, values, before }) {
+  if (scheduled || !(before !== 0)) return "\u2013";
+  const change = 100 * (values[0] / before - 1);
+  return `${change > 0 ? "+" : ""}${numberText(change, 3)} %`;
+}
+
+function optimumTable(tuning) {
+  const { parameters } = tuning;
+  const anyConstant = parameters.some(({ constant }) => Number.isFinite(constant));
+  const head = [
+    "parameter",
+    "optimum",
+    "before",
+    "change",
+    ...(anyConstant ? ["best constant"] : []),
+    "lower bound",
+    "upper bound",
+    "held by",
+  ];
+  const rows = parameters.map((parameter) => [
+    withUnit(symbolText(parameter.name), unitText(parameter.unit)),
+    optimumText(parameter),
+    numberText(parameter.before),
+    changeText(parameter),
+    ...(anyConstant ? [numberText(parameter.constant)] : []),
+    numberText(parameter.lower),
+    numberText(parameter.upper),
+    heldText(tuning, parameter),
+  ]);
+  return table(head, rows, { numeric: head.map((_, i) => i).slice(2, -1) });
+}
+
+function schedulesTables({ parameters, band }) {
+  return parameters
+    .filter(({ scheduled }) => scheduled)
+    .map((parameter) =>
+      element(
+        "details",
+        {},
+        element("summary", {}, `Knots of the schedule of ${symbolText(parameter.name)}`),
+        table(
+          [
+            withUnit(symbolText(band.name), unitText(band.unit)),
+            withUnit(symbolText(parameter.name), unitText(parameter.unit)),
+          ],
+          Array.from(parameter.knots, (knot, i) => [numberText(knot), numberText(parameter.values[i])]),
+          { numeric: [0, 1] },
+        ),
+      ),
+    );
+}
+
+function shareText({ active, share }) {
+  return active ? `${numberText(100 * share, 4)} %` : "not active";
+}
+
+function peaksTable({ peaks, parameters, band, unit, scenarios, quantity }) {
+  if (peaks.length === 0) return [];
+  const several = scenarios.length > 1;
+  const head = [
+    withUnit(symbolText(band.name), unitText(band.unit)),
+    ...(several ? ["scenario"] : []),
+    words(quantity),
+    "share in what holds it",
+    ...parameters.map(({ name, unit: of }) => `by ${symbolText(name)}: per ${unitText(of) || "unit"}`),
+  ];
+  const rows = peaks.map((peak) => [
+    numberText(peak.at),
+    ...(several ? [words(peak.scenario)] : []),
+    quantityText(peak.value, unit),
+    shareText(peak),
+    ...parameters.map(({ sensitivity }) => quantityText(sensitivity[peak.number] ?? NaN, unit, 4)),
+  ]);
+  const numeric = head.map((_, i) => i).filter((i) => !(several && i === 1));
+  return [
+    note("Peaks at the optimum, and how each changes with each parameter (a schedule is moved as a whole)."),
+    table(head, rows, { numeric }),
+  ];
+}
+
+function limitsTable(tuning) {
+  const { limits, band, scenarios } = tuning;
+  if (limits.length === 0) return [];
+  const place = ({ at, scenario }) =>
+    [
+      Number.isFinite(at) && band ? quantityText(at, band.unit) : "\u2013",
+      scenarios.length > 1 && scenario ? words(scenario) : "",
+    ]
+      .filter(Boolean)
+      .join(", ");
+  const rows = limits.map((limit) => [
+    withUnit(words(limit.name), unitText(limit.unit)),
+    numberText(limit.value),
+    place(limit),
+    numberText(limit.lower),
+    numberText(limit.upper),
+    limit.active ? per(limit.multiplier, tuning.unit, limit.unit) : "does not bind",
+  ]);
+  return [
+    note("Limits: the quantity where it is nearest to its limit, and how the objective falls as the limit is relaxed."),
+    table(["limit on", "nearest", "at", "at least", "at most", "multiplier"], rows, { numeric: [1, 3, 4] }),
+  ];
+}
+
+function factsTable(tuning) {
+  const { group, texts, kind } = tuning;
+  const count = (name) => numberText(group.number(name), 12);
+  const rows = [
+    [objectiveLabel(tuning), quantityText(tuning.objective, tuning.unit, 8)],
+    ...(kind === "minimax"
+      ? [["certificate gap", numberText(group.number("certificate_gap"), 3)]]
+      : [["its root", quantityText(Math.sqrt(tuning.objective), tuning.root, 8)]]),
+    ["KKT residual", numberText(group.number("kkt_residual"), 3)],
+    ["violation of limits, relative", numberText(group.number("violation"), 3)],
+    ["outcome", words(tuning.outcome)],
+    ["reason", tuning.reason],
+    ["iterations", count("iterations")],
+    ["orbits", count("orbits")],
+    ["gradients", count("gradients")],
+    ["solver", texts.solver ?? ""],
+    [
+      "starts",
+      `${group.values("start_objective")?.length ?? 1} (${words(texts.start ?? "given")}); chosen: start ` +
+        `${count("best_start")}`,
+    ],
+  ];
+  return table(
+    ["", ""],
+    rows.filter(([, text]) => text !== ""),
+  );
+}
+
+function worstTable(tuning) {
+  const names = { before: "before", after: "tuned", constant: "best constant", rule: "by the rule" };
+  const known = Object.entries(names).filter(([design]) => Number.isFinite(tuning.worst[design]));
+  if (known.length === 0) return null;
+  const rows = known.map(([design, name]) => [name, quantityText(tuning.worst[design], tuning.unit)]);
+  return table(["design", objectiveLabel(tuning)], rows, { numeric: [1] });
+}
+
+function roundsTable({ group, unit, kind }) {
+  const active = group.values("round_active");
+  if (!active) return null;
+  const of = (name, i) => group.values(name)[i];
+  const rows = Array.from(active, (count, i) => [
+    String(i + 1),
+    String(count),
+    String(of("round_iterations", i)),
+    quantityText(of("round_bound", i), unit),
+    ...(kind === "minimax" ? [quantityText(of("round_worst", i), unit)] : []),
+    numberText(of("round_violation", i), 3),
+  ]);
+  const head = [
+    "round",
+    "active frequencies",
+    "iterations",
+    "bound",
+    ...(kind === "minimax" ? ["worst"] : []),
+    "violation",
+  ];
+  return table(head, rows, { numeric: head.map((_, i) => i), caption: "Rounds of the tuning." });
+}
+
+function frontTable({ front, parameters, limits, unit }) {
+  if (!front) return null;
+  const limit = front.column("trade_off"),
+    of = (name, i) => front.values(name)?.[i];
+  const constants = parameters.filter(({ name }) => front.has(name));
+  const head = [
+    withUnit(`limit of ${words(limits.at(-1)?.name ?? "trade-off")}`, unitText(limit.unit)),
+    "objective",
+    ...constants.map(({ name, unit: of }) => withUnit(symbolText(name), unitText(of))),
+    "certificate gap",
+    "violation",
+    "outcome",
+  ];
+  const rows = Array.from(limit.values, (value, i) => [
+    numberText(value),
+    quantityText(of("objective", i), unit),
+    ...constants.map(({ name }) => numberText(of(name, i))),
+    numberText(of("certificate_gap", i), 2),
+    numberText(of("violation", i), 2),
+    words(front.word("outcome", i)),
+  ]);
+  return table(head, rows, { numeric: head.map((_, i) => i).slice(0, -1) });
+}
+
+function resultFigures(tuning) {
+  const { band, parameters, columns } = tuning;
+  if (!band) return [];
+  return [
+    ...(tuning.responses.length ? [responseFigure(tuning)] : []),
+    ...parameters
+      .filter(({ scheduled, values }) => scheduled && values.length)
+      .map((parameter) => scheduleFigure(tuning, parameter, knotsAtBounds(parameter))),
+    ...columns.map((column) => columnFigure(tuning, column)),
+    ...(tuning.weight ? [weightFigure(tuning)] : []),
+  ];
+}
+
+function frontFigures(tuning) {
+  return tuning.front ? [frontFigure(tuning)] : [];
+}
+
+function detuningFigures(tuning) {
+  return tuning.parameters.some(({ detuning }) => detuning?.some(Number.isFinite)) ? [detuningFigure(tuning)] : [];
+}
+
+function progressFigures(tuning) {
+  const { group, kind } = tuning;
+  const several = (name) => (group.values(name)?.length ?? 0) > 1;
+  return [
+    ...(several("round_bound") ? [roundsFigure(tuning), ...(kind === "minimax" ? [gapFigure(tuning)] : [])] : []),
+    ...(several("start_objective") ? [startsFigure(tuning)] : []),
+  ];
+}
+
+// No section for nothing.
+function sectionOf(title, children) {
+  const known = children.filter((child) => child !== null);
+  return known.length ? [section(title, ...known)] : [];
+}
+
+export function tuningParts(record) {
+  const tuning = tuningOf(record),
+    warning = outcomeWarning(tuning);
+  const [first, ...others] = resultFigures(tuning);
+  return [
+    ...(warning ? [element("p", { class: "warning" }, warning)] : []),
+    meaning(tuning),
+    ...sectionOf("Optimum", [optimumTable(tuning), ...schedulesTables(tuning), worstTable(tuning)]),
+    ...sectionOf("Response", first ? [...figureCards([first], record, "wide"), ...figureCards(others, record)] : []),
+    ...sectionOf("Trade-off", [...figureCards(frontFigures(tuning), record), frontTable(tuning)]),
+    ...sectionOf("What holds it", [
+      ...peaksTable(tuning),
+      ...boundsTable(tuning),
+      ...limitsTable(tuning),
+      ...figureCards(detuningFigures(tuning), record),
+    ]),
+    ...sectionOf("How it was found", [
+      factsTable(tuning),
+      ...figureCards(progressFigures(tuning), record),
+      roundsTable(tuning),
+    ]),
+  ];
+}
+
+export function tuningFigures(record) {
+  const tuning = tuningOf(record);
+  return [...resultFigures(tuning), ...frontFigures(tuning), ...detuningFigures(tuning), ...progressFigures(tuning)];
+}

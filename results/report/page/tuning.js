@@ -1,0 +1,171 @@
+// A tuning as its page sees it, read from the group /optimum: designs, responses, peaks, limits.
+import { words } from "./units.js";
+
+export const designNames = { before: "before", after: "tuned", constant: "best constant", rule: "rule" };
+const heldFrom = 1e-6; // share, or relative gain, from which something counts as holding the design
+
+// "(m)2" to "m": the unit of the root of a mean square or a variance.
+export function rootUnit(unit) {
+  return /^\((.*)\)2$/.exec(unit)?.[1] ?? unit;
+}
+
+// The quantity tuned in words; a variance is of the motion, not of its root mean square.
+export function quantityWords({ kind, quantity }) {
+  const text = words(quantity);
+  return kind === "variance" ? text.replace(/ rms$/, "") : text;
+}
+
+function listOf(text) {
+  return (text ?? "").split(",").filter(Boolean);
+}
+
+function parameterOf(group, name) {
+  const column = group.column(name);
+  const number = (suffix) => group.number(`${name}_${suffix}`);
+  const knots = group.values(`knots_${name}`);
+  return {
+    name,
+    unit: column?.unit ?? "1",
+    values: column?.values ?? new Float64Array(0),
+    knots,
+    scheduled: knots !== undefined,
+    lower: number("lower"),
+    upper: number("upper"),
+    before: number("before"),
+    constant: number("constant"),
+    lowerMultiplier: group.values(`${name}_lower_multiplier`) ?? [],
+    upperMultiplier: group.values(`${name}_upper_multiplier`) ?? [],
+    schedule: group.values(`${name}_schedule`),
+    rule: group.values(`${name}_rule`),
+    sensitivity: group.values(`${name}_sensitivity`) ?? [],
+    detuning: group.values(`${name}_detuning`),
+  };
+}
+
+function peaksOf(group, band, scenarios) {
+  const values = group.values("peak_value") ?? [];
+  return Array.from(values, (value, i) => {
+    const share = group.values("peak_multiplier")[i];
+    return {
+      at: group.values(`peak_${band}`)[i],
+      value,
+      share,
+      active: share > heldFrom,
+      number: i,
+      scenario: scenarios[group.values("peak_scenario")[i]] ?? "",
+    };
+  });
+}
+
+function limitsOf(group, names, scenarios, objective) {
+  return names.map((name) => {
+    const number = (suffix) => group.number(`${name}_${suffix}`);
+    const multiplier = number("limit_multiplier"),
+      limit = number("upper_limit");
+    return {
+      name,
+      unit: group.column(`${name}_limited`)?.unit ?? "1",
+      value: number("limited"),
+      at: number("limited_at"),
+      scenario: scenarios[number("limited_scenario")] ?? "",
+      lower: number("lower_limit"),
+      upper: limit,
+      multiplier,
+      active: multiplier * Math.abs(Number.isFinite(limit) ? limit : number("lower_limit")) > heldFrom * objective,
+    };
+  });
+}
+
+function responsesOf(group, suffixes) {
+  return Object.keys(designNames)
+    .flatMap((design) =>
+      suffixes.map(({ suffix, scenario }) => ({
+        design,
+        scenario,
+        values: group.values(`response_${design}${suffix}`),
+      })),
+    )
+    .filter(({ values }) => values);
+}
+
+function extraColumns(group, band) {
+  return group
+    .along(band)
+    .filter(({ name }) => group.has(`${name}_range`) && group.column(`${name}_range`).kind === "flag")
+    .map((column) => ({
+      ...column,
+      range: group.column(`${column.name}_range`),
+      lower: group.number(`${column.name}_range_lower`),
+      upper: group.number(`${column.name}_range_upper`),
+    }));
+}
+
+// Bounds of a parameter that hold the design: [{end, knots, multiplier, gain}], gain: relative fall of the objective
+// when that bound is moved outwards by a hundredth of the range.
+export function heldBounds(parameter, objective) {
+  const room = (parameter.upper - parameter.lower) / 100;
+  return [
+    ["lower", parameter.lowerMultiplier],
+    ["upper", parameter.upperMultiplier],
+  ]
+    .map(([end, multipliers]) => {
+      const gains = Array.from(multipliers, (multiplier) => (multiplier * room) / objective);
+      const held = gains.filter((gain) => gain > heldFrom).length;
+      const sum = (values) => Array.from(values).reduce((a, b) => a + b, 0);
+      return { end, knots: held, multiplier: sum(multipliers), gain: sum(gains) };
+    })
+    .filter(({ knots }) => knots > 0);
+}
+
+// Knots of a schedule that lie on a bound: {lower, upper}, each an array of numbers of knots.
+export function knotsAtBounds({ values, lower, upper }) {
+  const near = 1e-5 * (upper - lower),
+    numbers = Array.from(values, (_, i) => i);
+  return {
+    lower: numbers.filter((i) => values[i] <= lower + near),
+    upper: numbers.filter((i) => values[i] >= upper - near),
+  };
+}
+
+// How many rounds at the end settle what the worst peak of a schedule leaves free: their bound is a mean response.
+export function settlingRounds({ group, kind, parameters, objective }) {
+  const bounds = group.values("round_bound") ?? [];
+  if (kind !== "minimax" || !parameters.some(({ scheduled }) => scheduled)) return 0;
+  const bound = objective * (1 - group.number("certificate_gap"));
+  const decisive = bounds.findLastIndex((value) => Math.abs(value - bound) <= 1e-6 * Math.abs(bound));
+  return decisive < 0 ? 0 : bounds.length - 1 - decisive;
+}
+
+export function tuningOf(record) {
+  const group = record.groups.get("optimum"),
+    { texts } = group;
+  const band = texts.band_parameter,
+    objective = group.number("objective");
+  const scenarios = listOf(texts.scenarios);
+  const several = scenarios.some((scenario) => group.has(`response_after_${scenario}`)) || scenarios.length > 1;
+  const suffixes = several
+    ? scenarios.map((scenario) => ({ scenario, suffix: `_${scenario}` }))
+    : [{ scenario: "", suffix: "" }];
+  const unit = group.column("objective")?.unit ?? "1";
+  return {
+    group,
+    texts,
+    kind: texts.objective_kind,
+    quantity: texts.quantity,
+    objective,
+    unit,
+    root: texts.objective_kind === "minimax" ? unit : rootUnit(unit),
+    outcome: group.word("outcome"),
+    reason: texts.reason ?? "",
+    scenarios: several ? scenarios : [],
+    parameters: listOf(texts.parameters).map((name) => parameterOf(group, name)),
+    peaks: peaksOf(group, band, several ? scenarios : []),
+    limits: limitsOf(group, listOf(texts.limits), several ? scenarios : [], objective),
+    band: band && group.has(band) ? group.column(band) : null,
+    weight: group.values("weight"),
+    responses: responsesOf(group, suffixes),
+    worst: Object.fromEntries(Object.keys(designNames).map((design) => [design, group.number(`worst_${design}`)])),
+    columns: band ? extraColumns(group, band) : [],
+    front: record.groups.get("optimum/front"),
+  };
+}

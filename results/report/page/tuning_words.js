@@ -1,0 +1,274 @@
+// What a tuning means, in sentences of numbers: each is computed here from what the record holds.
+import { symbolText } from "./axes.js";
+import { heldBounds, knotsAtBounds, quantityWords } from "./tuning.js";
+import { numberText, quantityText, unitText, words } from "./units.js";
+
+const digits = 4;
+const mostIntervals = 4; // that a sentence tells one by one
+
+// What lies between two amplitudes: {percent: by how much less, decibel: 20 log10(after / before)}.
+export function reduction(before, after) {
+  return { percent: 100 * (1 - after / before), decibel: 20 * Math.log10(after / before) };
+}
+
+// Where y >= 0 along x, by straight lines between the samples: {intervals: [[from, to], ...], share of the whole}.
+export function nonNegative(x, y) {
+  const intervals = [];
+  const extend = (from, to) => {
+    if (intervals.length && intervals.at(-1)[1] === from) intervals.at(-1)[1] = to;
+    else intervals.push([from, to]);
+  };
+  for (let i = 0; i + 1 < x.length; ++i) {
+    const [a, b] = [y[i], y[i + 1]];
+    const zero = x[i] + ((x[i + 1] - x[i]) * a) / (a - b);
+    if (a >= 0 && b >= 0) extend(x[i], x[i + 1]);
+    else if (a >= 0 && b < 0 && zero > x[i]) extend(x[i], zero);
+    else if (a < 0 && b >= 0 && zero < x[i + 1]) extend(zero, x[i + 1]);
+  }
+  const length = intervals.reduce((sum, [from, to]) => sum + to - from, 0);
+  return { intervals, share: length / (x[x.length - 1] - x[0]) };
+}
+
+// Where the tuned response is at or below the one before, in every scenario.
+export function bandBelowBefore({ band, responses }) {
+  const of = (design) => responses.filter((response) => response.design === design).map(({ values }) => values);
+  const before = of("before"),
+    after = of("after");
+  if (!band || before.length === 0 || before.length !== after.length) return null;
+  const least = Array.from(band.values, (_, i) =>
+    Math.min(...before.map((values, s) => values[i] * (1 + 1e-9) - after[s][i])),
+  );
+  return nonNegative(band.values, least);
+}
+
+// The largest growth of the objective when one parameter is off by `change`: {growth, name, change}, or null.
+export function worstDetuning({ group, parameters }, change) {
+  const changes = Array.from(group.values("change") ?? []);
+  let worst = null;
+  for (const { name, detuning } of parameters) {
+    changes.forEach((value, i) => {
+      if (!detuning || Math.abs(Math.abs(value) - change) > 1e-9 || !(detuning[i] > (worst?.growth ?? -Infinity)))
+        return;
+      worst = { growth: detuning[i], name, change: value };
+    });
+  }
+  return worst;
+}
+
+const percentText = (value, places = 3) => `${numberText(value, places)} %`;
+
+function lessText(before, after) {
+  const { percent, decibel } = reduction(before, after);
+  if (Math.abs(percent) < 1e-3) return "the same to 0.001 %";
+  const change = `${percentText(Math.abs(percent))} ${percent > 0 ? "less" : "more"}`;
+  return `${change} (${decibel > 0 ? "+" : ""}${numberText(decibel, 3)} dB)`;
+}
+
+const kindWords = { minimax: "worst", mean_square: "root mean square of", variance: "standard deviation of" };
+
+function spoken(tuning) {
+  const weighted = tuning.kind === "minimax" && tuning.weight ? "weighted " : "";
+  return `${kindWords[tuning.kind] ?? words(tuning.kind)} ${weighted}${quantityWords(tuning)}`;
+}
+
+// The objective as an amplitude: itself, or the root of a mean square or variance.
+export function amplitude(tuning, objective) {
+  return tuning.kind === "minimax" ? objective : Math.sqrt(objective);
+}
+
+function capital(text) {
+  return text.charAt(0).toUpperCase() + text.slice(1);
+}
+
+function placeText(tuning, value) {
+  return quantityText(value, tuning.band.unit, digits);
+}
+
+function bandText(tuning) {
+  const { values, unit } = tuning.band,
+    after = unitText(unit);
+  return (
+    `${numberText(values[0], digits)} to ${numberText(values.at(-1), digits)}${after ? ` ${after}` : ""} of ` +
+    `${symbolText(tuning.band.name)}`
+  );
+}
+
+function scenarioText({ scenarios, kind }) {
+  if (scenarios.length < 2) return "";
+  return kind === "minimax"
+    ? `, in the worst of ${scenarios.length} scenarios`
+    : `, as the mean of ${scenarios.length} scenarios`;
+}
+
+function reductionSentences(tuning) {
+  const level = (objective) => quantityText(amplitude(tuning, objective), tuning.root, digits);
+  const over = tuning.kind !== "variance" && tuning.band ? ` over ${bandText(tuning)}` : "";
+  const { before, constant, rule, after } = tuning.worst;
+  const tuned = amplitude(tuning, Number.isFinite(after) ? after : tuning.objective);
+  const against = (name, other) =>
+    Number.isFinite(other) && other > 0
+      ? [`Against ${name} (${level(other)}): ${lessText(amplitude(tuning, other), tuned)}.`]
+      : [];
+  return [
+    `${capital(spoken(tuning))}${over}${scenarioText(tuning)}: ${level(tuning.objective)}.`,
+    ...against("the design before", before),
+    ...against("the best design without a schedule", constant),
+    ...against("the rule", rule),
+  ];
+}
+
+function listText(texts) {
+  return texts.length < 2 ? texts.join("") : `${texts.slice(0, -1).join(", ")} and ${texts.at(-1)}`;
+}
+
+function intervalText(tuning, { intervals, share }) {
+  if (share > 1 - 1e-9) return "over the whole band";
+  const told =
+    intervals.length > mostIntervals
+      ? `${intervals.length} stretches`
+      : listText(intervals.map(([from, to]) => `${numberText(from, digits)} to ${placeText(tuning, to)}`));
+  return `over ${percentText(100 * share)} of the band${intervals.length ? ` (${told})` : ""}`;
+}
+
+function bandSentences(tuning) {
+  if (!tuning.band) return [];
+  const sentences = [];
+  if (tuning.kind === "minimax")
+    sentences.push(
+      `The response stays at or below ${quantityText(tuning.objective, tuning.unit, digits)} over the whole band, ` +
+        `${bandText(tuning)}.`,
+    );
+  const below = bandBelowBefore(tuning);
+  if (below)
+    sentences.push(
+      `It is at or below the response before ` +
+        `${intervalText(tuning, below)}${tuning.scenarios.length > 1 ? ", in every scenario" : ""}.`,
+    );
+  return sentences;
+}
+
+function certificateSentences({ kind, group, band, outcome }) {
+  const gap = group.number("certificate_gap"),
+    kkt = group.number("kkt_residual"),
+    starts = group.values("start_objective")?.length ?? 1;
+  const sentences = [];
+  if (kind === "minimax" && band && Number.isFinite(gap)) {
+    const by = gap < 1e-12 ? "rounding" : `${numberText(gap, 2)} of it`;
+    sentences.push(
+      `Certificate: all peaks of the band were solved, and none exceeds the bound of the tuning by more than ${by}.`,
+    );
+  }
+  if (Number.isFinite(kkt))
+    sentences.push(`The conditions of a local optimum hold to ${numberText(kkt, 2)} (relative).`);
+  if (starts > 1) sentences.push(`${startsText(group)}.`);
+  else if (outcome === "converged")
+    sentences.push("That no better design lies elsewhere within the bounds is not proved: one start was made.");
+  return sentences;
+}
+
+// "12 of 20 starts reached this objective to 0.1 %".
+export function startsText(group) {
+  const found = Array.from(group.values("start_objective")),
+    best = group.number("objective");
+  const alike = found.filter((value) => Math.abs(value - best) <= 1e-3 * Math.abs(best)).length;
+  return (
+    `${alike} of ${found.length} starts reached this objective to 0.1 %; that no better design lies elsewhere ` +
+    `is not proved`
+  );
+}
+
+// What holds the design, as phrases.
+export function holders(tuning) {
+  const peaks = tuning.peaks
+    .filter(({ active }) => active)
+    .map(
+      ({ at, share, scenario }) =>
+        `the peak at ${placeText(tuning, at)}${scenario ? ` (${words(scenario)})` : ""}, share ` +
+        `${percentText(100 * share)}`,
+    );
+  const bounds = tuning.parameters.flatMap((parameter) =>
+    heldBounds(parameter, tuning.objective).map(
+      ({ end, knots, gain }) =>
+        `the ${end} bound of ` +
+        `${symbolText(parameter.name)}${parameter.scheduled ? ` at ${knots} of ${parameter.knots.length} knots` : ""}` +
+        ` (moved out by 1 % of the range it gives ${percentText(100 * gain, 2)}, to first order)`,
+    ),
+  );
+  const limits = tuning.limits
+    .filter(({ active }) => active)
+    .map(
+      ({ name, value, unit, multiplier }) =>
+        `the limit of ${words(name)} (relaxed by 1 % it gives ` +
+        `${percentText((multiplier * Math.abs(value)) / tuning.objective, 2)}, to first order)`,
+    );
+  return [...peaks, ...bounds, ...limits];
+}
+
+function holdingSentences(tuning) {
+  const held = holders(tuning);
+  const free =
+    tuning.outcome === "converged" ? ["Neither bound nor limit holds the design: it is free on all sides."] : [];
+  const sentences = held.length ? [`The design is held by ${held.join("; ")}.`] : free;
+  const knots = tuning.parameters
+    .filter(({ scheduled }) => scheduled)
+    .map((parameter) => {
+      const { lower, upper } = knotsAtBounds(parameter);
+      return (
+        `${symbolText(parameter.name)} lies on its lower bound at ${lower.length} and on its upper at ` +
+        `${upper.length} of ${parameter.knots.length} knots`
+      );
+    });
+  if (knots.length) sentences.push(`${knots.join("; ")}.`);
+  return sentences;
+}
+
+// Where what stands beside the schedule leaves its range.
+function columnSentences(tuning) {
+  return tuning.columns
+    .filter(({ lower, upper }) => Number.isFinite(lower) || Number.isFinite(upper))
+    .map(({ name, values, lower, upper }) => {
+      const room = Float64Array.from(values, (value) =>
+        Math.min(Number.isFinite(lower) ? value - lower : Infinity, Number.isFinite(upper) ? upper - value : Infinity),
+      );
+      const inside = nonNegative(tuning.band.values, room);
+      return `${words(name)} is within its range ${intervalText(tuning, inside)}.`;
+    });
+}
+
+function detuningSentences(tuning) {
+  const worst = worstDetuning(tuning, 0.05);
+  if (!worst) return [];
+  const off = `${symbolText(worst.name)} 5 % ${worst.change < 0 ? "less" : "more"}`;
+  if (worst.growth <= 0) return ["No parameter off by 5 % makes it worse."];
+  return [
+    `One parameter off by 5 % makes the ` +
+      `${tuning.kind === "minimax" ? "worst peak" : tuning.kind === "variance" ? "variance" : "mean square"} grow ` +
+      `by at most ${percentText(100 * worst.growth)} (${off}).`,
+  ];
+}
+
+// What holds of the tuning, as paragraphs: [[sentence, ...], ...].
+export function whatItMeans(tuning) {
+  if (!Number.isFinite(tuning.objective)) return [[`There is no number for the ${spoken(tuning)} of this design.`]];
+  return [
+    [...reductionSentences(tuning), ...bandSentences(tuning)],
+    certificateSentences(tuning),
+    [...holdingSentences(tuning), ...columnSentences(tuning), ...detuningSentences(tuning)],
+  ].filter((paragraph) => paragraph.length > 0);
+}
+
+const outcomeWords = {
+  not_converged: "This tuning did not converge. What follows is the best design found, not a proven optimum",
+  infeasible: "No design was found that keeps every limit. What follows is the one that breaks them least",
+  unbounded: "The response has no bound somewhere in the band. What follows is as far as the tuning came",
+  failed: "This tuning failed. What follows is as far as it came",
+  stopped: "This tuning was stopped before its end. What follows is the best design so far",
+};
+
+// Why not all is well, or "".
+export function outcomeWarning({ outcome, reason, group }) {
+  if (outcome === "converged") return "";
+  const violation = group.number("violation");
+  const broken = violation > 0 ? ` (largest violation of a limit: ${percentText(100 * violation)})` : "";
+  return `${outcomeWords[outcome] ?? "It is not known how this tuning ended"}${broken}${reason ? `: ${reason}` : ""}.`;
+}

@@ -1,0 +1,138 @@
+// What the page of a motion reads from it.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { cranksOf, largestErrors } from "../../../results/report/page/crank.js";
+import { dampingRatio, envelope, interpolated, motionOf, stretch } from "../../../results/report/page/motion.js";
+import { whatItMeans } from "../../../results/report/page/motion_words.js";
+import { sampleGroup, sampleRecord } from "./sample_record.mjs";
+
+const rounding = 1e-12;
+
+function decay(columns = {}) {
+  return motionOf(
+    sampleRecord({
+      decay: sampleGroup(
+        {},
+        {
+          main_extremum_time: ["s", "extremum", [0, 1, 2, 3, NaN]],
+          main_extremum: ["m", "extremum", [0.008, -0.006, 0.004, -0.002, NaN]],
+          main_log_decrement: ["1", "extremum", [Math.log(2), Math.log(3), NaN, NaN, NaN]],
+          main_rest: ["m", "", 0],
+          stop_time: ["s", "", NaN],
+          duration: ["s", "", 4],
+          reference_frequency: ["rad s-1", "", 3],
+          ...columns,
+        },
+      ),
+    }),
+    "decay",
+  );
+}
+
+test("the damping ratio of a decrement gives the decrement back", () => {
+  const zeta = 0.07;
+  assert.ok(Math.abs(dampingRatio((2 * Math.PI * zeta) / Math.sqrt(1 - zeta * zeta)) - zeta) < rounding);
+});
+
+test("turning points stop where their numbers do, and fall on two sides", () => {
+  const [main] = decay().masses;
+  assert.equal(main.turningTimes.length, 4);
+  assert.equal(main.decrements.length, 2);
+  const { upper, lower } = envelope(main);
+  assert.deepEqual(upper, { x: [0, 2], y: [0.008, 0.004] });
+  assert.deepEqual(lower, { x: [1, 3], y: [-0.006, -0.002] });
+});
+
+test("a decay that does not come to rest says so", () => {
+  assert.match(whatItMeans(decay()).flat().join(" "), /Within 4 s it does not come to rest\./);
+  assert.match(
+    whatItMeans(decay({ stop_time: ["s", "", 3.5] }))
+      .flat()
+      .join(" "),
+    /From 3\.5 s on nothing moves\./,
+  );
+});
+
+test("the damping budget names each share", () => {
+  const text = whatItMeans(
+    decay({
+      guide_energy: ["J", "", 3],
+      guide_energy_share: ["1", "", 0.75],
+      c_energy: ["J", "", 1],
+      c_energy_share: ["1", "", 0.25],
+      energy_balance: ["1", "", 1e-12],
+    }),
+  )
+    .flat()
+    .join(" ");
+  assert.match(text, /Of 4 J dissipated, 75 % in guide, 25 % in c\. The energy balance closes to 1×10⁻¹²\./);
+});
+
+test("a contact that is not released sticks to the end", () => {
+  const time = [0, 1, 2, 3, 4];
+  const motion = motionOf(
+    sampleRecord({
+      transient: sampleGroup(
+        {},
+        {
+          time: ["s", "time", time],
+          x_displacement: ["m", "time", time],
+          guide_stop_onset: ["s", "stop", [1, 3, NaN]],
+          guide_release: ["s", "stop", [2, NaN, NaN]],
+          other_stop_onset: ["s", "stop", [NaN, NaN, NaN]],
+          other_release: ["s", "stop", [NaN, NaN, NaN]],
+        },
+      ),
+    }),
+    "transient",
+  );
+  assert.equal(motion.stops.length, 1);
+  assert.deepEqual(Array.from(motion.stops[0].to), [2, 4]);
+  assert.match(whatItMeans(motion).flat().join(" "), /Contact guide sticks 2 times, 2 s in all\./);
+});
+
+test("the frequency at the peak of a run-up lies between its samples", () => {
+  assert.equal(interpolated([0, 1, 2], [10, 20, 40], 1.5), 30);
+  assert.equal(interpolated([0, 1, 2], [10, 20, 40], 0), 10);
+  assert.ok(Number.isNaN(interpolated([0, 1], [1, 2], 3)));
+});
+
+test("the last cycles are a stretch at the end, of a short motion there is none", () => {
+  const motion = (periods) => {
+    const time = Float64Array.from({ length: 100 * periods + 1 }, (_, i) => (i + 0.3) / 100);
+    return { time: { values: time }, masses: [{ velocity: { values: time.map((t) => Math.cos(2 * Math.PI * t)) } }] };
+  };
+  const last = stretch(motion(100), 12, "last"),
+    first = stretch(motion(100), 12, "first");
+  assert.ok(Math.abs(last.to - last.from - 600) < 100, `${last.to - last.from} samples`);
+  assert.equal(last.to, 10001);
+  assert.equal(first.from, 0);
+  assert.equal(stretch(motion(10), 12, "last"), null);
+});
+
+test("the largest errors of a cut are those of its columns, and a second crank on a node is another", () => {
+  const cranks = cranksOf(
+    sampleRecord({
+      crank: sampleGroup(
+        {},
+        {
+          angle: ["rad", "angle", [0, 1, 2]],
+          exciter_motion: ["m", "angle", [0.1, 0.05, -0.2]],
+          exciter_taylor_1: ["m", "angle", [0.1, 0.06, -0.2]],
+          exciter_taylor_1_error: ["1", "angle", [0, 0.02, 0]],
+          exciter_2_motion: ["m", "angle", [0, 0, 0]],
+        },
+      ),
+    }),
+  );
+  assert.deepEqual(
+    cranks.map(({ name, cuts }) => [name, cuts.map(({ order }) => order)]),
+    [
+      ["exciter", [1]],
+      ["exciter_2", []],
+    ],
+  );
+  const { length, relative } = largestErrors(cranks[0], cranks[0].cuts[0]);
+  assert.ok(Math.abs(length - 0.01) < rounding);
+  assert.equal(relative, 0.02);
+});

@@ -1,0 +1,206 @@
+// The numbers behind what a tuning means, against numbers by hand.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { heldBounds, knotsAtBounds, rootUnit, settlingRounds, tuningOf } from "../../../results/report/page/tuning.js";
+import {
+  bandBelowBefore,
+  nonNegative,
+  outcomeWarning,
+  reduction,
+  whatItMeans,
+  worstDetuning,
+} from "../../../results/report/page/tuning_words.js";
+import { sampleGroup, sampleRecord } from "./sample_record.mjs";
+
+const rounding = 1e-12;
+const outcomes = ["not_computed", "converged", "not_converged", "infeasible", "unbounded", "failed", "stopped"];
+
+function close(value, expected, tolerance = rounding) {
+  assert.ok(Math.abs(value - expected) <= tolerance * Math.max(1, Math.abs(expected)), `${value} is not ${expected}`);
+}
+
+function minimax(changes = {}, outcome = 1, texts = {}) {
+  const group = sampleGroup(
+    {
+      reason: "because",
+      objective_kind: "minimax",
+      quantity: "main_peak",
+      band_parameter: "omega",
+      parameters: "k",
+      scenarios: "study",
+      limits: "",
+      solver: "ipopt",
+      start: "given",
+      ...texts,
+    },
+    {
+      objective: ["m", "", 0.025],
+      certificate_gap: ["1", "", 1e-9],
+      kkt_residual: ["1", "", 2e-10],
+      violation: ["1", "", 0],
+      best_start: ["1", "", 0],
+      k: ["N/m", "", 1000],
+      k_lower: ["N/m", "", 500],
+      k_upper: ["N/m", "", 1000],
+      k_before: ["N/m", "", 800],
+      k_lower_multiplier: ["m (N/m)-1", "", 0],
+      k_upper_multiplier: ["m (N/m)-1", "", 1e-5],
+      peak_omega: ["rad s-1", "peak", [12, 18]],
+      peak_value: ["m", "peak", [0.025, 0.02]],
+      peak_multiplier: ["1", "peak", [1, 0]],
+      peak_scenario: ["1", "peak", [0, 0]],
+      k_sensitivity: ["m (N/m)-1", "peak", [-1e-5, 2e-5]],
+      omega: ["rad s-1", "omega", [10, 12, 14, 16, 20]],
+      response_before: ["m", "omega", [0.01, 0.1, 0.02, 0.01, 0.03]],
+      response_after: ["m", "omega", [0.012, 0.025, 0.02, 0.015, 0.01]],
+      worst_before: ["m", "", 0.1],
+      worst_after: ["m", "", 0.025],
+      change: ["1", "change", [-0.05, 0.05]],
+      k_detuning: ["1", "change", [0.2, -0.01]],
+      ...changes,
+    },
+    { outcome: ["", outcome, outcomes] },
+  );
+  return sampleRecord({ optimum: group });
+}
+
+test("a quarter of the peak is 75 percent or 12 dB less", () => {
+  const { percent, decibel } = reduction(0.1, 0.025);
+  close(percent, 75);
+  close(decibel, -12.041199826559248);
+});
+
+test("stretches where a line is not negative end where it crosses zero", () => {
+  const { intervals, share } = nonNegative([0, 1, 2, 3, 4], [1, -1, -1, 1, 0]);
+  assert.deepEqual(intervals, [
+    [0, 0.5],
+    [2.5, 4],
+  ]);
+  close(share, 0.5);
+});
+
+test("a line that is never negative holds over the whole band, one that always is nowhere", () => {
+  assert.deepEqual(nonNegative([0, 1, 2], [0, 0, 3]), { intervals: [[0, 2]], share: 1 });
+  assert.deepEqual(nonNegative([0, 1, 2], [-1, -2, -1]), { intervals: [], share: 0 });
+});
+
+test("the band below the response before is found between the samples", () => {
+  // Differences before - after: -0.002, 0.075, 0, -0.005, 0.02; zeros by hand.
+  const { intervals, share } = bandBelowBefore(tuningOf(minimax()));
+  const first = 10 + (2 * 0.002) / 0.077,
+    last = 16 + (4 * 0.005) / 0.025;
+  assert.equal(intervals.length, 2);
+  close(intervals[0][0], first, 1e-6);
+  close(intervals[0][1], 14, 1e-6);
+  close(intervals[1][0], last, 1e-6);
+  close(share, (14 - first + 20 - last) / 10, 1e-6);
+});
+
+test("in every scenario means in the worst of them", () => {
+  const two = minimax(
+    {
+      response_before_a: ["m", "omega", [1, 1, 1, 1, 1]],
+      response_after_a: ["m", "omega", [0.5, 0.5, 0.5, 0.5, 0.5]],
+      response_before_b: ["m", "omega", [1, 1, 1, 1, 1]],
+      response_after_b: ["m", "omega", [0.5, 0.5, 0.5, 1.5, 1.5]],
+    },
+    1,
+    { scenarios: "a,b" },
+  );
+  const { intervals, share } = bandBelowBefore(tuningOf(two));
+  close(intervals[0][1], 15, 1e-6);
+  close(share, 0.5, 1e-6);
+});
+
+test("the sentences tell reduction, band, certificate and what holds the design", () => {
+  const text = whatItMeans(tuningOf(minimax())).flat().join(" ");
+  assert.match(text, /Worst main peak over 10 to 20 rad\/s of ω: 25 mm\./);
+  assert.match(text, /Against the design before \(100 mm\): 75 % less \(−12 dB\)\./);
+  assert.match(text, /at or below 25 mm over the whole band/);
+  assert.match(text, /by more than 1×10⁻⁹ of it/);
+  assert.match(text, /held by the peak at 12 rad\/s, share 100 %; the upper bound of k \(moved out by 1 %/);
+  assert.match(text, /of the range it gives 0\.2 %, to first order\)/);
+  assert.match(text, /off by 5 % makes the worst peak grow by at most 20 % \(k 5 % less\)/);
+});
+
+test("a bound that holds gives its multiplier times a hundredth of the range", () => {
+  const { parameters, objective } = tuningOf(minimax());
+  const [held, ...others] = heldBounds(parameters[0], objective);
+  assert.equal(held.end, "upper");
+  assert.equal(others.length, 0);
+  close(held.gain, (1e-5 * 5) / 0.025);
+});
+
+test("the worst detuning is the largest growth of that change", () => {
+  assert.deepEqual(worstDetuning(tuningOf(minimax()), 0.05), { growth: 0.2, name: "k", change: -0.05 });
+  assert.equal(worstDetuning(tuningOf(minimax()), 0.1), null);
+});
+
+test("knots on a bound are counted", () => {
+  assert.deepEqual(knotsAtBounds({ values: [1, 1.000001, 2, 3], lower: 1, upper: 3 }), { lower: [0, 1], upper: [3] });
+});
+
+test("of a mean square the words are of roots, and the decibels of amplitudes", () => {
+  const record = minimax(
+    { objective: ["(m)2", "", 4e-6], worst_before: ["(m)2", "", 16e-6], worst_after: ["(m)2", "", 4e-6] },
+    1,
+    { objective_kind: "mean_square" },
+  );
+  const text = whatItMeans(tuningOf(record)).flat().join(" ");
+  assert.match(text, /Root mean square of main peak over 10 to 20 rad\/s of ω: 2 mm\./);
+  assert.match(text, /\(4 mm\): 50 % less \(−6\.02 dB\)/);
+  assert.doesNotMatch(text, /Certificate/);
+  assert.equal(rootUnit("(m)2"), "m");
+  assert.equal(rootUnit("1"), "1");
+});
+
+test("a tuning that did not converge, was infeasible, without bound, failed or stopped says so with its reason", () => {
+  assert.equal(outcomeWarning(tuningOf(minimax())), "");
+  const words = [/did not converge/, /keeps every limit/, /no bound/, /failed/, /stopped/];
+  words.forEach((word, i) => {
+    const warning = outcomeWarning(tuningOf(minimax({ violation: ["1", "", 0.25] }, i + 2)));
+    assert.match(warning, word);
+    assert.match(warning, /25 %.*because\.$/);
+  });
+});
+
+test("rounds that settle a schedule are told from those that press the worst peak down", () => {
+  const bounds = [0.04, 0.03, 0.025 * (1 - 1e-9), 0.009, 0.008];
+  const scheduled = {
+    k: ["N/m", "knots_k", [600, 900]],
+    knots_k: ["rad s-1", "knots_k", [10, 20]],
+    round_bound: ["m", "round", bounds],
+  };
+  assert.equal(settlingRounds(tuningOf(minimax(scheduled))), 2);
+  assert.equal(settlingRounds(tuningOf(minimax({ round_bound: ["m", "round", bounds] }))), 0);
+});
+
+test("where what stands beside the schedule leaves its range is told", () => {
+  const ratio = {
+    ratio: ["1", "omega", [0.5, 0.7, 0.9, 1.1, 1.5]],
+    ratio_range_lower: ["1", "", 0.6],
+    ratio_range_upper: ["1", "", 1.1],
+  };
+  const record = minimax(ratio);
+  const group = record.groups.get("optimum");
+  group.byName.set("ratio_range", {
+    name: "ratio_range",
+    kind: "flag",
+    dimension: "omega",
+    flags: [[1, "within"]],
+    values: Float64Array.from([2, 1, 1, 1, 3]),
+  });
+  assert.match(
+    whatItMeans(tuningOf(record)).flat().join(" "),
+    /ratio is within its range over 50 % of the band \(11 to 16 rad\/s\)\./,
+  );
+});
+
+test("of a design that did not converge nothing is said of its being free or best", () => {
+  const text = whatItMeans(
+    tuningOf(minimax({ k_upper_multiplier: ["m (N/m)-1", "", 0], peak_multiplier: ["1", "peak", [0, 0]] }, 3)),
+  )
+    .flat()
+    .join(" ");
+  assert.doesNotMatch(text, /free on all sides|no better design/);
+});

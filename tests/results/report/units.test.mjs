@@ -1,0 +1,42 @@
+// Units and numbers as readers write them, axes and legends that hold them.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { powerText, powerTicks } from "../../../results/report/page/figures/power_ticks.js";
+import { wrapped } from "../../../results/report/page/figures/text_lines.js";
+import { numberText, quantityText, unitText } from "../../../results/report/page/units.js";
+
+test("units have powers, products and quotients", () => {
+  assert.equal(unitText("m s-2"), "m/s²");
+  assert.equal(unitText("N s m-1"), "N s/m");
+  assert.equal(unitText("rad s-1"), "rad/s");
+  assert.equal(unitText("(m)2"), "m²");
+  assert.equal(unitText("(m s-1)2"), "(m/s)²");
+  assert.equal(unitText("percent"), "%");
+  assert.equal(unitText("1"), "");
+  assert.equal(unitText("kN/m"), "kN/m");
+});
+
+test("quantities stand in the unit that reads best", () => {
+  assert.equal(quantityText(0.0319116, "m", 4), "31.91 mm");
+  assert.equal(quantityText(-2.5e-7, "m", 4), "−250 nm");
+  assert.equal(quantityText(26.5, "N s m-1"), "26.5 N s/m");
+  assert.equal(quantityText(NaN, "m"), "–");
+  assert.equal(numberText(1.1058e-9, 2), "1.1×10⁻⁹");
+  assert.equal(numberText(Infinity), "∞");
+});
+
+test("a long label falls into lines at its blanks, a long word where it must, and nothing is lost", () => {
+  const text = "the growth of the worst_peak_of_a_mass_with_a_name_that_goes_on_and_on (mm)",
+    lines = wrapped(text, 120);
+  assert.ok(lines.length > 3);
+  assert.ok(lines.every((line) => line.length <= Math.floor(120 / (0.56 * 12))));
+  assert.equal(lines.join("").replaceAll(" ", ""), text.replaceAll(" ", ""));
+  assert.deepEqual(wrapped("short", 120), ["short"]);
+  assert.deepEqual(wrapped("", 120), [""]);
+});
+
+test("a logarithmic axis has ticks at powers of ten, one style for all of them", () => {
+  assert.deepEqual(powerTicks([2e-6, 3e-3]).map(powerText([2e-6, 3e-3])), ["10⁻⁵", "10⁻⁴", "10⁻³"]);
+  assert.deepEqual(powerTicks([0.8, 30]).map(powerText([0.8, 30])), ["1", "2", "5", "10", "20"]);
+  assert.ok(powerTicks([1e-16, 1]).length <= 9);
+});
