@@ -28,7 +28,7 @@ function placeAlong({ coordinates, size }, group) {
 }
 
 // Crossings of /borders of one contact: {place: fractional index along each axis, axis: along which, key}.
-export function crossingsOf(record, contact) {
+function crossingsOf(record, contact) {
   const group = record.groups.get("borders");
   if (!group) return [];
   const element = group.column("element"), axis = group.column("axis");
@@ -46,7 +46,7 @@ export function crossingsOf(record, contact) {
 }
 
 // Contacts that have a regime among the page's quantities, or borders.
-export function contactsOf(record) {
+function contactsOf(record) {
   const fromRegimes = record.map.variables.filter(({ name }) => name.endsWith("_regime")).map(({ name }) => name.slice(0, -7));
   const element = record.groups.get("borders")?.column("element");
   const fromBorders = (element?.flags ?? []).map(([, word]) => word).filter((word) => word !== "not_computed");

@@ -21,13 +21,6 @@ export function table(head, rows, { caption, numeric = [] } = {}) {
     element("tbody", {}, rows.map((row) => element("tr", {}, row.map((content, c) => cell("td", content, c)))))));
 }
 
-// A drop-down list of [value, text]; chosen(value) is called when another is taken.
-export function choice(label, options, selected, chosen) {
-  const list = element("select", { onchange: (event) => chosen(event.target.value) },
-    options.map(([value, text]) => element("option", { value, selected: String(value) === String(selected) }, text)));
-  return element("label", { class: "control" }, element("span", {}, label), list);
-}
-
 export function section(title, ...children) {
   return element("section", { class: "part" }, element("h2", {}, title), ...children);
 }

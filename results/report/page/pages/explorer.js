@@ -1,0 +1,140 @@
+// A map under the hand: lists and sliders say what is shown, a click on the map takes a point for the curves.
+import { coordinateLabel } from "../axes.js";
+import { dissipating } from "../figures/energy_shares.js";
+import { choice, slider, tick } from "../parts/controls.js";
+import { element, section } from "../parts/elements.js";
+import { figureCard } from "../parts/figure_card.js";
+import { about } from "../parts/heading.js";
+import { followPointer } from "../parts/map_pointer.js";
+import { pointCard, pointTip } from "../parts/point_table.js";
+import { words } from "../units.js";
+import { budgetFigure, curveFigure, mapFigure, regimeOf } from "./map_figures.js";
+import { curvePoints, firstState } from "./sweep_state.js";
+
+const scales = [["linear", "linear"], ["log", "logarithmic"]];
+
+// Everything of the explorer: the record, its state, its figures, the places of its controls.
+function viewOf(record) {
+  const { map } = record, state = firstState(record);
+  const card = (figure) => figureCard(figure, about(record));
+  const wide = map.axes.map((_, a) => a).filter((a) => map.axes[a].size > 1);
+  const shares = dissipating(map.variables);
+  return {
+    record, map, state, wide,
+    mapShown: state.y === null ? null : card(mapFigure(map, state)),
+    curvesShown: card(curveFigure(map, state)),
+    budgetShown: shares.length && wide.length ? card(budgetFigure(map, state, shares)) : null,
+    mapControls: element("div", { class: "controls" }), sliders: element("div", { class: "controls" }),
+    curveControls: element("div", { class: "controls" }), place: element("div", {}),
+    rows: [], waiting: false,
+  };
+}
+
+// At the next frame, however often it is asked for until then.
+function redraw(view) {
+  if (view.waiting) return;
+  view.waiting = true;
+  requestAnimationFrame(() => {
+    view.waiting = false;
+    for (const shown of [view.mapShown, view.curvesShown, view.budgetShown]) shown?.redraw();
+    view.place.replaceChildren(pointCard(view.record, view.state.index));
+  });
+}
+
+// Changes the state and shows it.
+function change(view, changes) {
+  Object.assign(view.state, changes);
+  redraw(view);
+}
+
+// Axes and their coordinates as [axis:coordinate, label]: those that rise or fall all along.
+function coordinateChoices({ map, wide }) {
+  return wide.flatMap((axis) => map.axes[axis].coordinates.map((coordinate, c) => [`${axis}:${c}`, coordinate]))
+    .filter(([, { monotone }]) => monotone).map(([key, coordinate]) => [key, coordinateLabel(coordinate)]);
+}
+
+function chosenCoordinate(state, key) {
+  const [axis, coordinate] = key.split(":").map(Number);
+  state.coordinates[axis] = coordinate;
+  return axis;
+}
+
+// Another axis across or up; the two change places where it is the other's.
+function setAxis(view, which, key) {
+  const { state } = view, other = which === "x" ? "y" : "x";
+  const axis = chosenCoordinate(state, key);
+  if (axis === state[other]) [state.x, state.y] = [state.y, state.x];
+  else state[which] = axis;
+  arrange(view);
+}
+
+function controlsOfMap(view) {
+  const { map, state } = view;
+  const quantity = choice("quantity", map.variables.map(({ name }) => [name, words(name)]), state.variable.name,
+    (name) => change(view, { variable: map.variable(name) }));
+  if (state.y === null) return [quantity];
+  const axis = (label, which) => choice(label, coordinateChoices(view), `${state[which]}:${state.coordinates[state[which]]}`,
+    (key) => setAxis(view, which, key));
+  const contacts = [...state.crossings.keys()];
+  return [quantity, axis("across", "x"), axis("up", "y"),
+    choice("colours", scales, state.scale, (scale) => change(view, { scale })),
+    choice("palette", [["viridis", "viridis"], ["cividis", "cividis"]], state.colours, (colours) => change(view, { colours })),
+    contacts.length ? choice("contact", contacts.map((name) => [name, words(name)]), state.contact, (contact) => {
+      change(view, { contact });
+      arrange(view);
+    }) : null];
+}
+
+function controlsOfCurves(view) {
+  const { map, state, wide } = view;
+  const button = (id, text, kept) => element("button", { type: "button", id, onclick: () => change(view, { kept: kept() }) }, text);
+  return [
+    choice("along", coordinateChoices(view), `${state.curveAxis}:${state.coordinates[state.curveAxis]}`,
+      (key) => change(view, { curveAxis: chosenCoordinate(state, key) })),
+    choice("scale", [...scales, ["dB", "dB"]], state.curveScale, (curveScale) => change(view, { curveScale })),
+    regimeOf(map, state.contact)
+      ? tick("colour by regime", state.colourByRegime, (colourByRegime) => change(view, { colourByRegime })) : null,
+    wide.length > 1 ? button("keep", "keep this curve", () => [...curvePoints(state)]) : null,
+    wide.length > 1 ? button("clear", "clear kept", () => []) : null,
+  ];
+}
+
+// Of every axis that the map does not show.
+function slidersOf(view) {
+  const { map, state, wide } = view;
+  const hidden = wide.filter((axis) => state.y === null || (axis !== state.x && axis !== state.y));
+  return hidden.map((axis) => slider(map.axes[axis], () => state.index[axis],
+    (to) => change(view, { index: state.index.map((i, a) => (a === axis ? to : i)) })));
+}
+
+// The controls anew: which there are depends on what is shown.
+function arrange(view) {
+  view.mapControls.replaceChildren(...controlsOfMap(view).filter(Boolean));
+  view.curveControls.replaceChildren(...controlsOfCurves(view).filter(Boolean));
+  view.rows = slidersOf(view);
+  view.sliders.replaceChildren(...view.rows.map(({ row }) => row));
+  redraw(view);
+}
+
+function pick(view, index, keep) {
+  const { state } = view;
+  change(view, { kept: keep ? [...state.kept, state.index] : state.kept, index });
+  view.rows.forEach(({ refresh }) => refresh());
+}
+
+export function explorerSections(record) {
+  const view = viewOf(record);
+  const { mapShown, curvesShown, budgetShown } = view;
+  arrange(view);
+  if (mapShown) {
+    followPointer(mapShown, view.map, view.state, (index) => pointTip(record, index, view.state.variable),
+      (index, keep) => pick(view, index, keep));
+  }
+  const hint = "Point at the map to read it; click to take a point for the curves, with Shift to keep the one before.";
+  return [
+    section(mapShown ? "Response map" : "Response", view.mapControls, view.sliders, mapShown?.card,
+      mapShown ? element("p", { class: "note hint" }, hint) : null),
+    section("Response curves", view.curveControls, curvesShown.card, budgetShown?.card),
+    section("Point", view.place),
+  ];
+}

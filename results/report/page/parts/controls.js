@@ -1,0 +1,34 @@
+// Sliders, lists and ticks.
+import { coordinateText } from "../axes.js";
+import { element } from "./elements.js";
+
+// A drop-down list of [value, text]; chosen(value) is called when another is taken.
+export function choice(label, options, selected, chosen) {
+  const list = element("select", { onchange: (event) => chosen(event.target.value) },
+    options.map(([value, text]) => element("option", { value, selected: String(value) === String(selected) }, text)));
+  return element("label", { class: "control" }, element("span", {}, label), list);
+}
+
+export function tick(label, checked, changed) {
+  const box = element("input", { type: "checkbox", checked, onchange: () => changed(box.checked) });
+  return element("label", { class: "control tick" }, box, element("span", {}, label));
+}
+
+// Over the points of an axis {name, size, coordinates}; at(): the index it stands at, moved(index).
+// Returns {row, refresh}.
+export function slider({ name, size, coordinates }, at, moved) {
+  const text = () => coordinates.map((coordinate) => coordinateText(coordinate, at())).join(", ");
+  const label = element("span", {}, text());
+  const input = element("input", {
+    type: "range", min: 0, max: size - 1, step: 1, value: at(), "data-axis": name, "aria-label": name,
+    oninput: () => {
+      moved(Number(input.value));
+      label.textContent = text();
+    },
+  });
+  const refresh = () => {
+    input.value = at();
+    label.textContent = text();
+  };
+  return { row: element("label", { class: "control" }, label, input), refresh };
+}
