@@ -72,7 +72,7 @@ function spoken(tuning) {
 }
 
 // The objective as an amplitude: itself, or the root of a mean square or variance.
-export function amplitude(tuning, objective) {
+function amplitude(tuning, objective) {
   return tuning.kind === "minimax" ? objective : Math.sqrt(objective);
 }
 
@@ -167,7 +167,7 @@ function certificateSentences({ kind, group, band, outcome }) {
 }
 
 // "12 of 20 starts reached this objective to 0.1 %".
-export function startsText(group) {
+function startsText(group) {
   const found = Array.from(group.values("start_objective")),
     best = group.number("objective");
   const alike = found.filter((value) => Math.abs(value - best) <= 1e-3 * Math.abs(best)).length;
@@ -178,7 +178,7 @@ export function startsText(group) {
 }
 
 // What holds the design, as phrases.
-export function holders(tuning) {
+function holders(tuning) {
   const peaks = tuning.peaks
     .filter(({ active }) => active)
     .map(
@@ -197,7 +197,7 @@ export function holders(tuning) {
   const limits = tuning.limits
     .filter(({ active }) => active)
     .map(
-      ({ name, value, unit, multiplier }) =>
+      ({ name, value, multiplier }) =>
         `the limit of ${words(name)} (relaxed by 1 % it gives ` +
         `${percentText((multiplier * Math.abs(value)) / tuning.objective, 2)}, to first order)`,
     );
