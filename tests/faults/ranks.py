@@ -7,6 +7,7 @@ usage: ranks.py FRAHM SOURCE_DIR MPIEXEC
 import os
 import random
 import signal
+import subprocess
 import sys
 import time
 
@@ -38,6 +39,27 @@ def ranks_of(process):
     """The processes that a launcher has started."""
     with open(f"/proc/{process.pid}/task/{process.pid}/children") as file:
         return [int(pid) for pid in file.read().split()]
+
+
+def is_running(pid):
+    try:
+        with open(f"/proc/{pid}/stat") as file:
+            return file.read().rsplit(")", 1)[1].split()[0] != "Z"
+    except FileNotFoundError:
+        return False
+
+
+def job_ended(process):
+    """As ended(); but where ranks are killed as they start, Open MPI's launcher itself may wait for ever for their
+    greeting. That is no hang of ours if none of the ranks lives; any other is."""
+    try:
+        process.wait(TIME_LIMIT)
+    except subprocess.TimeoutExpired:
+        alive = [pid for pid in ranks_of(process) if is_running(pid)]
+        assert not alive, f"ranks {alive} hang"
+        print("the launcher outlived all its ranks and was killed", flush=True)
+        process.kill()
+    return ended(process)
 
 
 def kept(place):
@@ -91,7 +113,7 @@ def kill_at_random(launcher, bench, study, expected):
         elif ranks:
             for pid in (process.pid, *ranks):
                 os.kill(pid, signal.SIGKILL)
-        outcome = ended(process)
+        outcome = job_ended(process)
         kills += outcome.code != 0
         if OUTPUT in place.names():
             expected.check_file(place, "killed ranks")
