@@ -12,8 +12,15 @@ const esbuild = createRequire(join(modules, "bundle.cjs"))("esbuild");
 
 function bundle(entry, options) {
   const result = esbuild.buildSync({
-    entryPoints: [join(page, entry)], bundle: true, minify: true, write: false, charset: "utf8",
-    nodePaths: [modules], legalComments: "inline", logLevel: "warning", ...options,
+    entryPoints: [join(page, entry)],
+    bundle: true,
+    minify: true,
+    write: false,
+    charset: "utf8",
+    nodePaths: [modules],
+    legalComments: "inline",
+    logLevel: "warning",
+    ...options,
   });
   return result.outputFiles[0].text;
 }
@@ -27,7 +34,9 @@ function licences() {
     const folder = join(modules, "..", path);
     for (const name of ["LICENSE", "LICENSE.md", "LICENCE", "LICENSE.txt"]) {
       try {
-        texts.push(`${path.replace("node_modules/", "")} ${entry.version}\n${readFileSync(join(folder, name), "utf8").trim()}`);
+        texts.push(
+          `${path.replace("node_modules/", "")} ${entry.version}\n${readFileSync(join(folder, name), "utf8").trim()}`,
+        );
         break;
       } catch {
         // another name
@@ -54,7 +63,9 @@ function literal(text) {
   return `std::string_view(R"frahm(${text})frahm", ${Buffer.byteLength(text)})`;
 }
 
-writeFileSync(output, `#include "results/report/page_parts.hpp"
+writeFileSync(
+  output,
+  `#include "results/report/page_parts.hpp"
 
 namespace frahm::results {
 
@@ -64,4 +75,5 @@ const std::string_view page_after_data = ${literal(afterData)};
 const std::string_view figures_script = ${literal(figures)};
 
 }  // namespace frahm::results
-`);
+`,
+);

@@ -2,13 +2,35 @@
 import { numberText, unitText, withUnit, words } from "./units.js";
 
 const greek = {
-  alpha: "\u03b1", beta: "\u03b2", gamma: "\u03b3", delta: "\u03b4", epsilon: "\u03b5", zeta: "\u03b6", eta: "\u03b7", theta: "\u03b8",
-  kappa: "\u03ba", lambda: "\u03bb", mu: "\u03bc", nu: "\u03bd", xi: "\u03be", rho: "\u03c1", sigma: "\u03c3", tau: "\u03c4", phi: "\u03c6", psi: "\u03c8", omega: "\u03c9", Omega: "\u03a9", Delta: "\u0394",
+  alpha: "\u03b1",
+  beta: "\u03b2",
+  gamma: "\u03b3",
+  delta: "\u03b4",
+  epsilon: "\u03b5",
+  zeta: "\u03b6",
+  eta: "\u03b7",
+  theta: "\u03b8",
+  kappa: "\u03ba",
+  lambda: "\u03bb",
+  mu: "\u03bc",
+  nu: "\u03bd",
+  xi: "\u03be",
+  rho: "\u03c1",
+  sigma: "\u03c3",
+  tau: "\u03c4",
+  phi: "\u03c6",
+  psi: "\u03c8",
+  omega: "\u03c9",
+  Omega: "\u03a9",
+  Delta: "\u0394",
 };
 
 // A parameter's name as a symbol: "omega" to "ω", "zeta_1" to "ζ 1".
 export function symbolText(name) {
-  return name.split("_").map((part) => greek[part] ?? part).join(" ");
+  return name
+    .split("_")
+    .map((part) => greek[part] ?? part)
+    .join(" ");
 }
 
 // The record tells where the study uses a parameter: "[excitation]: frequency", 'element "inerter": inertance'.
@@ -18,12 +40,13 @@ function plainMeaning(longName = "") {
   return use[1] ? `${use[1]} ${words(use[3])}` : `${words(use[3])} of ${words(use[2])}`;
 }
 
-const shortEnough = 34;  // characters of a label
+const shortEnough = 34; // characters of a label
 
 // The label of an axis or of a derived coordinate with its unit: "excitation frequency ω (rpm)".
 export function coordinateLabel({ name, unit, long_name: longName }) {
   const meaning = plainMeaning(longName);
-  const told = meaning && meaning !== `parameter ${name}` && meaning !== name && meaning.length <= shortEnough;
+  const told =
+    meaning && meaning !== `parameter ${name}` && meaning !== name && meaning.length <= shortEnough;
   const isSymbol = !name.includes("_");
   const saysName = meaning.endsWith(name);
   const text = told ? (isSymbol && !saysName ? `${meaning} ${symbolText(name)}` : meaning) : symbolText(name);
@@ -40,7 +63,9 @@ export function coordinateText({ name, unit, values }, i) {
 export function spacing(values) {
   const even = (of) => {
     const step = (of(values.at(-1)) - of(values[0])) / (values.length - 1);
-    return values.every((value, i) => Math.abs(of(value) - of(values[0]) - i * step) <= 1e-6 * Math.abs(step));
+    return values.every(
+      (value, i) => Math.abs(of(value) - of(values[0]) - i * step) <= 1e-6 * Math.abs(step),
+    );
   };
   if (values.length < 2 || even((value) => value)) return "linear";
   return values.every((value) => value > 0) && even(Math.log) ? "log" : "";
@@ -58,11 +83,13 @@ export function nearest(values, at, type = "linear") {
 
 // The edges between the cells of a map, one more than there are values: half way between neighbours.
 export function cellEdges(values, type) {
-  const to = type === "log" ? Math.log : (value) => value, from = type === "log" ? Math.exp : (value) => value;
+  const to = type === "log" ? Math.log : (value) => value,
+    from = type === "log" ? Math.exp : (value) => value;
   const places = Array.from(values, to);
   if (places.length === 1) return [from(places[0] - 0.5), from(places[0] + 0.5)];
   const inner = places.slice(1).map((place, i) => (place + places[i]) / 2);
-  const first = places[0] - (inner[0] - places[0]), last = places.at(-1) + (places.at(-1) - inner.at(-1));
+  const first = places[0] - (inner[0] - places[0]),
+    last = places.at(-1) + (places.at(-1) - inner.at(-1));
   return [first, ...inner, last].map(from);
 }
 
@@ -80,9 +107,13 @@ export function fractionalIndex(values, at) {
 // The command that computes this point again, in the units of the study.
 export function pointCommand(record, index) {
   const quoted = (text) => (/^[A-Za-z0-9_.,=\/-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
-  const at = record.map.axes.flatMap((axis, a) => axis.coordinates
-    .filter(({ name }) => record.map.parameters.has(name))
-    .map(({ name, unit, values }) => `${name}=${values[index[a]]}${unit && unit !== "1" ? ` ${unit}` : ""}`));
+  const at = record.map.axes.flatMap((axis, a) =>
+    axis.coordinates
+      .filter(({ name }) => record.map.parameters.has(name))
+      .map(
+        ({ name, unit, values }) => `${name}=${values[index[a]]}${unit && unit !== "1" ? ` ${unit}` : ""}`,
+      ),
+  );
   const set = record.provenance.overrides;
   return `frahm point ${quoted(record.provenance.study_file ?? "study.toml")} --at ${quoted(at.join(","))}${set ? ` --set ${quoted(set)}` : ""}`;
 }

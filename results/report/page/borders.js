@@ -3,16 +3,35 @@
 // Crossings within the map of two axes where the other axes stand at an index: an edge of the grid lies along
 // x or along y, at a whole index of the other.  Returns [{key, i, j, alongX}], i and j fractional indices.
 function crossingsOfSlice(crossings, { x, y, index }) {
-  return crossings.filter((crossing) => crossing.place.every((place, axis) => (
-    axis === x || axis === y || Math.abs(place - index[axis]) < 1e-9)) && (crossing.axis === x || crossing.axis === y))
-    .map((crossing) => ({ key: crossing.key, i: crossing.place[x], j: crossing.place[y], alongX: crossing.axis === x }));
+  return crossings
+    .filter(
+      (crossing) =>
+        crossing.place.every(
+          (place, axis) => axis === x || axis === y || Math.abs(place - index[axis]) < 1e-9,
+        ) &&
+        (crossing.axis === x || crossing.axis === y),
+    )
+    .map((crossing) => ({
+      key: crossing.key,
+      i: crossing.place[x],
+      j: crossing.place[y],
+      alongX: crossing.axis === x,
+    }));
 }
 
 // The cells that an edge bounds: two, or one at the rim.
 function cellsOf({ i, j, alongX }, nx, ny) {
-  const column = Math.floor(alongX ? i : Math.round(i)), row = Math.floor(alongX ? Math.round(j) : j);
-  const cells = alongX ? [[Math.min(column, nx - 2), row - 1], [Math.min(column, nx - 2), row]]
-    : [[column - 1, Math.min(row, ny - 2)], [column, Math.min(row, ny - 2)]];
+  const column = Math.floor(alongX ? i : Math.round(i)),
+    row = Math.floor(alongX ? Math.round(j) : j);
+  const cells = alongX
+    ? [
+        [Math.min(column, nx - 2), row - 1],
+        [Math.min(column, nx - 2), row],
+      ]
+    : [
+        [column - 1, Math.min(row, ny - 2)],
+        [column, Math.min(row, ny - 2)],
+      ];
   return cells.filter(([c, r]) => c >= 0 && r >= 0 && c < nx - 1 && r < ny - 1);
 }
 
@@ -20,7 +39,8 @@ const distance = (a, b) => Math.hypot(a.i - b.i, a.j - b.j);
 
 // Joins the crossings of one cell in pairs, the nearest first.
 function pairsWithin(points) {
-  const left = [...points], pairs = [];
+  const left = [...points],
+    pairs = [];
   while (left.length > 1) {
     let best = [0, 1];
     for (let a = 0; a < left.length; ++a) {
@@ -38,7 +58,10 @@ function pairsWithin(points) {
 // Where three regimes meet in a cell, each kind of border has one loose end: they go to their middle.
 function joinLooseEnds(loose) {
   if (loose.length < 2) return [];
-  const middle = { i: loose.reduce((sum, p) => sum + p.i, 0) / loose.length, j: loose.reduce((sum, p) => sum + p.j, 0) / loose.length };
+  const middle = {
+    i: loose.reduce((sum, p) => sum + p.i, 0) / loose.length,
+    j: loose.reduce((sum, p) => sum + p.j, 0) / loose.length,
+  };
   return loose.map((point) => [point, { ...middle, key: point.key }]);
 }
 
@@ -58,8 +81,13 @@ function chained(pieces) {
     }
     return line;
   };
-  const ends = [...at].filter(([, joined]) => joined.length === 1).map(([point, joined]) => [point, joined[0]]);
-  const lines = ends.filter(([, piece]) => !used.has(piece)).map(([point, piece]) => (used.has(piece) ? null : walk(point, piece))).filter(Boolean);
+  const ends = [...at]
+    .filter(([, joined]) => joined.length === 1)
+    .map(([point, joined]) => [point, joined[0]]);
+  const lines = ends
+    .filter(([, piece]) => !used.has(piece))
+    .map(([point, piece]) => (used.has(piece) ? null : walk(point, piece)))
+    .filter(Boolean);
   for (const piece of pieces) if (!used.has(piece)) lines.push(walk(piece[0], piece));
   return lines;
 }
@@ -85,5 +113,7 @@ export function borderCurves(crossings, { x, y, index, nx, ny }) {
     }
     joinLooseEnds(loose).forEach(add);
   }
-  return [...pieces].flatMap(([key, pairs]) => chained(pairs).map((line) => ({ key, points: line.map(({ i, j }) => [i, j]) })));
+  return [...pieces].flatMap(([key, pairs]) =>
+    chained(pairs).map((line) => ({ key, points: line.map(({ i, j }) => [i, j]) })),
+  );
 }

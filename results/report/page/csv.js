@@ -5,11 +5,15 @@ export function csvText(columns) {
   const head = columns.map(({ name, unit }) => quoted(unit && unit !== "1" ? `${name} [${unit}]` : name));
   const lines = [head.join(",")];
   for (let row = 0; row < rows; ++row) {
-    lines.push(columns.map(({ values }) => {
-      const value = values[row];
-      if (typeof value === "string") return quoted(value);
-      return value === undefined || Number.isNaN(value) ? "" : String(value);
-    }).join(","));
+    lines.push(
+      columns
+        .map(({ values }) => {
+          const value = values[row];
+          if (typeof value === "string") return quoted(value);
+          return value === undefined || Number.isNaN(value) ? "" : String(value);
+        })
+        .join(","),
+    );
   }
   return lines.join("\n") + "\n";
 }

@@ -13,9 +13,13 @@ const folder = process.argv[2];
 const record = await unpackRecord(JSON.parse(readFileSync(0, "utf8")));
 const document = new DOMImplementation().createDocument("http://www.w3.org/1999/xhtml", "html");
 for (const figure of figuresOf(record)) {
-  const width = 720, height = Math.round(width * (figure.ratio ?? 0.6));
+  const width = 720,
+    height = Math.round(width * (figure.ratio ?? 0.6));
   const svg = figure.draw({ width, height, document, image: pngImage, interactive: false });
-  writeFileSync(join(folder, `${figure.name}.svg`), new XMLSerializer().serializeToString(svgFile(svg, figure.title, about(record))));
+  writeFileSync(
+    join(folder, `${figure.name}.svg`),
+    new XMLSerializer().serializeToString(svgFile(svg, figure.title, about(record))),
+  );
   writeFileSync(join(folder, `${figure.name}.csv`), csvText(figure.table()));
   process.stdout.write(`${figure.name}\n`);
 }

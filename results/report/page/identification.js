@@ -12,7 +12,10 @@ function estimateOf(group, name, names) {
     high: number("high"),
     standardError: number("standard_error"),
     degreesOfFreedom: number("degrees_of_freedom"),
-    correlation: Array.from(group.values(`${name}_correlation`) ?? [], (value, i) => ({ with: names[i], value })),
+    correlation: Array.from(group.values(`${name}_correlation`) ?? [], (value, i) => ({
+      with: names[i],
+      value,
+    })),
   };
 }
 
@@ -56,7 +59,9 @@ export function identificationOf(record) {
   const listOf = (text) => (text ?? "").split(" ").filter(Boolean);
   const names = listOf(texts.estimates),
     records = listOf(texts.records);
-  const first = names.map((name) => `first_${name}`).filter((name) => group.has(name) && !names.includes(name));
+  const first = names
+    .map((name) => `first_${name}`)
+    .filter((name) => group.has(name) && !names.includes(name));
   return {
     group,
     method: texts.method ?? "",

@@ -12,7 +12,9 @@ async function show() {
     page.replaceChildren(heading(record), ...partsOf(record), provenanceSection(record));
     document.body.dataset.state = "ready";
   } catch (error) {
-    page.replaceChildren(element("p", { class: "failure" }, `This page could not be shown: ${error.message}`));
+    page.replaceChildren(
+      element("p", { class: "failure" }, `This page could not be shown: ${error.message}`),
+    );
     document.body.dataset.state = "failed";
     throw error;
   }

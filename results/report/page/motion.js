@@ -2,7 +2,9 @@
 
 function namesWith(group, end, dimension) {
   return group.columns
-    .filter((column) => column.name.endsWith(end) && (dimension === undefined || column.dimension === dimension))
+    .filter(
+      (column) => column.name.endsWith(end) && (dimension === undefined || column.dimension === dimension),
+    )
     .map(({ name }) => name.slice(0, -end.length));
 }
 
@@ -21,8 +23,11 @@ function massOf(group, name) {
     displacement: group.column(`${name}_displacement`),
     velocity: group.column(`${name}_velocity`),
     unit:
-      (group.column(`${name}_displacement`) ?? group.column(`${name}_extremum`) ?? group.column(`${name}_peak`))
-        ?.unit ?? "1",
+      (
+        group.column(`${name}_displacement`) ??
+        group.column(`${name}_extremum`) ??
+        group.column(`${name}_peak`)
+      )?.unit ?? "1",
     turningTimes,
     turningPoints: group.values(`${name}_extremum`)?.subarray(0, turningTimes.length) ?? new Float64Array(0),
     decrements: known(group.values(`${name}_log_decrement`)),
@@ -36,7 +41,11 @@ function massOf(group, name) {
 function stopsOf(group, name, end) {
   const from = known(group.values(`${name}_stop_onset`));
   const released = group.values(`${name}_release`);
-  return { name, from, to: Float64Array.from(from, (_, i) => (Number.isNaN(released[i]) ? end : released[i])) };
+  return {
+    name,
+    from,
+    to: Float64Array.from(from, (_, i) => (Number.isNaN(released[i]) ? end : released[i])),
+  };
 }
 
 function energiesOf(group) {
@@ -52,7 +61,9 @@ function energiesOf(group) {
 export function motionOf(record, kind) {
   const group = record.groups.get(kind);
   const time = group.column("time");
-  const duration = Number.isFinite(group.number("duration")) ? group.number("duration") : (time?.values.at(-1) ?? NaN);
+  const duration = Number.isFinite(group.number("duration"))
+    ? group.number("duration")
+    : (time?.values.at(-1) ?? NaN);
   const names = new Set([
     ...namesWith(group, "_displacement", "time"),
     ...namesWith(group, "_extremum", "extremum"),

@@ -1,7 +1,7 @@
 // Unpacks the numbers of the page's data (results/report/page_numbers.hpp).
 
 function bytesOf(base64) {
-  if (Uint8Array.fromBase64) return Uint8Array.fromBase64(base64);  // of newer browsers, and faster
+  if (Uint8Array.fromBase64) return Uint8Array.fromBase64(base64); // of newer browsers, and faster
   const binary = atob(base64);
   const bytes = new Uint8Array(binary.length);
   for (let i = 0; i < bytes.length; ++i) bytes[i] = binary.charCodeAt(i);
@@ -30,12 +30,15 @@ export async function unpackNumbers(base64) {
 // Levels along lines of `size` numbers, `stride` apart: undoes the second differences. Level 0 is missing (NaN),
 // level n is low + (n - 1) step.
 export async function unpackLevels({ levels, low, step }, { size, stride }) {
-  const bytes = await inflated(levels), count = bytes.length / 4;
-  const whole = new Int32Array(count), values = new Float64Array(count);
-  const block = size * stride;  // lines side by side
+  const bytes = await inflated(levels),
+    count = bytes.length / 4;
+  const whole = new Int32Array(count),
+    values = new Float64Array(count);
+  const block = size * stride; // lines side by side
   for (let from = 0; from < whole.length; from += block) {
     for (let i = from; i < from + block; ++i) {
-      const code = bytes[i] + 256 * (bytes[i + count] + 256 * (bytes[i + 2 * count] + 256 * bytes[i + 3 * count]));
+      const code =
+        bytes[i] + 256 * (bytes[i + count] + 256 * (bytes[i + 2 * count] + 256 * bytes[i + 3 * count]));
       const before = i - stride >= from ? whole[i - stride] : 0;
       const beforeThat = i - 2 * stride >= from ? whole[i - 2 * stride] : 0;
       whole[i] = (code & 1 ? -((code + 1) / 2) : code / 2) + 2 * before - beforeThat;

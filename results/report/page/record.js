@@ -45,7 +45,7 @@ export class ResponseMap {
   constructor(axes, variables, { parameters, left_out }) {
     this.axes = axes;
     this.variables = variables;
-    this.parameters = new Set(parameters);  // coordinates that are the study's own
+    this.parameters = new Set(parameters); // coordinates that are the study's own
     this.leftOut = left_out;
     this.byName = new Map(variables.map((variable) => [variable.name, variable]));
     this.points = axes.reduce((points, axis) => points * axis.size, 1);
@@ -80,7 +80,13 @@ function isMonotone(values) {
 
 // Parameters zipped together may turn back, so that none of them can be an axis of a figure.
 function indexAlong({ name, size }) {
-  return { name, unit: "1", long_name: "", monotone: true, values: Array.from({ length: size }, (_, i) => i) };
+  return {
+    name,
+    unit: "1",
+    long_name: "",
+    monotone: true,
+    values: Array.from({ length: size }, (_, i) => i),
+  };
 }
 
 async function unpackMap(data) {
@@ -89,31 +95,48 @@ async function unpackMap(data) {
   const axes = data.axes.map((axis, i) => ({ ...axis, stride: strides[i] }));
   for (const axis of axes) {
     for (const coordinate of axis.coordinates) coordinate.monotone = isMonotone(coordinate.values);
-    if (axis.coordinates.length === 0 || !axis.coordinates[0].monotone) axis.coordinates.unshift(indexAlong(axis));
+    if (axis.coordinates.length === 0 || !axis.coordinates[0].monotone)
+      axis.coordinates.unshift(indexAlong(axis));
   }
   const line = { size: sizes[data.along], stride: strides[data.along] };
-  const variables = await Promise.all(data.variables.map(async (variable) => {
-    const from = variable.levels_of ? data.variables.find(({ name }) => name === variable.levels_of) : variable;
-    const values = await unpackLevels({ levels: from.levels, low: variable.low, step: variable.step }, line);
-    const { levels, levels_of, ...described } = variable;
-    return { ...described, values };
-  }));
+  const variables = await Promise.all(
+    data.variables.map(async (variable) => {
+      const from = variable.levels_of
+        ? data.variables.find(({ name }) => name === variable.levels_of)
+        : variable;
+      const values = await unpackLevels(
+        { levels: from.levels, low: variable.low, step: variable.step },
+        line,
+      );
+      const { levels, levels_of, ...described } = variable;
+      return { ...described, values };
+    }),
+  );
   return new ResponseMap(axes, variables, data);
 }
 
 async function unpackGroup({ texts, columns }) {
-  return new Group(texts, await Promise.all(columns.map(async (column) => (
-    { ...column, values: await unpackNumbers(column.values) }))));
+  return new Group(
+    texts,
+    await Promise.all(
+      columns.map(async (column) => ({ ...column, values: await unpackNumbers(column.values) })),
+    ),
+  );
 }
 
 // data: the page's JSON. The record: {file, title, source, history, map (or null), groups: Map, provenance}.
 export async function unpackRecord(data) {
-  if (data.format !== 1) throw new Error(`the page's data are of format ${data.format}, its script reads format 1`);
+  if (data.format !== 1)
+    throw new Error(`the page's data are of format ${data.format}, its script reads format 1`);
   const groups = new Map();
   for (const [name, group] of Object.entries(data.groups)) groups.set(name, await unpackGroup(group));
   return {
-    file: data.file, title: data.title, source: data.source, history: data.history,
+    file: data.file,
+    title: data.title,
+    source: data.source,
+    history: data.history,
     map: data.map ? await unpackMap(data.map) : null,
-    groups, provenance: data.provenance,
+    groups,
+    provenance: data.provenance,
   };
 }

@@ -71,7 +71,8 @@ function limitsOf(group, names, scenarios, objective) {
       lower: number("lower_limit"),
       upper: limit,
       multiplier,
-      active: multiplier * Math.abs(Number.isFinite(limit) ? limit : number("lower_limit")) > heldFrom * objective,
+      active:
+        multiplier * Math.abs(Number.isFinite(limit) ? limit : number("lower_limit")) > heldFrom * objective,
     };
   });
 }
@@ -142,7 +143,8 @@ export function tuningOf(record) {
   const band = texts.band_parameter,
     objective = group.number("objective");
   const scenarios = listOf(texts.scenarios);
-  const several = scenarios.some((scenario) => group.has(`response_after_${scenario}`)) || scenarios.length > 1;
+  const several =
+    scenarios.some((scenario) => group.has(`response_after_${scenario}`)) || scenarios.length > 1;
   const suffixes = several
     ? scenarios.map((scenario) => ({ scenario, suffix: `_${scenario}` }))
     : [{ scenario: "", suffix: "" }];
@@ -164,7 +166,9 @@ export function tuningOf(record) {
     band: band && group.has(band) ? group.column(band) : null,
     weight: group.values("weight"),
     responses: responsesOf(group, suffixes),
-    worst: Object.fromEntries(Object.keys(designNames).map((design) => [design, group.number(`worst_${design}`)])),
+    worst: Object.fromEntries(
+      Object.keys(designNames).map((design) => [design, group.number(`worst_${design}`)]),
+    ),
     columns: band ? extraColumns(group, band) : [],
     front: record.groups.get("optimum/front"),
   };

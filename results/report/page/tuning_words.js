@@ -31,7 +31,8 @@ export function nonNegative(x, y) {
 
 // Where the tuned response is at or below the one before, in every scenario.
 export function bandBelowBefore({ band, responses }) {
-  const of = (design) => responses.filter((response) => response.design === design).map(({ values }) => values);
+  const of = (design) =>
+    responses.filter((response) => response.design === design).map(({ values }) => values);
   const before = of("before"),
     after = of("after");
   if (!band || before.length === 0 || before.length !== after.length) return null;
@@ -47,7 +48,11 @@ export function worstDetuning({ group, parameters }, change) {
   let worst = null;
   for (const { name, detuning } of parameters) {
     changes.forEach((value, i) => {
-      if (!detuning || Math.abs(Math.abs(value) - change) > 1e-9 || !(detuning[i] > (worst?.growth ?? -Infinity)))
+      if (
+        !detuning ||
+        Math.abs(Math.abs(value) - change) > 1e-9 ||
+        !(detuning[i] > (worst?.growth ?? -Infinity))
+      )
         return;
       worst = { growth: detuning[i], name, change: value };
     });
@@ -162,7 +167,9 @@ function certificateSentences({ kind, group, band, outcome }) {
     sentences.push(`The conditions of a local optimum hold to ${numberText(kkt, 2)} (relative).`);
   if (starts > 1) sentences.push(`${startsText(group)}.`);
   else if (outcome === "converged")
-    sentences.push("That no better design lies elsewhere within the bounds is not proved: one start was made.");
+    sentences.push(
+      "That no better design lies elsewhere within the bounds is not proved: one start was made.",
+    );
   return sentences;
 }
 
@@ -207,7 +214,9 @@ function holders(tuning) {
 function holdingSentences(tuning) {
   const held = holders(tuning);
   const free =
-    tuning.outcome === "converged" ? ["Neither bound nor limit holds the design: it is free on all sides."] : [];
+    tuning.outcome === "converged"
+      ? ["Neither bound nor limit holds the design: it is free on all sides."]
+      : [];
   const sentences = held.length ? [`The design is held by ${held.join("; ")}.`] : free;
   const knots = tuning.parameters
     .filter(({ scheduled }) => scheduled)
@@ -228,7 +237,10 @@ function columnSentences(tuning) {
     .filter(({ lower, upper }) => Number.isFinite(lower) || Number.isFinite(upper))
     .map(({ name, values, lower, upper }) => {
       const room = Float64Array.from(values, (value) =>
-        Math.min(Number.isFinite(lower) ? value - lower : Infinity, Number.isFinite(upper) ? upper - value : Infinity),
+        Math.min(
+          Number.isFinite(lower) ? value - lower : Infinity,
+          Number.isFinite(upper) ? upper - value : Infinity,
+        ),
       );
       const inside = nonNegative(tuning.band.values, room);
       return `${words(name)} is within its range ${intervalText(tuning, inside)}.`;
@@ -249,7 +261,8 @@ function detuningSentences(tuning) {
 
 // What holds of the tuning, as paragraphs: [[sentence, ...], ...].
 export function whatItMeans(tuning) {
-  if (!Number.isFinite(tuning.objective)) return [[`There is no number for the ${spoken(tuning)} of this design.`]];
+  if (!Number.isFinite(tuning.objective))
+    return [[`There is no number for the ${spoken(tuning)} of this design.`]];
   return [
     [...reductionSentences(tuning), ...bandSentences(tuning)],
     certificateSentences(tuning),

@@ -1,6 +1,18 @@
 // Units as readers write them, and numbers in them.
 
-const superscripts = { "-": "\u207b", 0: "\u2070", 1: "\u00b9", 2: "\u00b2", 3: "\u00b3", 4: "\u2074", 5: "\u2075", 6: "\u2076", 7: "\u2077", 8: "\u2078", 9: "\u2079" };
+const superscripts = {
+  "-": "\u207b",
+  0: "\u2070",
+  1: "\u00b9",
+  2: "\u00b2",
+  3: "\u00b3",
+  4: "\u2074",
+  5: "\u2075",
+  6: "\u2076",
+  7: "\u2077",
+  8: "\u2078",
+  9: "\u2079",
+};
 
 // -12 to "⁻¹²".
 export function superscript(power) {
@@ -13,7 +25,8 @@ export function unitText(unit) {
   if (unit === "percent") return "%";
   const square = /^\((.*)\)2$/.exec(unit);
   if (square) return /^\w+$/.test(square[1]) ? `${square[1]}\u00b2` : `(${unitText(square[1])})\u00b2`;
-  const above = [], below = [];
+  const above = [],
+    below = [];
   for (const factor of unit.split(/[ .*]+/)) {
     const parts = /^(.*?)(?:\^?(-?\d+))?$/.exec(factor);
     const power = Number(parts[2] ?? 1);
@@ -28,9 +41,24 @@ export function unitText(unit) {
 
 // Lengths and forces are shown in the unit in which the largest has one to three digits before the point.
 const prefixed = {
-  m: [[1, "m"], [1e-3, "mm"], [1e-6, "\u00b5m"], [1e-9, "nm"]],
-  N: [[1e6, "MN"], [1e3, "kN"], [1, "N"], [1e-3, "mN"]],
-  J: [[1e3, "kJ"], [1, "J"], [1e-3, "mJ"], [1e-6, "\u00b5J"]],
+  m: [
+    [1, "m"],
+    [1e-3, "mm"],
+    [1e-6, "\u00b5m"],
+    [1e-9, "nm"],
+  ],
+  N: [
+    [1e6, "MN"],
+    [1e3, "kN"],
+    [1, "N"],
+    [1e-3, "mN"],
+  ],
+  J: [
+    [1e3, "kJ"],
+    [1, "J"],
+    [1e-3, "mJ"],
+    [1e-6, "\u00b5J"],
+  ],
 };
 
 // {factor, text}: a value in `unit` is value x factor in `text`.
@@ -63,7 +91,9 @@ export function numberText(value, digits = 6) {
 // "31.91 mm": a number with its unit.
 export function quantityText(value, unit, digits = 6) {
   const { factor, text } = shownUnit(unit, [value]);
-  return text && !Number.isNaN(value) ? `${numberText(value * factor, digits)} ${text}` : numberText(value * factor, digits);
+  return text && !Number.isNaN(value)
+    ? `${numberText(value * factor, digits)} ${text}`
+    : numberText(value * factor, digits);
 }
 
 // With its first letter large.

@@ -6,10 +6,12 @@ import { test } from "node:test";
 import { badLabels, csvRows, folderOf, frahm, open, photographed, saved, stored, study } from "./page.mjs";
 
 const mostBytes = 6e6;
-const sixDigits = 1e-6;  // of a quantity's range: what the page keeps
+const sixDigits = 1e-6; // of a quantity's range: what the page keeps
 
 test("the page of the full rig atlas", async (t) => {
-  const folder = folderOf(t), file = join(folder, "rig_atlas.h5"), html = join(folder, "rig_atlas.html");
+  const folder = folderOf(t),
+    file = join(folder, "rig_atlas.h5"),
+    html = join(folder, "rig_atlas.html");
   frahm(["run", study("rig_atlas"), "-o", file, "--progress", "none"]);
   frahm(["report", file]);
   const { page, complaints } = await open(t, html);
@@ -22,7 +24,10 @@ test("the page of the full rig atlas", async (t) => {
     const before = await page.locator("[data-figure=map_main_peak] image").first().getAttribute("href");
     const title = await page.locator("[data-figure=map_main_peak] h3").textContent();
     await page.locator("input[data-axis=FP]").fill("3");
-    await page.waitForFunction((old) => document.querySelector("[data-figure=map_main_peak] image").getAttribute("href") !== old, before);
+    await page.waitForFunction(
+      (old) => document.querySelector("[data-figure=map_main_peak] image").getAttribute("href") !== old,
+      before,
+    );
     assert.match(await page.locator("[data-figure=map_main_peak] h3").textContent(), /FP = 0\.03$/);
     assert.notEqual(title, await page.locator("[data-figure=map_main_peak] h3").textContent());
   });
@@ -31,7 +36,9 @@ test("the page of the full rig atlas", async (t) => {
     const frame = await page.evaluate(() => {
       document.querySelector("[data-figure=map_main_peak]").scrollIntoView({ block: "end" });
       const svg = document.querySelector("[data-figure=map_main_peak] svg");
-      const box = svg.getBoundingClientRect(), x = svg.scale("x").apply(250), y = svg.scale("y").apply(4.72);
+      const box = svg.getBoundingClientRect(),
+        x = svg.scale("x").apply(250),
+        y = svg.scale("y").apply(4.72);
       const scale = box.width / svg.viewBox.baseVal.width;
       return { x: box.left + scale * x, y: box.top + scale * y - 3 };
     });
@@ -41,30 +48,57 @@ test("the page of the full rig atlas", async (t) => {
     assert.match(heading, /I = 4\.72 kg, FP = 0\.03, ω = 250 rpm/);
     const at = [0, 3, 200];
     for (const name of ["main_peak", "tmd_peak", "tmd_spring_stroke"]) {
-      const shown = Number(await page.locator("#point tr", { hasText: name.replaceAll("_", " ") }).locator("td.number").first().textContent());
+      const shown = Number(
+        await page
+          .locator("#point tr", { hasText: name.replaceAll("_", " ") })
+          .locator("td.number")
+          .first()
+          .textContent(),
+      );
       const value = stored(file, name, at);
       assert.ok(Math.abs(shown - value) < sixDigits, `${name}: ${shown} is shown, ${value} is stored`);
     }
     const command = await page.locator("#point code").textContent();
-    const json = frahm(["point", study("rig_atlas"), ...command.replaceAll("'", "").split(/ (?=--at)/)[1].split(/(?<=--at) /), "--json"]);
-    assert.ok(Math.abs(JSON.parse(json).quantities.main_peak.value - stored(file, "main_peak", at)) < 1e-9, command);
+    const json = frahm([
+      "point",
+      study("rig_atlas"),
+      ...command
+        .replaceAll("'", "")
+        .split(/ (?=--at)/)[1]
+        .split(/(?<=--at) /),
+      "--json",
+    ]);
+    assert.ok(
+      Math.abs(JSON.parse(json).quantities.main_peak.value - stored(file, "main_peak", at)) < 1e-9,
+      command,
+    );
   });
 
   await t.test("keeps several curves and colours them by regime", async () => {
     await page.locator("#keep").click();
     await page.locator("input[data-axis=FP]").fill("28");
     await page.locator("label", { hasText: "colour by regime" }).locator("input").check();
-    await page.waitForFunction(() => document.querySelector("[data-figure=curves_main_peak] [aria-label=legend]")?.textContent.includes("non stop"));
+    await page.waitForFunction(() =>
+      document
+        .querySelector("[data-figure=curves_main_peak] [aria-label=legend]")
+        ?.textContent.includes("non stop"),
+    );
     await page.locator("label", { hasText: "scale" }).locator("select").selectOption("dB");
-    await page.waitForFunction(() => document.querySelector("[data-figure=curves_main_peak] svg").textContent.includes("dB re 1 m"));
+    await page.waitForFunction(() =>
+      document.querySelector("[data-figure=curves_main_peak] svg").textContent.includes("dB re 1 m"),
+    );
   });
 
   await t.test("exports a figure as SVG and its numbers as CSV", async () => {
     const card = page.locator("[data-figure=map_main_peak]");
     const svg = await saved(page, card.locator(".save-svg"));
     assert.equal(svg.name, "map_main_peak.svg");
-    for (const part of ["<title>", "rpm", "(kg)", "data:image/png"]) assert.ok(svg.text.includes(part), `no ${part} in the SVG`);
-    const wellFormed = await page.evaluate((text) => new DOMParser().parseFromString(text, "image/svg+xml").querySelector("parsererror") === null, svg.text);
+    for (const part of ["<title>", "rpm", "(kg)", "data:image/png"])
+      assert.ok(svg.text.includes(part), `no ${part} in the SVG`);
+    const wellFormed = await page.evaluate(
+      (text) => new DOMParser().parseFromString(text, "image/svg+xml").querySelector("parsererror") === null,
+      svg.text,
+    );
     assert.ok(wellFormed);
     const csv = await saved(page, card.locator(".save-csv"));
     const rows = csvRows(csv.text);

@@ -8,7 +8,8 @@ import { csvRows, folderOf, frahm, stored, study } from "./page.mjs";
 
 // Of one file of figures: well-formed, with words in it, and drawn by a renderer of SVG.
 function check(folder, name) {
-  const svg = join(folder, `${name}.svg`), png = join(folder, `${name}.png`);
+  const svg = join(folder, `${name}.svg`),
+    png = join(folder, `${name}.png`);
   execFileSync("/usr/bin/python3", ["-c", "import sys, xml.dom.minidom as m; m.parse(sys.argv[1])", svg]);
   const text = readFileSync(svg, "utf8");
   assert.match(text, /<title>[^<]+<\/title><desc>[^<]*fingerprint/);
@@ -16,34 +17,54 @@ function check(folder, name) {
   execFileSync("rsvg-convert", [svg, "-o", png]);
   assert.ok(statSync(png).size > 3000, `${name}: an empty picture`);
   assert.ok(readFileSync(join(folder, `${name}.csv`), "utf8").includes(","));
-  assert.equal(readFileSync(join(folder, `${name}.pdf`)).subarray(0, 5).toString(), "%PDF-");
+  assert.equal(
+    readFileSync(join(folder, `${name}.pdf`))
+      .subarray(0, 5)
+      .toString(),
+    "%PDF-",
+  );
 }
 
 test("a map's figures are files that other programs read", (t) => {
-  const folder = folderOf(t), file = join(folder, "hundal.h5"), figures = join(folder, "new", "figures");
+  const folder = folderOf(t),
+    file = join(folder, "hundal.h5"),
+    figures = join(folder, "new", "figures");
   frahm(["run", study("hundal"), "-o", file, "--progress", "none"]);
   frahm(["report", file, "--figures", figures]);
-  const names = readdirSync(figures).filter((name) => name.endsWith(".svg")).map((name) => name.slice(0, -4));
-  assert.ok(names.some((name) => name.startsWith("map_")) && names.some((name) => name.startsWith("curves_")), names.join());
+  const names = readdirSync(figures)
+    .filter((name) => name.endsWith(".svg"))
+    .map((name) => name.slice(0, -4));
+  assert.ok(
+    names.some((name) => name.startsWith("map_")) && names.some((name) => name.startsWith("curves_")),
+    names.join(),
+  );
   for (const name of names) check(figures, name);
-  assert.deepEqual(readdirSync(figures).filter((name) => !/\.(svg|csv|pdf|png)$/.test(name)), []);
+  assert.deepEqual(
+    readdirSync(figures).filter((name) => !/\.(svg|csv|pdf|png)$/.test(name)),
+    [],
+  );
 });
 
 test("the numbers of a curve are those of the file", (t) => {
-  const folder = folderOf(t), file = join(folder, "h.h5");
+  const folder = folderOf(t),
+    file = join(folder, "h.h5");
   frahm(["run", study("lecture_hysteretic"), "-o", file, "--progress", "none"]);
   frahm(["report", file, "--figures", folder]);
   const rows = csvRows(readFileSync(join(folder, "curves_main_amplitude.csv"), "utf8"));
   const first = stored(file, "main_amplitude", [0, 0]);
   const shown = Object.entries(rows[0]).find(([name]) => name.startsWith("main_amplitude"))[1];
-  const sixDigits = 1e-6 * 50;  // of the range: the largest amplitude is 1/eta = 50
+  const sixDigits = 1e-6 * 50; // of the range: the largest amplitude is 1/eta = 50
   assert.ok(Math.abs(Number(shown) - first) < sixDigits, `${shown} ${first}`);
 });
 
 test("what cannot be done is said, with its exit code", (t) => {
-  const folder = folderOf(t), file = join(folder, "h.h5");
+  const folder = folderOf(t),
+    file = join(folder, "h.h5");
   frahm(["run", study("lecture_springs"), "-o", file, "--progress", "none"]);
-  assert.match(frahm(["report", file, "--quantities", "nothing"], { code: 2 }), /no quantity "nothing"; it has/);
+  assert.match(
+    frahm(["report", file, "--quantities", "nothing"], { code: 2 }),
+    /no quantity "nothing"; it has/,
+  );
   assert.match(frahm(["report", join(folder, "absent.h5")], { code: 6 }), /absent\.h5/);
   assert.match(frahm(["report", study("hundal")], { code: 6 }), /hundal\.toml/);
   assert.match(frahm(["report", file, "-o", file], { code: 2 }), /is the file that is read/);

@@ -5,7 +5,8 @@ import { join } from "node:path";
 import { test } from "node:test";
 import { folderOf, frahm, open, photographed, study } from "./page.mjs";
 
-const hostile = "</script><script>document.title='taken'</script><img src=x onerror=alert(1)> & \"quotes\" \u2028 <!--";
+const hostile =
+  "</script><script>document.title='taken'</script><img src=x onerror=alert(1)> & \"quotes\" \u2028 <!--";
 
 // A copy of a study with some of its lines changed.
 function changed(folder, name, changes) {
@@ -20,21 +21,29 @@ function changed(folder, name, changes) {
 }
 
 test("a partial map shows what there is and says what is missing", async (t) => {
-  const folder = folderOf(t), file = join(folder, "part.h5");
+  const folder = folderOf(t),
+    file = join(folder, "part.h5");
   const path = changed(folder, "den_hartog", []);
   frahm(["run", path, "-o", file, "--shard", "0/3", "--progress", "none"]);
   frahm(["merge", file, "--partial"]);
   frahm(["report", file]);
   const { page, complaints } = await open(t, join(folder, "part.html"));
-  assert.match(await page.locator(".warning").first().textContent(), /part of a map: \d+ of its tiles were not computed/);
-  assert.ok(await page.locator(".plot image").count() > 0);
+  assert.match(
+    await page.locator(".warning").first().textContent(),
+    /part of a map: \d+ of its tiles were not computed/,
+  );
+  assert.ok((await page.locator(".plot image").count()) > 0);
   await photographed(page, "partial");
   assert.deepEqual(complaints, []);
 });
 
 test("a map of failed points names them and their reasons", async (t) => {
-  const folder = folderOf(t), file = join(folder, "stiff.h5"), path = join(folder, "stiff.toml");
-  writeFileSync(path, `[study]
+  const folder = folderOf(t),
+    file = join(folder, "stiff.h5"),
+    path = join(folder, "stiff.toml");
+  writeFileSync(
+    path,
+    `[study]
 schema = 1
 kind = "sweep"
 title = "Some points are too stiff for their period"
@@ -68,19 +77,27 @@ parameter = "w"
 from = 1
 to = 2
 points = 5
-`);
+`,
+  );
   frahm(["run", path, "-o", file, "--progress", "none"], { code: 3 });
   frahm(["report", file]);
   const { page, complaints } = await open(t, join(folder, "stiff.html"));
   assert.match(await page.locator(".warning").first().textContent(), /5 of 10 points failed/);
-  assert.match(await page.locator("section", { hasText: "Points that failed" }).locator("pre").first().textContent(), /k=1e\+16|k = 1e\+16|1e\+16/);
+  assert.match(
+    await page.locator("section", { hasText: "Points that failed" }).locator("pre").first().textContent(),
+    /k=1e\+16|k = 1e\+16|1e\+16/,
+  );
   assert.deepEqual(complaints, []);
 });
 
 test("hostile text in a title stays text", async (t) => {
-  const folder = folderOf(t), file = join(folder, "hostile.h5");
+  const folder = folderOf(t),
+    file = join(folder, "hostile.h5");
   const quoted = JSON.stringify(hostile);
-  const path = changed(folder, "den_hartog", [[/^title *=.*$/m, `title = ${quoted}`], [/^schema/m, `# ${hostile.replace("\u2028", "")}\nschema`]]);
+  const path = changed(folder, "den_hartog", [
+    [/^title *=.*$/m, `title = ${quoted}`],
+    [/^schema/m, `# ${hostile.replace("\u2028", "")}\nschema`],
+  ]);
   frahm(["run", path, "-o", file, "--progress", "none"]);
   frahm(["report", file]);
   const html = readFileSync(join(folder, "hostile.html"), "utf8");

@@ -19,7 +19,8 @@ const cases = [
 
 for (const { name, shows } of cases) {
   test(`the page of ${name}`, async (t) => {
-    const folder = folderOf(t), file = join(folder, `${name}.h5`);
+    const folder = folderOf(t),
+      file = join(folder, `${name}.h5`);
     frahm(["run", study(name), "-o", file, "--progress", "none"]);
     frahm(["report", file]);
     const { page, complaints } = await open(t, join(folder, `${name}.html`));
@@ -36,11 +37,17 @@ for (const { name, shows } of cases) {
 }
 
 test("the fit quality shown is that of the file", async (t) => {
-  const folder = folderOf(t), file = join(folder, "fit.h5");
+  const folder = folderOf(t),
+    file = join(folder, "fit.h5");
   frahm(["run", study("identify_rig_forced"), "-o", file, "--progress", "none"]);
   frahm(["report", file]);
   const { page } = await open(t, join(folder, "fit.html"));
   const value = stored(file, "identification/nrmse", [0]);
-  const row = await page.locator("tr", { hasText: "all of it" }).first().locator("td.number").first().textContent();
+  const row = await page
+    .locator("tr", { hasText: "all of it" })
+    .first()
+    .locator("td.number")
+    .first()
+    .textContent();
   assert.ok(Math.abs(Number(row) - value) < 1e-4, `${row}, ${value}`);
 });

@@ -27,7 +27,11 @@ export function folderOf(test) {
 // Runs frahm; code: the exit code that is right. Its standard output.
 export function frahm(args, { code = 0 } = {}) {
   try {
-    const text = execFileSync(program, args, { encoding: "utf8", stdio: ["ignore", "pipe", "pipe"], timeout: 240_000 });
+    const text = execFileSync(program, args, {
+      encoding: "utf8",
+      stdio: ["ignore", "pipe", "pipe"],
+      timeout: 240_000,
+    });
     assert.equal(0, code, `frahm ${args.join(" ")} ended with code 0`);
     return text;
   } catch (error) {
@@ -39,16 +43,25 @@ export function frahm(args, { code = 0 } = {}) {
 
 // One number of a result, read by an HDF5 library that is not ours.
 export function stored(file, dataset, index = []) {
-  const code = "import sys, json, h5py\nfile, name, index = sys.argv[1:4]\n"
-    + "print(repr(float(h5py.File(file)[name][tuple(json.loads(index))])))";
-  return Number(execFileSync("/usr/bin/python3", ["-c", code, file, dataset, JSON.stringify(index)], { encoding: "utf8" }));
+  const code =
+    "import sys, json, h5py\nfile, name, index = sys.argv[1:4]\n" +
+    "print(repr(float(h5py.File(file)[name][tuple(json.loads(index))])))";
+  return Number(
+    execFileSync("/usr/bin/python3", ["-c", code, file, dataset, JSON.stringify(index)], {
+      encoding: "utf8",
+    }),
+  );
 }
 
 // A page in the browser; closed at the end of the test. {page, complaints}.
 export async function open(test, file, { width = 1280, height = 900, colorScheme = "light" } = {}) {
   const browser = await chromium.launch({ executablePath: chromiumPath, args: ["--no-sandbox"] });
   test.after(() => browser.close());
-  const context = await browser.newContext({ viewport: { width, height }, colorScheme, acceptDownloads: true });
+  const context = await browser.newContext({
+    viewport: { width, height },
+    colorScheme,
+    acceptDownloads: true,
+  });
   const page = await context.newPage();
   const complaints = [];
   page.on("console", (message) => {
@@ -61,7 +74,11 @@ export async function open(test, file, { width = 1280, height = 900, colorScheme
   await page.goto(pathToFileURL(file).href);
   await page.waitForFunction(() => document.body.dataset.state !== undefined, null, { timeout: 60_000 });
   assert.equal(await page.evaluate(() => document.body.dataset.state), "ready", complaints.join("\n"));
-  await page.waitForFunction(() => [...document.querySelectorAll(".plot")].every((plot) => plot.querySelector("svg")), null, { timeout: 60_000 });
+  await page.waitForFunction(
+    () => [...document.querySelectorAll(".plot")].every((plot) => plot.querySelector("svg")),
+    null,
+    { timeout: 60_000 },
+  );
   return { page, complaints };
 }
 
@@ -73,7 +90,10 @@ export async function saved(page, button) {
 
 // Rows of a CSV text by the names of its head.
 export function csvRows(text) {
-  const [head, ...lines] = text.trimEnd().split("\n").map((line) => line.split(","));
+  const [head, ...lines] = text
+    .trimEnd()
+    .split("\n")
+    .map((line) => line.split(","));
   return lines.map((cells) => Object.fromEntries(head.map((name, c) => [name, cells[c]])));
 }
 
@@ -81,16 +101,25 @@ export function csvRows(text) {
 export async function photographed(page, name) {
   if (screenshots) mkdirSync(screenshots, { recursive: true });
   const keep = async (kind) => {
-    const picture = await page.screenshot({ fullPage: true, ...(screenshots ? { path: join(screenshots, `${name}_${kind}.png`) } : {}) });
+    const picture = await page.screenshot({
+      fullPage: true,
+      ...(screenshots ? { path: join(screenshots, `${name}_${kind}.png`) } : {}),
+    });
     assert.ok(picture.length > 10_000, `${name} ${kind}: an empty picture`);
   };
-  for (const [kind, width, height] of [["phone", 390, 844], ["laptop", 1280, 800]]) {
+  for (const [kind, width, height] of [
+    ["phone", 390, 844],
+    ["laptop", 1280, 800],
+  ]) {
     await page.setViewportSize({ width, height });
     await page.waitForTimeout(300);
     await keep(kind);
-    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth + 1), `${name} is wider than a ${kind}`);
+    assert.ok(
+      await page.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth + 1),
+      `${name} is wider than a ${kind}`,
+    );
   }
-  await page.setViewportSize({ width: 794, height: 1123 });  // A4 at 96 dots an inch
+  await page.setViewportSize({ width: 794, height: 1123 }); // A4 at 96 dots an inch
   await page.emulateMedia({ media: "print" });
   await page.waitForTimeout(300);
   await keep("print");
@@ -103,15 +132,26 @@ export async function badLabels(page) {
     const bad = [];
     for (const svg of document.querySelectorAll(".plot svg")) {
       const frame = svg.getBoundingClientRect();
-      const labels = [...svg.querySelectorAll("text, tspan:not(text > tspan)")].filter((text) => text.textContent.trim() && !text.closest("[aria-label=tip]"));
-      const boxes = labels.map((text) => ({ text: text.textContent, box: text.getBoundingClientRect() })).filter(({ box }) => box.width > 0);
+      const labels = [...svg.querySelectorAll("text, tspan:not(text > tspan)")].filter(
+        (text) => text.textContent.trim() && !text.closest("[aria-label=tip]"),
+      );
+      const boxes = labels
+        .map((text) => ({ text: text.textContent, box: text.getBoundingClientRect() }))
+        .filter(({ box }) => box.width > 0);
       for (const { text, box } of boxes) {
-        if (box.left < frame.left - 2 || box.right > frame.right + 2 || box.top < frame.top - 2 || box.bottom > frame.bottom + 2) bad.push(`"${text}" is cut off`);
+        if (
+          box.left < frame.left - 2 ||
+          box.right > frame.right + 2 ||
+          box.top < frame.top - 2 ||
+          box.bottom > frame.bottom + 2
+        )
+          bad.push(`"${text}" is cut off`);
       }
       for (let a = 0; a < boxes.length; ++a) {
         for (let b = a + 1; b < boxes.length; ++b) {
           const [p, q] = [boxes[a].box, boxes[b].box];
-          const over = Math.min(p.right, q.right) - Math.max(p.left, q.left), above = Math.min(p.bottom, q.bottom) - Math.max(p.top, q.top);
+          const over = Math.min(p.right, q.right) - Math.max(p.left, q.left),
+            above = Math.min(p.bottom, q.bottom) - Math.max(p.top, q.top);
           if (over > 2 && above > 3) bad.push(`"${boxes[a].text}" lies over "${boxes[b].text}"`);
         }
       }

@@ -5,15 +5,18 @@ import { test } from "node:test";
 import { badLabels, csvRows, folderOf, frahm, open, photographed, saved, stored, study } from "./page.mjs";
 
 test("the report of a tuning", async (t) => {
-  const folder = folderOf(t), file = join(folder, "tuning.h5");
+  const folder = folderOf(t),
+    file = join(folder, "tuning.h5");
   frahm(["run", study("tune_rig_schedule"), "-o", file, "--progress", "none"]);
   frahm(["report", file]);
   const { page, complaints } = await open(t, join(folder, "tuning.html"));
-  const before = stored(file, "optimum/worst_before"), after = stored(file, "optimum/worst_after");
+  const before = stored(file, "optimum/worst_before"),
+    after = stored(file, "optimum/worst_after");
 
   await t.test("says in percent and dB what was gained", async () => {
     const said = await page.locator("section", { hasText: "What this means" }).first().textContent();
-    const percent = Number(/([\d.]+) % less/.exec(said)[1]), dB = Number(/[−-]([\d.]+) dB/.exec(said)[1]);
+    const percent = Number(/([\d.]+) % less/.exec(said)[1]),
+      dB = Number(/[−-]([\d.]+) dB/.exec(said)[1]);
     assert.ok(Math.abs(percent - 100 * (1 - after / before)) < 0.06, `${percent} %`);
     assert.ok(Math.abs(dB - 20 * Math.log10(before / after)) < 0.06, `${dB} dB`);
   });
@@ -29,11 +32,18 @@ test("the report of a tuning", async (t) => {
     const names = await cards.evaluateAll((all) => all.map((card) => card.dataset.figure));
     const response = cards.nth(names.findIndex((name) => name.includes("response")));
     const rows = csvRows((await saved(page, response.locator(".save-csv"))).text);
-    const largest = Math.max(...rows.flatMap((row) => Object.entries(row).filter(([name]) => name.startsWith("response_after")).map(([, value]) => Number(value))));
+    const largest = Math.max(
+      ...rows.flatMap((row) =>
+        Object.entries(row)
+          .filter(([name]) => name.startsWith("response_after"))
+          .map(([, value]) => Number(value)),
+      ),
+    );
     assert.ok(Math.abs(largest - after) < 1e-9 * after + 1e-12, `${largest} and ${after}`);
     const schedule = cards.nth(names.findIndex((name) => name.includes("schedule")));
     const svg = (await saved(page, schedule.locator(".save-svg"))).text;
-    for (const words of ["rad/s", "(kg)", "<title>"]) assert.ok(svg.includes(words), `no ${words} in the SVG`);
+    for (const words of ["rad/s", "(kg)", "<title>"])
+      assert.ok(svg.includes(words), `no ${words} in the SVG`);
   });
 
   assert.deepEqual(await badLabels(page), []);

@@ -11,7 +11,10 @@ test("a straight border is one curve from rim to rim", () => {
   const crossings = [0, 1, 2, 3].map((j) => crossing(0.4, j, 0));
   const curves = borderCurves(crossings, { ...whole, nx: 3, ny: 4 });
   assert.equal(curves.length, 1);
-  assert.deepEqual(curves[0].points.map(([i]) => i), [0.4, 0.4, 0.4, 0.4]);
+  assert.deepEqual(
+    curves[0].points.map(([i]) => i),
+    [0.4, 0.4, 0.4, 0.4],
+  );
   assert.deepEqual(curves[0].points.map(([, j]) => j).sort(), [0, 1, 2, 3]);
 });
 
@@ -27,12 +30,21 @@ test("three borders that meet in a cell meet in one point", () => {
   const crossings = [crossing(0.5, 0, 0, "a|b"), crossing(0, 0.5, 1, "a|c"), crossing(1, 0.5, 1, "b|c")];
   const curves = borderCurves(crossings, { ...whole, nx: 2, ny: 2 });
   assert.equal(curves.length, 3);
-  const meet = new Set(curves.map(({ points }) => points.find(([i, j]) => i !== 0 && i !== 1 && j !== 0)?.join()));
+  const meet = new Set(
+    curves.map(({ points }) => points.find(([i, j]) => i !== 0 && i !== 1 && j !== 0)?.join()),
+  );
   assert.equal(meet.size, 1);
 });
 
 test("crossings of other slices stay away", () => {
-  const crossings = [{ place: [0.5, 0, 2], axis: 0, key: "a|b" }, { place: [0.5, 1, 2], axis: 0, key: "a|b" }, { place: [0.3, 0, 1], axis: 0, key: "a|b" }];
+  const crossings = [
+    { place: [0.5, 0, 2], axis: 0, key: "a|b" },
+    { place: [0.5, 1, 2], axis: 0, key: "a|b" },
+    { place: [0.3, 0, 1], axis: 0, key: "a|b" },
+  ];
   const curves = borderCurves(crossings, { x: 0, y: 1, index: [0, 0, 2], nx: 2, ny: 2 });
-  assert.deepEqual(curves.map(({ points }) => points.map(([i]) => i)), [[0.5, 0.5]]);
+  assert.deepEqual(
+    curves.map(({ points }) => points.map(([i]) => i)),
+    [[0.5, 0.5]],
+  );
 });

@@ -1,8 +1,17 @@
 // What an identification's page says of its estimates.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { certainty, closestPair, identificationOf, residualRms } from "../../../results/report/page/identification.js";
-import { estimateText, outcomeWarning, whatItMeans } from "../../../results/report/page/identification_words.js";
+import {
+  certainty,
+  closestPair,
+  identificationOf,
+  residualRms,
+} from "../../../results/report/page/identification.js";
+import {
+  estimateText,
+  outcomeWarning,
+  whatItMeans,
+} from "../../../results/report/page/identification_words.js";
 import { sampleGroup, sampleRecord } from "./sample_record.mjs";
 
 const estimate = (value, low, high, unit = "N") => ({ name: "d", unit, value, low, high });

@@ -2,7 +2,13 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { cranksOf, largestErrors } from "../../../results/report/page/crank.js";
-import { dampingRatio, envelope, interpolated, motionOf, stretch } from "../../../results/report/page/motion.js";
+import {
+  dampingRatio,
+  envelope,
+  interpolated,
+  motionOf,
+  stretch,
+} from "../../../results/report/page/motion.js";
 import { whatItMeans } from "../../../results/report/page/motion_words.js";
 import { sampleGroup, sampleRecord } from "./sample_record.mjs";
 
@@ -100,7 +106,10 @@ test("the frequency at the peak of a run-up lies between its samples", () => {
 test("the last cycles are a stretch at the end, of a short motion there is none", () => {
   const motion = (periods) => {
     const time = Float64Array.from({ length: 100 * periods + 1 }, (_, i) => (i + 0.3) / 100);
-    return { time: { values: time }, masses: [{ velocity: { values: time.map((t) => Math.cos(2 * Math.PI * t)) } }] };
+    return {
+      time: { values: time },
+      masses: [{ velocity: { values: time.map((t) => Math.cos(2 * Math.PI * t)) } }],
+    };
   };
   const last = stretch(motion(100), 12, "last"),
     first = stretch(motion(100), 12, "first");

@@ -5,8 +5,11 @@ import { deflateSync } from "node:zlib";
 import { unpackLevels, unpackNumbers } from "../../../results/report/page/numbers.js";
 
 function shuffled(typed) {
-  const bytes = new Uint8Array(typed.buffer), size = typed.BYTES_PER_ELEMENT, out = new Uint8Array(bytes.length);
-  for (let i = 0; i < typed.length; ++i) for (let b = 0; b < size; ++b) out[b * typed.length + i] = bytes[i * size + b];
+  const bytes = new Uint8Array(typed.buffer),
+    size = typed.BYTES_PER_ELEMENT,
+    out = new Uint8Array(bytes.length);
+  for (let i = 0; i < typed.length; ++i)
+    for (let b = 0; b < size; ++b) out[b * typed.length + i] = bytes[i * size + b];
   return deflateSync(out).toString("base64");
 }
 

@@ -1,7 +1,13 @@
 // The numbers behind what a tuning means, against numbers by hand.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { heldBounds, knotsAtBounds, rootUnit, settlingRounds, tuningOf } from "../../../results/report/page/tuning.js";
+import {
+  heldBounds,
+  knotsAtBounds,
+  rootUnit,
+  settlingRounds,
+  tuningOf,
+} from "../../../results/report/page/tuning.js";
 import {
   bandBelowBefore,
   nonNegative,
@@ -13,10 +19,21 @@ import {
 import { sampleGroup, sampleRecord } from "./sample_record.mjs";
 
 const rounding = 1e-12;
-const outcomes = ["not_computed", "converged", "not_converged", "infeasible", "unbounded", "failed", "stopped"];
+const outcomes = [
+  "not_computed",
+  "converged",
+  "not_converged",
+  "infeasible",
+  "unbounded",
+  "failed",
+  "stopped",
+];
 
 function close(value, expected, tolerance = rounding) {
-  assert.ok(Math.abs(value - expected) <= tolerance * Math.max(1, Math.abs(expected)), `${value} is not ${expected}`);
+  assert.ok(
+    Math.abs(value - expected) <= tolerance * Math.max(1, Math.abs(expected)),
+    `${value} is not ${expected}`,
+  );
 }
 
 function minimax(changes = {}, outcome = 1, texts = {}) {
@@ -137,7 +154,10 @@ test("the worst detuning is the largest growth of that change", () => {
 });
 
 test("knots on a bound are counted", () => {
-  assert.deepEqual(knotsAtBounds({ values: [1, 1.000001, 2, 3], lower: 1, upper: 3 }), { lower: [0, 1], upper: [3] });
+  assert.deepEqual(knotsAtBounds({ values: [1, 1.000001, 2, 3], lower: 1, upper: 3 }), {
+    lower: [0, 1],
+    upper: [3],
+  });
 });
 
 test("of a mean square the words are of roots, and the decibels of amplitudes", () => {
@@ -198,7 +218,9 @@ test("where what stands beside the schedule leaves its range is told", () => {
 
 test("of a design that did not converge nothing is said of its being free or best", () => {
   const text = whatItMeans(
-    tuningOf(minimax({ k_upper_multiplier: ["m (N/m)-1", "", 0], peak_multiplier: ["1", "peak", [0, 0]] }, 3)),
+    tuningOf(
+      minimax({ k_upper_multiplier: ["m (N/m)-1", "", 0], peak_multiplier: ["1", "peak", [0, 0]] }, 3),
+    ),
   )
     .flat()
     .join(" ");

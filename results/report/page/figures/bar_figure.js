@@ -15,7 +15,8 @@ function draw(canvas, { label, unit, bars }) {
   const longest = Math.max(...bars.map(({ name }) => name.length));
   const marginLeft = Math.min(canvas.width * 0.4, 20 + digitWidth * longest);
   const names = bars.map(({ name }) => wrapped(name, marginLeft - 20));
-  const height = aroundBars + bars.length * barHeight + 15 * names.reduce((sum, lines) => sum + lines.length - 1, 0);
+  const height =
+    aroundBars + bars.length * barHeight + 15 * names.reduce((sum, lines) => sum + lines.length - 1, 0);
   const rows = bars.map(({ value, note }, i) => ({
     row: i,
     value: value * factor,
@@ -33,8 +34,16 @@ function draw(canvas, { label, unit, bars }) {
     { ...canvas, height },
     {
       marginLeft,
-      x: { label: withUnit(label, text), domain: [low < 0 ? low - room : 0, (high > low ? high : 1) + room * 1.4] },
-      y: { type: "band", domain: rows.map(({ row }) => row), label: "", tickFormat: (row) => names[row].join("\n") },
+      x: {
+        label: withUnit(label, text),
+        domain: [low < 0 ? low - room : 0, (high > low ? high : 1) + room * 1.4],
+      },
+      y: {
+        type: "band",
+        domain: rows.map(({ row }) => row),
+        label: "",
+        tickFormat: (row) => names[row].join("\n"),
+      },
       marks: [
         Plot.barX(known, { x: "value", y: "row", fill: lineColours[0], insetTop: 2, insetBottom: 2 }),
         Plot.ruleX([0]),
@@ -52,7 +61,15 @@ function draw(canvas, { label, unit, bars }) {
         ),
         Plot.text(
           rows.filter(({ value }) => value < 0),
-          { x: "value", y: "row", text: "text", textAnchor: "end", dx: -5, fill: "currentColor", stroke: "none" },
+          {
+            x: "value",
+            y: "row",
+            text: "text",
+            textAnchor: "end",
+            dx: -5,
+            fill: "currentColor",
+            stroke: "none",
+          },
         ),
       ],
     },

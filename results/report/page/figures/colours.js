@@ -3,7 +3,7 @@ import { interpolateCividis, interpolateViridis, rgb } from "d3";
 import { regimeColours } from "./frame.js";
 
 export const colourMaps = { viridis: interpolateViridis, cividis: interpolateCividis };
-export const missingColour = [160, 160, 160, 90];  // translucent grey: there is no number
+export const missingColour = [160, 160, 160, 90]; // translucent grey: there is no number
 
 const steps = 512;
 
@@ -25,6 +25,9 @@ const others = ["#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#8C6D31"
 // Meaning -> colour of a flag's values; not_computed has none.
 export function flagColours(variable) {
   const known = { ...regimeColours, ...statusColours };
-  return new Map(variable.flags.filter(([, word]) => word !== "not_computed")
-    .map(([value, word], i) => [value, { word, colour: known[word] ?? others[i % others.length] }]));
+  return new Map(
+    variable.flags
+      .filter(([, word]) => word !== "not_computed")
+      .map(([value, word], i) => [value, { word, colour: known[word] ?? others[i % others.length] }]),
+  );
 }

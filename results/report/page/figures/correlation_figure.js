@@ -18,7 +18,10 @@ function colourOf(value) {
 function draw(canvas, estimates) {
   const numbers = estimates.map((_, i) => String(i + 1));
   const names = estimates.map(({ name }, i) => `${i + 1}  ${symbolText(name)}`);
-  const marginLeft = Math.min(canvas.width * 0.45, 24 + digitWidth * Math.max(...names.map((name) => name.length)));
+  const marginLeft = Math.min(
+    canvas.width * 0.45,
+    24 + digitWidth * Math.max(...names.map((name) => name.length)),
+  );
   const nameLines = names.map((name) => wrapped(name, marginLeft - 16));
   const height = Math.max(
     canvas.height,
@@ -56,7 +59,10 @@ function draw(canvas, estimates) {
         tickFormat: (number) => nameLines[Number(number) - 1].join("\n"),
       },
       legend: [-1, -0.5, 0, 0.5, 1].map((value) => ({ text: numberText(value), fill: colourOf(value) })),
-      marks: [Plot.cell(cells, { x: "x", y: "y", fill: ({ value }) => colourOf(value), inset: 0.5 }), ...texts],
+      marks: [
+        Plot.cell(cells, { x: "x", y: "y", fill: ({ value }) => colourOf(value), inset: 0.5 }),
+        ...texts,
+      ],
     },
   );
 }

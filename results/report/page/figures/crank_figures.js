@@ -28,7 +28,14 @@ export function crankMotionFigure(crank) {
     x: angleAxis(crank),
     y: { label: `displacement of ${words(name)}`, unit: motion.unit },
     lines: [
-      { name: motion.name, text: "exact", x: angle.values, y: motion.values, stroke: style(0).stroke, width: 2.2 },
+      {
+        name: motion.name,
+        text: "exact",
+        x: angle.values,
+        y: motion.values,
+        stroke: style(0).stroke,
+        width: 2.2,
+      },
       ...cuts.map(({ order, series }, i) => ({
         name: series.name,
         text: orderText(order),

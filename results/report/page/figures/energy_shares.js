@@ -21,16 +21,32 @@ export function energyShares(canvas, map, variables, { axis, coordinate, index }
       if (Number.isFinite(share[i])) below[i] += share[i];
       return { x: value, low, high: Number.isFinite(share[i]) ? 100 * below[i] : NaN };
     });
-    return Plot.areaY(band, { x: "x", y1: "low", y2: "high", fill: lineColours[n % lineColours.length], fillOpacity: 0.85 });
+    return Plot.areaY(band, {
+      x: "x",
+      y1: "low",
+      y2: "high",
+      fill: lineColours[n % lineColours.length],
+      fillOpacity: 0.85,
+    });
   });
   return drawFrame(canvas, {
-    x: { label: coordinateLabel(x) }, y: { label: "share of the energy dissipated (%)", domain: [0, 100] },
-    legend: variables.map(({ name }, n) => ({ text: words(name.slice(0, -shareEnd.length)), fill: lineColours[n % lineColours.length] })),
+    x: { label: coordinateLabel(x) },
+    y: { label: "share of the energy dissipated (%)", domain: [0, 100] },
+    legend: variables.map(({ name }, n) => ({
+      text: words(name.slice(0, -shareEnd.length)),
+      fill: lineColours[n % lineColours.length],
+    })),
     marks,
   });
 }
 
 export function energySharesTable(map, variables, { axis, index }) {
-  return [...map.axes[axis].coordinates.map(({ name, unit, values }) => ({ name, unit, values })),
-    ...variables.map((variable) => ({ name: variable.name, unit: "1", values: map.line(variable, index, axis) }))];
+  return [
+    ...map.axes[axis].coordinates.map(({ name, unit, values }) => ({ name, unit, values })),
+    ...variables.map((variable) => ({
+      name: variable.name,
+      unit: "1",
+      values: map.line(variable, index, axis),
+    })),
+  ];
 }

@@ -35,7 +35,9 @@ function fitFigure(series) {
   return lineFigure({
     name: `fit_${name}`,
     title: `${titleOf(series)}, data against model`,
-    caption: Number.isNaN(nrmse) ? "No fit quality: the data are constant." : `NRMSE fit ${numberText(nrmse)} %.`,
+    caption: Number.isNaN(nrmse)
+      ? "No fit quality: the data are constant."
+      : `NRMSE fit ${numberText(nrmse)} %.`,
     x: xAxis(series),
     y: { label: words(quantity), unit: measured.unit },
     lines: [

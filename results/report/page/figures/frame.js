@@ -13,12 +13,25 @@ const fontFamily = "system-ui, -apple-system, 'Segoe UI', 'DejaVu Sans', Arial, 
 const lineHeight = 18;
 
 // Okabe and Ito's colours, told apart by all; black and yellow are left out, for dark and for light pages.
-export const lineColours = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#8C6D31", "#7F7F7F"];
+export const lineColours = [
+  "#0072B2",
+  "#D55E00",
+  "#009E73",
+  "#CC79A7",
+  "#E69F00",
+  "#56B4E9",
+  "#8C6D31",
+  "#7F7F7F",
+];
 export const lineDashes = ["", "6 3", "2 2", "8 3 2 3", "4 4", "1 3", "10 4", "3 5"];
 
 // Of the regimes of a contact, one everywhere; not_computed has none.
 export const regimeColours = {
-  no_friction: "#9A9A9A", non_stop: "#0072B2", one_stop: "#E69F00", multi_stop: "#D55E00", stuck: "#6F4E9B",
+  no_friction: "#9A9A9A",
+  non_stop: "#0072B2",
+  one_stop: "#E69F00",
+  multi_stop: "#D55E00",
+  stuck: "#6F4E9B",
 };
 
 // Entries of a legend in rows that fit the width; one that is longer takes rows of its own.
@@ -49,59 +62,127 @@ export function svgElement(document, name, attributes, text) {
 // The legend above the frame: a stroke (or a filled square) and its words.
 function legendMark(rows, marginLeft) {
   return (index, scales, values, dimensions, { document }) => {
-    const group = svgElement(document, "g", { "aria-label": "legend", "text-anchor": "start", fill: "currentColor" });
+    const group = svgElement(document, "g", {
+      "aria-label": "legend",
+      "text-anchor": "start",
+      fill: "currentColor",
+    });
     rows.forEach((row, r) => {
       for (const { x, text, stroke, dash = "", fill, symbol } of row) {
-        const left = marginLeft + x, middle = 10 + r * lineHeight;
-        if (fill) group.appendChild(svgElement(document, "rect", { x: left + 6, y: middle - 5, width: 12, height: 10, fill, stroke: "none" }));
-        if (symbol) group.appendChild(svgElement(document, "circle", { cx: left + 11, cy: middle, r: 4, fill: symbol === "open" ? "none" : stroke, stroke, "stroke-width": 1.5 }));
-        if (stroke && !symbol) group.appendChild(svgElement(document, "path", { d: `M${left},${middle}h22`, stroke, "stroke-width": 2, "stroke-dasharray": dash, fill: "none" }));
-        group.appendChild(svgElement(document, "text", { x: left + 28, y: middle, dy: "0.32em", stroke: "none" }, text));
+        const left = marginLeft + x,
+          middle = 10 + r * lineHeight;
+        if (fill)
+          group.appendChild(
+            svgElement(document, "rect", {
+              x: left + 6,
+              y: middle - 5,
+              width: 12,
+              height: 10,
+              fill,
+              stroke: "none",
+            }),
+          );
+        if (symbol)
+          group.appendChild(
+            svgElement(document, "circle", {
+              cx: left + 11,
+              cy: middle,
+              r: 4,
+              fill: symbol === "open" ? "none" : stroke,
+              stroke,
+              "stroke-width": 1.5,
+            }),
+          );
+        if (stroke && !symbol)
+          group.appendChild(
+            svgElement(document, "path", {
+              d: `M${left},${middle}h22`,
+              stroke,
+              "stroke-width": 2,
+              "stroke-dasharray": dash,
+              fill: "none",
+            }),
+          );
+        group.appendChild(
+          svgElement(document, "text", { x: left + 28, y: middle, dy: "0.32em", stroke: "none" }, text),
+        );
       }
     });
     return group;
   };
 }
 
-const ticksLength = 5, labelLineHeight = 15;
-const besideTicks = 40;  // the label and its gaps
+const ticksLength = 5,
+  labelLineHeight = 15;
+const besideTicks = 40; // the label and its gaps
 
-const formatOf = (scale) => scale.tickFormat ?? (scale.type === "log" ? ((scale.domain?.[1] ?? 0) >= 1e5 ? "~e" : "~g") : undefined);
+const formatOf = (scale) =>
+  scale.tickFormat ?? (scale.type === "log" ? ((scale.domain?.[1] ?? 0) >= 1e5 ? "~e" : "~g") : undefined);
 
 // Room at the left for the numbers of an axis and its label.
 function leftMargin(axis, height) {
   const [low, high] = axis.domain ?? [];
   if (typeof low !== "number" || axis.type === "band") return 0;
-  const count = Math.max(2, height / 40), given = formatOf(axis), logarithmic = axis.type === "log";
+  const count = Math.max(2, height / 40),
+    given = formatOf(axis),
+    logarithmic = axis.type === "log";
   const powers = () => [low, high].map((end) => 10 ** Math.round(Math.log10(end)));
   const places = Array.isArray(axis.ticks) ? axis.ticks : logarithmic ? powers() : ticks(low, high, count);
-  const text = typeof given === "function" ? given : logarithmic ? format(given) : tickFormat(low, high, count, given);
+  const text =
+    typeof given === "function" ? given : logarithmic ? format(given) : tickFormat(low, high, count, given);
   return besideTicks + digitWidth * Math.max(0, ...places.map((place) => String(text(place)).length));
 }
 
 // One pair of axes in a frame. x, y: Plot's scale options and {label}; legend: [{text, stroke, dash, fill, symbol}].
 // Labels longer than their axis take several lines.
-export function drawFrame(canvas, { x, y, marks, legend = [], marginRight = 20, marginLeft: leastLeft = 68, scales = {} }) {
+export function drawFrame(
+  canvas,
+  { x, y, marks, legend = [], marginRight = 20, marginLeft: leastLeft = 68, scales = {} },
+) {
   const marginLeft = Math.max(leastLeft, leftMargin(y, canvas.height));
-  const yLabel = wrapped(y.label ?? "", canvas.height - 60), yMore = (yLabel.length - 1) * labelLineHeight;
+  const yLabel = wrapped(y.label ?? "", canvas.height - 60),
+    yMore = (yLabel.length - 1) * labelLineHeight;
   const xLabel = wrapped(x.label ?? "", canvas.width - marginLeft - marginRight - yMore);
   const xMore = (xLabel.length - 1) * labelLineHeight;
   const rows = legend.length ? legendRows(legend, canvas.width - marginLeft - marginRight - yMore) : [];
   const axis = (options) => ({ nice: false, ...options });
-  const tickOptions = { labelAnchor: "center", labelArrow: "none", tickSize: ticksLength, tickPadding: 4, fontSize };
+  const tickOptions = {
+    labelAnchor: "center",
+    labelArrow: "none",
+    tickSize: ticksLength,
+    tickPadding: 4,
+    fontSize,
+  };
   const svg = Plot.plot({
     document: canvas.document,
     width: canvas.width,
     height: canvas.height + rows.length * lineHeight + xMore,
-    marginLeft: marginLeft + yMore, marginRight, marginTop: 14 + rows.length * lineHeight, marginBottom: 46 + xMore,
+    marginLeft: marginLeft + yMore,
+    marginRight,
+    marginTop: 14 + rows.length * lineHeight,
+    marginBottom: 46 + xMore,
     x: axis({ ...x, label: null }),
     y: axis({ ...y, label: null }),
     ...scales,
     marks: [
       ...marks,
       Plot.frame({ stroke: "currentColor", strokeWidth: 1 }),
-      Plot.axisX({ ...tickOptions, label: xLabel.join("\n"), labelOffset: 38 + xMore, tickFormat: formatOf(x), ticks: x.ticks, tickSpacing: 70 }),
-      Plot.axisY({ ...tickOptions, label: yLabel.join("\n"), labelOffset: marginLeft - 10 + yMore, tickFormat: formatOf(y), ticks: y.ticks, tickSpacing: 40 }),
+      Plot.axisX({
+        ...tickOptions,
+        label: xLabel.join("\n"),
+        labelOffset: 38 + xMore,
+        tickFormat: formatOf(x),
+        ticks: x.ticks,
+        tickSpacing: 70,
+      }),
+      Plot.axisY({
+        ...tickOptions,
+        label: yLabel.join("\n"),
+        labelOffset: marginLeft - 10 + yMore,
+        tickFormat: formatOf(y),
+        ticks: y.ticks,
+        tickSpacing: 40,
+      }),
       ...(rows.length ? [legendMark(rows, marginLeft + yMore)] : []),
     ],
   });
@@ -112,14 +193,18 @@ export function drawFrame(canvas, { x, y, marks, legend = [], marginRight = 20, 
 
 // The faint lines behind curves, at the ticks given or where ticks are by default.
 export function grid(x = {}, y = {}) {
-  return [Plot.gridX({ strokeOpacity: 0.12, tickSpacing: 70, ticks: x.ticks }), Plot.gridY({ strokeOpacity: 0.12, tickSpacing: 40, ticks: y.ticks })];
+  return [
+    Plot.gridX({ strokeOpacity: 0.12, tickSpacing: 70, ticks: x.ticks }),
+    Plot.gridY({ strokeOpacity: 0.12, tickSpacing: 40, ticks: y.ticks }),
+  ];
 }
 
-const leastSpread = 1e-4;  // below it the labels of an axis would need too many digits
+const leastSpread = 1e-4; // below it the labels of an axis would need too many digits
 
 // Options of an axis for these values: where they are all but equal, some room about them.
 export function roomFor(values) {
-  let low = Infinity, high = -Infinity;
+  let low = Infinity,
+    high = -Infinity;
   for (const value of values) {
     if (!Number.isFinite(value)) continue;
     low = Math.min(low, value);
@@ -145,7 +230,12 @@ export function dots(x, y, options = {}) {
 // Shows x and y of the nearest point of the curves to a pointer, where there is one. rows: [{x, y, text}].
 export function tips(canvas, rows) {
   if (!canvas.interactive) return [];
-  return [Plot.tip(rows, Plot.pointer({ x: "x", y: "y", title: "text", fontSize, fill: "var(--card, white)", lineHeight: 1.3 }))];
+  return [
+    Plot.tip(
+      rows,
+      Plot.pointer({ x: "x", y: "y", title: "text", fontSize, fill: "var(--card, white)", lineHeight: 1.3 }),
+    ),
+  ];
 }
 
 // The numbers of an axis as it writes them, for tips.

@@ -57,7 +57,12 @@ function thinnedLine(line, canvas, x, y) {
   const columns = canvas.width - marginLeft - marginRight;
   if (!line.path) return thinnedHistory(line.x, line.y, columns);
   const extent = ({ options, factor }, pixels) => (pixels * factor) / (options.domain[1] - options.domain[0]);
-  return thinnedPath(line.x, line.y, { x: extent(x, columns), y: extent(y, canvas.height - 60) }, pathTolerance);
+  return thinnedPath(
+    line.x,
+    line.y,
+    { x: extent(x, columns), y: extent(y, canvas.height - 60) },
+    pathTolerance,
+  );
 }
 
 function scaled(values, { factor, options }) {
@@ -84,7 +89,9 @@ function lineMark(line, canvas, x, y) {
 function pointMark(points, x, y) {
   const xs = scaled(points.x, x),
     ys = scaled(points.y, y);
-  const places = xs.map((value, i) => [value, ys[i]]).filter(([a, b]) => Number.isFinite(a) && Number.isFinite(b));
+  const places = xs
+    .map((value, i) => [value, ys[i]])
+    .filter(([a, b]) => Number.isFinite(a) && Number.isFinite(b));
   const open = points.symbol === "open";
   return Plot.dot(places, {
     r: points.r ?? 3.2,
@@ -125,7 +132,8 @@ function momentMark(moment, x) {
 }
 
 function tipRows(spec, canvas, x, y) {
-  const say = (axis, value, shown) => `${axis.label} ${numberText(value)}${shown.unit ? ` ${shown.unit}` : ""}`;
+  const say = (axis, value, shown) =>
+    `${axis.label} ${numberText(value)}${shown.unit ? ` ${shown.unit}` : ""}`;
   return [...(spec.lines ?? []), ...(spec.points ?? [])]
     .filter(({ silent }) => !silent)
     .flatMap((drawn) => {
@@ -151,7 +159,9 @@ function drawLines(canvas, spec) {
     ...[...levels, ...moments]
       .filter(({ text }) => text)
       .map(({ text, stroke = "currentColor", dash = "4 3" }) => ({ text, stroke, dash })),
-    ...points.filter(({ text }) => text).map(({ text, stroke, symbol = "full" }) => ({ text, stroke, symbol })),
+    ...points
+      .filter(({ text }) => text)
+      .map(({ text, stroke, symbol = "full" }) => ({ text, stroke, symbol })),
     ...bands.filter(({ text }) => text).map(({ text, fill }) => ({ text, fill })),
   ];
   return drawFrame(canvas, {
@@ -176,7 +186,9 @@ function drawLines(canvas, spec) {
 function tableOf(spec) {
   const columns = [];
   let last = null;
-  for (const { name, x, y } of [...(spec.lines ?? []), ...(spec.points ?? [])].filter(({ silent }) => !silent)) {
+  for (const { name, x, y } of [...(spec.lines ?? []), ...(spec.points ?? [])].filter(
+    ({ silent }) => !silent,
+  )) {
     if (x !== last) columns.push({ name: spec.x.name ?? spec.x.label, unit: spec.x.unit, values: x });
     last = x;
     columns.push({ name, unit: spec.y.unit, values: y });

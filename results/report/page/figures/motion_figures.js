@@ -5,7 +5,14 @@ import { barFigure } from "./bar_figure.js";
 import { lineFigure, style } from "./line_figure.js";
 import { lineColours } from "./frame.js";
 
-const bandColours = [lineColours[4], lineColours[3], lineColours[2], lineColours[6], lineColours[1], lineColours[5]];
+const bandColours = [
+  lineColours[4],
+  lineColours[3],
+  lineColours[2],
+  lineColours[6],
+  lineColours[1],
+  lineColours[5],
+];
 const shownTurns = 12; // of a stretch at the start or at the end
 const timeAxis = { label: "time", name: "time", unit: "s", tight: true };
 
@@ -49,7 +56,8 @@ function historyLines(motion, quantity, { from, to } = { from: 0, to: motion.tim
 
 function titleOf(motion, quantity) {
   const shown = motion.masses.filter((mass) => mass[quantity]);
-  const [one, many] = quantity === "velocity" ? ["Velocity", "Velocities"] : ["Displacement", "Displacements"];
+  const [one, many] =
+    quantity === "velocity" ? ["Velocity", "Velocities"] : ["Displacement", "Displacements"];
   return several(shown) ? `${many} of the masses` : `${one} of ${words(shown[0].name)}`;
 }
 
@@ -75,7 +83,11 @@ function within(bands, low, high) {
   return bands
     .map(({ from, to, ...band }) => {
       const rows = Array.from(from, (_, i) => i).filter((i) => to[i] >= low && from[i] <= high);
-      return { ...band, from: rows.map((i) => Math.max(low, from[i])), to: rows.map((i) => Math.min(high, to[i])) };
+      return {
+        ...band,
+        from: rows.map((i) => Math.max(low, from[i])),
+        to: rows.map((i) => Math.min(high, to[i])),
+      };
     })
     .filter(({ from }) => from.length > 0);
 }
@@ -147,7 +159,9 @@ function turningFigure(motion, mass) {
         symbol: "open",
       },
     ],
-    levels: Number.isFinite(rest) ? [{ y: rest, text: `rest at ${quantityText(rest, unit, 4)}`, dash: "1 3" }] : [],
+    levels: Number.isFinite(rest)
+      ? [{ y: rest, text: `rest at ${quantityText(rest, unit, 4)}`, dash: "1 3" }]
+      : [],
     moments: moments(motion),
   });
 }
@@ -289,7 +303,9 @@ export function motionFigureParts(motion) {
         ]
       : [],
     turning: [
-      ...masses.filter(({ turningPoints }) => turningPoints.length > 0).map((mass) => turningFigure(motion, mass)),
+      ...masses
+        .filter(({ turningPoints }) => turningPoints.length > 0)
+        .map((mass) => turningFigure(motion, mass)),
       ...(masses.some(({ decrements }) => decrements.length > 0) ? [decrementFigure(motion)] : []),
     ],
     energies: [

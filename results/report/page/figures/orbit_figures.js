@@ -6,11 +6,13 @@ import { curve, drawFrame, grid, lineColours } from "./frame.js";
 export function orbitSamples(group, k) {
   const start = group.values("row_start");
   const along = group.along("sample");
-  const end = k + 1 < start.length ? start[k + 1] : along[0]?.values.length ?? 0;
-  return new Map(along.map((column) => [column.name, { ...column, values: column.values.slice(start[k], end) }]));
+  const end = k + 1 < start.length ? start[k + 1] : (along[0]?.values.length ?? 0);
+  return new Map(
+    along.map((column) => [column.name, { ...column, values: column.values.slice(start[k], end) }]),
+  );
 }
 
-const inset = 8;  // pixels between curves and frame: a friction force stays at its limits
+const inset = 8; // pixels between curves and frame: a friction force stays at its limits
 
 // A closed period: the first sample again at the end of a trace around a loop.
 const closed = (values) => (values.length ? [...values, values[0]] : values);
@@ -20,7 +22,8 @@ function shownColumn(column) {
   return { values: column.values.map((value) => value * factor), unit: text };
 }
 
-const namesEnding = (samples, end) => [...samples.keys()].filter((name) => name.endsWith(end)).map((name) => name.slice(0, -end.length));
+const namesEnding = (samples, end) =>
+  [...samples.keys()].filter((name) => name.endsWith(end)).map((name) => name.slice(0, -end.length));
 
 // Masses: what has an acceleration; contacts: what has a sliding velocity.
 export function massesOf(samples) {
@@ -33,39 +36,63 @@ export function contactsOf(samples) {
 function traces(canvas, samples, names, axis, symbol) {
   const time = samples.get("time");
   const all = names.map((name) => samples.get(name));
-  const { factor, text } = shownUnit(all[0].unit, all.flatMap(({ values }) => Array.from(values)));
+  const { factor, text } = shownUnit(
+    all[0].unit,
+    all.flatMap(({ values }) => Array.from(values)),
+  );
   return drawFrame(canvas, {
     x: { label: withUnit("time t", time.unit === "1" ? "" : time.unit) },
     y: { label: withUnit(axis, text), nice: true, inset },
-    legend: names.map((name, n) => ({ text: words(name.replace(symbol, "")), stroke: lineColours[n % lineColours.length] })),
-    marks: [...grid(), ...all.map(({ values }, n) => curve(time.values, values.map((value) => value * factor), { stroke: lineColours[n % lineColours.length] }))],
+    legend: names.map((name, n) => ({
+      text: words(name.replace(symbol, "")),
+      stroke: lineColours[n % lineColours.length],
+    })),
+    marks: [
+      ...grid(),
+      ...all.map(({ values }, n) =>
+        curve(
+          time.values,
+          values.map((value) => value * factor),
+          { stroke: lineColours[n % lineColours.length] },
+        ),
+      ),
+    ],
   });
 }
 
 function loop(canvas, xColumn, yColumn, xLabel, yLabel) {
-  const x = shownColumn(xColumn), y = shownColumn(yColumn);
+  const x = shownColumn(xColumn),
+    y = shownColumn(yColumn);
   return drawFrame(canvas, {
-    x: { label: withUnit(xLabel, x.unit), nice: true, inset }, y: { label: withUnit(yLabel, y.unit), nice: true, inset },
+    x: { label: withUnit(xLabel, x.unit), nice: true, inset },
+    y: { label: withUnit(yLabel, y.unit), nice: true, inset },
     marks: [...grid(), curve(closed(x.values), closed(y.values), { stroke: lineColours[0] })],
   });
 }
 
-const columnsOf = (samples, names) => names.map((name) => ({ name, unit: samples.get(name).unit, values: samples.get(name).values }));
+const columnsOf = (samples, names) =>
+  names.map((name) => ({ name, unit: samples.get(name).unit, values: samples.get(name).values }));
 
 // Figures of one orbit.  label: its point in words; suffix: of their files.
 export function orbitFigures(samples, label, suffix) {
   if (!samples.get("time")?.values.length) return [];
   const masses = massesOf(samples);
   const displacements = masses.map((mass) => `${mass}_displacement`);
-  const figures = [{
-    name: `orbit_history${suffix}`, title: "Displacements over one period", caption: label,
-    draw: (canvas) => traces(canvas, samples, displacements, "displacement", "_displacement"),
-    table: () => columnsOf(samples, ["time", ...displacements]),
-  }];
+  const figures = [
+    {
+      name: `orbit_history${suffix}`,
+      title: "Displacements over one period",
+      caption: label,
+      draw: (canvas) => traces(canvas, samples, displacements, "displacement", "_displacement"),
+      table: () => columnsOf(samples, ["time", ...displacements]),
+    },
+  ];
   const forces = contactsOf(samples).map((contact) => `${contact}_force`);
   if (forces.length) {
     figures.push({
-      name: `orbit_friction${suffix}`, title: "Friction forces over one period", caption: label,
+      name: `orbit_friction${suffix}`,
+      title: "Friction forces over one period",
+      caption: label,
       draw: (canvas) => traces(canvas, samples, forces, "friction force", "_force"),
       table: () => columnsOf(samples, ["time", ...forces]),
     });
@@ -73,17 +100,24 @@ export function orbitFigures(samples, label, suffix) {
   for (const mass of masses) {
     const [x, v] = [`${mass}_displacement`, `${mass}_velocity`];
     figures.push({
-      name: `orbit_phase_portrait_${mass}${suffix}`, title: `Phase portrait of ${words(mass)}`, caption: label, ratio: 0.7,
-      draw: (canvas) => loop(canvas, samples.get(x), samples.get(v), `displacement of ${words(mass)}`, "velocity"),
+      name: `orbit_phase_portrait_${mass}${suffix}`,
+      title: `Phase portrait of ${words(mass)}`,
+      caption: label,
+      ratio: 0.7,
+      draw: (canvas) =>
+        loop(canvas, samples.get(x), samples.get(v), `displacement of ${words(mass)}`, "velocity"),
       table: () => columnsOf(samples, ["time", x, v]),
     });
   }
   for (const contact of contactsOf(samples)) {
     const [u, v, f] = [`${contact}_displacement`, `${contact}_sliding_velocity`, `${contact}_force`];
     figures.push({
-      name: `orbit_friction_loop_${contact}${suffix}`, title: `Friction-force loop of ${words(contact)}`, ratio: 0.7,
+      name: `orbit_friction_loop_${contact}${suffix}`,
+      title: `Friction-force loop of ${words(contact)}`,
+      ratio: 0.7,
       caption: `${label}; its area is the energy lost in a period`,
-      draw: (canvas) => loop(canvas, samples.get(u), samples.get(f), "relative displacement", "friction force"),
+      draw: (canvas) =>
+        loop(canvas, samples.get(u), samples.get(f), "relative displacement", "friction force"),
       table: () => columnsOf(samples, ["time", u, v, f]),
     });
   }
@@ -92,6 +126,12 @@ export function orbitFigures(samples, label, suffix) {
 
 // "ω = 250 rpm, I = 6.36 kg" of row k.
 export function orbitLabel(group, k, symbolText, unitText) {
-  return group.along("orbit").filter(({ name }) => name !== "row_start")
-    .map(({ name, unit, values }) => `${symbolText(name)} = ${numberText(values[k])}${unitText(unit) ? ` ${unitText(unit)}` : ""}`).join(", ");
+  return group
+    .along("orbit")
+    .filter(({ name }) => name !== "row_start")
+    .map(
+      ({ name, unit, values }) =>
+        `${symbolText(name)} = ${numberText(values[k])}${unitText(unit) ? ` ${unitText(unit)}` : ""}`,
+    )
+    .join(", ");
 }

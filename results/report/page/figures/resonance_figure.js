@@ -6,7 +6,8 @@ import { curve, dots, drawFrame, grid, lineColours, roomFor } from "./frame.js";
 
 const mostCurves = 8;
 
-const solved = /_(resonance_frequency|resonance_amplitude|half_power_low|half_power_high|half_power_damping)$/;
+const solved =
+  /_(resonance_frequency|resonance_amplitude|half_power_low|half_power_high|half_power_damping)$/;
 
 export function resonanceQuantities(group) {
   return group.along("curve").filter(({ name }) => solved.test(name));
@@ -31,7 +32,10 @@ export function firstParameter(group) {
 // Evenly chosen ones of many.
 function some(list) {
   if (list.length <= mostCurves) return list;
-  return Array.from({ length: mostCurves }, (_, i) => list[Math.round(i * (list.length - 1) / (mostCurves - 1))]);
+  return Array.from(
+    { length: mostCurves },
+    (_, i) => list[Math.round((i * (list.length - 1)) / (mostCurves - 1))],
+  );
 }
 
 // Rows of the group by the values of the other parameters: [{text, rows}].
@@ -39,7 +43,12 @@ function curvesOver(group, x) {
   const others = x.name === "curve" ? [] : resonanceParameters(group).filter(({ name }) => name !== x.name);
   const curves = new Map();
   for (let row = 0; row < x.values.length; ++row) {
-    const text = others.map(({ name, unit, values }) => `${symbolText(name)} = ${numberText(values[row], 4)}${unitText(unit) ? ` ${unitText(unit)}` : ""}`).join(", ");
+    const text = others
+      .map(
+        ({ name, unit, values }) =>
+          `${symbolText(name)} = ${numberText(values[row], 4)}${unitText(unit) ? ` ${unitText(unit)}` : ""}`,
+      )
+      .join(", ");
     curves.set(text, [...(curves.get(text) ?? []), row]);
   }
   return some([...curves].map(([text, rows]) => ({ text, rows })));
@@ -50,13 +59,26 @@ export function resonanceFigure(canvas, group, quantity, x) {
   const curves = curvesOver(group, x);
   return drawFrame(canvas, {
     x: { label: withUnit(symbolText(x.name), unitText(x.unit)) },
-    y: { label: withUnit(words(quantity.name), text), ...roomFor(Array.from(quantity.values, (value) => value * factor)) },
-    legend: curves.length > 1 ? curves.map((one, n) => ({ text: one.text, stroke: lineColours[n % lineColours.length] })) : [],
-    marks: [...grid(), ...curves.flatMap(({ rows }, n) => {
-      const xs = rows.map((row) => x.values[row]), ys = rows.map((row) => quantity.values[row] * factor);
-      const stroke = lineColours[n % lineColours.length];
-      return [curve(xs, ys, { stroke }), ...(rows.length <= 60 ? [dots(xs, ys, { fill: stroke, r: 2.5 })] : [])];
-    })],
+    y: {
+      label: withUnit(words(quantity.name), text),
+      ...roomFor(Array.from(quantity.values, (value) => value * factor)),
+    },
+    legend:
+      curves.length > 1
+        ? curves.map((one, n) => ({ text: one.text, stroke: lineColours[n % lineColours.length] }))
+        : [],
+    marks: [
+      ...grid(),
+      ...curves.flatMap(({ rows }, n) => {
+        const xs = rows.map((row) => x.values[row]),
+          ys = rows.map((row) => quantity.values[row] * factor);
+        const stroke = lineColours[n % lineColours.length];
+        return [
+          curve(xs, ys, { stroke }),
+          ...(rows.length <= 60 ? [dots(xs, ys, { fill: stroke, r: 2.5 })] : []),
+        ];
+      }),
+    ],
   });
 }
 

@@ -7,15 +7,17 @@ import { shownUnit, unitText, withUnit, words } from "../units.js";
 import { colourSteps, colourTable, flagColours, missingColour } from "./colours.js";
 import { drawFrame, svgElement } from "./frame.js";
 
-const resampled = 480;  // cells of an axis whose values lie unevenly
+const resampled = 480; // cells of an axis whose values lie unevenly
 
 // Of each cell of the picture the index of the grid's point: itself, or the nearest one on an uneven axis.
 function cellPoints(values, type) {
   if (type) return Array.from(values, (_, i) => i);
-  const edges = cellEdges(values, "linear"), low = edges[0], high = edges.at(-1);
+  const edges = cellEdges(values, "linear"),
+    low = edges[0],
+    high = edges.at(-1);
   const cells = [];
   for (let c = 0, i = 0; c < resampled; ++c) {
-    const at = low + (high - low) * (c + 0.5) / resampled;
+    const at = low + ((high - low) * (c + 0.5)) / resampled;
     const passed = (edge) => (high > low ? at > edge : at < edge);
     while (i + 1 < values.length && passed(edges[i + 1])) ++i;
     cells.push(i);
@@ -34,7 +36,8 @@ function painterOf(variable, range, state) {
   }
   const table = colourTable(state.colours ?? "viridis");
   const to = state.scale === "log" ? Math.log : (value) => value;
-  const low = to(range[0]), span = to(range[1]) - low || 1;
+  const low = to(range[0]),
+    span = to(range[1]) - low || 1;
   return (value, rgba, at) => {
     if (Number.isNaN(value) || (variable.kind === "count" && value < 0)) return rgba.set(missingColour, at);
     const place = (to(Math.max(value, range[0])) - low) / span;
@@ -43,13 +46,15 @@ function painterOf(variable, range, state) {
   };
 }
 
-const logSpan = 1e-4;  // of the largest: what lies below has the lowest colour on a logarithmic scale
+const logSpan = 1e-4; // of the largest: what lies below has the lowest colour on a logarithmic scale
 
 // Least and largest value of all the map, so that a slider moves along one scale; on a log scale of the positive.
 export function rangeOf(map, variable, scale) {
-  let low = Infinity, high = -Infinity;
+  let low = Infinity,
+    high = -Infinity;
   for (const value of variable.values) {
-    if (Number.isNaN(value) || (scale === "log" && value <= 0) || (variable.kind === "count" && value < 0)) continue;
+    if (Number.isNaN(value) || (scale === "log" && value <= 0) || (variable.kind === "count" && value < 0))
+      continue;
     if (value < low) low = value;
     if (value > high) high = value;
   }
@@ -59,8 +64,10 @@ export function rangeOf(map, variable, scale) {
 
 // The picture of the cells, first row at the top: y falls downwards.
 function picture(canvas, map, variable, state, axes, paint) {
-  const columns = cellPoints(axes.x.values, axes.x.type), rows = cellPoints(axes.y.values, axes.y.type);
-  const flipX = axes.x.values.at(-1) < axes.x.values[0], flipY = axes.y.values.at(-1) < axes.y.values[0];
+  const columns = cellPoints(axes.x.values, axes.x.type),
+    rows = cellPoints(axes.y.values, axes.y.type);
+  const flipX = axes.x.values.at(-1) < axes.x.values[0],
+    flipY = axes.y.values.at(-1) < axes.y.values[0];
   if (flipX) columns.reverse();
   if (!flipY) rows.reverse();
   const base = map.offset(state.index.map((i, a) => (a === state.x || a === state.y ? 0 : i)));
@@ -80,43 +87,93 @@ function axisOf(map, axis, coordinate) {
   const { values } = coordinate;
   const type = spacing(values);
   const edges = cellEdges(values, type || "linear");
-  return { values, type, label: coordinateLabel(coordinate), scale: type || "linear", domain: [Math.min(edges[0], edges.at(-1)), Math.max(edges[0], edges.at(-1))] };
+  return {
+    values,
+    type,
+    label: coordinateLabel(coordinate),
+    scale: type || "linear",
+    domain: [Math.min(edges[0], edges.at(-1)), Math.max(edges[0], edges.at(-1))],
+  };
 }
 
 function pictureMark(url) {
   return (index, scales, values, dimensions, { document }) => {
     const { marginLeft, marginTop, width, height, marginRight, marginBottom } = dimensions;
     return svgElement(document, "image", {
-      x: marginLeft, y: marginTop, width: width - marginLeft - marginRight, height: height - marginTop - marginBottom,
-      preserveAspectRatio: "none", href: url, style: "image-rendering: pixelated",
+      x: marginLeft,
+      y: marginTop,
+      width: width - marginLeft - marginRight,
+      height: height - marginTop - marginBottom,
+      preserveAspectRatio: "none",
+      href: url,
+      style: "image-rendering: pixelated",
     });
   };
 }
 
-const barWidth = 14, barGap = 16;
+const barWidth = 14,
+  barGap = 16;
 
 // The scale of the colours, at the right of the frame.
 function colourBar(canvas, label, range, state) {
   return (index, scales, values, dimensions, { document }) => {
-    const left = dimensions.width - dimensions.marginRight + barGap, top = dimensions.marginTop;
+    const left = dimensions.width - dimensions.marginRight + barGap,
+      top = dimensions.marginTop;
     const height = dimensions.height - top - dimensions.marginBottom;
-    const bar = new Uint8ClampedArray(4 * 256), table = colourTable(state.colours ?? "viridis");
+    const bar = new Uint8ClampedArray(4 * 256),
+      table = colourTable(state.colours ?? "viridis");
     for (let row = 0; row < 256; ++row) {
-      const step = 4 * Math.round((255 - row) / 255 * (colourSteps - 1));
+      const step = 4 * Math.round(((255 - row) / 255) * (colourSteps - 1));
       bar.set(table.subarray(step, step + 4), 4 * row);
     }
-    const group = svgElement(document, "g", { "aria-label": "colour scale", fill: "currentColor", "text-anchor": "start" });
-    group.appendChild(svgElement(document, "image", { x: left, y: top, width: barWidth, height, preserveAspectRatio: "none", href: canvas.image(1, 256, bar) }));
-    group.appendChild(svgElement(document, "rect", { x: left, y: top, width: barWidth, height, fill: "none", stroke: "currentColor" }));
-    const scale = Plot.scale({ y: { type: state.scale === "log" ? "log" : "linear", domain: range, range: [top + height, top] } });
+    const group = svgElement(document, "g", {
+      "aria-label": "colour scale",
+      fill: "currentColor",
+      "text-anchor": "start",
+    });
+    group.appendChild(
+      svgElement(document, "image", {
+        x: left,
+        y: top,
+        width: barWidth,
+        height,
+        preserveAspectRatio: "none",
+        href: canvas.image(1, 256, bar),
+      }),
+    );
+    group.appendChild(
+      svgElement(document, "rect", {
+        x: left,
+        y: top,
+        width: barWidth,
+        height,
+        fill: "none",
+        stroke: "currentColor",
+      }),
+    );
+    const scale = Plot.scale({
+      y: { type: state.scale === "log" ? "log" : "linear", domain: range, range: [top + height, top] },
+    });
     const ticks = tickValues(range, state.scale, Math.max(2, Math.round(height / 45)));
     for (const tick of ticks) {
       const y = scale.apply(tick);
-      group.appendChild(svgElement(document, "path", { d: `M${left + barWidth},${y}h4`, stroke: "currentColor" }));
-      group.appendChild(svgElement(document, "text", { x: left + barWidth + 7, y, dy: "0.32em" }, tickText(tick)));
+      group.appendChild(
+        svgElement(document, "path", { d: `M${left + barWidth},${y}h4`, stroke: "currentColor" }),
+      );
+      group.appendChild(
+        svgElement(document, "text", { x: left + barWidth + 7, y, dy: "0.32em" }, tickText(tick)),
+      );
     }
-    const middle = top + height / 2, right = dimensions.width - 8;
-    group.appendChild(svgElement(document, "text", { transform: `translate(${right},${middle}) rotate(-90)`, "text-anchor": "middle" }, label));
+    const middle = top + height / 2,
+      right = dimensions.width - 8;
+    group.appendChild(
+      svgElement(
+        document,
+        "text",
+        { transform: `translate(${right},${middle}) rotate(-90)`, "text-anchor": "middle" },
+        label,
+      ),
+    );
     return group;
   };
 }
@@ -129,7 +186,8 @@ function tickValues([low, high], scale, count) {
   if (scale !== "log") {
     const step = niceStep((high - low) / count);
     const ticks = [];
-    for (let k = Math.ceil(low / step - 1e-9); k * step <= high * (1 + 1e-12) + step * 1e-9; ++k) ticks.push(k * step);
+    for (let k = Math.ceil(low / step - 1e-9); k * step <= high * (1 + 1e-12) + step * 1e-9; ++k)
+      ticks.push(k * step);
     return ticks;
   }
   const ticks = [];
@@ -144,7 +202,14 @@ function niceStep(rough) {
   return [1, 2, 5, 10].map((digit) => digit * power).find((step) => step >= rough * (1 - 1e-12));
 }
 
-const borderDashes = { "non_stop|one_stop": "", "one_stop|multi_stop": "5 3", "non_stop|multi_stop": "2 2", "one_stop|stuck": "9 3", "non_stop|stuck": "9 3 2 3", "multi_stop|stuck": "1 2" };
+const borderDashes = {
+  "non_stop|one_stop": "",
+  "one_stop|multi_stop": "5 3",
+  "non_stop|multi_stop": "2 2",
+  "one_stop|stuck": "9 3",
+  "non_stop|stuck": "9 3 2 3",
+  "multi_stop|stuck": "1 2",
+};
 
 // Places between the grid's values by straight lines (on its own scale by those of the values).
 function at(values, place) {
@@ -153,14 +218,28 @@ function at(values, place) {
 }
 
 function borderMarks(crossings, state, map, axes) {
-  const curves = borderCurves(crossings, { x: state.x, y: state.y, index: state.index, nx: map.axes[state.x].size, ny: map.axes[state.y].size });
+  const curves = borderCurves(crossings, {
+    x: state.x,
+    y: state.y,
+    index: state.index,
+    nx: map.axes[state.x].size,
+    ny: map.axes[state.y].size,
+  });
   const line = ({ key, points }) => points.map(([i, j]) => [at(axes.x.values, i), at(axes.y.values, j)]);
   const marks = curves.flatMap((curve) => [
     Plot.line(line(curve), { stroke: "white", strokeWidth: 3, strokeOpacity: 0.75 }),
-    Plot.line(line(curve), { stroke: "black", strokeWidth: 1.3, strokeDasharray: borderDashes[curve.key] ?? "" }),
+    Plot.line(line(curve), {
+      stroke: "black",
+      strokeWidth: 1.3,
+      strokeDasharray: borderDashes[curve.key] ?? "",
+    }),
   ]);
   const keys = [...new Set(curves.map(({ key }) => key))].sort();
-  const legend = keys.map((key) => ({ text: key.split("|").map(words).join(" | "), stroke: "currentColor", dash: borderDashes[key] ?? "" }));
+  const legend = keys.map((key) => ({
+    text: key.split("|").map(words).join(" | "),
+    stroke: "currentColor",
+    dash: borderDashes[key] ?? "",
+  }));
   return { marks, legend };
 }
 
@@ -170,7 +249,11 @@ function pickedMarks({ picked = [], x, y }, axes) {
   picked.forEach((index, n) => {
     const place = `${index[x]},${index[y]}`;
     const before = places.get(place);
-    places.set(place, { x: axes.x.values[index[x]], y: axes.y.values[index[y]], number: before ? `${before.number},${n + 1}` : String(n + 1) });
+    places.set(place, {
+      x: axes.x.values[index[x]],
+      y: axes.y.values[index[y]],
+      number: before ? `${before.number},${n + 1}` : String(n + 1),
+    });
   });
   return [...places.values()];
 }
@@ -178,15 +261,19 @@ function pickedMarks({ picked = [], x, y }, axes) {
 // state: {x, y: axes; coordinates: of each axis which one; index: of all axes; scale: "linear" or "log";
 // crossings: of a contact's borders; picked: points marked, [index]}.
 export function responseMap(canvas, map, variable, state) {
-  const axes = { x: axisOf(map, state.x, map.axes[state.x].coordinates[state.coordinates[state.x]]),
-    y: axisOf(map, state.y, map.axes[state.y].coordinates[state.coordinates[state.y]]) };
+  const axes = {
+    x: axisOf(map, state.x, map.axes[state.x].coordinates[state.coordinates[state.x]]),
+    y: axisOf(map, state.y, map.axes[state.y].coordinates[state.coordinates[state.y]]),
+  };
   const flag = variable.kind === "flag";
   const scale = flag ? "linear" : state.scale;
   const range = flag ? [0, 1] : rangeOf(map, variable, scale);
   const shown = flag ? { factor: 1, text: "" } : shownUnit(variable.unit, range);
   const paint = painterOf(variable, range, { ...state, scale });
   const borders = borderMarks(state.crossings ?? [], state, map, axes);
-  const regimes = flag ? [...flagColours(variable).values()].map(({ word, colour }) => ({ text: words(word), fill: colour })) : [];
+  const regimes = flag
+    ? [...flagColours(variable).values()].map(({ word, colour }) => ({ text: words(word), fill: colour }))
+    : [];
   const picked = pickedMarks(state, axes);
   return drawFrame(canvas, {
     x: { label: axes.x.label, type: axes.x.scale, domain: axes.x.domain },
@@ -197,16 +284,38 @@ export function responseMap(canvas, map, variable, state) {
       pictureMark(picture(canvas, map, variable, state, axes, paint)),
       ...borders.marks,
       Plot.dot(picked, { x: "x", y: "y", r: 7, fill: "white", stroke: "black", strokeWidth: 1.5 }),
-      Plot.text(picked, { x: "x", y: "y", text: "number", fill: "black", stroke: "none", fontSize: 10, fontWeight: 700 }),
-      ...(flag ? [] : [colourBar(canvas, withUnit(words(variable.name), shown.text), range.map((value) => value * shown.factor), { ...state, scale })]),
+      Plot.text(picked, {
+        x: "x",
+        y: "y",
+        text: "number",
+        fill: "black",
+        stroke: "none",
+        fontSize: 10,
+        fontWeight: 700,
+      }),
+      ...(flag
+        ? []
+        : [
+            colourBar(
+              canvas,
+              withUnit(words(variable.name), shown.text),
+              range.map((value) => value * shown.factor),
+              { ...state, scale },
+            ),
+          ]),
     ],
   });
 }
 
 // All cells of the map shown, row by row.
 export function responseMapTable(map, variable, state) {
-  const x = map.axes[state.x].coordinates[state.coordinates[state.x]], y = map.axes[state.y].coordinates[state.coordinates[state.y]];
-  const columns = [{ name: y.name, unit: y.unit, values: [] }, { name: x.name, unit: x.unit, values: [] }, { name: variable.name, unit: unitText(variable.unit) && variable.unit, values: [] }];
+  const x = map.axes[state.x].coordinates[state.coordinates[state.x]],
+    y = map.axes[state.y].coordinates[state.coordinates[state.y]];
+  const columns = [
+    { name: y.name, unit: y.unit, values: [] },
+    { name: x.name, unit: x.unit, values: [] },
+    { name: variable.name, unit: unitText(variable.unit) && variable.unit, values: [] },
+  ];
   const index = [...state.index];
   for (let j = 0; j < y.values.length; ++j) {
     for (let i = 0; i < x.values.length; ++i) {

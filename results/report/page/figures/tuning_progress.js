@@ -185,6 +185,9 @@ export function frontFigure(tuning) {
     x: { label: `limit of ${name}`, name: "trade_off", unit: limit.unit },
     y: { label: objectiveLabel(tuning), unit },
     lines: [{ name: "objective", x: sorted(limit.values), y: sorted(y), stroke: lineColours[7], width: 1.2 }],
-    points: byOutcome(front, "outcome", limit.values, y, "objective").map((points) => ({ ...points, silent: true })),
+    points: byOutcome(front, "outcome", limit.values, y, "objective").map((points) => ({
+      ...points,
+      silent: true,
+    })),
   });
 }

@@ -5,11 +5,17 @@ import { words } from "../units.js";
 import { lineFigure } from "./line_figure.js";
 import { lineColours, lineDashes } from "./frame.js";
 
-const colours = { before: lineColours[7], after: lineColours[0], constant: lineColours[1], rule: lineColours[2] };
+const colours = {
+  before: lineColours[7],
+  after: lineColours[0],
+  constant: lineColours[1],
+  rule: lineColours[2],
+};
 const drawnFirst = ["before", "constant", "after", "rule"];
 
 function responseLine({ band, scenarios }, { design, scenario, values }) {
-  const dash = scenarios.length > 1 ? lineDashes[scenarios.indexOf(scenario)] : design === "rule" ? "5 4" : "";
+  const dash =
+    scenarios.length > 1 ? lineDashes[scenarios.indexOf(scenario)] : design === "rule" ? "5 4" : "";
   const text = `${designNames[design]}${scenario ? `, ${words(scenario)}` : ""}`;
   return {
     name: `response_${design}${scenario ? `_${scenario}` : ""}`,
@@ -24,7 +30,14 @@ function responseLine({ band, scenarios }, { design, scenario, values }) {
 
 function peakPoints({ peaks, kind }) {
   const of = (chosen) => ({ x: chosen.map(({ at }) => at), y: chosen.map(({ value }) => value) });
-  const points = (name, text, symbol, chosen) => ({ name, text, symbol, stroke: colours.after, r: 4.5, ...of(chosen) });
+  const points = (name, text, symbol, chosen) => ({
+    name,
+    text,
+    symbol,
+    stroke: colours.after,
+    r: 4.5,
+    ...of(chosen),
+  });
   return [
     points(
       "active_peak",
@@ -64,7 +77,11 @@ export function responseFigure(tuning) {
     caption: `${peaksText(tuning)}${weightText(tuning)}`.trim(),
     ratio: 0.5,
     x: { ...axisOf(band), tight: true },
-    y: { label: `${weight ? "weighted " : ""}${words(quantity)}`, unit: kind === "minimax" ? unit : root, zero: true },
+    y: {
+      label: `${weight ? "weighted " : ""}${words(quantity)}`,
+      unit: kind === "minimax" ? unit : root,
+      zero: true,
+    },
     lines,
     points: peakPoints(tuning),
     levels: worstPeak ? [{ text: "worst, tuned", y: worst.after, stroke: colours.after, dash: "10 4" }] : [],
@@ -73,7 +90,11 @@ export function responseFigure(tuning) {
 
 function axisOf({ name, unit, long_name }) {
   return {
-    label: coordinateLabel({ name, unit: "1", long_name: long_name === "band of the tuning" ? "" : long_name }),
+    label: coordinateLabel({
+      name,
+      unit: "1",
+      long_name: long_name === "band of the tuning" ? "" : long_name,
+    }),
     name,
     unit,
   };
@@ -169,9 +190,10 @@ export function columnFigure({ band }, { name, unit, values, range, lower, upper
       y: rows.map((i) => values[i]),
     };
   };
-  const outside = [flagged("below", "below its range", "open"), flagged("above", "above its range", "full")].filter(
-    ({ x }) => x.length > 0,
-  );
+  const outside = [
+    flagged("below", "below its range", "open"),
+    flagged("above", "above its range", "full"),
+  ].filter(({ x }) => x.length > 0);
   const ends = [
     ...level("lower end of its range", lower, "currentColor", "1 3"),
     ...level("upper end of its range", upper, "currentColor", "5 3"),

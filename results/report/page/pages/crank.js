@@ -28,7 +28,9 @@ function errorTable(cranks) {
 
 export function crankParts(record) {
   const cranks = cranksOf(record);
-  return cranks.length ? [section("Crank", ...errorTable(cranks), ...figureCards(crankFigures(record), record))] : [];
+  return cranks.length
+    ? [section("Crank", ...errorTable(cranks), ...figureCards(crankFigures(record), record))]
+    : [];
 }
 
 export function crankFigures(record) {

@@ -11,22 +11,32 @@ import { words } from "../units.js";
 import { budgetFigure, curveFigure, mapFigure, regimeOf } from "./map_figures.js";
 import { curvePoints, firstState } from "./sweep_state.js";
 
-const scales = [["linear", "linear"], ["log", "logarithmic"]];
+const scales = [
+  ["linear", "linear"],
+  ["log", "logarithmic"],
+];
 
 // Everything of the explorer: the record, its state, its figures, the places of its controls.
 function viewOf(record) {
-  const { map } = record, state = firstState(record);
+  const { map } = record,
+    state = firstState(record);
   const card = (figure) => figureCard(figure, about(record));
   const wide = map.axes.map((_, a) => a).filter((a) => map.axes[a].size > 1);
   const shares = dissipating(map.variables);
   return {
-    record, map, state, wide,
+    record,
+    map,
+    state,
+    wide,
     mapShown: state.y === null ? null : card(mapFigure(map, state)),
     curvesShown: card(curveFigure(map, state)),
     budgetShown: shares.length && wide.length ? card(budgetFigure(map, state, shares)) : null,
-    mapControls: element("div", { class: "controls" }), sliders: element("div", { class: "controls" }),
-    curveControls: element("div", { class: "controls" }), place: element("div", {}),
-    rows: [], waiting: false,
+    mapControls: element("div", { class: "controls" }),
+    sliders: element("div", { class: "controls" }),
+    curveControls: element("div", { class: "controls" }),
+    place: element("div", {}),
+    rows: [],
+    waiting: false,
   };
 }
 
@@ -49,8 +59,10 @@ function change(view, changes) {
 
 // Axes and their coordinates as [axis:coordinate, label]: those that rise or fall all along.
 function coordinateChoices({ map, wide }) {
-  return wide.flatMap((axis) => map.axes[axis].coordinates.map((coordinate, c) => [`${axis}:${c}`, coordinate]))
-    .filter(([, { monotone }]) => monotone).map(([key, coordinate]) => [key, coordinateLabel(coordinate)]);
+  return wide
+    .flatMap((axis) => map.axes[axis].coordinates.map((coordinate, c) => [`${axis}:${c}`, coordinate]))
+    .filter(([, { monotone }]) => monotone)
+    .map(([key, coordinate]) => [key, coordinateLabel(coordinate)]);
 }
 
 function chosenCoordinate(state, key) {
@@ -61,7 +73,8 @@ function chosenCoordinate(state, key) {
 
 // Another axis across or up; the two change places where it is the other's.
 function setAxis(view, which, key) {
-  const { state } = view, other = which === "x" ? "y" : "x";
+  const { state } = view,
+    other = which === "x" ? "y" : "x";
   const axis = chosenCoordinate(state, key);
   if (axis === state[other]) [state.x, state.y] = [state.y, state.x];
   else state[which] = axis;
@@ -70,30 +83,63 @@ function setAxis(view, which, key) {
 
 function controlsOfMap(view) {
   const { map, state } = view;
-  const quantity = choice("quantity", map.variables.map(({ name }) => [name, words(name)]), state.variable.name,
-    (name) => change(view, { variable: map.variable(name) }));
+  const quantity = choice(
+    "quantity",
+    map.variables.map(({ name }) => [name, words(name)]),
+    state.variable.name,
+    (name) => change(view, { variable: map.variable(name) }),
+  );
   if (state.y === null) return [quantity];
-  const axis = (label, which) => choice(label, coordinateChoices(view), `${state[which]}:${state.coordinates[state[which]]}`,
-    (key) => setAxis(view, which, key));
+  const axis = (label, which) =>
+    choice(label, coordinateChoices(view), `${state[which]}:${state.coordinates[state[which]]}`, (key) =>
+      setAxis(view, which, key),
+    );
   const contacts = [...state.crossings.keys()];
-  return [quantity, axis("across", "x"), axis("up", "y"),
+  return [
+    quantity,
+    axis("across", "x"),
+    axis("up", "y"),
     choice("colours", scales, state.scale, (scale) => change(view, { scale })),
-    choice("palette", [["viridis", "viridis"], ["cividis", "cividis"]], state.colours, (colours) => change(view, { colours })),
-    contacts.length ? choice("contact", contacts.map((name) => [name, words(name)]), state.contact, (contact) => {
-      change(view, { contact });
-      arrange(view);
-    }) : null];
+    choice(
+      "palette",
+      [
+        ["viridis", "viridis"],
+        ["cividis", "cividis"],
+      ],
+      state.colours,
+      (colours) => change(view, { colours }),
+    ),
+    contacts.length
+      ? choice(
+          "contact",
+          contacts.map((name) => [name, words(name)]),
+          state.contact,
+          (contact) => {
+            change(view, { contact });
+            arrange(view);
+          },
+        )
+      : null,
+  ];
 }
 
 function controlsOfCurves(view) {
   const { map, state, wide } = view;
-  const button = (id, text, kept) => element("button", { type: "button", id, onclick: () => change(view, { kept: kept() }) }, text);
+  const button = (id, text, kept) =>
+    element("button", { type: "button", id, onclick: () => change(view, { kept: kept() }) }, text);
   return [
-    choice("along", coordinateChoices(view), `${state.curveAxis}:${state.coordinates[state.curveAxis]}`,
-      (key) => change(view, { curveAxis: chosenCoordinate(state, key) })),
-    choice("scale", [...scales, ["dB", "dB"]], state.curveScale, (curveScale) => change(view, { curveScale })),
+    choice(
+      "along",
+      coordinateChoices(view),
+      `${state.curveAxis}:${state.coordinates[state.curveAxis]}`,
+      (key) => change(view, { curveAxis: chosenCoordinate(state, key) }),
+    ),
+    choice("scale", [...scales, ["dB", "dB"]], state.curveScale, (curveScale) =>
+      change(view, { curveScale }),
+    ),
     regimeOf(map, state.contact)
-      ? tick("colour by regime", state.colourByRegime, (colourByRegime) => change(view, { colourByRegime })) : null,
+      ? tick("colour by regime", state.colourByRegime, (colourByRegime) => change(view, { colourByRegime }))
+      : null,
     wide.length > 1 ? button("keep", "keep this curve", () => [...curvePoints(state)]) : null,
     wide.length > 1 ? button("clear", "clear kept", () => []) : null,
   ];
@@ -103,8 +149,13 @@ function controlsOfCurves(view) {
 function slidersOf(view) {
   const { map, state, wide } = view;
   const hidden = wide.filter((axis) => state.y === null || (axis !== state.x && axis !== state.y));
-  return hidden.map((axis) => slider(map.axes[axis], () => state.index[axis],
-    (to) => change(view, { index: state.index.map((i, a) => (a === axis ? to : i)) })));
+  return hidden.map((axis) =>
+    slider(
+      map.axes[axis],
+      () => state.index[axis],
+      (to) => change(view, { index: state.index.map((i, a) => (a === axis ? to : i)) }),
+    ),
+  );
 }
 
 // The controls anew: which there are depends on what is shown.
@@ -127,13 +178,24 @@ export function explorerSections(record) {
   const { mapShown, curvesShown, budgetShown } = view;
   arrange(view);
   if (mapShown) {
-    followPointer(mapShown, view.map, view.state, (index) => pointTip(record, index, view.state.variable),
-      (index, keep) => pick(view, index, keep));
+    followPointer(
+      mapShown,
+      view.map,
+      view.state,
+      (index) => pointTip(record, index, view.state.variable),
+      (index, keep) => pick(view, index, keep),
+    );
   }
-  const hint = "Point at the map to read it; click to take a point for the curves, with Shift to keep the one before.";
+  const hint =
+    "Point at the map to read it; click to take a point for the curves, with Shift to keep the one before.";
   return [
-    section(mapShown ? "Response map" : "Response", view.mapControls, view.sliders, mapShown?.card,
-      mapShown ? element("p", { class: "note hint" }, hint) : null),
+    section(
+      mapShown ? "Response map" : "Response",
+      view.mapControls,
+      view.sliders,
+      mapShown?.card,
+      mapShown ? element("p", { class: "note hint" }, hint) : null,
+    ),
     section("Response curves", view.curveControls, curvesShown.card, budgetShown?.card),
     section("Point", view.place),
   ];

@@ -53,7 +53,11 @@ function qualityTable({ quality, series }) {
     ];
   });
   return rows.length
-    ? [table(["record", "quantity", "NRMSE fit (%)", "root mean square of the residual"], rows, { numeric: [2, 3] })]
+    ? [
+        table(["record", "quantity", "NRMSE fit (%)", "root mean square of the residual"], rows, {
+          numeric: [2, 3],
+        }),
+      ]
     : [];
 }
 

@@ -8,8 +8,12 @@ import { curvePoints } from "./sweep_state.js";
 
 // Where the point of the sliders stands on all axes but those left out.
 function placeWithout(map, state, leftOut) {
-  return map.axes.map((axis, a) => (leftOut.includes(a) || axis.size < 2 ? "" : coordinateText(axis.coordinates[0], state.index[a])))
-    .filter(Boolean).join(", ");
+  return map.axes
+    .map((axis, a) =>
+      leftOut.includes(a) || axis.size < 2 ? "" : coordinateText(axis.coordinates[0], state.index[a]),
+    )
+    .filter(Boolean)
+    .join(", ");
 }
 
 export function mapFigure(map, state) {
@@ -24,9 +28,12 @@ export function mapFigure(map, state) {
       const borders = `Lines: borders between the regimes of ${words(state.contact)}, solved, not sampled.`;
       return `Grey: no number. ${crossings().length ? borders : ""}`.trim();
     },
-    draw: (canvas) => responseMap(canvas, map, state.variable, {
-      ...state, crossings: crossings(), picked: canvas.interactive ? curvePoints(state) : [],
-    }),
+    draw: (canvas) =>
+      responseMap(canvas, map, state.variable, {
+        ...state,
+        crossings: crossings(),
+        picked: canvas.interactive ? curvePoints(state) : [],
+      }),
     table: () => responseMapTable(map, state.variable, state),
   };
 }
@@ -37,8 +44,11 @@ export function regimeOf(map, contact) {
 
 export function curveFigure(map, state) {
   const curves = () => ({
-    axis: state.curveAxis, coordinate: state.coordinates[state.curveAxis], scale: state.curveScale,
-    points: curvePoints(state), regime: state.colourByRegime ? regimeOf(map, state.contact) : undefined,
+    axis: state.curveAxis,
+    coordinate: state.coordinates[state.curveAxis],
+    scale: state.curveScale,
+    points: curvePoints(state),
+    regime: state.colourByRegime ? regimeOf(map, state.contact) : undefined,
   });
   return {
     name: () => `curves_${state.variable.name}`,
@@ -56,9 +66,14 @@ export function curveFigure(map, state) {
 
 // shares: the variables <e>_energy_share that are not all zero.
 export function budgetFigure(map, state, shares) {
-  const along = () => ({ axis: state.curveAxis, coordinate: state.coordinates[state.curveAxis], index: state.index });
+  const along = () => ({
+    axis: state.curveAxis,
+    coordinate: state.coordinates[state.curveAxis],
+    index: state.index,
+  });
   return {
-    name: "damping_budget", title: "Damping budget: who dissipates",
+    name: "damping_budget",
+    title: "Damping budget: who dissipates",
     caption: "Along the axis of the curves, through the point of the sliders.",
     draw: (canvas) => energyShares(canvas, map, shares, along()),
     table: () => energySharesTable(map, shares, along()),

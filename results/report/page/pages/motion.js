@@ -25,7 +25,11 @@ const massColumns = [
     (value, { unit }) => quantityText(value, unit),
   ],
   ["decrement of the first cycle", ({ decrements }) => decrements[0] ?? NaN, (value) => numberText(value)],
-  ["as viscous damping ratio", ({ decrements }) => dampingRatio(decrements[0] ?? NaN), (value) => numberText(value)],
+  [
+    "as viscous damping ratio",
+    ({ decrements }) => dampingRatio(decrements[0] ?? NaN),
+    (value) => numberText(value),
+  ],
   ["decrement of the last cycle", ({ decrements }) => decrements.at(-1) ?? NaN, (value) => numberText(value)],
   ["rest", ({ rest }) => rest, (value, { unit }) => quantityText(value, unit)],
   ["largest displacement", ({ peak }) => peak, (value, { unit }) => quantityText(value, unit)],
@@ -35,7 +39,10 @@ const massColumns = [
 function massesTable({ masses }) {
   const columns = massColumns.filter(([, of]) => masses.some((mass) => !Number.isNaN(of(mass))));
   if (columns.length === 0) return [];
-  const rows = masses.map((mass) => [words(mass.name), ...columns.map(([, of, text]) => text(of(mass), mass))]);
+  const rows = masses.map((mass) => [
+    words(mass.name),
+    ...columns.map(([, of, text]) => text(of(mass), mass)),
+  ]);
   return [table(["mass", ...columns.map(([name]) => name)], rows, { numeric: columns.map((_, i) => i + 1) })];
 }
 
@@ -87,7 +94,11 @@ function energyTable({ energies, group }) {
   return [
     table(
       ["", "energy", "share"],
-      [...whole, ...rows, ...(Number.isFinite(balance) ? [["balance, relative", numberText(balance, 3), ""]] : [])],
+      [
+        ...whole,
+        ...rows,
+        ...(Number.isFinite(balance) ? [["balance, relative", numberText(balance, 3), ""]] : []),
+      ],
       { numeric: [1, 2] },
     ),
   ];

@@ -9,7 +9,11 @@ import { sweepFigures, sweepParts } from "./sweep.js";
 const kinds = [
   { has: (record) => record.map !== null, parts: sweepParts, figures: sweepFigures },
   { has: (record) => record.groups.has("optimum"), parts: tuningParts, figures: tuningFigures },
-  { has: (record) => record.groups.has("identification"), parts: identificationParts, figures: identificationFigures },
+  {
+    has: (record) => record.groups.has("identification"),
+    parts: identificationParts,
+    figures: identificationFigures,
+  },
   { has: hasMotion, parts: motionParts, figures: motionFigures },
   { has: (record) => record.groups.has("crank"), parts: crankParts, figures: crankFigures },
 ];

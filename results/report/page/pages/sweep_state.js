@@ -9,7 +9,9 @@ const manyPoints = 8;
 // The frequency, or whatever has most points, lies along x; the next along y.
 function axesOf(map) {
   const bySize = sliding(map).sort((a, b) => map.axes[b].size - map.axes[a].size);
-  const isFrequency = (a) => map.axes[a].size >= manyPoints && map.axes[a].coordinates.some(({ long_name: meaning }) => meaning === "[excitation]: frequency");
+  const isFrequency = (a) =>
+    map.axes[a].size >= manyPoints &&
+    map.axes[a].coordinates.some(({ long_name: meaning }) => meaning === "[excitation]: frequency");
   const x = bySize.find(isFrequency) ?? bySize[0] ?? 0;
   return { x, y: bySize.find((axis) => axis !== x) ?? null };
 }
@@ -31,8 +33,10 @@ function placeAlong({ coordinates, size }, group) {
 function crossingsOf(record, contact) {
   const group = record.groups.get("borders");
   if (!group) return [];
-  const element = group.column("element"), axis = group.column("axis");
-  const below = group.column("regime_below"), above = group.column("regime_above");
+  const element = group.column("element"),
+    axis = group.column("axis");
+  const below = group.column("regime_below"),
+    above = group.column("regime_above");
   if (!element?.values.length) return [];
   const axes = record.map.axes;
   const places = axes.map((one) => placeAlong(one, group));
@@ -41,21 +45,29 @@ function crossingsOf(record, contact) {
     .map(({ row }) => ({
       place: places.map((place) => place(row)),
       axis: axes.findIndex((one) => one.name === meaningOf(axis, axis.values[row])),
-      key: [below, above].map((regime) => regime.values[row]).sort().map((code) => meaningOf(below, code)).join("|"),
+      key: [below, above]
+        .map((regime) => regime.values[row])
+        .sort()
+        .map((code) => meaningOf(below, code))
+        .join("|"),
     }));
 }
 
 // Contacts that have a regime among the page's quantities, or borders.
 function contactsOf(record) {
-  const fromRegimes = record.map.variables.filter(({ name }) => name.endsWith("_regime")).map(({ name }) => name.slice(0, -7));
+  const fromRegimes = record.map.variables
+    .filter(({ name }) => name.endsWith("_regime"))
+    .map(({ name }) => name.slice(0, -7));
   const element = record.groups.get("borders")?.column("element");
-  const fromBorders = (element?.flags ?? []).map(([, word]) => word).filter((word) => word !== "not_computed");
+  const fromBorders = (element?.flags ?? [])
+    .map(([, word]) => word)
+    .filter((word) => word !== "not_computed");
   return [...new Set([...fromRegimes, ...fromBorders])];
 }
 
 // Colours go by powers of ten where the largest value is far above most.
 const farAbove = 8;
-const sampled = 10_000;  // values are enough to tell
+const sampled = 10_000; // values are enough to tell
 function scaleOf(variable) {
   if (variable.kind !== "float") return "linear";
   const step = Math.ceil(variable.values.length / sampled);
@@ -82,9 +94,18 @@ export function firstState(record) {
   const contacts = [...crossings.keys()].sort((a, b) => crossings.get(b).length - crossings.get(a).length);
   const variable = map.variables.find(({ kind }) => kind === "float") ?? map.variables[0];
   return {
-    variable, x, y, index: middleWithNumber(map, variable), curveAxis: x, coordinates: map.axes.map(() => 0),
-    scale: scaleOf(variable), curveScale: "linear", colours: "viridis",
-    contact: contacts[0] ?? "", colourByRegime: false, kept: [],
+    variable,
+    x,
+    y,
+    index: middleWithNumber(map, variable),
+    curveAxis: x,
+    coordinates: map.axes.map(() => 0),
+    scale: scaleOf(variable),
+    curveScale: "linear",
+    colours: "viridis",
+    contact: contacts[0] ?? "",
+    colourByRegime: false,
+    kept: [],
     crossings,
   };
 }

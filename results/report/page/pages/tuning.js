@@ -16,7 +16,9 @@ import { figureCards } from "../parts/figure_cards.js";
 import { numberText, quantityText, unitText, withUnit, words } from "../units.js";
 
 function meaning(tuning) {
-  const paragraphs = whatItMeans(tuning).map((sentences) => element("p", { class: "words" }, sentences.join(" ")));
+  const paragraphs = whatItMeans(tuning).map((sentences) =>
+    element("p", { class: "words" }, sentences.join(" ")),
+  );
   return section("What this means", ...paragraphs);
 }
 
@@ -163,7 +165,9 @@ function limitsTable(tuning) {
     limit.active ? per(limit.multiplier, tuning.unit, limit.unit) : "does not bind",
   ]);
   return [
-    note("Limits: the quantity where it is nearest to its limit, and how the objective falls as the limit is relaxed."),
+    note(
+      "Limits: the quantity where it is nearest to its limit, and how the objective falls as the limit is relaxed.",
+    ),
     table(["limit on", "nearest", "at", "at least", "at most", "multiplier"], rows, { numeric: [1, 3, 4] }),
   ];
 }
@@ -269,14 +273,18 @@ function frontFigures(tuning) {
 }
 
 function detuningFigures(tuning) {
-  return tuning.parameters.some(({ detuning }) => detuning?.some(Number.isFinite)) ? [detuningFigure(tuning)] : [];
+  return tuning.parameters.some(({ detuning }) => detuning?.some(Number.isFinite))
+    ? [detuningFigure(tuning)]
+    : [];
 }
 
 function progressFigures(tuning) {
   const { group, kind } = tuning;
   const several = (name) => (group.values(name)?.length ?? 0) > 1;
   return [
-    ...(several("round_bound") ? [roundsFigure(tuning), ...(kind === "minimax" ? [gapFigure(tuning)] : [])] : []),
+    ...(several("round_bound")
+      ? [roundsFigure(tuning), ...(kind === "minimax" ? [gapFigure(tuning)] : [])]
+      : []),
     ...(several("start_objective") ? [startsFigure(tuning)] : []),
   ];
 }
@@ -295,7 +303,10 @@ export function tuningParts(record) {
     ...(warning ? [element("p", { class: "warning" }, warning)] : []),
     meaning(tuning),
     ...sectionOf("Optimum", [optimumTable(tuning), ...schedulesTables(tuning), worstTable(tuning)]),
-    ...sectionOf("Response", first ? [...figureCards([first], record, "wide"), ...figureCards(others, record)] : []),
+    ...sectionOf(
+      "Response",
+      first ? [...figureCards([first], record, "wide"), ...figureCards(others, record)] : [],
+    ),
     ...sectionOf("Trade-off", [...figureCards(frontFigures(tuning), record), frontTable(tuning)]),
     ...sectionOf("What holds it", [
       ...peaksTable(tuning),
@@ -313,5 +324,10 @@ export function tuningParts(record) {
 
 export function tuningFigures(record) {
   const tuning = tuningOf(record);
-  return [...resultFigures(tuning), ...frontFigures(tuning), ...detuningFigures(tuning), ...progressFigures(tuning)];
+  return [
+    ...resultFigures(tuning),
+    ...frontFigures(tuning),
+    ...detuningFigures(tuning),
+    ...progressFigures(tuning),
+  ];
 }

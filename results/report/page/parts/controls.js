@@ -4,8 +4,13 @@ import { element } from "./elements.js";
 
 // A drop-down list of [value, text]; chosen(value) is called when another is taken.
 export function choice(label, options, selected, chosen) {
-  const list = element("select", { onchange: (event) => chosen(event.target.value) },
-    options.map(([value, text]) => element("option", { value, selected: String(value) === String(selected) }, text)));
+  const list = element(
+    "select",
+    { onchange: (event) => chosen(event.target.value) },
+    options.map(([value, text]) =>
+      element("option", { value, selected: String(value) === String(selected) }, text),
+    ),
+  );
   return element("label", { class: "control" }, element("span", {}, label), list);
 }
 
@@ -20,7 +25,13 @@ export function slider({ name, size, coordinates }, at, moved) {
   const text = () => coordinates.map((coordinate) => coordinateText(coordinate, at())).join(", ");
   const label = element("span", {}, text());
   const input = element("input", {
-    type: "range", min: 0, max: size - 1, step: 1, value: at(), "data-axis": name, "aria-label": name,
+    type: "range",
+    min: 0,
+    max: size - 1,
+    step: 1,
+    value: at(),
+    "data-axis": name,
+    "aria-label": name,
     oninput: () => {
       moved(Number(input.value));
       label.textContent = text();

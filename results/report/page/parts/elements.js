@@ -14,11 +14,37 @@ export function element(name, attributes = {}, ...children) {
 
 // head: texts; rows: arrays of texts or elements; a cell that is a number stands right.
 export function table(head, rows, { caption, numeric = [] } = {}) {
-  const cell = (name, content, column) => element(name, numeric.includes(column) ? { class: "number" } : {}, content ?? "");
-  return element("div", { class: "scroll" }, element("table", {},
-    caption ? element("caption", {}, caption) : null,
-    element("thead", {}, element("tr", {}, head.map((text, c) => cell("th", text, c)))),
-    element("tbody", {}, rows.map((row) => element("tr", {}, row.map((content, c) => cell("td", content, c)))))));
+  const cell = (name, content, column) =>
+    element(name, numeric.includes(column) ? { class: "number" } : {}, content ?? "");
+  return element(
+    "div",
+    { class: "scroll" },
+    element(
+      "table",
+      {},
+      caption ? element("caption", {}, caption) : null,
+      element(
+        "thead",
+        {},
+        element(
+          "tr",
+          {},
+          head.map((text, c) => cell("th", text, c)),
+        ),
+      ),
+      element(
+        "tbody",
+        {},
+        rows.map((row) =>
+          element(
+            "tr",
+            {},
+            row.map((content, c) => cell("td", content, c)),
+          ),
+        ),
+      ),
+    ),
+  );
 }
 
 export function section(title, ...children) {

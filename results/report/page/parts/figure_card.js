@@ -3,8 +3,10 @@ import { csvText } from "../csv.js";
 import { svgFile } from "../svg_file.js";
 import { element } from "./elements.js";
 
-const paperWidth = 720, ratio = 0.6;  // of an exported figure; height over width of all
-const leastHeight = 260, mostHeight = 560;
+const paperWidth = 720,
+  ratio = 0.6; // of an exported figure; height over width of all
+const leastHeight = 260,
+  mostHeight = 560;
 
 // A picture's data URL by the browser's own encoder.
 function image(width, height, rgba) {
@@ -35,15 +37,42 @@ export function figureCard(figure, about) {
   const heading = element("h3", {}, figure.title);
   const caption = element("figcaption", {}, figure.caption ?? "");
   const name = () => (typeof figure.name === "function" ? figure.name() : figure.name);
-  const save = element("div", { class: "save" },
-    element("button", { type: "button", class: "save-svg", title: "this figure as SVG, for a paper", onclick: () => {
-      const svg = svgFile(figure.draw(canvasOf(paperWidth, figure, false)), figure.title, about);
-      download(`${name()}.svg`, "image/svg+xml", new XMLSerializer().serializeToString(svg));
-    } }, "SVG"),
-    element("button", { type: "button", class: "save-csv", title: "its numbers as CSV", onclick: () => {
-      download(`${name()}.csv`, "text/csv", csvText(figure.table()));
-    } }, "CSV"));
-  const card = element("figure", { class: "card", "data-figure": name() }, element("header", {}, heading, save), plot, caption);
+  const save = element(
+    "div",
+    { class: "save" },
+    element(
+      "button",
+      {
+        type: "button",
+        class: "save-svg",
+        title: "this figure as SVG, for a paper",
+        onclick: () => {
+          const svg = svgFile(figure.draw(canvasOf(paperWidth, figure, false)), figure.title, about);
+          download(`${name()}.svg`, "image/svg+xml", new XMLSerializer().serializeToString(svg));
+        },
+      },
+      "SVG",
+    ),
+    element(
+      "button",
+      {
+        type: "button",
+        class: "save-csv",
+        title: "its numbers as CSV",
+        onclick: () => {
+          download(`${name()}.csv`, "text/csv", csvText(figure.table()));
+        },
+      },
+      "CSV",
+    ),
+  );
+  const card = element(
+    "figure",
+    { class: "card", "data-figure": name() },
+    element("header", {}, heading, save),
+    plot,
+    caption,
+  );
   const shown = { card, plot, svg: null, redraw };
   function redraw() {
     const width = Math.floor(plot.clientWidth);

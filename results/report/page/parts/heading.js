@@ -3,9 +3,12 @@ import { element } from "./elements.js";
 
 export function heading(record) {
   const made = record.provenance.finished ?? "";
-  return element("header", { class: "top" },
+  return element(
+    "header",
+    { class: "top" },
     element("h1", {}, record.title || record.file),
-    element("p", { class: "sub" }, [record.file, record.source, made].filter(Boolean).join(" \u00b7 ")));
+    element("p", { class: "sub" }, [record.file, record.source, made].filter(Boolean).join(" \u00b7 ")),
+  );
 }
 
 // One line on where a figure comes from, for its files.
