@@ -73,22 +73,34 @@ struct Packed {
   PackedLevels levels;
 };
 
-Json packed_variable(const MapReader& result, std::size_t v, std::vector<Packed>& before) {
-  const Variable& variable = result.layout().variables[v];
-  const Shape shape = shape_of(result.layout());
-  std::vector<double> values = result.read(v, Shape(shape.size(), 0), shape);
+// To six digits; levels that an earlier variable has too are named, not repeated.
+void put_levels(Json& json, const Variable& variable, std::span<const double> values, const Shape& shape,
+                std::vector<Packed>& before) {
   const bool whole = variable.type == Type::flag || variable.type == Type::int32;
-  const PackedLevels packed = pack_levels(values, lines_along(shape, longest(shape)), whole ? 1.0 : 0.0);
-  Json json = described(variable);
+  const PackedLevels packed =
+      pack_levels(values, lines_along(shape, longest(shape)), whole ? Spacing::whole : Spacing::six_digits);
+  json["scale"] = packed.logarithmic ? "log" : "linear";
   json["low"] = packed.low;
   json["step"] = packed.step;
   const auto same = std::find_if(before.begin(), before.end(),
                                  [&](const Packed& other) { return other.levels.levels == packed.levels; });
-  if (same == before.end()) {
-    json["levels"] = packed.levels;
-    before.push_back({variable.name, packed});
-  } else {
+  if (same != before.end()) {
     json["levels_of"] = same->name;
+    return;
+  }
+  json["levels"] = packed.levels;
+  before.push_back({variable.name, packed});
+}
+
+Json variable_json(const MapReader& result, std::size_t v, bool all_digits, std::vector<Packed>& before) {
+  const Variable& variable = result.layout().variables[v];
+  const Shape shape = shape_of(result.layout());
+  const std::vector<double> values = result.read(v, Shape(shape.size(), 0), shape);
+  Json json = described(variable);
+  if (all_digits) {
+    json["values"] = packed_numbers(values);
+  } else {
+    put_levels(json, variable, values, shape, before);
   }
   return json;
 }
@@ -109,7 +121,7 @@ Json map_json(const MapReader& result, const PageContent& content) {
   json["variables"] = json["left_out"] = Json::array();
   std::vector<Packed> packed;
   for (const std::string& name : chosen)
-    json["variables"].push_back(packed_variable(result, index_of(layout, name), packed));
+    json["variables"].push_back(variable_json(result, index_of(layout, name), content.all_digits, packed));
   for (const Variable& variable : layout.variables) {
     if (std::find(chosen.begin(), chosen.end(), variable.name) == chosen.end())
       json["left_out"].push_back(described(variable));

@@ -20,10 +20,11 @@ struct PageContent {
   std::vector<std::string> parameters = {};  // coordinates of the map that are the study's own parameters
   std::vector<std::string> variables = {};   // of the map; the others are named without their values
   std::vector<PageGroup> groups = {};        // besides those of the file
+  bool all_digits = false;                   // of the map's numbers; else six
 };
 
 // The result as JSON, the data of its page (page/record.js reads it): attributes of the root; axes with their
-// coordinates; variables to six digits of their range; every group's numbers and texts; the provenance. No
+// coordinates; variables to six digits, or all; every group's numbers and texts; the provenance. No
 // "<" stands in it, so that no text of the study can end the script element that holds it. Throws
 // std::invalid_argument for a variable that the map does not have, StoreError.
 std::string page_data(const MapReader& result, const PageContent& content);

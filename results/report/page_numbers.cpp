@@ -29,14 +29,45 @@ std::string packed(std::span<const Number> numbers) {
   return base64(deflated(shuffled(std::as_bytes(numbers), sizeof(Number)), level));
 }
 
+constexpr double most_levels = 5e8;  // their second differences fit into 32 bits
+
+struct Range {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  double least_positive = low;
+};
+
+Range range_of(std::span<const double> values) {
+  Range range;
+  for (const double value : values) {
+    if (!std::isfinite(value)) continue;
+    range.low = std::min(range.low, value);
+    range.high = std::max(range.high, value);
+    if (value > 0.0) range.least_positive = std::min(range.least_positive, value);
+  }
+  return range;
+}
+
+PackedLevels scale_of(std::span<const double> values, Spacing spacing) {
+  const Range range = range_of(values);
+  if (!(range.low <= range.high)) return {};
+  if (spacing == Spacing::whole) return {.low = range.low, .step = 1.0};
+  if (range.low < 0.0 || range.high == 0.0)
+    return {.low = range.low, .step = (range.high - range.low) * millionth};
+  const double span = std::log(range.high / range.least_positive);
+  return {.logarithmic = true, .low = range.least_positive, .step = std::max(millionth, span / most_levels)};
+}
+
+std::int64_t level_of(double value, const PackedLevels& scale) {
+  if (!std::isfinite(value)) return 0;
+  if (scale.logarithmic) return value > 0.0 ? 2 + std::llround(std::log(value / scale.low) / scale.step) : 1;
+  return 1 + (scale.step > 0.0 ? std::llround((value - scale.low) / scale.step) : 0);
+}
+
 // The levels of the values, before differences are taken.
 std::vector<std::int64_t> levels_of(std::span<const double> values, const PackedLevels& scale) {
-  std::vector<std::int64_t> levels(values.size(), 0);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!std::isfinite(values[i])) continue;
-    const double above = values[i] - scale.low;
-    levels[i] = 1 + (scale.step > 0.0 ? std::llround(above / scale.step) : 0);
-  }
+  std::vector<std::int64_t> levels;
+  levels.reserve(values.size());
+  for (const double value : values) levels.push_back(level_of(value, scale));
   return levels;
 }
 
@@ -51,18 +82,8 @@ std::string packed_numbers(std::span<const double> values) {
   return packed(values);
 }
 
-PackedLevels pack_levels(std::span<const double> values, const LineShape& line, double step) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const double value : values) {
-    if (!std::isfinite(value)) continue;
-    low = std::min(low, value);
-    high = std::max(high, value);
-  }
-  PackedLevels scale;
-  if (low <= high) {
-    scale.low = low;
-    scale.step = step > 0.0 ? step : (high - low) / levels_in_range;
-  }
+PackedLevels pack_levels(std::span<const double> values, const LineShape& line, Spacing spacing) {
+  PackedLevels scale = scale_of(values, spacing);
   const std::vector<std::int64_t> levels = levels_of(values, scale);
   std::vector<std::uint32_t> differences(values.size());
   for (std::size_t i = 0; i < values.size(); ++i) {

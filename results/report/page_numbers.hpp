@@ -11,14 +11,20 @@ namespace frahm::results {
 // Base64 of zlib of the float64s' bytes, little-endian, all first bytes first, then all second ones ...
 std::string packed_numbers(std::span<const double> values);
 
-// Numbers to six digits of their range: level 0 is a missing value (NaN, or an infinite one), level n the
-// value low + (n - 1) step.
+// Numbers to six digits. Level 0 is a missing value (NaN, or an infinite one), level 1 + n the value low + n
+// step; on a logarithmic scale level 1 is zero and level 2 + n the value low exp(n step).
 struct PackedLevels {
+  bool logarithmic = false;
   double low = 0.0, step = 0.0;
-  std::string levels;  // packed, see pack_levels
+  std::string levels = {};  // packed, see pack_levels
 };
 
-constexpr double levels_in_range = 1e6;
+constexpr double millionth = 1e-6;
+
+enum class Spacing {
+  whole,       // whole numbers, all digits
+  six_digits,  // of each value where none is negative, else of their range
+};
 
 // Lines of numbers: those i, i + stride, i + 2 stride, ... (`size` of them) follow each other along one axis.
 struct LineShape {
@@ -27,8 +33,7 @@ struct LineShape {
 
 // Along each line a smooth response is nearly straight, so of its levels the second differences are kept
 // (what stands before the first one counts as level 0), with the sign in the lowest bit, as 32-bit numbers
-// whose bytes are shuffled and deflated as above.  step: 0 for a millionth of the range, else it (1 of whole
-// numbers).
-PackedLevels pack_levels(std::span<const double> values, const LineShape& line, double step = 0.0);
+// whose bytes are shuffled and deflated as above.
+PackedLevels pack_levels(std::span<const double> values, const LineShape& line, Spacing spacing);
 
 }  // namespace frahm::results

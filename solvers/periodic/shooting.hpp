@@ -18,6 +18,7 @@ struct ShootingOptions {
   int most_passages = 20000;   // enough for the map alone at damping ratios of 1e-3
   double most_steps = 2e7;     // of all passages together: about a second of work
   double most_steps_a_period = 2e5;
+  double most_magnification = 1e13;  // of the static response: beyond, rounding of the orbit hides the forces
 };
 
 template <int N, int H>
@@ -33,6 +34,7 @@ class Shooting {
  private:
   void apply_map(Orbit<N, H>& orbit);
   bool newton_step(const Orbit<N, H>& orbit, typename S::State& step) const;
+  bool is_resolved(const typename S::State& z) const;
   void march(Orbit<N, H>& orbit, int maps);
 
   Flow<N, H>& flow_;
@@ -62,7 +64,7 @@ void Shooting<N, H>::find(Orbit<N, H>& orbit) {
       return;
     }
     typename S::State step;
-    const bool has_step = newton_step(orbit, step);
+    const bool has_step = newton_step(orbit, step) && is_resolved(orbit.z + step);
     if (has_step) {
       const typename S::State z = orbit.z, residual = residual_;
       const double norm = residual_norm_, relative = orbit.residual;
@@ -84,6 +86,10 @@ void Shooting<N, H>::find(Orbit<N, H>& orbit) {
   }
   if (orbit.passage.failure != nullptr) {
     orbit.reason = orbit.passage.failure;
+    return;
+  }
+  if (!is_resolved(orbit.z)) {
+    orbit.reason = "the response is so much larger than the static one that rounding hides the forces";
     return;
   }
   orbit.status = orbit.passage.margin < kGrazing ? Status::grazing : Status::ok;
@@ -124,6 +130,14 @@ bool Shooting<N, H>::newton_step(const Orbit<N, H>& orbit, typename S::State& st
     step = A.partialPivLu().solve(residual_);
   }
   return step.allFinite();
+}
+
+// Where the period map is all but the identity (a mode without damping at its resonance) Newton's step may lead
+// so far out that any state there seems to close: its residual is lost in the rounding of the state.
+template <int N, int H>
+bool Shooting<N, H>::is_resolved(const typename S::State& z) const {
+  const double largest = options_.most_magnification * flow_.static_norm();
+  return largest == 0.0 || flow_.equations().energy_norm(z) <= largest;
 }
 
 template <int N, int H>

@@ -26,6 +26,13 @@ void make_folder(const std::filesystem::path& folder) {
   if (error) throw engine::IoError(folder, "create", error.value());
 }
 
+void require_node() {
+  const ProgramEnd version = run_program_of_system("node", {"--version"});
+  if (version.found) return;
+  throw StudyError(
+      "--figures: needs the program node, which is not on the PATH (Debian: apt-get install nodejs)");
+}
+
 // The names of the figures, without their extension.
 std::vector<std::string> draw(const std::string& data, const std::filesystem::path& folder) {
   const std::filesystem::path script = folder / script_name;
@@ -33,13 +40,9 @@ std::vector<std::string> draw(const std::string& data, const std::filesystem::pa
   const ProgramEnd end = run_program_of_system("node", {script.string(), folder.string()}, data);
   std::error_code unimportant;
   std::filesystem::remove(script, unimportant);
-  if (!end.found) {
-    throw StudyError(
-        "--figures: needs the program node, which is not on the PATH (Debian: apt-get install nodejs)");
-  }
   if (end.code != 0)
     throw engine::IoError(folder,
-                          fmt::format("the figures could not be drawn: node ended with code {}", end.code));
+                          fmt::format("not all figures could be drawn: node ended with code {}", end.code));
   std::vector<std::string> names;
   std::istringstream lines(end.output);
   for (std::string name; std::getline(lines, name);) names.push_back(name);
@@ -56,6 +59,7 @@ bool make_pdf(const std::string& svg, const std::string& pdf) {
 }  // namespace
 
 void write_paper_figures(const std::string& data, const std::filesystem::path& folder, std::ostream& out) {
+  require_node();
   make_folder(folder);
   bool pdf = true;
   for (const std::string& name : draw(data, folder)) {

@@ -31,12 +31,16 @@ std::optional<StudyFile> study_of(const results::MapReader& result, const std::f
   }
 }
 
-bool is_stroke_of_no_spring(const std::string& name, const std::optional<StudyFile>& study) {
-  if (!study || !name.ends_with("_stroke")) return false;
-  const auto& elements = study->network.elements;
-  return std::none_of(elements.begin(), elements.end(), [&](const mechanics::Element& element) {
-    return element.type == mechanics::ElementType::spring && name == element.name + "_stroke";
-  });
+// Strokes are shown of springs, energy shares of what dissipates.
+bool is_of_no_interest(const std::string& name, const std::optional<StudyFile>& study) {
+  using mechanics::ElementType;
+  if (!study) return false;
+  for (const mechanics::Element& element : study->network.elements) {
+    const bool keeps_energy = element.type == ElementType::spring || element.type == ElementType::inerter;
+    if (name == element.name + "_stroke") return element.type != ElementType::spring;
+    if (name == element.name + "_energy_share") return keeps_energy;
+  }
+  return false;
 }
 
 // What an atlas shows: peaks of the masses, strokes of the springs, regimes, stops, the damping budget and
@@ -44,7 +48,7 @@ bool is_stroke_of_no_spring(const std::string& name, const std::optional<StudyFi
 bool is_shown_by_default(const std::string& name, const std::optional<StudyFile>& study) {
   const auto ends = [&](std::string_view end) { return name.ends_with(end); };
   if (ends("_velocity_peak") || ends("_acceleration_peak") || ends("_force_peak")) return false;
-  if (is_stroke_of_no_spring(name, study)) return false;
+  if (is_of_no_interest(name, study)) return false;
   return ends("_peak") || ends("_stroke") || ends("_regime") || ends("_stops") || ends("_energy_share") ||
          ends("_difference") || name == "status";
 }
@@ -112,7 +116,8 @@ results::PageContent content_of(const ReportOptions& options, const results::Map
   return {.file = options.file.filename().string(),
           .parameters = axis_parameters(result.layout(), study),
           .variables = shown_quantities(options, result.layout(), study),
-          .groups = further_groups(study)};
+          .groups = further_groups(study),
+          .all_digits = !options.figures.empty()};
 }
 
 void require_page_parts() {

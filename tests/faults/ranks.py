@@ -12,7 +12,7 @@ import sys
 import time
 
 import faulty_runs
-from faulty_runs import (EVERYTHING, OUTPUT, Expected, Fault, ended, in_parallel, larger_sweep, sampled, sweep_study,
+from faulty_runs import (EVERYTHING, OUTPUT, TIME_LIMIT, Expected, Fault, ended, in_parallel, larger_sweep, sampled, sweep_study,
                          tiles_of_log)
 
 RANKS = 3

@@ -172,6 +172,21 @@ TEST_CASE("Undamped at resonance the response is unbounded up to F/P = pi/4 and 
   }
 }
 
+TEST_CASE("Undamped at resonance a guess from the neighbours leads to no other response than none does") {
+  Responses warm(single_mass());
+  for (int i = 0; i <= 120; ++i) {
+    const double f = 0.01 * i;
+    warm.response().begin_row();
+    for (int k = 0; k <= 10; ++k) {
+      const double r = 0.5 + 0.05 * k;  // the last one at resonance
+      warm.solve(single_mass_values(r, 0.0, f), true);
+    }
+    if (f < pi / 4.0 || f >= 1.0) continue;
+    INFO("f " << f);
+    CHECK_THAT(warm["x_amplitude"], WithinAbs(one_stop_response(1.0, 0.0, f).amplitude, kAgreement));
+  }
+}
+
 TEST_CASE("Friction as large as the force holds the mass for ever") {
   Responses responses(single_mass());
   for (const double f : {1.0, 1.0 + 1e-12, 1.5, 100.0}) {

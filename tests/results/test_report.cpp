@@ -88,16 +88,30 @@ TEST_CASE("variables of the same levels are carried once") {
   CHECK_FALSE(data["map"]["variables"][1].contains("levels"));
 }
 
-TEST_CASE("levels have six digits of the range of the finite values") {
+PackedLevels packed(const std::vector<double>& values, Spacing spacing = Spacing::six_digits) {
+  return pack_levels(values, {.size = values.size(), .stride = 1}, spacing);
+}
+
+TEST_CASE("levels have six digits of each value where none is negative, else of the range") {
   const double none = std::numeric_limits<double>::quiet_NaN(),
                endless = std::numeric_limits<double>::infinity();
-  const std::vector<double> values{3.0, none, 5.0, endless};
-  const PackedLevels packed = pack_levels(values, {.size = 4, .stride = 1});
-  CHECK(packed.low == 3.0);
-  CHECK(packed.step == 2.0 / levels_in_range);
-  CHECK(pack_levels(std::vector<double>{7.0, 7.0}, {.size = 2, .stride = 1}).step == 0.0);
-  CHECK(pack_levels(std::vector<double>{1.0, 4.0}, {.size = 2, .stride = 1}, 1.0).step == 1.0);
-  CHECK(pack_levels(std::vector<double>{none, none}, {.size = 2, .stride = 1}).step == 0.0);
+  const PackedLevels of_each = packed({1e-9, none, 5.0, endless, 0.0});
+  CHECK(of_each.logarithmic);
+  CHECK(of_each.low == 1e-9);
+  CHECK(of_each.step == millionth);
+  const PackedLevels of_range = packed({-1.0, none, 1.0});
+  CHECK_FALSE(of_range.logarithmic);
+  CHECK(of_range.low == -1.0);
+  CHECK(of_range.step == 2.0 * millionth);
+}
+
+TEST_CASE("levels of whole numbers, of nothing and of one number") {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  CHECK(packed({1.0, 4.0}, Spacing::whole).step == 1.0);
+  CHECK(packed({none, none}).step == 0.0);
+  CHECK(packed({0.0, 0.0}).step == 0.0);
+  CHECK(packed({-7.0, -7.0}).step == 0.0);
+  CHECK(packed({1e-300, 1e300}).step > millionth);  // so that differences of levels stay within 32 bits
 }
 
 TEST_CASE("the page stands around its data") {

@@ -35,7 +35,7 @@ export function symbolText(name) {
 
 // The record tells where the study uses a parameter: "[excitation]: frequency", 'element "inerter": inertance'.
 function plainMeaning(longName = "") {
-  const use = /^(?:\[(\w+)\]|.* "(\w+)"): (\w+)$/.exec(longName);
+  const use = /^(?:\[+(\w+)\]+(?: \d+)?|.* "(\w+)"): (\w+)$/.exec(longName);
   if (!use) return longName;
   return use[1] ? `${use[1]} ${words(use[3])}` : `${words(use[3])} of ${words(use[2])}`;
 }
@@ -59,6 +59,25 @@ export function coordinateText({ name, unit, values }, i) {
   return `${symbolText(name)} = ${numberText(values[i])}${after ? ` ${after}` : ""}`;
 }
 
+// Where point i of an axis of the map stands: the parameters that it moves, else what speaks for it.
+export function axisText(map, axis, i) {
+  const own = axis.coordinates.filter(({ name }) => map.parameters.has(name));
+  return (own.length ? own : axis.coordinates.slice(0, 1))
+    .map((coordinate) => coordinateText(coordinate, i))
+    .join(", ");
+}
+
+// Columns for a CSV file: every coordinate of the points, which are indices of the map.
+export function coordinateColumns(map, points) {
+  return map.axes.flatMap((axis, a) =>
+    axis.coordinates.map(({ name, unit, values }) => ({
+      name,
+      unit,
+      values: points.map((index) => values[index[a]]),
+    })),
+  );
+}
+
 // Whether values lie evenly, on a linear or a logarithmic scale: "linear", "log", or "" for neither.
 export function spacing(values) {
   const even = (of) => {
@@ -69,6 +88,14 @@ export function spacing(values) {
   };
   if (values.length < 2 || even((value) => value)) return "linear";
   return values.every((value) => value > 0) && even(Math.log) ? "log" : "";
+}
+
+const wideSpan = 1000;
+
+// The scale of an axis: that on which its values lie evenly, else the logarithmic one where they span decades.
+export function axisScale(values) {
+  const size = Math.max(...values) / Math.min(...values);
+  return spacing(values) || (values.every((value) => value > 0) && size > wideSpan ? "log" : "linear");
 }
 
 // The index whose value lies nearest (of a monotone axis, on its scale).

@@ -1,4 +1,5 @@
 // Columns as CSV: "name [unit]" above its numbers, as frahm's own exports have them; what is missing is empty.
+// A column with `digits` is known to so many.
 export function csvText(columns) {
   const rows = Math.max(0, ...columns.map((column) => column.values.length));
   const quoted = (text) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
@@ -7,10 +8,11 @@ export function csvText(columns) {
   for (let row = 0; row < rows; ++row) {
     lines.push(
       columns
-        .map(({ values }) => {
+        .map(({ values, digits }) => {
           const value = values[row];
           if (typeof value === "string") return quoted(value);
-          return value === undefined || Number.isNaN(value) ? "" : String(value);
+          if (value === undefined || Number.isNaN(value)) return "";
+          return String(digits ? Number(value.toPrecision(digits)) : value);
         })
         .join(","),
     );

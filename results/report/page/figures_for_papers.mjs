@@ -12,14 +12,27 @@ import { svgFile } from "./svg_file.js";
 const folder = process.argv[2];
 const record = await unpackRecord(JSON.parse(readFileSync(0, "utf8")));
 const document = new DOMImplementation().createDocument("http://www.w3.org/1999/xhtml", "html");
-for (const figure of figuresOf(record)) {
+
+function write(figure) {
   const width = 720,
     height = Math.round(width * (figure.ratio ?? 0.6));
   const svg = figure.draw({ width, height, document, image: pngImage, interactive: false });
   writeFileSync(
     join(folder, `${figure.name}.svg`),
-    new XMLSerializer().serializeToString(svgFile(svg, figure.title, about(record))),
+    new XMLSerializer().serializeToString(
+      svgFile(svg, [figure.title, figure.caption].filter(Boolean).join("; "), about(record)),
+    ),
   );
   writeFileSync(join(folder, `${figure.name}.csv`), csvText(figure.table()));
   process.stdout.write(`${figure.name}\n`);
+}
+
+// One that cannot be drawn does not keep the others back.
+for (const figure of figuresOf(record)) {
+  try {
+    write(figure);
+  } catch (error) {
+    process.stderr.write(`frahm: the figure ${figure.name} could not be drawn: ${error.message}\n`);
+    process.exitCode = 1;
+  }
 }

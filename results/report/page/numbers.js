@@ -28,22 +28,24 @@ export async function unpackNumbers(base64) {
 }
 
 // Levels along lines of `size` numbers, `stride` apart: undoes the second differences. Level 0 is missing (NaN),
-// level n is low + (n - 1) step.
-export async function unpackLevels({ levels, low, step }, { size, stride }) {
+// level 1 + n is low + n step; on a logarithmic scale level 1 is zero, level 2 + n is low exp(n step).
+export async function unpackLevels({ levels, scale, low, step }, { size, stride }) {
   const bytes = await inflated(levels),
     count = bytes.length / 4;
-  const whole = new Int32Array(count),
-    values = new Float64Array(count);
+  const whole = new Int32Array(count);
   const block = size * stride; // lines side by side
-  for (let from = 0; from < whole.length; from += block) {
+  for (let from = 0; from < count; from += block) {
     for (let i = from; i < from + block; ++i) {
       const code =
         bytes[i] + 256 * (bytes[i + count] + 256 * (bytes[i + 2 * count] + 256 * bytes[i + 3 * count]));
       const before = i - stride >= from ? whole[i - stride] : 0;
       const beforeThat = i - 2 * stride >= from ? whole[i - 2 * stride] : 0;
-      whole[i] = (code & 1 ? -((code + 1) / 2) : code / 2) + 2 * before - beforeThat;
-      values[i] = whole[i] === 0 ? NaN : low + (whole[i] - 1) * step;
+      whole[i] = (code % 2 ? -((code + 1) / 2) : code / 2) + 2 * before - beforeThat;
     }
   }
-  return values;
+  const value =
+    scale === "log"
+      ? (level) => (level === 1 ? 0 : low * Math.exp((level - 2) * step))
+      : (level) => low + (level - 1) * step;
+  return Float64Array.from(whole, (level) => (level === 0 ? NaN : value(level)));
 }

@@ -78,16 +78,18 @@ function isMonotone(values) {
   return values.every((value, i) => i === 0 || (value - values[i - 1]) * sign > 0);
 }
 
-// Parameters zipped together may turn back, so that none of them can be an axis of a figure.
-function indexAlong({ name, size }) {
+// The values of an axis may turn back, so that they cannot be an axis of a figure; then their number is.
+function indexAlong({ name, size, coordinates }) {
   return {
-    name,
+    name: coordinates.some((coordinate) => coordinate.name === name) ? `${name}_number` : name,
     unit: "1",
     long_name: "",
     monotone: true,
     values: Array.from({ length: size }, (_, i) => i),
   };
 }
+
+const sixDigits = 7; // written: the last is uncertain
 
 async function unpackMap(data) {
   const sizes = data.axes.map((axis) => axis.size);
@@ -104,12 +106,12 @@ async function unpackMap(data) {
       const from = variable.levels_of
         ? data.variables.find(({ name }) => name === variable.levels_of)
         : variable;
-      const values = await unpackLevels(
-        { levels: from.levels, low: variable.low, step: variable.step },
-        line,
-      );
-      const { levels, levels_of, ...described } = variable;
-      return { ...described, values };
+      const { values: exact, levels, levels_of, scale, low, step, ...described } = variable;
+      const values = exact
+        ? await unpackNumbers(exact)
+        : await unpackLevels({ levels: from.levels, scale, low, step }, line);
+      const digits = exact || variable.kind !== "float" ? undefined : sixDigits;
+      return { ...described, values, digits };
     }),
   );
   return new ResponseMap(axes, variables, data);

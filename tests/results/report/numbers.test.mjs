@@ -24,3 +24,14 @@ test("levels are the running sums of running sums along their lines", async () =
   const values = await unpackLevels({ levels: shuffled(coded), low: 10, step: 0.5 }, { size: 4, stride: 2 });
   assert.deepEqual([...values], [10, 10.5, 11, 10.5, 12, 10.5, NaN, 10.5]);
 });
+
+test("levels of a logarithmic scale know zero and what is missing", async () => {
+  // Levels 2, 1, 0, 3: low, zero, missing, low times e^step; written as second differences.
+  const coded = Uint32Array.from([2, -3, 0, 4], (d) => (d >= 0 ? 2 * d : -2 * d - 1));
+  const values = await unpackLevels(
+    { levels: shuffled(coded), scale: "log", low: 1e-3, step: Math.log(2) },
+    { size: 4, stride: 1 },
+  );
+  assert.deepEqual([...values].slice(0, 3), [1e-3, 0, NaN]);
+  assert.ok(Math.abs(values[3] - 2e-3) < 1e-15);
+});

@@ -39,7 +39,7 @@ function some(list) {
 }
 
 // Rows of the group by the values of the other parameters: [{text, rows}].
-function curvesOver(group, x) {
+function allCurvesOver(group, x) {
   const others = x.name === "curve" ? [] : resonanceParameters(group).filter(({ name }) => name !== x.name);
   const curves = new Map();
   for (let row = 0; row < x.values.length; ++row) {
@@ -51,7 +51,17 @@ function curvesOver(group, x) {
       .join(", ");
     curves.set(text, [...(curves.get(text) ?? []), row]);
   }
-  return some([...curves].map(([text, rows]) => ({ text, rows })));
+  return [...curves].map(([text, rows]) => ({ text, rows }));
+}
+
+function curvesOver(group, x) {
+  return some(allCurvesOver(group, x));
+}
+
+// How many of the curves are shown.
+export function resonanceNote(group, x) {
+  const all = allCurvesOver(group, x).length;
+  return `Solved along the frequency axis, not sampled.${all > mostCurves ? ` ${mostCurves} of ${all} curves; the CSV has all.` : ""}`;
 }
 
 export function resonanceFigure(canvas, group, quantity, x) {

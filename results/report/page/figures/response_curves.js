@@ -1,19 +1,28 @@
 // Response curves: a quantity along one axis through one or several points of the map.
 import * as Plot from "@observablehq/plot";
-import { coordinateLabel, coordinateText, spacing } from "../axes.js";
+import { axisScale, axisText, coordinateColumns, coordinateLabel, coordinateText } from "../axes.js";
 import { meaningOf } from "../record.js";
 import { numberText, shownUnit, unitText, withUnit, words } from "../units.js";
-import { curve, dots, drawFrame, grid, lineColours, lineDashes, regimeColours, tips } from "./frame.js";
+import {
+  curve,
+  dots,
+  drawFrame,
+  grid,
+  lineColours,
+  lineDashes,
+  regimeColours,
+  roomFor,
+  tips,
+} from "./frame.js";
 
+const stepped = { curve: "step" }; // of whole numbers and flags: between two points nothing is known
 const fewPoints = 40; // up to so many, each is marked
 
 // What tells a curve from the others: the coordinates in which the points differ, else all of them.
 export function curveName(map, index, axis, all) {
   const others = map.axes.map((_, a) => a).filter((a) => a !== axis && map.axes[a].size > 1);
   const differ = others.filter((a) => all.some((other) => other[a] !== index[a]));
-  return (differ.length ? differ : others)
-    .map((a) => coordinateText(map.axes[a].coordinates[0], index[a]))
-    .join(", ");
+  return (differ.length ? differ : others).map((a) => axisText(map, map.axes[a], index[a])).join(", ");
 }
 
 // Runs of equal regime along a line; each reaches the first point of the next, so that no gap stands between.
@@ -39,72 +48,106 @@ function yLabel(variable, scale, shown) {
     : withUnit(name, shown.text);
 }
 
-// state: {axis, coordinate, scale: "linear", "log" or "dB", points: [index], regime: variable or undefined}.
+// The colour and dash of curve n: from the ninth on the colours come again with another dash.
+function styleOf(n) {
+  const round = Math.floor(n / lineColours.length);
+  return {
+    stroke: lineColours[n % lineColours.length],
+    strokeDasharray: lineDashes[round % lineDashes.length],
+  };
+}
+
+// One curve in the colours of its regimes.  Returns the marks; adds the regimes met to `seen`.
+function marksByRegime(runs, x, y, dash, seen) {
+  return runs.flatMap(({ word, from, to }) => {
+    const colour = regimeColours[word] ?? "#9A9A9A";
+    seen.add(word);
+    const line = curve(x.slice(from, to + 1), y.slice(from, to + 1), {
+      stroke: colour,
+      strokeDasharray: dash,
+      strokeWidth: 2.2,
+    });
+    return to > from ? [line] : [line, dots([x[from]], [y[from]], { fill: colour, r: 2 })];
+  });
+}
+
+// Where the regime changes along a single curve: upright lines.
+function borderRules(state) {
+  if (state.points.length !== 1) return [];
+  const rules = { stroke: "currentColor", strokeOpacity: 0.5, strokeDasharray: "3 3" };
+  return [Plot.ruleX(state.borders ?? [], rules)];
+}
+
+// Options of the vertical axis.
+function yAxis(variable, state, label, values) {
+  if (variable.kind === "flag") {
+    const known = variable.flags.map(([code]) => code);
+    return {
+      label,
+      ticks: known,
+      domain: [Math.min(...known) - 0.3, Math.max(...known) + 0.3],
+      tickFormat: (code) => words(meaningOf(variable, code)),
+    };
+  }
+  const low = Math.min(...values.map((y) => Math.min(...y.filter((value) => value > 0))));
+  if (state.scale === "log" && Number.isFinite(low))
+    return { label, type: "log", domain: logDomain(values, low) };
+  const numbers = values.flatMap((y) => Array.from(y).filter(Number.isFinite));
+  if (!numbers.length) return { label, domain: [0, 1] };
+  return state.scale === "dB" ? { label, ...roomFor(numbers) } : { label, zero: true, nice: true };
+}
+
+// state: {axis, coordinate, scale: "linear", "log" or "dB", points: [index], regime: variable or undefined,
+// borders: where the regime changes along the axis}.
 export function responseCurves(canvas, map, variable, state) {
   const x = map.axes[state.axis].coordinates[state.coordinate];
   const lines = state.points.map((index) => map.line(variable, index, state.axis));
-  const shown = shownUnit(
-    variable.unit,
-    lines.flatMap((line) => Array.from(line)),
-  );
+  const all = lines.flatMap((line) => Array.from(line));
+  const shown = shownUnit(variable.unit, all);
   const factor = state.scale === "dB" ? 1 : shown.factor;
   const values = lines.map((line) => line.map((value) => onScale(state.scale, value) * factor));
+  const label = yLabel(variable, state.scale, shown);
   const marks = [],
     legend = [],
     rows = [],
     seen = new Set();
   values.forEach((y, n) => {
-    const stroke = lineColours[n % lineColours.length],
-      dash = state.regime ? lineDashes[n % lineDashes.length] : "";
     const name = curveName(map, state.points[n], state.axis, state.points);
+    const style = state.regime
+      ? { stroke: "currentColor", strokeDasharray: lineDashes[n % lineDashes.length] }
+      : styleOf(n);
     if (state.regime) {
-      for (const { word, from, to } of regimeRuns(map, state.regime, state.points[n], state.axis)) {
-        const colour = regimeColours[word] ?? "#9A9A9A";
-        seen.add(word);
-        marks.push(
-          curve(x.values.slice(from, to + 1), y.slice(from, to + 1), {
-            stroke: colour,
-            strokeDasharray: dash,
-            strokeWidth: 2.2,
-          }),
-        );
-        if (to === from) marks.push(dots([x.values[from]], [y[from]], { fill: colour, r: 2 }));
-      }
-      if (values.length > 1) legend.push({ text: name, stroke: "currentColor", dash });
+      const runs = regimeRuns(map, state.regime, state.points[n], state.axis);
+      marks.push(...marksByRegime(runs, x.values, y, style.strokeDasharray, seen));
     } else {
-      marks.push(curve(x.values, y, { stroke }));
-      if (values.length > 1) legend.push({ text: name, stroke });
+      marks.push(curve(x.values, y, { ...style, ...(variable.kind === "float" ? {} : stepped) }));
+      if (y.length <= fewPoints) marks.push(dots(x.values, y, { fill: style.stroke }));
     }
-    if (y.length <= fewPoints && !state.regime) marks.push(dots(x.values, y, { fill: stroke }));
-    y.forEach((value, i) => {
-      if (Number.isFinite(value))
-        rows.push({
-          x: x.values[i],
-          y: value,
-          text: `${coordinateText(x, i)}\n${yLabel(variable, state.scale, shown)}: ${numberText(value)}${values.length > 1 ? `\n${name}` : ""}`,
-        });
-    });
+    if (values.length > 1) legend.push({ text: name, stroke: style.stroke, dash: style.strokeDasharray });
+    rows.push(...tipRows(x, y, label, values.length > 1 ? name : ""));
   });
   const regimes = [...seen]
     .filter((word) => regimeColours[word])
     .map((word) => ({ text: words(word), stroke: regimeColours[word] }));
-  const low = Math.min(...values.map((y) => Math.min(...y.filter((value) => value > 0))));
-  const scaled =
-    state.scale === "log" && Number.isFinite(low)
-      ? { type: "log", domain: logDomain(values, low) }
-      : { zero: state.scale === "linear" };
+  const nothing = [Plot.text(["no number along this line"], { frameAnchor: "middle", fontSize: 13 })];
   return drawFrame(canvas, {
     x: {
       label: coordinateLabel(x),
-      type: spacing(x.values) === "log" ? "log" : "linear",
+      type: axisScale(x.values),
       domain: [Math.min(...x.values), Math.max(...x.values)],
     },
-    y: { label: yLabel(variable, state.scale, shown), nice: state.scale !== "log", ...scaled },
+    y: yAxis(variable, state, label, values),
     legend: [...legend, ...regimes],
-    marks: rows.length
-      ? [...grid(), ...marks, ...tips(canvas, rows)]
-      : [Plot.text(["no number along this line"], { frameAnchor: "middle", fontSize: 13 })],
+    marks: rows.length ? [...grid(), ...borderRules(state), ...marks, ...tips(canvas, rows)] : nothing,
   });
+}
+
+function tipRows(x, y, label, name) {
+  return Array.from(y, (value, i) => ({
+    x: x.values[i],
+    y: value,
+    text: [coordinateText(x, i), `${label}: ${numberText(value)}`, name].filter(Boolean).join("\n"),
+  })).filter(({ y: value }) => Number.isFinite(value));
 }
 
 // At most six powers of ten below the largest.
@@ -114,24 +157,34 @@ function logDomain(values, low) {
   return from < high ? [from / 1.15, high * 1.15] : [from / 2, from * 2];
 }
 
+// The curves side by side, with the axis's coordinates; of a single one every coordinate of its points.
 export function responseCurvesTable(map, variable, state) {
   const axis = map.axes[state.axis];
-  const columns = axis.coordinates.map(({ name, unit, values }) => ({ name, unit, values }));
-  state.points.forEach((index) => {
-    const name =
-      state.points.length > 1
-        ? `${variable.name} at ${curveName(map, index, state.axis, state.points)}`
-        : variable.name;
-    columns.push({ name, unit: variable.unit, values: map.line(variable, index, state.axis) });
-    if (!state.regime) return;
-    const regime = Array.from(map.line(state.regime, index, state.axis), (value) =>
-      meaningOf(state.regime, value),
-    );
+  const [first] = state.points;
+  const alongFirst = Array.from({ length: axis.size }, (_, i) =>
+    first.map((k, a) => (a === state.axis ? i : k)),
+  );
+  const single = state.points.length === 1;
+  const columns = single
+    ? coordinateColumns(map, alongFirst)
+    : axis.coordinates.map(({ name, unit, values }) => ({ name, unit, values }));
+  for (const index of state.points) {
+    const others = map.axes.map((other, a) => (a === state.axis ? "" : axisText(map, other, index[a])));
+    const suffix = single ? "" : ` at ${others.filter(Boolean).join(", ")}`;
+    const { unit, digits } = variable;
     columns.push({
-      name: `${state.regime.name}${state.points.length > 1 ? ` ${columns.length}` : ""}`,
-      unit: "",
-      values: regime,
+      name: variable.name + suffix,
+      unit,
+      digits,
+      values: map.line(variable, index, state.axis),
     });
-  });
+    if (!state.regime) continue;
+    const regimes = Array.from(map.line(state.regime, index, state.axis));
+    columns.push({
+      name: state.regime.name + suffix,
+      unit: "",
+      values: regimes.map((value) => meaningOf(state.regime, value)),
+    });
+  }
   return columns;
 }

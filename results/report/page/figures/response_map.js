@@ -1,7 +1,7 @@
 // A quantity over two axes of the map, as coloured cells, with the borders of a contact's regimes over it.
 import * as Plot from "@observablehq/plot";
 import { rgb } from "d3";
-import { cellEdges, coordinateLabel, spacing } from "../axes.js";
+import { axisScale, cellEdges, coordinateColumns, coordinateLabel, spacing } from "../axes.js";
 import { borderCurves } from "../borders.js";
 import { shownUnit, unitText, withUnit, words } from "../units.js";
 import { colourSteps, colourTable, flagColours, missingColour } from "./colours.js";
@@ -10,9 +10,10 @@ import { drawFrame, svgElement } from "./frame.js";
 const resampled = 480; // cells of an axis whose values lie unevenly
 
 // Of each cell of the picture the index of the grid's point: itself, or the nearest one on an uneven axis.
-function cellPoints(values, type) {
-  if (type) return Array.from(values, (_, i) => i);
-  const edges = cellEdges(values, "linear"),
+function cellPoints({ values, isEven, scale }) {
+  if (isEven) return Array.from(values, (_, i) => i);
+  const to = scale === "log" ? Math.log : (value) => value;
+  const edges = cellEdges(values, scale).map(to),
     low = edges[0],
     high = edges.at(-1);
   const cells = [];
@@ -48,8 +49,9 @@ function painterOf(variable, range, state) {
 
 const logSpan = 1e-4; // of the largest: what lies below has the lowest colour on a logarithmic scale
 
-// Least and largest value of all the map, so that a slider moves along one scale; on a log scale of the positive.
-export function rangeOf(map, variable, scale) {
+// Least and largest value of all the map, so that a slider moves along one scale; on a log scale of the positive,
+// or the linear one where none is.  {scale, range}
+export function colourScale(variable, scale) {
   let low = Infinity,
     high = -Infinity;
   for (const value of variable.values) {
@@ -58,14 +60,18 @@ export function rangeOf(map, variable, scale) {
     if (value < low) low = value;
     if (value > high) high = value;
   }
+  if (scale === "log" && low > high) return colourScale(variable, "linear");
   if (scale === "log") low = Math.max(low, high * logSpan);
-  return low <= high ? [low, high] : [0, 1];
+  if (!(low <= high)) return { scale, range: [0, 1] };
+  if (low < high) return { scale, range: [low, high] };
+  const room = Math.abs(low) / 2 || 0.5;
+  return { scale, range: [low - room, high + room] };
 }
 
 // The picture of the cells, first row at the top: y falls downwards.
 function picture(canvas, map, variable, state, axes, paint) {
-  const columns = cellPoints(axes.x.values, axes.x.type),
-    rows = cellPoints(axes.y.values, axes.y.type);
+  const columns = cellPoints(axes.x),
+    rows = cellPoints(axes.y);
   const flipX = axes.x.values.at(-1) < axes.x.values[0],
     flipY = axes.y.values.at(-1) < axes.y.values[0];
   if (flipX) columns.reverse();
@@ -85,13 +91,13 @@ function picture(canvas, map, variable, state, axes, paint) {
 
 function axisOf(map, axis, coordinate) {
   const { values } = coordinate;
-  const type = spacing(values);
-  const edges = cellEdges(values, type || "linear");
+  const scale = axisScale(values);
+  const edges = cellEdges(values, scale);
   return {
     values,
-    type,
+    isEven: spacing(values) !== "",
     label: coordinateLabel(coordinate),
-    scale: type || "linear",
+    scale,
     domain: [Math.min(edges[0], edges.at(-1)), Math.max(edges[0], edges.at(-1))],
   };
 }
@@ -154,7 +160,7 @@ function colourBar(canvas, label, range, state) {
     const scale = Plot.scale({
       y: { type: state.scale === "log" ? "log" : "linear", domain: range, range: [top + height, top] },
     });
-    const ticks = tickValues(range, state.scale, Math.max(2, Math.round(height / 45)));
+    const ticks = tickValues(range, state.scale, Math.max(2, Math.round(height / 45)), state.isWhole);
     for (const tick of ticks) {
       const y = scale.apply(tick);
       group.appendChild(
@@ -182,9 +188,9 @@ function tickText(value) {
   return Number(value.toPrecision(6)).toString().replace("-", "\u2212");
 }
 
-function tickValues([low, high], scale, count) {
+function tickValues([low, high], scale, count, isWhole) {
   if (scale !== "log") {
-    const step = niceStep((high - low) / count);
+    const step = Math.max(niceStep((high - low) / count), isWhole ? 1 : 0);
     const ticks = [];
     for (let k = Math.ceil(low / step - 1e-9); k * step <= high * (1 + 1e-12) + step * 1e-9; ++k)
       ticks.push(k * step);
@@ -211,8 +217,8 @@ const borderDashes = {
   "multi_stop|stuck": "1 2",
 };
 
-// Places between the grid's values by straight lines (on its own scale by those of the values).
-function at(values, place) {
+// Places between the grid's values, by straight lines.
+export function valueAt(values, place) {
   const i = Math.min(Math.floor(place), values.length - 2);
   return values.length === 1 ? values[0] : values[i] + (place - i) * (values[i + 1] - values[i]);
 }
@@ -225,7 +231,8 @@ function borderMarks(crossings, state, map, axes) {
     nx: map.axes[state.x].size,
     ny: map.axes[state.y].size,
   });
-  const line = ({ key, points }) => points.map(([i, j]) => [at(axes.x.values, i), at(axes.y.values, j)]);
+  const line = ({ key, points }) =>
+    points.map(([i, j]) => [valueAt(axes.x.values, i), valueAt(axes.y.values, j)]);
   const marks = curves.flatMap((curve) => [
     Plot.line(line(curve), { stroke: "white", strokeWidth: 3, strokeOpacity: 0.75 }),
     Plot.line(line(curve), {
@@ -266,8 +273,7 @@ export function responseMap(canvas, map, variable, state) {
     y: axisOf(map, state.y, map.axes[state.y].coordinates[state.coordinates[state.y]]),
   };
   const flag = variable.kind === "flag";
-  const scale = flag ? "linear" : state.scale;
-  const range = flag ? [0, 1] : rangeOf(map, variable, scale);
+  const { scale, range } = colourScale(variable, flag ? "linear" : state.scale);
   const shown = flag ? { factor: 1, text: "" } : shownUnit(variable.unit, range);
   const paint = painterOf(variable, range, { ...state, scale });
   const borders = borderMarks(state.crossings ?? [], state, map, axes);
@@ -300,31 +306,23 @@ export function responseMap(canvas, map, variable, state) {
               canvas,
               withUnit(words(variable.name), shown.text),
               range.map((value) => value * shown.factor),
-              { ...state, scale },
+              { ...state, scale, isWhole: variable.kind === "count" },
             ),
           ]),
     ],
   });
 }
 
-// All cells of the map shown, row by row.
+// All cells of the map shown, row by row, with every coordinate of each.
 export function responseMapTable(map, variable, state) {
-  const x = map.axes[state.x].coordinates[state.coordinates[state.x]],
-    y = map.axes[state.y].coordinates[state.coordinates[state.y]];
-  const columns = [
-    { name: y.name, unit: y.unit, values: [] },
-    { name: x.name, unit: x.unit, values: [] },
-    { name: variable.name, unit: unitText(variable.unit) && variable.unit, values: [] },
-  ];
-  const index = [...state.index];
-  for (let j = 0; j < y.values.length; ++j) {
-    for (let i = 0; i < x.values.length; ++i) {
-      index[state.x] = i;
-      index[state.y] = j;
-      columns[0].values.push(y.values[j]);
-      columns[1].values.push(x.values[i]);
-      columns[2].values.push(map.value(variable, index));
-    }
+  const points = [];
+  for (let j = 0; j < map.axes[state.y].size; ++j) {
+    for (let i = 0; i < map.axes[state.x].size; ++i)
+      points.push(state.index.map((k, a) => (a === state.x ? i : a === state.y ? j : k)));
   }
-  return columns;
+  const values = points.map((index) => map.value(variable, index));
+  return [
+    ...coordinateColumns(map, points),
+    { name: variable.name, unit: variable.unit, digits: variable.digits, values },
+  ];
 }

@@ -5,6 +5,7 @@ import {
   curveNumbers,
   firstParameter,
   resonanceFigure,
+  resonanceNote,
   resonanceParameters,
   resonanceQuantities,
   resonanceTable,
@@ -137,7 +138,9 @@ function resonanceSection(record) {
       get title() {
         return sentence(state.quantity.long_name || words(state.quantity.name));
       },
-      caption: "Solved along the frequency axis, not sampled.",
+      get caption() {
+        return resonanceNote(group, state.x);
+      },
       draw: (canvas) => resonanceFigure(canvas, group, state.quantity, state.x),
       table: () => resonanceTable(group),
     },
@@ -165,10 +168,20 @@ function resonanceSection(record) {
   );
 }
 
+const failuresAtOnce = 12;
+
+// The first reasons, and the others behind a click.
+function failureList(failed) {
+  const lines = failed.split("\n");
+  const rest = lines.slice(failuresAtOnce);
+  const more = element("details", {}, element("summary", {}, `${rest.length} more`), element("pre", {}, rest.join("\n")));
+  return element("div", {}, element("pre", {}, lines.slice(0, failuresAtOnce).join("\n")), rest.length ? more : null);
+}
+
 export function sweepParts(record) {
   const { notes, failed } = gaps(record);
   const anything = record.map.variables.some(({ values }) => values.some((value) => !Number.isNaN(value)));
-  const reasons = failed ? section("Points that failed", element("pre", {}, failed)) : null;
+  const reasons = failed ? section("Points that failed", failureList(failed)) : null;
   return [
     ...notes,
     ...(record.map.points && anything ? explorerSections(record) : []),

@@ -16,16 +16,26 @@ function axesOf(map) {
   return { x, y: bySize.find((axis) => axis !== x) ?? null };
 }
 
-// Row of /borders -> place along an axis: an index where all its parameters have a value of the grid, else between
-// two by the first of them that rises or falls all along; NaN if none does.
+// Row of /borders -> fractional index along an axis: by a parameter that rises or falls all along, else on the
+// stretch between two points of the grid on which all its parameters lie equally far; NaN if there is none.
 function placeAlong({ coordinates, size }, group) {
   const known = coordinates.filter(({ name }) => group.has(name));
   const ordered = known.find(({ monotone }) => monotone);
+  if (ordered) return (row) => fractionalIndex(ordered.values, group.values(ordered.name)[row]);
   return (row) => {
-    const isAt = (i) => known.every(({ name, values }) => values[i] === group.values(name)[row]);
-    const whole = ordered ? -1 : Array.from({ length: size }, (_, i) => i).findIndex(isAt);
-    if (whole >= 0) return whole;
-    return ordered ? fractionalIndex(ordered.values, group.values(ordered.name)[row]) : NaN;
+    for (let i = 0; i + 1 < size; ++i) {
+      const shares = known
+        .filter(({ values }) => values[i] !== values[i + 1])
+        .map(({ name, values }) => (group.values(name)[row] - values[i]) / (values[i + 1] - values[i]));
+      const [share] = shares;
+      const fits = known.every(
+        ({ name, values }) => values[i] !== values[i + 1] || group.values(name)[row] === values[i],
+      );
+      const isOn =
+        fits && share >= 0 && share <= 1 && shares.every((other) => Math.abs(other - share) < 1e-9);
+      if (isOn) return share === 1 ? i + 1 : i + share;
+    }
+    return NaN;
   };
 }
 

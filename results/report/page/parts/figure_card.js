@@ -47,7 +47,8 @@ export function figureCard(figure, about) {
         class: "save-svg",
         title: "this figure as SVG, for a paper",
         onclick: () => {
-          const svg = svgFile(figure.draw(canvasOf(paperWidth, figure, false)), figure.title, about);
+          const title = [figure.title, figure.caption].filter(Boolean).join("; ");
+          const svg = svgFile(figure.draw(canvasOf(paperWidth, figure, false)), title, about);
           download(`${name()}.svg`, "image/svg+xml", new XMLSerializer().serializeToString(svg));
         },
       },
@@ -79,9 +80,15 @@ export function figureCard(figure, about) {
     if (width < 50) return;
     heading.textContent = figure.title;
     caption.textContent = figure.caption ?? "";
-    shown.svg = figure.draw(canvasOf(width, figure, true));
-    plot.replaceChildren(shown.svg);
-    figure.drawn?.(shown);
+    try {
+      shown.svg = figure.draw(canvasOf(width, figure, true));
+      plot.replaceChildren(shown.svg);
+    } catch (error) {
+      plot.replaceChildren(
+        element("p", { class: "failure" }, `This figure could not be drawn: ${error.message}`),
+      );
+      throw error;
+    }
   }
   let before = 0;
   new ResizeObserver(() => {

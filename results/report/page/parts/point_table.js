@@ -1,5 +1,5 @@
 // One point of the map: its parameters, all quantities the page holds, and the command that computes it again.
-import { coordinateText, pointCommand } from "../axes.js";
+import { axisText, coordinateText, pointCommand } from "../axes.js";
 import { meaningOf } from "../record.js";
 import { numberText, unitText, words } from "../units.js";
 import { element, table } from "./elements.js";
@@ -52,11 +52,7 @@ export function pointCard(record, index) {
   return element(
     "div",
     { class: "card", id: "point" },
-    element(
-      "h3",
-      {},
-      `The point ${map.axes.map((axis, a) => coordinateText(axis.coordinates[0], index[a])).join(", ")}`,
-    ),
+    element("h3", {}, `The point ${map.axes.map((axis, a) => axisText(map, axis, index[a])).join(", ")}`),
     element(
       "div",
       { class: "cards" },
@@ -67,7 +63,7 @@ export function pointCard(record, index) {
     element(
       "p",
       { class: "note" },
-      "Values to six digits of each quantity\u2019s range over the map. All digits, residual, error bound and energy balance:",
+      "Values to six digits. All of them, with residual, error bound and energy balance:",
     ),
     element("div", { class: "command" }, element("code", {}, command), copy),
   );
