@@ -7,6 +7,7 @@
 //   table    its numbers, for a CSV file: [{name, unit, values}], in the units of the record
 import * as Plot from "@observablehq/plot";
 import { format, tickFormat, ticks } from "d3";
+import { powerText, powerTicks } from "./power_ticks.js";
 import { digitWidth, fontSize, textWidth, wrapped } from "./text_lines.js";
 
 const fontFamily = "system-ui, -apple-system, 'Segoe UI', 'DejaVu Sans', Arial, sans-serif";
@@ -116,8 +117,13 @@ const ticksLength = 5,
   labelLineHeight = 15;
 const besideTicks = 40; // the label and its gaps
 
-const formatOf = (scale) =>
-  scale.tickFormat ?? (scale.type === "log" ? ((scale.domain?.[1] ?? 0) >= 1e5 ? "~e" : "~g") : undefined);
+const formatOf = (scale) => scale.tickFormat ?? (scale.type === "log" ? "~g" : undefined);
+
+// A logarithmic axis over a known domain has ticks at powers of ten.
+function withPowers(axis) {
+  if (axis.type !== "log" || !axis.domain || axis.ticks) return axis;
+  return { ticks: powerTicks(axis.domain), tickFormat: powerText(axis.domain), ...axis };
+}
 
 // Room at the left for the numbers of an axis and its label.
 function leftMargin(axis, height) {
@@ -137,8 +143,10 @@ function leftMargin(axis, height) {
 // Labels longer than their axis take several lines.
 export function drawFrame(
   canvas,
-  { x, y, marks, legend = [], marginRight = 20, marginLeft: leastLeft = 68, scales = {} },
+  { x: xAxis, y: yAxis, marks, legend = [], marginRight = 20, marginLeft: leastLeft = 68, scales = {} },
 ) {
+  const x = withPowers(xAxis),
+    y = withPowers(yAxis);
   const marginLeft = Math.max(leastLeft, leftMargin(y, canvas.height));
   const yLabel = wrapped(y.label ?? "", canvas.height - 60),
     yMore = (yLabel.length - 1) * labelLineHeight;

@@ -94,7 +94,11 @@ function yAxis(variable, state, label, values) {
     return { label, type: "log", domain: logDomain(values, low) };
   const numbers = values.flatMap((y) => Array.from(y).filter(Number.isFinite));
   if (!numbers.length) return { label, domain: [0, 1] };
-  return state.scale === "dB" ? { label, ...roomFor(numbers) } : { label, zero: true, nice: true };
+  if (state.scale === "dB") return { label, ...roomFor(numbers) };
+  const domain = [Math.min(0, ...numbers), Math.max(0, ...numbers)];
+  const largest = Math.max(...domain.map(Math.abs));
+  const asPowers = largest >= 1e5 || largest < 1e-2 ? { tickFormat: (tick) => numberText(tick) } : {};
+  return { label, domain: largest > 0 ? domain : [0, 1], nice: true, ...asPowers };
 }
 
 // state: {axis, coordinate, scale: "linear", "log" or "dB", points: [index], regime: variable or undefined,

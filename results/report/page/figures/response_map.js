@@ -3,7 +3,8 @@ import * as Plot from "@observablehq/plot";
 import { rgb } from "d3";
 import { axisScale, cellEdges, coordinateColumns, coordinateLabel, spacing } from "../axes.js";
 import { borderCurves } from "../borders.js";
-import { shownUnit, unitText, withUnit, words } from "../units.js";
+import { shownUnit, withUnit, words } from "../units.js";
+import { colourBar, colourBarMargin } from "./colour_bar.js";
 import { colourSteps, colourTable, flagColours, missingColour } from "./colours.js";
 import { drawFrame, svgElement } from "./frame.js";
 
@@ -117,97 +118,6 @@ function pictureMark(url) {
   };
 }
 
-const barWidth = 14,
-  barGap = 16;
-
-// The scale of the colours, at the right of the frame.
-function colourBar(canvas, label, range, state) {
-  return (index, scales, values, dimensions, { document }) => {
-    const left = dimensions.width - dimensions.marginRight + barGap,
-      top = dimensions.marginTop;
-    const height = dimensions.height - top - dimensions.marginBottom;
-    const bar = new Uint8ClampedArray(4 * 256),
-      table = colourTable(state.colours ?? "viridis");
-    for (let row = 0; row < 256; ++row) {
-      const step = 4 * Math.round(((255 - row) / 255) * (colourSteps - 1));
-      bar.set(table.subarray(step, step + 4), 4 * row);
-    }
-    const group = svgElement(document, "g", {
-      "aria-label": "colour scale",
-      fill: "currentColor",
-      "text-anchor": "start",
-    });
-    group.appendChild(
-      svgElement(document, "image", {
-        x: left,
-        y: top,
-        width: barWidth,
-        height,
-        preserveAspectRatio: "none",
-        href: canvas.image(1, 256, bar),
-      }),
-    );
-    group.appendChild(
-      svgElement(document, "rect", {
-        x: left,
-        y: top,
-        width: barWidth,
-        height,
-        fill: "none",
-        stroke: "currentColor",
-      }),
-    );
-    const scale = Plot.scale({
-      y: { type: state.scale === "log" ? "log" : "linear", domain: range, range: [top + height, top] },
-    });
-    const ticks = tickValues(range, state.scale, Math.max(2, Math.round(height / 45)), state.isWhole);
-    for (const tick of ticks) {
-      const y = scale.apply(tick);
-      group.appendChild(
-        svgElement(document, "path", { d: `M${left + barWidth},${y}h4`, stroke: "currentColor" }),
-      );
-      group.appendChild(
-        svgElement(document, "text", { x: left + barWidth + 7, y, dy: "0.32em" }, tickText(tick)),
-      );
-    }
-    const middle = top + height / 2,
-      right = dimensions.width - 8;
-    group.appendChild(
-      svgElement(
-        document,
-        "text",
-        { transform: `translate(${right},${middle}) rotate(-90)`, "text-anchor": "middle" },
-        label,
-      ),
-    );
-    return group;
-  };
-}
-
-function tickText(value) {
-  return Number(value.toPrecision(6)).toString().replace("-", "\u2212");
-}
-
-function tickValues([low, high], scale, count, isWhole) {
-  if (scale !== "log") {
-    const step = Math.max(niceStep((high - low) / count), isWhole ? 1 : 0);
-    const ticks = [];
-    for (let k = Math.ceil(low / step - 1e-9); k * step <= high * (1 + 1e-12) + step * 1e-9; ++k)
-      ticks.push(k * step);
-    return ticks;
-  }
-  const ticks = [];
-  for (let power = Math.floor(Math.log10(low)); power <= Math.ceil(Math.log10(high)); ++power) {
-    for (const digit of Math.log10(high / low) > 2 ? [1] : [1, 2, 5]) ticks.push(digit * 10 ** power);
-  }
-  return ticks.filter((tick) => tick >= low * (1 - 1e-12) && tick <= high * (1 + 1e-12));
-}
-
-function niceStep(rough) {
-  const power = 10 ** Math.floor(Math.log10(rough));
-  return [1, 2, 5, 10].map((digit) => digit * power).find((step) => step >= rough * (1 - 1e-12));
-}
-
 const borderDashes = {
   "non_stop|one_stop": "",
   "one_stop|multi_stop": "5 3",
@@ -281,11 +191,17 @@ export function responseMap(canvas, map, variable, state) {
     ? [...flagColours(variable).values()].map(({ word, colour }) => ({ text: words(word), fill: colour }))
     : [];
   const picked = pickedMarks(state, axes);
+  const bar = {
+    label: withUnit(words(variable.name), shown.text),
+    range: range.map((value) => value * shown.factor),
+    look: { colours: state.colours, scale, isWhole: variable.kind === "count" },
+  };
+  const frameHeight = canvas.height - 80;
   return drawFrame(canvas, {
     x: { label: axes.x.label, type: axes.x.scale, domain: axes.x.domain },
     y: { label: axes.y.label, type: axes.y.scale, domain: axes.y.domain },
     legend: [...regimes, ...borders.legend],
-    marginRight: flag ? 20 : 104,
+    marginRight: flag ? 20 : colourBarMargin(bar.label, bar.range, bar.look, frameHeight),
     marks: [
       pictureMark(picture(canvas, map, variable, state, axes, paint)),
       ...borders.marks,
@@ -299,16 +215,7 @@ export function responseMap(canvas, map, variable, state) {
         fontSize: 10,
         fontWeight: 700,
       }),
-      ...(flag
-        ? []
-        : [
-            colourBar(
-              canvas,
-              withUnit(words(variable.name), shown.text),
-              range.map((value) => value * shown.factor),
-              { ...state, scale, isWhole: variable.kind === "count" },
-            ),
-          ]),
+      ...(flag ? [] : [colourBar(canvas, bar.label, bar.range, bar.look)]),
     ],
   });
 }

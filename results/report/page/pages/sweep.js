@@ -174,8 +174,18 @@ const failuresAtOnce = 12;
 function failureList(failed) {
   const lines = failed.split("\n");
   const rest = lines.slice(failuresAtOnce);
-  const more = element("details", {}, element("summary", {}, `${rest.length} more`), element("pre", {}, rest.join("\n")));
-  return element("div", {}, element("pre", {}, lines.slice(0, failuresAtOnce).join("\n")), rest.length ? more : null);
+  const more = element(
+    "details",
+    {},
+    element("summary", {}, `${rest.length} more`),
+    element("pre", {}, rest.join("\n")),
+  );
+  return element(
+    "div",
+    {},
+    element("pre", {}, lines.slice(0, failuresAtOnce).join("\n")),
+    rest.length ? more : null,
+  );
 }
 
 export function sweepParts(record) {
