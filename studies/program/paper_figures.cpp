@@ -61,8 +61,10 @@ bool make_pdf(const std::string& svg, const std::string& pdf) {
 void write_paper_figures(const std::string& data, const std::filesystem::path& folder, std::ostream& out) {
   require_node();
   make_folder(folder);
+  const std::vector<std::string> names = draw(data, folder);
+  if (names.empty()) fmt::print(out, "This result has no figures; its page has its tables.\n");
   bool pdf = true;
-  for (const std::string& name : draw(data, folder)) {
+  for (const std::string& name : names) {
     const std::string path = (folder / name).string();
     pdf = pdf && make_pdf(path + ".svg", path + ".pdf");
     fmt::print(out, "{}.svg{}\n", path, pdf ? ", .csv, .pdf" : ", .csv");

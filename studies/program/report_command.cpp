@@ -141,7 +141,7 @@ void write_page(const ReportOptions& options, const results::MapReader& result, 
     out << page;
     return;
   }
-  check_output_is_not_input(output, options.file);
+  check_output_is_not_input(output, options.file, ".html");
   write_whole_file(output, page);
   fmt::print(out, "{} ({:.1f} MB)\n", output.string(), static_cast<double>(page.size()) * 1e-6);
 }

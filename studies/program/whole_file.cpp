@@ -50,15 +50,16 @@ void write_whole_file(const std::filesystem::path& path, std::string_view text) 
       path, [&](std::ostream& file) { file.write(text.data(), static_cast<std::streamsize>(text.size())); });
 }
 
-void check_output_is_not_input(const std::filesystem::path& output, const std::filesystem::path& input) {
+void check_output_is_not_input(const std::filesystem::path& output, const std::filesystem::path& input,
+                               std::string_view extension) {
   std::error_code error;
   if (std::filesystem::equivalent(output, input, error)) {
     throw StudyError(
         fmt::format("{}: is the file that is read; name another for the output", output.string()));
   }
   if (output.extension() == ".toml" || output.extension() == ".h5") {
-    throw StudyError(fmt::format(
-        "{}: a table of numbers is not written over a study or a result; name it .csv", output.string()));
+    throw StudyError(fmt::format("{}: has the name of a study or a result; name this output {}",
+                                 output.string(), extension));
   }
 }
 

@@ -12,7 +12,9 @@ namespace frahm::studies {
 void write_whole_file(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
 void write_whole_file(const std::filesystem::path& path, std::string_view text);
 
-// An output must not take the place of the file it is made from: throws StudyError.
-void check_output_is_not_input(const std::filesystem::path& output, const std::filesystem::path& input);
+// An output must not take the place of the file it is made from, nor of a study or a result: throws
+// StudyError. extension: that of such outputs.
+void check_output_is_not_input(const std::filesystem::path& output, const std::filesystem::path& input,
+                               std::string_view extension = ".csv");
 
 }  // namespace frahm::studies

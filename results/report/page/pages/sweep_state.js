@@ -16,27 +16,34 @@ function axesOf(map) {
   return { x, y: bySize.find((axis) => axis !== x) ?? null };
 }
 
-// Row of /borders -> fractional index along an axis: by a parameter that rises or falls all along, else on the
-// stretch between two points of the grid on which all its parameters lie equally far; NaN if there is none.
+// (row of /borders, whether its edge lies along this axis) -> fractional index along the axis: by a parameter that
+// rises or falls all along, else the point of the grid or the one stretch between two on which all its parameters
+// fit; NaN if there is none, or several.
 function placeAlong({ coordinates, size }, group) {
   const known = coordinates.filter(({ name }) => group.has(name));
   const ordered = known.find(({ monotone }) => monotone);
   if (ordered) return (row) => fractionalIndex(ordered.values, group.values(ordered.name)[row]);
-  return (row) => {
-    for (let i = 0; i + 1 < size; ++i) {
-      const shares = known
-        .filter(({ values }) => values[i] !== values[i + 1])
-        .map(({ name, values }) => (group.values(name)[row] - values[i]) / (values[i + 1] - values[i]));
-      const [share] = shares;
-      const fits = known.every(
-        ({ name, values }) => values[i] !== values[i + 1] || group.values(name)[row] === values[i],
-      );
-      const isOn =
-        fits && share >= 0 && share <= 1 && shares.every((other) => Math.abs(other - share) < 1e-9);
-      if (isOn) return share === 1 ? i + 1 : i + share;
+  const points = Array.from({ length: size }, (_, i) => i);
+  return (row, isAlong) => {
+    const value = ({ name }) => group.values(name)[row];
+    if (!isAlong) {
+      const found = points.findIndex((i) => known.every((one) => one.values[i] === value(one)));
+      return found < 0 ? NaN : found;
     }
-    return NaN;
+    const shares = points.slice(0, -1).map((i) => shareOfStretch(known, i, value));
+    const fitting = points.filter((i) => shares[i] >= 0 && shares[i] <= 1);
+    return fitting.length === 1 ? fitting[0] + shares[fitting[0]] : NaN;
   };
+}
+
+// How far along the stretch from point i to the next one all coordinates stand; NaN if not equally far.
+function shareOfStretch(known, i, value) {
+  const shares = known.map((one) => {
+    const [from, to] = [one.values[i], one.values[i + 1]];
+    return from === to ? (value(one) === from ? undefined : NaN) : (value(one) - from) / (to - from);
+  });
+  const moving = shares.filter((share) => share !== undefined);
+  return moving.every((share) => Math.abs(share - moving[0]) < 1e-9) ? moving[0] : NaN;
 }
 
 // Crossings of /borders of one contact: {place: fractional index along each axis, axis: along which, key}.
@@ -50,11 +57,12 @@ function crossingsOf(record, contact) {
   if (!element?.values.length) return [];
   const axes = record.map.axes;
   const places = axes.map((one) => placeAlong(one, group));
+  const along = (row) => axes.findIndex((one) => one.name === meaningOf(axis, axis.values[row]));
   return Array.from(element.values, (code, row) => ({ code, row }))
     .filter(({ code }) => meaningOf(element, code) === contact)
     .map(({ row }) => ({
-      place: places.map((place) => place(row)),
-      axis: axes.findIndex((one) => one.name === meaningOf(axis, axis.values[row])),
+      place: places.map((place, a) => place(row, a === along(row))),
+      axis: along(row),
       key: [below, above]
         .map((regime) => regime.values[row])
         .sort()
