@@ -80,6 +80,18 @@ void check_quantities(const std::vector<std::string>& asked, const results::MapL
   }
 }
 
+// A browser holds some gigabytes.
+void check_size(const results::MapLayout& layout, std::size_t quantities) {
+  constexpr double most_numbers = 2e8;
+  double points = 1.0;
+  for (const results::Axis& axis : layout.axes) points *= static_cast<double>(axis.size);
+  if (points * static_cast<double>(quantities) <= most_numbers) return;
+  throw StudyError(fmt::format(
+      "the page would hold {} quantities at {:.4g} points; a browser takes {:.0e} numbers at most: name "
+      "fewer by --quantities, or sweep a part of the map for it",
+      quantities, points, most_numbers));
+}
+
 std::vector<std::string> shown_quantities(const ReportOptions& options, const results::MapLayout& layout,
                                           const std::optional<StudyFile>& study) {
   check_quantities(options.quantities, layout);
@@ -113,9 +125,11 @@ std::vector<results::PageGroup> further_groups(const std::optional<StudyFile>& s
 
 results::PageContent content_of(const ReportOptions& options, const results::MapReader& result) {
   const std::optional<StudyFile> study = study_of(result, options.file);
+  const std::vector<std::string> shown = shown_quantities(options, result.layout(), study);
+  check_size(result.layout(), shown.size());
   return {.file = options.file.filename().string(),
           .parameters = axis_parameters(result.layout(), study),
-          .variables = shown_quantities(options, result.layout(), study),
+          .variables = shown,
           .groups = further_groups(study),
           .all_digits = !options.figures.empty()};
 }
