@@ -103,12 +103,26 @@ std::vector<std::string> axis_parameters(const results::MapLayout& layout,
   return names;
 }
 
-// What the page shows besides the file: the motion of the study's cranks.
+// The frequency of the excitation [rad/s] as the study states it, by which the page knows a period.
+results::Column excitation_frequency(const StudyFile& study) {
+  std::vector<double> parameters = study.parameters.nominal();
+  mechanics::NetworkValues values;
+  evaluate(study.values, study.parameters, parameters, values);
+  return {.variable = {.name = "excitation_frequency",
+                       .unit = study.dimensionless ? "1" : "rad s-1",
+                       .long_name = "excitation frequency as the study states it"},
+          .values = {values.omega}};
+}
+
+// What the page shows besides the file: the motion of the study's cranks, and the frequency of a transient.
 std::vector<results::PageGroup> further_groups(const std::optional<StudyFile>& study) {
-  std::vector<results::Column> cranks;
-  if (study) cranks = crank_motions(*study);
-  if (cranks.empty()) return {};
-  return {{.name = "crank", .columns = std::move(cranks)}};
+  if (!study) return {};
+  std::vector<results::PageGroup> groups;
+  if (std::vector<results::Column> cranks = crank_motions(*study); !cranks.empty())
+    groups.push_back({.name = "crank", .columns = std::move(cranks)});
+  if (study->kind == StudyKind::transient)
+    groups.push_back({.name = "study", .columns = {excitation_frequency(*study)}});
+  return groups;
 }
 
 results::PageContent content_of(const ReportOptions& options, const results::MapReader& result) {

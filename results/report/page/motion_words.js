@@ -1,5 +1,5 @@
 // What a motion means, in sentences of numbers.
-import { dampingRatio, interpolated } from "./motion.js";
+import { dampingRatio, interpolated, samplingOf } from "./motion.js";
 import { numberText, quantityText, words } from "./units.js";
 
 const digits = 4;
@@ -82,6 +82,21 @@ function energySentences({ energies, group }) {
     `Of ${quantityText(total, "J", digits)} dissipated, ` + `${shares.join(", ")}.`,
     ...(Number.isFinite(balance) ? [`The energy balance closes to ${numberText(balance, 2)}.`] : []),
   ];
+}
+
+// Why the history is drawn as dots, and how to see the motion; "" where its samples are dense enough.
+export function sparseText(motion) {
+  const { step, period, perPeriod, sparse, enough } = samplingOf(motion);
+  if (!sparse) return "";
+  const few = Number.isFinite(period)
+    ? `${numberText(perPeriod, 3)} to a period of ${quantityText(period, "s", digits)}`
+    : "and the largest displacement lies between them";
+  const more = Number.isFinite(enough) ? `samples = ${enough} or more` : "more samples";
+  return (
+    `The samples stand ${quantityText(step, "s", digits)} apart, ${few}: lines that join them would show another ` +
+    `motion, so they are drawn as dots, without cycles and phase portraits. ${more} in [${motion.kind}] of the ` +
+    `study would show the motion.`
+  );
 }
 
 // Paragraphs of sentences: [[sentence, ...], ...].

@@ -8,6 +8,7 @@ import { powerText, powerTicks } from "./power_ticks.js";
 const marginLeft = 68,
   marginRight = 20;
 const leastSpan = 1e-3; // of an axis, relative to its numbers: what differs by less is level
+const mostDots = 3000; // that are all drawn
 const pathTolerance = 0.2; // pixels
 const dashesOf = (number) => lineDashes[number % lineDashes.length];
 
@@ -86,9 +87,12 @@ function lineMark(line, canvas, x, y) {
   );
 }
 
-function pointMark(points, x, y) {
-  const xs = scaled(points.x, x),
-    ys = scaled(points.y, y);
+// Dots in the order of their x, as histories without lines have them, are thinned as lines are.
+function pointMark(points, canvas, x, y) {
+  const many = points.x.length > mostDots;
+  const thin = many ? thinnedHistory(points.x, points.y, canvas.width - marginLeft - marginRight) : points;
+  const xs = scaled(thin.x, x),
+    ys = scaled(thin.y, y);
   const places = xs
     .map((value, i) => [value, ys[i]])
     .filter(([a, b]) => Number.isFinite(a) && Number.isFinite(b));
@@ -176,7 +180,7 @@ function drawLines(canvas, spec) {
       ...levels.map((level) => levelMark(level, y)),
       ...moments.map((moment) => momentMark(moment, x)),
       ...lines.map((line) => lineMark(line, canvas, x, y)),
-      ...points.map((point) => pointMark(point, x, y)),
+      ...points.map((point) => pointMark(point, canvas, x, y)),
       ...tips(canvas, canvas.interactive ? tipRows(spec, canvas, x, y) : []),
     ],
   });

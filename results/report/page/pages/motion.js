@@ -1,7 +1,7 @@
 // The page of one motion: a free vibration or a forced one from given initial values.
 import { motionFigureParts } from "../figures/motion_figures.js";
 import { dampingRatio, motionOf } from "../motion.js";
-import { whatItMeans } from "../motion_words.js";
+import { sparseText, whatItMeans } from "../motion_words.js";
 import { element, section, table } from "../parts/elements.js";
 import { figureCards } from "../parts/figure_cards.js";
 import { numberText, quantityText, words } from "../units.js";
@@ -124,6 +124,11 @@ function stopsTable({ stops }) {
   ];
 }
 
+function sparseNotes(motion) {
+  const text = sparseText(motion);
+  return text ? [element("p", { class: "warning" }, text)] : [];
+}
+
 function partsOf(record, motion) {
   const {
     histories: [first, ...others],
@@ -141,6 +146,7 @@ function partsOf(record, motion) {
       ? [
           section(
             "Motion",
+            ...sparseNotes(motion),
             ...figureCards([first], record, "wide"),
             ...figureCards(others, record),
             ...stopsTable(motion),
