@@ -70,12 +70,14 @@ export function motionOf(record, kind) {
     ...namesWith(group, "_peak", ""),
   ]);
   const frequency = group.column("frequency");
-  const excitation = record.groups.get("study")?.number("excitation_frequency") ?? NaN;
+  const fact = (name) => record.groups.get("study")?.number(name) ?? NaN;
   return {
     kind,
     group,
     time,
-    excitation,
+    excitation: fact("excitation_frequency"),
+    mayStop: fact("coulomb_elements") !== 0,
+    hysteretic: fact("hysteretic_elements") !== 0,
     duration,
     stopTime: group.number("stop_time"),
     masses: [...names].map((name) => massOf(group, name)),
@@ -147,6 +149,24 @@ export function envelope({ turningTimes, turningPoints }) {
     side.y.push(value);
   });
   return { upper, lower };
+}
+
+const roundingDecrement = 1e-12; // logarithmic decrements below it are rounding
+const roundingPart = 1e-12; // displacements below this part of the largest are rounding
+
+export function isRounding(decrement) {
+  return Math.abs(decrement) < roundingDecrement;
+}
+
+// Whether a mass still moves by more than rounding at its last turning point.
+export function movesAtLast({ turningPoints }) {
+  const largest = turningPoints.reduce((most, value) => Math.max(most, Math.abs(value)), 0);
+  return Math.abs(turningPoints.at(-1)) > roundingPart * largest;
+}
+
+// Whether the decrements end before the cycles do: the rest is rounding.
+export function decrementsEndEarly({ decrements, turningPoints }) {
+  return decrements.length > 0 && decrements.length < turningPoints.length - 2;
 }
 
 // The damping ratio of viscous damping with this logarithmic decrement of a full cycle.

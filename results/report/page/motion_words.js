@@ -1,12 +1,21 @@
 // What a motion means, in sentences of numbers.
-import { dampingRatio, interpolated, samplingOf } from "./motion.js";
+import {
+  dampingRatio,
+  decrementsEndEarly,
+  interpolated,
+  isRounding,
+  movesAtLast,
+  samplingOf,
+} from "./motion.js";
 import { numberText, quantityText, words } from "./units.js";
 
 const digits = 4;
 const percentText = (share) => `${numberText(100 * share, 3)} %`;
 
-function restSentence({ kind, stopTime, duration }) {
+// Of all masses together, where the sentences of each have not told it.
+function restSentence({ kind, stopTime, duration, masses }) {
   if (kind !== "decay") return [];
+  if (Number.isNaN(stopTime) && masses.some(({ rest }) => Number.isFinite(rest))) return [];
   return [
     Number.isFinite(stopTime)
       ? `From ${quantityText(stopTime, "s", digits)} on nothing moves.`
@@ -14,23 +23,50 @@ function restSentence({ kind, stopTime, duration }) {
   ];
 }
 
-function decayOf({ name, unit, turningPoints, decrements, rest }) {
-  const sentences = [];
-  if (turningPoints.length > 0)
-    sentences.push(
-      `mass ${words(name)} turns ${turningPoints.length} times, first at ` +
-        `${quantityText(turningPoints[0], unit, digits)}, last at ${quantityText(turningPoints.at(-1), unit, digits)}.`,
-    );
-  const first = decrements[0],
-    last = decrements.at(-1);
-  if (decrements.length > 0)
-    sentences.push(
-      `Its logarithmic decrement is ${numberText(first, digits)} in the first cycle (as of ` +
-        `${percentText(dampingRatio(first))} viscous ` +
-        `damping)${decrements.length > 1 ? ` and ${numberText(last, digits)} in the last` : ""}.`,
-    );
-  if (Number.isFinite(rest)) sentences.push(`It comes to lie at ${quantityText(rest, unit, digits)}.`);
-  return sentences;
+// "0.51", or that it is zero but for rounding.
+export function decrementText(decrement, places = digits) {
+  return isRounding(decrement) ? "0 (rounding)" : numberText(decrement, places);
+}
+
+function turningSentence({ name, unit, turningPoints }) {
+  const count = turningPoints.length;
+  if (count === 0) return [];
+  const first = quantityText(turningPoints[0], unit, digits);
+  if (count === 1) return [`mass ${words(name)} turns once, at ${first}.`];
+  const last = movesAtLast({ turningPoints })
+    ? quantityText(turningPoints.at(-1), unit, digits)
+    : "a displacement below rounding";
+  return [`mass ${words(name)} turns ${count} times, first at ${first}, last at ${last}.`];
+}
+
+function decrementSentence(mass) {
+  const { decrements } = mass,
+    count = decrements.length;
+  if (count === 0) return [];
+  if (decrements.every(isRounding))
+    return ["Its logarithmic decrement is 0 but for rounding: nothing damps it."];
+  const first = `${decrementText(decrements[0])} in the first cycle`;
+  const ratio = isRounding(decrements[0])
+    ? ""
+    : ` (as of ${percentText(dampingRatio(decrements[0]))} viscous damping)`;
+  const which = decrementsEndEarly(mass)
+    ? `the last that is above rounding, that from turning point ${count} of ${mass.turningPoints.length}`
+    : "the last";
+  const last = count > 1 ? ` and ${decrementText(decrements.at(-1))} in ${which}` : "";
+  return [`Its logarithmic decrement is ${first}${ratio}${last}.`];
+}
+
+// Where it lies in the end, if it ever does.
+function restOfMass({ rest, unit }, { stopTime, duration, mayStop }) {
+  if (!Number.isFinite(rest)) return [];
+  const at = quantityText(rest, unit, digits);
+  if (Number.isFinite(stopTime)) return [`It comes to lie at ${at}.`];
+  if (!mayStop) return [`It tends to ${at} without ever arriving.`];
+  return [`It does not reach its rest, ${at}, within ${quantityText(duration, "s", digits)}.`];
+}
+
+function decayOf(mass, motion) {
+  return [...turningSentence(mass), ...decrementSentence(mass), ...restOfMass(mass, motion)];
 }
 
 function peakOf({ name, unit, peak, peakTime }, { time, frequency }) {
@@ -104,7 +140,7 @@ export function whatItMeans(motion) {
   return [
     [
       ...errorSentence(motion),
-      ...motion.masses.flatMap((mass) => [...decayOf(mass), ...peakOf(mass, motion)]),
+      ...motion.masses.flatMap((mass) => [...decayOf(mass, motion), ...peakOf(mass, motion)]),
       ...restSentence(motion),
     ],
     stopSentences(motion),

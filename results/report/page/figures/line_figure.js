@@ -1,7 +1,8 @@
 // A figure of curves, points, bands and levels over one pair of axes, with its legend, tips and CSV.
 import * as Plot from "@observablehq/plot";
-import { numberText, shownUnit, withUnit } from "../units.js";
+import { numberText, shownUnit, superscript, withUnit } from "../units.js";
 import { drawFrame, fileName, grid, lineColours, lineDashes, tips } from "./frame.js";
+import { tableOf } from "./line_table.js";
 import { thinnedHistory, thinnedPath } from "./line_thinning.js";
 import { powerText, powerTicks } from "./power_ticks.js";
 
@@ -44,10 +45,19 @@ function domainOf(spec, axis) {
   return [zero && low === 0 ? 0 : low - room, zero && high === 0 ? 0 : high + room];
 }
 
+// With a power of ten before the unit where the numbers of a linear axis would have many zeros.
+function withPower({ factor, text }, ends) {
+  const largest = Math.max(...ends.map((value) => Math.abs(value * factor)));
+  if (largest === 0 || (largest >= 1e-4 && largest < 1e7)) return { factor, text };
+  const power = 3 * Math.floor(Math.log10(largest) / 3);
+  return { factor: factor * 10 ** -power, text: `\u00d710${superscript(power)}${text ? ` ${text}` : ""}` };
+}
+
 function shownAxis(spec, axis) {
   const { label, unit, type = "linear", ticks, tickFormat } = spec[axis];
   const inUnit = domainOf(spec, axis);
-  const { factor, text } = shownUnit(unit, inUnit);
+  const { factor, text } =
+    type === "log" ? shownUnit(unit, inUnit) : withPower(shownUnit(unit, inUnit), inUnit);
   const domain = inUnit.map((value) => value * factor);
   const logarithmic =
     type === "log" ? { ticks: powerTicks(domain), tickFormat: powerText(domain) } : { ticks, tickFormat };
@@ -184,26 +194,6 @@ function drawLines(canvas, spec) {
       ...tips(canvas, canvas.interactive ? tipRows(spec, canvas, x, y) : []),
     ],
   });
-}
-
-// Columns for the CSV: curves over the same x stand behind it together.
-function tableOf(spec) {
-  const columns = [];
-  let last = null;
-  for (const { name, x, y } of [...(spec.lines ?? []), ...(spec.points ?? [])].filter(
-    ({ silent }) => !silent,
-  )) {
-    if (x !== last) columns.push({ name: spec.x.name ?? spec.x.label, unit: spec.x.unit, values: x });
-    last = x;
-    columns.push({ name, unit: spec.y.unit, values: y });
-  }
-  for (const { text, from, to } of spec.bands ?? []) {
-    columns.push(
-      { name: `${text}, from`, unit: spec.x.unit, values: from },
-      { name: `${text}, to`, unit: spec.x.unit, values: to },
-    );
-  }
-  return columns;
 }
 
 // spec: {name, title, caption, ratio,

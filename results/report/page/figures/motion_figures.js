@@ -1,5 +1,5 @@
 // Histories of a motion, its turning points, phase portraits, decrements, and where its energy goes.
-import { envelope, samplingOf, stretch } from "../motion.js";
+import { decrementsEndEarly, envelope, isRounding, samplingOf, stretch } from "../motion.js";
 import { numberText, quantityText, words } from "../units.js";
 import { barFigure } from "./bar_figure.js";
 import { lineFigure, style } from "./line_figure.js";
@@ -121,6 +121,9 @@ function cyclesFigures(motion) {
   });
 }
 
+const restWord = ({ stopTime, mayStop }) =>
+  Number.isFinite(stopTime) ? "rest at" : mayStop ? "rest, not reached:" : "tends to";
+
 function turningFigure(motion, mass) {
   const { name, unit, displacement, turningTimes, turningPoints, rest } = mass;
   const { upper, lower } = envelope(mass);
@@ -168,7 +171,7 @@ function turningFigure(motion, mass) {
       },
     ],
     levels: Number.isFinite(rest)
-      ? [{ y: rest, text: `rest at ${quantityText(rest, unit, 4)}`, dash: "1 3" }]
+      ? [{ y: rest, text: `${restWord(motion)} ${quantityText(rest, unit, 4)}`, dash: "1 3" }]
       : [],
     moments: moments(motion),
   });
@@ -176,6 +179,9 @@ function turningFigure(motion, mass) {
 
 function decrementFigure({ masses }) {
   const shown = masses.filter(({ decrements }) => decrements.length > 0);
+  const early = shown.some(decrementsEndEarly)
+    ? " It ends before the motion does: the turning points after it are rounding."
+    : "";
   const lines = shown.map(({ name, decrements }, i) => ({
     name: `${name}_log_decrement`,
     text: several(shown) ? words(name) : "",
@@ -188,7 +194,7 @@ function decrementFigure({ masses }) {
     title: "Logarithmic decrement from cycle to cycle",
     caption:
       "Over a full cycle from each turning point. Of viscous damping it is the same in every cycle; friction makes " +
-      "it grow.",
+      `it grow.${early}`,
     x: { label: "cycles since the first turning point", name: "cycle", unit: "1" },
     y: { label: "logarithmic decrement", unit: "1", zero: true },
     lines,
@@ -324,7 +330,9 @@ export function motionFigureParts(motion) {
       ...masses
         .filter(({ turningPoints }) => turningPoints.length > 0)
         .map((mass) => turningFigure(motion, mass)),
-      ...(masses.some(({ decrements }) => decrements.length > 0) ? [decrementFigure(motion)] : []),
+      ...(masses.some(({ decrements }) => decrements.some((decrement) => !isRounding(decrement)))
+        ? [decrementFigure(motion)]
+        : []),
     ],
     energies: [
       ...(energies.some(({ energy }) => energy > 0) ? [budgetFigure(motion)] : []),
