@@ -158,10 +158,10 @@ export function isRounding(decrement) {
   return Math.abs(decrement) < roundingDecrement;
 }
 
-// Whether a mass still moves by more than rounding at its last turning point.
-export function movesAtLast({ turningPoints }) {
-  const largest = turningPoints.reduce((most, value) => Math.max(most, Math.abs(value)), 0);
-  return Math.abs(turningPoints.at(-1)) > roundingPart * largest;
+// Whether a displacement is nothing beside those of the turning points.
+export function isRoundingOf(value, turningPoints) {
+  const largest = turningPoints.reduce((most, point) => Math.max(most, Math.abs(point)), 0);
+  return Math.abs(value) <= roundingPart * largest;
 }
 
 // Whether the decrements end before the cycles do: the rest is rounding.

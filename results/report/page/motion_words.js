@@ -4,7 +4,7 @@ import {
   decrementsEndEarly,
   interpolated,
   isRounding,
-  movesAtLast,
+  isRoundingOf,
   samplingOf,
 } from "./motion.js";
 import { numberText, quantityText, words } from "./units.js";
@@ -33,9 +33,9 @@ function turningSentence({ name, unit, turningPoints }) {
   if (count === 0) return [];
   const first = quantityText(turningPoints[0], unit, digits);
   if (count === 1) return [`mass ${words(name)} turns once, at ${first}.`];
-  const last = movesAtLast({ turningPoints })
-    ? quantityText(turningPoints.at(-1), unit, digits)
-    : "a displacement below rounding";
+  const last = isRoundingOf(turningPoints.at(-1), turningPoints)
+    ? "a displacement below rounding"
+    : quantityText(turningPoints.at(-1), unit, digits);
   return [`mass ${words(name)} turns ${count} times, first at ${first}, last at ${last}.`];
 }
 
@@ -56,10 +56,15 @@ function decrementSentence(mass) {
   return [`Its logarithmic decrement is ${first}${ratio}${last}.`];
 }
 
+// Where a mass rests or what it tends to; zero where that is a rounding of how far it moves.
+export function restText({ rest, unit, turningPoints }, places = digits) {
+  return rest !== 0 && isRoundingOf(rest, turningPoints) ? "0 (rounding)" : quantityText(rest, unit, places);
+}
+
 // Where it lies in the end, if it ever does.
-function restOfMass({ rest, unit }, { stopTime, duration, mayStop }) {
-  if (!Number.isFinite(rest)) return [];
-  const at = quantityText(rest, unit, digits);
+function restOfMass(mass, { stopTime, duration, mayStop }) {
+  if (!Number.isFinite(mass.rest)) return [];
+  const at = restText(mass);
   if (Number.isFinite(stopTime)) return [`It comes to lie at ${at}.`];
   if (!mayStop) return [`It tends to ${at} without ever arriving.`];
   return [`It does not reach its rest, ${at}, within ${quantityText(duration, "s", digits)}.`];
@@ -127,11 +132,11 @@ export function sparseText(motion) {
   const few = Number.isFinite(period)
     ? `${numberText(perPeriod, 3)} to a period of ${quantityText(period, "s", digits)}`
     : "and the largest displacement lies between them";
-  const more = Number.isFinite(enough) ? `samples = ${enough} or more` : "more samples";
+  const more = Number.isFinite(enough) ? `With samples = ${enough} or more` : "With more samples";
   return (
     `The samples stand ${quantityText(step, "s", digits)} apart, ${few}: lines that join them would show another ` +
     `motion, so they are drawn as dots, without cycles and phase portraits. ${more} in [${motion.kind}] of the ` +
-    `study would show the motion.`
+    `study it would be seen.`
   );
 }
 

@@ -2,6 +2,8 @@
 import { words } from "./units.js";
 
 export const designNames = { before: "before", after: "tuned", constant: "best constant", rule: "rule" };
+const brokenFrom = 1e-5; // relative, from which a limit counts as broken
+const sameHeight = 1e-6; // relative, within which two peaks are as high
 const heldFrom = 1e-6; // share, or relative gain, from which something counts as holding the design
 
 // "(m)2" to "m": the unit of the root of a mean square or a variance.
@@ -13,6 +15,11 @@ export function rootUnit(unit) {
 export function quantityWords({ kind, quantity }) {
   const text = words(quantity);
   return kind === "variance" ? text.replace(/ rms$/, "") : text;
+}
+
+// The same with its weight: the response that the record holds.
+export function responseWords(tuning) {
+  return `${tuning.weight ? "weighted " : ""}${words(tuning.quantity)}`;
 }
 
 function listOf(text) {
@@ -42,7 +49,8 @@ function parameterOf(group, name) {
   };
 }
 
-function peaksOf(group, band, scenarios) {
+// Which peaks hold the design is known of a tuning that converged.
+function peaksOf(group, band, scenarios, { converged, objective }) {
   const values = group.values("peak_value") ?? [];
   return Array.from(values, (value, i) => {
     const share = group.values("peak_multiplier")[i];
@@ -50,14 +58,23 @@ function peaksOf(group, band, scenarios) {
       at: group.values(`peak_${band}`)[i],
       value,
       share,
-      active: share > heldFrom,
+      active: converged && share > heldFrom,
+      asHigh: Math.abs(value - objective) <= sameHeight * Math.abs(objective),
       number: i,
       scenario: scenarios[group.values("peak_scenario")[i]] ?? "",
     };
   });
 }
 
-function limitsOf(group, names, scenarios, objective) {
+// How far a value lies beyond its limits, relative to the limit; 0 where it keeps them.
+function brokenBy(value, lower, upper) {
+  const over = Number.isFinite(upper) ? (value - upper) / Math.abs(upper || 1) : 0;
+  const under = Number.isFinite(lower) ? (lower - value) / Math.abs(lower || 1) : 0;
+  const most = Math.max(over, under);
+  return most > brokenFrom ? most : 0;
+}
+
+function limitsOf(group, names, scenarios, { converged, objective }) {
   return names.map((name) => {
     const number = (suffix) => group.number(`${name}_${suffix}`);
     const multiplier = number("limit_multiplier"),
@@ -71,7 +88,9 @@ function limitsOf(group, names, scenarios, objective) {
       lower: number("lower_limit"),
       upper: limit,
       multiplier,
+      broken: brokenBy(number("limited"), number("lower_limit"), limit),
       active:
+        converged &&
         multiplier * Math.abs(Number.isFinite(limit) ? limit : number("lower_limit")) > heldFrom * objective,
     };
   });
@@ -101,9 +120,10 @@ function extraColumns(group, band) {
     }));
 }
 
-// Bounds of a parameter that hold the design: [{end, knots, multiplier, gain}], gain: relative fall of the objective
+// Bounds of a parameter that hold the design of a tuning that converged: [{end, knots, multiplier, gain}], gain: relative fall of the objective
 // when that bound is moved outwards by a hundredth of the range.
-export function heldBounds(parameter, objective) {
+export function heldBounds({ converged, objective }, parameter) {
+  if (!converged) return [];
   const room = (parameter.upper - parameter.lower) / 100;
   return [
     ["lower", parameter.lowerMultiplier],
@@ -149,20 +169,22 @@ export function tuningOf(record) {
     ? scenarios.map((scenario) => ({ scenario, suffix: `_${scenario}` }))
     : [{ scenario: "", suffix: "" }];
   const unit = group.column("objective")?.unit ?? "1";
+  const outcome = group.word("outcome"),
+    state = { converged: outcome === "converged", objective };
   return {
     group,
     texts,
+    ...state,
+    outcome,
     kind: texts.objective_kind,
     quantity: texts.quantity,
-    objective,
     unit,
     root: texts.objective_kind === "minimax" ? unit : rootUnit(unit),
-    outcome: group.word("outcome"),
     reason: texts.reason ?? "",
     scenarios: several ? scenarios : [],
     parameters: listOf(texts.parameters).map((name) => parameterOf(group, name)),
-    peaks: peaksOf(group, band, several ? scenarios : []),
-    limits: limitsOf(group, listOf(texts.limits), several ? scenarios : [], objective),
+    peaks: peaksOf(group, band, several ? scenarios : [], state),
+    limits: limitsOf(group, listOf(texts.limits), several ? scenarios : [], state),
     band: band && group.has(band) ? group.column(band) : null,
     weight: group.values("weight"),
     responses: responsesOf(group, suffixes),

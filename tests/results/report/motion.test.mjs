@@ -174,7 +174,7 @@ test("a history of fewer than 8 samples a period is sparse, and is told how many
   assert.equal(samplingOf(sampledDecay(402)).sparse, false);
   assert.match(
     sparseText(sampledDecay(51)),
-    /stand 2 s apart, 1 to a period of 2 s: .* dots, .* samples = 1001 or more in \[decay\]/,
+    /stand 2 s apart, 1 to a period of 2 s: .* dots, .* With samples = 1001 or more in \[decay\]/,
   );
   assert.equal(sparseText(sampledDecay(1001)), "");
   assert.equal(samplingOf(decay()).sparse, false);
@@ -206,7 +206,7 @@ test("a forced history is sparse by its excitation's period, or by a peak that i
   assert.equal(samplingOf(missed).sparse, true);
   assert.match(
     sparseText(missed),
-    /the largest displacement lies between them.*more samples in \[transient\]/,
+    /the largest displacement lies between them.*With more samples in \[transient\]/,
   );
 });
 

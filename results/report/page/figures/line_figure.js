@@ -9,6 +9,7 @@ import { powerText, powerTicks } from "./power_ticks.js";
 const marginLeft = 68,
   marginRight = 20;
 const leastSpan = 1e-3; // of an axis, relative to its numbers: what differs by less is level
+const mostEdged = 200; // bands that have lines at their edges
 const mostDots = 3000; // that are all drawn
 const pathTolerance = 0.2; // pixels
 const dashesOf = (number) => lineDashes[number % lineDashes.length];
@@ -124,7 +125,7 @@ function bandMark(band, x) {
     fill: band.fill,
     fillOpacity: 0.16,
     stroke: band.fill,
-    strokeOpacity: 0.3,
+    strokeOpacity: spans.length > mostEdged ? 0 : 0.3,
     clip: "frame",
   });
 }

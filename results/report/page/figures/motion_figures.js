@@ -1,5 +1,6 @@
 // Histories of a motion, its turning points, phase portraits, decrements, and where its energy goes.
 import { decrementsEndEarly, envelope, isRounding, samplingOf, stretch } from "../motion.js";
+import { restText } from "../motion_words.js";
 import { numberText, quantityText, words } from "../units.js";
 import { barFigure } from "./bar_figure.js";
 import { lineFigure, style } from "./line_figure.js";
@@ -171,7 +172,7 @@ function turningFigure(motion, mass) {
       },
     ],
     levels: Number.isFinite(rest)
-      ? [{ y: rest, text: `${restWord(motion)} ${quantityText(rest, unit, 4)}`, dash: "1 3" }]
+      ? [{ y: rest, text: `${restWord(motion)} ${restText(mass)}`, dash: "1 3" }]
       : [],
     moments: moments(motion),
   });

@@ -1,6 +1,6 @@
 // The response over the band: as the study states it, tuned, of the best constant and by the rule.
 import { coordinateLabel, symbolText } from "../axes.js";
-import { designNames } from "../tuning.js";
+import { designNames, responseWords } from "../tuning.js";
 import { words } from "../units.js";
 import { lineFigure } from "./line_figure.js";
 import { lineColours, lineDashes } from "./frame.js";
@@ -28,7 +28,7 @@ function responseLine({ band, scenarios }, { design, scenario, values }) {
   };
 }
 
-function peakPoints({ peaks, kind }) {
+function peakPoints({ peaks, kind, converged }) {
   const of = (chosen) => ({ x: chosen.map(({ at }) => at), y: chosen.map(({ value }) => value) });
   const points = (name, text, symbol, chosen) => ({
     name,
@@ -47,16 +47,16 @@ function peakPoints({ peaks, kind }) {
     ),
     points(
       "other_peak",
-      kind === "minimax" ? "other peak" : "peak",
+      kind === "minimax" && converged ? "other peak" : "peak",
       "open",
       peaks.filter(({ active }) => !active),
     ),
   ].filter(({ x }) => x.length > 0);
 }
 
-function peaksText({ peaks, kind }) {
+function peaksText({ peaks, kind, converged }) {
   if (peaks.length === 0) return "";
-  return kind === "minimax"
+  return kind === "minimax" && converged
     ? "Peaks are solved, not sampled; those that hold the optimum are filled."
     : "Peaks are solved, not sampled.";
 }
@@ -66,19 +66,19 @@ function weightText({ weight }) {
 }
 
 export function responseFigure(tuning) {
-  const { band, responses, quantity, root, unit, kind, worst, weight } = tuning;
+  const { band, responses, root, unit, kind, worst } = tuning;
   const lines = [...responses]
     .sort((a, b) => drawnFirst.indexOf(a.design) - drawnFirst.indexOf(b.design))
     .map((response) => responseLine(tuning, response));
   const worstPeak = kind === "minimax" && Number.isFinite(worst.after);
   return lineFigure({
     name: "tuned_response",
-    title: `Response over the band: ${words(quantity)}`,
+    title: `Response over the band: ${responseWords(tuning)}`,
     caption: `${peaksText(tuning)}${weightText(tuning)}`.trim(),
     ratio: 0.5,
     x: { ...axisOf(band), tight: true },
     y: {
-      label: `${weight ? "weighted " : ""}${words(quantity)}`,
+      label: responseWords(tuning),
       unit: kind === "minimax" ? unit : root,
       zero: true,
     },

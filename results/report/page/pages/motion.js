@@ -1,7 +1,7 @@
 // The page of one motion: a free vibration or a forced one from given initial values.
 import { motionFigureParts } from "../figures/motion_figures.js";
 import { dampingRatio, isRounding, motionOf } from "../motion.js";
-import { decrementText, sparseText, whatItMeans } from "../motion_words.js";
+import { decrementText, restText, sparseText, whatItMeans } from "../motion_words.js";
 import { element, section, table } from "../parts/elements.js";
 import { figureCards } from "../parts/figure_cards.js";
 import { numberText, quantityText, words } from "../units.js";
@@ -39,7 +39,7 @@ const massColumns = [
     ({ decrements }) => decrements.at(-1) ?? NaN,
     (value) => decrementText(value, 6),
   ],
-  ["rest or limit", ({ rest }) => rest, (value, { unit }) => quantityText(value, unit)],
+  ["rest or limit", ({ rest }) => rest, (value, mass) => restText(mass, 6)],
   ["largest displacement", ({ peak }) => peak, (value, { unit }) => quantityText(value, unit)],
   ["at", ({ peakTime }) => peakTime, (value) => quantityText(value, "s")],
 ];
