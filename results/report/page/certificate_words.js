@@ -3,25 +3,28 @@ import { symbolText } from "./axes.js";
 import { numberText, quantityText, unitText } from "./units.js";
 
 const roundingGap = 1e-12; // relative
+const metResidual = 1e-6; // relative: the tolerance that a tuning has unless its study says otherwise
 
 // How near the worst peak is to the bound that the tuning found.
 function gapSentences({ kind, band, group, converged }) {
   const gap = Math.abs(group.number("certificate_gap"));
   if (kind !== "minimax" || !band || Number.isNaN(gap)) return [];
-  const near = gap < roundingGap ? "to rounding" : `to ${numberText(gap, 2)} (relative)`;
+  const near = gap < roundingGap ? "rounding" : `${numberText(gap, 2)} (relative)`;
   return converged
     ? [
-        `Certificate: all peaks of the band were solved; the worst of them and the bound of the tuning agree ${near}.`,
+        `Certificate: all peaks of the band were solved; the worst of them and the bound of the tuning agree to ${near}.`,
       ]
-    : [`There is no certificate: the tuning did not converge (worst peak and bound agree ${near}).`];
+    : [`There is no certificate; the worst peak and the bound of the tuning differ by ${near}.`];
 }
 
 function conditionSentences({ group, converged }) {
   const residual = group.number("kkt_residual");
   if (Number.isNaN(residual)) return [];
-  return converged
-    ? [`The conditions of a local optimum hold to ${numberText(residual, 2)} (relative).`]
-    : [`The conditions of a local optimum are not met: KKT residual ${numberText(residual, 2)} (relative).`];
+  const text = `${numberText(residual, 2)} (relative)`;
+  if (converged) return [`The conditions of a local optimum hold to ${text}.`];
+  return residual <= metResidual
+    ? [`The conditions of a local optimum hold to ${text} at the last step, which is no proof of one.`]
+    : [`The conditions of a local optimum do not hold: KKT residual ${text}.`];
 }
 
 // "12 of 20 starts reached this objective to 0.1 %".

@@ -243,8 +243,8 @@ test("of a design that breaks a limit there is no certificate, no multiplier, an
     stroke_limit_multiplier: ["m (mm)-1", "", 0.003],
   };
   const text = told(broken, 3, { limits: "stroke" });
-  assert.match(text, /There is no certificate: .* agree to 0\.014 \(relative\)/);
-  assert.match(text, /local optimum are not met: KKT residual 0\.49/);
+  assert.match(text, /There is no certificate; .* differ by 0\.014 \(relative\)/);
+  assert.match(text, /local optimum do not hold: KKT residual 0\.49/);
   assert.match(text, /It breaks the limit of stroke by 614 %\. It lies on the upper bound of k\./);
   assert.doesNotMatch(text, /held by|relaxed|Certificate|hold to/);
   const tuning = tuningOf(minimax(broken, 3, { limits: "stroke" }));
