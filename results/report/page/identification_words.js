@@ -8,18 +8,21 @@ const digits = 4,
 const mostNamed = 6; // estimates told one by one; the table has all
 const hardlyApart = 0.95; // correlation from which two estimates are hardly told apart
 const mostPairs = 3; // of those told
+const roundingPart = 1e-12; // of a value: narrower intervals are rounding
 const noCorrelation = 1e-9; // below it is rounding
 
-// Digits that a value needs so that its interval shows in it.
+// Digits that a value needs so that its interval shows in it; 0 where the interval is rounding.
 function neededDigits(value, low, high) {
   const half = (high - low) / 2;
   const size = Math.max(Math.abs(value), half);
-  return half > 0 && size > 0 ? Math.ceil(Math.log10(size / half)) + 2 : Infinity;
+  return half > roundingPart * size ? Math.ceil(Math.log10(size / half)) + 2 : 0;
 }
 
 // "26.42 to 26.59", or "\u00b10.0077" where the ends would need more than `places` digits.
 export function intervalText({ value, low, high, factor }, places) {
-  if (neededDigits(value, low, high) <= places + 1)
+  const needed = neededDigits(value, low, high);
+  if (needed === 0) return "only rounding";
+  if (needed <= places + 1)
     return `${numberText(low * factor, places)} to ${numberText(high * factor, places)}`;
   return `\u00b1${numberText(((high - low) / 2) * factor, 2)}`;
 }
