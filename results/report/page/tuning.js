@@ -40,6 +40,7 @@ function parameterOf(group, name) {
     upper: number("upper"),
     before: number("before"),
     constant: number("constant"),
+    maxSlope: number("max_slope"),
     lowerMultiplier: group.values(`${name}_lower_multiplier`) ?? [],
     upperMultiplier: group.values(`${name}_upper_multiplier`) ?? [],
     schedule: group.values(`${name}_schedule`),
@@ -146,6 +147,36 @@ export function knotsAtBounds({ values, lower, upper }) {
     lower: numbers.filter((i) => values[i] <= lower + near),
     upper: numbers.filter((i) => values[i] >= upper - near),
   };
+}
+
+const atSlope = 1e-6; // relative, within which a piece is as steep as it may be
+
+// Pieces of a schedule that are as steep as they may be; NaN where nothing bounds its slope.
+export function steepestPieces({ knots, values, maxSlope }) {
+  if (!Number.isFinite(maxSlope)) return NaN;
+  let count = 0;
+  for (let i = 0; i + 1 < knots.length; ++i) {
+    const slope = Math.abs((values[i + 1] - values[i]) / (knots[i + 1] - knots[i]));
+    if (slope >= maxSlope * (1 - atSlope)) ++count;
+  }
+  return count;
+}
+
+// Where the tuned response comes nearest to that of the best constant design, or above it: {ratio, at}; null where
+// the record has not both.
+export function nearestToConstant({ band, responses }) {
+  const of = (design) => responses.filter((response) => response.design === design);
+  const after = of("after"),
+    constant = of("constant");
+  if (!band || after.length === 0 || after.length !== constant.length) return null;
+  let nearest = { ratio: -Infinity, at: NaN };
+  after.forEach(({ values }, s) =>
+    values.forEach((value, i) => {
+      const ratio = value / constant[s].values[i];
+      if (ratio > nearest.ratio) nearest = { ratio, at: band.values[i] };
+    }),
+  );
+  return nearest;
 }
 
 // How many rounds at the end settle what the worst peak of a schedule leaves free: their bound is a mean response.

@@ -1,7 +1,7 @@
 // What a tuning means, in sentences of numbers: each is computed here from what the record holds.
 import { symbolText } from "./axes.js";
 import { certificateSentences } from "./certificate_words.js";
-import { heldBounds, knotsAtBounds, quantityWords } from "./tuning.js";
+import { heldBounds, knotsAtBounds, nearestToConstant, quantityWords, steepestPieces } from "./tuning.js";
 import { numberText, quantityText, unitText, words } from "./units.js";
 
 const digits = 4;
@@ -223,6 +223,35 @@ function knotSentences({ parameters }) {
   return knots.length ? [`${knots.join("; ")}.`] : [];
 }
 
+function slopeText({ unit, maxSlope }, band) {
+  const per = unitText(band.unit);
+  return `${quantityText(maxSlope, unit, digits)} per ${per || "unit"} of ${symbolText(band.name)}`;
+}
+
+// Schedules that change as fast as they may.
+function slopeSentences({ parameters, band }) {
+  return parameters
+    .filter((parameter) => parameter.scheduled && band && Number.isFinite(parameter.maxSlope))
+    .map((parameter) => {
+      const steep = steepestPieces(parameter),
+        all = parameter.knots.length - 1;
+      const where = steep > 0 ? `at ${steep} of ${all} pieces, which holds it too` : "nowhere";
+      return `${symbolText(parameter.name)} changes as fast as it may (${slopeText(parameter, band)}) ${where}.`;
+    });
+}
+
+const touching = 0.999; // of the constant's response, from which that holds the design
+
+function dominateSentences(tuning) {
+  const nearest = tuning.texts.dominate === "constant" ? nearestToConstant(tuning) : null;
+  if (!nearest) return [];
+  const holds = tuning.converged && nearest.ratio > touching ? ", which holds it too" : "";
+  return [
+    `The study asks that its response lie nowhere above that of the best constant design: it is at most ` +
+      `${percentText(100 * nearest.ratio, 6)} of it, at ${placeText(tuning, nearest.at)}${holds}.`,
+  ];
+}
+
 // Where what stands beside the schedule leaves its range.
 function columnSentences(tuning) {
   return tuning.columns
@@ -290,6 +319,8 @@ export function whatItMeans(tuning) {
     [
       ...heldSentences(tuning),
       ...knotSentences(tuning),
+      ...slopeSentences(tuning),
+      ...dominateSentences(tuning),
       ...columnSentences(tuning),
       ...detuningSentences(tuning),
     ],

@@ -6,6 +6,7 @@ import {
   knotsAtBounds,
   rootUnit,
   settlingRounds,
+  steepestPieces,
   tuningOf,
 } from "../../../results/report/page/tuning.js";
 import {
@@ -298,4 +299,31 @@ test("a trade-off tells which limits converged and which design is shown", () =>
     "What follows is the design for the last, 5 mm.",
   ]);
   assert.match(outcomeWarning(tuning), /^For the last limit, 5 mm: No design was found/);
+});
+
+test("a schedule tells where it is as steep as it may be, and one that dominates how near it comes", () => {
+  const scheduled = {
+    k: ["N/m", "knots_k", [600, 800, 850, 650]],
+    knots_k: ["rad s-1", "knots_k", [10, 12, 14, 16]],
+    k_max_slope: ["N/m (rad s-1)-1", "", 100],
+    response_constant: ["m", "omega", [0.02, 0.05, 0.04, 0.015000001, 0.02]],
+  };
+  assert.equal(steepestPieces(tuningOf(minimax(scheduled)).parameters[0]), 2);
+  const text = told(scheduled, 1, { dominate: "constant" });
+  assert.match(
+    text,
+    /k changes as fast as it may \(100 N\/m per rad\/s of ω\) at 2 of 3 pieces, which holds it too\./,
+  );
+  assert.match(text, /nowhere above .*: it is at most 100 % of it, at 16 rad\/s, which holds it too\./);
+  assert.doesNotMatch(told(scheduled), /nowhere above/);
+  assert.ok(Number.isNaN(steepestPieces(tuningOf(minimax()).parameters[0])));
+});
+
+test("a standard deviation is compared with that of the design before", () => {
+  const text = told(
+    { objective: ["(m)2", "", 4e-6], worst_before: ["(m)2", "", 16e-6], worst_after: ["(m)2", "", 4e-6] },
+    1,
+    { objective_kind: "variance", quantity: "main_rms" },
+  );
+  assert.match(text, /Standard deviation of main: 2 mm\. Against the design before \(4 mm\): 50 % less/);
 });

@@ -1,7 +1,7 @@
 // The response over the band: as the study states it, tuned, of the best constant and by the rule.
 import { coordinateLabel, symbolText } from "../axes.js";
-import { designNames, responseWords } from "../tuning.js";
-import { words } from "../units.js";
+import { designNames, responseWords, steepestPieces } from "../tuning.js";
+import { numberText, words } from "../units.js";
 import { lineFigure } from "./line_figure.js";
 import { lineColours, lineDashes } from "./frame.js";
 
@@ -138,6 +138,13 @@ function knotPoints({ knots, values, lower, upper }, { lower: low, upper: high }
   ].filter(({ x }) => x.length > 0);
 }
 
+function steepText(parameter) {
+  const steep = steepestPieces(parameter);
+  if (Number.isNaN(steep)) return "";
+  const most = `${numberText(parameter.maxSlope)} up or down`;
+  return `; as steep as it may be (${most}) at ${steep} of ${parameter.knots.length - 1} pieces`;
+}
+
 export function scheduleFigure({ band }, parameter, atBounds) {
   const { name, unit, schedule, rule, constant, before, lower, upper, knots, values } = parameter;
   const over = schedule ? band.values : knots,
@@ -145,7 +152,7 @@ export function scheduleFigure({ band }, parameter, atBounds) {
   return lineFigure({
     name: `schedule_${name}`,
     title: `Schedule of ${symbolText(name)}`,
-    caption: "Linear between its knots.",
+    caption: `Linear between its knots${steepText(parameter)}.`,
     x: { ...axisOf(band), tight: true },
     y: { label: symbolText(name), unit },
     lines: [
