@@ -98,6 +98,8 @@ function lineMark(line, canvas, x, y) {
   );
 }
 
+const isWithin = (value, [low, high]) => value >= low && value <= high;
+
 // Dots in the order of their x, as histories without lines have them, are thinned as lines are.
 function pointMark(points, canvas, x, y) {
   const many = points.x.length > mostDots;
@@ -106,7 +108,7 @@ function pointMark(points, canvas, x, y) {
     ys = scaled(thin.y, y);
   const places = xs
     .map((value, i) => [value, ys[i]])
-    .filter(([a, b]) => Number.isFinite(a) && Number.isFinite(b));
+    .filter(([a, b]) => isWithin(a, x.options.domain) && isWithin(b, y.options.domain));
   const open = points.symbol === "open";
   return Plot.dot(places, {
     r: points.r ?? 3.2,
