@@ -76,6 +76,8 @@ class Report {
       judge_certificate(optimum);
     } else {
       optimum.objective = stages_.decisive.objective_again;
+      if (optimum.outcome == Outcome::converged)  // there is no bound to compare it with
+        optimum.reason = "the KKT residual is below its tolerance";
     }
     write_peaks(optimum);
     write_limits(optimum);

@@ -115,12 +115,43 @@ std::vector<std::string> axis_parameters(const results::MapLayout& layout,
   return names;
 }
 
-// What the page shows besides the file: the motion of the study's cranks.
+// The frequency of the excitation [rad/s] as the study states it, by which the page knows a period.
+results::Column excitation_frequency(const StudyFile& study) {
+  std::vector<double> parameters = study.parameters.nominal();
+  mechanics::NetworkValues values;
+  evaluate(study.values, study.parameters, parameters, values);
+  return {.variable = {.name = "excitation_frequency",
+                       .unit = study.dimensionless ? "1" : "rad s-1",
+                       .long_name = "excitation frequency as the study states it"},
+          .values = {values.omega}};
+}
+
+results::Column number_of(const StudyFile& study, mechanics::ElementType type, const std::string& name) {
+  const auto& elements = study.network.elements;
+  const auto is_one = [&](const mechanics::Element& element) { return element.type == type; };
+  const auto number = std::count_if(elements.begin(), elements.end(), is_one);
+  return {.variable = {.name = name, .unit = "1", .long_name = "number of them in the study"},
+          .values = {static_cast<double>(number)}};
+}
+
+// By what the page of a motion knows whether it can end, and what a period is.
+std::vector<results::Column> motion_facts(const StudyFile& study) {
+  using mechanics::ElementType;
+  std::vector<results::Column> facts = {number_of(study, ElementType::coulomb, "coulomb_elements"),
+                                        number_of(study, ElementType::hysteretic, "hysteretic_elements")};
+  if (study.kind == StudyKind::transient) facts.push_back(excitation_frequency(study));
+  return facts;
+}
+
+// What the page shows besides the file: the motion of the study's cranks, and facts of a study of one motion.
 std::vector<results::PageGroup> further_groups(const std::optional<StudyFile>& study) {
-  std::vector<results::Column> cranks;
-  if (study) cranks = crank_motions(*study);
-  if (cranks.empty()) return {};
-  return {{.name = "crank", .columns = std::move(cranks)}};
+  if (!study) return {};
+  std::vector<results::PageGroup> groups;
+  if (std::vector<results::Column> cranks = crank_motions(*study); !cranks.empty())
+    groups.push_back({.name = "crank", .columns = std::move(cranks)});
+  if (study->kind == StudyKind::transient || study->kind == StudyKind::decay)
+    groups.push_back({.name = "study", .columns = motion_facts(*study)});
+  return groups;
 }
 
 results::PageContent content_of(const ReportOptions& options, const results::MapReader& result) {

@@ -32,6 +32,13 @@ double range_flag(const ColumnChoice& column, double value) {
   return value < column.lower ? 2.0 : value > column.upper ? 3.0 : 1.0;
 }
 
+void add_worst(const TuningAbout& about, const tuning::Curve& curve, GroupColumns& columns) {
+  const char* what =
+      about.tune.objective == tuning::Objective::minimax ? "true maximum of the response" : "objective";
+  columns.add_number("worst_" + curve.name, objective_unit(about.study),
+                     fmt::format("{}, {}", what, curve.name), curve.worst);
+}
+
 void add_curves(const TuningAbout& about, GroupColumns& columns) {
   const auto names = scenario_names(about.study);
   for (const tuning::Curve& curve : about.result.assessment.curves) {
@@ -42,8 +49,7 @@ void add_curves(const TuningAbout& about, GroupColumns& columns) {
                               of.empty() ? "" : ", scenario " + names[s]),
                   about.band, curve.value[s]);
     }
-    columns.add_number("worst_" + curve.name, objective_unit(about.study),
-                       fmt::format("true maximum of the response, {}", curve.name), curve.worst);
+    add_worst(about, curve, columns);
   }
 }
 
@@ -83,7 +89,10 @@ void add_column(const TuningAbout& about, const ColumnChoice& column, GroupColum
 }  // namespace
 
 void add_band(const TuningAbout& about, GroupColumns& columns) {
-  if (!about.tune.band || about.result.assessment.band.empty()) return;
+  if (!about.tune.band || about.result.assessment.band.empty()) {  // a variance is of all frequencies
+    for (const tuning::Curve& curve : about.result.assessment.curves) add_worst(about, curve, columns);
+    return;
+  }
   std::vector<double> places;
   for (const double place : about.result.assessment.band) places.push_back(about.spoken_band(place));
   columns.add(about.band, about.band_unit, "band of the tuning", about.band, places);

@@ -102,15 +102,17 @@ std::vector<results::Text> optimum_texts(const StudyFile& study, const TuningRes
   std::vector<std::string> designs, limits;
   for (const NamedDesign& design : about.designs) designs.push_back(design.name);
   for (const NamedLimit& limit : named_limits(study, 0.0)) limits.push_back(limit.name);
-  return {{"reason", about.optimum.reason},
-          {"objective_kind", objective_name(tune.objective)},
-          {"quantity", tune.quantity_name},
-          {"band_parameter", about.band},
-          {"parameters", fmt::format("{}", fmt::join(designs, ","))},
-          {"scenarios", fmt::format("{}", fmt::join(scenario_names(study), ","))},
-          {"limits", fmt::format("{}", fmt::join(limits, ","))},
-          {"solver", tune.solver},
-          {"start", start_text(tune)}};
+  std::vector<results::Text> texts = {{"reason", about.optimum.reason},
+                                      {"objective_kind", objective_name(tune.objective)},
+                                      {"quantity", tune.quantity_name},
+                                      {"band_parameter", about.band},
+                                      {"parameters", fmt::format("{}", fmt::join(designs, ","))},
+                                      {"scenarios", fmt::format("{}", fmt::join(scenario_names(study), ","))},
+                                      {"limits", fmt::format("{}", fmt::join(limits, ","))},
+                                      {"solver", tune.solver},
+                                      {"start", start_text(tune)}};
+  if (tune.dominate_constant) texts.emplace_back("dominate", "constant");
+  return texts;
 }
 
 void check_record_names(const StudyFile& study) {

@@ -29,7 +29,8 @@ struct TuningAbout {
   std::string band, band_unit = "1";
 };
 
-// Everything along the band: the responses, the schedule and what stands beside it.
+// Everything along the band: the responses, the schedule and what stands beside it; and the objectives of the
+// designs compared, which a variance has without a band.
 void add_band(const TuningAbout& about, GroupColumns& columns);
 
 // Every design parameter of several optima, a column for each knot of a schedule. prefix: of the names;

@@ -74,6 +74,10 @@ void add_design(const TuningAbout& about, GroupColumns& columns, std::size_t i) 
   columns.add_number(name + "_upper", unit, "upper bound of " + name, choice.upper / factor);
   const double nominal = about.study.parameters.nominal()[choice.parameter];
   columns.add_number(name + "_before", unit, name + " as the study states it", nominal / factor);
+  if (std::isfinite(choice.max_slope))
+    columns.add_number(name + "_max_slope", per_unit(unit, about.band_unit),
+                       "largest slope that the schedule of " + name + " may have, up or down",
+                       choice.max_slope * about.tune.band->unit.si_factor / factor);
   const std::string price = per_unit(objective_unit(about.study), unit);
   columns.add(name + "_lower_multiplier", price,
               "fall of the objective per unit by which the lower bound of " + name + " is moved down", along,

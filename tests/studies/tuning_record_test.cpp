@@ -1,5 +1,6 @@
 #include "studies/tuning/tuning_record.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -32,7 +33,8 @@ const std::string rig =
     "[excitation]\nfrequency = \"n\"\n[[excitation.force]]\non = \"main\"\namplitude = 240\n"
     "[tune]\nobjective = \"minimax\"\nquantity = \"main_peak\"\n"
     "band = { parameter = \"n\", from = 150, to = 350, unit = \"rpm\" }\n"
-    "[[design]]\nparameter = \"I\"\nlower = 4\nupper = 13\nschedule = { knots = [150, 200, 350] }\n"
+    "[[design]]\nparameter = \"I\"\nlower = 4\nupper = 13\nschedule = { knots = [150, 200, 350], max_slope = "
+    "0.25 }\n"
     "rule = \"k/n^2\"\n"
     "[[design]]\nparameter = \"k\"\nlower = 5\nupper = 20\n"
     "[[constraint]]\nquantity = \"tmd_spring_stroke\"\nupper = 80\nunit = \"mm\"\n"
@@ -81,6 +83,8 @@ TEST_CASE("the record of a tuning is in the units of its study") {
   CHECK(named(columns, "I").dimension == "knots_I");
   CHECK_THAT(values("knots_I")[1], Catch::WithinRel(200.0, rounding));
   CHECK(unit("knots_I") == "rpm");
+  CHECK_THAT(values("I_max_slope")[0], Catch::WithinRel(0.25, rounding));
+  CHECK(unit("I_max_slope") == "kg (rpm)-1");
   CHECK_THAT(values("k_sensitivity")[0], Catch::WithinRel(3e-3, rounding));
   CHECK_THAT(values("peak_n")[0], Catch::WithinRel(150.0, rounding));
   CHECK_THAT(values("tmd_spring_stroke_limited")[0], Catch::WithinRel(70.0, rounding));
@@ -95,6 +99,33 @@ TEST_CASE("the record of a tuning is in the units of its study") {
   CHECK(values("best_start") == std::vector<double>{1});
   CHECK(values("start_objective") == std::vector<double>{0.03, 0.02});
   CHECK(std::isnan(values("start_k")[0]));
+}
+
+TEST_CASE("a record tells that its schedule was to dominate the constant, and only then") {
+  const auto dominate = [](const StudyFile& study) {
+    const auto texts = optimum_texts(study, rig_result(study));
+    const auto is_it = [](const results::Text& text) { return text.first == "dominate"; };
+    const auto found = std::find_if(texts.begin(), texts.end(), is_it);
+    return found == texts.end() ? std::string() : found->second;
+  };
+  CHECK(dominate(parse(rig)).empty());
+  std::string dominating = rig;
+  dominating.replace(dominating.find("[[design]]"), 10, "dominate = \"constant\"\n[[design]]");
+  CHECK(dominate(parse(dominating)) == "constant");
+}
+
+TEST_CASE("a variance without a band has the objective of the design before beside that after") {
+  const StudyFile study = parse(
+      heading + absorber +
+      "[tune]\nobjective = \"variance\"\nquantity = \"main_rms\"\nnoise = { force_on = \"main\" }\n" + of_f);
+  tuning::Optimum optimum = optimum_of(2.0);
+  optimum.parameters = {{{0.9}, {0}, {0}}};
+  TuningResult result{.starts = {{0, {optimum}}}, .best = {0}, .assessment = {}};
+  result.assessment.curves = {{"before", {}, 3.0}, {"after", {}, 2.0}};
+  const auto columns = optimum_columns(study, result);
+  results::check(columns);
+  CHECK(named(columns, "worst_before").values == std::vector<double>{3.0});
+  CHECK(named(columns, "worst_after").values == std::vector<double>{2.0});
 }
 
 TEST_CASE("every unit of the record is one that UDUNITS reads") {
@@ -153,7 +184,7 @@ TEST_CASE("what changes an optimum is physics; starts, rules and columns are not
            {"to = 350", "to = 350.5"},
            {"upper = 20", "upper = 21"},
            {"knots = [150, 200, 350]", "knots = 3"},
-           {"[150, 200, 350]", "[150, 200, 350], max_slope = 1"},
+           {"max_slope = 0.25", "max_slope = 1"},
            {"upper = 80", "upper = 81"},
            {"\"main_peak\"", "\"tmd_peak\""},
            {"\"minimax\"", "\"mean_square\""},

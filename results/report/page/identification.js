@@ -89,13 +89,51 @@ export function residualRms({ residual }) {
   return Math.sqrt(known.reduce((sum, value) => sum + value * value, 0) / known.length);
 }
 
-// The two different estimates whose correlation is largest: {a, b, value}, or null.
-export function closestPair(estimates) {
-  let closest = null;
-  estimates.forEach(({ name, correlation }, i) =>
-    correlation.forEach(({ with: other, value }, j) => {
-      if (j > i && Math.abs(value) > Math.abs(closest?.value ?? 0)) closest = { a: name, b: other, value };
-    }),
+// What each method finds independently, each by the first of its names that the record has; the other estimates follow
+// from these. Of a method not named here all estimates are.
+const independentOf = {
+  added_mass: [["mass"], ["stiffness"]],
+  energy_balance: [["damping"], ["friction_force"]],
+  forced_resonance: [
+    ["damping", "damping_ratio"],
+    ["friction_force", "friction_displacement"],
+  ],
+  free_decay: [
+    ["damping", "damping_ratio"],
+    ["friction_force", "friction_displacement"],
+    ["natural_frequency"],
+  ],
+  half_power: [["damping_ratio"], ["natural_frequency"]],
+  hysteresis_loop: [["storage_stiffness"], ["equivalent_damping"]],
+  log_decrement: [["damping_ratio"], ["natural_frequency"]],
+};
+
+export function independentEstimates({ method, estimates }) {
+  const chosen = independentOf[method];
+  if (!chosen) return estimates;
+  return chosen
+    .map((names) => names.map((name) => estimates.find((estimate) => estimate.name === name)).find(Boolean))
+    .filter(Boolean);
+}
+
+// Pairs of independent estimates whose correlation is at least `least`: [{a, b, value}], the closest first.
+export function closePairs(identification, least) {
+  const independent = independentEstimates(identification);
+  const pairs = independent.flatMap((one, i) =>
+    independent.slice(i + 1).map((other) => ({
+      a: one.name,
+      b: other.name,
+      value: one.correlation.find((correlation) => correlation.with === other.name)?.value ?? NaN,
+    })),
   );
-  return closest;
+  return pairs
+    .filter(({ value }) => Math.abs(value) >= least)
+    .sort((p, q) => Math.abs(q.value) - Math.abs(p.value));
+}
+
+// Whether the data of a record are more than what was found from them, so that its fit tells anything.
+export function hasFreedom({ series, ...identification }, record) {
+  const own = series.filter((one) => one.record === record);
+  const data = own.reduce((sum, { measured }) => sum + measured.values.length, 0);
+  return own.length === 0 || data > independentEstimates(identification).length;
 }

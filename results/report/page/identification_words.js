@@ -1,34 +1,63 @@
 // What an identification means, in sentences of numbers.
 import { symbolText } from "./axes.js";
-import { certainty, closestPair } from "./identification.js";
+import { certainty, closePairs, hasFreedom } from "./identification.js";
 import { numberText, shownUnit, words } from "./units.js";
 
-const digits = 4;
+const digits = 4,
+  mostDigits = 10;
 const mostNamed = 6; // estimates told one by one; the table has all
 const hardlyApart = 0.95; // correlation from which two estimates are hardly told apart
-const asOne = 1 - 1e-6; // and from which one follows from the other
+const mostPairs = 3; // of those told
+const roundingPart = 1e-12; // of a value: narrower intervals are rounding
+const noCorrelation = 1e-9; // below it is rounding
+
+// Digits that a value needs so that its interval shows in it; 0 where the interval is rounding.
+function neededDigits(value, low, high) {
+  const half = (high - low) / 2;
+  const size = Math.max(Math.abs(value), half);
+  return half > roundingPart * size ? Math.ceil(Math.log10(size / half)) + 2 : 0;
+}
+
+// "26.42 to 26.59", or "\u00b10.0077" where the ends would need more than `places` digits.
+export function intervalText({ value, low, high, factor }, places) {
+  const needed = neededDigits(value, low, high);
+  if (needed === 0) return "only rounding";
+  if (needed <= places + 1)
+    return `${numberText(low * factor, places)} to ${numberText(high * factor, places)}`;
+  return `\u00b1${numberText(((high - low) / 2) * factor, 2)}`;
+}
 
 // "26.51 N s/m (95 %: 26.42 to 26.59)".
 export function estimateText(estimate) {
   const { value, low, high, unit } = estimate;
   if (Number.isNaN(value)) return "not determined by the data";
   const { factor, text } = shownUnit(unit, [value, low, high]);
-  const inUnit = (number) => numberText(number * factor, digits),
-    after = text ? ` ${text}` : "";
+  const after = text ? ` ${text}` : "";
+  const inUnit = (places) => `${numberText(value * factor, places)}${after}`;
   switch (certainty(estimate)) {
-    case "determined":
-      return `${inUnit(value)}${after} (95 %: ${inUnit(low)} to ${inUnit(high)})`;
+    case "determined": {
+      const places = Math.min(mostDigits, Math.max(digits, neededDigits(value, low, high)));
+      return `${inUnit(places)} (95 %: ${intervalText({ value, low, high, factor }, digits)})`;
+    }
     case "undetermined":
-      return `${inUnit(value)}${after}, which the data do not determine`;
+      return `${inUnit(digits)}, which the data do not determine`;
     default:
-      return `${inUnit(value)}${after} (no interval: no more data than unknowns)`;
+      return `${inUnit(digits)} (no interval: no more data than unknowns)`;
   }
 }
 
+// A correlation with as many digits as tell it from one, and rounding as zero.
+export function correlationText(value, places = digits) {
+  if (Math.abs(value) < noCorrelation) return "0";
+  const apart = 1 - Math.abs(value);
+  return numberText(value, apart > 1e-12 ? Math.max(places, Math.ceil(-Math.log10(apart))) : places);
+}
+
 function estimateSentences({ estimates }) {
-  const told = estimates
-    .slice(0, mostNamed)
-    .map((estimate) => `${symbolText(estimate.name)} = ${estimateText(estimate)}`);
+  const told = estimates.slice(0, mostNamed).map((estimate) => {
+    const is = Number.isNaN(estimate.value) ? "is" : "=";
+    return `${symbolText(estimate.name)} ${is} ${estimateText(estimate)}`;
+  });
   if (told.length === 0) return [];
   return [
     `${told.join("; ")}.`,
@@ -36,26 +65,32 @@ function estimateSentences({ estimates }) {
   ];
 }
 
-function qualitySentences({ quality }) {
-  const known = quality.filter(({ nrmse }) => Number.isFinite(nrmse));
+function qualitySentences(identification) {
+  const known = identification.quality.filter(
+    ({ record, nrmse }) => Number.isFinite(nrmse) && hasFreedom(identification, record),
+  );
   if (known.length === 0) return [];
   const each = known.map(({ record, nrmse }) => `${numberText(nrmse, digits)} % of ${words(record)}`);
   return [`The model reproduces ${each.join(", ")} (NRMSE fit; 100 % is without any residual).`];
 }
 
-function doubtSentences({ estimates }) {
+function doubtSentences(identification) {
+  const { estimates } = identification;
   const sentences = [];
   const crossing = estimates.filter(
     (estimate) => certainty(estimate) === "determined" && estimate.low < 0 && estimate.high > 0,
   );
   if (crossing.length)
     sentences.push(`Not told from zero at 95 %: ${crossing.map(({ name }) => symbolText(name)).join(", ")}.`);
-  const pair = closestPair(estimates);
-  if (pair && Math.abs(pair.value) >= hardlyApart && Math.abs(pair.value) < asOne) {
-    sentences.push(
-      `${symbolText(pair.a)} and ${symbolText(pair.b)} are correlated (${numberText(pair.value, digits)}): the ` +
-        `data hardly tell them apart.`,
-    );
+  const pairs = closePairs(identification, hardlyApart);
+  if (pairs.length) {
+    const told = pairs
+      .slice(0, mostPairs)
+      .map(
+        ({ a, b, value }) => `${symbolText(a)} and ${symbolText(b)} (correlation ${correlationText(value)})`,
+      );
+    const more = pairs.length > mostPairs ? `; ${pairs.length - mostPairs} more pairs stand below` : "";
+    sentences.push(`The data hardly tell apart ${told.join(", ")}${more}.`);
   }
   return sentences;
 }

@@ -70,10 +70,14 @@ export function motionOf(record, kind) {
     ...namesWith(group, "_peak", ""),
   ]);
   const frequency = group.column("frequency");
+  const fact = (name) => record.groups.get("study")?.number(name) ?? NaN;
   return {
     kind,
     group,
     time,
+    excitation: fact("excitation_frequency"),
+    mayStop: fact("coulomb_elements") !== 0,
+    hysteretic: fact("hysteretic_elements") !== 0,
     duration,
     stopTime: group.number("stop_time"),
     masses: [...names].map((name) => massOf(group, name)),
@@ -83,6 +87,54 @@ export function motionOf(record, kind) {
     energies: energiesOf(group),
     frequency: frequency?.dimension === "time" ? frequency : null,
     discretisationError: group.number("discretisation_error"),
+  };
+}
+
+const leastSamples = 8; // of a period, that their joining lines show the motion
+const goodSamples = 20; // of a period, to ask for
+const median = (values) => [...values].sort((a, b) => a - b)[values.length >> 1];
+
+// The time from a turning point to the next but one, of the mass that turns most often.
+function periodOfTurning({ masses }) {
+  const of = ({ turningTimes }) =>
+    2 *
+    median(
+      Array.from(turningTimes)
+        .slice(1)
+        .map((t, i) => t - turningTimes[i]),
+    );
+  const periods = masses.filter(({ turningTimes }) => turningTimes.length > 1).map(of);
+  return periods.length ? Math.min(...periods) : NaN;
+}
+
+// The period of the excitation, of a run-up or run-down the shortest.
+function periodOfExcitation({ frequency, excitation }) {
+  const fastest = frequency ? frequency.values.reduce((a, b) => Math.max(a, b), 0) : excitation;
+  return (2 * Math.PI) / fastest;
+}
+
+// Whether a mass moves farther between its samples than joined samples of `leastSamples` a period could miss.
+function missesPeak({ displacement, peak }) {
+  if (!displacement || !(peak > 0)) return false;
+  const seen = displacement.values.reduce((most, value) => Math.max(most, Math.abs(value)), 0);
+  return seen < peak * Math.cos(Math.PI / leastSamples);
+}
+
+// How the samples of a history stand to what moves: {step [s], period [s] or NaN, perPeriod, sparse: whether lines
+// that join them would show another motion, enough: how many samples would do, NaN where that is not known}.
+export function samplingOf(motion) {
+  const { kind, time, masses, duration } = motion;
+  if (!time || time.values.length < 2)
+    return { step: NaN, period: NaN, perPeriod: NaN, sparse: false, enough: NaN };
+  const step = (time.values.at(-1) - time.values[0]) / (time.values.length - 1);
+  const period = kind === "decay" ? periodOfTurning(motion) : periodOfExcitation(motion);
+  const perPeriod = period / step;
+  return {
+    step,
+    period,
+    perPeriod,
+    sparse: perPeriod < leastSamples || masses.some(missesPeak),
+    enough: Math.ceil((goodSamples * duration) / period) + 1,
   };
 }
 
@@ -97,6 +149,24 @@ export function envelope({ turningTimes, turningPoints }) {
     side.y.push(value);
   });
   return { upper, lower };
+}
+
+const roundingDecrement = 1e-12; // logarithmic decrements below it are rounding
+const roundingPart = 1e-12; // displacements below this part of the largest are rounding
+
+export function isRounding(decrement) {
+  return Math.abs(decrement) < roundingDecrement;
+}
+
+// Whether a displacement is nothing beside those of the turning points.
+export function isRoundingOf(value, turningPoints) {
+  const largest = turningPoints.reduce((most, point) => Math.max(most, Math.abs(point)), 0);
+  return Math.abs(value) <= roundingPart * largest;
+}
+
+// Whether the decrements end before the cycles do: the rest is rounding.
+export function decrementsEndEarly({ decrements, turningPoints }) {
+  return decrements.length > 0 && decrements.length < turningPoints.length - 2;
 }
 
 // The damping ratio of viscous damping with this logarithmic decrement of a full cycle.

@@ -1,12 +1,21 @@
 // What a motion means, in sentences of numbers.
-import { dampingRatio, interpolated } from "./motion.js";
+import {
+  dampingRatio,
+  decrementsEndEarly,
+  interpolated,
+  isRounding,
+  isRoundingOf,
+  samplingOf,
+} from "./motion.js";
 import { numberText, quantityText, words } from "./units.js";
 
 const digits = 4;
 const percentText = (share) => `${numberText(100 * share, 3)} %`;
 
-function restSentence({ kind, stopTime, duration }) {
+// Of all masses together, where the sentences of each have not told it.
+function restSentence({ kind, stopTime, duration, masses }) {
   if (kind !== "decay") return [];
+  if (Number.isNaN(stopTime) && masses.some(({ rest }) => Number.isFinite(rest))) return [];
   return [
     Number.isFinite(stopTime)
       ? `From ${quantityText(stopTime, "s", digits)} on nothing moves.`
@@ -14,23 +23,55 @@ function restSentence({ kind, stopTime, duration }) {
   ];
 }
 
-function decayOf({ name, unit, turningPoints, decrements, rest }) {
-  const sentences = [];
-  if (turningPoints.length > 0)
-    sentences.push(
-      `mass ${words(name)} turns ${turningPoints.length} times, first at ` +
-        `${quantityText(turningPoints[0], unit, digits)}, last at ${quantityText(turningPoints.at(-1), unit, digits)}.`,
-    );
-  const first = decrements[0],
-    last = decrements.at(-1);
-  if (decrements.length > 0)
-    sentences.push(
-      `Its logarithmic decrement is ${numberText(first, digits)} in the first cycle (as of ` +
-        `${percentText(dampingRatio(first))} viscous ` +
-        `damping)${decrements.length > 1 ? ` and ${numberText(last, digits)} in the last` : ""}.`,
-    );
-  if (Number.isFinite(rest)) sentences.push(`It comes to lie at ${quantityText(rest, unit, digits)}.`);
-  return sentences;
+// "0.51", or that it is zero but for rounding.
+export function decrementText(decrement, places = digits) {
+  return isRounding(decrement) ? "0 (rounding)" : numberText(decrement, places);
+}
+
+function turningSentence({ name, unit, turningPoints }) {
+  const count = turningPoints.length;
+  if (count === 0) return [];
+  const first = quantityText(turningPoints[0], unit, digits);
+  if (count === 1) return [`mass ${words(name)} turns once, at ${first}.`];
+  const last = isRoundingOf(turningPoints.at(-1), turningPoints)
+    ? "a displacement below rounding"
+    : quantityText(turningPoints.at(-1), unit, digits);
+  return [`mass ${words(name)} turns ${count} times, first at ${first}, last at ${last}.`];
+}
+
+function decrementSentence(mass) {
+  const { decrements } = mass,
+    count = decrements.length;
+  if (count === 0) return [];
+  if (decrements.every(isRounding))
+    return ["Its logarithmic decrement is 0 but for rounding: nothing damps it."];
+  const first = `${decrementText(decrements[0])} in the first cycle`;
+  const ratio = isRounding(decrements[0])
+    ? ""
+    : ` (as of ${percentText(dampingRatio(decrements[0]))} viscous damping)`;
+  const which = decrementsEndEarly(mass)
+    ? `the last that is above rounding, that from turning point ${count} of ${mass.turningPoints.length}`
+    : "the last";
+  const last = count > 1 ? ` and ${decrementText(decrements.at(-1))} in ${which}` : "";
+  return [`Its logarithmic decrement is ${first}${ratio}${last}.`];
+}
+
+// Where a mass rests or what it tends to; zero where that is a rounding of how far it moves.
+export function restText({ rest, unit, turningPoints }, places = digits) {
+  return rest !== 0 && isRoundingOf(rest, turningPoints) ? "0 (rounding)" : quantityText(rest, unit, places);
+}
+
+// Where it lies in the end, if it ever does.
+function restOfMass(mass, { stopTime, duration, mayStop }) {
+  if (!Number.isFinite(mass.rest)) return [];
+  const at = restText(mass);
+  if (Number.isFinite(stopTime)) return [`It comes to lie at ${at}.`];
+  if (!mayStop) return [`It tends to ${at} without ever arriving.`];
+  return [`It does not reach its rest, ${at}, within ${quantityText(duration, "s", digits)}.`];
+}
+
+function decayOf(mass, motion) {
+  return [...turningSentence(mass), ...decrementSentence(mass), ...restOfMass(mass, motion)];
 }
 
 function peakOf({ name, unit, peak, peakTime }, { time, frequency }) {
@@ -84,12 +125,27 @@ function energySentences({ energies, group }) {
   ];
 }
 
+// Why the history is drawn as dots, and how to see the motion; "" where its samples are dense enough.
+export function sparseText(motion) {
+  const { step, period, perPeriod, sparse, enough } = samplingOf(motion);
+  if (!sparse) return "";
+  const few = Number.isFinite(period)
+    ? `${numberText(perPeriod, 3)} to a period of ${quantityText(period, "s", digits)}`
+    : "and the largest displacement lies between them";
+  const more = Number.isFinite(enough) ? `With samples = ${enough} or more` : "With more samples";
+  return (
+    `The samples stand ${quantityText(step, "s", digits)} apart, ${few}: lines that join them would show another ` +
+    `motion, so they are drawn as dots, without cycles and phase portraits. ${more} in [${motion.kind}] of the ` +
+    `study it would be seen.`
+  );
+}
+
 // Paragraphs of sentences: [[sentence, ...], ...].
 export function whatItMeans(motion) {
   return [
     [
       ...errorSentence(motion),
-      ...motion.masses.flatMap((mass) => [...decayOf(mass), ...peakOf(mass, motion)]),
+      ...motion.masses.flatMap((mass) => [...decayOf(mass, motion), ...peakOf(mass, motion)]),
       ...restSentence(motion),
     ],
     stopSentences(motion),

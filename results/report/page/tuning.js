@@ -2,6 +2,8 @@
 import { words } from "./units.js";
 
 export const designNames = { before: "before", after: "tuned", constant: "best constant", rule: "rule" };
+const brokenFrom = 1e-5; // relative, from which a limit counts as broken
+const sameHeight = 1e-6; // relative, within which two peaks are as high
 const heldFrom = 1e-6; // share, or relative gain, from which something counts as holding the design
 
 // "(m)2" to "m": the unit of the root of a mean square or a variance.
@@ -13,6 +15,11 @@ export function rootUnit(unit) {
 export function quantityWords({ kind, quantity }) {
   const text = words(quantity);
   return kind === "variance" ? text.replace(/ rms$/, "") : text;
+}
+
+// The same with its weight: the response that the record holds.
+export function responseWords(tuning) {
+  return `${tuning.weight ? "weighted " : ""}${words(tuning.quantity)}`;
 }
 
 function listOf(text) {
@@ -33,6 +40,7 @@ function parameterOf(group, name) {
     upper: number("upper"),
     before: number("before"),
     constant: number("constant"),
+    maxSlope: number("max_slope"),
     lowerMultiplier: group.values(`${name}_lower_multiplier`) ?? [],
     upperMultiplier: group.values(`${name}_upper_multiplier`) ?? [],
     schedule: group.values(`${name}_schedule`),
@@ -42,7 +50,8 @@ function parameterOf(group, name) {
   };
 }
 
-function peaksOf(group, band, scenarios) {
+// Which peaks hold the design is known of a tuning that converged.
+function peaksOf(group, band, scenarios, { converged, objective }) {
   const values = group.values("peak_value") ?? [];
   return Array.from(values, (value, i) => {
     const share = group.values("peak_multiplier")[i];
@@ -50,14 +59,23 @@ function peaksOf(group, band, scenarios) {
       at: group.values(`peak_${band}`)[i],
       value,
       share,
-      active: share > heldFrom,
+      active: converged && share > heldFrom,
+      asHigh: Math.abs(value - objective) <= sameHeight * Math.abs(objective),
       number: i,
       scenario: scenarios[group.values("peak_scenario")[i]] ?? "",
     };
   });
 }
 
-function limitsOf(group, names, scenarios, objective) {
+// How far a value lies beyond its limits, relative to the limit; 0 where it keeps them.
+function brokenBy(value, lower, upper) {
+  const over = Number.isFinite(upper) ? (value - upper) / Math.abs(upper || 1) : 0;
+  const under = Number.isFinite(lower) ? (lower - value) / Math.abs(lower || 1) : 0;
+  const most = Math.max(over, under);
+  return most > brokenFrom ? most : 0;
+}
+
+function limitsOf(group, names, scenarios, { converged, objective }) {
   return names.map((name) => {
     const number = (suffix) => group.number(`${name}_${suffix}`);
     const multiplier = number("limit_multiplier"),
@@ -71,7 +89,9 @@ function limitsOf(group, names, scenarios, objective) {
       lower: number("lower_limit"),
       upper: limit,
       multiplier,
+      broken: brokenBy(number("limited"), number("lower_limit"), limit),
       active:
+        converged &&
         multiplier * Math.abs(Number.isFinite(limit) ? limit : number("lower_limit")) > heldFrom * objective,
     };
   });
@@ -101,9 +121,10 @@ function extraColumns(group, band) {
     }));
 }
 
-// Bounds of a parameter that hold the design: [{end, knots, multiplier, gain}], gain: relative fall of the objective
+// Bounds of a parameter that hold the design of a tuning that converged: [{end, knots, multiplier, gain}], gain: relative fall of the objective
 // when that bound is moved outwards by a hundredth of the range.
-export function heldBounds(parameter, objective) {
+export function heldBounds({ converged, objective }, parameter) {
+  if (!converged) return [];
   const room = (parameter.upper - parameter.lower) / 100;
   return [
     ["lower", parameter.lowerMultiplier],
@@ -128,6 +149,36 @@ export function knotsAtBounds({ values, lower, upper }) {
   };
 }
 
+const atSlope = 1e-6; // relative, within which a piece is as steep as it may be
+
+// Pieces of a schedule that are as steep as they may be; NaN where nothing bounds its slope.
+export function steepestPieces({ knots, values, maxSlope }) {
+  if (!Number.isFinite(maxSlope)) return NaN;
+  let count = 0;
+  for (let i = 0; i + 1 < knots.length; ++i) {
+    const slope = Math.abs((values[i + 1] - values[i]) / (knots[i + 1] - knots[i]));
+    if (slope >= maxSlope * (1 - atSlope)) ++count;
+  }
+  return count;
+}
+
+// Where the tuned response comes nearest to that of the best constant design, or above it: {ratio, at}; null where
+// the record has not both.
+export function nearestToConstant({ band, responses }) {
+  const of = (design) => responses.filter((response) => response.design === design);
+  const after = of("after"),
+    constant = of("constant");
+  if (!band || after.length === 0 || after.length !== constant.length) return null;
+  let nearest = { ratio: -Infinity, at: NaN };
+  after.forEach(({ values }, s) =>
+    values.forEach((value, i) => {
+      const ratio = value / constant[s].values[i];
+      if (ratio > nearest.ratio) nearest = { ratio, at: band.values[i] };
+    }),
+  );
+  return nearest;
+}
+
 // How many rounds at the end settle what the worst peak of a schedule leaves free: their bound is a mean response.
 export function settlingRounds({ group, kind, parameters, objective }) {
   const bounds = group.values("round_bound") ?? [];
@@ -149,20 +200,22 @@ export function tuningOf(record) {
     ? scenarios.map((scenario) => ({ scenario, suffix: `_${scenario}` }))
     : [{ scenario: "", suffix: "" }];
   const unit = group.column("objective")?.unit ?? "1";
+  const outcome = group.word("outcome"),
+    state = { converged: outcome === "converged", objective };
   return {
     group,
     texts,
+    ...state,
+    outcome,
     kind: texts.objective_kind,
     quantity: texts.quantity,
-    objective,
     unit,
     root: texts.objective_kind === "minimax" ? unit : rootUnit(unit),
-    outcome: group.word("outcome"),
     reason: texts.reason ?? "",
     scenarios: several ? scenarios : [],
     parameters: listOf(texts.parameters).map((name) => parameterOf(group, name)),
-    peaks: peaksOf(group, band, several ? scenarios : []),
-    limits: limitsOf(group, listOf(texts.limits), several ? scenarios : [], objective),
+    peaks: peaksOf(group, band, several ? scenarios : [], state),
+    limits: limitsOf(group, listOf(texts.limits), several ? scenarios : [], state),
     band: band && group.has(band) ? group.column(band) : null,
     weight: group.values("weight"),
     responses: responsesOf(group, suffixes),

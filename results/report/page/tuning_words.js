@@ -1,6 +1,7 @@
 // What a tuning means, in sentences of numbers: each is computed here from what the record holds.
 import { symbolText } from "./axes.js";
-import { heldBounds, knotsAtBounds, quantityWords } from "./tuning.js";
+import { certificateSentences } from "./certificate_words.js";
+import { heldBounds, knotsAtBounds, nearestToConstant, quantityWords, steepestPieces } from "./tuning.js";
 import { numberText, quantityText, unitText, words } from "./units.js";
 
 const digits = 4;
@@ -72,7 +73,7 @@ function lessText(before, after) {
 const kindWords = { minimax: "worst", mean_square: "root mean square of", variance: "standard deviation of" };
 
 function spoken(tuning) {
-  const weighted = tuning.kind === "minimax" && tuning.weight ? "weighted " : "";
+  const weighted = tuning.weight ? "weighted " : "";
   return `${kindWords[tuning.kind] ?? words(tuning.kind)} ${weighted}${quantityWords(tuning)}`;
 }
 
@@ -140,7 +141,7 @@ function bandSentences(tuning) {
   const sentences = [];
   if (tuning.kind === "minimax")
     sentences.push(
-      `The response stays at or below ${quantityText(tuning.objective, tuning.unit, digits)} over the whole band, ` +
+      `The ${tuning.weight ? "weighted " : ""}response stays at or below ${quantityText(tuning.objective, tuning.unit, digits)} over the whole band, ` +
         `${bandText(tuning)}.`,
     );
   const below = bandBelowBefore(tuning);
@@ -150,38 +151,6 @@ function bandSentences(tuning) {
         `${intervalText(tuning, below)}${tuning.scenarios.length > 1 ? ", in every scenario" : ""}.`,
     );
   return sentences;
-}
-
-function certificateSentences({ kind, group, band, outcome }) {
-  const gap = group.number("certificate_gap"),
-    kkt = group.number("kkt_residual"),
-    starts = group.values("start_objective")?.length ?? 1;
-  const sentences = [];
-  if (kind === "minimax" && band && Number.isFinite(gap)) {
-    const by = gap < 1e-12 ? "rounding" : `${numberText(gap, 2)} of it`;
-    sentences.push(
-      `Certificate: all peaks of the band were solved, and none exceeds the bound of the tuning by more than ${by}.`,
-    );
-  }
-  if (Number.isFinite(kkt))
-    sentences.push(`The conditions of a local optimum hold to ${numberText(kkt, 2)} (relative).`);
-  if (starts > 1) sentences.push(`${startsText(group)}.`);
-  else if (outcome === "converged")
-    sentences.push(
-      "That no better design lies elsewhere within the bounds is not proved: one start was made.",
-    );
-  return sentences;
-}
-
-// "12 of 20 starts reached this objective to 0.1 %".
-function startsText(group) {
-  const found = Array.from(group.values("start_objective")),
-    best = group.number("objective");
-  const alike = found.filter((value) => Math.abs(value - best) <= 1e-3 * Math.abs(best)).length;
-  return (
-    `${alike} of ${found.length} starts reached this objective to 0.1 %; that no better design lies elsewhere ` +
-    `is not proved`
-  );
 }
 
 // What holds the design, as phrases.
@@ -194,7 +163,7 @@ function holders(tuning) {
         `${percentText(100 * share)}`,
     );
   const bounds = tuning.parameters.flatMap((parameter) =>
-    heldBounds(parameter, tuning.objective).map(
+    heldBounds(tuning, parameter).map(
       ({ end, knots, gain }) =>
         `the ${end} bound of ` +
         `${symbolText(parameter.name)}${parameter.scheduled ? ` at ${knots} of ${parameter.knots.length} knots` : ""}` +
@@ -211,14 +180,38 @@ function holders(tuning) {
   return [...peaks, ...bounds, ...limits];
 }
 
-function holdingSentences(tuning) {
+// "the upper bound of ζ", for parameters of one value.
+function boundsMet({ parameters }) {
+  return parameters
+    .filter(({ scheduled, values }) => !scheduled && values.length > 0)
+    .flatMap((parameter) => {
+      const { lower, upper } = knotsAtBounds(parameter);
+      const of = (end) => `the ${end} bound of ${symbolText(parameter.name)}`;
+      return [...(lower.length ? [of("lower")] : []), ...(upper.length ? [of("upper")] : [])];
+    });
+}
+
+// Of a design that is no proven optimum: what it breaks, and where it lies; its multipliers mean nothing.
+function unprovenSentences(tuning) {
+  const broken = tuning.limits
+    .filter((limit) => limit.broken > 0)
+    .map(
+      ({ name, broken: by }) => `It breaks the limit of ${words(name)} by ${percentText(100 * by, digits)}.`,
+    );
+  const met = boundsMet(tuning);
+  return [...broken, ...(met.length ? [`It lies on ${listText(met)}.`] : [])];
+}
+
+function heldSentences(tuning) {
+  if (!tuning.converged) return unprovenSentences(tuning);
   const held = holders(tuning);
-  const free =
-    tuning.outcome === "converged"
-      ? ["Neither bound nor limit holds the design: it is free on all sides."]
-      : [];
-  const sentences = held.length ? [`The design is held by ${held.join("; ")}.`] : free;
-  const knots = tuning.parameters
+  return held.length
+    ? [`The design is held by ${held.join("; ")}.`]
+    : ["Neither bound nor limit holds the design: it is free on all sides."];
+}
+
+function knotSentences({ parameters }) {
+  const knots = parameters
     .filter(({ scheduled }) => scheduled)
     .map((parameter) => {
       const { lower, upper } = knotsAtBounds(parameter);
@@ -227,8 +220,36 @@ function holdingSentences(tuning) {
         `${upper.length} of ${parameter.knots.length} knots`
       );
     });
-  if (knots.length) sentences.push(`${knots.join("; ")}.`);
-  return sentences;
+  return knots.length ? [`${knots.join("; ")}.`] : [];
+}
+
+function slopeText({ unit, maxSlope }, band) {
+  const per = unitText(band.unit);
+  return `${quantityText(maxSlope, unit, digits)} per ${per || "unit"} of ${symbolText(band.name)}`;
+}
+
+// Schedules that change as fast as they may.
+function slopeSentences({ parameters, band }) {
+  return parameters
+    .filter((parameter) => parameter.scheduled && band && Number.isFinite(parameter.maxSlope))
+    .map((parameter) => {
+      const steep = steepestPieces(parameter),
+        all = parameter.knots.length - 1;
+      const where = steep > 0 ? `at ${steep} of ${all} pieces, which holds it too` : "nowhere";
+      return `${symbolText(parameter.name)} changes as fast as it may (${slopeText(parameter, band)}) ${where}.`;
+    });
+}
+
+const touching = 0.999; // of the constant's response, from which that holds the design
+
+function dominateSentences(tuning) {
+  const nearest = tuning.texts.dominate === "constant" ? nearestToConstant(tuning) : null;
+  if (!nearest) return [];
+  const holds = tuning.converged && nearest.ratio > touching ? ", which holds it too" : "";
+  return [
+    `The study asks that its response lie nowhere above that of the best constant design: it is at most ` +
+      `${percentText(100 * nearest.ratio, 6)} of it, at ${placeText(tuning, nearest.at)}${holds}.`,
+  ];
 }
 
 // Where what stands beside the schedule leaves its range.
@@ -259,29 +280,49 @@ function detuningSentences(tuning) {
   ];
 }
 
-// What holds of the tuning, as paragraphs: [[sentence, ...], ...].
-export function whatItMeans(tuning) {
-  if (!Number.isFinite(tuning.objective))
-    return [[`There is no number for the ${spoken(tuning)} of this design.`]];
+function noNumberSentences(tuning) {
+  const { before } = tuning.worst;
+  if (tuning.outcome !== "unbounded") return [`There is no number for the ${spoken(tuning)} of this design.`];
   return [
-    [...reductionSentences(tuning), ...bandSentences(tuning)],
-    certificateSentences(tuning),
-    [...holdingSentences(tuning), ...columnSentences(tuning), ...detuningSentences(tuning)],
-  ].filter((paragraph) => paragraph.length > 0);
+    `The ${spoken(tuning)} of this design is unbounded.`,
+    ...(before === Infinity ? ["So is that of the design before."] : []),
+  ];
 }
 
-const outcomeWords = {
-  not_converged: "This tuning did not converge. What follows is the best design found, not a proven optimum",
-  infeasible: "No design was found that keeps every limit. What follows is the one that breaks them least",
-  unbounded: "The response has no bound somewhere in the band. What follows is as far as the tuning came",
-  failed: "This tuning failed. What follows is as far as it came",
-  stopped: "This tuning was stopped before its end. What follows is the best design so far",
-};
+// Over which limits the problem was solved, and which of the designs the page shows.
+function tradeOffSentences(tuning) {
+  const { front, limits, group } = tuning;
+  if (!front) return [];
+  const { values, unit } = front.column("trade_off"),
+    objectives = front.values("objective");
+  const told = Array.from(values, (_, i) => i).filter((i) => front.word("outcome", i) === "converged");
+  const point = (i) =>
+    `${quantityText(amplitude(tuning, objectives[i]), tuning.root, digits)} at ${quantityText(values[i], unit, digits)}`;
+  const range =
+    told.length > 1
+      ? `: ${spoken(tuning)} from ${point(told[0])} to ${point(told.at(-1))}`
+      : told.map((i) => `: ${spoken(tuning)} ${point(i)}`).join("");
+  const count = told.length === values.length ? "all" : told.length === 0 ? "none" : told.length;
+  return [
+    `Trade-off over ${values.length} limits of ${words(limits.at(-1)?.name ?? "one quantity")}, ${count} converged${range}.`,
+    `What follows is the design for the last, ${quantityText(group.number("trade_off"), unit, digits)}.`,
+  ];
+}
 
-// Why not all is well, or "".
-export function outcomeWarning({ outcome, reason, group }) {
-  if (outcome === "converged") return "";
-  const violation = group.number("violation");
-  const broken = violation > 0 ? ` (largest violation of a limit: ${percentText(100 * violation)})` : "";
-  return `${outcomeWords[outcome] ?? "It is not known how this tuning ended"}${broken}${reason ? `: ${reason}` : ""}.`;
+// What holds of the tuning, as paragraphs: [[sentence, ...], ...].
+export function whatItMeans(tuning) {
+  if (!Number.isFinite(tuning.objective)) return [noNumberSentences(tuning)];
+  return [
+    tradeOffSentences(tuning),
+    [...reductionSentences(tuning), ...bandSentences(tuning)],
+    certificateSentences(tuning),
+    [
+      ...heldSentences(tuning),
+      ...knotSentences(tuning),
+      ...slopeSentences(tuning),
+      ...dominateSentences(tuning),
+      ...columnSentences(tuning),
+      ...detuningSentences(tuning),
+    ],
+  ].filter((paragraph) => paragraph.length > 0);
 }

@@ -61,13 +61,19 @@ const prefixed = {
   ],
 };
 
+const leastPrefixed = 1e-4,
+  mostPrefixed = 1e7; // of the least and greatest prefix: beyond, powers of ten stand with the unit itself
+
 // {factor, text}: a value in `unit` is value x factor in `text`.
 export function shownUnit(unit, values) {
   const steps = prefixed[unit];
   if (!steps) return { factor: 1, text: unitText(unit) };
   let largest = 0;
   for (const value of values) if (Number.isFinite(value)) largest = Math.max(largest, Math.abs(value));
-  const [scale, text] = steps.find(([size]) => largest >= size) ?? (largest === 0 ? [1, unit] : steps.at(-1));
+  const [least] = steps.at(-1);
+  const plain = largest < least * leastPrefixed || largest >= steps[0][0] * mostPrefixed;
+  const [scale, text] = steps.find(([size]) => largest >= size) ?? steps.at(-1);
+  if (plain) return { factor: 1, text: unit };
   return { factor: 1 / scale, text };
 }
 

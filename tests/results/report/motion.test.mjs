@@ -7,16 +7,18 @@ import {
   envelope,
   interpolated,
   motionOf,
+  samplingOf,
   stretch,
 } from "../../../results/report/page/motion.js";
-import { whatItMeans } from "../../../results/report/page/motion_words.js";
+import { sparseText, whatItMeans } from "../../../results/report/page/motion_words.js";
 import { sampleGroup, sampleRecord } from "./sample_record.mjs";
 
 const rounding = 1e-12;
 
-function decay(columns = {}) {
+function decay(columns = {}, facts = {}) {
   return motionOf(
     sampleRecord({
+      study: sampleGroup({}, facts),
       decay: sampleGroup(
         {},
         {
@@ -49,8 +51,16 @@ test("turning points stop where their numbers do, and fall on two sides", () => 
   assert.deepEqual(lower, { x: [1, 3], y: [-0.006, -0.002] });
 });
 
-test("a decay that does not come to rest says so", () => {
-  assert.match(whatItMeans(decay()).flat().join(" "), /Within 4 s it does not come to rest\./);
+const told = (motion) => whatItMeans(motion).flat().join(" ");
+
+test("a decay that does not come to rest says so once, and one without friction never arrives", () => {
+  const moving = told(decay());
+  assert.match(moving, /It does not reach its rest, 0 m, within 4 s\./);
+  assert.doesNotMatch(moving, /comes to/);
+  const free = told(decay({}, { coulomb_elements: ["1", "", 0] }));
+  assert.match(free, /It tends to 0 m without ever arriving\./);
+  assert.doesNotMatch(free, /comes to|come to/);
+  assert.match(told(decay({ main_rest: ["m", "", NaN] })), /Within 4 s it does not come to rest\./);
   assert.match(
     whatItMeans(decay({ stop_time: ["s", "", 3.5] }))
       .flat()
@@ -144,4 +154,71 @@ test("the largest errors of a cut are those of its columns, and a second crank o
   const { length, relative } = largestErrors(cranks[0], cranks[0].cuts[0]);
   assert.ok(Math.abs(length - 0.01) < rounding);
   assert.equal(relative, 0.02);
+});
+
+// Free vibration of period 2 s and 100 s, with `count` samples.
+function sampledDecay(count) {
+  const turns = Array.from({ length: 101 }, (_, i) => i);
+  const time = Array.from({ length: count }, (_, i) => (100 * i) / (count - 1));
+  return decay({
+    main_extremum_time: ["s", "extremum", turns],
+    main_extremum: ["m", "extremum", turns.map((i) => 0.01 * (-1) ** i)],
+    duration: ["s", "", 100],
+    time: ["s", "time", time],
+    main_displacement: ["m", "time", time.map((t) => 0.01 * Math.cos(Math.PI * t))],
+  });
+}
+
+test("a history of fewer than 8 samples a period is sparse, and is told how many would do", () => {
+  assert.equal(samplingOf(sampledDecay(399)).sparse, true);
+  assert.equal(samplingOf(sampledDecay(402)).sparse, false);
+  assert.match(
+    sparseText(sampledDecay(51)),
+    /stand 2 s apart, 1 to a period of 2 s: .* dots, .* With samples = 1001 or more in \[decay\]/,
+  );
+  assert.equal(sparseText(sampledDecay(1001)), "");
+  assert.equal(samplingOf(decay()).sparse, false);
+});
+
+function forced(peak, frequency) {
+  const time = Array.from({ length: 101 }, (_, i) => i / 10);
+  return motionOf(
+    sampleRecord({
+      ...(frequency ? { study: sampleGroup({}, { excitation_frequency: ["rad s-1", "", frequency] }) } : {}),
+      transient: sampleGroup(
+        {},
+        {
+          time: ["s", "time", time],
+          main_displacement: ["m", "time", time.map((t) => 0.01 * Math.sin(t))],
+          main_peak: ["m", "", peak],
+        },
+      ),
+    }),
+    "transient",
+  );
+}
+
+test("a forced history is sparse by its excitation's period, or by a peak that its samples miss", () => {
+  assert.equal(samplingOf(forced(0.01, 2 * Math.PI)).sparse, false); // 10 samples a period
+  assert.equal(samplingOf(forced(0.01, 4 * Math.PI)).sparse, true);
+  assert.equal(samplingOf(forced(0.01)).sparse, false);
+  const missed = forced(0.012);
+  assert.equal(samplingOf(missed).sparse, true);
+  assert.match(
+    sparseText(missed),
+    /the largest displacement lies between them.*With more samples in \[transient\]/,
+  );
+});
+
+test("decrements and turning points below rounding are told as rounding", () => {
+  const undamped = decay({ main_log_decrement: ["1", "extremum", [1e-15, -2e-15, NaN, NaN, NaN]] });
+  assert.match(told(undamped), /Its logarithmic decrement is 0 but for rounding: nothing damps it\./);
+  const far = decay({
+    main_extremum: ["m", "extremum", [0.008, -0.006, 1e-16, -1e-17, NaN]],
+    main_log_decrement: ["1", "extremum", [0.5, NaN, NaN, NaN, NaN]],
+  });
+  assert.match(told(far), /last at a displacement below rounding\./);
+  assert.match(told(decay()), /last at −2 mm\..* and 1\.099 in the last\./);
+  const early = decay({ main_log_decrement: ["1", "extremum", [0.5, NaN, NaN, NaN, NaN]] });
+  assert.match(told(early), /0\.5 in the first cycle/);
 });

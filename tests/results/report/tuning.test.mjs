@@ -6,16 +6,17 @@ import {
   knotsAtBounds,
   rootUnit,
   settlingRounds,
+  steepestPieces,
   tuningOf,
 } from "../../../results/report/page/tuning.js";
 import {
   bandBelowBefore,
   nonNegative,
-  outcomeWarning,
   reduction,
   whatItMeans,
   worstDetuning,
 } from "../../../results/report/page/tuning_words.js";
+import { outcomeWarning } from "../../../results/report/page/certificate_words.js";
 import { sampleGroup, sampleRecord } from "./sample_record.mjs";
 
 const rounding = 1e-12;
@@ -134,15 +135,15 @@ test("the sentences tell reduction, band, certificate and what holds the design"
   assert.match(text, /Worst main peak over 10 to 20 rad\/s of ω: 25 mm\./);
   assert.match(text, /Against the design before \(100 mm\): 75 % less \(−12 dB\)\./);
   assert.match(text, /at or below 25 mm over the whole band/);
-  assert.match(text, /by more than 1×10⁻⁹ of it/);
+  assert.match(text, /the worst of them and the bound of the tuning agree to 1×10⁻⁹ \(relative\)/);
   assert.match(text, /held by the peak at 12 rad\/s, share 100 %; the upper bound of k \(moved out by 1 %/);
   assert.match(text, /of the range it gives 0\.2 %, to first order\)/);
   assert.match(text, /off by 5 % makes the worst peak grow by at most 20 % \(k 5 % less\)/);
 });
 
 test("a bound that holds gives its multiplier times a hundredth of the range", () => {
-  const { parameters, objective } = tuningOf(minimax());
-  const [held, ...others] = heldBounds(parameters[0], objective);
+  const tuning = tuningOf(minimax());
+  const [held, ...others] = heldBounds(tuning, tuning.parameters[0]);
   assert.equal(held.end, "upper");
   assert.equal(others.length, 0);
   close(held.gain, (1e-5 * 5) / 0.025);
@@ -180,7 +181,7 @@ test("a tuning that did not converge, was infeasible, without bound, failed or s
   words.forEach((word, i) => {
     const warning = outcomeWarning(tuningOf(minimax({ violation: ["1", "", 0.25] }, i + 2)));
     assert.match(warning, word);
-    assert.match(warning, /25 %.*because\.$/);
+    assert.match(warning, word.source.includes("keeps every limit") ? /25 %\)\.$/ : /25 %.*because\.$/);
   });
 });
 
@@ -225,4 +226,104 @@ test("of a design that did not converge nothing is said of its being free or bes
     .flat()
     .join(" ");
   assert.doesNotMatch(text, /free on all sides|no better design/);
+});
+
+const told = (...of) =>
+  whatItMeans(tuningOf(minimax(...of)))
+    .flat()
+    .join(" ");
+
+test("of a design that breaks a limit there is no certificate, no multiplier, and what it breaks is told", () => {
+  const broken = {
+    certificate_gap: ["1", "", -0.0139],
+    kkt_residual: ["1", "", 0.49],
+    violation: ["1", "", 6.14],
+    stroke_limited: ["mm", "", 35.7],
+    stroke_upper_limit: ["mm", "", 5],
+    stroke_lower_limit: ["mm", "", NaN],
+    stroke_limit_multiplier: ["m (mm)-1", "", 0.003],
+  };
+  const text = told(broken, 3, { limits: "stroke" });
+  assert.match(text, /There is no certificate; .* differ by 0\.014 \(relative\)/);
+  assert.match(text, /local optimum do not hold: KKT residual 0\.49/);
+  assert.match(text, /It breaks the limit of stroke by 614 %\. It lies on the upper bound of k\./);
+  assert.doesNotMatch(text, /held by|relaxed|Certificate|hold to/);
+  const tuning = tuningOf(minimax(broken, 3, { limits: "stroke" }));
+  assert.deepEqual(
+    tuning.peaks.map(({ active }) => active),
+    [false, false],
+  );
+  assert.equal(tuning.limits[0].active, false);
+  assert.deepEqual(heldBounds(tuning, tuning.parameters[0]), []);
+});
+
+test("a gap below rounding is told as rounding, a negative one by its size", () => {
+  assert.match(told({ certificate_gap: ["1", "", -1e-15] }), /agree to rounding\./);
+  assert.match(told({ certificate_gap: ["1", "", -5e-8] }), /agree to 5×10⁻⁸ \(relative\)\./);
+});
+
+test("a weighted response is told as weighted throughout", () => {
+  const text = told({ weight: ["1", "omega", [1, 1, 1, 1, 1]] });
+  assert.match(text, /Worst weighted main peak over/);
+  assert.match(text, /The weighted response stays at or below/);
+});
+
+test("a tuning without bound says so, with the place in the band by its name", () => {
+  const unbounded = tuningOf(
+    minimax({ objective: ["m", "", NaN], worst_before: ["m", "", Infinity] }, 4, {
+      reason: "the response has no bound at 1 of the band: an undamped mode",
+    }),
+  );
+  assert.deepEqual(whatItMeans(unbounded), [
+    ["The worst main peak of this design is unbounded.", "So is that of the design before."],
+  ]);
+  assert.match(outcomeWarning(unbounded), /no bound at ω = 1 rad\/s: an undamped mode/);
+});
+
+test("a trade-off tells which limits converged and which design is shown", () => {
+  const record = minimax({ trade_off: ["mm", "", 5] }, 3, { limits: "stroke" });
+  record.groups.set(
+    "optimum/front",
+    sampleGroup(
+      {},
+      {
+        trade_off: ["mm", "trade_off", [40, 36, 20, 5]],
+        objective: ["m", "trade_off", [0.02052, 0.02108, 0.04, 0.04]],
+      },
+      { outcome: ["trade_off", [1, 1, 3, 3], outcomes] },
+    ),
+  );
+  const tuning = tuningOf(record);
+  assert.deepEqual(whatItMeans(tuning)[0], [
+    "Trade-off over 4 limits of stroke, 2 converged: worst main peak from 20.52 mm at 40 mm to 21.08 mm at 36 mm.",
+    "What follows is the design for the last, 5 mm.",
+  ]);
+  assert.match(outcomeWarning(tuning), /^For the last limit, 5 mm: No design was found/);
+});
+
+test("a schedule tells where it is as steep as it may be, and one that dominates how near it comes", () => {
+  const scheduled = {
+    k: ["N/m", "knots_k", [600, 800, 850, 650]],
+    knots_k: ["rad s-1", "knots_k", [10, 12, 14, 16]],
+    k_max_slope: ["N/m (rad s-1)-1", "", 100],
+    response_constant: ["m", "omega", [0.02, 0.05, 0.04, 0.015000001, 0.02]],
+  };
+  assert.equal(steepestPieces(tuningOf(minimax(scheduled)).parameters[0]), 2);
+  const text = told(scheduled, 1, { dominate: "constant" });
+  assert.match(
+    text,
+    /k changes as fast as it may \(100 N\/m per rad\/s of ω\) at 2 of 3 pieces, which holds it too\./,
+  );
+  assert.match(text, /nowhere above .*: it is at most 100 % of it, at 16 rad\/s, which holds it too\./);
+  assert.doesNotMatch(told(scheduled), /nowhere above/);
+  assert.ok(Number.isNaN(steepestPieces(tuningOf(minimax()).parameters[0])));
+});
+
+test("a standard deviation is compared with that of the design before", () => {
+  const text = told(
+    { objective: ["(m)2", "", 4e-6], worst_before: ["(m)2", "", 16e-6], worst_after: ["(m)2", "", 4e-6] },
+    1,
+    { objective_kind: "variance", quantity: "main_rms" },
+  );
+  assert.match(text, /Standard deviation of main: 2 mm\. Against the design before \(4 mm\): 50 % less/);
 });

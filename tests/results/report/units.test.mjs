@@ -25,6 +25,13 @@ test("quantities stand in the unit that reads best", () => {
   assert.equal(numberText(Infinity), "∞");
 });
 
+test("what is beyond the prefixes stands in the unit itself with its power of ten", () => {
+  assert.equal(quantityText(8.76588e-203, "J"), "8.76588×10⁻²⁰³ J");
+  assert.equal(quantityText(-1.396e-17, "m", 4), "−1.396×10⁻¹⁷ m");
+  assert.equal(quantityText(2.5e-12, "m"), "0.0025 nm");
+  assert.equal(quantityText(0, "m"), "0 m");
+});
+
 test("a long label falls into lines at its blanks, a long word where it must, and nothing is lost", () => {
   const text = "the growth of the worst_peak_of_a_mass_with_a_name_that_goes_on_and_on (mm)",
     lines = wrapped(text, 120);

@@ -2,18 +2,23 @@
 import * as Plot from "@observablehq/plot";
 import { interpolateRgb } from "d3";
 import { symbolText } from "../axes.js";
+import { correlationText } from "../identification_words.js";
 import { numberText } from "../units.js";
 import { drawFrame, lineColours } from "./frame.js";
 import { digitWidth, wrapped } from "./text_lines.js";
 
 const [withColour, againstColour] = lineColours;
-const none = "#F4F4F4";
+const none = "#F4F4F4",
+  unknown = "#A8A8A8";
 const leastNumberWidth = 54; // of a square that has room for its number
 
 function colourOf(value) {
-  if (!Number.isFinite(value)) return "none";
+  if (!Number.isFinite(value)) return unknown;
   return interpolateRgb(none, value > 0 ? withColour : againstColour)(Math.min(1, Math.abs(value)));
 }
+
+const hasUnknown = (estimates) =>
+  estimates.some(({ correlation }) => correlation.some(({ value }) => !Number.isFinite(value)));
 
 function draw(canvas, estimates) {
   const numbers = estimates.map((_, i) => String(i + 1));
@@ -40,7 +45,7 @@ function draw(canvas, estimates) {
             {
               x: "x",
               y: "y",
-              text: ({ value }) => numberText(value, 3),
+              text: ({ value }) => correlationText(value, 3),
               fill: ({ value }) => (Math.abs(value) > 0.6 ? "white" : "black"),
               stroke: "none",
             },
@@ -58,7 +63,10 @@ function draw(canvas, estimates) {
         label: "",
         tickFormat: (number) => nameLines[Number(number) - 1].join("\n"),
       },
-      legend: [-1, -0.5, 0, 0.5, 1].map((value) => ({ text: numberText(value), fill: colourOf(value) })),
+      legend: [
+        ...[-1, -0.5, 0, 0.5, 1].map((value) => ({ text: numberText(value), fill: colourOf(value) })),
+        ...(hasUnknown(estimates) ? [{ text: "none: not determined by the data", fill: unknown }] : []),
+      ],
       marks: [
         Plot.cell(cells, { x: "x", y: "y", fill: ({ value }) => colourOf(value), inset: 0.5 }),
         ...texts,

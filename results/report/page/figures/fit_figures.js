@@ -27,7 +27,14 @@ function drawnData(series) {
     : { lines: [], points: [{ ...drawn, r: 2.6, symbol: "open" }] };
 }
 
-function fitFigure(series) {
+// Of what the data do not determine, the model has some value all the same.
+function undeterminedText(estimates) {
+  const names = estimates.filter(({ value }) => Number.isNaN(value)).map(({ name }) => symbolText(name));
+  if (names.length === 0) return "";
+  return ` The model is drawn at values of ${names.join(", ")} that the data do not determine: others draw the same.`;
+}
+
+function fitFigure(series, estimates) {
   const { name, along, fitted, measured, quantity, nrmse } = series;
   const { lines, points } = drawnData(series);
   const order = [...along.values.keys()].sort((a, b) => along.values[a] - along.values[b]);
@@ -37,7 +44,7 @@ function fitFigure(series) {
     title: `${titleOf(series)}, data against model`,
     caption: Number.isNaN(nrmse)
       ? "No fit quality: the data are constant."
-      : `NRMSE fit ${numberText(nrmse)} %.`,
+      : `NRMSE fit ${numberText(nrmse)} %.${undeterminedText(estimates)}`,
     x: xAxis(series),
     y: { label: words(quantity), unit: measured.unit },
     lines: [
@@ -71,6 +78,8 @@ function residualFigure(series) {
   });
 }
 
-export function fitFigures({ series }) {
-  return series.flatMap((one) => (one.residual && one.along ? [fitFigure(one), residualFigure(one)] : []));
+export function fitFigures({ series, estimates }) {
+  return series.flatMap((one) =>
+    one.residual && one.along ? [fitFigure(one, estimates), residualFigure(one)] : [],
+  );
 }

@@ -1,13 +1,16 @@
 // A figure of curves, points, bands and levels over one pair of axes, with its legend, tips and CSV.
 import * as Plot from "@observablehq/plot";
-import { numberText, shownUnit, withUnit } from "../units.js";
+import { numberText, shownUnit, superscript, withUnit } from "../units.js";
 import { drawFrame, fileName, grid, lineColours, lineDashes, tips } from "./frame.js";
+import { tableOf } from "./line_table.js";
 import { thinnedHistory, thinnedPath } from "./line_thinning.js";
 import { powerText, powerTicks } from "./power_ticks.js";
 
 const marginLeft = 68,
   marginRight = 20;
 const leastSpan = 1e-3; // of an axis, relative to its numbers: what differs by less is level
+const mostEdged = 200; // bands that have lines at their edges
+const mostDots = 3000; // that are all drawn
 const pathTolerance = 0.2; // pixels
 const dashesOf = (number) => lineDashes[number % lineDashes.length];
 
@@ -43,10 +46,19 @@ function domainOf(spec, axis) {
   return [zero && low === 0 ? 0 : low - room, zero && high === 0 ? 0 : high + room];
 }
 
+// With a power of ten before the unit where the numbers of a linear axis would have many zeros.
+function withPower({ factor, text }, ends) {
+  const largest = Math.max(...ends.map((value) => Math.abs(value * factor)));
+  if (largest === 0 || (largest >= 1e-4 && largest < 1e7)) return { factor, text };
+  const power = 3 * Math.floor(Math.log10(largest) / 3);
+  return { factor: factor * 10 ** -power, text: `\u00d710${superscript(power)}${text ? ` ${text}` : ""}` };
+}
+
 function shownAxis(spec, axis) {
   const { label, unit, type = "linear", ticks, tickFormat } = spec[axis];
   const inUnit = domainOf(spec, axis);
-  const { factor, text } = shownUnit(unit, inUnit);
+  const { factor, text } =
+    type === "log" ? shownUnit(unit, inUnit) : withPower(shownUnit(unit, inUnit), inUnit);
   const domain = inUnit.map((value) => value * factor);
   const logarithmic =
     type === "log" ? { ticks: powerTicks(domain), tickFormat: powerText(domain) } : { ticks, tickFormat };
@@ -86,12 +98,17 @@ function lineMark(line, canvas, x, y) {
   );
 }
 
-function pointMark(points, x, y) {
-  const xs = scaled(points.x, x),
-    ys = scaled(points.y, y);
+const isWithin = (value, [low, high]) => value >= low && value <= high;
+
+// Dots in the order of their x, as histories without lines have them, are thinned as lines are.
+function pointMark(points, canvas, x, y) {
+  const many = points.x.length > mostDots;
+  const thin = many ? thinnedHistory(points.x, points.y, canvas.width - marginLeft - marginRight) : points;
+  const xs = scaled(thin.x, x),
+    ys = scaled(thin.y, y);
   const places = xs
     .map((value, i) => [value, ys[i]])
-    .filter(([a, b]) => Number.isFinite(a) && Number.isFinite(b));
+    .filter(([a, b]) => isWithin(a, x.options.domain) && isWithin(b, y.options.domain));
   const open = points.symbol === "open";
   return Plot.dot(places, {
     r: points.r ?? 3.2,
@@ -110,7 +127,7 @@ function bandMark(band, x) {
     fill: band.fill,
     fillOpacity: 0.16,
     stroke: band.fill,
-    strokeOpacity: 0.3,
+    strokeOpacity: spans.length > mostEdged ? 0 : 0.3,
     clip: "frame",
   });
 }
@@ -176,30 +193,10 @@ function drawLines(canvas, spec) {
       ...levels.map((level) => levelMark(level, y)),
       ...moments.map((moment) => momentMark(moment, x)),
       ...lines.map((line) => lineMark(line, canvas, x, y)),
-      ...points.map((point) => pointMark(point, x, y)),
+      ...points.map((point) => pointMark(point, canvas, x, y)),
       ...tips(canvas, canvas.interactive ? tipRows(spec, canvas, x, y) : []),
     ],
   });
-}
-
-// Columns for the CSV: curves over the same x stand behind it together.
-function tableOf(spec) {
-  const columns = [];
-  let last = null;
-  for (const { name, x, y } of [...(spec.lines ?? []), ...(spec.points ?? [])].filter(
-    ({ silent }) => !silent,
-  )) {
-    if (x !== last) columns.push({ name: spec.x.name ?? spec.x.label, unit: spec.x.unit, values: x });
-    last = x;
-    columns.push({ name, unit: spec.y.unit, values: y });
-  }
-  for (const { text, from, to } of spec.bands ?? []) {
-    columns.push(
-      { name: `${text}, from`, unit: spec.x.unit, values: from },
-      { name: `${text}, to`, unit: spec.x.unit, values: to },
-    );
-  }
-  return columns;
 }
 
 // spec: {name, title, caption, ratio,

@@ -1,5 +1,6 @@
 // Histories of a motion, its turning points, phase portraits, decrements, and where its energy goes.
-import { envelope, stretch } from "../motion.js";
+import { decrementsEndEarly, envelope, isRounding, samplingOf, stretch } from "../motion.js";
+import { restText } from "../motion_words.js";
 import { numberText, quantityText, words } from "../units.js";
 import { barFigure } from "./bar_figure.js";
 import { lineFigure, style } from "./line_figure.js";
@@ -29,6 +30,15 @@ function moments({ stopTime }) {
   return Number.isFinite(stopTime)
     ? [{ x: stopTime, text: `all at rest from ${quantityText(stopTime, "s", 5)}`, dash: "2 3" }]
     : [];
+}
+
+const sparseCaption = "Samples, not joined: they stand too far apart to show the motion between them.";
+
+// Curves as dots where the samples do not tell what lies between them.
+function joinedOrDots(motion, lines) {
+  return samplingOf(motion).sparse
+    ? { lines: [], points: lines.map((line) => ({ ...line, r: 1.5 })), caption: sparseCaption }
+    : { lines, points: [], caption: "" };
 }
 
 const several = (masses) => masses.length > 1;
@@ -68,11 +78,10 @@ function historyFigure(motion, quantity) {
   return lineFigure({
     name: quantity,
     title: titleOf(motion, quantity),
-    caption: "",
     ratio: displacement ? 0.45 : undefined,
     x: Number.isFinite(motion.stopTime) ? { ...timeAxis, tight: false, zero: true } : timeAxis,
     y: { label: quantity, unit: unitOf(motion, quantity) },
-    lines: historyLines(motion, quantity),
+    ...joinedOrDots(motion, historyLines(motion, quantity)),
     bands: displacement ? stuckBands(motion) : [],
     moments: displacement ? moments(motion) : [],
   });
@@ -113,6 +122,9 @@ function cyclesFigures(motion) {
   });
 }
 
+const restWord = ({ stopTime, mayStop }) =>
+  Number.isFinite(stopTime) ? "rest at" : mayStop ? "rest, not reached:" : "tends to";
+
 function turningFigure(motion, mass) {
   const { name, unit, displacement, turningTimes, turningPoints, rest } = mass;
   const { upper, lower } = envelope(mass);
@@ -133,7 +145,7 @@ function turningFigure(motion, mass) {
     x: { ...timeAxis, tight: false, zero: true },
     y: { label: "displacement", unit },
     lines: [
-      ...(displacement
+      ...(displacement && !samplingOf(motion).sparse
         ? [
             {
               name: displacement.name,
@@ -160,7 +172,7 @@ function turningFigure(motion, mass) {
       },
     ],
     levels: Number.isFinite(rest)
-      ? [{ y: rest, text: `rest at ${quantityText(rest, unit, 4)}`, dash: "1 3" }]
+      ? [{ y: rest, text: `${restWord(motion)} ${restText(mass)}`, dash: "1 3" }]
       : [],
     moments: moments(motion),
   });
@@ -168,6 +180,9 @@ function turningFigure(motion, mass) {
 
 function decrementFigure({ masses }) {
   const shown = masses.filter(({ decrements }) => decrements.length > 0);
+  const early = shown.some(decrementsEndEarly)
+    ? " It ends before the motion does: the turning points after it are rounding."
+    : "";
   const lines = shown.map(({ name, decrements }, i) => ({
     name: `${name}_log_decrement`,
     text: several(shown) ? words(name) : "",
@@ -180,7 +195,7 @@ function decrementFigure({ masses }) {
     title: "Logarithmic decrement from cycle to cycle",
     caption:
       "Over a full cycle from each turning point. Of viscous damping it is the same in every cycle; friction makes " +
-      "it grow.",
+      `it grow.${early}`,
     x: { label: "cycles since the first turning point", name: "cycle", unit: "1" },
     y: { label: "logarithmic decrement", unit: "1", zero: true },
     lines,
@@ -219,27 +234,34 @@ function portraitFigure({ name, displacement, velocity }) {
   });
 }
 
-function runFigure({ masses, frequency, discretisationError }) {
+function runFigure(motion) {
+  const { masses, frequency, discretisationError } = motion;
   const shown = masses.filter(({ displacement }) => displacement);
   const rising = frequency.values[0] < frequency.values.at(-1);
   const order = (values) => (rising ? values : Float64Array.from(values).reverse());
-  return lineFigure({
-    name: "run",
-    title: `Displacement over the excitation's frequency, run ${rising ? "up" : "down"}`,
-    ratio: 0.45,
-    caption: Number.isFinite(discretisationError)
-      ? `Discretisation error of the run: ${quantityText(discretisationError, shown[0].unit, 3)}.`
-      : "",
-    x: { label: "frequency of the excitation", name: "frequency", unit: frequency.unit, tight: true },
-    y: { label: "displacement", unit: shown[0].displacement.unit },
-    lines: shown.map(({ name, displacement }, i) => ({
+  const x = order(frequency.values);
+  const drawn = joinedOrDots(
+    motion,
+    shown.map(({ name, displacement }, i) => ({
       name: displacement.name,
       text: several(shown) ? words(name) : "",
-      x: order(frequency.values),
+      x,
       y: order(displacement.values),
       width: 1.3,
       stroke: style(i).stroke,
     })),
+  );
+  const error = Number.isFinite(discretisationError)
+    ? `Discretisation error of the run: ${quantityText(discretisationError, shown[0].unit, 3)}.`
+    : "";
+  return lineFigure({
+    name: "run",
+    title: `Displacement over the excitation's frequency, run ${rising ? "up" : "down"}`,
+    ratio: 0.45,
+    x: { label: "frequency of the excitation", name: "frequency", unit: frequency.unit, tight: true },
+    y: { label: "displacement", unit: shown[0].displacement.unit },
+    ...drawn,
+    caption: [error, drawn.caption].filter(Boolean).join(" "),
   });
 }
 
@@ -291,22 +313,27 @@ function dissipationFigure({ time, energies }) {
 // {histories, turning, energies}: figures of each part of the page.
 export function motionFigureParts(motion) {
   const { masses, time, frequency, energies } = motion;
+  const { sparse } = samplingOf(motion);
   const histories = time && masses.some(({ displacement }) => displacement);
   return {
     histories: histories
       ? [
           historyFigure(motion, "displacement"),
-          ...cyclesFigures(motion),
+          ...(sparse ? [] : cyclesFigures(motion)),
           ...(frequency ? [runFigure(motion), frequencyFigure(motion)] : []),
           ...(masses.some(({ velocity }) => velocity) ? [historyFigure(motion, "velocity")] : []),
-          ...masses.filter(({ displacement, velocity }) => displacement && velocity).map(portraitFigure),
+          ...masses
+            .filter(({ displacement, velocity }) => !sparse && displacement && velocity)
+            .map(portraitFigure),
         ]
       : [],
     turning: [
       ...masses
         .filter(({ turningPoints }) => turningPoints.length > 0)
         .map((mass) => turningFigure(motion, mass)),
-      ...(masses.some(({ decrements }) => decrements.length > 0) ? [decrementFigure(motion)] : []),
+      ...(masses.some(({ decrements }) => decrements.some((decrement) => !isRounding(decrement)))
+        ? [decrementFigure(motion)]
+        : []),
     ],
     energies: [
       ...(energies.some(({ energy }) => energy > 0) ? [budgetFigure(motion)] : []),

@@ -163,7 +163,7 @@ export function startsFigure(tuning) {
   return lineFigure({
     name: "starts",
     title: "What each start found",
-    caption: `The best is start ${group.number("best_start")}.`,
+    caption: `The best is start ${group.number("best_start")}, counted from 0.`,
     x: { label: "start", unit: "1", tickFormat: "d", ticks: whole(x.length).map((i) => x[i - 1]) },
     y: { label: objectiveLabel(tuning), unit },
     points: byOutcome(group, "start_outcome", x, y, "objective"),

@@ -1,7 +1,7 @@
 // The response over the band: as the study states it, tuned, of the best constant and by the rule.
 import { coordinateLabel, symbolText } from "../axes.js";
-import { designNames } from "../tuning.js";
-import { words } from "../units.js";
+import { designNames, responseWords, steepestPieces } from "../tuning.js";
+import { numberText, words } from "../units.js";
 import { lineFigure } from "./line_figure.js";
 import { lineColours, lineDashes } from "./frame.js";
 
@@ -28,7 +28,7 @@ function responseLine({ band, scenarios }, { design, scenario, values }) {
   };
 }
 
-function peakPoints({ peaks, kind }) {
+function peakPoints({ peaks, kind, converged }) {
   const of = (chosen) => ({ x: chosen.map(({ at }) => at), y: chosen.map(({ value }) => value) });
   const points = (name, text, symbol, chosen) => ({
     name,
@@ -47,16 +47,16 @@ function peakPoints({ peaks, kind }) {
     ),
     points(
       "other_peak",
-      kind === "minimax" ? "other peak" : "peak",
+      kind === "minimax" && converged ? "other peak" : "peak",
       "open",
       peaks.filter(({ active }) => !active),
     ),
   ].filter(({ x }) => x.length > 0);
 }
 
-function peaksText({ peaks, kind }) {
+function peaksText({ peaks, kind, converged }) {
   if (peaks.length === 0) return "";
-  return kind === "minimax"
+  return kind === "minimax" && converged
     ? "Peaks are solved, not sampled; those that hold the optimum are filled."
     : "Peaks are solved, not sampled.";
 }
@@ -66,19 +66,19 @@ function weightText({ weight }) {
 }
 
 export function responseFigure(tuning) {
-  const { band, responses, quantity, root, unit, kind, worst, weight } = tuning;
+  const { band, responses, root, unit, kind, worst } = tuning;
   const lines = [...responses]
     .sort((a, b) => drawnFirst.indexOf(a.design) - drawnFirst.indexOf(b.design))
     .map((response) => responseLine(tuning, response));
   const worstPeak = kind === "minimax" && Number.isFinite(worst.after);
   return lineFigure({
     name: "tuned_response",
-    title: `Response over the band: ${words(quantity)}`,
+    title: `Response over the band: ${responseWords(tuning)}`,
     caption: `${peaksText(tuning)}${weightText(tuning)}`.trim(),
     ratio: 0.5,
     x: { ...axisOf(band), tight: true },
     y: {
-      label: `${weight ? "weighted " : ""}${words(quantity)}`,
+      label: responseWords(tuning),
       unit: kind === "minimax" ? unit : root,
       zero: true,
     },
@@ -138,6 +138,13 @@ function knotPoints({ knots, values, lower, upper }, { lower: low, upper: high }
   ].filter(({ x }) => x.length > 0);
 }
 
+function steepText(parameter) {
+  const steep = steepestPieces(parameter);
+  if (Number.isNaN(steep)) return "";
+  const most = `${numberText(parameter.maxSlope)} up or down`;
+  return `; as steep as it may be (${most}) at ${steep} of ${parameter.knots.length - 1} pieces`;
+}
+
 export function scheduleFigure({ band }, parameter, atBounds) {
   const { name, unit, schedule, rule, constant, before, lower, upper, knots, values } = parameter;
   const over = schedule ? band.values : knots,
@@ -145,7 +152,7 @@ export function scheduleFigure({ band }, parameter, atBounds) {
   return lineFigure({
     name: `schedule_${name}`,
     title: `Schedule of ${symbolText(name)}`,
-    caption: "Linear between its knots.",
+    caption: `Linear between its knots${steepText(parameter)}.`,
     x: { ...axisOf(band), tight: true },
     y: { label: symbolText(name), unit },
     lines: [

@@ -2,8 +2,8 @@
 import { symbolText } from "../axes.js";
 import { correlationFigure } from "../figures/correlation_figure.js";
 import { fitFigures } from "../figures/fit_figures.js";
-import { certainty, identificationOf, residualRms } from "../identification.js";
-import { outcomeWarning, whatItMeans } from "../identification_words.js";
+import { certainty, hasFreedom, identificationOf, residualRms } from "../identification.js";
+import { correlationText, intervalText, outcomeWarning, whatItMeans } from "../identification_words.js";
 import { element, section, table } from "../parts/elements.js";
 import { figureCards } from "../parts/figure_cards.js";
 import { numberText, quantityText, shownUnit, withUnit, words } from "../units.js";
@@ -16,7 +16,8 @@ function estimateRow(estimate) {
   const { factor, text } = shownUnit(unit, [value]);
   const shown = (number) => numberText(number * factor);
   const state = certainty(estimate);
-  const interval = state === "determined" ? `${shown(low)} to ${shown(high)}` : intervalWords[state];
+  const interval =
+    state === "determined" ? intervalText({ value, low, high, factor }, 6) : intervalWords[state];
   return [
     withUnit(symbolText(name), text),
     Number.isNaN(value) ? "not determined" : shown(value),
@@ -32,14 +33,17 @@ function estimatesTable(estimates) {
   return table(head, estimates.map(estimateRow), { numeric: [1, 2, 3, 4] });
 }
 
-function qualityTable({ quality, series }) {
+function qualityTable(identification) {
+  const { quality, series } = identification;
+  const fitText = (record, nrmse) =>
+    hasFreedom(identification, record) ? numberText(nrmse) : "\u2013 (no more data than unknowns)";
   const rows = quality.flatMap(({ record, nrmse }) => {
     const own = series.filter((one) => one.record === record);
     return [
       [
         words(record),
         own.length === 1 ? words(own[0].quantity) : "all of it",
-        numberText(nrmse),
+        fitText(record, nrmse),
         own.length === 1 ? quantityText(residualRms(own[0]), own[0].measured.unit, 4) : "",
       ],
       ...(own.length > 1
@@ -66,7 +70,7 @@ function correlationTable(estimates) {
   const head = ["", ...estimates.map(({ name }) => symbolText(name))];
   const rows = estimates.map(({ name, correlation }) => [
     symbolText(name),
-    ...correlation.map(({ value }) => numberText(value, 4)),
+    ...correlation.map(({ value }) => correlationText(value)),
   ]);
   return [
     element(
@@ -96,13 +100,16 @@ function rowsTable({ rows }) {
   ];
 }
 
-function fitText({ method, group, outcome }) {
-  const facts = [
-    `method ${words(method)}`,
-    words(outcome),
-    `${numberText(group.number("degrees_of_freedom"), 5)} degrees of freedom of the residuals`,
-    `${numberText(group.number("iterations"))} iterations`,
+const counted = (count, thing) => `${numberText(count, 5)} ${thing}${count === 1 ? "" : "s"}`;
+
+// Of rows that were each computed for themselves there is no fit to tell of.
+function methodText({ method, group, outcome, estimates }) {
+  const freedom = group.number("degrees_of_freedom");
+  const fit = [
+    `${counted(freedom, "degree").replace(/(degrees?)$/, "$1 of freedom of the residuals")}`,
+    counted(group.number("iterations"), "iteration"),
   ];
+  const facts = [`method ${words(method)}`, words(outcome), ...(estimates.length ? fit : [])];
   return element("p", { class: "note" }, `${facts.join("; ")}.`);
 }
 
@@ -118,7 +125,7 @@ export function identificationParts(record) {
     section(
       "What this means",
       ...whatItMeans(found).map((sentences) => element("p", { class: "words" }, sentences.join(" "))),
-      fitText(found),
+      methodText(found),
     ),
     ...(found.estimates.length ? [section("Estimates", estimatesTable(found.estimates))] : []),
     ...(found.first.length

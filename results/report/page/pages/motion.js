@@ -1,7 +1,7 @@
 // The page of one motion: a free vibration or a forced one from given initial values.
 import { motionFigureParts } from "../figures/motion_figures.js";
-import { dampingRatio, motionOf } from "../motion.js";
-import { whatItMeans } from "../motion_words.js";
+import { dampingRatio, isRounding, motionOf } from "../motion.js";
+import { decrementText, restText, sparseText, whatItMeans } from "../motion_words.js";
 import { element, section, table } from "../parts/elements.js";
 import { figureCards } from "../parts/figure_cards.js";
 import { numberText, quantityText, words } from "../units.js";
@@ -24,14 +24,22 @@ const massColumns = [
     ({ turningPoints }) => turningPoints[0] ?? NaN,
     (value, { unit }) => quantityText(value, unit),
   ],
-  ["decrement of the first cycle", ({ decrements }) => decrements[0] ?? NaN, (value) => numberText(value)],
+  [
+    "decrement of the first cycle",
+    ({ decrements }) => decrements[0] ?? NaN,
+    (value) => decrementText(value, 6),
+  ],
   [
     "as viscous damping ratio",
-    ({ decrements }) => dampingRatio(decrements[0] ?? NaN),
+    ({ decrements }) => (isRounding(decrements[0]) ? NaN : dampingRatio(decrements[0] ?? NaN)),
     (value) => numberText(value),
   ],
-  ["decrement of the last cycle", ({ decrements }) => decrements.at(-1) ?? NaN, (value) => numberText(value)],
-  ["rest", ({ rest }) => rest, (value, { unit }) => quantityText(value, unit)],
+  [
+    "decrement of the last cycle above rounding",
+    ({ decrements }) => decrements.at(-1) ?? NaN,
+    (value) => decrementText(value, 6),
+  ],
+  ["rest or limit", ({ rest }) => rest, (value, mass) => restText(mass, 6)],
   ["largest displacement", ({ peak }) => peak, (value, { unit }) => quantityText(value, unit)],
   ["at", ({ peakTime }) => peakTime, (value) => quantityText(value, "s")],
 ];
@@ -46,11 +54,15 @@ function massesTable({ masses }) {
   return [table(["mass", ...columns.map(([name]) => name)], rows, { numeric: columns.map((_, i) => i + 1) })];
 }
 
-function factsTable({ group, stopTime, duration, discretisationError, masses, kind }) {
+function factsTable({ group, hysteretic, stopTime, duration, discretisationError, masses, kind }) {
   const rows = [
     ["recorded until", duration, "s"],
     ["all at rest from", stopTime, "s"],
-    ["reference frequency of hysteretic elements", group.number("reference_frequency"), "rad s-1"],
+    [
+      "reference frequency of hysteretic elements",
+      hysteretic ? group.number("reference_frequency") : NaN,
+      "rad s-1",
+    ],
     ["discretisation error of the run", discretisationError, masses[0]?.unit ?? "m"],
   ]
     .filter(([name, value]) => Number.isFinite(value) || (name === "all at rest from" && kind === "decay"))
@@ -66,7 +78,7 @@ function turningTable({ name, unit, turningTimes, turningPoints, decrements }) {
     String(i + 1),
     numberText(time, 8),
     quantityText(turningPoints[i], unit),
-    numberText(decrements[i] ?? NaN),
+    decrementText(decrements[i] ?? NaN, 6),
   ]);
   return element(
     "details",
@@ -124,6 +136,11 @@ function stopsTable({ stops }) {
   ];
 }
 
+function sparseNotes(motion) {
+  const text = sparseText(motion);
+  return text ? [element("p", { class: "warning" }, text)] : [];
+}
+
 function partsOf(record, motion) {
   const {
     histories: [first, ...others],
@@ -141,6 +158,7 @@ function partsOf(record, motion) {
       ? [
           section(
             "Motion",
+            ...sparseNotes(motion),
             ...figureCards([first], record, "wide"),
             ...figureCards(others, record),
             ...stopsTable(motion),

@@ -9,8 +9,9 @@ import {
   roundsFigure,
   startsFigure,
 } from "../figures/tuning_progress.js";
-import { heldBounds, knotsAtBounds, tuningOf } from "../tuning.js";
-import { outcomeWarning, whatItMeans } from "../tuning_words.js";
+import { heldBounds, knotsAtBounds, responseWords, settlingRounds, tuningOf } from "../tuning.js";
+import { outcomeWarning, reasonText } from "../certificate_words.js";
+import { whatItMeans } from "../tuning_words.js";
 import { element, section, table } from "../parts/elements.js";
 import { figureCards } from "../parts/figure_cards.js";
 import { numberText, quantityText, unitText, withUnit, words } from "../units.js";
@@ -26,18 +27,28 @@ function per(value, objectiveUnit, unit) {
   return `${quantityText(value, objectiveUnit)} per ${unitText(unit) || "unit"}`;
 }
 
-function heldText(tuning, parameter) {
-  return (
-    heldBounds(parameter, tuning.objective)
-      .map(({ end, knots }) => `${end} bound${parameter.scheduled ? `, at ${knots} knots` : ""}`)
-      .join("; ") || "\u2013"
+// Of a design that is no proven optimum the bounds that it lies on.
+function metText({ scheduled, ...parameter }) {
+  const { lower, upper } = knotsAtBounds(parameter);
+  const of = (end, { length }) => `on its ${end} bound${scheduled ? ` at ${length} knots` : ""}`;
+  return [...(lower.length ? [of("lower", lower)] : []), ...(upper.length ? [of("upper", upper)] : [])].join(
+    "; ",
   );
+}
+
+function heldText(tuning, parameter) {
+  const held = tuning.converged
+    ? heldBounds(tuning, parameter)
+        .map(({ end, knots }) => `${end} bound${parameter.scheduled ? `, at ${knots} knots` : ""}`)
+        .join("; ")
+    : metText(parameter);
+  return held || "\u2013";
 }
 
 // What moving the bounds that hold the design outwards gives.
 function boundsTable(tuning) {
   const rows = tuning.parameters.flatMap((parameter) =>
-    heldBounds(parameter, tuning.objective).map(({ end, knots, multiplier, gain }) => [
+    heldBounds(tuning, parameter).map(({ end, knots, multiplier, gain }) => [
       symbolText(parameter.name),
       `${end}${parameter.scheduled ? `, at ${knots} knots` : ""}`,
       per(multiplier, tuning.unit, parameter.unit),
@@ -83,7 +94,7 @@ function optimumTable(tuning) {
     ...(anyConstant ? ["best constant"] : []),
     "lower bound",
     "upper bound",
-    "held by",
+    tuning.converged ? "held by" : "lies",
   ];
   const rows = parameters.map((parameter) => [
     withUnit(symbolText(parameter.name), unitText(parameter.unit)),
@@ -118,32 +129,43 @@ function schedulesTables({ parameters, band }) {
     );
 }
 
-function shareText({ active, share }) {
-  return active ? `${numberText(100 * share, 4)} %` : "not active";
+// What a peak does for the optimum; only peaks of a worst case hold one.
+function shareText({ converged }, { active, asHigh, share }) {
+  if (!converged) return "not known";
+  if (active) return `${numberText(100 * share, 4)} %`;
+  return asHigh ? "as high, holds nothing" : "not active";
 }
 
-function peaksTable({ peaks, parameters, band, unit, scenarios, quantity }) {
+function peaksTable(tuning) {
+  const { peaks, parameters, band, root, scenarios, kind } = tuning;
   if (peaks.length === 0) return [];
-  const several = scenarios.length > 1;
+  const several = scenarios.length > 1,
+    held = kind === "minimax";
   const head = [
     withUnit(symbolText(band.name), unitText(band.unit)),
     ...(several ? ["scenario"] : []),
-    words(quantity),
-    "share in what holds it",
+    responseWords(tuning),
+    ...(held ? ["share in what holds it"] : []),
     ...parameters.map(({ name, unit: of }) => `by ${symbolText(name)}: per ${unitText(of) || "unit"}`),
   ];
   const rows = peaks.map((peak) => [
     numberText(peak.at),
     ...(several ? [words(peak.scenario)] : []),
-    quantityText(peak.value, unit),
-    shareText(peak),
-    ...parameters.map(({ sensitivity }) => quantityText(sensitivity[peak.number] ?? NaN, unit, 4)),
+    quantityText(peak.value, root),
+    ...(held ? [shareText(tuning, peak)] : []),
+    ...parameters.map(({ sensitivity }) => quantityText(sensitivity[peak.number] ?? NaN, root, 4)),
   ]);
   const numeric = head.map((_, i) => i).filter((i) => !(several && i === 1));
   return [
-    note("Peaks at the optimum, and how each changes with each parameter (a schedule is moved as a whole)."),
+    note("Peaks of the design, and how each changes with each parameter (a schedule is moved as a whole)."),
     table(head, rows, { numeric }),
   ];
+}
+
+function multiplierText(tuning, limit) {
+  if (limit.broken > 0) return `broken by ${numberText(100 * limit.broken, 4)} %`;
+  if (!tuning.converged) return "not known";
+  return limit.active ? per(limit.multiplier, tuning.unit, limit.unit) : "does not bind";
 }
 
 function limitsTable(tuning) {
@@ -162,7 +184,7 @@ function limitsTable(tuning) {
     place(limit),
     numberText(limit.lower),
     numberText(limit.upper),
-    limit.active ? per(limit.multiplier, tuning.unit, limit.unit) : "does not bind",
+    multiplierText(tuning, limit),
   ]);
   return [
     note(
@@ -183,15 +205,15 @@ function factsTable(tuning) {
     ["KKT residual", numberText(group.number("kkt_residual"), 3)],
     ["violation of limits, relative", numberText(group.number("violation"), 3)],
     ["outcome", words(tuning.outcome)],
-    ["reason", tuning.reason],
+    ["reason", reasonText(tuning)],
     ["iterations", count("iterations")],
     ["orbits", count("orbits")],
     ["gradients", count("gradients")],
     ["solver", texts.solver ?? ""],
     [
       "starts",
-      `${group.values("start_objective")?.length ?? 1} (${words(texts.start ?? "given")}); chosen: start ` +
-        `${count("best_start")}`,
+      `${group.values("start_objective")?.length ?? 1} (${words(texts.start ?? "given")}); chosen: number ` +
+        `${count("best_start")}, from 0`,
     ],
   ];
   return table(
@@ -208,7 +230,16 @@ function worstTable(tuning) {
   return table(["design", objectiveLabel(tuning)], rows, { numeric: [1] });
 }
 
-function roundsTable({ group, unit, kind }) {
+// What another objective the last rounds press down, if they do.
+function roundsCaption(tuning) {
+  const count = settlingRounds(tuning);
+  if (count === 0) return "Rounds of the tuning.";
+  const last = count === 1 ? "The last presses" : `The last ${count} press`;
+  return `Rounds of the tuning. ${last} the mean response down with the worst peak held: "bound" is that mean there.`;
+}
+
+function roundsTable(tuning) {
+  const { group, unit, kind } = tuning;
   const active = group.values("round_active");
   if (!active) return null;
   const of = (name, i) => group.values(name)[i];
@@ -228,7 +259,7 @@ function roundsTable({ group, unit, kind }) {
     ...(kind === "minimax" ? ["worst"] : []),
     "violation",
   ];
-  return table(head, rows, { numeric: head.map((_, i) => i), caption: "Rounds of the tuning." });
+  return table(head, rows, { numeric: head.map((_, i) => i), caption: roundsCaption(tuning) });
 }
 
 function frontTable({ front, parameters, limits, unit }) {

@@ -1,0 +1,82 @@
+// Whether a tuning is a proven optimum, and why not, in sentences of numbers.
+import { symbolText } from "./axes.js";
+import { numberText, quantityText, unitText } from "./units.js";
+
+const roundingGap = 1e-12; // relative
+const metResidual = 1e-6; // relative: the tolerance that a tuning has unless its study says otherwise
+
+// How near the worst peak is to the bound that the tuning found.
+function gapSentences({ kind, band, group, converged }) {
+  const gap = Math.abs(group.number("certificate_gap"));
+  if (kind !== "minimax" || !band || Number.isNaN(gap)) return [];
+  const near = gap < roundingGap ? "rounding" : `${numberText(gap, 2)} (relative)`;
+  return converged
+    ? [
+        `Certificate: all peaks of the band were solved; the worst of them and the bound of the tuning agree to ${near}.`,
+      ]
+    : [`There is no certificate; the worst peak and the bound of the tuning differ by ${near}.`];
+}
+
+function conditionSentences({ group, converged }) {
+  const residual = group.number("kkt_residual");
+  if (Number.isNaN(residual)) return [];
+  const text = `${numberText(residual, 2)} (relative)`;
+  if (converged) return [`The conditions of a local optimum hold to ${text}.`];
+  return residual <= metResidual
+    ? [`The conditions of a local optimum hold to ${text} at the last step, which is no proof of one.`]
+    : [`The conditions of a local optimum do not hold: KKT residual ${text}.`];
+}
+
+// "12 of 20 starts reached this objective to 0.1 %".
+function startsText(group) {
+  const found = Array.from(group.values("start_objective")),
+    best = group.number("objective");
+  const alike = found.filter((value) => Math.abs(value - best) <= 1e-3 * Math.abs(best)).length;
+  return (
+    `${alike} of ${found.length} starts reached this objective to 0.1 %; that no better design lies elsewhere ` +
+    `is not proved`
+  );
+}
+
+export function certificateSentences(tuning) {
+  const { group, converged } = tuning;
+  const starts = group.values("start_objective")?.length ?? 1;
+  const elsewhere =
+    starts > 1
+      ? [`${startsText(group)}.`]
+      : converged
+        ? ["That no better design lies elsewhere within the bounds is not proved: one start was made."]
+        : [];
+  return [...gapSentences(tuning), ...conditionSentences(tuning), ...elsewhere];
+}
+
+const outcomeWords = {
+  not_converged: "This tuning did not converge. What follows is the best design found, not a proven optimum",
+  infeasible: "No design was found that keeps every limit. What follows is the one that breaks them least",
+  unbounded: "The response has no bound somewhere in the band. What follows is as far as the tuning came",
+  failed: "This tuning failed. What follows is as far as it came",
+  stopped: "This tuning was stopped before its end. What follows is the best design so far",
+};
+
+// The reason as the record has it, with the name of the parameter of its place in the band, which stands there in SI.
+export function reasonText({ reason, band }) {
+  if (!band || !["1", "rad s-1"].includes(band.unit)) return reason;
+  const after = unitText(band.unit);
+  return reason.replace(
+    / at (\S+) of the band/,
+    ` at ${symbolText(band.name)} = $1${after ? ` ${after}` : ""}`,
+  );
+}
+
+// Why not all is well, or "". Of a trade-off that is said of its last limit.
+export function outcomeWarning(tuning) {
+  const { outcome, converged, group, front } = tuning;
+  if (converged) return "";
+  const violation = group.number("violation");
+  const broken = violation > 0 ? ` (largest violation of a limit: ${numberText(100 * violation, 4)} %)` : "";
+  const reason = outcome === "infeasible" ? "" : reasonText(tuning); // which says the same again
+  const last = front
+    ? `For the last limit, ${quantityText(group.number("trade_off"), front.column("trade_off").unit, 4)}: `
+    : "";
+  return `${last}${outcomeWords[outcome] ?? "It is not known how this tuning ended"}${broken}${reason ? `: ${reason}` : ""}.`;
+}
