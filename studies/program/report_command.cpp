@@ -3,175 +3,23 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
-#include <algorithm>
-#include <iostream>
-#include <optional>
-#include <utility>
-
 #include "results/map_reader.hpp"
 #include "results/report/page_data.hpp"
 #include "results/report/report_page.hpp"
-#include "studies/map/finished_file.hpp"
-#include "studies/map/stored_study.hpp"
-#include "studies/motion/crank_motion.hpp"
 #include "studies/program/paper_figures.hpp"
+#include "studies/program/report_content.hpp"
 #include "studies/program/whole_file.hpp"
+#include "studies/reading/study_source.hpp"
 
 namespace frahm::studies {
 namespace {
-
-// The study that the result holds, if it can be read again: a table that it reads may have stayed elsewhere.
-std::optional<StudyFile> study_of(const results::MapReader& result, const std::filesystem::path& file) {
-  try {
-    return read_stored_study(result, file).study;
-  } catch (const StudyError& error) {
-    std::cerr << fmt::format("frahm: the study in {} cannot be read again, the report goes without it: {}\n",
-                             file.string(), error.what());
-    return std::nullopt;
-  }
-}
-
-// Strokes are shown of springs, energy shares of what dissipates.
-bool is_of_no_interest(const std::string& name, const std::optional<StudyFile>& study) {
-  using mechanics::ElementType;
-  if (!study) return false;
-  for (const mechanics::Element& element : study->network.elements) {
-    const bool keeps_energy = element.type == ElementType::spring || element.type == ElementType::inerter;
-    if (name == element.name + "_stroke") return element.type != ElementType::spring;
-    if (name == element.name + "_energy_share") return keeps_energy;
-  }
-  return false;
-}
-
-// What an atlas shows: peaks of the masses, strokes of the springs, regimes, stops, the damping budget and
-// the status.
-bool is_shown_by_default(const std::string& name, const std::optional<StudyFile>& study) {
-  const auto ends = [&](std::string_view end) { return name.ends_with(end); };
-  if (ends("_velocity_peak") || ends("_acceleration_peak") || ends("_force_peak")) return false;
-  if (is_of_no_interest(name, study)) return false;
-  return ends("_peak") || ends("_stroke") || ends("_regime") || ends("_stops") || ends("_energy_share") ||
-         ends("_difference") || name == "status";
-}
-
-// All recorded quantities if it is none of those.
-std::vector<std::string> default_quantities(const results::MapLayout& layout,
-                                            const std::optional<StudyFile>& study) {
-  std::vector<std::string> shown, all;
-  bool any_number = false;
-  for (const results::Variable& variable : layout.variables) {
-    all.push_back(variable.name);
-    if (!is_shown_by_default(variable.name, study)) continue;
-    shown.push_back(variable.name);
-    any_number = any_number || variable.type != results::Type::flag;
-  }
-  return any_number ? shown : all;
-}
-
-void check_quantities(const std::vector<std::string>& asked, const results::MapLayout& layout) {
-  for (const std::string& name : asked) {
-    const auto& known = layout.variables;
-    const bool is_known = std::any_of(
-        known.begin(), known.end(), [&](const results::Variable& variable) { return variable.name == name; });
-    if (is_known) continue;
-    std::string names;
-    for (const results::Variable& variable : known) names += (names.empty() ? "" : ", ") + variable.name;
-    throw StudyError(fmt::format("--quantities: the result has no quantity \"{}\"; it has {}", name,
-                                 names.empty() ? "no map" : names));
-  }
-}
-
-// A browser holds some gigabytes.
-void check_size(const results::MapLayout& layout, std::size_t quantities) {
-  constexpr double most_numbers = 2e8;
-  double points = 1.0;
-  for (const results::Axis& axis : layout.axes) points *= static_cast<double>(axis.size);
-  if (points * static_cast<double>(quantities) <= most_numbers) return;
-  throw StudyError(fmt::format(
-      "the page would hold {} quantities at {:.4g} points; a browser takes {:.0e} numbers at most: name "
-      "fewer by --quantities, or sweep a part of the map for it",
-      quantities, points, most_numbers));
-}
-
-std::vector<std::string> shown_quantities(const ReportOptions& options, const results::MapLayout& layout,
-                                          const std::optional<StudyFile>& study) {
-  check_quantities(options.quantities, layout);
-  if (!options.quantities.empty()) return options.quantities;
-  if (!study || study->report_quantities.empty()) return default_quantities(layout, study);
-  std::vector<std::string> names;
-  for (const OutputChoice::Name& name : study->report_quantities) names.push_back(name.text);
-  return names;
-}
-
-// The names of what runs along the axes of the map.
-std::vector<std::string> axis_parameters(const results::MapLayout& layout,
-                                         const std::optional<StudyFile>& study) {
-  std::vector<std::string> names;
-  if (study) {
-    for (const ParameterAxis& axis : study->axes)
-      names.push_back(study->parameters.list[axis.parameter].name);
-  } else {
-    for (const results::Axis& axis : layout.axes) names.push_back(axis.name);
-  }
-  return names;
-}
-
-// The frequency of the excitation [rad/s] as the study states it, by which the page knows a period.
-results::Column excitation_frequency(const StudyFile& study) {
-  std::vector<double> parameters = study.parameters.nominal();
-  mechanics::NetworkValues values;
-  evaluate(study.values, study.parameters, parameters, values);
-  return {.variable = {.name = "excitation_frequency",
-                       .unit = study.dimensionless ? "1" : "rad s-1",
-                       .long_name = "excitation frequency as the study states it"},
-          .values = {values.omega}};
-}
-
-results::Column number_of(const StudyFile& study, mechanics::ElementType type, const std::string& name) {
-  const auto& elements = study.network.elements;
-  const auto is_one = [&](const mechanics::Element& element) { return element.type == type; };
-  const auto number = std::count_if(elements.begin(), elements.end(), is_one);
-  return {.variable = {.name = name, .unit = "1", .long_name = "number of them in the study"},
-          .values = {static_cast<double>(number)}};
-}
-
-// By what the page of a motion knows whether it can end, and what a period is.
-std::vector<results::Column> motion_facts(const StudyFile& study) {
-  using mechanics::ElementType;
-  std::vector<results::Column> facts = {number_of(study, ElementType::coulomb, "coulomb_elements"),
-                                        number_of(study, ElementType::hysteretic, "hysteretic_elements")};
-  if (study.kind == StudyKind::transient) facts.push_back(excitation_frequency(study));
-  return facts;
-}
-
-// What the page shows besides the file: the motion of the study's cranks, and facts of a study of one motion.
-std::vector<results::PageGroup> further_groups(const std::optional<StudyFile>& study) {
-  if (!study) return {};
-  std::vector<results::PageGroup> groups;
-  if (std::vector<results::Column> cranks = crank_motions(*study); !cranks.empty())
-    groups.push_back({.name = "crank", .columns = std::move(cranks)});
-  if (study->kind == StudyKind::transient || study->kind == StudyKind::decay)
-    groups.push_back({.name = "study", .columns = motion_facts(*study)});
-  return groups;
-}
-
-results::PageContent content_of(const ReportOptions& options, const results::MapReader& result) {
-  const std::optional<StudyFile> study = study_of(result, options.file);
-  const std::vector<std::string> shown = shown_quantities(options, result.layout(), study);
-  check_size(result.layout(), shown.size());
-  return {.file = options.file.filename().string(),
-          .parameters = axis_parameters(result.layout(), study),
-          .variables = shown,
-          .groups = further_groups(study),
-          .all_digits = !options.figures.empty()};
-}
 
 void require_page_parts() {
   if (results::has_report_page()) return;
   throw StudyError(
       "report: this frahm was built without the page's parts, which come with Node.js and npm. Install them "
-      "(Debian: apt-get install nodejs npm), configure and build again (cmake --preset release && cmake "
-      "--build "
-      "--preset release); all else in this program is complete");
+      "(Debian: apt-get install nodejs npm), configure and build again (cmake --preset release && "
+      "cmake --build --preset release); all else in this program is complete");
 }
 
 void write_page(const ReportOptions& options, const results::MapReader& result, std::ostream& out) {
@@ -180,8 +28,8 @@ void write_page(const ReportOptions& options, const results::MapReader& result, 
                                            : options.output;
   const std::string title =
       result.layout().title.empty() ? options.file.filename().string() : result.layout().title;
-  const std::string page =
-      results::report_page(title, results::page_data(result, content_of(options, result)));
+  const std::string page = results::report_page(
+      title, results::page_data(result, page_content(result, options.file, options.quantities)));
   if (output == "-") {
     out << page;
     return;
@@ -201,7 +49,9 @@ int report_command(const ReportOptions& options, std::ostream& out) {
   if (options.figures.empty()) {
     write_page(options, result, out);
   } else {
-    write_paper_figures(results::page_data(result, content_of(options, result)), options.figures, out);
+    results::PageContent content = page_content(result, options.file, options.quantities);
+    content.all_digits = true;
+    write_paper_figures(results::page_data(result, content), options.figures, out);
   }
   return 0;
 }

@@ -43,9 +43,19 @@ export async function unpackLevels({ levels, scale, low, step }, { size, stride 
       whole[i] = (code % 2 ? -((code + 1) / 2) : code / 2) + 2 * before - beforeThat;
     }
   }
-  const value =
-    scale === "log"
-      ? (level) => (level === 1 ? 0 : low * Math.exp((level - 2) * step))
-      : (level) => low + (level - 1) * step;
-  return Float64Array.from(whole, (level) => (level === 0 ? NaN : value(level)));
+  return scale === "log" ? onLogScale(whole, low, step) : onLinearScale(whole, low, step);
+}
+
+function onLinearScale(levels, low, step) {
+  const values = new Float64Array(levels.length);
+  for (let i = 0; i < levels.length; ++i) values[i] = levels[i] === 0 ? NaN : low + (levels[i] - 1) * step;
+  return values;
+}
+
+function onLogScale(levels, low, step) {
+  const values = new Float64Array(levels.length);
+  for (let i = 0; i < levels.length; ++i) {
+    values[i] = levels[i] === 0 ? NaN : levels[i] === 1 ? 0 : low * Math.exp((levels[i] - 2) * step);
+  }
+  return values;
 }

@@ -101,16 +101,23 @@ async function unpackMap(data) {
       axis.coordinates.unshift(indexAlong(axis));
   }
   const line = { size: sizes[data.along], stride: strides[data.along] };
+  const unpacked = new Map(); // by the name of the variable whose levels they are: some move alike
+  const valuesOf = (variable) => {
+    if (variable.values) return unpackNumbers(variable.values);
+    if (!unpacked.has(variable.name)) unpacked.set(variable.name, unpackLevels(variable, line));
+    return unpacked.get(variable.name);
+  };
+  const sourceOf = ({ levels_of: name, scale, low, step }) => {
+    const source = data.variables.find((variable) => variable.name === name);
+    return source.scale === scale && source.low === low && source.step === step
+      ? source
+      : { levels: source.levels, scale, low, step, name: `${name} ${low} ${step}` };
+  };
   const variables = await Promise.all(
     data.variables.map(async (variable) => {
-      const from = variable.levels_of
-        ? data.variables.find(({ name }) => name === variable.levels_of)
-        : variable;
-      const { values: exact, levels, levels_of, scale, low, step, ...described } = variable;
-      const values = exact
-        ? await unpackNumbers(exact)
-        : await unpackLevels({ levels: from.levels, scale, low, step }, line);
-      const digits = exact || variable.kind !== "float" ? undefined : sixDigits;
+      const values = await valuesOf(variable.levels_of ? sourceOf(variable) : variable);
+      const { levels, levels_of, scale, low, step, ...described } = variable;
+      const digits = variable.values || variable.kind !== "float" ? undefined : sixDigits;
       return { ...described, values, digits };
     }),
   );
