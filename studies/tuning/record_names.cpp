@@ -96,6 +96,28 @@ std::string objective_unit(const StudyFile& study) {
   return study.tune->objective == tuning::Objective::minimax ? unit : squared(unit);
 }
 
+std::string noise_words(const StudyFile& study) {
+  const tuning::Noise& noise = study.tune->noise;
+  const bool force = noise.kind == tuning::NoiseKind::force_on;
+  const auto& nodes = force ? study.network.masses : study.network.prescribed;
+  return fmt::format("{} {}", force ? "a force on" : "the acceleration of", nodes[noise.node]);
+}
+
+namespace {
+
+// White noise and what the motion is measured from, which a variance is of.
+void add_noise(const StudyFile& study, std::vector<results::Text>& texts) {
+  const tuning::Noise& noise = study.tune->noise;
+  const bool force = noise.kind == tuning::NoiseKind::force_on;
+  const std::string unit = study.dimensionless ? "" : force ? " N2 per rad s-1" : " (m s-2)2 per rad s-1";
+  texts.emplace_back("noise", noise_words(study));
+  texts.emplace_back("noise_density", fmt::format("{}{}", noise.intensity, unit));
+  if (!force && study.tune->quantity.measure != periodic::Measure::stroke)
+    texts.emplace_back("relative_to", study.network.prescribed[noise.node]);
+}
+
+}  // namespace
+
 std::vector<results::Text> optimum_texts(const StudyFile& study, const TuningResult& result) {
   const TuneChoice& tune = *study.tune;
   const TuningAbout about(study, result);
@@ -111,6 +133,7 @@ std::vector<results::Text> optimum_texts(const StudyFile& study, const TuningRes
                                       {"limits", fmt::format("{}", fmt::join(limits, ","))},
                                       {"solver", tune.solver},
                                       {"start", start_text(tune)}};
+  if (tune.objective == tuning::Objective::variance) add_noise(study, texts);
   if (tune.dominate_constant) texts.emplace_back("dominate", "constant");
   return texts;
 }

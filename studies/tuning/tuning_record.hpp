@@ -33,4 +33,7 @@ std::vector<NamedLimit> named_limits(const StudyFile& study, double trade_off);
 std::string quantity_unit(const StudyFile& study);
 std::string objective_unit(const StudyFile& study);
 
+// The white noise of a variance: "a force on main", "the acceleration of base".
+std::string noise_words(const StudyFile& study);
+
 }  // namespace frahm::studies

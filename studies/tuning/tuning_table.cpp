@@ -195,12 +195,8 @@ void print_task(const StudyFile& study, std::ostream& out) {
     fmt::print(out, " over {} = {:.6g} .. {}", study.parameters.list[band.parameter].name,
                band.range.from / factor, with_unit(band.range.to / factor, band.unit.text));
   }
-  if (tune.objective == tuning::Objective::variance) {
-    const bool force = tune.noise.kind == tuning::NoiseKind::force_on;
-    const auto& names = force ? study.network.masses : study.network.prescribed;
-    fmt::print(out, " under white noise, {} {}", force ? "a force on" : "the acceleration of",
-               names[tune.noise.node]);
-  }
+  if (tune.objective == tuning::Objective::variance)
+    fmt::print(out, " under white noise, {}", noise_words(study));
   fmt::print(out, "\n");
   if (!tune.scenarios.empty())
     fmt::print(out, "{:<22}{}\n", "scenarios", fmt::join(scenario_names(study), ", "));

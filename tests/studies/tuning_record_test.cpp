@@ -101,13 +101,15 @@ TEST_CASE("the record of a tuning is in the units of its study") {
   CHECK(std::isnan(values("start_k")[0]));
 }
 
+std::string text_of(const std::string& name, const StudyFile& study, const TuningResult& result) {
+  const auto texts = optimum_texts(study, result);
+  const auto is_it = [&](const results::Text& text) { return text.first == name; };
+  const auto found = std::find_if(texts.begin(), texts.end(), is_it);
+  return found == texts.end() ? std::string() : found->second;
+}
+
 TEST_CASE("a record tells that its schedule was to dominate the constant, and only then") {
-  const auto dominate = [](const StudyFile& study) {
-    const auto texts = optimum_texts(study, rig_result(study));
-    const auto is_it = [](const results::Text& text) { return text.first == "dominate"; };
-    const auto found = std::find_if(texts.begin(), texts.end(), is_it);
-    return found == texts.end() ? std::string() : found->second;
-  };
+  const auto dominate = [](const StudyFile& study) { return text_of("dominate", study, rig_result(study)); };
   CHECK(dominate(parse(rig)).empty());
   std::string dominating = rig;
   dominating.replace(dominating.find("[[design]]"), 10, "dominate = \"constant\"\n[[design]]");
@@ -126,6 +128,16 @@ TEST_CASE("a variance without a band has the objective of the design before besi
   results::check(columns);
   CHECK(named(columns, "worst_before").values == std::vector<double>{3.0});
   CHECK(named(columns, "worst_after").values == std::vector<double>{2.0});
+  CHECK(text_of("noise", study, result) == "a force on main");
+  CHECK(text_of("relative_to", study, result).empty());
+}
+
+TEST_CASE("a variance under support motion says that it is of the motion relative to the support") {
+  const StudyFile study = read_study(FRAHM_SOURCE_DIR "/studies/tune_h2_support.toml");
+  const TuningResult result{.starts = {{0, {optimum_of(2.0)}}}, .best = {0}, .assessment = {}};
+  CHECK(text_of("noise", study, result) == "the acceleration of base");
+  CHECK(text_of("noise_density", study, result) == "1");
+  CHECK(text_of("relative_to", study, result) == "base");
 }
 
 TEST_CASE("every unit of the record is one that UDUNITS reads") {

@@ -106,6 +106,19 @@ function scenarioText({ scenarios, kind }) {
     : `, as the mean of ${scenarios.length} scenarios`;
 }
 
+// What a variance is of: "relative to base under white noise, ...".
+function noiseText({ texts }) {
+  const { noise, noise_density: density, relative_to: support } = texts;
+  if (!noise) return "";
+  const [, number, unit = ""] = /^(\S+) ?(.*)$/.exec(density);
+  const [squared, per] = unit.split(" per ").map(unitText);
+  const of = unit ? `${squared} per ${per}` : "";
+  return (
+    `${support ? ` relative to ${words(support)}` : ""} under white noise, ${words(noise)} ` +
+    `(two-sided spectral density ${numberText(Number(number))}${of ? ` ${of}` : ""})`
+  );
+}
+
 function reductionSentences(tuning) {
   const level = (objective) => quantityText(amplitude(tuning, objective), tuning.root, digits);
   const over = tuning.kind !== "variance" && tuning.band ? ` over ${bandText(tuning)}` : "";
@@ -116,7 +129,7 @@ function reductionSentences(tuning) {
       ? [`Against ${name} (${level(other)}): ${lessText(amplitude(tuning, other), tuned)}.`]
       : [];
   return [
-    `${capital(spoken(tuning))}${over}${scenarioText(tuning)}: ${level(tuning.objective)}.`,
+    `${capital(spoken(tuning))}${over}${noiseText(tuning)}${scenarioText(tuning)}: ${level(tuning.objective)}.`,
     ...against("the design before", before),
     ...against("the best design without a schedule", constant),
     ...against("the rule", rule),

@@ -327,3 +327,25 @@ test("a standard deviation is compared with that of the design before", () => {
   );
   assert.match(text, /Standard deviation of main: 2 mm\. Against the design before \(4 mm\): 50 % less/);
 });
+
+test("a variance says what its noise is, and what the motion is relative to", () => {
+  const of = (noise) =>
+    told({ objective: ["(m)2", "", 4e-6] }, 1, {
+      objective_kind: "variance",
+      quantity: "main_rms",
+      ...noise,
+    });
+  const support = {
+    noise: "the acceleration of base",
+    noise_density: "0.5 (m s-2)2 per rad s-1",
+    relative_to: "base",
+  };
+  assert.match(
+    of(support),
+    /Standard deviation of main relative to base under white noise, the acceleration of base \(two-sided spectral density 0\.5 \(m\/s²\)² per rad\/s\): 2 mm\./,
+  );
+  assert.match(
+    of({ noise: "a force on main", noise_density: "2" }),
+    /Standard deviation of main under white noise, a force on main \(two-sided spectral density 2\): 2 mm\./,
+  );
+});
