@@ -3,8 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
-#include <optional>
+#include <span>
 #include <stdexcept>
 
 #include "results/box.hpp"
@@ -67,32 +68,27 @@ LineShape lines_along(const Shape& shape, std::size_t axis) {
   return {shape[axis], product(std::span(shape).subspan(axis + 1))};
 }
 
-// What has been packed; suspension and main mass, say, may move alike.
-struct Packed {
-  std::string name;
-  PackedLevels levels;
-};
+using Carried = std::map<std::string, std::string>;  // levels -> the variable that has them in the page
 
-// To six digits; levels that an earlier variable has too are named, not repeated.
+// To six digits; levels that an earlier variable has too are named, not repeated: suspension and main mass,
+// say, may move alike.
 void put_levels(Json& json, const Variable& variable, std::span<const double> values, const Shape& shape,
-                std::vector<Packed>& before) {
+                Carried& carried) {
   const bool whole = variable.type == Type::flag || variable.type == Type::int32;
   const PackedLevels packed =
       pack_levels(values, lines_along(shape, longest(shape)), whole ? Spacing::whole : Spacing::six_digits);
   json["scale"] = packed.logarithmic ? "log" : "linear";
   json["low"] = packed.low;
   json["step"] = packed.step;
-  const auto same = std::find_if(before.begin(), before.end(),
-                                 [&](const Packed& other) { return other.levels.levels == packed.levels; });
-  if (same != before.end()) {
-    json["levels_of"] = same->name;
-    return;
+  const auto [carrier, is_new] = carried.try_emplace(packed.levels, variable.name);
+  if (is_new) {
+    json["levels"] = packed.levels;
+  } else {
+    json["levels_of"] = carrier->second;
   }
-  json["levels"] = packed.levels;
-  before.push_back({variable.name, packed});
 }
 
-Json variable_json(const MapReader& result, std::size_t v, bool all_digits, std::vector<Packed>& before) {
+Json variable_json(const MapReader& result, std::size_t v, bool all_digits, Carried& carried) {
   const Variable& variable = result.layout().variables[v];
   const Shape shape = shape_of(result.layout());
   const std::vector<double> values = result.read(v, Shape(shape.size(), 0), shape);
@@ -100,7 +96,7 @@ Json variable_json(const MapReader& result, std::size_t v, bool all_digits, std:
   if (all_digits) {
     json["values"] = packed_numbers(values);
   } else {
-    put_levels(json, variable, values, shape, before);
+    put_levels(json, variable, values, shape, carried);
   }
   return json;
 }
@@ -119,9 +115,9 @@ Json map_json(const MapReader& result, const PageContent& content) {
       {"axes", Json::array()}, {"along", longest(shape_of(layout))}, {"parameters", content.parameters}};
   for (const Axis& axis : layout.axes) json["axes"].push_back(axis_json(axis));
   json["variables"] = json["left_out"] = Json::array();
-  std::vector<Packed> packed;
+  Carried carried;
   for (const std::string& name : chosen)
-    json["variables"].push_back(variable_json(result, index_of(layout, name), content.all_digits, packed));
+    json["variables"].push_back(variable_json(result, index_of(layout, name), content.all_digits, carried));
   for (const Variable& variable : layout.variables) {
     if (std::find(chosen.begin(), chosen.end(), variable.name) == chosen.end())
       json["left_out"].push_back(described(variable));
@@ -159,7 +155,7 @@ Json groups_json(const MapReader& result, const PageContent& content) {
   return json;
 }
 
-std::string without_markup(std::string text) {
+std::string without_markup(const std::string& text) {
   std::string escaped;
   escaped.reserve(text.size());
   for (const char c : text) {

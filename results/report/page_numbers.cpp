@@ -53,13 +53,14 @@ PackedLevels scale_of(std::span<const double> values, Spacing spacing) {
   if (spacing == Spacing::whole) return {.low = range.low, .step = 1.0};
   if (range.low < 0.0 || range.high == 0.0)
     return {.low = range.low, .step = (range.high - range.low) * millionth};
-  const double span = std::log(range.high / range.least_positive);
+  const double span = std::log(range.high) - std::log(range.least_positive);
   return {.logarithmic = true, .low = range.least_positive, .step = std::max(millionth, span / most_levels)};
 }
 
 std::int64_t level_of(double value, const PackedLevels& scale) {
   if (!std::isfinite(value)) return 0;
-  if (scale.logarithmic) return value > 0.0 ? 2 + std::llround(std::log(value / scale.low) / scale.step) : 1;
+  if (scale.logarithmic)
+    return value > 0.0 ? 2 + std::llround((std::log(value) - std::log(scale.low)) / scale.step) : 1;
   return 1 + (scale.step > 0.0 ? std::llround((value - scale.low) / scale.step) : 0);
 }
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
-#include <cerrno>
 #include <ostream>
 #include <sstream>
 #include <system_error>
@@ -33,27 +32,55 @@ void require_node() {
       "--figures: needs the program node, which is not on the PATH (Debian: apt-get install nodejs)");
 }
 
-// The names of the figures, without their extension.
-std::vector<std::string> draw(const std::string& data, const std::filesystem::path& folder) {
-  const std::filesystem::path script = folder / script_name;
-  write_whole_file(script, results::figure_script());
-  const ProgramEnd end = run_program_of_system("node", {script.string(), folder.string()}, data);
-  std::error_code unimportant;
-  std::filesystem::remove(script, unimportant);
-  if (end.code != 0)
-    throw engine::IoError(folder,
-                          fmt::format("not all figures could be drawn: node ended with code {}", end.code));
-  std::vector<std::string> names;
-  std::istringstream lines(end.output);
-  for (std::string name; std::getline(lines, name);) names.push_back(name);
-  return names;
+// The script that draws, as a file as long as it is needed.
+class FigureScript {
+ public:
+  explicit FigureScript(const std::filesystem::path& folder) : path_(folder / script_name) {
+    write_whole_file(path_, results::figure_script());
+  }
+  ~FigureScript() {
+    std::error_code unimportant;
+    std::filesystem::remove(path_, unimportant);
+  }
+  FigureScript(const FigureScript&) = delete;
+  FigureScript& operator=(const FigureScript&) = delete;
+
+  std::string path() const { return path_.string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
 }
 
-// Whether the PDF was made: by the first converter that is installed.
-bool make_pdf(const std::string& svg, const std::string& pdf) {
+// By the first converter that is installed.
+ProgramEnd make_pdf(const std::string& svg, const std::string& pdf) {
   ProgramEnd end = run_program_of_system("rsvg-convert", {"--format=pdf", "--output=" + pdf, svg});
   if (!end.found) end = run_program_of_system("inkscape", {"--export-filename=" + pdf, svg});
-  return end.found && end.code == 0;
+  return end;
+}
+
+// names: of the figures, without their extension. Prints what there is of each.
+void make_pdfs(const std::vector<std::string>& names, const std::filesystem::path& folder,
+               std::ostream& out) {
+  bool has_converter = true;
+  for (const std::string& name : names) {
+    const std::string path = (folder / name).string();
+    ProgramEnd end;
+    if (has_converter) end = make_pdf(path + ".svg", path + ".pdf");
+    has_converter = has_converter && end.found;
+    const bool made = has_converter && end.code == 0;
+    fmt::print(out, "{}.svg, .csv{}\n", path, made ? ", .pdf" : "");
+    if (has_converter && !made)
+      fmt::print(out, "No {}.pdf: the converter ended with code {}.\n", path, end.code);
+  }
+  if (!has_converter)
+    fmt::print(out, "No PDF: neither rsvg-convert nor inkscape is installed (Debian: librsvg2-bin).\n");
 }
 
 }  // namespace
@@ -61,16 +88,14 @@ bool make_pdf(const std::string& svg, const std::string& pdf) {
 void write_paper_figures(const std::string& data, const std::filesystem::path& folder, std::ostream& out) {
   require_node();
   make_folder(folder);
-  const std::vector<std::string> names = draw(data, folder);
+  const FigureScript script(folder);
+  const ProgramEnd drawn = run_program_of_system("node", {script.path(), folder.string()}, data);
+  const std::vector<std::string> names = lines_of(drawn.output);
+  make_pdfs(names, folder, out);
+  if (drawn.code != 0)
+    throw engine::IoError(folder,
+                          fmt::format("not all figures could be drawn: node ended with code {}", drawn.code));
   if (names.empty()) fmt::print(out, "This result has no figures; its page has its tables.\n");
-  bool pdf = true;
-  for (const std::string& name : names) {
-    const std::string path = (folder / name).string();
-    pdf = pdf && make_pdf(path + ".svg", path + ".pdf");
-    fmt::print(out, "{}.svg{}\n", path, pdf ? ", .csv, .pdf" : ", .csv");
-  }
-  if (!pdf)
-    fmt::print(out, "No PDF: neither rsvg-convert nor inkscape is installed (Debian: librsvg2-bin).\n");
 }
 
 }  // namespace frahm::studies

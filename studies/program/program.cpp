@@ -269,7 +269,7 @@ void add_report(CLI::App& program, ReportOptions& options, Action& action) {
   command
       ->add_option("--quantities", options.quantities,
                    "of a map: name,... to show; else those of the study's [report], else peaks, strokes, "
-                   "regimes, stops and status")
+                   "regimes, stops, energy shares, differences and status")
       ->delimiter(',')
       ->allow_extra_args(false);
   command->add_option("--figures", options.figures,

@@ -29,7 +29,7 @@ void write_page(const ReportOptions& options, const results::MapReader& result, 
   const std::string title =
       result.layout().title.empty() ? options.file.filename().string() : result.layout().title;
   const std::string page = results::report_page(
-      title, results::page_data(result, page_content(result, options.file, options.quantities)));
+      title, results::page_data(result, page_content(result, options.file, options.quantities, false)));
   if (output == "-") {
     out << page;
     return;
@@ -49,8 +49,7 @@ int report_command(const ReportOptions& options, std::ostream& out) {
   if (options.figures.empty()) {
     write_page(options, result, out);
   } else {
-    results::PageContent content = page_content(result, options.file, options.quantities);
-    content.all_digits = true;
+    const results::PageContent content = page_content(result, options.file, options.quantities, true);
     write_paper_figures(results::page_data(result, content), options.figures, out);
   }
   return 0;

@@ -36,8 +36,8 @@ bool is_of_no_interest(const std::string& name, const std::optional<StudyFile>& 
   return false;
 }
 
-// What an atlas shows: peaks of the masses, strokes of the springs, regimes, stops, the damping budget and
-// the status.
+// What an atlas shows: peaks of the masses, strokes of the springs, regimes, stops, the damping budget,
+// differences from a map compared with, and the status.
 bool is_shown_by_default(const std::string& name, const std::optional<StudyFile>& study) {
   const auto ends = [&](std::string_view end) { return name.ends_with(end); };
   if (ends("_velocity_peak") || ends("_acceleration_peak") || ends("_force_peak")) return false;
@@ -73,16 +73,17 @@ void check_quantities(const std::vector<std::string>& asked, const results::MapL
   }
 }
 
-// A browser holds some gigabytes.
-void check_size(const results::MapLayout& layout, std::size_t quantities) {
-  constexpr double most_numbers = 2e8;
+// A browser holds some gigabytes of numbers; Node.js reads all digits of them as one text of half a gigabyte
+// at most.
+void check_size(const results::MapLayout& layout, std::size_t quantities, bool all_digits) {
+  const double most_numbers = all_digits ? 4e7 : 2e8;
   double points = 1.0;
   for (const results::Axis& axis : layout.axes) points *= static_cast<double>(axis.size);
   if (points * static_cast<double>(quantities) <= most_numbers) return;
   throw StudyError(fmt::format(
-      "the page would hold {} quantities at {:.4g} points; a browser takes {:.0e} numbers at most: name "
+      "the report would hold {} quantities at {:.4g} points; {} takes {:.0e} numbers at most: name "
       "fewer by --quantities, or sweep a part of the map for it",
-      quantities, points, most_numbers));
+      quantities, points, all_digits ? "Node.js" : "a browser", most_numbers));
 }
 
 std::vector<std::string> shown_quantities(const std::vector<std::string>& asked,
@@ -151,14 +152,15 @@ std::vector<results::PageGroup> further_groups(const std::optional<StudyFile>& s
 }  // namespace
 
 results::PageContent page_content(const results::MapReader& result, const std::filesystem::path& file,
-                                  const std::vector<std::string>& quantities) {
+                                  const std::vector<std::string>& quantities, bool all_digits) {
   const std::optional<StudyFile> study = study_of(result, file);
   const std::vector<std::string> shown = shown_quantities(quantities, result.layout(), study);
-  check_size(result.layout(), shown.size());
+  check_size(result.layout(), shown.size(), all_digits);
   return {.file = file.filename().string(),
           .parameters = axis_parameters(result.layout(), study),
           .variables = shown,
-          .groups = further_groups(study)};
+          .groups = further_groups(study),
+          .all_digits = all_digits};
 }
 
 }  // namespace frahm::studies

@@ -111,7 +111,12 @@ TEST_CASE("levels of whole numbers, of nothing and of one number") {
   CHECK(packed({none, none}).step == 0.0);
   CHECK(packed({0.0, 0.0}).step == 0.0);
   CHECK(packed({-7.0, -7.0}).step == 0.0);
-  CHECK(packed({1e-300, 1e300}).step > millionth);  // so that differences of levels stay within 32 bits
+}
+
+TEST_CASE("levels over all that a double can hold: coarser, so that their differences stay within 32 bits") {
+  const PackedLevels widest = packed({1e-300, 1.0, 1e300});
+  CHECK(widest.step == Approx(600.0 * std::log(10.0) / 5e8));
+  CHECK(widest.step > millionth);
 }
 
 TEST_CASE("the page stands around its data") {

@@ -92,14 +92,15 @@ export function spacing(values) {
 
 const wideSpan = 1000;
 
-// The scale of an axis: that on which its values lie evenly, else the logarithmic one where they span decades.
+// The scale of a monotone axis: that on which its values lie evenly, else the logarithmic one where they span decades.
 export function axisScale(values) {
-  const size = Math.max(...values) / Math.min(...values);
-  return spacing(values) || (values.every((value) => value > 0) && size > wideSpan ? "log" : "linear");
+  const ends = [values[0], values.at(-1)],
+    least = Math.min(...ends);
+  return spacing(values) || (least > 0 && Math.max(...ends) / least > wideSpan ? "log" : "linear");
 }
 
 // The index whose value lies nearest (of a monotone axis, on its scale).
-export function nearest(values, at, type = "linear") {
+export function nearest(values, at, type) {
   const of = type === "log" ? Math.log : (value) => value;
   let best = 0;
   for (let i = 1; i < values.length; ++i) {

@@ -2,7 +2,7 @@
 
 // Crossings within the map of two axes where the other axes stand at an index: an edge of the grid lies along
 // x or along y, at a whole index of the other.  Returns [{key, i, j, alongX}], i and j fractional indices.
-function crossingsOfSlice(crossings, { x, y, index }) {
+export function crossingsOfSlice(crossings, { x, y, index }) {
   return crossings
     .filter(
       (crossing) =>

@@ -4,9 +4,8 @@ import { join } from "node:path";
 import { DOMImplementation, XMLSerializer } from "@xmldom/xmldom";
 import { csvText } from "./csv.js";
 import { figuresOf } from "./pages/pages.js";
-import { about } from "./parts/heading.js";
-import { unpackRecord } from "./record.js";
 import { pngImage } from "./png.mjs";
+import { unpackRecord } from "./record.js";
 import { svgFile } from "./svg_file.js";
 
 const folder = process.argv[2];
@@ -14,15 +13,8 @@ const record = await unpackRecord(JSON.parse(readFileSync(0, "utf8")));
 const document = new DOMImplementation().createDocument("http://www.w3.org/1999/xhtml", "html");
 
 function write(figure) {
-  const width = 720,
-    height = Math.round(width * (figure.ratio ?? 0.6));
-  const svg = figure.draw({ width, height, document, image: pngImage, interactive: false });
-  writeFileSync(
-    join(folder, `${figure.name}.svg`),
-    new XMLSerializer().serializeToString(
-      svgFile(svg, [figure.title, figure.caption].filter(Boolean).join("; "), about(record)),
-    ),
-  );
+  const svg = svgFile(figure, record, { document, image: pngImage });
+  writeFileSync(join(folder, `${figure.name}.svg`), new XMLSerializer().serializeToString(svg));
   writeFileSync(join(folder, `${figure.name}.csv`), csvText(figure.table()));
   process.stdout.write(`${figure.name}\n`);
 }

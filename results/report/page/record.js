@@ -2,7 +2,11 @@
 import { unpackLevels, unpackNumbers } from "./numbers.js";
 
 // A flag's or count's value that means "nothing here".
-const missing = { flag: 0, count: -1 };
+const none = { flag: 0, count: -1 };
+
+export function isMissing({ kind }, value) {
+  return Number.isNaN(value) || value === none[kind];
+}
 
 // One column of a group: name, unit, long_name, kind, flags, dimension, values (Float64Array).
 export class Group {
@@ -59,16 +63,15 @@ export class ResponseMap {
   // The value at a point, NaN where there is none.
   value(variable, index) {
     const value = variable.values[this.offset(index)];
-    return value === missing[variable.kind] ? NaN : value;
+    return isMissing(variable, value) ? NaN : value;
   }
   // Values along an axis through a point.
   line(variable, index, axis) {
     const { size, stride } = this.axes[axis];
     const start = this.offset(index) - index[axis] * stride;
-    const none = missing[variable.kind];
     return Float64Array.from({ length: size }, (_, i) => {
       const value = variable.values[start + i * stride];
-      return value === none ? NaN : value;
+      return isMissing(variable, value) ? NaN : value;
     });
   }
 }
@@ -101,21 +104,18 @@ async function unpackMap(data) {
       axis.coordinates.unshift(indexAlong(axis));
   }
   const line = { size: sizes[data.along], stride: strides[data.along] };
-  const unpacked = new Map(); // by the name of the variable whose levels they are: some move alike
-  const valuesOf = (variable) => {
-    if (variable.values) return unpackNumbers(variable.values);
-    if (!unpacked.has(variable.name)) unpacked.set(variable.name, unpackLevels(variable, line));
-    return unpacked.get(variable.name);
-  };
-  const sourceOf = ({ levels_of: name, scale, low, step }) => {
-    const source = data.variables.find((variable) => variable.name === name);
-    return source.scale === scale && source.low === low && source.step === step
-      ? source
-      : { levels: source.levels, scale, low, step, name: `${name} ${low} ${step}` };
+  const levelsOf = new Map(data.variables.map(({ name, levels }) => [name, levels]));
+  const unpacked = new Map(); // by levels and scale: some variables move alike
+  const valuesOf = ({ name, values, levels_of: carrier = name, scale, low, step }) => {
+    if (values) return unpackNumbers(values);
+    const key = [carrier, scale, low, step].join(" ");
+    if (!unpacked.has(key))
+      unpacked.set(key, unpackLevels({ levels: levelsOf.get(carrier), scale, low, step }, line));
+    return unpacked.get(key);
   };
   const variables = await Promise.all(
     data.variables.map(async (variable) => {
-      const values = await valuesOf(variable.levels_of ? sourceOf(variable) : variable);
+      const values = await valuesOf(variable);
       const { levels, levels_of, scale, low, step, ...described } = variable;
       const digits = variable.values || variable.kind !== "float" ? undefined : sixDigits;
       return { ...described, values, digits };

@@ -1,10 +1,11 @@
 // The damping budget along a response curve: each element's share of the energy dissipated in a period, stacked.
 import * as Plot from "@observablehq/plot";
-import { coordinateLabel } from "../axes.js";
+import { extent } from "d3";
+import { axisScale, coordinateLabel } from "../axes.js";
 import { words } from "../units.js";
 import { drawFrame, lineColours } from "./frame.js";
 
-export const shareEnd = "_energy_share";
+const shareEnd = "_energy_share";
 
 // Those that dissipate at all.
 export function dissipating(variables) {
@@ -30,7 +31,7 @@ export function energyShares(canvas, map, variables, { axis, coordinate, index }
     });
   });
   return drawFrame(canvas, {
-    x: { label: coordinateLabel(x) },
+    x: { label: coordinateLabel(x), type: axisScale(x.values), domain: extent(x.values) },
     y: { label: "share of the energy dissipated (%)", domain: [0, 100] },
     legend: variables.map(({ name }, n) => ({
       text: words(name.slice(0, -shareEnd.length)),
@@ -46,6 +47,7 @@ export function energySharesTable(map, variables, { axis, index }) {
     ...variables.map((variable) => ({
       name: variable.name,
       unit: "1",
+      digits: variable.digits,
       values: map.line(variable, index, axis),
     })),
   ];

@@ -6,7 +6,7 @@
 //            rgba) gives a picture's data URL
 //   table    its numbers, for a CSV file: [{name, unit, values}], in the units of the record
 import * as Plot from "@observablehq/plot";
-import { format, tickFormat, ticks } from "d3";
+import { extent, format, tickFormat, ticks } from "d3";
 import { powerText, powerTicks } from "./power_ticks.js";
 import { digitWidth, fontSize, textWidth, wrapped } from "./text_lines.js";
 
@@ -211,13 +211,7 @@ const leastSpread = 1e-4; // below it the labels of an axis would need too many 
 
 // Options of an axis for these values: where they are all but equal, some room about them.
 export function roomFor(values) {
-  let low = Infinity,
-    high = -Infinity;
-  for (const value of values) {
-    if (!Number.isFinite(value)) continue;
-    low = Math.min(low, value);
-    high = Math.max(high, value);
-  }
+  const [low, high] = extent(values.filter(Number.isFinite));
   const size = Math.max(Math.abs(low), Math.abs(high));
   if (!(low <= high) || high - low > leastSpread * size || size === 0) return { nice: true };
   const middle = (low + high) / 2;
@@ -245,9 +239,6 @@ export function tips(canvas, rows) {
     ),
   ];
 }
-
-// The numbers of an axis as it writes them, for tips.
-export { numberText, withUnit } from "../units.js";
 
 // A name that is good for a file, from one that may hold anything.
 export function fileName(text) {

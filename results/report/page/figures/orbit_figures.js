@@ -1,5 +1,6 @@
 // Figures of a kept orbit: time history, phase portrait, friction-force loop.
-import { numberText, shownUnit, withUnit, words } from "../units.js";
+import { coordinateText } from "../axes.js";
+import { shownUnit, withUnit, words } from "../units.js";
 import { curve, drawFrame, grid, lineColours } from "./frame.js";
 
 // The samples of orbit k (a ragged group: those from row_start[k] up to the next), as name -> {unit, values}.
@@ -26,10 +27,10 @@ const namesEnding = (samples, end) =>
   [...samples.keys()].filter((name) => name.endsWith(end)).map((name) => name.slice(0, -end.length));
 
 // Masses: what has an acceleration; contacts: what has a sliding velocity.
-export function massesOf(samples) {
+function massesOf(samples) {
   return namesEnding(samples, "_acceleration");
 }
-export function contactsOf(samples) {
+function contactsOf(samples) {
   return namesEnding(samples, "_sliding_velocity");
 }
 
@@ -125,13 +126,10 @@ export function orbitFigures(samples, label, suffix) {
 }
 
 // "ω = 250 rpm, I = 6.36 kg" of row k.
-export function orbitLabel(group, k, symbolText, unitText) {
+export function orbitLabel(group, k) {
   return group
     .along("orbit")
     .filter(({ name }) => name !== "row_start")
-    .map(
-      ({ name, unit, values }) =>
-        `${symbolText(name)} = ${numberText(values[k])}${unitText(unit) ? ` ${unitText(unit)}` : ""}`,
-    )
+    .map((coordinate) => coordinateText(coordinate, k))
     .join(", ");
 }

@@ -1,5 +1,6 @@
 // Response curves: a quantity along one axis through one or several points of the map.
 import * as Plot from "@observablehq/plot";
+import { extent } from "d3";
 import { axisScale, axisText, coordinateColumns, coordinateLabel, coordinateText } from "../axes.js";
 import { meaningOf } from "../record.js";
 import { numberText, shownUnit, unitText, withUnit, words } from "../units.js";
@@ -19,7 +20,7 @@ const stepped = { curve: "step" }; // of whole numbers and flags: between two po
 const fewPoints = 40; // up to so many, each is marked
 
 // What tells a curve from the others: the coordinates in which the points differ, else all of them.
-export function curveName(map, index, axis, all) {
+function curveName(map, index, axis, all) {
   const others = map.axes.map((_, a) => a).filter((a) => a !== axis && map.axes[a].size > 1);
   const differ = others.filter((a) => all.some((other) => other[a] !== index[a]));
   return (differ.length ? differ : others).map((a) => axisText(map, map.axes[a], index[a])).join(", ");
@@ -81,21 +82,21 @@ function borderRules(state) {
 // Options of the vertical axis.
 function yAxis(variable, state, label, values) {
   if (variable.kind === "flag") {
-    const known = variable.flags.map(([code]) => code);
+    const known = variable.flags.map(([code]) => code).sort((a, b) => a - b);
     return {
       label,
       ticks: known,
-      domain: [Math.min(...known) - 0.3, Math.max(...known) + 0.3],
+      domain: [known[0] - 0.3, known.at(-1) + 0.3],
       tickFormat: (code) => words(meaningOf(variable, code)),
     };
   }
-  const low = Math.min(...values.map((y) => Math.min(...y.filter((value) => value > 0))));
-  if (state.scale === "log" && Number.isFinite(low))
-    return { label, type: "log", domain: logDomain(values, low) };
-  const numbers = values.flatMap((y) => Array.from(y).filter(Number.isFinite));
+  const numbers = values.flatMap((y) => Array.from(y.filter(Number.isFinite)));
   if (!numbers.length) return { label, domain: [0, 1] };
   if (state.scale === "dB") return { label, ...roomFor(numbers) };
-  const domain = [Math.min(0, ...numbers), Math.max(0, ...numbers)];
+  const positive = numbers.filter((value) => value > 0);
+  if (state.scale === "log" && positive.length) return { label, type: "log", domain: logDomain(positive) };
+  const [low, high] = extent(numbers);
+  const domain = [Math.min(0, low), Math.max(0, high)];
   const largest = Math.max(...domain.map(Math.abs));
   const asPowers = largest >= 1e5 || largest < 1e-2 ? { tickFormat: (tick) => numberText(tick) } : {};
   return { label, domain: largest > 0 ? domain : [0, 1], nice: true, ...asPowers };
@@ -138,7 +139,7 @@ export function responseCurves(canvas, map, variable, state) {
     x: {
       label: coordinateLabel(x),
       type: axisScale(x.values),
-      domain: [Math.min(...x.values), Math.max(...x.values)],
+      domain: extent(x.values),
     },
     y: yAxis(variable, state, label, values),
     legend: [...legend, ...regimes],
@@ -155,8 +156,8 @@ function tipRows(x, y, label, name) {
 }
 
 // At most six powers of ten below the largest.
-function logDomain(values, low) {
-  const high = Math.max(...values.map((y) => Math.max(...y.filter(Number.isFinite))));
+function logDomain(positive) {
+  const [low, high] = extent(positive);
   const from = Math.max(low, high * 1e-6);
   return from < high ? [from / 1.15, high * 1.15] : [from / 2, from * 2];
 }

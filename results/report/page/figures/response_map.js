@@ -3,6 +3,7 @@ import * as Plot from "@observablehq/plot";
 import { rgb } from "d3";
 import { axisScale, cellEdges, coordinateColumns, coordinateLabel, spacing } from "../axes.js";
 import { borderCurves } from "../borders.js";
+import { isMissing } from "../record.js";
 import { shownUnit, withUnit, words } from "../units.js";
 import { colourBar, colourBarMargin } from "./colour_bar.js";
 import { colourSteps, colourTable, flagColours, missingColour } from "./colours.js";
@@ -41,7 +42,7 @@ function painterOf(variable, range, state) {
   const low = to(range[0]),
     span = to(range[1]) - low || 1;
   return (value, rgba, at) => {
-    if (Number.isNaN(value) || (variable.kind === "count" && value < 0)) return rgba.set(missingColour, at);
+    if (isMissing(variable, value)) return rgba.set(missingColour, at);
     const place = (to(Math.max(value, range[0])) - low) / span;
     const step = 4 * Math.max(0, Math.min(colourSteps - 1, Math.round(place * (colourSteps - 1))));
     for (let c = 0; c < 4; ++c) rgba[at + c] = table[step + c];
@@ -52,12 +53,11 @@ const logSpan = 1e-4; // of the largest: what lies below has the lowest colour o
 
 // Least and largest value of all the map, so that a slider moves along one scale; on a log scale of the positive,
 // or the linear one where none is.  {scale, range}
-export function colourScale(variable, scale) {
+function colourScale(variable, scale) {
   let low = Infinity,
     high = -Infinity;
   for (const value of variable.values) {
-    if (Number.isNaN(value) || (scale === "log" && value <= 0) || (variable.kind === "count" && value < 0))
-      continue;
+    if (isMissing(variable, value) || (scale === "log" && value <= 0)) continue;
     if (value < low) low = value;
     if (value > high) high = value;
   }

@@ -1,15 +1,13 @@
 // A map under the hand: lists and sliders say what is shown, a click on the map takes a point for the curves.
 import { coordinateLabel } from "../axes.js";
-import { dissipating } from "../figures/energy_shares.js";
 import { choice, slider, tick } from "../parts/controls.js";
 import { element, section } from "../parts/elements.js";
 import { figureCard } from "../parts/figure_card.js";
-import { about } from "../parts/heading.js";
 import { followPointer } from "../parts/map_pointer.js";
 import { pointCard, pointTip } from "../parts/point_table.js";
 import { words } from "../units.js";
 import { budgetFigure, curveFigure, mapFigure, regimeOf } from "./map_figures.js";
-import { curvePoints, firstState } from "./sweep_state.js";
+import { curvePoints, firstState, sliding } from "./sweep_state.js";
 
 const scales = [
   ["linear", "linear"],
@@ -20,17 +18,15 @@ const scales = [
 function viewOf(record) {
   const { map } = record,
     state = firstState(record);
-  const card = (figure) => figureCard(figure, about(record));
-  const wide = map.axes.map((_, a) => a).filter((a) => map.axes[a].size > 1);
-  const shares = dissipating(map.variables);
+  const card = (figure) => figure && figureCard(figure, record);
   return {
     record,
     map,
     state,
-    wide,
+    wide: sliding(map),
     mapShown: state.y === null ? null : card(mapFigure(map, state)),
     curvesShown: card(curveFigure(map, state)),
-    budgetShown: shares.length && wide.length ? card(budgetFigure(map, state, shares)) : null,
+    budgetShown: card(budgetFigure(map, state)),
     mapControls: element("div", { class: "controls" }),
     sliders: element("div", { class: "controls" }),
     curveControls: element("div", { class: "controls" }),
@@ -99,7 +95,9 @@ function controlsOfMap(view) {
     quantity,
     axis("across", "x"),
     axis("up", "y"),
-    choice("colours", scales, state.scale, (scale) => change(view, { scale })),
+    choice("colours", [["automatic", "automatic"], ...scales], state.scale, (scale) =>
+      change(view, { scale }),
+    ),
     choice(
       "palette",
       [
@@ -115,7 +113,7 @@ function controlsOfMap(view) {
           contacts.map((name) => [name, words(name)]),
           state.contact,
           (contact) => {
-            change(view, { contact });
+            state.contact = contact;
             arrange(view);
           },
         )
@@ -132,7 +130,10 @@ function controlsOfCurves(view) {
       "along",
       coordinateChoices(view),
       `${state.curveAxis}:${state.coordinates[state.curveAxis]}`,
-      (key) => change(view, { curveAxis: chosenCoordinate(state, key) }),
+      (key) => {
+        state.curveAxis = chosenCoordinate(state, key);
+        arrange(view);
+      },
     ),
     choice("scale", [...scales, ["dB", "dB"]], state.curveScale, (curveScale) =>
       change(view, { curveScale }),
@@ -169,7 +170,7 @@ function arrange(view) {
 
 function pick(view, index, keep) {
   const { state } = view;
-  change(view, { kept: keep ? [...state.kept, state.index] : state.kept, index });
+  change(view, { kept: keep ? curvePoints(state) : state.kept, index });
   view.rows.forEach(({ refresh }) => refresh());
 }
 

@@ -1,10 +1,12 @@
 // The figures of a map as it is looked at (see sweep_state.js): cells over two axes, curves along one, damping budget.
 import { axisText, symbolText } from "../axes.js";
-import { energyShares, energySharesTable } from "../figures/energy_shares.js";
+import { crossingsOfSlice } from "../borders.js";
+import { dissipating, energyShares, energySharesTable } from "../figures/energy_shares.js";
 import { responseCurves, responseCurvesTable } from "../figures/response_curves.js";
 import { responseMap, responseMapTable, valueAt } from "../figures/response_map.js";
+import { isMissing } from "../record.js";
 import { sentence, words } from "../units.js";
-import { curvePoints } from "./sweep_state.js";
+import { curvePoints, sliding } from "./sweep_state.js";
 
 // Where the point of the sliders stands on all axes but those left out.
 function placeWithout(map, state, leftOut) {
@@ -17,18 +19,12 @@ function placeWithout(map, state, leftOut) {
 const gaps = new WeakMap(); // variable -> whether points of it are missing
 
 function hasGaps(variable) {
-  const none = variable.kind === "count" ? -1 : variable.kind === "flag" ? 0 : NaN;
   if (!gaps.has(variable))
     gaps.set(
       variable,
-      variable.values.some((value) => Object.is(value, none)),
+      variable.values.some((value) => isMissing(variable, value)),
     );
   return gaps.get(variable);
-}
-
-// Whether a crossing lies on the map of the two axes shown.
-function isInSlice(place, state) {
-  return place.every((at, a) => a === state.x || a === state.y || Math.abs(at - state.index[a]) < 1e-9);
 }
 
 // Where borders cross the line of the curves through the sliders' point: coordinates along it.
@@ -42,10 +38,23 @@ function bordersAlong(map, state) {
     .map(({ place }) => valueAt(values, place[state.curveAxis]));
 }
 
+// Colours go by powers of ten where the largest value is far above most.
+const farAbove = 8;
+const sampled = 10_000; // values are enough to tell
+function suitedScale({ kind, values }) {
+  if (kind !== "float") return "linear";
+  const step = Math.ceil(values.length / sampled);
+  const some = Float64Array.from({ length: Math.floor(values.length / step) }, (_, i) => values[i * step]);
+  const sorted = some.filter(Number.isFinite).sort();
+  return sorted[0] >= 0 && sorted.at(-1) > farAbove * sorted[sorted.length >> 1] ? "log" : "linear";
+}
+
 export function mapFigure(map, state) {
   const crossings = () => state.crossings.get(state.contact) ?? [];
   return {
-    name: () => `map_${state.variable.name}`,
+    get name() {
+      return `map_${state.variable.name}`;
+    },
     get title() {
       const what = state.variable.long_name || words(state.variable.name);
       return sentence([what, placeWithout(map, state, [state.x, state.y])].filter(Boolean).join("; "));
@@ -53,12 +62,13 @@ export function mapFigure(map, state) {
     get caption() {
       const grey = hasGaps(state.variable) ? "Grey: no number. " : "";
       const borders = `Lines: borders between the regimes of ${words(state.contact)}, solved, not sampled.`;
-      const drawn = crossings().some(({ place }) => isInSlice(place, state));
+      const drawn = crossingsOfSlice(crossings(), state).length > 0;
       return grey + (drawn ? borders : "");
     },
     draw: (canvas) =>
       responseMap(canvas, map, state.variable, {
         ...state,
+        scale: state.scale === "automatic" ? suitedScale(state.variable) : state.scale,
         crossings: crossings(),
         picked: canvas.interactive ? curvePoints(state) : [],
       }),
@@ -80,7 +90,9 @@ export function curveFigure(map, state) {
     regime: state.colourByRegime ? regimeOf(map, state.contact) : undefined,
   });
   return {
-    name: () => `curves_${state.variable.name}`,
+    get name() {
+      return `curves_${state.variable.name}`;
+    },
     get title() {
       const along = map.axes[state.curveAxis].coordinates[state.coordinates[state.curveAxis]];
       return sentence(`${words(state.variable.name)} along ${symbolText(along.name)}`);
@@ -100,8 +112,10 @@ export function curveFigure(map, state) {
   };
 }
 
-// shares: the variables <e>_energy_share that are not all zero.
-export function budgetFigure(map, state, shares) {
+// null where nothing was recorded of it.
+export function budgetFigure(map, state) {
+  const shares = dissipating(map.variables);
+  if (shares.length === 0 || sliding(map).length === 0) return null;
   const along = () => ({
     axis: state.curveAxis,
     coordinate: state.coordinates[state.curveAxis],
@@ -114,4 +128,26 @@ export function budgetFigure(map, state, shares) {
     draw: (canvas) => energyShares(canvas, map, shares, along()),
     table: () => energySharesTable(map, shares, along()),
   };
+}
+
+// Points for curves: through the state's, at the ends and in the middle of the map's second axis.
+function pointsAcross(map, state) {
+  if (state.y === null) return [state.index];
+  const last = map.axes[state.y].size - 1;
+  return [...new Set([0, Math.round(last / 2), last])].map((i) =>
+    state.index.map((k, a) => (a === state.y ? i : k)),
+  );
+}
+
+// For papers: the map of each quantity in the middle of the other axes, curves of each number, the damping budget.
+export function allMapFigures(map, state) {
+  const kept = pointsAcross(map, state);
+  const figures = map.variables.flatMap((variable) => {
+    const seen = { ...state, variable };
+    return [
+      state.y === null ? null : mapFigure(map, seen),
+      variable.kind === "float" ? curveFigure(map, { ...seen, kept, index: kept[0] }) : null,
+    ];
+  });
+  return [...figures, budgetFigure(map, state)].filter(Boolean);
 }

@@ -2,7 +2,8 @@
 import { fractionalIndex } from "../axes.js";
 import { meaningOf } from "../record.js";
 
-const sliding = (map) => map.axes.map((_, a) => a).filter((a) => map.axes[a].size > 1);
+// The axes along which there is something to move.
+export const sliding = (map) => map.axes.map((_, a) => a).filter((a) => map.axes[a].size > 1);
 
 const manyPoints = 8;
 
@@ -83,16 +84,6 @@ function contactsOf(record) {
   return [...new Set([...fromRegimes, ...fromBorders])];
 }
 
-// Colours go by powers of ten where the largest value is far above most.
-const farAbove = 8;
-const sampled = 10_000; // values are enough to tell
-function scaleOf(variable) {
-  if (variable.kind !== "float") return "linear";
-  const step = Math.ceil(variable.values.length / sampled);
-  const values = variable.values.filter((value, i) => i % step === 0 && Number.isFinite(value)).sort();
-  return values[0] >= 0 && values.at(-1) > farAbove * values[values.length >> 1] ? "log" : "linear";
-}
-
 // The point nearest the middle of the axes that has a number.
 function middleWithNumber(map, variable) {
   const middle = map.axes.map((axis) => Math.floor((axis.size - 1) / 2));
@@ -118,7 +109,7 @@ export function firstState(record) {
     index: middleWithNumber(map, variable),
     curveAxis: x,
     coordinates: map.axes.map(() => 0),
-    scale: scaleOf(variable),
+    scale: "automatic",
     curveScale: "linear",
     colours: "viridis",
     contact: contacts[0] ?? "",

@@ -3,8 +3,7 @@ import { csvText } from "../csv.js";
 import { svgFile } from "../svg_file.js";
 import { element } from "./elements.js";
 
-const paperWidth = 720,
-  ratio = 0.6; // of an exported figure; height over width of all
+const ratio = 0.6; // height over width, where the figure does not say
 const leastHeight = 260,
   mostHeight = 560;
 
@@ -17,9 +16,9 @@ function image(width, height, rgba) {
   return canvas.toDataURL("image/png");
 }
 
-function canvasOf(width, figure, interactive) {
+function canvasOf(width, figure) {
   const height = Math.min(mostHeight, Math.max(leastHeight, Math.round(width * (figure.ratio ?? ratio))));
-  return { width, height, document, image, interactive };
+  return { width, height, document, image, interactive: true };
 }
 
 function download(name, type, text) {
@@ -31,12 +30,11 @@ function download(name, type, text) {
   setTimeout(() => URL.revokeObjectURL(url), 10_000);
 }
 
-// about: where the figures come from. Returns {card, redraw, drawn: the SVG element shown}.
-export function figureCard(figure, about) {
+// record: what the figure is of. Returns {card, plot: what holds the figure, svg: as it is shown, redraw}.
+export function figureCard(figure, record) {
   const plot = element("div", { class: "plot" });
   const heading = element("h3", {}, figure.title);
   const caption = element("figcaption", {}, figure.caption ?? "");
-  const name = () => (typeof figure.name === "function" ? figure.name() : figure.name);
   const save = element(
     "div",
     { class: "save" },
@@ -47,9 +45,8 @@ export function figureCard(figure, about) {
         class: "save-svg",
         title: "this figure as SVG, for a paper",
         onclick: () => {
-          const title = [figure.title, figure.caption].filter(Boolean).join("; ");
-          const svg = svgFile(figure.draw(canvasOf(paperWidth, figure, false)), title, about);
-          download(`${name()}.svg`, "image/svg+xml", new XMLSerializer().serializeToString(svg));
+          const svg = svgFile(figure, record, { document, image });
+          download(`${figure.name}.svg`, "image/svg+xml", new XMLSerializer().serializeToString(svg));
         },
       },
       "SVG",
@@ -61,7 +58,7 @@ export function figureCard(figure, about) {
         class: "save-csv",
         title: "its numbers as CSV",
         onclick: () => {
-          download(`${name()}.csv`, "text/csv", csvText(figure.table()));
+          download(`${figure.name}.csv`, "text/csv", csvText(figure.table()));
         },
       },
       "CSV",
@@ -69,7 +66,7 @@ export function figureCard(figure, about) {
   );
   const card = element(
     "figure",
-    { class: "card", "data-figure": name() },
+    { class: "card", "data-figure": figure.name },
     element("header", {}, heading, save),
     plot,
     caption,
@@ -81,7 +78,7 @@ export function figureCard(figure, about) {
     heading.textContent = figure.title;
     caption.textContent = figure.caption ?? "";
     try {
-      shown.svg = figure.draw(canvasOf(width, figure, true));
+      shown.svg = figure.draw(canvasOf(width, figure));
       plot.replaceChildren(shown.svg);
     } catch (error) {
       plot.replaceChildren(

@@ -10,9 +10,3 @@ export function heading(record) {
     element("p", { class: "sub" }, [record.file, record.source, made].filter(Boolean).join(" \u00b7 ")),
   );
 }
-
-// One line on where a figure comes from, for its files.
-export function about(record) {
-  const fingerprint = record.provenance.fingerprint_physics ?? "";
-  return `${record.title}; ${record.file}; ${record.source}; fingerprint ${fingerprint}`;
-}

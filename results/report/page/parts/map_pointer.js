@@ -1,5 +1,5 @@
 // A pointer over a response map: shows the point below it, and picks it at a click.
-import { nearest, spacing } from "../axes.js";
+import { axisScale, nearest } from "../axes.js";
 import { element } from "./elements.js";
 
 // shown: of figureCard; state: the map's; describe(index): an element; pick(index, add).
@@ -20,7 +20,7 @@ export function followPointer(shown, map, state, describe, pick) {
       [state.y, y, "y"],
     ]) {
       const { values } = coordinate(axis);
-      index[axis] = nearest(values, scales[name].invert(place), spacing(values) || "linear");
+      index[axis] = nearest(values, scales[name].invert(place), axisScale(values));
     }
     return index;
   };

@@ -1,0 +1,63 @@
+// Which points of a map have no number, and why.
+import { meaningOf } from "../record.js";
+import { element, section } from "./elements.js";
+
+// What is not there, and why; [] where nothing is missing.
+export function missingPoints(record) {
+  const { map, provenance } = record;
+  const notes = [];
+  const add = (text) => notes.push(element("p", { class: "warning" }, text));
+  if (provenance.missing_tiles)
+    add(
+      `This is part of a map: ${provenance.missing_tiles} of its tiles were not computed. Their points are grey. frahm run, or frahm merge when all tasks are done, completes the file.`,
+    );
+  const status = map.variable("status");
+  const codes = new Map();
+  for (const value of status?.values ?? []) codes.set(value, (codes.get(value) ?? 0) + 1);
+  const counts = new Map(
+    [...codes].map(([code, count]) => [meaningOf(status, code) || "not_computed", count]),
+  );
+  const told = {
+    failed: "failed (no number; the reasons are below)",
+    unbounded: "have no bounded response (an undamped mode driven at resonance)",
+    not_computed: "were not computed",
+  };
+  for (const [word, text] of Object.entries(told))
+    if (counts.get(word)) add(`${counts.get(word)} of ${map.points} points ${text}.`);
+  if (counts.get("grazing"))
+    notes.push(
+      element(
+        "p",
+        { class: "note" },
+        `${counts.get("grazing")} of ${map.points} points only just touch another regime (grazing): right responses, without a derivative.`,
+      ),
+    );
+  return notes;
+}
+
+const failuresAtOnce = 12;
+
+// The first reasons, and the others behind a click.
+function failureList(failed) {
+  const lines = failed.split("\n");
+  const rest = lines.slice(failuresAtOnce);
+  const more = element(
+    "details",
+    {},
+    element("summary", {}, `${rest.length} more`),
+    element("pre", {}, rest.join("\n")),
+  );
+  return element(
+    "div",
+    {},
+    element("pre", {}, lines.slice(0, failuresAtOnce).join("\n")),
+    rest.length ? more : null,
+  );
+}
+
+// The section of reasons, or null.
+export function failedPoints({ provenance }) {
+  return provenance.failed_points
+    ? section("Points that failed", failureList(provenance.failed_points))
+    : null;
+}
