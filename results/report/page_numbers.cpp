@@ -47,12 +47,18 @@ Range range_of(std::span<const double> values) {
   return range;
 }
 
+// A step of a power of ten, so that what is written to it has no digit that the page does not know.
+PackedLevels decimal_scale(const Range& range) {
+  const double step = std::pow(10.0, std::floor(std::log10((range.high - range.low) * millionth)));
+  return {.low = std::floor(range.low / step) * step, .step = step};
+}
+
 PackedLevels scale_of(std::span<const double> values, Spacing spacing) {
   const Range range = range_of(values);
   if (!(range.low <= range.high)) return {};
   if (spacing == Spacing::whole) return {.low = range.low, .step = 1.0};
-  if (range.low < 0.0 || range.high == 0.0)
-    return {.low = range.low, .step = (range.high - range.low) * millionth};
+  if (range.low == range.high) return {.low = range.low};
+  if (range.low < 0.0) return decimal_scale(range);
   const double span = std::log(range.high) - std::log(range.least_positive);
   return {.logarithmic = true, .low = range.least_positive, .step = std::max(millionth, span / most_levels)};
 }

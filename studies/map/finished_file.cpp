@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "engine/io_error.hpp"
+#include "engine/tile_index.hpp"
 #include "results/store_error.hpp"
 
 namespace frahm::studies {
@@ -15,6 +16,14 @@ std::optional<engine::Fingerprint> fingerprint_of_file(const std::filesystem::pa
 engine::Fingerprint fingerprint_of(const results::MapReader& map) {
   return {.physics = provenance_text(map, "fingerprint_physics"),
           .grid = provenance_text(map, "fingerprint_grid")};
+}
+
+void require_result(const std::filesystem::path& path) {
+  if (std::filesystem::exists(path)) return;
+  if (engine::find_logs(path).empty()) throw engine::IoError(path, "there is no such file");
+  throw engine::IoError(path,
+                        "the run that makes it is not finished (frahm status tells how far it is): frahm run "
+                        "completes it, frahm merge --partial makes a file of what there is of a map");
 }
 
 bool is_partial(const std::filesystem::path& path) {

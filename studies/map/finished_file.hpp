@@ -21,6 +21,9 @@ inline constexpr const char* missing_tiles_text = "missing_tiles";
 // That which tells the result from which it grew from every other.
 inline constexpr const char* grown_from_identity = "grown_from_identity";
 
+// Throws engine::IoError where there is no such result, telling an unfinished run from a wrong name.
+void require_result(const std::filesystem::path& path);
+
 // Whether there is a file made by merge --partial.
 bool is_partial(const std::filesystem::path& path);
 

@@ -12,6 +12,7 @@
 #include "results/map_reader.hpp"
 #include "studies/identification/identification_record.hpp"
 #include "studies/identification/identified_study.hpp"
+#include "studies/map/finished_file.hpp"
 #include "studies/map/grid.hpp"
 #include "studies/program/whole_file.hpp"
 #include "studies/tuning/schedule_table.hpp"
@@ -196,6 +197,7 @@ int export_command(const ExportOptions& options, std::ostream& out) {
         fmt::format("{}: is a study, whose result is exported, or with --data what sensors would "
                     "show of it",
                     options.file.string()));
+  require_result(options.file);
   const results::MapReader map(options.file);
   if (options.output == "-") {
     write_export(options, map, out);

@@ -6,6 +6,7 @@
 #include "results/map_reader.hpp"
 #include "results/report/page_data.hpp"
 #include "results/report/report_page.hpp"
+#include "studies/map/finished_file.hpp"
 #include "studies/program/paper_figures.hpp"
 #include "studies/program/report_content.hpp"
 #include "studies/program/whole_file.hpp"
@@ -45,6 +46,7 @@ int report_command(const ReportOptions& options, std::ostream& out) {
   require_page_parts();
   if (!options.figures.empty() && !options.output.empty())
     throw StudyError("--output: --figures writes into its own folder, no page");
+  require_result(options.file);
   const results::MapReader result(options.file);
   if (options.figures.empty()) {
     write_page(options, result, out);

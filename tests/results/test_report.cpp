@@ -102,7 +102,9 @@ TEST_CASE("levels have six digits of each value where none is negative, else of 
   const PackedLevels of_range = packed({-1.0, none, 1.0});
   CHECK_FALSE(of_range.logarithmic);
   CHECK(of_range.low == -1.0);
-  CHECK(of_range.step == 2.0 * millionth);
+  CHECK(of_range.step ==
+        Approx(millionth).epsilon(1e-12));  // a power of ten, at most a millionth of the range
+  CHECK(packed({-0.4, 0.599}).step == Approx(1e-7).epsilon(1e-12));
 }
 
 TEST_CASE("levels of whole numbers, of nothing and of one number") {

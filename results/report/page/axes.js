@@ -1,35 +1,37 @@
 // The axes of a map in words and places: labels, spacing, which point lies nearest.
 import { numberText, unitText, withUnit, words } from "./units.js";
 
-const greek = {
-  alpha: "\u03b1",
-  beta: "\u03b2",
-  gamma: "\u03b3",
-  delta: "\u03b4",
-  epsilon: "\u03b5",
-  zeta: "\u03b6",
-  eta: "\u03b7",
-  theta: "\u03b8",
-  kappa: "\u03ba",
-  lambda: "\u03bb",
-  mu: "\u03bc",
-  nu: "\u03bd",
-  xi: "\u03be",
-  rho: "\u03c1",
-  sigma: "\u03c3",
-  tau: "\u03c4",
-  phi: "\u03c6",
-  psi: "\u03c8",
-  omega: "\u03c9",
-  Omega: "\u03a9",
-  Delta: "\u0394",
-};
+const greek = new Map(
+  Object.entries({
+    alpha: "\u03b1",
+    beta: "\u03b2",
+    gamma: "\u03b3",
+    delta: "\u03b4",
+    epsilon: "\u03b5",
+    zeta: "\u03b6",
+    eta: "\u03b7",
+    theta: "\u03b8",
+    kappa: "\u03ba",
+    lambda: "\u03bb",
+    mu: "\u03bc",
+    nu: "\u03bd",
+    xi: "\u03be",
+    rho: "\u03c1",
+    sigma: "\u03c3",
+    tau: "\u03c4",
+    phi: "\u03c6",
+    psi: "\u03c8",
+    omega: "\u03c9",
+    Omega: "\u03a9",
+    Delta: "\u0394",
+  }),
+);
 
 // A parameter's name as a symbol: "omega" to "ω", "zeta_1" to "ζ 1".
 export function symbolText(name) {
   return name
     .split("_")
-    .map((part) => greek[part] ?? part)
+    .map((part) => greek.get(part) ?? part)
     .join(" ");
 }
 
@@ -51,6 +53,13 @@ export function coordinateLabel({ name, unit, long_name: longName }) {
   const saysName = meaning.endsWith(name);
   const text = told ? (isSymbol && !saysName ? `${meaning} ${symbolText(name)}` : meaning) : symbolText(name);
   return withUnit(text, unitText(unit));
+}
+
+// Of an axis of the map by one of its coordinates, with the other parameters that move along it.
+export function axisLabel(map, axis, coordinate) {
+  const others = axis.coordinates.filter((other) => other !== coordinate && map.parameters.has(other.name));
+  const label = coordinateLabel(coordinate);
+  return others.length ? `${label}, with ${others.map(({ name }) => symbolText(name)).join(", ")}` : label;
 }
 
 // "I = 6.36 kg".

@@ -92,7 +92,7 @@ function indexAlong({ name, size, coordinates }) {
   };
 }
 
-const sixDigits = 7; // written: the last is uncertain
+const sixDigits = 6;
 
 async function unpackMap(data) {
   const sizes = data.axes.map((axis) => axis.size);

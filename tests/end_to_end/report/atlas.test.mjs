@@ -3,10 +3,20 @@ import assert from "node:assert/strict";
 import { statSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { badLabels, csvRows, folderOf, frahm, open, photographed, saved, stored, study } from "./page.mjs";
+import {
+  badLabels,
+  csvRows,
+  folderOf,
+  frahm,
+  isTold,
+  open,
+  photographed,
+  saved,
+  stored,
+  study,
+} from "./page.mjs";
 
 const mostBytes = 6e6;
-const sixDigits = 1e-6; // of a quantity's range: what the page keeps
 
 test("the page of the full rig atlas", async (t) => {
   const folder = folderOf(t),
@@ -56,7 +66,7 @@ test("the page of the full rig atlas", async (t) => {
           .textContent(),
       );
       const value = stored(file, name, at);
-      assert.ok(Math.abs(shown - value) < sixDigits, `${name}: ${shown} is shown, ${value} is stored`);
+      assert.ok(isTold(shown, value), `${name}: ${shown} is shown, ${value} is stored`);
     }
     const command = await page.locator("#point code").textContent();
     const json = frahm([
@@ -104,13 +114,61 @@ test("the page of the full rig atlas", async (t) => {
     const rows = csvRows(csv.text);
     assert.equal(rows.length, 42 * 401);
     const row = rows.find((one) => one["omega [rpm]"] === "250" && Number(one["I [kg]"]) === 4.72);
-    assert.ok(Math.abs(Number(row["main_peak [m]"]) - stored(file, "main_peak", [0, 28, 200])) < sixDigits);
+    assert.ok(isTold(Number(row["main_peak [m]"]), stored(file, "main_peak", [0, 28, 200])));
   });
 
-  await t.test("reads as well in the dark, on a phone, on a laptop and on paper", async () => {
-    assert.deepEqual(await badLabels(page), []);
+  await t.test("is as well light on dark", async () => {
+    const lightness = (selector, property) =>
+      page.evaluate(
+        ([found, what]) => Number(/\d+/.exec(getComputedStyle(document.querySelector(found))[what])[0]) / 255,
+        [selector, property],
+      );
     await page.emulateMedia({ colorScheme: "dark" });
+    assert.ok((await lightness("body", "backgroundColor")) < 0.3);
+    assert.ok((await lightness("#point td", "color")) > 0.7);
+    assert.ok(
+      (await lightness("[data-figure=map_main_peak] [aria-label='x-axis label'] text", "fill")) > 0.7,
+    );
+    assert.deepEqual(await badLabels(page), []);
     await page.emulateMedia({ colorScheme: "light" });
+  });
+
+  await t.test(
+    "shows words, counts and signed numbers on linear scales, whatever was asked for",
+    async () => {
+      await page
+        .locator("label", { hasText: "quantity" })
+        .first()
+        .locator("select")
+        .selectOption("tmd_friction_stops");
+      await page.locator("label", { hasText: "colours" }).locator("select").selectOption("log");
+      await page.waitForFunction(() =>
+        document.querySelector("[data-figure^=map_] h3").textContent.startsWith("Stops of"),
+      );
+      const figure = page.locator("[data-figure^=map_]");
+      assert.match(await figure.locator("[aria-label='colour scale']").textContent(), /^0/);
+      await page
+        .locator("label", { hasText: "quantity" })
+        .first()
+        .locator("select")
+        .selectOption("tmd_friction_regime");
+      await page.waitForFunction(
+        () =>
+          document.querySelector("[data-figure^=curves_]").textContent.includes("one stop") &&
+          !document.querySelector("[data-figure^=curves_] svg").textContent.includes("dB"),
+      );
+      const csv = await saved(page, figure.locator(".save-csv"));
+      assert.ok(csvRows(csv.text).every((row) => /^(non_stop|one_stop)$/.test(row.tmd_friction_regime)));
+      await page
+        .locator("label", { hasText: "quantity" })
+        .first()
+        .locator("select")
+        .selectOption("main_peak");
+    },
+  );
+
+  await t.test("reads as well on a phone, on a laptop and on paper", async () => {
+    assert.deepEqual(await badLabels(page), []);
     await photographed(page, "atlas");
   });
 

@@ -88,6 +88,12 @@ export async function saved(page, button) {
   return { name: download.suggestedFilename(), text: readFileSync(await download.path(), "utf8") };
 }
 
+// Whether a number is told as the page tells it: to six digits, the last uncertain by one.
+export function isTold(shown, value) {
+  const last = 10 ** (Math.floor(Math.log10(Math.abs(value))) - 5);
+  return Math.abs(shown - value) <= last;
+}
+
 // Rows of a CSV text by the names of its head.
 export function csvRows(text) {
   const [head, ...lines] = text

@@ -1,7 +1,7 @@
 // The damping budget along a response curve: each element's share of the energy dissipated in a period, stacked.
 import * as Plot from "@observablehq/plot";
 import { extent } from "d3";
-import { axisScale, coordinateLabel } from "../axes.js";
+import { axisLabel, axisScale } from "../axes.js";
 import { words } from "../units.js";
 import { drawFrame, lineColours } from "./frame.js";
 
@@ -14,13 +14,14 @@ export function dissipating(variables) {
 
 export function energyShares(canvas, map, variables, { axis, coordinate, index }) {
   const x = map.axes[axis].coordinates[coordinate];
+  const shares = variables.map((variable) => map.line(variable, index, axis));
+  const isDissipated = (i) => shares.some((share) => share[i] > 0);
   const below = new Float64Array(x.values.length);
-  const marks = variables.map((variable, n) => {
-    const share = map.line(variable, index, axis);
+  const marks = shares.map((share, n) => {
     const band = Array.from(x.values, (value, i) => {
       const low = 100 * below[i];
-      if (Number.isFinite(share[i])) below[i] += share[i];
-      return { x: value, low, high: Number.isFinite(share[i]) ? 100 * below[i] : NaN };
+      if (isDissipated(i) && Number.isFinite(share[i])) below[i] += share[i];
+      return { x: value, low, high: isDissipated(i) ? 100 * below[i] : NaN };
     });
     return Plot.areaY(band, {
       x: "x",
@@ -31,7 +32,7 @@ export function energyShares(canvas, map, variables, { axis, coordinate, index }
     });
   });
   return drawFrame(canvas, {
-    x: { label: coordinateLabel(x), type: axisScale(x.values), domain: extent(x.values) },
+    x: { label: axisLabel(map, map.axes[axis], x), type: axisScale(x.values), domain: extent(x.values) },
     y: { label: "share of the energy dissipated (%)", domain: [0, 100] },
     legend: variables.map(({ name }, n) => ({
       text: words(name.slice(0, -shareEnd.length)),

@@ -6,9 +6,11 @@
 //            rgba) gives a picture's data URL
 //   table    its numbers, for a CSV file: [{name, unit, values}], in the units of the record
 import * as Plot from "@observablehq/plot";
-import { extent, format, tickFormat, ticks } from "d3";
+import { extent, format, formatDefaultLocale, tickFormat, ticks } from "d3";
 import { powerText, powerTicks } from "./power_ticks.js";
 import { digitWidth, fontSize, textWidth, wrapped } from "./text_lines.js";
+
+formatDefaultLocale({ decimal: ".", thousands: "\u2009", grouping: [3], currency: ["", ""] }); // as SI writes
 
 const fontFamily = "system-ui, -apple-system, 'Segoe UI', 'DejaVu Sans', Arial, sans-serif";
 const lineHeight = 18;
@@ -221,7 +223,7 @@ export function roomFor(values) {
 // A line through (x[i], y[i]), broken where y is no number.
 export function curve(x, y, options = {}) {
   const points = Array.from(x, (value, i) => [value, Number.isFinite(y[i]) ? y[i] : NaN]);
-  return Plot.line(points, { strokeWidth: 1.6, ...options });
+  return Plot.line(points, { strokeWidth: 1.6, strokeLinecap: "butt", ...options });
 }
 
 export function dots(x, y, options = {}) {

@@ -1,7 +1,7 @@
 // Response curves: a quantity along one axis through one or several points of the map.
 import * as Plot from "@observablehq/plot";
 import { extent } from "d3";
-import { axisScale, axisText, coordinateColumns, coordinateLabel, coordinateText } from "../axes.js";
+import { axisLabel, axisScale, axisText, coordinateColumns, coordinateText } from "../axes.js";
 import { meaningOf } from "../record.js";
 import { numberText, shownUnit, unitText, withUnit, words } from "../units.js";
 import {
@@ -17,6 +17,7 @@ import {
 } from "./frame.js";
 
 const stepped = { curve: "step" }; // of whole numbers and flags: between two points nothing is known
+const inset = 5; // pixels between the frame and what is zero
 const fewPoints = 40; // up to so many, each is marked
 
 // What tells a curve from the others: the coordinates in which the points differ, else all of them.
@@ -99,7 +100,7 @@ function yAxis(variable, state, label, values) {
   const domain = [Math.min(0, low), Math.max(0, high)];
   const largest = Math.max(...domain.map(Math.abs));
   const asPowers = largest >= 1e5 || largest < 1e-2 ? { tickFormat: (tick) => numberText(tick) } : {};
-  return { label, domain: largest > 0 ? domain : [0, 1], nice: true, ...asPowers };
+  return { label, domain: largest > 0 ? domain : [0, 1], nice: true, inset, ...asPowers };
 }
 
 // state: {axis, coordinate, scale: "linear", "log" or "dB", points: [index], regime: variable or undefined,
@@ -137,7 +138,7 @@ export function responseCurves(canvas, map, variable, state) {
   const nothing = [Plot.text(["no number along this line"], { frameAnchor: "middle", fontSize: 13 })];
   return drawFrame(canvas, {
     x: {
-      label: coordinateLabel(x),
+      label: axisLabel(map, map.axes[state.axis], x),
       type: axisScale(x.values),
       domain: extent(x.values),
     },

@@ -1,10 +1,11 @@
 // A quantity over two axes of the map, as coloured cells, with the borders of a contact's regimes over it.
 import * as Plot from "@observablehq/plot";
 import { rgb } from "d3";
-import { axisScale, cellEdges, coordinateColumns, coordinateLabel, spacing } from "../axes.js";
+import { axisLabel, axisScale, cellEdges, coordinateColumns, spacing } from "../axes.js";
 import { borderCurves } from "../borders.js";
-import { isMissing } from "../record.js";
+import { isMissing, meaningOf } from "../record.js";
 import { shownUnit, withUnit, words } from "../units.js";
+import { valueRange } from "../value_range.js";
 import { colourBar, colourBarMargin } from "./colour_bar.js";
 import { colourSteps, colourTable, flagColours, missingColour } from "./colours.js";
 import { drawFrame, svgElement } from "./frame.js";
@@ -51,22 +52,21 @@ function painterOf(variable, range, state) {
 
 const logSpan = 1e-4; // of the largest: what lies below has the lowest colour on a logarithmic scale
 
-// Least and largest value of all the map, so that a slider moves along one scale; on a log scale of the positive,
-// or the linear one where none is.  {scale, range}
-function colourScale(variable, scale) {
-  let low = Infinity,
-    high = -Infinity;
-  for (const value of variable.values) {
-    if (isMissing(variable, value) || (scale === "log" && value <= 0)) continue;
-    if (value < low) low = value;
-    if (value > high) high = value;
-  }
-  if (scale === "log" && low > high) return colourScale(variable, "linear");
-  if (scale === "log") low = Math.max(low, high * logSpan);
-  if (!(low <= high)) return { scale, range: [0, 1] };
-  if (low < high) return { scale, range: [low, high] };
-  const room = Math.abs(low) / 2 || 0.5;
-  return { scale, range: [low - room, high + room] };
+// The lower end of a logarithmic scale of colours.
+export function leastOfLogarithm(variable) {
+  const { leastPositive, high } = valueRange(variable);
+  return Math.max(leastPositive, high * logSpan);
+}
+
+// Of all the map, so that a slider moves along one scale. scale: "linear" or "log", which the quantity suits.
+function colourRange(variable, scale) {
+  const { low: least, high } = valueRange(variable);
+  if (!(least <= high)) return [0, 1];
+  const low = scale === "log" ? leastOfLogarithm(variable) : least;
+  if (low < high) return [low, high];
+  if (low === 0) return [0, 1];
+  const room = Math.abs(low) / 2;
+  return [low - room, high + room];
 }
 
 // The picture of the cells, first row at the top: y falls downwards.
@@ -97,7 +97,7 @@ function axisOf(map, axis, coordinate) {
   return {
     values,
     isEven: spacing(values) !== "",
-    label: coordinateLabel(coordinate),
+    label: axisLabel(map, map.axes[axis], coordinate),
     scale,
     domain: [Math.min(edges[0], edges.at(-1)), Math.max(edges[0], edges.at(-1))],
   };
@@ -175,7 +175,8 @@ function pickedMarks({ picked = [], x, y }, axes) {
   return [...places.values()];
 }
 
-// state: {x, y: axes; coordinates: of each axis which one; index: of all axes; scale: "linear" or "log";
+// state: {x, y: axes; coordinates: of each axis which one; index: of all axes; scale: "linear", or "log" where the
+// quantity suits it;
 // crossings: of a contact's borders; picked: points marked, [index]}.
 export function responseMap(canvas, map, variable, state) {
   const axes = {
@@ -183,9 +184,10 @@ export function responseMap(canvas, map, variable, state) {
     y: axisOf(map, state.y, map.axes[state.y].coordinates[state.coordinates[state.y]]),
   };
   const flag = variable.kind === "flag";
-  const { scale, range } = colourScale(variable, flag ? "linear" : state.scale);
+  const { scale } = state,
+    range = colourRange(variable, scale);
   const shown = flag ? { factor: 1, text: "" } : shownUnit(variable.unit, range);
-  const paint = painterOf(variable, range, { ...state, scale });
+  const paint = painterOf(variable, range, state);
   const borders = borderMarks(state.crossings ?? [], state, map, axes);
   const regimes = flag
     ? [...flagColours(variable).values()].map(({ word, colour }) => ({ text: words(word), fill: colour }))
@@ -228,8 +230,14 @@ export function responseMapTable(map, variable, state) {
       points.push(state.index.map((k, a) => (a === state.x ? i : a === state.y ? j : k)));
   }
   const values = points.map((index) => map.value(variable, index));
+  const isWord = variable.kind === "flag";
   return [
     ...coordinateColumns(map, points),
-    { name: variable.name, unit: variable.unit, digits: variable.digits, values },
+    {
+      name: variable.name,
+      unit: variable.unit,
+      digits: variable.digits,
+      values: isWord ? values.map((value) => meaningOf(variable, value)) : values,
+    },
   ];
 }

@@ -126,15 +126,16 @@ function controlsOfCurves(view) {
   const button = (id, text, kept) =>
     element("button", { type: "button", id, onclick: () => change(view, { kept: kept() }) }, text);
   return [
-    choice(
-      "along",
-      coordinateChoices(view),
-      `${state.curveAxis}:${state.coordinates[state.curveAxis]}`,
-      (key) => {
-        state.curveAxis = chosenCoordinate(state, key);
-        arrange(view);
-      },
-    ),
+    wide.length &&
+      choice(
+        "along",
+        coordinateChoices(view),
+        `${state.curveAxis}:${state.coordinates[state.curveAxis]}`,
+        (key) => {
+          state.curveAxis = chosenCoordinate(state, key);
+          arrange(view);
+        },
+      ),
     choice("scale", [...scales, ["dB", "dB"]], state.curveScale, (curveScale) =>
       change(view, { curveScale }),
     ),

@@ -3,10 +3,10 @@ import { axisText, symbolText } from "../axes.js";
 import { crossingsOfSlice } from "../borders.js";
 import { dissipating, energyShares, energySharesTable } from "../figures/energy_shares.js";
 import { responseCurves, responseCurvesTable } from "../figures/response_curves.js";
-import { responseMap, responseMapTable, valueAt } from "../figures/response_map.js";
-import { isMissing } from "../record.js";
-import { sentence, words } from "../units.js";
-import { curvePoints, sliding } from "./sweep_state.js";
+import { leastOfLogarithm, responseMap, responseMapTable, valueAt } from "../figures/response_map.js";
+import { numberText, sentence, words } from "../units.js";
+import { spansDecades, suitsLogarithm, valueRange } from "../value_range.js";
+import { curvePoints, shownContact, sliding } from "./sweep_state.js";
 
 // Where the point of the sliders stands on all axes but those left out.
 function placeWithout(map, state, leftOut) {
@@ -16,21 +16,10 @@ function placeWithout(map, state, leftOut) {
     .join(", ");
 }
 
-const gaps = new WeakMap(); // variable -> whether points of it are missing
-
-function hasGaps(variable) {
-  if (!gaps.has(variable))
-    gaps.set(
-      variable,
-      variable.values.some((value) => isMissing(variable, value)),
-    );
-  return gaps.get(variable);
-}
-
 // Where borders cross the line of the curves through the sliders' point: coordinates along it.
 function bordersAlong(map, state) {
   const { values } = map.axes[state.curveAxis].coordinates[state.coordinates[state.curveAxis]];
-  return (state.crossings.get(state.contact) ?? [])
+  return (state.crossings.get(shownContact(state)) ?? [])
     .filter(
       ({ axis, place }) =>
         axis === state.curveAxis && place.every((at, a) => a === axis || at === state.index[a]),
@@ -38,19 +27,27 @@ function bordersAlong(map, state) {
     .map(({ place }) => valueAt(values, place[state.curveAxis]));
 }
 
-// Colours go by powers of ten where the largest value is far above most.
-const farAbove = 8;
-const sampled = 10_000; // values are enough to tell
-function suitedScale({ kind, values }) {
-  if (kind !== "float") return "linear";
-  const step = Math.ceil(values.length / sampled);
-  const some = Float64Array.from({ length: Math.floor(values.length / step) }, (_, i) => values[i * step]);
-  const sorted = some.filter(Number.isFinite).sort();
-  return sorted[0] >= 0 && sorted.at(-1) > farAbove * sorted[sorted.length >> 1] ? "log" : "linear";
+// On powers of ten where that is asked for and means something; by itself where it shows more.
+function colourScaleOf({ variable, scale }) {
+  const wanted = scale === "automatic" ? spansDecades(variable) : scale === "log";
+  return wanted && suitsLogarithm(variable) ? "log" : "linear";
+}
+
+function mapNotes({ variable, scale }, hasBorders, contact) {
+  const { low, high, hasGaps } = valueRange(variable);
+  const isFloat = variable.kind === "float";
+  return [
+    hasGaps ? "Grey: no number." : "",
+    isFloat && low === high ? `${numberText(low)} everywhere.` : "",
+    isFloat && scale === "log" && low < leastOfLogarithm(variable)
+      ? "What is below the scale, zero too, has its lowest colour."
+      : "",
+    hasBorders ? `Lines: borders between the regimes of ${words(contact)}, solved, not sampled.` : "",
+  ];
 }
 
 export function mapFigure(map, state) {
-  const crossings = () => state.crossings.get(state.contact) ?? [];
+  const crossings = () => state.crossings.get(shownContact(state)) ?? [];
   return {
     get name() {
       return `map_${state.variable.name}`;
@@ -60,15 +57,14 @@ export function mapFigure(map, state) {
       return sentence([what, placeWithout(map, state, [state.x, state.y])].filter(Boolean).join("; "));
     },
     get caption() {
-      const grey = hasGaps(state.variable) ? "Grey: no number. " : "";
-      const borders = `Lines: borders between the regimes of ${words(state.contact)}, solved, not sampled.`;
-      const drawn = crossingsOfSlice(crossings(), state).length > 0;
-      return grey + (drawn ? borders : "");
+      const hasBorders = crossingsOfSlice(crossings(), state).length > 0;
+      const shown = { variable: state.variable, scale: colourScaleOf(state) };
+      return mapNotes(shown, hasBorders, shownContact(state)).filter(Boolean).join(" ");
     },
     draw: (canvas) =>
       responseMap(canvas, map, state.variable, {
         ...state,
-        scale: state.scale === "automatic" ? suitedScale(state.variable) : state.scale,
+        scale: colourScaleOf(state),
         crossings: crossings(),
         picked: canvas.interactive ? curvePoints(state) : [],
       }),
@@ -84,10 +80,10 @@ export function curveFigure(map, state) {
   const curves = () => ({
     axis: state.curveAxis,
     coordinate: state.coordinates[state.curveAxis],
-    scale: state.curveScale,
+    scale: suitsLogarithm(state.variable) ? state.curveScale : "linear",
     points: curvePoints(state),
     borders: bordersAlong(map, state),
-    regime: state.colourByRegime ? regimeOf(map, state.contact) : undefined,
+    regime: state.colourByRegime ? regimeOf(map, shownContact(state)) : undefined,
   });
   return {
     get name() {
@@ -95,7 +91,7 @@ export function curveFigure(map, state) {
     },
     get title() {
       const along = map.axes[state.curveAxis].coordinates[state.coordinates[state.curveAxis]];
-      return sentence(`${words(state.variable.name)} along ${symbolText(along.name)}`);
+      return `${words(state.variable.name)} along ${symbolText(along.name)}`;
     },
     get caption() {
       const points = curvePoints(state);
@@ -104,7 +100,9 @@ export function curveFigure(map, state) {
         .filter((a) => points.every((index) => index[a] === points[0][a]));
       const differing = map.axes.map((_, a) => a).filter((a) => !shared.includes(a));
       const dashed = points.length === 1 && bordersAlong(map, state).length;
-      const rules = dashed ? `; upright lines: where the regime of ${words(state.contact)} changes` : "";
+      const rules = dashed
+        ? `; upright lines: where the regime of ${words(shownContact(state))} changes`
+        : "";
       return placeWithout(map, { ...state, index: points[0] }, [state.curveAxis, ...differing]) + rules;
     },
     draw: (canvas) => responseCurves(canvas, map, state.variable, curves()),
@@ -124,7 +122,10 @@ export function budgetFigure(map, state) {
   return {
     name: "damping_budget",
     title: "Damping budget: who dissipates",
-    caption: "Along the axis of the curves, through the point of the sliders.",
+    get caption() {
+      const place = placeWithout(map, state, [state.curveAxis]);
+      return [place, "blank where nothing is dissipated"].filter(Boolean).join("; ");
+    },
     draw: (canvas) => energyShares(canvas, map, shares, along()),
     table: () => energySharesTable(map, shares, along()),
   };

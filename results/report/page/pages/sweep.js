@@ -24,7 +24,7 @@ function facts(record) {
   ]);
   return section(
     "Axes",
-    element("p", { class: "note" }, `${map.points} points`),
+    element("p", { class: "note" }, map.points === 1 ? "1 point" : `${map.points} points`),
     table(["axis", "points", "from \u2026 to"], axes, { numeric: [1] }),
   );
 }
@@ -32,14 +32,14 @@ function facts(record) {
 function leftOut(record) {
   const { leftOut: names } = record.map;
   if (!names.length) return null;
-  const chosen = [...record.map.variables.map(({ name }) => name), "..."].join(",");
+  const chosen = [...record.map.variables.map(({ name }) => name), names[0].name].join(",");
   return section(
     "Not in this page",
     element("p", {}, `The file also holds ${names.map(({ name }) => name).join(", ")}.`),
     element(
       "p",
       { class: "note" },
-      "To include them: ",
+      `To include ${names[0].name}, say: `,
       element("code", {}, `frahm report ${record.file} --quantities ${chosen}`),
       " or [report] quantities in the study.",
     ),

@@ -119,6 +119,12 @@ export function firstState(record) {
   };
 }
 
+// The contact whose borders and regimes are shown: that of a regime or of stops which is the quantity, else the chosen.
+export function shownContact({ variable, contact, crossings }) {
+  const own = variable.name.replace(/_(regime|stops)$/, "");
+  return crossings.has(own) ? own : contact;
+}
+
 // The points whose curves are shown: those kept, then the current one if it is not among them.
 export function curvePoints(state) {
   const same = (a, b) => a.every((i, axis) => axis === state.curveAxis || i === b[axis]);

@@ -4,15 +4,17 @@ import { meaningOf } from "../record.js";
 import { numberText, unitText, words } from "../units.js";
 import { element, table } from "./elements.js";
 
-// A quantity at a point as text, in the unit of the record: six digits of its range are in the page.
+const shownDigits = 8; // where the page holds all
+
+// A quantity at a point as text, in the unit of the record.
 export function valueText(map, variable, index) {
   const value = map.value(variable, index);
   if (variable.kind === "flag")
     return words(meaningOf(variable, map.value(variable, index))) || "not computed";
-  return numberText(value, 7);
+  return numberText(value, variable.digits ?? shownDigits);
 }
 
-export function pointRows(map, index, variables = map.variables) {
+function pointRows(map, index, variables = map.variables) {
   return variables.map((variable) => [
     words(variable.name),
     valueText(map, variable, index),
@@ -20,7 +22,7 @@ export function pointRows(map, index, variables = map.variables) {
   ]);
 }
 
-export function pointPlace(map, index) {
+function pointPlace(map, index) {
   return map.axes.flatMap((axis, a) =>
     axis.coordinates.map((coordinate) => coordinateText(coordinate, index[a])),
   );
@@ -39,6 +41,14 @@ export function pointTip(record, index, first) {
   );
 }
 
+// What the words of a regime mean, where there is one.
+function regimeNote({ variables }) {
+  return variables.some(({ name }) => name.endsWith("_regime"))
+    ? "Regimes, by the stops of finite length in a period: non stop, none; one stop, one or two; multi stop, " +
+        "more; stuck, it never slides. "
+    : "";
+}
+
 export function pointCard(record, index) {
   const { map } = record;
   const command = pointCommand(record, index);
@@ -47,7 +57,7 @@ export function pointCard(record, index) {
     { type: "button", onclick: () => navigator.clipboard?.writeText(command) },
     "copy",
   );
-  const rows = pointRows(map, index);
+  const rows = pointRows(map, index).map((row, v) => [...row, map.variables[v].long_name]);
   const half = Math.ceil(rows.length / 2);
   return element(
     "div",
@@ -58,12 +68,13 @@ export function pointCard(record, index) {
       { class: "cards" },
       [rows.slice(0, half), rows.slice(half)]
         .filter((some) => some.length)
-        .map((some) => table(["quantity", "value", "unit"], some, { numeric: [1] })),
+        .map((some) => table(["quantity", "value", "unit", "what it is"], some, { numeric: [1] })),
     ),
     element(
       "p",
       { class: "note" },
-      "Values to six digits. All of them, with residual, error bound and energy balance:",
+      `${regimeNote(map)}Values to six digits, the last uncertain by one. All of them, with residual, error bound ` +
+        "and energy balance:",
     ),
     element("div", { class: "command" }, element("code", {}, command), copy),
   );
