@@ -171,10 +171,11 @@ EnergyBudget EnergyAccount::budget(double energy_now) const {
   const double stored = std::max(std::abs(initial_), std::abs(energy_now));
   const double forcing = forcing_ * forcing_;
   // Where nothing moves there is the rounding of velocities, of which work is a first, losses a second power.
+  constexpr double work_rounding = 1e-11, loss_rounding = 1e-26;
   const double size = std::max({stored, dissipated, total_.input_size});
   const double missing = initial_ + total_.input - energy_now - dissipated;
-  budget.balance = size > 1e-11 * forcing ? std::abs(missing) / size : 0.0;
-  const bool nothing = dissipated <= 1e-26 * std::max(forcing, stored);
+  budget.balance = size > work_rounding * forcing ? std::abs(missing) / size : 0.0;
+  const bool nothing = dissipated <= loss_rounding * std::max(forcing, stored);
   for (const double each : budget.dissipated) budget.share.push_back(nothing ? 0.0 : each / dissipated);
   return budget;
 }

@@ -38,16 +38,19 @@ std::size_t create_borders(const MapPlan& plan, results::MapWriter& writer) {
                          .long_name = fmt::format("parameter {}", name)});
   }
   std::vector<std::string> elements, dimensions;
-  std::size_t any = 0;
+  std::size_t one_contact = 0;
   for (std::size_t e = 0; e < study.network.elements.size(); ++e) {
     if (study.network.elements[e].type != mechanics::ElementType::coulomb) continue;
-    elements.push_back(study.network.elements[any = e].name);
+    elements.push_back(study.network.elements[e].name);
+    one_contact = e;
   }
   for (const GridDimension& dimension : study.dimensions) dimensions.push_back(dimension.name);
   variables.push_back(flag_of("element", "coulomb element whose regime changes", elements));
   variables.push_back(flag_of("axis", "dimension of the map along which it was found to change", dimensions));
-  variables.push_back(regime(study, any, "regime_below", "regime towards the lower index of the axis"));
-  variables.push_back(regime(study, any, "regime_above", "regime towards the higher index of the axis"));
+  variables.push_back(
+      regime(study, one_contact, "regime_below", "regime towards the lower index of the axis"));
+  variables.push_back(
+      regime(study, one_contact, "regime_above", "regime towards the higher index of the axis"));
   return writer.create_ragged({.group = "borders", .row = "border", .row_variables = variables});
 }
 

@@ -64,7 +64,7 @@ void BorderSearch::find(const MapBox& tile, std::vector<Border>& borders) {
   }
   find_regimes();
   solver_.forget();
-  const auto rows = std::span(grid_.order).first(grid_.order.size() - 1);
+  const auto rows = grid_.row_dimensions();
   Index row = tile.start;
   do {
     for (std::size_t d = 0; d < row.size(); ++d) search_row(row, d, borders);
@@ -78,14 +78,12 @@ bool BorderSearch::is_beyond(const Index& index, std::size_t dimension) const {
 
 // Of the first element's regime at a point.
 std::size_t BorderSearch::place(const Index& index) const {
-  std::size_t place = 0;
-  for (std::size_t d = 0; d < index.size(); ++d) place = place * wide_.count[d] + index[d] - wide_.start[d];
-  return place * elements_;
+  return wide_.place(index) * elements_;
 }
 
 void BorderSearch::find_regimes() {
   regimes_.assign(wide_.points() * elements_, Regime::not_computed);
-  const auto rows = std::span(grid_.order).first(grid_.order.size() - 1);
+  const auto rows = grid_.row_dimensions();
   Index row = wide_.start;
   do {
     // Beyond two faces at once no edge of the tile ends.
@@ -133,8 +131,7 @@ void BorderSearch::search_row(const Index& row, std::size_t dimension, std::vect
   for (std::uint64_t i = 0; i < tile_.count[along]; ++i) {
     lower[along] = tile_.start[along] + i;
     if (lower[dimension] + 1 == grid_.shape[dimension]) continue;
-    std::uint64_t point = 0;
-    for (std::size_t d = 0; d < lower.size(); ++d) point = point * tile_.count[d] + lower[d] - tile_.start[d];
+    const std::uint64_t point = tile_.place(lower);
     for (std::size_t element = 0; element < elements_; ++element) {
       const auto crossings = crossings_on_edge(lower, dimension, element, curves[element].forecast());
       curves[element].follow(crossings);

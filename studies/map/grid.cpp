@@ -94,6 +94,12 @@ std::uint64_t MapBox::points() const {
   return product(count);
 }
 
+std::uint64_t MapBox::place(std::span<const std::uint64_t> index) const {
+  std::uint64_t place = 0;
+  for (std::size_t d = 0; d < index.size(); ++d) place = place * count[d] + (index[d] - start[d]);
+  return place;
+}
+
 std::uint64_t Grid::points() const {
   return product(shape);
 }

@@ -17,6 +17,8 @@ struct MapBox {
   std::vector<std::uint64_t> start, count;
 
   std::uint64_t points() const;
+  // The place of one of its points among them, in row-major order.  index: of the map.
+  std::uint64_t place(std::span<const std::uint64_t> index) const;
 };
 
 struct Grid {
@@ -28,6 +30,9 @@ struct Grid {
   // The dimensions in the order of computation: the last one, the frequency where there is one, runs
   // innermost and is a row.
   std::vector<std::size_t> order;
+
+  // Those that rows are counted along: all but the last.
+  std::span<const std::size_t> row_dimensions() const { return std::span(order).first(order.size() - 1); }
 
   std::uint64_t points() const;
   std::uint64_t tiles() const;

@@ -59,7 +59,7 @@ void MapKernel::operator()(std::uint64_t tile, engine::Bytes& out) {
   own_.forget();
   if (other_) other_->forget();
 
-  const auto rows = std::span(grid_.order).first(grid_.order.size() - 1);
+  const auto rows = grid_.row_dimensions();
   index_ = box.start;
   do {
     compute_row(box);
@@ -74,9 +74,8 @@ void MapKernel::operator()(std::uint64_t tile, engine::Bytes& out) {
 // The points of the row that begins at index_, along the last dimension in the order of computation.
 void MapKernel::compute_row(const MapBox& box) {
   const std::size_t along = grid_.order.back();
-  std::uint64_t place = 0, step = 1;  // of the row's first point in the record; from one to the next
+  std::uint64_t place = box.place(index_), step = 1;  // of the row's first point; from one to the next
   for (std::size_t d = 0; d < index_.size(); ++d) {
-    place = place * box.count[d] + (index_[d] - box.start[d]);
     if (d > along) step *= box.count[d];
     if (d != along) studies::place(study_, d, index_[d], parameters_);
   }

@@ -13,8 +13,8 @@ namespace frahm::studies {
 // What an orbit tells at one place.
 struct RegimePoint {
   periodic::Regime regime = periodic::Regime::not_computed;
-  // The shortest stop, or slide between two stops, in a period [rad]; NaN: none, or not known. It shrinks to
-  // nothing where the orbit loses a stop, two stops join, or the element no longer moves.
+  // The shortest stop, or slide between two stops, in a period [rad]; NaN or infinite: none, or not known. It
+  // shrinks to nothing where the orbit loses a stop, two stops join, or the element no longer moves.
   double briefest = 0.0;
 };
 
@@ -44,9 +44,10 @@ struct CrossingForecast {
 
 // The crossings between two places whose regimes, first and last, differ, in ascending order: none if either
 // end has no regime. Wherever a regime is met that is neither of the two, both parts are searched; pairs of
-// crossings between points of one regime are not seen.
-// probe: the point at a place inside. forecast: where to look first.  It is asked some ten times a crossing,
-// at most 100 times, and there are at most 32 crossings, however the regimes change.
+// crossings between points of one regime are not seen, and where a place without a regime (a failed one) is
+// met those around it are not. probe: the point at a place inside. forecast: where to look first.  It is
+// asked some ten times a crossing, at most 100 times, and there are at most 32 crossings, however the regimes
+// change.
 std::vector<RegimeCrossing> find_crossings(periodic::Regime first, periodic::Regime last,
                                            const std::function<RegimePoint(double at)>& probe,
                                            const std::optional<CrossingForecast>& forecast = std::nullopt);

@@ -45,6 +45,14 @@ test("a map's figures are files that other programs read", (t) => {
   );
 });
 
+test("who dissipates along an axis is a figure for papers too", (t) => {
+  const folder = folderOf(t),
+    file = join(folder, "shares.h5");
+  frahm(["run", study("rig_energy_shares"), "-o", file, "--progress", "none"]);
+  frahm(["report", file, "--figures", folder]);
+  check(folder, "damping_budget");
+});
+
 test("the numbers of a curve are those of the file", (t) => {
   const folder = folderOf(t),
     file = join(folder, "h.h5");

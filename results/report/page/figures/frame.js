@@ -6,7 +6,7 @@
 //            rgba) gives a picture's data URL
 //   table    its numbers, for a CSV file: [{name, unit, values}], in the units of the record
 import * as Plot from "@observablehq/plot";
-import { extent, format, formatDefaultLocale, tickFormat, ticks } from "d3";
+import { extent, format, formatDefaultLocale, nice, tickFormat, ticks } from "d3";
 import { powerText, powerTicks } from "./power_ticks.js";
 import { digitWidth, fontSize, textWidth, wrapped } from "./text_lines.js";
 
@@ -211,11 +211,13 @@ export function grid(x = {}, y = {}) {
 
 const leastSpread = 1e-4; // below it the labels of an axis would need too many digits
 
-// Options of an axis for these values: where they are all but equal, some room about them.
+// Options of an axis for these values: round ends, and where they are all but equal, some room about them.
 export function roomFor(values) {
   const [low, high] = extent(values.filter(Number.isFinite));
   const size = Math.max(Math.abs(low), Math.abs(high));
-  if (!(low <= high) || high - low > leastSpread * size || size === 0) return { nice: true };
+  if (!(low <= high)) return { domain: [0, 1] };
+  if (size === 0) return { domain: [-1, 1], ticks: [0] };
+  if (high - low > leastSpread * size) return { domain: nice(low, high, 8) };
   const middle = (low + high) / 2;
   return { domain: [middle - 0.01 * size, middle + 0.01 * size] };
 }

@@ -1,7 +1,7 @@
 // Figures of a kept orbit: time history, phase portrait, friction-force loop.
 import { coordinateText } from "../axes.js";
 import { shownUnit, withUnit, words } from "../units.js";
-import { curve, drawFrame, grid, lineColours } from "./frame.js";
+import { curve, dots, drawFrame, grid, lineColours, roomFor } from "./frame.js";
 
 // The samples of orbit k (a ragged group: those from row_start[k] up to the next), as name -> {unit, values}.
 export function orbitSamples(group, k) {
@@ -20,7 +20,7 @@ const closed = (values) => (values.length ? [...values, values[0]] : values);
 
 function shownColumn(column) {
   const { factor, text } = shownUnit(column.unit, column.values);
-  return { values: column.values.map((value) => value * factor), unit: text };
+  return { values: Array.from(column.values, (value) => value * factor), unit: text };
 }
 
 const namesEnding = (samples, end) =>
@@ -41,33 +41,39 @@ function traces(canvas, samples, names, axis, symbol) {
     all[0].unit,
     all.flatMap(({ values }) => Array.from(values)),
   );
+  const shown = all.map(({ values }) => Array.from(values, (value) => value * factor));
   return drawFrame(canvas, {
     x: { label: withUnit("time t", time.unit === "1" ? "" : time.unit) },
-    y: { label: withUnit(axis, text), nice: true, inset },
+    y: { label: withUnit(axis, text), ...roomFor(shown.flat()), inset },
     legend: names.map((name, n) => ({
       text: words(name.replace(symbol, "")),
       stroke: lineColours[n % lineColours.length],
     })),
     marks: [
       ...grid(),
-      ...all.map(({ values }, n) =>
-        curve(
-          time.values,
-          values.map((value) => value * factor),
-          { stroke: lineColours[n % lineColours.length] },
-        ),
+      ...shown.map((values, n) =>
+        curve(time.values, values, { stroke: lineColours[n % lineColours.length] }),
       ),
     ],
   });
+}
+
+// What is at rest is a point.
+function loopMarks(x, y) {
+  const stroke = lineColours[0];
+  const isPoint = [x, y].every((values) => values.every((value) => value === values[0]));
+  return isPoint
+    ? [dots(x.slice(0, 1), y.slice(0, 1), { fill: stroke })]
+    : [curve(closed(x), closed(y), { stroke })];
 }
 
 function loop(canvas, xColumn, yColumn, xLabel, yLabel) {
   const x = shownColumn(xColumn),
     y = shownColumn(yColumn);
   return drawFrame(canvas, {
-    x: { label: withUnit(xLabel, x.unit), nice: true, inset },
-    y: { label: withUnit(yLabel, y.unit), nice: true, inset },
-    marks: [...grid(), curve(closed(x.values), closed(y.values), { stroke: lineColours[0] })],
+    x: { label: withUnit(xLabel, x.unit), ...roomFor(x.values), inset },
+    y: { label: withUnit(yLabel, y.unit), ...roomFor(y.values), inset },
+    marks: [...grid(), ...loopMarks(x.values, y.values)],
   });
 }
 

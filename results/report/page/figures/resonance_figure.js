@@ -1,6 +1,6 @@
 // Solved resonances: a quantity of group /resonance over one of the map's parameters, one curve for each value of
 // the others.
-import { symbolText } from "../axes.js";
+import { axisScale, coordinateLabel, symbolText } from "../axes.js";
 import { numberText, shownUnit, unitText, withUnit, words } from "../units.js";
 import { curve, dots, drawFrame, grid, lineColours, roomFor } from "./frame.js";
 
@@ -58,17 +58,24 @@ function curvesOver(group, x) {
   return some(allCurvesOver(group, x));
 }
 
-// How many of the curves are shown.
-export function resonanceNote(group, x) {
-  const all = allCurvesOver(group, x).length;
-  return `Solved along the frequency axis, not sampled.${all > mostCurves ? ` ${mostCurves} of ${all} curves; the CSV has all.` : ""}`;
+// How many of the curves are shown, and how many points have none.
+export function resonanceNote(group, quantity, x) {
+  const all = allCurvesOver(group, x).length,
+    none = quantity.values.filter(Number.isNaN).length;
+  return [
+    "Solved along the frequency axis, not sampled.",
+    none ? `${none} of ${quantity.values.length} response curves have none within it.` : "",
+    all > mostCurves ? `${mostCurves} of ${all} lines; the CSV has all.` : "",
+  ]
+    .filter(Boolean)
+    .join(" ");
 }
 
 export function resonanceFigure(canvas, group, quantity, x) {
   const { factor, text } = shownUnit(quantity.unit, quantity.values);
   const curves = curvesOver(group, x);
   return drawFrame(canvas, {
-    x: { label: withUnit(symbolText(x.name), unitText(x.unit)) },
+    x: { label: coordinateLabel(x), type: axisScale([...new Set(x.values)].sort((a, b) => a - b)) },
     y: {
       label: withUnit(words(quantity.name), text),
       ...roomFor(Array.from(quantity.values, (value) => value * factor)),

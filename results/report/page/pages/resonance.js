@@ -23,7 +23,7 @@ function figureOf(group, state) {
       return sentence(state.quantity.long_name || words(state.quantity.name));
     },
     get caption() {
-      return resonanceNote(group, state.x);
+      return resonanceNote(group, state.quantity, state.x);
     },
     draw: (canvas) => resonanceFigure(canvas, group, state.quantity, state.x),
     table: () => resonanceTable(group),
