@@ -1,6 +1,6 @@
 // Response curves: a quantity along one axis through one or several points of the map.
 import * as Plot from "@observablehq/plot";
-import { extent } from "d3";
+import { extent, ticks } from "d3";
 import { axisLabel, axisScale, axisText, coordinateColumns, coordinateText } from "../axes.js";
 import { meaningOf } from "../record.js";
 import { numberText, shownUnit, unitText, withUnit, words } from "../units.js";
@@ -100,7 +100,9 @@ function yAxis(variable, state, label, values) {
   const domain = [Math.min(0, low), Math.max(0, high)];
   const largest = Math.max(...domain.map(Math.abs));
   const asPowers = largest >= 1e5 || largest < 1e-2 ? { tickFormat: (tick) => numberText(tick) } : {};
-  return { label, domain: largest > 0 ? domain : [0, 1], nice: true, inset, ...asPowers };
+  const shown = largest > 0 ? domain : [0, 1];
+  const whole = variable.kind === "count" ? { ticks: ticks(...shown, 8).filter(Number.isInteger) } : {};
+  return { label, domain: shown, nice: true, inset, ...asPowers, ...whole };
 }
 
 // state: {axis, coordinate, scale: "linear", "log" or "dB", points: [index], regime: variable or undefined,
