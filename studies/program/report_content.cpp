@@ -9,6 +9,7 @@
 
 #include "studies/map/stored_study.hpp"
 #include "studies/motion/crank_motion.hpp"
+#include "studies/motion/motion_record.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -121,19 +122,31 @@ results::Column excitation_frequency(const StudyFile& study) {
           .values = {values.omega}};
 }
 
+// Elements of a type that are not without effect: of a contact, that have friction.
 results::Column number_of(const StudyFile& study, mechanics::ElementType type, const std::string& name) {
   const auto& elements = study.network.elements;
-  const auto is_one = [&](const mechanics::Element& element) { return element.type == type; };
-  const auto number = std::count_if(elements.begin(), elements.end(), is_one);
+  const std::vector<double> values = motion_values(study).element;
+  double number = 0.0;
+  for (std::size_t i = 0; i < elements.size(); ++i)
+    if (elements[i].type == type && values[i] != 0.0) ++number;
   return {.variable = {.name = name, .unit = "1", .long_name = "number of them in the study"},
-          .values = {static_cast<double>(number)}};
+          .values = {number}};
+}
+
+// Without a duration a free vibration is followed to its end, as far as it has one.
+results::Column given_duration(const StudyFile& study) {
+  return {.variable = {.name = "given_duration",
+                       .unit = "1",
+                       .long_name = "whether the study says until when its motion is followed"},
+          .values = {study.motion.duration ? 1.0 : 0.0}};
 }
 
 // By what the page of a motion knows whether it can end, and what a period is.
 std::vector<results::Column> motion_facts(const StudyFile& study) {
   using mechanics::ElementType;
-  std::vector<results::Column> facts = {number_of(study, ElementType::coulomb, "coulomb_elements"),
-                                        number_of(study, ElementType::hysteretic, "hysteretic_elements")};
+  std::vector<results::Column> facts = {number_of(study, ElementType::coulomb, "rubbing_elements"),
+                                        number_of(study, ElementType::hysteretic, "hysteretic_elements"),
+                                        given_duration(study)};
   if (study.kind == StudyKind::transient) facts.push_back(excitation_frequency(study));
   return facts;
 }
