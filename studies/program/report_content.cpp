@@ -10,6 +10,7 @@
 #include "studies/map/stored_study.hpp"
 #include "studies/motion/crank_motion.hpp"
 #include "studies/motion/motion_record.hpp"
+#include "studies/tuning/tuning_record.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -151,7 +152,27 @@ std::vector<results::Column> motion_facts(const StudyFile& study) {
   return facts;
 }
 
-// What the page shows besides the file: the motion of the study's cranks, and facts of a study of one motion.
+// The parts of the band over which the limits of a tuning hold, of those that name one, in the unit of its
+// band.
+std::vector<results::Column> limit_bands(const StudyFile& study) {
+  const TuneChoice& tune = *study.tune;
+  const std::vector<NamedLimit> named = named_limits(study, 0.0);
+  std::vector<results::Column> bands;
+  for (std::size_t i = 0; i < tune.limits.size(); ++i) {
+    if (!tune.limits[i].band || !tune.band) continue;
+    const auto add = [&](const char* end, double value) {
+      bands.push_back({.variable = {.name = named[i].name + "_band_" + end,
+                                    .unit = "1",
+                                    .long_name = "end of the part of the band over which the limit holds"},
+                       .values = {value / tune.band->unit.si_factor}});
+    };
+    add("from", tune.limits[i].band->from);
+    add("to", tune.limits[i].band->to);
+  }
+  return bands;
+}
+
+// What the page shows besides the file: the motion of the study's cranks, and facts of the study.
 std::vector<results::PageGroup> further_groups(const std::optional<StudyFile>& study) {
   if (!study) return {};
   std::vector<results::PageGroup> groups;
@@ -159,6 +180,7 @@ std::vector<results::PageGroup> further_groups(const std::optional<StudyFile>& s
     groups.push_back({.name = "crank", .columns = std::move(cranks)});
   if (study->kind == StudyKind::transient || study->kind == StudyKind::decay)
     groups.push_back({.name = "study", .columns = motion_facts(*study)});
+  if (study->kind == StudyKind::tune) groups.push_back({.name = "study", .columns = limit_bands(*study)});
   return groups;
 }
 
