@@ -123,6 +123,22 @@ results::Column excitation_frequency(const StudyFile& study) {
           .values = {values.omega}};
 }
 
+// The unit in which the study speaks of the excitation frequency, as a column of one such unit in SI; none
+// where it speaks of it in SI.
+std::vector<results::Column> frequency_unit(const StudyFile& study) {
+  for (std::size_t i = 0; i < study.parameters.list.size(); ++i) {
+    const Parameter& parameter = study.parameters.list[i];
+    if (!parameter.in_frequency || parameter.quantity != Quantity::angular_frequency) continue;
+    const UsualUnit unit = usual_unit(study, i);
+    if (unit.text.empty()) return {};
+    return {{.variable = {.name = "frequency_unit",
+                          .unit = unit.text,
+                          .long_name = "unit of the excitation frequency in rad/s"},
+             .values = {unit.si_factor}}};
+  }
+  return {};
+}
+
 // Elements of a type that are not without effect: of a contact, that have friction.
 results::Column number_of(const StudyFile& study, mechanics::ElementType type, const std::string& name) {
   const auto& elements = study.network.elements;
@@ -148,7 +164,10 @@ std::vector<results::Column> motion_facts(const StudyFile& study) {
   std::vector<results::Column> facts = {number_of(study, ElementType::coulomb, "rubbing_elements"),
                                         number_of(study, ElementType::hysteretic, "hysteretic_elements"),
                                         given_duration(study)};
-  if (study.kind == StudyKind::transient) facts.push_back(excitation_frequency(study));
+  if (study.kind == StudyKind::transient) {
+    facts.push_back(excitation_frequency(study));
+    for (results::Column& unit : frequency_unit(study)) facts.push_back(std::move(unit));
+  }
   return facts;
 }
 

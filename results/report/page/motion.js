@@ -72,6 +72,13 @@ function unitsOf({ columns }) {
   return { time: of(/^time$|^duration$|_peak_time$|_stop_onset$/, "s"), energy: of(/_energy$/, "J") };
 }
 
+// The frequency of a run in the unit in which the study speaks of it, such as rpm.
+function spokenFrequency(column, study) {
+  const spoken = study?.column("frequency_unit");
+  if (!spoken) return column;
+  return { ...column, unit: spoken.unit, values: column.values.map((value) => value / spoken.values[0]) };
+}
+
 // kind: "decay" or "transient".
 export function motionOf(record, kind) {
   const group = record.groups.get(kind);
@@ -84,7 +91,8 @@ export function motionOf(record, kind) {
     ...namesWith(group, "_extremum", "extremum"),
     ...namesWith(group, "_peak", ""),
   ]);
-  const frequency = group.column("frequency");
+  const frequency = group.column("frequency"),
+    angularFrequency = frequency?.dimension === "time" ? frequency : null;
   const fact = (name) => record.groups.get("study")?.number(name) ?? NaN;
   return {
     kind,
@@ -102,7 +110,8 @@ export function motionOf(record, kind) {
       .map((name) => stopsOf(group, name, duration))
       .filter(({ from }) => from.length > 0),
     energies: energiesOf(group),
-    frequency: frequency?.dimension === "time" ? frequency : null,
+    angularFrequency,
+    frequency: angularFrequency && spokenFrequency(angularFrequency, record.groups.get("study")),
     discretisationError: group.number("discretisation_error"),
   };
 }
@@ -125,8 +134,8 @@ function periodOfTurning({ masses }) {
 }
 
 // The period of the excitation, of a run-up or run-down the shortest.
-function periodOfExcitation({ frequency, excitation }) {
-  const fastest = frequency ? frequency.values.reduce((a, b) => Math.max(a, b), 0) : excitation;
+function periodOfExcitation({ angularFrequency, excitation }) {
+  const fastest = angularFrequency?.values.reduce((a, b) => Math.max(a, b), 0) ?? excitation;
   return (2 * Math.PI) / fastest;
 }
 

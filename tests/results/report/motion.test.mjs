@@ -296,3 +296,24 @@ test("a dimensionless motion has no seconds, metres or joules", () => {
   assert.doesNotMatch(told(plain), /\d (s|J|m|k)\b/);
   assert.deepEqual(decay({ guide_energy: ["J", "", 3] }).units, { time: "s", energy: "J" });
 });
+
+test("the frequency of a run is told in the study's unit, and its period is that of its angular frequency", () => {
+  const rpm = (2 * Math.PI) / 60,
+    time = Array.from({ length: 101 }, (_, i) => i / 10);
+  const run = motionOf(
+    sampleRecord({
+      study: sampleGroup({}, { frequency_unit: ["rpm", "", rpm] }),
+      transient: sampleGroup(
+        {},
+        {
+          time: ["s", "time", time],
+          frequency: ["rad s-1", "time", time.map((t) => rpm * (60 + 6 * t))],
+          main_displacement: ["m", "time", time.map(Math.sin)],
+        },
+      ),
+    }),
+    "transient",
+  );
+  assert.match(told(run), /The excitation runs up from 60 rpm to 120 rpm\./);
+  assert.ok(Math.abs(samplingOf(run).period - 0.5) < rounding);
+});
