@@ -5,10 +5,11 @@ import { numberText, quantityText, unitText } from "./units.js";
 const roundingGap = 1e-12; // relative
 const metResidual = 1e-6; // relative: the tolerance that a tuning has unless its study says otherwise
 
-// How near the worst peak is to the bound that the tuning found.
-function gapSentences({ kind, band, group, converged }) {
+// How near the worst peak is to the bound that the tuning found. Where no design keeps the limits nothing was pressed
+// towards that bound.
+function gapSentences({ kind, band, group, converged, infeasible }) {
   const gap = Math.abs(group.number("certificate_gap"));
-  if (kind !== "minimax" || !band || Number.isNaN(gap)) return [];
+  if (kind !== "minimax" || !band || infeasible || Number.isNaN(gap)) return [];
   const near = gap < roundingGap ? "rounding" : `${numberText(gap, 2)} (relative)`;
   return converged
     ? [
@@ -17,9 +18,9 @@ function gapSentences({ kind, band, group, converged }) {
     : [`There is no certificate; the worst peak and the bound of the tuning differ by ${near}.`];
 }
 
-function conditionSentences({ group, converged }) {
+function conditionSentences({ group, converged, infeasible }) {
   const residual = group.number("kkt_residual");
-  if (Number.isNaN(residual)) return [];
+  if (infeasible || Number.isNaN(residual)) return [];
   const text = `${numberText(residual, 2)} (relative)`;
   if (converged) return [`The conditions of a local optimum hold to ${text}.`];
   return residual <= metResidual
@@ -75,8 +76,10 @@ export function outcomeWarning(tuning) {
   const violation = group.number("violation");
   const broken = violation > 0 ? ` (largest violation of a limit: ${numberText(100 * violation, 4)} %)` : "";
   const reason = outcome === "infeasible" ? "" : reasonText(tuning); // which says the same again
-  const last = front
-    ? `For the last limit, ${quantityText(group.number("trade_off"), front.column("trade_off").unit, 4)}: `
-    : "";
-  return `${last}${outcomeWords[outcome] ?? "It is not known how this tuning ended"}${broken}${reason ? `: ${reason}` : ""}.`;
+  const told =
+    `${outcomeWords[outcome] ?? "It is not known how this tuning ended"}${broken}` +
+    `${reason ? `: ${reason}` : ""}.`;
+  if (!front) return told;
+  const limit = quantityText(group.number("trade_off"), front.column("trade_off").unit, 4);
+  return `For the last limit, ${limit}: ${told.charAt(0).toLowerCase()}${told.slice(1)}`;
 }

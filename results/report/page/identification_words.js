@@ -1,7 +1,7 @@
 // What an identification means, in sentences of numbers.
 import { symbolText } from "./axes.js";
 import { certainty, closePairs, hasFreedom } from "./identification.js";
-import { numberText, shownUnit, words } from "./units.js";
+import { numberText, sentence, shownUnit, words } from "./units.js";
 
 const digits = 4,
   mostDigits = 10;
@@ -116,6 +116,13 @@ export function whatItMeans(identification) {
     rowSentences(identification),
     [...qualitySentences(identification), ...doubtSentences(identification)],
   ].filter((paragraph) => paragraph.length > 0);
+}
+
+// A note of the record as a sentence of plain text; a name that it begins with stays as it is.
+export function noteSentence(note) {
+  const plain = note.replaceAll("`", "");
+  const told = note.startsWith("`") ? `Estimate ${plain}` : sentence(plain);
+  return /[.?!]$/.test(told) ? told : `${told}.`;
 }
 
 export function outcomeWarning({ outcome }) {

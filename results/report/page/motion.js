@@ -15,9 +15,20 @@ function known(values) {
   return values?.subarray(0, count) ?? new Float64Array(0);
 }
 
+// A mass that starts from rest at zero does not turn there, unless it never moves.
+function turnsOf(group, name) {
+  const times = known(group.values(`${name}_extremum_time`));
+  const points = group.values(`${name}_extremum`)?.subarray(0, times.length) ?? new Float64Array(0);
+  const from = times.length > 1 && times[0] === 0 && points[0] === 0 ? 1 : 0;
+  return {
+    turningTimes: times.subarray(from),
+    turningPoints: points.subarray(from),
+    decrements: known(group.values(`${name}_log_decrement`)?.subarray(from)),
+  };
+}
+
 function massOf(group, name) {
   const number = (suffix) => group.number(`${name}_${suffix}`);
-  const turningTimes = known(group.values(`${name}_extremum_time`));
   return {
     name,
     displacement: group.column(`${name}_displacement`),
@@ -28,9 +39,7 @@ function massOf(group, name) {
         group.column(`${name}_extremum`) ??
         group.column(`${name}_peak`)
       )?.unit ?? "1",
-    turningTimes,
-    turningPoints: group.values(`${name}_extremum`)?.subarray(0, turningTimes.length) ?? new Float64Array(0),
-    decrements: known(group.values(`${name}_log_decrement`)),
+    ...turnsOf(group, name),
     rest: number("rest"),
     peak: number("peak"),
     peakTime: number("peak_time"),
@@ -57,6 +66,19 @@ function energiesOf(group) {
   }));
 }
 
+// Units as the record has them: those of a dimensionless study are 1.
+function unitsOf({ columns }) {
+  const of = (pattern, otherwise) => columns.find(({ name }) => pattern.test(name))?.unit ?? otherwise;
+  return { time: of(/^time$|^duration$|_peak_time$|_stop_onset$/, "s"), energy: of(/_energy$/, "J") };
+}
+
+// The frequency of a run in the unit in which the study speaks of it, such as rpm.
+function spokenFrequency(column, study) {
+  const spoken = study?.column("frequency_unit");
+  if (!spoken) return column;
+  return { ...column, unit: spoken.unit, values: column.values.map((value) => value / spoken.values[0]) };
+}
+
 // kind: "decay" or "transient".
 export function motionOf(record, kind) {
   const group = record.groups.get(kind);
@@ -69,14 +91,17 @@ export function motionOf(record, kind) {
     ...namesWith(group, "_extremum", "extremum"),
     ...namesWith(group, "_peak", ""),
   ]);
-  const frequency = group.column("frequency");
+  const frequency = group.column("frequency"),
+    angularFrequency = frequency?.dimension === "time" ? frequency : null;
   const fact = (name) => record.groups.get("study")?.number(name) ?? NaN;
   return {
     kind,
     group,
     time,
+    units: unitsOf(group),
     excitation: fact("excitation_frequency"),
-    mayStop: fact("coulomb_elements") !== 0,
+    mayStop: fact("rubbing_elements") !== 0,
+    followed: fact("given_duration") === 0, // to its end, as far as it has one
     hysteretic: fact("hysteretic_elements") !== 0,
     duration,
     stopTime: group.number("stop_time"),
@@ -85,7 +110,8 @@ export function motionOf(record, kind) {
       .map((name) => stopsOf(group, name, duration))
       .filter(({ from }) => from.length > 0),
     energies: energiesOf(group),
-    frequency: frequency?.dimension === "time" ? frequency : null,
+    angularFrequency,
+    frequency: angularFrequency && spokenFrequency(angularFrequency, record.groups.get("study")),
     discretisationError: group.number("discretisation_error"),
   };
 }
@@ -108,8 +134,8 @@ function periodOfTurning({ masses }) {
 }
 
 // The period of the excitation, of a run-up or run-down the shortest.
-function periodOfExcitation({ frequency, excitation }) {
-  const fastest = frequency ? frequency.values.reduce((a, b) => Math.max(a, b), 0) : excitation;
+function periodOfExcitation({ angularFrequency, excitation }) {
+  const fastest = angularFrequency?.values.reduce((a, b) => Math.max(a, b), 0) ?? excitation;
   return (2 * Math.PI) / fastest;
 }
 
@@ -162,6 +188,35 @@ export function isRounding(decrement) {
 export function isRoundingOf(value, turningPoints) {
   const largest = turningPoints.reduce((most, point) => Math.max(most, Math.abs(point)), 0);
   return Math.abs(value) <= roundingPart * largest;
+}
+
+// Whether a mass lies where it turned at the start and never moved.
+export function isStill({ turningTimes, turningPoints, rest, displacement }, { stopTime }) {
+  const [place] = turningPoints;
+  if (turningPoints.length !== 1 || turningTimes[0] !== 0 || place !== rest) return false;
+  return Number.isFinite(stopTime) || (displacement?.values.every((value) => value === rest) ?? false);
+}
+
+// Whether friction holds a mass at its rest since its last turning point: one that damping alone brings there comes
+// nearer from turn to turn, one that friction stops is there at once.
+export function isHeldSinceTurning({ turningPoints, rest }, { mayStop }) {
+  const beyond = (value) => value - rest;
+  const last = turningPoints.at(-1),
+    before = turningPoints.at(-2) ?? NaN;
+  return mayStop && last === rest && !isRoundingOf(beyond(before), turningPoints.map(beyond));
+}
+
+// Whether the decrements of a mass, which are about zero, tell how it decays: it swings from one side of zero to the
+// other. That of the only mass does, but for where it stops.
+export function swingsAboutZero({ turningPoints }, { masses }) {
+  return (
+    masses.length === 1 || turningPoints.every((point, i) => i === 0 || point * turningPoints[i - 1] < 0)
+  );
+}
+
+// Whether a mass decays in one mode, so that its decrement is that of a damping ratio.
+export function isOneMode({ masses }) {
+  return masses.length === 1;
 }
 
 // Whether the decrements end before the cycles do: the rest is rounding.

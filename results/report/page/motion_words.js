@@ -3,23 +3,26 @@ import {
   dampingRatio,
   decrementsEndEarly,
   interpolated,
+  isHeldSinceTurning,
+  isOneMode,
   isRounding,
   isRoundingOf,
+  isStill,
   samplingOf,
+  swingsAboutZero,
 } from "./motion.js";
-import { numberText, quantityText, words } from "./units.js";
+import { numberText, shareText, quantityText, words } from "./units.js";
 
 const digits = 4;
-const percentText = (share) => `${numberText(100 * share, 3)} %`;
 
 // Of all masses together, where the sentences of each have not told it.
-function restSentence({ kind, stopTime, duration, masses }) {
-  if (kind !== "decay") return [];
+function restSentence({ kind, stopTime, duration, masses, units }) {
+  if (kind !== "decay" || stopTime === 0) return [];
   if (Number.isNaN(stopTime) && masses.some(({ rest }) => Number.isFinite(rest))) return [];
   return [
     Number.isFinite(stopTime)
-      ? `From ${quantityText(stopTime, "s", digits)} on nothing moves.`
-      : `Within ${quantityText(duration, "s", digits)} it does not come to rest.`,
+      ? `From ${quantityText(stopTime, units.time, digits)} on nothing moves.`
+      : `Within ${quantityText(duration, units.time, digits)} it does not come to rest.`,
   ];
 }
 
@@ -28,9 +31,10 @@ export function decrementText(decrement, places = digits) {
   return isRounding(decrement) ? "0 (rounding)" : numberText(decrement, places);
 }
 
-function turningSentence({ name, unit, turningPoints }) {
+function turningSentence({ name, unit, turningPoints }, { kind }) {
+  if (kind !== "decay") return [];
   const count = turningPoints.length;
-  if (count === 0) return [];
+  if (count === 0) return [`mass ${words(name)} does not turn.`];
   const first = quantityText(turningPoints[0], unit, digits);
   if (count === 1) return [`mass ${words(name)} turns once, at ${first}.`];
   const last = isRoundingOf(turningPoints.at(-1), turningPoints)
@@ -39,16 +43,17 @@ function turningSentence({ name, unit, turningPoints }) {
   return [`mass ${words(name)} turns ${count} times, first at ${first}, last at ${last}.`];
 }
 
-function decrementSentence(mass) {
+function decrementSentence(mass, motion) {
   const { decrements } = mass,
     count = decrements.length;
-  if (count === 0) return [];
+  if (count === 0 || !swingsAboutZero(mass, motion)) return [];
   if (decrements.every(isRounding))
     return ["Its logarithmic decrement is 0 but for rounding: nothing damps it."];
   const first = `${decrementText(decrements[0])} in the first cycle`;
-  const ratio = isRounding(decrements[0])
-    ? ""
-    : ` (as of ${percentText(dampingRatio(decrements[0]))} viscous damping)`;
+  const ratio =
+    isOneMode(motion) && !isRounding(decrements[0])
+      ? ` (as of ${shareText(dampingRatio(decrements[0]))} viscous damping)`
+      : "";
   const which = decrementsEndEarly(mass)
     ? `the last that is above rounding, that from turning point ${count} of ${mass.turningPoints.length}`
     : "the last";
@@ -61,20 +66,37 @@ export function restText({ rest, unit, turningPoints }, places = digits) {
   return rest !== 0 && isRoundingOf(rest, turningPoints) ? "0 (rounding)" : quantityText(rest, unit, places);
 }
 
+// How a mass stands to where it rests or tends to at the end of the record: "rests", "held" (others move on), "tends"
+// (it never arrives) or "moves" (friction stops it later, or it never arrives).
+export function approachOf(mass, motion) {
+  if (Number.isFinite(motion.stopTime)) return "rests";
+  if (isHeldSinceTurning(mass, motion)) return "held";
+  return motion.mayStop && !motion.followed ? "moves" : "tends";
+}
+
 // Where it lies in the end, if it ever does.
-function restOfMass(mass, { stopTime, duration, mayStop }) {
+function restOfMass(mass, motion) {
   if (!Number.isFinite(mass.rest)) return [];
-  const at = restText(mass);
-  if (Number.isFinite(stopTime)) return [`It comes to lie at ${at}.`];
-  if (!mayStop) return [`It tends to ${at} without ever arriving.`];
-  return [`It does not reach its rest, ${at}, within ${quantityText(duration, "s", digits)}.`];
+  const at = restText(mass),
+    timeText = (time) => quantityText(time, motion.units.time, digits);
+  switch (approachOf(mass, motion)) {
+    case "rests":
+      return [`It comes to lie at ${at}.`];
+    case "held":
+      return [`It reaches its rest, ${at}, at ${timeText(mass.turningTimes.at(-1))}.`];
+    case "tends":
+      return [`It tends to ${at} without ever arriving.`];
+    default:
+      return [`It does not reach its rest, ${at}, within ${timeText(motion.duration)}.`];
+  }
 }
 
 function decayOf(mass, motion) {
-  return [...turningSentence(mass), ...decrementSentence(mass), ...restOfMass(mass, motion)];
+  if (isStill(mass, motion)) return [`mass ${words(mass.name)} does not move: it lies at ${restText(mass)}.`];
+  return [...turningSentence(mass, motion), ...decrementSentence(mass, motion), ...restOfMass(mass, motion)];
 }
 
-function peakOf({ name, unit, peak, peakTime }, { time, frequency }) {
+function peakOf({ name, unit, peak, peakTime }, { time, frequency, units }) {
   if (!Number.isFinite(peak)) return [];
   const there = frequency
     ? `, where the excitation has ` +
@@ -82,16 +104,16 @@ function peakOf({ name, unit, peak, peakTime }, { time, frequency }) {
     : "";
   return [
     `The largest displacement of mass ${words(name)} is ${quantityText(peak, unit, digits)}, at ` +
-      `${quantityText(peakTime, "s", digits)}${there}.`,
+      `${quantityText(peakTime, units.time, digits)}${there}.`,
   ];
 }
 
-function stopSentences({ stops }) {
+function stopSentences({ stops, units }) {
   return stops.map(({ name, from, to }) => {
     const total = from.reduce((sum, start, i) => sum + to[i] - start, 0);
     return (
       `contact ${words(name)} sticks ${from.length === 1 ? "once" : `${from.length} times`}, ` +
-      `${quantityText(total, "s", digits)} in all.`
+      `${quantityText(total, units.time, digits)} in all.`
     );
   });
 }
@@ -112,15 +134,15 @@ function errorSentence({ discretisationError, frequency, masses }) {
   ];
 }
 
-function energySentences({ energies, group }) {
+function energySentences({ energies, group, units }) {
   const total = energies.reduce((sum, { energy }) => sum + energy, 0);
   if (!(total > 0)) return [];
   const shares = [...energies]
     .sort((a, b) => b.share - a.share)
-    .map(({ name, share }) => `${percentText(share)} in ${words(name)}`);
+    .map(({ name, share }) => `${shareText(share)} in ${words(name)}`);
   const balance = group.number("energy_balance");
   return [
-    `Of ${quantityText(total, "J", digits)} dissipated, ` + `${shares.join(", ")}.`,
+    `Of ${quantityText(total, units.energy, digits)} dissipated, ${shares.join(", ")}.`,
     ...(Number.isFinite(balance) ? [`The energy balance closes to ${numberText(balance, 2)}.`] : []),
   ];
 }
@@ -129,12 +151,13 @@ function energySentences({ energies, group }) {
 export function sparseText(motion) {
   const { step, period, perPeriod, sparse, enough } = samplingOf(motion);
   if (!sparse) return "";
+  const timeText = (time) => quantityText(time, motion.units.time, digits);
   const few = Number.isFinite(period)
-    ? `${numberText(perPeriod, 3)} to a period of ${quantityText(period, "s", digits)}`
+    ? `${numberText(perPeriod, 3)} to a period of ${timeText(period)}`
     : "and the largest displacement lies between them";
   const more = Number.isFinite(enough) ? `With samples = ${enough} or more` : "With more samples";
   return (
-    `The samples stand ${quantityText(step, "s", digits)} apart, ${few}: lines that join them would show another ` +
+    `The samples stand ${timeText(step)} apart, ${few}: lines that join them would show another ` +
     `motion, so they are drawn as dots, without cycles and phase portraits. ${more} in [${motion.kind}] of the ` +
     `study it would be seen.`
   );

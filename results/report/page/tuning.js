@@ -50,13 +50,22 @@ function parameterOf(group, name) {
   };
 }
 
+// Whether a place is where the band begins or ends.
+function isEndOf(band, at) {
+  if (!band?.length) return false;
+  const near = 1e-9 * Math.abs(band.at(-1) - band[0]);
+  return Math.abs(at - band[0]) <= near || Math.abs(at - band.at(-1)) <= near;
+}
+
 // Which peaks hold the design is known of a tuning that converged.
 function peaksOf(group, band, scenarios, { converged, objective }) {
   const values = group.values("peak_value") ?? [];
   return Array.from(values, (value, i) => {
-    const share = group.values("peak_multiplier")[i];
+    const share = group.values("peak_multiplier")[i],
+      at = group.values(`peak_${band}`)[i];
     return {
-      at: group.values(`peak_${band}`)[i],
+      at,
+      atEnd: isEndOf(group.values(band), at),
       value,
       share,
       active: converged && share > heldFrom,
@@ -67,15 +76,22 @@ function peaksOf(group, band, scenarios, { converged, objective }) {
   });
 }
 
-// How far a value lies beyond its limits, relative to the limit; 0 where it keeps them.
+// How far a value lies beyond its limits, relative to the limit, and beyond which; 0 where it keeps them.
 function brokenBy(value, lower, upper) {
   const over = Number.isFinite(upper) ? (value - upper) / Math.abs(upper || 1) : 0;
   const under = Number.isFinite(lower) ? (lower - value) / Math.abs(lower || 1) : 0;
   const most = Math.max(over, under);
-  return most > brokenFrom ? most : 0;
+  return { broken: most > brokenFrom ? most : 0, brokenEnd: over >= under ? "at most" : "at least" };
 }
 
-function limitsOf(group, names, scenarios, { converged, objective }) {
+// The part of the band over which a limit holds, if the study names one.
+function limitBand(study, name) {
+  return study?.has(`${name}_band_from`)
+    ? { from: study.number(`${name}_band_from`), to: study.number(`${name}_band_to`) }
+    : null;
+}
+
+function limitsOf({ group, study, scenarios, converged, objective }, names) {
   return names.map((name) => {
     const number = (suffix) => group.number(`${name}_${suffix}`);
     const multiplier = number("limit_multiplier"),
@@ -89,7 +105,8 @@ function limitsOf(group, names, scenarios, { converged, objective }) {
       lower: number("lower_limit"),
       upper: limit,
       multiplier,
-      broken: brokenBy(number("limited"), number("lower_limit"), limit),
+      band: limitBand(study, name),
+      ...brokenBy(number("limited"), number("lower_limit"), limit),
       active:
         converged &&
         multiplier * Math.abs(Number.isFinite(limit) ? limit : number("lower_limit")) > heldFrom * objective,
@@ -201,7 +218,7 @@ export function tuningOf(record) {
     : [{ scenario: "", suffix: "" }];
   const unit = group.column("objective")?.unit ?? "1";
   const outcome = group.word("outcome"),
-    state = { converged: outcome === "converged", objective };
+    state = { converged: outcome === "converged", infeasible: outcome === "infeasible", objective };
   return {
     group,
     texts,
@@ -215,7 +232,10 @@ export function tuningOf(record) {
     scenarios: several ? scenarios : [],
     parameters: listOf(texts.parameters).map((name) => parameterOf(group, name)),
     peaks: peaksOf(group, band, several ? scenarios : [], state),
-    limits: limitsOf(group, listOf(texts.limits), several ? scenarios : [], state),
+    limits: limitsOf(
+      { group, study: record.groups.get("study"), scenarios: several ? scenarios : [], ...state },
+      listOf(texts.limits),
+    ),
     band: band && group.has(band) ? group.column(band) : null,
     weight: group.values("weight"),
     responses: responsesOf(group, suffixes),

@@ -64,6 +64,8 @@ const prefixed = {
 const leastPrefixed = 1e-4,
   mostPrefixed = 1e7; // of the least and greatest prefix: beyond, powers of ten stand with the unit itself
 
+const roundingShare = 1e-12; // of all: what is nearer to all is all but for rounding
+
 // {factor, text}: a value in `unit` is value x factor in `text`.
 export function shownUnit(unit, values) {
   const steps = prefixed[unit];
@@ -75,6 +77,15 @@ export function shownUnit(unit, values) {
   const [scale, text] = steps.find(([size]) => largest >= size) ?? steps.at(-1);
   if (plain) return { factor: 1, text: unit };
   return { factor: 1 / scale, text };
+}
+
+// The same for the ends of a linear axis, with a power of ten before the unit where its numbers would have many zeros.
+export function axisUnit(unit, ends) {
+  const { factor, text } = shownUnit(unit, ends);
+  const largest = Math.max(...ends.map((value) => Math.abs(value * factor)));
+  if (largest === 0 || (largest >= 1e-4 && largest < 1e7)) return { factor, text };
+  const power = 3 * Math.floor(Math.log10(largest) / 3);
+  return { factor: factor * 10 ** -power, text: `\u00d710${superscript(power)}${text ? ` ${text}` : ""}` };
 }
 
 // "peak of main (mm)".
@@ -100,6 +111,13 @@ export function quantityText(value, unit, digits = 6) {
   return text && !Number.isNaN(value)
     ? `${numberText(value * factor, digits)} ${text}`
     : numberText(value * factor, digits);
+}
+
+// A share of all in percent, with as many digits as tell it from all: "99.97 %".
+export function shareText(share, digits = 3) {
+  const left = Math.abs(1 - share);
+  const needed = left > roundingShare ? Math.ceil(-Math.log10(left)) : 0;
+  return `${numberText(100 * share, Math.max(digits, needed))} %`;
 }
 
 // With its first letter large.

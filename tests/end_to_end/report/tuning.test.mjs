@@ -1,5 +1,6 @@
 // The report of a rig tuning with a schedule: what was gained, the response, the schedule, and their files.
 import assert from "node:assert/strict";
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { badLabels, csvRows, folderOf, frahm, open, photographed, saved, stored, study } from "./page.mjs";
@@ -48,5 +49,83 @@ test("the report of a tuning", async (t) => {
 
   assert.deepEqual(await badLabels(page), []);
   await photographed(page, "tuning");
+  assert.deepEqual(complaints, []);
+});
+
+// A trade-off whose last limit no design keeps.
+const tradeOff = `
+[study]
+schema = 1
+kind = "tune"
+title = "trade-off with an end that no design keeps"
+units = "SI"
+[parameters]
+omega = { value = 50, unit = "rad/s" }
+kt = { value = 10, unit = "kN/m" }
+ct = { value = 60, unit = "N s/m" }
+[[mass]]
+name = "main"
+mass = 100
+[[mass]]
+name = "tmd"
+mass = 5
+[[element]]
+name = "ms"
+type = "spring"
+between = ["ground", "main"]
+stiffness = 250000
+[[element]]
+name = "ts"
+type = "spring"
+between = ["main", "tmd"]
+stiffness = "kt"
+[[element]]
+name = "td"
+type = "damper"
+between = ["main", "tmd"]
+damping = "ct"
+[excitation]
+frequency = "omega"
+[[excitation.force]]
+on = "main"
+amplitude = 100
+[tune]
+objective = "minimax"
+quantity = "main_peak"
+band = { parameter = "omega", from = 20, to = 90 }
+trade_off = { quantity = "ts_stroke", values = [20, 10, 4], unit = "mm" }
+[[design]]
+parameter = "kt"
+lower = 3
+upper = 30
+unit = "kN/m"
+[[design]]
+parameter = "ct"
+lower = 1
+upper = 500
+`;
+
+test("a front tells what keeps its limit from what does not", async (t) => {
+  const folder = folderOf(t),
+    file = join(folder, "front.h5");
+  writeFileSync(join(folder, "front.toml"), tradeOff);
+  const noOptimum = 7;
+  frahm(["run", join(folder, "front.toml"), "-o", file, "--progress", "none"], { code: noOptimum });
+  frahm(["report", file, "--figures", folder]);
+  const rows = csvRows(readFileSync(join(folder, "front.csv"), "utf8"));
+  assert.deepEqual(
+    rows.map((row) => [Number(row["ts_stroke_limit [mm]"]), row.outcome]),
+    [
+      [4, "infeasible"],
+      [10, "converged"],
+      [20, "converged"],
+    ],
+  );
+  assert.ok(Number(rows[0].violation) > 1);
+  assert.equal(Number(rows[2]["objective [m]"]), stored(file, "optimum/front/objective", [0]));
+  frahm(["report", file]);
+  const { page, complaints } = await open(t, join(folder, "front.html"));
+  const gap = page.locator("tr", { hasText: "certificate gap" }).last().locator("td").last();
+  assert.equal(await gap.textContent(), "–");
   assert.deepEqual(complaints, []);
 });

@@ -11,6 +11,7 @@ import {
 import {
   correlationText,
   estimateText,
+  noteSentence,
   outcomeWarning,
   whatItMeans,
 } from "../../../results/report/page/identification_words.js";
@@ -135,4 +136,10 @@ test("what is not determined by the data is said in a whole sentence", () => {
     .flat()
     .join(" ");
   assert.match(text, /c is not determined by the data; d = 15 N/);
+});
+
+test("a note is a sentence of plain text, and a name that it begins with keeps its letters", () => {
+  assert.equal(noteSentence("over 5 cycles, 11 extremes"), "Over 5 cycles, 11 extremes.");
+  assert.equal(noteSentence("`k` is held by its upper bound"), "Estimate k is held by its upper bound.");
+  assert.equal(noteSentence("is the sign right?"), "Is the sign right?");
 });

@@ -57,7 +57,7 @@ test("a decay that does not come to rest says so once, and one without friction 
   const moving = told(decay());
   assert.match(moving, /It does not reach its rest, 0 m, within 4 s\./);
   assert.doesNotMatch(moving, /comes to/);
-  const free = told(decay({}, { coulomb_elements: ["1", "", 0] }));
+  const free = told(decay({}, { rubbing_elements: ["1", "", 0] }));
   assert.match(free, /It tends to 0 m without ever arriving\./);
   assert.doesNotMatch(free, /comes to|come to/);
   assert.match(told(decay({ main_rest: ["m", "", NaN] })), /Within 4 s it does not come to rest\./);
@@ -221,4 +221,99 @@ test("decrements and turning points below rounding are told as rounding", () => 
   assert.match(told(decay()), /last at −2 mm\..* and 1\.099 in the last\./);
   const early = decay({ main_log_decrement: ["1", "extremum", [0.5, NaN, NaN, NaN, NaN]] });
   assert.match(told(early), /0\.5 in the first cycle/);
+});
+
+// Two masses: "a", that starts from rest at zero and that friction holds from 2 on, and "b", that goes on.
+function coupled(columns = {}, facts = {}) {
+  return decay(
+    {
+      main_extremum_time: ["s", "extremum", [NaN, NaN, NaN, NaN]],
+      main_extremum: ["m", "extremum", [NaN, NaN, NaN, NaN]],
+      main_log_decrement: ["1", "extremum", [NaN, NaN, NaN, NaN]],
+      a_extremum_time: ["s", "extremum", [0, 1, 2, NaN]],
+      a_extremum: ["m", "extremum", [0, 0.009, -0.003, NaN]],
+      a_log_decrement: ["1", "extremum", [NaN, NaN, NaN, NaN]],
+      a_rest: ["m", "", -0.003],
+      b_extremum_time: ["s", "extremum", [0, 1.5, 2.5, 3.5]],
+      b_extremum: ["m", "extremum", [0.03, -0.016, -0.001, -0.007]],
+      b_log_decrement: ["1", "extremum", [3.4, 0.83, NaN, NaN]],
+      b_rest: ["m", "", -0.003],
+      ...columns,
+    },
+    { rubbing_elements: ["1", "", 1], given_duration: ["1", "", 0], ...facts },
+  );
+}
+
+test("a start from rest at zero is no turning point", () => {
+  const a = coupled().masses.find(({ name }) => name === "a");
+  assert.deepEqual(Array.from(a.turningPoints), [0.009, -0.003]);
+  assert.match(told(coupled()), /Mass a turns 2 times, first at 9 mm, last at −3 mm\./);
+});
+
+test("each mass is told as held by friction, on its way, or tending to its rest, by its own turning points", () => {
+  const text = told(coupled());
+  assert.match(text, /Mass a .* It reaches its rest, −3 mm, at 2 s\. Mass b .* It tends to −3 mm without/);
+  const cut = told(coupled({}, { given_duration: ["1", "", 1] }));
+  assert.match(
+    cut,
+    /Mass a .* It reaches its rest, .* Mass b .* It does not reach its rest, −3 mm, within 4 s\./,
+  );
+  const withoutFriction = told(coupled({}, { rubbing_elements: ["1", "", 0] }));
+  assert.match(withoutFriction, /Mass a .* It tends to −3 mm without .* Mass b .* It tends to −3 mm without/);
+});
+
+test("a decrement is told of what swings about zero, and as a damping ratio only of one mass alone", () => {
+  assert.doesNotMatch(told(coupled()), /decrement|–/);
+  const alternating = told(coupled({ b_extremum: ["m", "extremum", [0.03, -0.016, 0.001, -0.0007]] }));
+  assert.match(alternating, /Its logarithmic decrement is 3\.4 in the first cycle and 0\.83 in the last\./);
+  assert.match(told(decay()), /0\.6931 in the first cycle \(as of 11 % viscous damping\)/);
+});
+
+test("what friction holds from the start does not move", () => {
+  const still = decay({
+    main_extremum_time: ["s", "extremum", [0]],
+    main_extremum: ["m", "extremum", [0.01]],
+    main_log_decrement: ["1", "extremum", [NaN]],
+    main_rest: ["m", "", 0.01],
+    stop_time: ["s", "", 0],
+  });
+  assert.equal(told(still), "Mass main does not move: it lies at 10 mm.");
+});
+
+test("a dimensionless motion has no seconds, metres or joules", () => {
+  const plain = decay({
+    main_extremum_time: ["1", "extremum", [0, 1, 2, 3, NaN]],
+    main_extremum: ["1", "extremum", [8, -6, 4, -2, NaN]],
+    main_rest: ["1", "", 0],
+    duration: ["1", "", 4],
+    stop_time: ["1", "", NaN],
+    guide_energy: ["1", "", 3],
+    guide_energy_share: ["1", "", 1],
+    guide_stop_onset: ["1", "stop", [1, NaN]],
+    guide_release: ["1", "stop", [2, NaN]],
+  });
+  assert.deepEqual(plain.units, { time: "1", energy: "1" });
+  assert.doesNotMatch(told(plain), /\d (s|J|m|k)\b/);
+  assert.deepEqual(decay({ guide_energy: ["J", "", 3] }).units, { time: "s", energy: "J" });
+});
+
+test("the frequency of a run is told in the study's unit, and its period is that of its angular frequency", () => {
+  const rpm = (2 * Math.PI) / 60,
+    time = Array.from({ length: 101 }, (_, i) => i / 10);
+  const run = motionOf(
+    sampleRecord({
+      study: sampleGroup({}, { frequency_unit: ["rpm", "", rpm] }),
+      transient: sampleGroup(
+        {},
+        {
+          time: ["s", "time", time],
+          frequency: ["rad s-1", "time", time.map((t) => rpm * (60 + 6 * t))],
+          main_displacement: ["m", "time", time.map(Math.sin)],
+        },
+      ),
+    }),
+    "transient",
+  );
+  assert.match(told(run), /The excitation runs up from 60 rpm to 120 rpm\./);
+  assert.ok(Math.abs(samplingOf(run).period - 0.5) < rounding);
 });

@@ -244,10 +244,11 @@ test("of a design that breaks a limit there is no certificate, no multiplier, an
     stroke_limit_multiplier: ["m (mm)-1", "", 0.003],
   };
   const text = told(broken, 3, { limits: "stroke" });
-  assert.match(text, /There is no certificate; .* differ by 0\.014 \(relative\)/);
-  assert.match(text, /local optimum do not hold: KKT residual 0\.49/);
-  assert.match(text, /It breaks the limit of stroke by 614 %\. It lies on the upper bound of k\./);
-  assert.doesNotMatch(text, /held by|relaxed|Certificate|hold to/);
+  assert.match(
+    text,
+    /It breaks the limit of stroke, at most 5 mm, by 614 %: 35\.7 mm\. It lies on the upper bound of k\./,
+  );
+  assert.doesNotMatch(text, /held by|relaxed|[Cc]ertificate|hold to|differ|KKT/);
   const tuning = tuningOf(minimax(broken, 3, { limits: "stroke" }));
   assert.deepEqual(
     tuning.peaks.map(({ active }) => active),
@@ -298,7 +299,7 @@ test("a trade-off tells which limits converged and which design is shown", () =>
     "Trade-off over 4 limits of stroke, 2 converged: worst main peak from 20.52 mm at 40 mm to 21.08 mm at 36 mm.",
     "What follows is the design for the last, 5 mm.",
   ]);
-  assert.match(outcomeWarning(tuning), /^For the last limit, 5 mm: No design was found/);
+  assert.match(outcomeWarning(tuning), /^For the last limit, 5 mm: no design was found/);
 });
 
 test("a schedule tells where it is as steep as it may be, and one that dominates how near it comes", () => {
@@ -348,4 +349,38 @@ test("a variance says what its noise is, and what the motion is relative to", ()
     of({ noise: "a force on main", noise_density: "2" }),
     /Standard deviation of main under white noise, a force on main \(two-sided spectral density 2\): 2 mm\./,
   );
+});
+
+test("of a design that did not converge, but keeps its limits, the gap that is left is told", () => {
+  const text = told({ certificate_gap: ["1", "", -0.0139], kkt_residual: ["1", "", 0.49] }, 2);
+  assert.match(text, /There is no certificate; .* differ by 0\.014 \(relative\)/);
+  assert.match(text, /local optimum do not hold: KKT residual 0\.49/);
+});
+
+test("a broken limit is told with the bound that it breaks, its part of the band, and where", () => {
+  const record = minimax(
+    {
+      stroke_limited: ["mm", "", 0.15],
+      stroke_limited_at: ["rad s-1", "", 20],
+      stroke_lower_limit: ["mm", "", 0.2],
+      stroke_upper_limit: ["mm", "", 8],
+      stroke_2_limited: ["mm", "", 9],
+      stroke_2_limited_at: ["rad s-1", "", 12],
+      stroke_2_lower_limit: ["mm", "", NaN],
+      stroke_2_upper_limit: ["mm", "", 7.5],
+    },
+    3,
+    { limits: "stroke,stroke_2" },
+  );
+  const part = { stroke_2_band_from: ["1", "", 10], stroke_2_band_to: ["1", "", 16] };
+  record.groups.set("study", sampleGroup({}, part));
+  const text = whatItMeans(tuningOf(record)).flat().join(" ");
+  assert.match(text, /limit of stroke, at least 0\.2 mm, by 25 %: 0\.15 mm at 20 rad\/s\./);
+  assert.match(text, /limit of stroke 2, at most 7\.5 mm over 10 to 16 rad\/s, by 20 %: 9 mm at 12 rad\/s\./);
+});
+
+test("the end of the band is no peak", () => {
+  const text = told({ peak_omega: ["rad s-1", "peak", [20, 12]] });
+  assert.match(text, /held by the response at 20 rad\/s, the end of the band, share 100 %/);
+  assert.doesNotMatch(text, /peak at 20/);
 });

@@ -3,7 +3,13 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { powerText, powerTicks } from "../../../results/report/page/figures/power_ticks.js";
 import { wrapped } from "../../../results/report/page/figures/text_lines.js";
-import { numberText, quantityText, unitText } from "../../../results/report/page/units.js";
+import {
+  axisUnit,
+  numberText,
+  quantityText,
+  shareText,
+  unitText,
+} from "../../../results/report/page/units.js";
 
 test("units have powers, products and quotients", () => {
   assert.equal(unitText("m s-2"), "m/s²");
@@ -46,4 +52,17 @@ test("a logarithmic axis has ticks at powers of ten, one style for all of them",
   assert.deepEqual(powerTicks([2e-6, 3e-3]).map(powerText([2e-6, 3e-3])), ["10⁻⁵", "10⁻⁴", "10⁻³"]);
   assert.deepEqual(powerTicks([0.8, 30]).map(powerText([0.8, 30])), ["1", "2", "5", "10", "20"]);
   assert.ok(powerTicks([1e-16, 1]).length <= 9);
+});
+
+test("a share that is not all is not told as all", () => {
+  assert.equal(shareText(0.99971), "99.97 %");
+  assert.equal(shareText(0.999999), "99.9999 %");
+  assert.equal(shareText(1), "100 %");
+  assert.equal(shareText(0.7512), "75.1 %");
+});
+
+test("a linear axis has a power of ten before its unit where its numbers would have many zeros", () => {
+  assert.deepEqual(axisUnit("J", [0, 2.5e-13]), { factor: 1e15, text: "×10⁻¹⁵ J" });
+  assert.equal(axisUnit("J", [0, 5e12]).text, "×10¹² J");
+  assert.deepEqual(axisUnit("J", [0, 0.25]), { factor: 1000, text: "mJ" });
 });

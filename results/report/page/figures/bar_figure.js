@@ -1,6 +1,6 @@
 // Named amounts as horizontal bars, each with its number.
 import * as Plot from "@observablehq/plot";
-import { numberText, shownUnit, withUnit } from "../units.js";
+import { axisUnit, numberText, withUnit } from "../units.js";
 import { drawFrame, fileName, lineColours } from "./frame.js";
 import { digitWidth, wrapped } from "./text_lines.js";
 
@@ -8,10 +8,7 @@ const barHeight = 30,
   aroundBars = 64;
 
 function draw(canvas, { label, unit, bars }) {
-  const { factor, text } = shownUnit(
-    unit,
-    bars.map(({ value }) => value),
-  );
+  const { factor, text } = axisUnit(unit, bars.map(({ value }) => value).filter(Number.isFinite));
   const longest = Math.max(...bars.map(({ name }) => name.length));
   const marginLeft = Math.min(canvas.width * 0.4, 20 + digitWidth * longest);
   const names = bars.map(({ name }) => wrapped(name, marginLeft - 20));

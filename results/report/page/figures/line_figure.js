@@ -1,6 +1,6 @@
 // A figure of curves, points, bands and levels over one pair of axes, with its legend, tips and CSV.
 import * as Plot from "@observablehq/plot";
-import { numberText, shownUnit, superscript, withUnit } from "../units.js";
+import { axisUnit, numberText, shownUnit, withUnit } from "../units.js";
 import { drawFrame, fileName, grid, lineColours, lineDashes, tips } from "./frame.js";
 import { tableOf } from "./line_table.js";
 import { thinnedHistory, thinnedPath } from "./line_thinning.js";
@@ -46,19 +46,10 @@ function domainOf(spec, axis) {
   return [zero && low === 0 ? 0 : low - room, zero && high === 0 ? 0 : high + room];
 }
 
-// With a power of ten before the unit where the numbers of a linear axis would have many zeros.
-function withPower({ factor, text }, ends) {
-  const largest = Math.max(...ends.map((value) => Math.abs(value * factor)));
-  if (largest === 0 || (largest >= 1e-4 && largest < 1e7)) return { factor, text };
-  const power = 3 * Math.floor(Math.log10(largest) / 3);
-  return { factor: factor * 10 ** -power, text: `\u00d710${superscript(power)}${text ? ` ${text}` : ""}` };
-}
-
 function shownAxis(spec, axis) {
   const { label, unit, type = "linear", ticks, tickFormat } = spec[axis];
   const inUnit = domainOf(spec, axis);
-  const { factor, text } =
-    type === "log" ? shownUnit(unit, inUnit) : withPower(shownUnit(unit, inUnit), inUnit);
+  const { factor, text } = type === "log" ? shownUnit(unit, inUnit) : axisUnit(unit, inUnit);
   const domain = inUnit.map((value) => value * factor);
   const logarithmic =
     type === "log" ? { ticks: powerTicks(domain), tickFormat: powerText(domain) } : { ticks, tickFormat };

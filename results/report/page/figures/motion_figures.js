@@ -1,7 +1,7 @@
 // Histories of a motion, its turning points, phase portraits, decrements, and where its energy goes.
-import { decrementsEndEarly, envelope, isRounding, samplingOf, stretch } from "../motion.js";
-import { restText } from "../motion_words.js";
-import { numberText, quantityText, words } from "../units.js";
+import { decrementsEndEarly, envelope, isOneMode, isRounding, samplingOf, stretch } from "../motion.js";
+import { approachOf, restText } from "../motion_words.js";
+import { shareText, quantityText, words } from "../units.js";
 import { barFigure } from "./bar_figure.js";
 import { lineFigure, style } from "./line_figure.js";
 import { lineColours } from "./frame.js";
@@ -15,7 +15,7 @@ const bandColours = [
   lineColours[5],
 ];
 const shownTurns = 12; // of a stretch at the start or at the end
-const timeAxis = { label: "time", name: "time", unit: "s", tight: true };
+const timeAxis = ({ units }) => ({ label: "time", name: "time", unit: units.time, tight: true });
 
 function stuckBands({ stops }) {
   return stops.map(({ name, from, to }, i) => ({
@@ -26,10 +26,9 @@ function stuckBands({ stops }) {
   }));
 }
 
-function moments({ stopTime }) {
-  return Number.isFinite(stopTime)
-    ? [{ x: stopTime, text: `all at rest from ${quantityText(stopTime, "s", 5)}`, dash: "2 3" }]
-    : [];
+function moments({ stopTime, units }) {
+  const from = stopTime === 0 ? "the start" : quantityText(stopTime, units.time, 5);
+  return Number.isFinite(stopTime) ? [{ x: stopTime, text: `all at rest from ${from}`, dash: "2 3" }] : [];
 }
 
 const sparseCaption = "Samples, not joined: they stand too far apart to show the motion between them.";
@@ -79,7 +78,7 @@ function historyFigure(motion, quantity) {
     name: quantity,
     title: titleOf(motion, quantity),
     ratio: displacement ? 0.45 : undefined,
-    x: Number.isFinite(motion.stopTime) ? { ...timeAxis, tight: false, zero: true } : timeAxis,
+    x: { ...timeAxis(motion), ...(Number.isFinite(motion.stopTime) ? { tight: false, zero: true } : {}) },
     y: { label: quantity, unit: unitOf(motion, quantity) },
     ...joinedOrDots(motion, historyLines(motion, quantity)),
     bands: displacement ? stuckBands(motion) : [],
@@ -113,7 +112,7 @@ function cyclesFigures(motion) {
         name: `displacement_${end}_cycles`,
         title: `The ${end} cycles`,
         caption: "",
-        x: timeAxis,
+        x: timeAxis(motion),
         y: { label: "displacement", unit: unitOf(motion, "displacement") },
         lines,
         bands: within(stuckBands(motion), x[0], x[x.length - 1]),
@@ -122,8 +121,7 @@ function cyclesFigures(motion) {
   });
 }
 
-const restWord = ({ stopTime, mayStop }) =>
-  Number.isFinite(stopTime) ? "rest at" : mayStop ? "rest, not reached:" : "tends to";
+const restWords = { rests: "rest at", held: "rest at", tends: "tends to", moves: "rest, not reached:" };
 
 function turningFigure(motion, mass) {
   const { name, unit, displacement, turningTimes, turningPoints, rest } = mass;
@@ -142,7 +140,7 @@ function turningFigure(motion, mass) {
     name: `turning_points_${name}`,
     title: `Turning points of ${words(name)}`,
     caption: "The envelope joins the turning points of each side.",
-    x: { ...timeAxis, tight: false, zero: true },
+    x: { ...timeAxis(motion), tight: false, zero: true },
     y: { label: "displacement", unit },
     lines: [
       ...(displacement && !samplingOf(motion).sparse
@@ -172,13 +170,18 @@ function turningFigure(motion, mass) {
       },
     ],
     levels: Number.isFinite(rest)
-      ? [{ y: rest, text: `${restWord(motion)} ${restText(mass)}`, dash: "1 3" }]
+      ? [{ y: rest, text: `${restWords[approachOf(mass, motion)]} ${restText(mass)}`, dash: "1 3" }]
       : [],
     moments: moments(motion),
   });
 }
 
-function decrementFigure({ masses }) {
+function decrementFigure(motion) {
+  const { masses } = motion;
+  const meaning = isOneMode(motion)
+    ? "Of viscous damping it is the same in every cycle; friction makes it grow."
+    : "It is of displacements from zero: of a mass that swings about another place, or in several modes at once, it " +
+      "is no measure of the damping.";
   const shown = masses.filter(({ decrements }) => decrements.length > 0);
   const early = shown.some(decrementsEndEarly)
     ? " It ends before the motion does: the turning points after it are rounding."
@@ -193,9 +196,7 @@ function decrementFigure({ masses }) {
   return lineFigure({
     name: "log_decrement",
     title: "Logarithmic decrement from cycle to cycle",
-    caption:
-      "Over a full cycle from each turning point. Of viscous damping it is the same in every cycle; friction makes " +
-      `it grow.${early}`,
+    caption: `Over a full cycle from each turning point. ${meaning}${early}`,
     x: { label: "cycles since the first turning point", name: "cycle", unit: "1" },
     y: { label: "logarithmic decrement", unit: "1", zero: true },
     lines,
@@ -265,41 +266,43 @@ function runFigure(motion) {
   });
 }
 
-function frequencyFigure({ time, frequency }) {
+function frequencyFigure(motion) {
+  const { time, frequency } = motion;
   return lineFigure({
     name: "frequency",
     title: "Frequency of the excitation",
     caption: "",
-    x: timeAxis,
+    x: timeAxis(motion),
     y: { label: "frequency of the excitation", unit: frequency.unit },
     lines: [{ name: "frequency", x: time.values, y: frequency.values, stroke: lineColours[0] }],
   });
 }
 
-function budgetFigure({ energies }) {
+function budgetFigure({ energies, units }) {
   const sorted = [...energies].sort((a, b) => b.energy - a.energy);
   return barFigure({
     name: "damping_budget",
     title: "Damping budget",
     caption: "What each element has dissipated from start to end, and its share of all.",
     label: "energy dissipated",
-    unit: "J",
+    unit: units.energy,
     bars: sorted.map(({ name, energy, share }) => ({
       name: words(name),
       value: energy,
-      note: `${numberText(100 * share, 3)} %`,
+      note: shareText(share),
     })),
   });
 }
 
-function dissipationFigure({ time, energies }) {
+function dissipationFigure(motion) {
+  const { time, energies, units } = motion;
   const shown = energies.filter(({ dissipated }) => dissipated);
   return lineFigure({
     name: "dissipation",
     title: "Energy dissipated until then",
     caption: "",
-    x: timeAxis,
-    y: { label: "energy dissipated", unit: "J", zero: true },
+    x: timeAxis(motion),
+    y: { label: "energy dissipated", unit: units.energy, zero: true },
     lines: shown.map(({ name, dissipated }, i) => ({
       name: dissipated.name,
       text: words(name),

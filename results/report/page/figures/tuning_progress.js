@@ -171,23 +171,39 @@ export function startsFigure(tuning) {
   });
 }
 
+function frontCaption(outcomes) {
+  const infeasible = outcomes.includes("infeasible")
+    ? " An infeasible point is the design that breaks the limits least, which does not keep that limit."
+    : "";
+  return (
+    "Each point is tuned for itself. The line joins those that converged; where it is level the limit does not bind." +
+    infeasible
+  );
+}
+
 export function frontFigure(tuning) {
   const { front, limits, unit } = tuning;
   const limit = front.column("trade_off"),
     y = front.values("objective");
   const name = words(limits.at(-1)?.name ?? "limit");
   const order = [...limit.values.keys()].sort((a, b) => limit.values[a] - limit.values[b]);
-  const sorted = (values) => Float64Array.from(order, (i) => values[i]);
-  return lineFigure({
+  const sorted = (values) => Array.from(order, (i) => values[i]);
+  const rows = Array.from(limit.values, (_, i) => front.word("outcome", i));
+  const joined = Array.from(y, (value, i) => (rows[i] === "converged" ? value : NaN));
+  const figure = lineFigure({
     name: "front",
     title: `Front: ${objectiveLabel(tuning)} against the limit of ${name}`,
-    caption: "Each point is tuned for itself; where the front is level the limit does not bind.",
-    x: { label: `limit of ${name}`, name: "trade_off", unit: limit.unit },
+    caption: frontCaption(rows),
+    x: { label: `limit of ${name}`, unit: limit.unit },
     y: { label: objectiveLabel(tuning), unit },
-    lines: [{ name: "objective", x: sorted(limit.values), y: sorted(y), stroke: lineColours[7], width: 1.2 }],
-    points: byOutcome(front, "outcome", limit.values, y, "objective").map((points) => ({
-      ...points,
-      silent: true,
-    })),
+    lines: [{ x: sorted(limit.values), y: sorted(joined), stroke: lineColours[7], width: 1.2, silent: true }],
+    points: byOutcome(front, "outcome", limit.values, y, "objective"),
   });
+  const columns = [
+    { name: `${limits.at(-1)?.name ?? "trade_off"}_limit`, unit: limit.unit, values: sorted(limit.values) },
+    { name: "objective", unit, values: sorted(y) },
+    { name: "outcome", unit: "1", values: sorted(rows) },
+    { name: "violation", unit: "1", values: sorted(front.values("violation") ?? []) },
+  ];
+  return { ...figure, table: () => columns };
 }

@@ -28,11 +28,20 @@ function responseLine({ band, scenarios }, { design, scenario, values }) {
   };
 }
 
+// "active peak", "active end of the band" or both, by where they lie.
+function placeWords(prefix, chosen) {
+  const ends = chosen.filter(({ atEnd }) => atEnd).length;
+  const peak = ends === chosen.length && ends > 0 ? "" : "peak";
+  return [prefix, [peak, ends ? "end of the band" : ""].filter(Boolean).join(" or ")]
+    .filter(Boolean)
+    .join(" ");
+}
+
 function peakPoints({ peaks, kind, converged }) {
   const of = (chosen) => ({ x: chosen.map(({ at }) => at), y: chosen.map(({ value }) => value) });
-  const points = (name, text, symbol, chosen) => ({
+  const points = (name, prefix, symbol, chosen) => ({
     name,
-    text,
+    text: placeWords(prefix, chosen),
     symbol,
     stroke: colours.after,
     r: 4.5,
@@ -41,13 +50,13 @@ function peakPoints({ peaks, kind, converged }) {
   return [
     points(
       "active_peak",
-      "active peak",
+      "active",
       "full",
       peaks.filter(({ active }) => active),
     ),
     points(
       "other_peak",
-      kind === "minimax" && converged ? "other peak" : "peak",
+      kind === "minimax" && converged ? "other" : "",
       "open",
       peaks.filter(({ active }) => !active),
     ),

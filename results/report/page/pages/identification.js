@@ -3,7 +3,13 @@ import { symbolText } from "../axes.js";
 import { correlationFigure } from "../figures/correlation_figure.js";
 import { fitFigures } from "../figures/fit_figures.js";
 import { certainty, hasFreedom, identificationOf, residualRms } from "../identification.js";
-import { correlationText, intervalText, outcomeWarning, whatItMeans } from "../identification_words.js";
+import {
+  correlationText,
+  intervalText,
+  noteSentence,
+  outcomeWarning,
+  whatItMeans,
+} from "../identification_words.js";
 import { element, section, table } from "../parts/elements.js";
 import { figureCards } from "../parts/figure_cards.js";
 import { numberText, quantityText, shownUnit, withUnit, words } from "../units.js";
@@ -121,7 +127,9 @@ export function identificationParts(record) {
   const found = identificationOf(record),
     warning = outcomeWarning(found);
   return [
-    ...[warning, ...found.notes].filter(Boolean).map((text) => element("p", { class: "warning" }, text)),
+    ...[warning, ...found.notes.map(noteSentence)]
+      .filter(Boolean)
+      .map((text) => element("p", { class: "warning" }, text)),
     section(
       "What this means",
       ...whatItMeans(found).map((sentences) => element("p", { class: "words" }, sentences.join(" "))),

@@ -1,10 +1,10 @@
 // The page of one motion: a free vibration or a forced one from given initial values.
 import { motionFigureParts } from "../figures/motion_figures.js";
-import { dampingRatio, isRounding, motionOf } from "../motion.js";
+import { dampingRatio, isOneMode, isRounding, isStill, motionOf, swingsAboutZero } from "../motion.js";
 import { decrementText, restText, sparseText, whatItMeans } from "../motion_words.js";
 import { element, section, table } from "../parts/elements.js";
 import { figureCards } from "../parts/figure_cards.js";
-import { numberText, quantityText, words } from "../units.js";
+import { numberText, shareText, quantityText, withUnit, unitText, words } from "../units.js";
 
 const kinds = ["decay", "transient"];
 
@@ -16,64 +16,72 @@ function motionsOf(record) {
   return kinds.filter((kind) => record.groups.has(kind)).map((kind) => motionOf(record, kind));
 }
 
-// Columns of the table of masses that any mass has.
+const turnsOf = (mass, motion) => (isStill(mass, motion) ? [] : mass.turningPoints);
+const decrementsOf = (mass, motion) => (swingsAboutZero(mass, motion) ? mass.decrements : []);
+
+function ratioOf(mass, motion) {
+  const [first = NaN] = decrementsOf(mass, motion);
+  return isOneMode(motion) && !isRounding(first) ? dampingRatio(first) : NaN;
+}
+
+// Columns of the table of masses that any mass has: heading, number and its text, both of a mass and its motion.
 const massColumns = [
-  ["turning points", ({ turningPoints }) => turningPoints.length || NaN, (value) => numberText(value)],
+  ["turns", (mass, motion) => turnsOf(mass, motion).length || NaN, (value) => numberText(value)],
   [
-    "first turning point",
-    ({ turningPoints }) => turningPoints[0] ?? NaN,
+    "first turn",
+    (mass, motion) => turnsOf(mass, motion)[0] ?? NaN,
     (value, { unit }) => quantityText(value, unit),
   ],
   [
-    "decrement of the first cycle",
-    ({ decrements }) => decrements[0] ?? NaN,
+    "decrement, first cycle",
+    (mass, motion) => decrementsOf(mass, motion)[0] ?? NaN,
     (value) => decrementText(value, 6),
   ],
+  ["as damping ratio", ratioOf, (value) => numberText(value)],
   [
-    "as viscous damping ratio",
-    ({ decrements }) => (isRounding(decrements[0]) ? NaN : dampingRatio(decrements[0] ?? NaN)),
-    (value) => numberText(value),
-  ],
-  [
-    "decrement of the last cycle above rounding",
-    ({ decrements }) => decrements.at(-1) ?? NaN,
+    "decrement, last cycle",
+    (mass, motion) => decrementsOf(mass, motion).at(-1) ?? NaN,
     (value) => decrementText(value, 6),
   ],
   ["rest or limit", ({ rest }) => rest, (value, mass) => restText(mass, 6)],
   ["largest displacement", ({ peak }) => peak, (value, { unit }) => quantityText(value, unit)],
-  ["at", ({ peakTime }) => peakTime, (value) => quantityText(value, "s")],
+  ["at", ({ peakTime }) => peakTime, (value, _, { units }) => quantityText(value, units.time)],
 ];
 
-function massesTable({ masses }) {
-  const columns = massColumns.filter(([, of]) => masses.some((mass) => !Number.isNaN(of(mass))));
+function massesTable(motion) {
+  const { masses } = motion;
+  const columns = massColumns.filter(([, of]) => masses.some((mass) => !Number.isNaN(of(mass, motion))));
   if (columns.length === 0) return [];
   const rows = masses.map((mass) => [
     words(mass.name),
-    ...columns.map(([, of, text]) => text(of(mass), mass)),
+    ...columns.map(([, of, text]) => text(of(mass, motion), mass, motion)),
   ]);
   return [table(["mass", ...columns.map(([name]) => name)], rows, { numeric: columns.map((_, i) => i + 1) })];
 }
 
-function factsTable({ group, hysteretic, stopTime, duration, discretisationError, masses, kind }) {
+function stopText({ stopTime, units }) {
+  if (Number.isNaN(stopTime)) return "not within the duration";
+  return stopTime === 0 ? "the start" : quantityText(stopTime, units.time, 8);
+}
+
+// What is recorded of a motion as one number and has no place of its own.
+function factsTable(motion) {
+  const { group, hysteretic, duration, discretisationError, units, kind } = motion;
+  const reference = hysteretic ? group.column("reference_frequency") : undefined;
+  const text = (value, unit) => (Number.isFinite(value) ? quantityText(value, unit, 8) : "");
   const rows = [
-    ["recorded until", duration, "s"],
-    ["all at rest from", stopTime, "s"],
+    ["recorded until", text(duration, units.time)],
+    ["all at rest from", kind === "decay" ? stopText(motion) : ""],
+    ["reference frequency of hysteretic elements", text(reference?.values[0], reference?.unit)],
     [
-      "reference frequency of hysteretic elements",
-      hysteretic ? group.number("reference_frequency") : NaN,
-      "rad s-1",
+      "discretisation error of the run",
+      text(discretisationError, group.column("discretisation_error")?.unit),
     ],
-    ["discretisation error of the run", discretisationError, masses[0]?.unit ?? "m"],
-  ]
-    .filter(([name, value]) => Number.isFinite(value) || (name === "all at rest from" && kind === "decay"))
-    .map(([name, value, unit]) => [
-      name,
-      Number.isFinite(value) ? quantityText(value, unit, 8) : "not within the duration",
-    ]);
+  ].filter(([, value]) => value !== "");
   return rows.length ? [table(["", ""], rows)] : [];
 }
 
-function turningTable({ name, unit, turningTimes, turningPoints, decrements }) {
+function turningTable({ name, unit, turningTimes, turningPoints, decrements }, { units }) {
   const rows = Array.from(turningTimes, (time, i) => [
     String(i + 1),
     numberText(time, 8),
@@ -84,22 +92,24 @@ function turningTable({ name, unit, turningTimes, turningPoints, decrements }) {
     "details",
     {},
     element("summary", {}, `Turning points of ${words(name)}`),
-    table(["number", "time (s)", "displacement", "logarithmic decrement"], rows, { numeric: [0, 1, 2, 3] }),
+    table(["number", withUnit("time", unitText(units.time)), "displacement", "logarithmic decrement"], rows, {
+      numeric: [0, 1, 2, 3],
+    }),
   );
 }
 
-function energyTable({ energies, group }) {
+function energyTable({ energies, group, units }) {
   const whole = [
     ["energy at the start", "initial_energy"],
     ["work of the excitation", "energy_input"],
     ["energy at the end", "final_energy"],
   ]
     .filter(([, name]) => group.has(name))
-    .map(([text, name]) => [text, quantityText(group.number(name), "J"), ""]);
+    .map(([text, name]) => [text, quantityText(group.number(name), units.energy), ""]);
   const rows = energies.map(({ name, energy, share }) => [
     `dissipated by ${words(name)}`,
-    quantityText(energy, "J"),
-    `${numberText(100 * share, 5)} %`,
+    quantityText(energy, units.energy),
+    shareText(share, 5),
   ]);
   const balance = group.number("energy_balance");
   if (rows.length + whole.length === 0) return [];
@@ -116,7 +126,8 @@ function energyTable({ energies, group }) {
   ];
 }
 
-function stopsTable({ stops }) {
+function stopsTable({ stops, units }) {
+  const headed = (text) => withUnit(text, unitText(units.time));
   const rows = stops.flatMap(({ name, from, to }) =>
     Array.from(from, (start, i) => [
       words(name),
@@ -131,7 +142,7 @@ function stopsTable({ stops }) {
       "details",
       {},
       element("summary", {}, `Stops (${rows.length})`),
-      table(["contact", "sticks from (s)", "to (s)", "for (s)"], rows, { numeric: [1, 2, 3] }),
+      table(["contact", ...["sticks from", "to", "for"].map(headed)], rows, { numeric: [1, 2, 3] }),
     ),
   ];
 }
@@ -170,7 +181,9 @@ function partsOf(record, motion) {
           section(
             "Decay",
             ...figureCards(turning, record),
-            ...motion.masses.filter(({ turningTimes }) => turningTimes.length > 0).map(turningTable),
+            ...motion.masses
+              .filter(({ turningTimes }) => turningTimes.length > 0)
+              .map((mass) => turningTable(mass, motion)),
           ),
         ]
       : []),

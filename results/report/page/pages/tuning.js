@@ -149,7 +149,7 @@ function peaksTable(tuning) {
     ...parameters.map(({ name, unit: of }) => `by ${symbolText(name)}: per ${unitText(of) || "unit"}`),
   ];
   const rows = peaks.map((peak) => [
-    numberText(peak.at),
+    `${numberText(peak.at)}${peak.atEnd ? " (end)" : ""}`,
     ...(several ? [words(peak.scenario)] : []),
     quantityText(peak.value, root),
     ...(held ? [shareText(tuning, peak)] : []),
@@ -157,13 +157,19 @@ function peaksTable(tuning) {
   ]);
   const numeric = head.map((_, i) => i).filter((i) => !(several && i === 1));
   return [
-    note("Peaks of the design, and how each changes with each parameter (a schedule is moved as a whole)."),
+    note(
+      `Peaks of the design${peaks.some(({ atEnd }) => atEnd) ? ", with the ends of the band to which the response rises (end)" : ""}, ` +
+        "and how each changes with each parameter (a schedule is moved as a whole).",
+    ),
     table(head, rows, { numeric }),
   ];
 }
 
 function multiplierText(tuning, limit) {
-  if (limit.broken > 0) return `broken by ${numberText(100 * limit.broken, 4)} %`;
+  if (limit.broken > 0) {
+    const side = limit.brokenEnd === "at most" ? "above" : "below";
+    return `${numberText(100 * limit.broken, 4)} % ${side} its limit`;
+  }
   if (!tuning.converged) return "not known";
   return limit.active ? per(limit.multiplier, tuning.unit, limit.unit) : "does not bind";
 }
@@ -178,8 +184,14 @@ function limitsTable(tuning) {
     ]
       .filter(Boolean)
       .join(", ");
+  const parts = limits.some((limit) => limit.band);
+  const partOf = (limit) =>
+    limit.band
+      ? `${numberText(limit.band.from)} to ${quantityText(limit.band.to, band.unit)}`
+      : "the whole band";
   const rows = limits.map((limit) => [
     withUnit(words(limit.name), unitText(limit.unit)),
+    ...(parts ? [partOf(limit)] : []),
     numberText(limit.value),
     place(limit),
     numberText(limit.lower),
@@ -190,19 +202,33 @@ function limitsTable(tuning) {
     note(
       "Limits: the quantity where it is nearest to its limit, and how the objective falls as the limit is relaxed.",
     ),
-    table(["limit on", "nearest", "at", "at least", "at most", "multiplier"], rows, { numeric: [1, 3, 4] }),
+    table(
+      ["limit on", ...(parts ? ["over"] : []), "nearest", "at", "at least", "at most", "multiplier"],
+      rows,
+      { numeric: [1, 3, 4].map((column) => column + (parts ? 1 : 0)) },
+    ),
   ];
 }
 
+// "8, the best is number 3, counted from 0", or of one start what it is.
+function startsText({ group, texts }) {
+  const number = group.values("start_objective")?.length ?? 1,
+    start = texts.start ?? "given";
+  const from = start === String(number) ? "" : ` (${words(start)})`;
+  const best = number > 1 ? `, the best is number ${group.number("best_start")}, counted from 0` : "";
+  return `${number}${from}${best}`;
+}
+
 function factsTable(tuning) {
-  const { group, texts, kind } = tuning;
-  const count = (name) => numberText(group.number(name), 12);
+  const { group, texts, kind, infeasible } = tuning;
+  const count = (name) => (group.number(name) > 0 ? numberText(group.number(name), 12) : "");
+  const proof = (name) => numberText(infeasible ? NaN : group.number(name), 3);
   const rows = [
     [objectiveLabel(tuning), quantityText(tuning.objective, tuning.unit, 8)],
     ...(kind === "minimax"
-      ? [["certificate gap", numberText(group.number("certificate_gap"), 3)]]
+      ? [["certificate gap", proof("certificate_gap")]]
       : [["its root", quantityText(Math.sqrt(tuning.objective), tuning.root, 8)]]),
-    ["KKT residual", numberText(group.number("kkt_residual"), 3)],
+    ["KKT residual", proof("kkt_residual")],
     ["violation of limits, relative", numberText(group.number("violation"), 3)],
     ["outcome", words(tuning.outcome)],
     ["reason", reasonText(tuning)],
@@ -210,11 +236,7 @@ function factsTable(tuning) {
     ["orbits", count("orbits")],
     ["gradients", count("gradients")],
     ["solver", texts.solver ?? ""],
-    [
-      "starts",
-      `${group.values("start_objective")?.length ?? 1} (${words(texts.start ?? "given")}); chosen: number ` +
-        `${count("best_start")}, from 0`,
-    ],
+    ["starts", startsText(tuning)],
   ];
   return table(
     ["", ""],
@@ -245,7 +267,7 @@ function roundsTable(tuning) {
   const of = (name, i) => group.values(name)[i];
   const rows = Array.from(active, (count, i) => [
     String(i + 1),
-    String(count),
+    ...(kind === "minimax" ? [String(count)] : []),
     String(of("round_iterations", i)),
     quantityText(of("round_bound", i), unit),
     ...(kind === "minimax" ? [quantityText(of("round_worst", i), unit)] : []),
@@ -253,7 +275,7 @@ function roundsTable(tuning) {
   ]);
   const head = [
     "round",
-    "active frequencies",
+    ...(kind === "minimax" ? ["active frequencies"] : []),
     "iterations",
     "bound",
     ...(kind === "minimax" ? ["worst"] : []),
@@ -279,7 +301,7 @@ function frontTable({ front, parameters, limits, unit }) {
     numberText(value),
     quantityText(of("objective", i), unit),
     ...constants.map(({ name }) => numberText(of(name, i))),
-    numberText(of("certificate_gap", i), 2),
+    numberText(front.word("outcome", i) === "infeasible" ? NaN : of("certificate_gap", i), 2),
     numberText(of("violation", i), 2),
     words(front.word("outcome", i)),
   ]);
