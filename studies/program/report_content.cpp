@@ -5,12 +5,9 @@
 #include <algorithm>
 #include <iostream>
 #include <optional>
-#include <utility>
 
 #include "studies/map/stored_study.hpp"
-#include "studies/motion/crank_motion.hpp"
-#include "studies/motion/motion_record.hpp"
-#include "studies/tuning/tuning_record.hpp"
+#include "studies/program/report_facts.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -112,97 +109,6 @@ std::vector<std::string> axis_parameters(const results::MapLayout& layout,
   return names;
 }
 
-// The frequency of the excitation [rad/s] as the study states it, by which the page knows a period.
-results::Column excitation_frequency(const StudyFile& study) {
-  std::vector<double> parameters = study.parameters.nominal();
-  mechanics::NetworkValues values;
-  evaluate(study.values, study.parameters, parameters, values);
-  return {.variable = {.name = "excitation_frequency",
-                       .unit = study.dimensionless ? "1" : "rad s-1",
-                       .long_name = "excitation frequency as the study states it"},
-          .values = {values.omega}};
-}
-
-// The unit in which the study speaks of the excitation frequency, as a column of one such unit in SI; none
-// where it speaks of it in SI.
-std::vector<results::Column> frequency_unit(const StudyFile& study) {
-  for (std::size_t i = 0; i < study.parameters.list.size(); ++i) {
-    const Parameter& parameter = study.parameters.list[i];
-    if (!parameter.in_frequency || parameter.quantity != Quantity::angular_frequency) continue;
-    const UsualUnit unit = usual_unit(study, i);
-    if (unit.text.empty()) return {};
-    return {{.variable = {.name = "frequency_unit",
-                          .unit = unit.text,
-                          .long_name = "unit of the excitation frequency in rad/s"},
-             .values = {unit.si_factor}}};
-  }
-  return {};
-}
-
-// Elements of a type that are not without effect: of a contact, that have friction.
-results::Column number_of(const StudyFile& study, mechanics::ElementType type, const std::string& name) {
-  const auto& elements = study.network.elements;
-  const std::vector<double> values = motion_values(study).element;
-  double number = 0.0;
-  for (std::size_t i = 0; i < elements.size(); ++i)
-    if (elements[i].type == type && values[i] != 0.0) ++number;
-  return {.variable = {.name = name, .unit = "1", .long_name = "number of them in the study"},
-          .values = {number}};
-}
-
-// Without a duration a free vibration is followed to its end, as far as it has one.
-results::Column given_duration(const StudyFile& study) {
-  return {.variable = {.name = "given_duration",
-                       .unit = "1",
-                       .long_name = "whether the study says until when its motion is followed"},
-          .values = {study.motion.duration ? 1.0 : 0.0}};
-}
-
-// By what the page of a motion knows whether it can end, and what a period is.
-std::vector<results::Column> motion_facts(const StudyFile& study) {
-  using mechanics::ElementType;
-  std::vector<results::Column> facts = {number_of(study, ElementType::coulomb, "rubbing_elements"),
-                                        number_of(study, ElementType::hysteretic, "hysteretic_elements"),
-                                        given_duration(study)};
-  if (study.kind == StudyKind::transient) {
-    facts.push_back(excitation_frequency(study));
-    for (results::Column& unit : frequency_unit(study)) facts.push_back(std::move(unit));
-  }
-  return facts;
-}
-
-// The parts of the band over which the limits of a tuning hold, of those that name one, in the unit of its
-// band.
-std::vector<results::Column> limit_bands(const StudyFile& study) {
-  const TuneChoice& tune = *study.tune;
-  const std::vector<NamedLimit> named = named_limits(study, 0.0);
-  std::vector<results::Column> bands;
-  for (std::size_t i = 0; i < tune.limits.size(); ++i) {
-    if (!tune.limits[i].band || !tune.band) continue;
-    const auto add = [&](const char* end, double value) {
-      bands.push_back({.variable = {.name = named[i].name + "_band_" + end,
-                                    .unit = "1",
-                                    .long_name = "end of the part of the band over which the limit holds"},
-                       .values = {value / tune.band->unit.si_factor}});
-    };
-    add("from", tune.limits[i].band->from);
-    add("to", tune.limits[i].band->to);
-  }
-  return bands;
-}
-
-// What the page shows besides the file: the motion of the study's cranks, and facts of the study.
-std::vector<results::PageGroup> further_groups(const std::optional<StudyFile>& study) {
-  if (!study) return {};
-  std::vector<results::PageGroup> groups;
-  if (std::vector<results::Column> cranks = crank_motions(*study); !cranks.empty())
-    groups.push_back({.name = "crank", .columns = std::move(cranks)});
-  if (study->kind == StudyKind::transient || study->kind == StudyKind::decay)
-    groups.push_back({.name = "study", .columns = motion_facts(*study)});
-  if (study->kind == StudyKind::tune) groups.push_back({.name = "study", .columns = limit_bands(*study)});
-  return groups;
-}
-
 }  // namespace
 
 results::PageContent page_content(const results::MapReader& result, const std::filesystem::path& file,
@@ -213,7 +119,7 @@ results::PageContent page_content(const results::MapReader& result, const std::f
   return {.file = file.filename().string(),
           .parameters = axis_parameters(result.layout(), study),
           .variables = shown,
-          .groups = further_groups(study),
+          .groups = study ? report_facts(*study) : std::vector<results::PageGroup>{},
           .all_digits = all_digits};
 }
 

@@ -11,7 +11,7 @@ import {
   samplingOf,
   swingsAboutZero,
 } from "./motion.js";
-import { numberText, shareText, quantityText, words } from "./units.js";
+import { numberText, quantityText, sentence, shareText, words } from "./units.js";
 
 const digits = 4;
 
@@ -175,5 +175,5 @@ export function whatItMeans(motion) {
     energySentences(motion),
   ]
     .filter((paragraph) => paragraph.length > 0)
-    .map((paragraph) => paragraph.map((text) => text.charAt(0).toUpperCase() + text.slice(1)));
+    .map((paragraph) => paragraph.map(sentence));
 }

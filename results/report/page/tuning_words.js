@@ -2,7 +2,7 @@
 import { symbolText } from "./axes.js";
 import { certificateSentences } from "./certificate_words.js";
 import { heldBounds, knotsAtBounds, nearestToConstant, quantityWords, steepestPieces } from "./tuning.js";
-import { numberText, quantityText, unitText, words } from "./units.js";
+import { numberText, quantityText, sentence, unitText, words } from "./units.js";
 
 const digits = 4;
 const mostIntervals = 4; // that a sentence tells one by one
@@ -82,10 +82,6 @@ function amplitude(tuning, objective) {
   return tuning.kind === "minimax" ? objective : Math.sqrt(objective);
 }
 
-function capital(text) {
-  return text.charAt(0).toUpperCase() + text.slice(1);
-}
-
 function placeText(tuning, value) {
   return quantityText(value, tuning.band.unit, digits);
 }
@@ -129,7 +125,7 @@ function reductionSentences(tuning) {
       ? [`Against ${name} (${level(other)}): ${lessText(amplitude(tuning, other), tuned)}.`]
       : [];
   return [
-    `${capital(spoken(tuning))}${over}${noiseText(tuning)}${scenarioText(tuning)}: ${level(tuning.objective)}.`,
+    `${sentence(spoken(tuning))}${over}${noiseText(tuning)}${scenarioText(tuning)}: ${level(tuning.objective)}.`,
     ...against("the design before", before),
     ...against("the best design without a schedule", constant),
     ...against("the rule", rule),

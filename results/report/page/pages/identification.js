@@ -12,6 +12,7 @@ import {
 } from "../identification_words.js";
 import { element, section, table } from "../parts/elements.js";
 import { figureCards } from "../parts/figure_cards.js";
+import { meaningSection } from "../parts/meaning.js";
 import { numberText, quantityText, shownUnit, withUnit, words } from "../units.js";
 
 const intervalWords = { undetermined: "not determined", untold: "no interval: no more data than unknowns" };
@@ -130,11 +131,7 @@ export function identificationParts(record) {
     ...[warning, ...found.notes.map(noteSentence)]
       .filter(Boolean)
       .map((text) => element("p", { class: "warning" }, text)),
-    section(
-      "What this means",
-      ...whatItMeans(found).map((sentences) => element("p", { class: "words" }, sentences.join(" "))),
-      methodText(found),
-    ),
+    meaningSection(whatItMeans(found), methodText(found)),
     ...(found.estimates.length ? [section("Estimates", estimatesTable(found.estimates))] : []),
     ...(found.first.length
       ? [

@@ -4,6 +4,7 @@ import { dampingRatio, isOneMode, isRounding, isStill, motionOf, swingsAboutZero
 import { decrementText, restText, sparseText, whatItMeans } from "../motion_words.js";
 import { element, section, table } from "../parts/elements.js";
 import { figureCards } from "../parts/figure_cards.js";
+import { meaningSection } from "../parts/meaning.js";
 import { numberText, shareText, quantityText, withUnit, unitText, words } from "../units.js";
 
 const kinds = ["decay", "transient"];
@@ -160,10 +161,7 @@ function partsOf(record, motion) {
   } = motionFigureParts(motion);
   const energy = energyTable(motion);
   return [
-    section(
-      "What this means",
-      ...whatItMeans(motion).map((sentences) => element("p", { class: "words" }, sentences.join(" "))),
-    ),
+    meaningSection(whatItMeans(motion)),
     section("Numbers", ...massesTable(motion), ...factsTable(motion)),
     ...(first
       ? [

@@ -14,14 +14,8 @@ import { outcomeWarning, reasonText } from "../certificate_words.js";
 import { whatItMeans } from "../tuning_words.js";
 import { element, section, table } from "../parts/elements.js";
 import { figureCards } from "../parts/figure_cards.js";
+import { meaningSection } from "../parts/meaning.js";
 import { numberText, quantityText, unitText, withUnit, words } from "../units.js";
-
-function meaning(tuning) {
-  const paragraphs = whatItMeans(tuning).map((sentences) =>
-    element("p", { class: "words" }, sentences.join(" ")),
-  );
-  return section("What this means", ...paragraphs);
-}
 
 function per(value, objectiveUnit, unit) {
   return `${quantityText(value, objectiveUnit)} per ${unitText(unit) || "unit"}`;
@@ -354,7 +348,7 @@ export function tuningParts(record) {
   const [first, ...others] = resultFigures(tuning);
   return [
     ...(warning ? [element("p", { class: "warning" }, warning)] : []),
-    meaning(tuning),
+    meaningSection(whatItMeans(tuning)),
     ...sectionOf("Optimum", [optimumTable(tuning), ...schedulesTables(tuning), worstTable(tuning)]),
     ...sectionOf(
       "Response",
