@@ -8,7 +8,7 @@
 #include "solvers/identification/least_squares.hpp"
 #include "solvers/identification/linear_fit.hpp"
 #include "solvers/identification/statement.hpp"
-#include "solvers/periodic/closed_forms.hpp"
+#include "solvers/orbits/closed_forms.hpp"
 
 namespace frahm::identification {
 namespace {

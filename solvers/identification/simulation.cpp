@@ -8,7 +8,7 @@
 
 #include "solvers/identification/measured_forcing.hpp"
 #include "solvers/mechanics/system_derivative.hpp"
-#include "solvers/periodic/linear_modes.hpp"
+#include "solvers/mechanics/modes.hpp"
 #include "solvers/response/periodic_response.hpp"
 #include "solvers/transient/motion_sensitivity.hpp"
 

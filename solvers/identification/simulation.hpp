@@ -5,7 +5,7 @@
 #include <string>
 
 #include "solvers/identification/grey_box.hpp"
-#include "solvers/periodic/observed_motion.hpp"
+#include "solvers/quantities/observed_motion.hpp"
 
 namespace frahm::identification {
 

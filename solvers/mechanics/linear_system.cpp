@@ -41,7 +41,7 @@ double second_value(const NetworkValues& values, std::size_t element) {
   return element < values.second.size() ? values.second[element] : 0.0;
 }
 
-ElementLaw element_law(ElementType type, double value, double second, double omega_h) {
+ElementCoefficients element_law(ElementType type, double value, double second, double omega_h) {
   switch (type) {
     case ElementType::spring:
       return {.stiffness = value};
@@ -54,7 +54,7 @@ ElementLaw element_law(ElementType type, double value, double second, double ome
     case ElementType::hysteretic:  // k (1 + i eta) at omega_h
       return {.stiffness = value, .damping = second * value / omega_h};
     case ElementType::maxwell:
-      return {.maxwell_damping = second};
+      return {.internal_damping = second};
   }
   return {};
 }
@@ -97,7 +97,7 @@ Assembly::Assembly(const Network& network) : network_(network), shares_(network.
     if (incidences_.back().w.isZero(0.0)) {
       throw MechanicsError("element '" + element.name + "' joins no moving node");
     }
-    if (element.type == ElementType::maxwell) ++maxwell_elements_;
+    if (element.type == ElementType::maxwell) ++internal_forces_;
     if (element.type == ElementType::hysteretic) has_hysteretic_ = true;
     if (element.type != ElementType::coulomb) continue;
     const auto same_nodes = [&](const Element* other) {
@@ -167,11 +167,11 @@ void Assembly::set_values(const NetworkValues& values, LinearSystem& system) con
   system.W.setZero(n, m);
   system.W_support.setZero(p, m);
   system.limit.setZero(m);
-  const auto s = static_cast<Eigen::Index>(maxwell_elements_);
+  const auto s = static_cast<Eigen::Index>(internal_forces_);
   system.D.setZero(n, s);
   system.D_support.setZero(p, s);
-  system.maxwell_stiffness.setZero(s);
-  system.maxwell_rate.setZero(s);
+  system.internal_stiffness.setZero(s);
+  system.internal_rate.setZero(s);
   system.orders = orders_;
   system.reference_order = network_.reference_order;
   system.odd_forcing = odd_forcing_;
@@ -180,8 +180,8 @@ void Assembly::set_values(const NetworkValues& values, LinearSystem& system) con
 
   const double omega_h =
       values.hysteretic_omega > 0.0 ? values.hysteretic_omega : network_.reference_order * values.omega;
-  system.laws.resize(network_.elements.size());
-  Eigen::Index maxwell = 0;
+  system.coefficients.resize(network_.elements.size());
+  Eigen::Index internal = 0;
   // Each coefficient adds coefficient * w w^T to the block of the masses and coefficient * w p^T to that of
   // the supports.
   const auto add = [](Eigen::MatrixXd& block, Eigen::MatrixXd& support, const Incidence& at, double value) {
@@ -191,7 +191,7 @@ void Assembly::set_values(const NetworkValues& values, LinearSystem& system) con
   };
   for (std::size_t e = 0; e < network_.elements.size(); ++e) {
     const Incidence& at = incidences_[e];
-    ElementLaw& law = system.laws[e];
+    ElementCoefficients& law = system.coefficients[e];
     law = element_law(network_.elements[e].type, values.element[e], second_value(values, e), omega_h);
     add(system.K, system.K_support, at, law.stiffness);
     add(system.C, system.C_support, at, law.damping);
@@ -205,11 +205,11 @@ void Assembly::set_values(const NetworkValues& values, LinearSystem& system) con
         break;
       }
       case ElementType::maxwell:
-        law.maxwell = maxwell++;
-        system.D.col(law.maxwell) = at.w;
-        system.D_support.col(law.maxwell) = at.p;
-        system.maxwell_stiffness[law.maxwell] = values.element[e];
-        system.maxwell_rate[law.maxwell] = values.element[e] / law.maxwell_damping;
+        law.internal = internal++;
+        system.D.col(law.internal) = at.w;
+        system.D_support.col(law.internal) = at.p;
+        system.internal_stiffness[law.internal] = values.element[e];
+        system.internal_rate[law.internal] = values.element[e] / law.internal_damping;
         break;
       case ElementType::spring:
       case ElementType::damper:

@@ -30,13 +30,13 @@ struct ContactShare {
 };
 
 // Force of an element by its coefficients: k u + c v + b v' + friction Sgn(v) + s.
-struct ElementLaw {
+struct ElementCoefficients {
   double stiffness = 0.0;        // k [N/m]
   double damping = 0.0;          // c [N s/m]; of a hysteretic element eta k / omega_h
   double inertance = 0.0;        // b [kg]
   double friction = 0.0;         // [N]
-  Eigen::Index maxwell = -1;     // place of the Maxwell force s among the system's, -1: none
-  double maxwell_damping = 0.0;  // of the damper that s runs through [N s/m]
+  Eigen::Index internal = -1;    // place of the internal force s among the system's, -1: none
+  double internal_damping = 0.0;  // of the damper that s runs through [N s/m]
 };
 
 // Equation of motion of a network of n masses, p prescribed nodes and m friction contacts:
@@ -57,9 +57,9 @@ struct LinearSystem {
   Eigen::MatrixXd W, W_support;                     // directions of the friction contacts
   Eigen::VectorXd limit;                            // F_j [N] of each contact
   Eigen::MatrixXd D, D_support;                     // directions d_e, p_e of the Maxwell elements
-  Eigen::VectorXd maxwell_stiffness;                // k_e [N/m]
-  Eigen::VectorXd maxwell_rate;                     // k_e / c_e [rad/s]
-  std::vector<ElementLaw> laws;                     // of each element
+  Eigen::VectorXd internal_stiffness;                // k_e [N/m]
+  Eigen::VectorXd internal_rate;                     // k_e / c_e [rad/s]
+  std::vector<ElementCoefficients> coefficients;                     // of each element
   std::vector<int> orders;                 // > 0, ascending: of the excitation, and the reference order
   int reference_order = 1;                 // the harmonic of which phases are taken
   bool odd_forcing = false;                // every component of the excitation has an odd order
@@ -72,7 +72,7 @@ struct LinearSystem {
 
   Eigen::Index masses() const { return M.rows(); }
   Eigen::Index contacts() const { return limit.size(); }
-  Eigen::Index maxwell_elements() const { return maxwell_stiffness.size(); }
+  Eigen::Index internal_forces() const { return internal_stiffness.size(); }
 };
 
 // Builds LinearSystems of one network. Topology is worked out once; `set_values` and `set_forcing` only fill
@@ -94,7 +94,7 @@ class Assembly {
   const std::vector<ContactShare>& shares() const { return shares_; }       // of each element (coulomb only)
   const std::vector<int>& orders() const { return orders_; }
   std::size_t contacts() const { return contacts_; }
-  std::size_t maxwell_elements() const { return maxwell_elements_; }
+  std::size_t internal_forces() const { return internal_forces_; }
   bool matrices_depend_on_frequency() const { return has_hysteretic_; }
 
  private:
@@ -106,7 +106,7 @@ class Assembly {
   std::vector<ContactShare> shares_;
   std::vector<int> orders_;
   bool odd_forcing_ = true, has_hysteretic_ = false;
-  std::size_t contacts_ = 0, maxwell_elements_ = 0;
+  std::size_t contacts_ = 0, internal_forces_ = 0;
 };
 
 }  // namespace frahm::mechanics

@@ -19,7 +19,7 @@ struct Change {
   double value, by;
 };
 
-ElementLaw law_derivative(ElementType type, Change value, Change second, Change omega_h) {
+ElementCoefficients law_derivative(ElementType type, Change value, Change second, Change omega_h) {
   switch (type) {
     case ElementType::spring:
       return {.stiffness = value.by};
@@ -37,7 +37,7 @@ ElementLaw law_derivative(ElementType type, Change value, Change second, Change 
           .damping = (second.by * value.value + second.value * value.by - c * omega_h.by) / omega_h.value};
     }
     case ElementType::maxwell:
-      return {.maxwell_damping = second.by};
+      return {.internal_damping = second.by};
   }
   return {};
 }
@@ -55,9 +55,9 @@ void resize(const LinearSystem& system, const NetworkValues& direction, LinearSy
   d.C_support.setZero(n, p);
   d.K_support.setZero(n, p);
   d.limit.setZero(system.contacts());
-  d.maxwell_stiffness.setZero(system.maxwell_elements());
-  d.maxwell_rate.setZero(system.maxwell_elements());
-  d.laws.resize(system.laws.size());
+  d.internal_stiffness.setZero(system.internal_forces());
+  d.internal_rate.setZero(system.internal_forces());
+  d.coefficients.resize(system.coefficients.size());
   d.constant_force.setZero(n);
   d.constant_motion.setZero(p);
   d.force.setZero(n, system.force.cols());
@@ -81,7 +81,7 @@ void differentiate_elements(const Assembly& assembly, const NetworkValues& value
     const Change value{values.element[e], direction.element[e]};
     const Change second{second_of(values, e), second_of(direction, e)};
     const Incidence& at = assembly.incidences()[e];
-    ElementLaw& law = d.laws[e];
+    ElementCoefficients& law = d.coefficients[e];
     law = law_derivative(network.elements[e].type, value, second, omega_h);
     add(d.K, d.K_support, at, law.stiffness);
     add(d.C, d.C_support, at, law.damping);
@@ -89,10 +89,10 @@ void differentiate_elements(const Assembly& assembly, const NetworkValues& value
     if (network.elements[e].type == ElementType::coulomb) {
       d.limit[static_cast<Eigen::Index>(assembly.shares()[e].contact)] += law.friction;
     }
-    if (const Eigen::Index place = system.laws[e].maxwell; place >= 0) {
-      law.maxwell = place;
-      d.maxwell_stiffness[place] = value.by;
-      d.maxwell_rate[place] = (value.by - system.maxwell_rate[place] * second.by) / second.value;  // of k/c
+    if (const Eigen::Index place = system.coefficients[e].internal; place >= 0) {
+      law.internal = place;
+      d.internal_stiffness[place] = value.by;
+      d.internal_rate[place] = (value.by - system.internal_rate[place] * second.by) / second.value;  // of k/c
     }
   }
 }

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "solvers/mechanics/linear_system.hpp"
-#include "solvers/periodic/orbit.hpp"
+#include "solvers/orbits/orbit.hpp"
 
 namespace frahm::periodic {
 namespace {

@@ -1,6 +1,6 @@
 #include "solvers/response/periodic_response.hpp"
 
-#include "solvers/periodic/exact_solver.hpp"
+#include "solvers/response/exact_solver.hpp"
 #include "solvers/smooth/smooth_solver.hpp"
 
 namespace frahm::periodic {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "solvers/mechanics/network.hpp"
-#include "solvers/periodic/quantity.hpp"
-#include "solvers/periodic/response.hpp"
+#include "solvers/quantities/quantity.hpp"
+#include "solvers/response/response.hpp"
 
 namespace frahm::periodic {
 

@@ -15,7 +15,7 @@ Equation::Equation(const mechanics::Assembly& assembly) : assembly_(assembly), o
     if (network.elements[e].type == ElementType::coulomb) elements_.push_back(e);
   }
   masses_ = static_cast<Eigen::Index>(network.masses.size());
-  size_ = 2 * masses_ + static_cast<Eigen::Index>(assembly.maxwell_elements());
+  size_ = 2 * masses_ + static_cast<Eigen::Index>(assembly.internal_forces());
   u_.resize(oscillators());
   v_.resize(terms());
   friction_.resize(terms());
@@ -37,7 +37,7 @@ void Equation::set(const mechanics::LinearSystem& system, const mechanics::Netwo
   energy_root_.setZero(size_, size_);
   energy_root_.topLeftCorner(masses_, masses_) = system.K.llt().matrixU();
   energy_root_.block(masses_, masses_, masses_, masses_) = system.M.llt().matrixU();
-  energy_root_.diagonal().tail(size_ - 2 * masses_) = system.maxwell_stiffness.cwiseSqrt().cwiseInverse();
+  energy_root_.diagonal().tail(size_ - 2 * masses_) = system.internal_stiffness.cwiseSqrt().cwiseInverse();
 
   // sqrt(1/2 sum_k f_k^H K^-1 f_k), as for the exact law
   const Eigen::MatrixXd force = rows_of(system.constant_force, system.force);
@@ -48,7 +48,7 @@ void Equation::set(const mechanics::LinearSystem& system, const mechanics::Netwo
 
 // q'' = M^-1 (f(t) - C q' - K q - D s),   s_e' = k_e (d_e^T q' + p_e^T y') - (k_e/c_e) s_e
 void Equation::set_linear_part(const mechanics::LinearSystem& system) {
-  const Eigen::Index n = masses_, s = system.maxwell_elements();
+  const Eigen::Index n = masses_, s = system.internal_forces();
   const Eigen::LLT<Eigen::MatrixXd> mass(system.M);
   A_.setZero(size_, size_);
   A_.block(0, n, n, n).setIdentity();
@@ -57,10 +57,10 @@ void Equation::set_linear_part(const mechanics::LinearSystem& system) {
   B_.setZero(size_, oscillators());
   B_.middleRows(n, n) = mass.solve(rows_of(system.constant_force, system.force));
   if (s == 0) return;
-  const auto stiffness = system.maxwell_stiffness.asDiagonal();
+  const auto stiffness = system.internal_stiffness.asDiagonal();
   A_.block(n, 2 * n, n, s) = -mass.solve(system.D);
   A_.block(2 * n, n, s, n) = stiffness * system.D.transpose();
-  A_.block(2 * n, 2 * n, s, s).diagonal() = -system.maxwell_rate;
+  A_.block(2 * n, 2 * n, s, s).diagonal() = -system.internal_rate;
   B_.bottomRows(s) = stiffness * (system.D_support.transpose() * motion_velocity_);
 }
 
@@ -77,7 +77,7 @@ void Equation::set_friction(const mechanics::LinearSystem& system, const mechani
     G_.col(j).segment(masses_, masses_) = -mass.solve(at.w);
     W_.row(j) = at.w.transpose();
     support_.row(j) = at.p.transpose() * motion_velocity_;
-    limit_[j] = system.laws[element].friction;
+    limit_[j] = system.coefficients[element].friction;
     slope_[j] = values.second[element];
   }
 }

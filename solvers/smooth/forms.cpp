@@ -34,25 +34,25 @@ Form Forms::acceleration(const mechanics::Incidence& at) const {
   return form;
 }
 
-Form Forms::element_force(std::size_t element, const mechanics::ElementLaw& law) const {
+Form Forms::element_force(std::size_t element, const mechanics::ElementCoefficients& law) const {
   const mechanics::Incidence& at = assembly_.incidences()[element];
   Form form = zero();
   if (law.stiffness != 0.0) form.add(law.stiffness, displacement(at));
   if (law.damping != 0.0) form.add(law.damping, velocity(at));
   if (law.inertance != 0.0) form.add(law.inertance, acceleration(at));
-  if (law.maxwell >= 0) form.z[2 * equation_.masses() + law.maxwell] += 1.0;
+  if (law.internal >= 0) form.z[2 * equation_.masses() + law.internal] += 1.0;
   const auto& rubbing = equation_.elements();
   const auto term = std::find(rubbing.begin(), rubbing.end(), element);
   if (term != rubbing.end()) form.f[term - rubbing.begin()] += 1.0;
   return form;
 }
 
-Form Forms::node_force(const mechanics::Node& node, const std::vector<mechanics::ElementLaw>& laws) const {
+Form Forms::node_force(const mechanics::Node& node, const std::vector<mechanics::ElementCoefficients>& coefficients) const {
   Form sum = zero();
   const auto& elements = assembly_.network().elements;
   for (std::size_t e = 0; e < elements.size(); ++e) {
-    if (elements[e].b == node) sum.add(+1.0, element_force(e, laws[e]));
-    if (elements[e].a == node) sum.add(-1.0, element_force(e, laws[e]));
+    if (elements[e].b == node) sum.add(+1.0, element_force(e, coefficients[e]));
+    if (elements[e].a == node) sum.add(-1.0, element_force(e, coefficients[e]));
   }
   return sum;
 }

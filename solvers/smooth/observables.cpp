@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "solvers/periodic/fundamental_response.hpp"
-#include "solvers/periodic/linear_modes.hpp"
+#include "solvers/quantities/fundamental_response.hpp"
+#include "solvers/mechanics/modes.hpp"
 
 namespace frahm::smooth {
 namespace {
@@ -154,7 +154,7 @@ std::vector<std::pair<Form, Form>> Observables::powers() const {
     Form velocity = forms_.zero();
     velocity.u = equation_.motion_velocity().row(static_cast<Eigen::Index>(s)).transpose();
     const mechanics::Node node{mechanics::NodeKind::prescribed, s};
-    result.emplace_back(forms_.node_force(node, system_->laws), velocity);
+    result.emplace_back(forms_.node_force(node, system_->coefficients), velocity);
   }
   return result;
 }
@@ -219,15 +219,15 @@ double Observables::phase_of(const Form& form, double magnitude) const {
 
 // Integrals of c v^2, phi v and, of the damper in a Maxwell element, s^2/c.
 double Observables::element_energy(std::size_t element) const {
-  const mechanics::ElementLaw& law = system_->laws[element];
+  const mechanics::ElementCoefficients& law = system_->coefficients[element];
   double energy = 0.0;
   if (law.damping != 0.0) {
     const Form velocity = forms_.velocity(assembly_.incidences()[element]);
     energy += law.damping * product(velocity, velocity);
   }
-  if (law.maxwell >= 0) {
+  if (law.internal >= 0) {
     const Form force = forms_.element_force(element, law);
-    energy += product(force, force) / law.maxwell_damping;
+    energy += product(force, force) / law.internal_damping;
   }
   const auto& rubbing = equation_.elements();
   const auto term = std::find(rubbing.begin(), rubbing.end(), element);
@@ -259,11 +259,11 @@ Form Observables::form_of(const Quantity& quantity) const {
     case Measure::element_phase:
       return forms_.displacement(assembly_.incidences()[quantity.index]);
     case Measure::force_peak:
-      return forms_.element_force(quantity.index, system_->laws[quantity.index]);
+      return forms_.element_force(quantity.index, system_->coefficients[quantity.index]);
     case Measure::transmitted_force: {
       mechanics::Node node;
       if (quantity.index > 0) node = {mechanics::NodeKind::prescribed, quantity.index - 1};
-      return forms_.node_force(node, system_->laws);
+      return forms_.node_force(node, system_->coefficients);
     }
     default:
       return forms_.displacement(of_mass(assembly_, quantity.index));

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "solvers/periodic/extreme_values.hpp"
-#include "solvers/periodic/quantity.hpp"
+#include "solvers/quantities/extreme_values.hpp"
+#include "solvers/quantities/quantity.hpp"
 #include "solvers/smooth/forms.hpp"
 #include "solvers/smooth/shooting.hpp"
 

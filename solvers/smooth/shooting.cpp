@@ -5,7 +5,7 @@
 #include <limits>
 #include <sstream>
 
-#include "solvers/periodic/stability.hpp"
+#include "solvers/orbits/stability.hpp"
 
 namespace frahm::smooth {
 namespace {

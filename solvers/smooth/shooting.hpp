@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "solvers/periodic/orbit.hpp"
+#include "solvers/orbits/orbit.hpp"
 #include "solvers/smooth/integrator.hpp"
 
 namespace frahm::smooth {

@@ -5,8 +5,8 @@
 #include <exception>
 #include <numbers>
 
-#include "solvers/periodic/exact_solver.hpp"
-#include "solvers/periodic/resonance.hpp"
+#include "solvers/response/exact_solver.hpp"
+#include "solvers/mechanics/undamped_resonance.hpp"
 #include "solvers/smooth/observables.hpp"
 #include "solvers/smooth/shooting.hpp"
 
@@ -156,9 +156,9 @@ bool SmoothSolver::guess_from_exact_law() {
       states(n + mass, i) = history.columns[static_cast<std::size_t>(2 * mass + 1)][sample];
     }
     for (std::size_t e = 0; e < elements.size(); ++e) {
-      const Eigen::Index maxwell = system_.laws[e].maxwell;
-      if (maxwell >= 0)
-        states(2 * n + maxwell, i) = history.columns[static_cast<std::size_t>(2 * n) + e][sample];
+      const Eigen::Index internal = system_.coefficients[e].internal;
+      if (internal >= 0)
+        states(2 * n + internal, i) = history.columns[static_cast<std::size_t>(2 * n) + e][sample];
     }
     speeds.col(i) = equation_.speeds(history.time[sample], states.col(i)).cwiseAbs();
   }
@@ -196,7 +196,7 @@ Eigen::VectorXd SmoothSolver::scale(double displacement, double velocity) const 
   Eigen::VectorXd result(equation_.size());
   result.head(n).setConstant(q);
   result.segment(n, n).setConstant(q * system_.omega);
-  result.tail(result.size() - 2 * n) = q * system_.maxwell_stiffness;
+  result.tail(result.size() - 2 * n) = q * system_.internal_stiffness;
   return result;
 }
 
@@ -218,7 +218,7 @@ History SmoothSolver::history(std::span<const double> phases) {
   History result = History::of(network);
   std::vector<Form> element_forces;
   for (std::size_t e = 0; e < network.elements.size(); ++e) {
-    element_forces.push_back(forms.element_force(e, system_.laws[e]));
+    element_forces.push_back(forms.element_force(e, system_.coefficients[e]));
   }
   Instant instant;
   Eigen::VectorXd z;

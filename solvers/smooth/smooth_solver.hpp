@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "solvers/periodic/quantity.hpp"
-#include "solvers/periodic/response.hpp"
+#include "solvers/quantities/quantity.hpp"
+#include "solvers/response/response.hpp"
 
 // Periodic responses under the arctan law, F (2/pi) arctan(slope v), which smooths Coulomb's.
 namespace frahm::smooth {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "solvers/periodic/integrals.hpp"
+#include "solvers/quantities/integrals.hpp"
 
 namespace frahm::transient {
 
@@ -38,7 +38,7 @@ EnergyAccount::EnergyAccount(const mechanics::Assembly& assembly, const Flow& fl
 
 void EnergyAccount::set_system(const mechanics::LinearSystem& system) {
   mass_ = system.mass;
-  laws_ = system.laws;
+  laws_ = system.coefficients;
   forcing_ = std::max(forcing_, flow_.static_norm());
   prepared_ = false;
 }
@@ -57,9 +57,9 @@ double EnergyAccount::energy_of(const State& z, double phase) const {
     const mechanics::Incidence& at = assembly_.incidences()[e];
     if (laws_[e].stiffness != 0.0) energy += laws_[e].stiffness * half_square(forms_.displacement(at));
     if (laws_[e].inertance != 0.0) energy += laws_[e].inertance * half_square(forms_.velocity(at));
-    if (laws_[e].maxwell < 0) continue;
-    const double force = z[2 * n + laws_[e].maxwell];
-    energy += 0.5 * force * force / eq.maxwell_stiffness[laws_[e].maxwell];
+    if (laws_[e].internal < 0) continue;
+    const double force = z[2 * n + laws_[e].internal];
+    energy += 0.5 * force * force / eq.internal_stiffness[laws_[e].internal];
   }
   return energy;
 }
@@ -102,15 +102,15 @@ std::vector<EnergyAccount::Form> EnergyAccount::loss_forms() {
   std::vector<Form> forms;
   losses_.clear();
   for (std::size_t e = 0; e < laws_.size(); ++e) {
-    const mechanics::ElementLaw& law = laws_[e];
+    const mechanics::ElementCoefficients& law = laws_[e];
     if (law.damping != 0.0) {
       losses_.push_back({e, law.damping});
       forms.push_back(forms_.velocity(assembly_.incidences()[e]));
     }
-    if (law.maxwell >= 0) {
-      losses_.push_back({e, 1.0 / law.maxwell_damping});
+    if (law.internal >= 0) {
+      losses_.push_back({e, 1.0 / law.internal_damping});
       forms.push_back(forms_.zero());
-      forms.back().z[2 * flow_.equations().masses() + law.maxwell] = 1.0;
+      forms.back().z[2 * flow_.equations().masses() + law.internal] = 1.0;
     }
     if (law.friction != 0.0) {
       losses_.push_back({e, law.friction, static_cast<Index>(assembly_.shares()[e].contact)});

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "solvers/periodic/linear_form.hpp"
+#include "solvers/flow/linear_form.hpp"
 #include "solvers/transient/motion.hpp"
 
 namespace frahm::transient {
@@ -69,7 +69,7 @@ class EnergyAccount {
   std::vector<mechanics::Incidence> mass_incidences_;  // the displacement of each mass by itself
 
   Eigen::VectorXd mass_;  // [kg]
-  std::vector<mechanics::ElementLaw> laws_;
+  std::vector<mechanics::ElementCoefficients> laws_;
   double forcing_ = 0.0;  // largest energy norm of the static response so far [sqrt(J)]
 
   // Of the mode in hand: a row of z and u for each loss, then force and velocity of each drive.

@@ -108,9 +108,9 @@ void MotionSensitivity::differentiate() {
 // delta is taken with tau = t/h held, the initial values are given with t held:
 //   delta = dz|_t - z' dtau,  dtau = -tau dh/h
 void MotionSensitivity::begin(const Step& first) {
-  const Index n = flow_.equations().masses(), maxwell = flow_.equations().maxwell_elements();
+  const Index n = flow_.equations().masses(), internal = flow_.equations().internal_forces();
   State rate(flow_.equations().states());
-  rate << first.left.z.segment(n, n), first.left.a, first.left.ds.head(maxwell);
+  rate << first.left.z.segment(n, n), first.left.a, first.left.ds.head(internal);
   const double tau = time_ / flow_.equations().step;
   for (Direction& d : directions_) d.delta += (d.by.log_step * tau) * rate;
 }
@@ -167,7 +167,7 @@ void MotionSensitivity::sample(std::size_t i, double end) {
 bool MotionSensitivity::is_at_rest() const {
   const auto& eq = flow_.equations();
   const Index harmonics = eq.force.cols() - 1;
-  return begun_ && eq.maxwell_elements() == 0 && eq.force.rightCols(harmonics).isZero(0.0) &&
+  return begun_ && eq.internal_forces() == 0 && eq.force.rightCols(harmonics).isZero(0.0) &&
          eq.motion.rightCols(harmonics).isZero(0.0) && flow_.configuration(ending_.mode).P.isZero(0.0);
 }
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "solvers/periodic/step_samples.hpp"
+#include "solvers/quantities/step_samples.hpp"
 #include "solvers/transient/motion.hpp"
 
 namespace frahm::transient {

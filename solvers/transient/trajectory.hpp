@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "solvers/periodic/orbit_steps.hpp"
+#include "solvers/quantities/orbit_steps.hpp"
 #include "solvers/transient/energy_account.hpp"
 #include "solvers/transient/motion.hpp"
 #include "solvers/transient/turning_points.hpp"

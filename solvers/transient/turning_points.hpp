@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "solvers/periodic/flow.hpp"
+#include "solvers/flow/flow.hpp"
 #include "solvers/transient/motion.hpp"
 
 namespace frahm::transient {

@@ -34,7 +34,7 @@ std::vector<std::vector<Eigen::Index>> configurations(Eigen::Index contacts) {
 // Poles of z' = A z, z = (eta, eta', s), with q = B eta what the stuck contacts leave free.
 void add_poles(const mechanics::LinearSystem& system, const std::vector<Eigen::Index>& stuck,
                std::vector<Pole>& poles) {
-  const Eigen::Index n = system.masses(), m = system.maxwell_elements();
+  const Eigen::Index n = system.masses(), m = system.internal_forces();
   Eigen::MatrixXd B = Eigen::MatrixXd::Identity(n, n);
   if (!stuck.empty()) {
     Eigen::MatrixXd W(n, static_cast<Eigen::Index>(stuck.size()));
@@ -50,8 +50,8 @@ void add_poles(const mechanics::LinearSystem& system, const std::vector<Eigen::I
   A.block(k, 0, k, k) = -mass_inverse * (B.transpose() * system.K * B);
   A.block(k, k, k, k) = -mass_inverse * (B.transpose() * system.C * B);
   A.block(k, 2 * k, k, m) = -mass_inverse * (B.transpose() * system.D);
-  A.block(2 * k, k, m, k) = system.maxwell_stiffness.asDiagonal() * (system.D.transpose() * B);
-  A.block(2 * k, 2 * k, m, m).diagonal() = -system.maxwell_rate;
+  A.block(2 * k, k, m, k) = system.internal_stiffness.asDiagonal() * (system.D.transpose() * B);
+  A.block(2 * k, 2 * k, m, m).diagonal() = -system.internal_rate;
   const Eigen::VectorXcd eigenvalues = A.eigenvalues();
   for (const std::complex<double>& value : eigenvalues) {
     if (value.imag() > 0.0) poles.push_back({value.imag(), std::max(0.0, -value.real())});

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "solvers/mechanics/network.hpp"
-#include "solvers/periodic/quantity.hpp"
+#include "solvers/quantities/quantity.hpp"
 #include "solvers/tuning/noise.hpp"
 
 // What is to be tuned: a network whose numbers depend on design parameters, a band of frequencies, and what

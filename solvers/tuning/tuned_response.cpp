@@ -1,7 +1,7 @@
 #include "solvers/tuning/tuned_response.hpp"
 
 #include "solvers/mechanics/linear_system.hpp"
-#include "solvers/periodic/orbit.hpp"
+#include "solvers/orbits/orbit.hpp"
 
 namespace frahm::tuning {
 

@@ -90,7 +90,7 @@ Variance::State Variance::state(const NetworkValues& values) const {
   State result;
   mechanics::LinearSystem& system = result.system;
   assembly_.set_values(values, system);
-  const Index n = system.masses(), s = system.maxwell_elements();
+  const Index n = system.masses(), s = system.internal_forces();
   result.M_inverse = system.M.llt().solve(MatrixXd::Identity(n, n));
 
   // b = e_mass, or with q = x + 1 y and y'' = w:  b = -(M 1 + M_support e_node)
@@ -107,8 +107,8 @@ Variance::State Variance::state(const NetworkValues& values) const {
   A.block(n, 0, n, n) = -Mi * system.K;
   A.block(n, n, n, n) = -Mi * system.C;
   A.block(n, 2 * n, n, s) = -Mi * system.D;
-  A.block(2 * n, n, s, n) = system.maxwell_stiffness.asDiagonal() * system.D.transpose();
-  A.block(2 * n, 2 * n, s, s).diagonal() = -system.maxwell_rate;
+  A.block(2 * n, n, s, n) = system.internal_stiffness.asDiagonal() * system.D.transpose();
+  A.block(2 * n, 2 * n, s, s).diagonal() = -system.internal_rate;
   VectorXd B = VectorXd::Zero(2 * n + s), h = VectorXd::Zero(2 * n + s);
   B.segment(n, n) = Mi * result.b;
   const auto index = Index(measure_.index);
@@ -117,7 +117,7 @@ Variance::State Variance::state(const NetworkValues& values) const {
 
   result.scale.resize(2 * n + s);
   result.scale << system.K.diagonal().cwiseSqrt().cwiseInverse(),
-      system.M.diagonal().cwiseSqrt().cwiseInverse(), system.maxwell_stiffness.cwiseSqrt();
+      system.M.diagonal().cwiseSqrt().cwiseInverse(), system.internal_stiffness.cwiseSqrt();
   result.A = result.scale.cwiseInverse().asDiagonal() * A * result.scale.asDiagonal();
   result.B = B.cwiseQuotient(result.scale);
   result.h = h.cwiseProduct(result.scale);
@@ -173,7 +173,7 @@ Variance::Gradient Variance::gradient(const State& at, const MatrixXd& P, const 
   for (std::size_t e = 0; e < network.elements.size(); ++e) {
     const Incidence& incidence = assembly_.incidences()[e];
     const VectorXd& w = incidence.w;
-    const mechanics::ElementLaw& law = at.system.laws[e];
+    const mechanics::ElementCoefficients& law = at.system.coefficients[e];
     switch (network.elements[e].type) {
       case ElementType::spring:
         by.element[e] = w.dot(by_stiffness * w);
@@ -186,8 +186,8 @@ Variance::Gradient Variance::gradient(const State& at, const MatrixXd& P, const 
         break;
       case ElementType::maxwell: {
         // s' = k w^T v - (k/c) s
-        const Index row = 2 * n + law.maxwell;
-        const double k = at.system.maxwell_stiffness[law.maxwell], c = law.maxwell_damping;
+        const Index row = 2 * n + law.internal;
+        const double k = at.system.internal_stiffness[law.internal], c = law.internal_damping;
         by.element[e] = 2.0 * (G.col(row).segment(n, n).dot(w) - G(row, row) / c);
         by.second[e] = 2.0 * G(row, row) * k / (c * c);
         break;

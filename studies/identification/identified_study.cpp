@@ -8,7 +8,7 @@
 
 #include "results/map_reader.hpp"
 #include "solvers/mechanics/linear_system.hpp"
-#include "solvers/periodic/linear_modes.hpp"
+#include "solvers/mechanics/modes.hpp"
 #include "studies/identification/identification_record.hpp"
 #include "studies/map/stored_study.hpp"
 #include "studies/motion/motion_record.hpp"

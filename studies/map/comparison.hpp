@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "solvers/periodic/quantity.hpp"
+#include "solvers/quantities/quantity.hpp"
 #include "studies/reading/study_file.hpp"
 
 // [compare]: the same points under another friction law or crank profile, beside the study's own.

@@ -5,7 +5,7 @@
 
 #include "engine/fingerprint.hpp"
 #include "results/layout.hpp"
-#include "solvers/periodic/quantity.hpp"
+#include "solvers/quantities/quantity.hpp"
 #include "studies/map/grid.hpp"
 #include "studies/reading/study_file.hpp"
 

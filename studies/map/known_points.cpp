@@ -11,7 +11,7 @@
 
 #include "engine/fingerprint.hpp"
 #include "results/store_error.hpp"
-#include "solvers/periodic/orbit.hpp"
+#include "solvers/orbits/orbit.hpp"
 #include "studies/map/earlier_file.hpp"
 #include "studies/map/fingerprint.hpp"
 #include "studies/map/finished_file.hpp"

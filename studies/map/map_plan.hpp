@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/run.hpp"
-#include "solvers/periodic/quantity.hpp"
+#include "solvers/quantities/quantity.hpp"
 #include "studies/map/grid.hpp"
 #include "studies/map/study_plan.hpp"
 

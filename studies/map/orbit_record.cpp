@@ -5,7 +5,7 @@
 #include <complex>
 
 #include "solvers/mechanics/linear_system.hpp"
-#include "solvers/periodic/orbit.hpp"
+#include "solvers/orbits/orbit.hpp"
 #include "solvers/response/periodic_response.hpp"
 #include "studies/map/assembly_stage.hpp"
 #include "studies/map/map_record.hpp"

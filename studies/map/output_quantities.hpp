@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "solvers/periodic/quantity.hpp"
+#include "solvers/quantities/quantity.hpp"
 #include "studies/reading/study_file.hpp"
 
 namespace frahm::studies {

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "solvers/mechanics/linear_system.hpp"
-#include "solvers/periodic/orbit.hpp"
-#include "solvers/periodic/resonance_peak.hpp"
+#include "solvers/orbits/orbit.hpp"
+#include "solvers/response/resonance_peak.hpp"
 #include "solvers/response/periodic_response.hpp"
 #include "studies/map/assembly_stage.hpp"
 #include "studies/map/map_record.hpp"

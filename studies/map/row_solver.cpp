@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "solvers/mechanics/linear_system.hpp"
-#include "solvers/periodic/orbit.hpp"
+#include "solvers/orbits/orbit.hpp"
 
 namespace frahm::studies {
 namespace {

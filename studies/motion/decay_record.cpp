@@ -6,7 +6,7 @@
 #include <ostream>
 
 #include "solvers/mechanics/linear_system.hpp"
-#include "solvers/periodic/linear_modes.hpp"
+#include "solvers/mechanics/modes.hpp"
 #include "solvers/response/periodic_response.hpp"
 #include "studies/motion/energy_columns.hpp"
 #include "studies/motion/motion_columns.hpp"

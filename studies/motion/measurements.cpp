@@ -8,8 +8,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "solvers/periodic/linear_modes.hpp"
-#include "solvers/periodic/orbit.hpp"
+#include "solvers/mechanics/modes.hpp"
+#include "solvers/orbits/orbit.hpp"
 #include "solvers/response/periodic_response.hpp"
 #include "studies/motion/motion_record.hpp"
 #include "studies/reading/spelling.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "solvers/periodic/linear_modes.hpp"
+#include "solvers/mechanics/modes.hpp"
 #include "studies/reading/study_file.hpp"
 
 namespace frahm::studies {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "solvers/periodic/quantity.hpp"
+#include "solvers/quantities/quantity.hpp"
 #include "solvers/response/periodic_response.hpp"
 #include "studies/program/modes_table.hpp"
 #include "studies/program/point_gradient.hpp"

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "solvers/periodic/closed_forms.hpp"
+#include "solvers/orbits/closed_forms.hpp"
 #include "studies/program/verify_system.hpp"
 
 namespace frahm::studies {

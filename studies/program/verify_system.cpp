@@ -1,6 +1,6 @@
 #include "studies/program/verify_system.hpp"
 
-#include "solvers/periodic/orbit.hpp"
+#include "solvers/orbits/orbit.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "solvers/mechanics/network.hpp"
-#include "solvers/periodic/quantity.hpp"
+#include "solvers/quantities/quantity.hpp"
 #include "solvers/response/periodic_response.hpp"
 
 // The systems of the classical papers as networks: a mass of 1 on a spring of 1 and a damper of 2 zeta, with

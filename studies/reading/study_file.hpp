@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "solvers/mechanics/network.hpp"
-#include "solvers/periodic/quantity.hpp"
+#include "solvers/quantities/quantity.hpp"
 #include "studies/reading/identify_choice.hpp"
 #include "studies/reading/parameters.hpp"
 #include "studies/reading/study_source.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "solvers/periodic/quantity.hpp"
+#include "solvers/quantities/quantity.hpp"
 #include "solvers/tuning/task.hpp"
 #include "studies/reading/parameters.hpp"
 #include "studies/reading/study_values.hpp"

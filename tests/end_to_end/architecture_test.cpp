@@ -89,7 +89,7 @@ TEST_CASE("each foreign library is known to one file, and to no header") {
       {"cvodes|nvector|sundials|sunlinsol|sunmatrix", {"solvers/smooth/cvodes.cpp"}},
       {"boost/math",
        {"solvers/identification/half_power.cpp", "solvers/identification/identification.cpp",
-        "solvers/periodic/resonance_peak.cpp", "solvers/tuning/band_maxima.cpp"}},
+        "solvers/response/resonance_peak.cpp", "solvers/tuning/band_maxima.cpp"}},
       {"boost/tokenizer", {"studies/reading/csv_table.cpp"}},
       {"boost/random", {"solvers/tuning/starts.cpp", "studies/motion/measurements.cpp"}},
       {"Ip.*", {"solvers/tuning/ipopt.cpp"}},

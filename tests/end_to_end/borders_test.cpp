@@ -5,7 +5,7 @@
 #include <map>
 
 #include "results/map_reader.hpp"
-#include "solvers/periodic/closed_forms.hpp"
+#include "solvers/orbits/closed_forms.hpp"
 #include "tests/end_to_end/grown_maps.hpp"
 #include "tests/end_to_end/runs.hpp"
 #include "tests/studies/small_studies.hpp"

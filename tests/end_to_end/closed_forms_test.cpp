@@ -1,5 +1,5 @@
 // The dimensionless studies of studies/*.toml on reduced grids, against the closed forms of their authors.
-#include "solvers/periodic/closed_forms.hpp"
+#include "solvers/orbits/closed_forms.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -5,7 +5,7 @@
 #include <complex>
 #include <numbers>
 
-#include "solvers/periodic/closed_forms.hpp"
+#include "solvers/orbits/closed_forms.hpp"
 #include "tests/end_to_end/runs.hpp"
 
 namespace {

@@ -13,7 +13,7 @@
 #include <numbers>
 
 #include "solvers/mechanics/linear_system.hpp"
-#include "solvers/periodic/closed_forms.hpp"
+#include "solvers/orbits/closed_forms.hpp"
 #include "tests/known_answers/responses.hpp"
 #include "tests/known_answers/rig.hpp"
 #include "tests/known_answers/single_mass.hpp"

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "solvers/periodic/closed_forms.hpp"
+#include "solvers/orbits/closed_forms.hpp"
 #include "tests/known_answers/responses.hpp"
 
 // A moving base: the same mathematics as a force on the mass, but built from other elements.

@@ -1,4 +1,4 @@
-#include "solvers/periodic/closed_forms.hpp"
+#include "solvers/orbits/closed_forms.hpp"
 
 #include <array>
 #include <boost/numeric/odeint/integrate/integrate_const.hpp>

@@ -49,9 +49,9 @@ EventIntegrator::EventIntegrator(const mechanics::LinearSystem& system)
   const double stiff = (M_inverse_ * system.K).eigenvalues().cwiseAbs().maxCoeff();
   const double viscous = (M_inverse_ * system.C).eigenvalues().cwiseAbs().maxCoeff();
   double maxwell = 0.0;
-  if (system.maxwell_elements() > 0) {
-    const Eigen::MatrixXd springs = system.D * system.maxwell_stiffness.asDiagonal() * system.D.transpose();
-    maxwell = system.maxwell_rate.maxCoeff() +
+  if (system.internal_forces() > 0) {
+    const Eigen::MatrixXd springs = system.D * system.internal_stiffness.asDiagonal() * system.D.transpose();
+    maxwell = system.internal_rate.maxCoeff() +
               std::sqrt((M_inverse_ * springs).eigenvalues().cwiseAbs().maxCoeff());
   }
   step_ = kStepAngle / std::max({std::sqrt(stiff), viscous, maxwell, system.orders.back() * system.omega});
@@ -62,7 +62,7 @@ void EventIntegrator::start(double t, const VectorXd& q, const VectorXd& v, cons
   state_.assign(q.data(), q.data() + q.size());
   state_.insert(state_.end(), v.data(), v.data() + v.size());
   state_.insert(state_.end(), s.data(), s.data() + s.size());
-  state_.resize(static_cast<std::size_t>(2 * system_.masses() + system_.maxwell_elements()), 0.0);
+  state_.resize(static_cast<std::size_t>(2 * system_.masses() + system_.internal_forces()), 0.0);
   most_ = least_ = q;
   events_ = 0;
   modes_.assign(static_cast<std::size_t>(system_.contacts()), Mode::stuck);
@@ -148,9 +148,9 @@ EventIntegrator::State EventIntegrator::moved(double t, double h) const {
     if (system_.motion.rows() > 0) {
       strain_rate += system_.D_support.transpose() * harmonic(system_, system_.motion, at, 1);
     }
-    for (Index e = 0; e < system_.maxwell_elements(); ++e) {
+    for (Index e = 0; e < system_.internal_forces(); ++e) {
       const auto place = static_cast<std::size_t>(2 * n + e);
-      dy[place] = system_.maxwell_stiffness[e] * strain_rate[e] - system_.maxwell_rate[e] * y[place];
+      dy[place] = system_.internal_stiffness[e] * strain_rate[e] - system_.internal_rate[e] * y[place];
     }
   };
   stepper.do_step(rate, x, t, h);

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "solvers/periodic/closed_forms.hpp"
+#include "solvers/orbits/closed_forms.hpp"
 #include "tests/known_answers/responses.hpp"
 #include "tests/known_answers/rig.hpp"
 #include "tests/known_answers/single_mass.hpp"

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "solvers/periodic/flow.hpp"
+#include "solvers/flow/flow.hpp"
 #include "tests/known_answers/responses.hpp"
 #include "tests/known_answers/single_mass.hpp"
 

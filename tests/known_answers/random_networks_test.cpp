@@ -26,7 +26,7 @@ void check_period(const RandomNetwork& drawn, const Responses& responses, const 
   assembly.set_values(drawn.values, system);
   assembly.set_forcing(drawn.values, system);
   const Eigen::Index n = system.masses();
-  Eigen::VectorXd q(n), v(n), s(system.maxwell_elements());
+  Eigen::VectorXd q(n), v(n), s(system.internal_forces());
   double largest = 1e-4, fastest = 0.0;  // [m]: the static response is near 1 m
   for (Eigen::Index i = 0; i < n; ++i) {
     q[i] = history.columns[static_cast<std::size_t>(2 * i)][0];

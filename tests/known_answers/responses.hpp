@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "solvers/periodic/orbit.hpp"
+#include "solvers/orbits/orbit.hpp"
 #include "solvers/response/periodic_response.hpp"
 
 // Periodic responses of one network with their quantities by name, for tests.

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "solvers/periodic/shooting.hpp"
+#include "solvers/orbits/shooting.hpp"
 #include "tests/known_answers/responses.hpp"
 
 // The rig of DESIGN section 11 over its working range.

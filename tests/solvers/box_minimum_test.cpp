@@ -1,4 +1,4 @@
-#include "solvers/periodic/box_minimum.hpp"
+#include "solvers/events/box_minimum.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "solvers/periodic/closed_forms.hpp"
+#include "solvers/orbits/closed_forms.hpp"
 #include "tests/known_answers/single_mass.hpp"
 #include "tests/solvers/gradient_parameters.hpp"
 

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "solvers/periodic/closed_forms.hpp"
+#include "solvers/orbits/closed_forms.hpp"
 #include "tests/known_answers/arctan.hpp"
 #include "tests/known_answers/rig.hpp"
 #include "tests/known_answers/single_mass.hpp"

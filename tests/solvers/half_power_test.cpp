@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "solvers/identification/resonance_magnification.hpp"
-#include "solvers/periodic/resonance_peak.hpp"
+#include "solvers/response/resonance_peak.hpp"
 #include "tests/known_answers/responses.hpp"
 #include "tests/known_answers/single_mass.hpp"
 #include "tests/solvers/coverage.hpp"

@@ -1,4 +1,4 @@
-#include "solvers/periodic/polynomial.hpp"
+#include "solvers/flow/polynomial.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

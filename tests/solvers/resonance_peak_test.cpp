@@ -1,4 +1,4 @@
-#include "solvers/periodic/resonance_peak.hpp"
+#include "solvers/response/resonance_peak.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

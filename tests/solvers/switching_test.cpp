@@ -2,8 +2,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "solvers/periodic/closed_forms.hpp"
-#include "solvers/periodic/shooting.hpp"
+#include "solvers/orbits/closed_forms.hpp"
+#include "solvers/orbits/shooting.hpp"
 #include "tests/known_answers/responses.hpp"
 #include "tests/known_answers/single_mass.hpp"
 

@@ -38,12 +38,12 @@ std::vector<double> numbers_of(const LinearSystem& system) {
   for (const auto* matrix :
        {&system.M, &system.C, &system.K, &system.M_support, &system.C_support, &system.K_support})
     add(*matrix);
-  for (const auto* vector : {&system.mass, &system.limit, &system.maxwell_stiffness, &system.maxwell_rate,
+  for (const auto* vector : {&system.mass, &system.limit, &system.internal_stiffness, &system.internal_rate,
                              &system.constant_force, &system.constant_applied_force, &system.constant_motion})
     add(*vector);
   for (const auto* matrix : {&system.force, &system.applied_force, &system.motion}) add_both(*matrix);
-  for (const ElementLaw& law : system.laws) {
-    for (const double number : {law.stiffness, law.damping, law.inertance, law.friction, law.maxwell_damping})
+  for (const ElementCoefficients& law : system.coefficients) {
+    for (const double number : {law.stiffness, law.damping, law.inertance, law.friction, law.internal_damping})
       all.push_back(number);
   }
   return all;

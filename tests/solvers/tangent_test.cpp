@@ -2,7 +2,7 @@
 #include <cmath>
 #include <random>
 
-#include "solvers/periodic/flow.hpp"
+#include "solvers/flow/flow.hpp"
 #include "tests/known_answers/random_network.hpp"
 
 // The derivative of the flow through its events, product of flow and saltation matrices, against differences.

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "solvers/periodic/closed_forms.hpp"
+#include "solvers/orbits/closed_forms.hpp"
 #include "studies/map/map_plan.hpp"
 #include "tests/studies/small_studies.hpp"
 

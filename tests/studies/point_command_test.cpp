@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "engine/io_error.hpp"
-#include "solvers/periodic/closed_forms.hpp"
+#include "solvers/orbits/closed_forms.hpp"
 #include "studies/reading/study_file.hpp"
 #include "tests/results/temporary_directory.hpp"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "solvers/periodic/closed_forms.hpp"
+#include "solvers/orbits/closed_forms.hpp"
 #include "studies/program/point_command.hpp"
 #include "studies/reading/settings.hpp"
 

@@ -1,0 +1,218 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "solvers/flow/constraints.hpp"
+#include "solvers/flow/equations.hpp"
+
+namespace frahm::periodic {
+
+using ContactMask = std::uint64_t;  // bit j: contact j
+inline bool contains(ContactMask mask, Eigen::Index contact) {
+  return (mask >> contact) & 1U;
+}
+inline ContactMask bit(Eigen::Index contact) {
+  return ContactMask{1} << contact;
+}
+
+// The linear system that moves while one set of contacts sticks and the others slide:
+//   q'' = Aq q + Av v + As s + Au u(t) + Af phi,   phi_j = sigma_j F_j of the sliding contacts, 0 of the
+//   stuck lambda_j = (Lq q + Lv v + Ls s + Lu u(t) + Lf phi)_j  of the stuck contacts
+// and its exact flow over one step,
+//   z(1) = E z(0) + Eu u(0) + Ef phi,
+// the exponential of the matrix augmented by the oscillators of the forcing (C. Van Loan, IEEE Trans. Autom.
+// Control 23 (1978) 395): finite at resonance of an undamped mode and at critical damping alike.
+template <int N, int H>
+struct Configuration {
+  using S = Sizes<N, H>;
+
+  ContactMask stuck = 0;
+  bool has_forcing = false;  // set_forcing was called since the forcing changed
+  typename S::Square Aq, Av;
+  typename S::VectorByInternal As;
+  typename S::VectorByOscillators Au;
+  typename S::VectorByContacts Af;
+  typename S::ContactsByVector Lq, Lv;
+  typename S::ContactsByInternal Ls;
+  typename S::ContactsByOscillators Lu;
+  typename S::ContactSquare Lf;
+  typename S::Square P;  // velocities -> velocities that keep the stuck contacts stuck, M-orthogonal
+
+  // The flow as Taylor series in the step fraction, z(s) = series_z(s) z(0) + series_u(s) u(0) + series_f(s)
+  // phi.
+  typename S::SeriesByState series_z;
+  typename S::SeriesByOscillators series_u;
+  typename S::SeriesByContacts series_f;
+  // The same at s = 1.
+  typename S::StateSquare E;
+  typename S::StateByOscillators Eu;
+  typename S::StateByContacts Ef;
+
+  // Takes the last rounding out of the stuck contacts' relative velocities, M-orthogonally.
+  void hold(const StepEquations<N, H>& equations, const typename S::Oscillators& u,
+            typename S::State& z) const {
+    if (stuck == 0) return;
+    const Eigen::Index n = equations.masses();
+    z.segment(n, n) -=
+        reaction_ * (equations.W.transpose() * z.segment(n, n) + equations.support_velocity * u);
+  }
+
+  // What meets the stuck contacts' constraint w_j^T q'' = -p_j^T y'', G = W^T M^-1 W over the stuck contacts:
+  const typename S::ContactSquare& constraint() const { return constraint_; }  // G^+
+  const typename S::VectorByContacts& reaction() const { return reaction_; }   // M^-1 W G^+
+
+  // Matrices that do not depend on the forcing.
+  void set_system(const StepEquations<N, H>& equations, ContactMask stuck_contacts);
+  // Those that do; after set_system.
+  void set_forcing(const StepEquations<N, H>& equations);
+
+ private:
+  typename S::ContactSquare constraint_;   // zero rows and columns for sliding contacts
+  typename S::VectorByContacts reaction_;  // accelerations per unit of relative acceleration
+  void propagate_homogeneous(const StepEquations<N, H>& equations);
+
+  // Columns of solutions, and of what drives them.
+  template <int Columns, int MostColumns = Columns>
+  struct Solutions {
+    using Vectors =
+        Eigen::Matrix<double, N, Columns, N == 1 ? Eigen::RowMajor : Eigen::ColMajor, N, MostColumns>;
+    using Maxwells = Eigen::Matrix<double, S::kInternal, Columns, Eigen::ColMajor, S::kInternal, MostColumns>;
+    Vectors q, v;
+    Maxwells s;
+
+    Solutions(const StepEquations<N, H>& eq, Eigen::Index columns)
+        : q(eq.masses(), columns), v(eq.masses(), columns), s(eq.internal_forces(), columns) {
+      q.setZero();
+      v.setZero();
+      s.setZero();
+    }
+  };
+
+  // The Taylor series of solutions whose coefficients 0 are given: coefficient k + 1 is the derivative of
+  // coefficient k over k + 1. drive_next(k, v', s') adds what drives the velocities and Maxwell forces at k.
+  template <class Columns, class Series, class DriveNext>
+  void expand_series(const StepEquations<N, H>& equations, Columns x, Series& series,
+                     const DriveNext& drive_next) const {
+    const Eigen::Index n = equations.masses(), internal = equations.internal_forces();
+    series.resize(equations.states() * kTerms, x.q.cols());
+    typename Columns::Vectors next(n, x.q.cols());
+    typename Columns::Maxwells s_next = x.s;
+    for (int k = 0; k < kTerms; ++k) {
+      for (Eigen::Index column = 0; column < x.q.cols(); ++column) {
+        for (Eigen::Index i = 0; i < n; ++i) {
+          series(i * kTerms + k, column) = x.q(i, column);
+          series((n + i) * kTerms + k, column) = x.v(i, column);
+        }
+        for (Eigen::Index i = 0; i < internal; ++i) series((2 * n + i) * kTerms + k, column) = x.s(i, column);
+      }
+      next.noalias() = Aq * x.q + Av * x.v;
+      if constexpr (S::kInternal != 0) {
+        next += As * x.s;
+        s_next = equations.internal_stiffness.asDiagonal() * (equations.D.transpose() * x.v) -
+                 equations.internal_rate.asDiagonal() * x.s;
+      }
+      drive_next(k, next, s_next);
+      const double share = 1.0 / (k + 1.0);
+      x.q = x.v * share;
+      x.v = next * share;
+      x.s = s_next * share;
+    }
+  }
+  template <class Series, class Sums>
+  static void sum_series(const Series& series, Sums& sums) {
+    const Eigen::Index components = series.rows() / kTerms;
+    sums.resize(components, series.cols());
+    for (Eigen::Index column = 0; column < series.cols(); ++column) {
+      for (Eigen::Index i = 0; i < components; ++i) {
+        sums(i, column) = series.col(column).template segment<kTerms>(i * kTerms).sum();
+      }
+    }
+  }
+};
+
+template <int N, int H>
+void Configuration<N, H>::set_system(const StepEquations<N, H>& equations, ContactMask stuck_contacts) {
+  stuck = stuck_contacts;
+  const Eigen::Index n = equations.masses(), m = equations.contacts();
+  const typename S::VectorByContacts MW = equations.M_inverse * equations.W;
+
+  // G_S^+ with G = W^T M^-1 W over the stuck contacts. Stuck directions may depend on one another; of the
+  // forces that then serve equally, those of least sum (lambda_j / F_j)^2 are meant.
+  constraint_.setZero(m, m);
+  const Eigen::Index stuck_count = __builtin_popcountll(stuck);
+  if (stuck_count == 1) {
+    const Eigen::Index j = __builtin_ctzll(stuck);
+    constraint_(j, j) = 1.0 / equations.compliance[j];
+  } else if (stuck_count > 1) {
+    typename S::Contacts weight(m);
+    for (Eigen::Index j = 0; j < m; ++j) weight[j] = contains(stuck, j) ? equations.limit[j] : 0.0;
+    constraint_ = weighted_pseudo_inverse(equations.W.transpose() * MW, weight);
+  }
+
+  reaction_ = MW * constraint_;
+  P = S::Square::Identity(n, n) - reaction_ * equations.W.transpose();
+  // A projector's trace is its rank, so one without a large entry is zero: every mass is held.
+  if (P.cwiseAbs().maxCoeff() < 1e-12) P.setZero();
+  Aq.noalias() = -(P * equations.M_inverse) * equations.K;
+  Av.noalias() = -(P * equations.M_inverse) * equations.C;
+  Af = -(P * MW);
+  if constexpr (S::kInternal != 0) As = -(P * (equations.M_inverse * equations.D));
+  const typename S::ContactsByVector per_force =
+      (equations.M_inverse * equations.W * constraint_).transpose();
+  Lq = -(per_force * equations.K);
+  Lv = -(per_force * equations.C);
+  Lf = -(per_force * equations.W);
+  if constexpr (S::kInternal != 0) Ls = -(per_force * equations.D);
+  propagate_homogeneous(equations);
+}
+
+template <int N, int H>
+void Configuration<N, H>::set_forcing(const StepEquations<N, H>& equations) {
+  has_forcing = true;
+  Au.noalias() = P * (equations.M_inverse * equations.force);
+  Lu.noalias() = (equations.M_inverse * equations.W * constraint_).transpose() * equations.force;
+  if (stuck != 0) {
+    Au.noalias() -= reaction_ * equations.support_acceleration;
+    Lu.noalias() += constraint_ * equations.support_acceleration;
+  }
+
+  // Column i starts from rest with oscillator i at 1. The forcing's own Taylor coefficients follow from its
+  // rows.
+  typename S::VectorByOscillators drive = Au, drive_rate;
+  typename S::InternalByOscillators internal_drive = equations.internal_drive, internal_drive_rate;
+  drive_rate.resizeLike(drive);
+  internal_drive_rate.resizeLike(internal_drive);
+  const auto forcing = [&](int k, auto& v_next, auto& s_next) {
+    v_next += drive;
+    s_next += internal_drive;
+    equations.differentiate(drive, drive_rate);
+    equations.differentiate(internal_drive, internal_drive_rate);
+    drive = drive_rate * (1.0 / (k + 1.0));
+    internal_drive = internal_drive_rate * (1.0 / (k + 1.0));
+  };
+  const Solutions<S::kOscillators> from_rest(equations, equations.oscillators());
+  expand_series(equations, from_rest, series_u, forcing);
+  sum_series(series_u, Eu);
+}
+
+template <int N, int H>
+void Configuration<N, H>::propagate_homogeneous(const StepEquations<N, H>& equations) {
+  const Eigen::Index n = equations.masses();
+  Solutions<S::kState> units(equations, equations.states());
+  units.q.leftCols(n).setIdentity();
+  units.v.middleCols(n, n).setIdentity();
+  if constexpr (S::kInternal != 0) units.s.rightCols(equations.internal_forces()).setIdentity();
+  expand_series(equations, units, series_z, [](int, auto&, auto&) {});
+  sum_series(series_z, E);
+
+  // A unit friction force from rest, constant over the step.
+  const Solutions<Eigen::Dynamic, S::kMaxContacts> from_rest(equations, equations.contacts());
+  const auto constant_force = [&](int k, auto& v_next, auto&) {
+    if (k == 0) v_next += Af;
+  };
+  expand_series(equations, from_rest, series_f, constant_force);
+  sum_series(series_f, Ef);
+}
+
+}  // namespace frahm::periodic

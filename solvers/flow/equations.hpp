@@ -1,0 +1,157 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <cmath>
+#include <complex>
+#include <cstdint>
+#include <vector>
+
+#include "solvers/mechanics/linear_system.hpp"
+#include "solvers/flow/polynomial.hpp"
+
+namespace frahm::periodic {
+
+// Sizes and types of a system of N masses under H harmonics. Known at compile time for the systems of which
+// maps of millions of points are made; Eigen::Dynamic for all others. Contacts: at most kMaxContacts, then
+// Dynamic. Maxwell elements: none, then Dynamic.
+template <int N, int H>
+struct Sizes {
+  static constexpr bool is_fixed = N != Eigen::Dynamic;
+  static constexpr int kInternal = is_fixed ? 0 : Eigen::Dynamic;
+  static constexpr int kState = is_fixed ? 2 * N : Eigen::Dynamic;
+  static constexpr int kOscillators = is_fixed ? 1 + 2 * H : Eigen::Dynamic;
+  static constexpr int kMaxContacts = is_fixed ? 4 : Eigen::Dynamic;
+
+  using Vector = Eigen::Matrix<double, N, 1>;
+  using Square = Eigen::Matrix<double, N, N>;
+  using State = Eigen::Matrix<double, kState, 1>;  // displacements, velocities, forces of Maxwell elements
+  using Internal = Eigen::Matrix<double, kInternal, 1>;
+  using VectorByInternal = Eigen::Matrix<double, N, kInternal>;
+  using InternalByOscillators = Eigen::Matrix<double, kInternal, kOscillators>;
+  using ContactsByInternal =
+      Eigen::Matrix<double, Eigen::Dynamic, kInternal, Eigen::ColMajor, kMaxContacts, kInternal>;
+  using StateSquare = Eigen::Matrix<double, kState, kState>;
+  using Oscillators = Eigen::Matrix<double, kOscillators, 1>;  // 1, cos, sin of each harmonic's phase
+  using OscillatorRow = Eigen::Matrix<double, 1, kOscillators>;
+  using VectorByOscillators = Eigen::Matrix<double, N, kOscillators>;
+  using StateByOscillators = Eigen::Matrix<double, kState, kOscillators>;
+  using VectorByContacts =
+      Eigen::Matrix<double, N, Eigen::Dynamic, N == 1 ? Eigen::RowMajor : Eigen::ColMajor, N, kMaxContacts>;
+  using StateByContacts =
+      Eigen::Matrix<double, kState, Eigen::Dynamic, Eigen::ColMajor, kState, kMaxContacts>;
+  using ContactsByVector =
+      Eigen::Matrix<double, Eigen::Dynamic, N, N == 1 ? Eigen::ColMajor : Eigen::RowMajor, kMaxContacts, N>;
+  using ContactsByOscillators =
+      Eigen::Matrix<double, Eigen::Dynamic, kOscillators, Eigen::RowMajor, kMaxContacts, kOscillators>;
+  using Contacts = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxContacts, 1>;
+  using ContactSquare =
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMaxContacts, kMaxContacts>;
+  using SupportsByOscillators = Eigen::Matrix<double, Eigen::Dynamic, kOscillators, Eigen::RowMajor>;
+  static constexpr int kSeries = is_fixed ? kTerms * 2 * N : Eigen::Dynamic;
+  // Taylor polynomials of all components of the state, one below the other; and as columns.
+  using Series = Eigen::Matrix<double, kSeries, 1>;
+  using SeriesByState = Eigen::Matrix<double, kSeries, kState>;
+  using SeriesByOscillators = Eigen::Matrix<double, kSeries, kOscillators>;
+  using SeriesByContacts =
+      Eigen::Matrix<double, kSeries, Eigen::Dynamic, Eigen::ColMajor, kSeries, kMaxContacts>;
+  using StatePolynomials = Eigen::Matrix<double, kTerms, kState>;
+  using OscillatorPolynomials = Eigen::Matrix<double, kTerms, kOscillators>;
+};
+
+// Rows with row * u(t) = Re(constant + sum_k harmonic_k e^{i phi_k}):  Re(f e^{i phi}) = Re f cos phi - Im f
+// sin phi.
+template <class Rows>
+void on_oscillators(const Eigen::VectorXd& constant, const Eigen::MatrixXcd& harmonic, Rows& rows) {
+  rows.resize(constant.size(), 1 + 2 * harmonic.cols());
+  rows.col(0) = constant;
+  for (Eigen::Index k = 0; k < harmonic.cols(); ++k) {
+    rows.col(1 + 2 * k) = harmonic.col(k).real();
+    rows.col(2 + 2 * k) = -harmonic.col(k).imag();
+  }
+}
+
+// The equation of motion with time counted in steps of length h, so that velocities are displacements a step:
+//   (M/h^2) q'' + (C/h) q' + K q + D s = f(t) - W lambda,  s' = k (D^T q' + p^T y') - (rate h) s  (Maxwell)
+// Energies and forces keep their units [J, N].
+template <int N, int H>
+struct StepEquations {
+  using S = Sizes<N, H>;
+
+  double step = 0.0;    // h [s]
+  double period = 0.0;  // of the fundamental, in steps
+  typename S::Square M, C, K, M_inverse, K_inverse;
+  typename S::Square M_root, K_root, M_root_inverse, K_root_inverse;  // upper Cholesky factors: M = R^T R
+  typename S::VectorByOscillators force;                              // f(t) = force * u(t) [N]
+  typename S::VectorByOscillators applied_force;  // the part of it that acts on the masses from outside
+  typename S::SupportsByOscillators motion, motion_velocity,
+      motion_acceleration;         // y(t) of the prescribed nodes
+  typename S::VectorByContacts W;  // n x m
+  typename S::ContactsByOscillators support_velocity,
+      support_acceleration;                         // p_j^T y'(t), p_j^T y''(t), m rows
+  typename S::Contacts limit;                       // [N]
+  typename S::Contacts compliance;                  // w_j^T M^-1 w_j
+  Eigen::MatrixXd D;                                // n x s
+  Eigen::VectorXd internal_stiffness, internal_rate;  // k [N/m]; k/c times h
+  Eigen::MatrixXd internal_drive;                    // k p^T y'(t) [N a step]
+  Eigen::VectorXd phase_rate;                       // order_k omega h [rad a step], size H
+  // Of each harmonic cos + i sin at phase 0; empty: 1, as in every motion but one whose excitation was
+  // measured.
+  std::vector<std::complex<double>> oscillators_at_zero;
+
+  Eigen::Index masses() const { return M.rows(); }
+  Eigen::Index contacts() const { return limit.size(); }
+  Eigen::Index internal_forces() const { return internal_stiffness.size(); }
+  Eigen::Index states() const { return 2 * masses() + internal_forces(); }
+  Eigen::Index oscillators() const { return force.cols(); }
+
+  // d/dt of row * u(t):  cos' = -rate sin, sin' = rate cos.
+  template <class Rows>
+  void differentiate(const Rows& rows, Rows& result) const {
+    result.col(0).setZero();
+    for (Eigen::Index k = 0; k < phase_rate.size(); ++k) {
+      result.col(1 + 2 * k) = phase_rate[k] * rows.col(2 + 2 * k);
+      result.col(2 + 2 * k) = -phase_rate[k] * rows.col(1 + 2 * k);
+    }
+  }
+
+  void oscillators_at(double fundamental_phase, const std::vector<int>& orders,
+                      typename S::Oscillators& u) const {
+    u[0] = 1.0;
+    for (std::size_t k = 0; k < orders.size(); ++k) {
+      const auto i = static_cast<Eigen::Index>(k);
+      u[1 + 2 * i] = std::cos(orders[k] * fundamental_phase);
+      u[2 + 2 * i] = std::sin(orders[k] * fundamental_phase);
+      if (oscillators_at_zero.empty()) continue;
+      const std::complex<double> turned =
+          oscillators_at_zero[k] * std::complex<double>(u[1 + 2 * i], u[2 + 2 * i]);
+      u[1 + 2 * i] = turned.real();
+      u[2 + 2 * i] = turned.imag();
+    }
+  }
+
+  // The energy norm of a state, sqrt((v^T M v + q^T K q + sum s^2 / k) / 2)  [sqrt(J)].
+  template <class AnyState>
+  double energy_norm(const AnyState& z) const {
+    const Eigen::Index n = masses();
+    const auto q = z.head(n);
+    const auto v = z.segment(n, n);
+    double energy = v.dot(M * v) + q.dot(K * q);
+    if constexpr (S::kInternal != 0) {
+      energy += (z.tail(internal_forces()).array().square() / internal_stiffness.array()).sum();
+    }
+    return std::sqrt(0.5 * energy);
+  }
+};
+
+// The fastest rate [rad/s] at which a solution's Taylor coefficients can grow in the energy norm:
+// rho = (gamma + sqrt(gamma^2 + 4 kappa)) / 2 with gamma, kappa the largest eigenvalues of M^-1 C and M^-1 K;
+// with Maxwell elements gamma + sqrt(kappa), gamma at least their largest rate and K with their springs.
+// Contacts that stick only lower it (Courant-Fischer).
+double fastest_rate(const mechanics::LinearSystem& system);
+
+// Length of a step [s]: kStepRate over the fastest rate of system and forcing, the latter rounded up in
+// powers of sqrt(2) of the former so that the step stays the same over a range of frequencies.
+double step_length(double fastest_rate, double omega, int largest_order);
+
+}  // namespace frahm::periodic

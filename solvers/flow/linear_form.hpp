@@ -1,0 +1,150 @@
+#pragma once
+
+#include "solvers/flow/flow.hpp"
+
+namespace frahm::periodic {
+
+// A quantity that is linear in the state and the forcing while the mode lasts: g(t) = z . (q, v, s) + u .
+// u(t). Displacements, velocities, accelerations, element forces and sums of them are all of this kind.
+template <int N, int H>
+struct LinearForm {
+  using S = Sizes<N, H>;
+  typename S::State z;
+  typename S::Oscillators u;
+
+  ValueAndSlope at(const Instant<N, H>& instant) const {
+    const Eigen::Index n = instant.a.size();
+    double slope =
+        z.head(n).dot(instant.z.segment(n, n)) + z.segment(n, n).dot(instant.a) + u.dot(instant.du);
+    if constexpr (S::kInternal != 0) slope += z.tail(z.size() - 2 * n).dot(instant.ds);
+    return {z.dot(instant.z) + u.dot(instant.u), slope};
+  }
+
+  Polynomial polynomial(const Expansion<N, H>& x) const { return x.z * z + x.u * u; }
+
+  LinearForm& add(double factor, const LinearForm& other) {
+    z += factor * other.z;
+    u += factor * other.u;
+    return *this;
+  }
+};
+
+// The forms of an orbit's network, in SI units.
+template <int N, int H>
+class Forms {
+ public:
+  using S = Sizes<N, H>;
+  using Form = LinearForm<N, H>;
+
+  // Both must outlive the forms.
+  Forms(const mechanics::Assembly& assembly, const Flow<N, H>& flow) : assembly_(assembly), flow_(flow) {}
+
+  // u = w^T q + p^T y [m], u' [m/s], u'' [m/s^2] of an incidence.
+  Form displacement(const mechanics::Incidence& at) const;
+  Form velocity(const mechanics::Incidence& at) const;
+  Form acceleration(const mechanics::Incidence& at, const Mode<N, H>& mode) const;
+
+  // Force [N] of an element.
+  Form element_force(std::size_t element, const mechanics::ElementCoefficients& law, const Mode<N, H>& mode) const;
+
+  // lambda_j [N] of a contact that sticks in this mode.
+  Form stuck_contact_force(Eigen::Index contact, const Mode<N, H>& mode) const;
+
+  // Sum of the forces [N] that all elements at `node` (ground or prescribed) need there: what drives it.
+  Form node_force(const mechanics::Node& node, const std::vector<mechanics::ElementCoefficients>& coefficients,
+                  const Mode<N, H>& mode) const;
+
+  Form zero() const {
+    return {S::State::Zero(flow_.equations().states()),
+            S::Oscillators::Zero(flow_.equations().oscillators())};
+  }
+
+ private:
+  const mechanics::Assembly& assembly_;
+  const Flow<N, H>& flow_;
+};
+
+template <int N, int H>
+LinearForm<N, H> Forms<N, H>::displacement(const mechanics::Incidence& at) const {
+  Form form = zero();
+  form.z.head(at.w.size()) = at.w;
+  if (at.p.size() > 0) form.u = flow_.equations().motion.transpose() * at.p;
+  return form;
+}
+
+template <int N, int H>
+LinearForm<N, H> Forms<N, H>::velocity(const mechanics::Incidence& at) const {
+  const StepEquations<N, H>& eq = flow_.equations();
+  Form form = zero();
+  form.z.segment(at.w.size(), at.w.size()) = at.w / eq.step;
+  if (at.p.size() > 0) form.u = eq.motion_velocity.transpose() * at.p / eq.step;
+  return form;
+}
+
+template <int N, int H>
+LinearForm<N, H> Forms<N, H>::acceleration(const mechanics::Incidence& at, const Mode<N, H>& mode) const {
+  const StepEquations<N, H>& eq = flow_.equations();
+  const Configuration<N, H>& c = flow_.configuration(mode);
+  const double per_second_squared = 1.0 / (eq.step * eq.step);
+  const typename S::Vector w = at.w * per_second_squared;
+  Form form = zero();
+  form.z.head(w.size()) = c.Aq.transpose() * w;
+  form.z.segment(w.size(), w.size()) = c.Av.transpose() * w;
+  if constexpr (S::kInternal != 0) form.z.tail(eq.internal_forces()) = c.As.transpose() * w;
+  form.u = c.Au.transpose() * w;
+  form.u[0] += w.dot(mode.acceleration);
+  if (at.p.size() > 0) form.u += eq.motion_acceleration.transpose() * at.p * per_second_squared;
+  return form;
+}
+
+template <int N, int H>
+LinearForm<N, H> Forms<N, H>::element_force(std::size_t element, const mechanics::ElementCoefficients& law,
+                                            const Mode<N, H>& mode) const {
+  const mechanics::Incidence& at = assembly_.incidences()[element];
+  Form form = zero();
+  if (law.stiffness != 0.0) form.add(law.stiffness, displacement(at));
+  if (law.damping != 0.0) form.add(law.damping, velocity(at));
+  if (law.inertance != 0.0) form.add(law.inertance, acceleration(at, mode));
+  if (law.internal >= 0) form.z[2 * at.w.size() + law.internal] += 1.0;
+  if (law.friction == 0.0) return form;
+  const mechanics::ContactShare& place = assembly_.shares()[element];
+  const auto contact = static_cast<Eigen::Index>(place.contact);
+  const double limit = flow_.equations().limit[contact];
+  const double share = limit > 0.0 ? place.orientation * law.friction / limit : 0.0;
+  if (contains(mode.stuck, contact)) {
+    form.add(share, stuck_contact_force(contact, mode));
+  } else {
+    form.u[0] += share * mode.friction[contact];
+  }
+  return form;
+}
+
+template <int N, int H>
+LinearForm<N, H> Forms<N, H>::stuck_contact_force(Eigen::Index contact, const Mode<N, H>& mode) const {
+  const Configuration<N, H>& c = flow_.configuration(mode);
+  const Eigen::Index n = flow_.equations().masses();
+  Form form = zero();
+  form.z.head(n) = c.Lq.row(contact).transpose();
+  form.z.segment(n, n) = c.Lv.row(contact).transpose();
+  if constexpr (S::kInternal != 0) {
+    form.z.tail(flow_.equations().internal_forces()) = c.Ls.row(contact).transpose();
+  }
+  form.u = c.Lu.row(contact).transpose();
+  form.u[0] += mode.stuck_force[contact];
+  return form;
+}
+
+template <int N, int H>
+LinearForm<N, H> Forms<N, H>::node_force(const mechanics::Node& node,
+                                         const std::vector<mechanics::ElementCoefficients>& coefficients,
+                                         const Mode<N, H>& mode) const {
+  Form sum = zero();
+  const auto& elements = assembly_.network().elements;
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    if (elements[e].b == node) sum.add(+1.0, element_force(e, coefficients[e], mode));
+    if (elements[e].a == node) sum.add(-1.0, element_force(e, coefficients[e], mode));
+  }
+  return sum;
+}
+
+}  // namespace frahm::periodic

@@ -1,0 +1,105 @@
+#include "solvers/mechanics/modes.hpp"
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <limits>
+
+namespace frahm::periodic {
+namespace {
+
+// phi^T C phi / (2 omega phi^T M phi) of an undamped mode; a Maxwell element adds the damping it has at
+// omega,
+//   Re[k / (i omega + k/c)] = k (k/c) / (omega^2 + (k/c)^2).
+double damping_ratio(const mechanics::LinearSystem& system, const Eigen::VectorXd& shape, double omega) {
+  const Eigen::ArrayXd rate = system.internal_rate.array();
+  const Eigen::VectorXd dampers = system.internal_stiffness.array() * rate / (omega * omega + rate * rate);
+  const Eigen::VectorXd strain = system.D.transpose() * shape;
+  const double loss = shape.dot(system.C * shape) + strain.dot(dampers.asDiagonal() * strain);
+  return loss / (2.0 * omega * shape.dot(system.M * shape));
+}
+
+}  // namespace
+
+void modes_of(const mechanics::LinearSystem& system, std::vector<double>& frequency,
+              std::vector<double>& damping) {
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(system.K, system.M);
+  frequency.clear();
+  damping.clear();
+  for (Eigen::Index k = 0; k < system.masses(); ++k) {
+    const Eigen::VectorXd shape = modes.eigenvectors().col(k);  // phi^T M phi = 1
+    const double omega = std::sqrt(modes.eigenvalues()[k]);
+    frequency.push_back(omega);
+    damping.push_back(damping_ratio(system, shape, omega));
+  }
+}
+
+// lambda = omega^2, phi^T M phi = 1:  dlambda = phi^T (dK - lambda dM) phi,
+//   dphi = sum_j phi_j phi_j^T (dK - lambda dM) phi / (lambda - lambda_j) - phi (phi^T dM phi) / 2
+// (R. L. Fox and M. P. Kapoor, AIAA J. 6 (1968) 2426), and the damping ratio is loss / (2 omega).
+void modes_derivative(const mechanics::LinearSystem& system, const mechanics::LinearSystem& by,
+                      std::vector<double>& frequency, std::vector<double>& damping) {
+  constexpr double kSame = 1e-9;  // of lambda: below, which mode is which is rounding
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(system.K, system.M);
+  const Eigen::VectorXd& lambda = modes.eigenvalues();
+  const Eigen::ArrayXd k = system.internal_stiffness.array(), rate = system.internal_rate.array();
+  frequency.clear();
+  damping.clear();
+  for (Eigen::Index i = 0; i < system.masses(); ++i) {
+    const Eigen::VectorXd phi = modes.eigenvectors().col(i);
+    const double omega = std::sqrt(lambda[i]);
+    const Eigen::VectorXd pull = by.K * phi - lambda[i] * (by.M * phi);
+    const double omega_by = phi.dot(pull) / (2.0 * omega);
+    Eigen::VectorXd phi_by = -0.5 * phi.dot(by.M * phi) * phi;
+    bool simple = true;
+    for (Eigen::Index j = 0; j < system.masses(); ++j) {
+      if (j == i) continue;
+      const double apart = lambda[i] - lambda[j];
+      simple = simple && std::abs(apart) > kSame * lambda[i];
+      phi_by += modes.eigenvectors().col(j) * (modes.eigenvectors().col(j).dot(pull) / apart);
+    }
+    const Eigen::ArrayXd below = omega * omega + rate * rate;
+    const Eigen::ArrayXd dampers = k * rate / below;
+    const Eigen::ArrayXd dampers_by =
+        (by.internal_stiffness.array() * rate + k * by.internal_rate.array()) / below -
+        dampers * (2.0 * omega * omega_by + 2.0 * rate * by.internal_rate.array()) / below;
+    const Eigen::VectorXd strain = system.D.transpose() * phi, strain_by = system.D.transpose() * phi_by;
+    const double loss_by = 2.0 * phi.dot(system.C * phi_by) + phi.dot(by.C * phi) +
+                           2.0 * strain.dot((dampers * strain_by.array()).matrix()) +
+                           strain.dot((dampers_by * strain.array()).matrix());
+    const double ratio = damping_ratio(system, phi, omega);
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    frequency.push_back(simple ? omega_by : none);
+    damping.push_back(simple ? loss_by / (2.0 * omega) - ratio * omega_by / omega : none);
+  }
+}
+
+LinearModes linear_modes(const mechanics::Network& network, const mechanics::NetworkValues& values,
+                         bool all_stuck) {
+  const mechanics::Assembly assembly(network);
+  mechanics::LinearSystem system;
+  assembly.set_values(values, system);
+  const Eigen::Index n = system.masses();
+  // What still moves when every contact sticks: displacements B eta with W^T B = 0.
+  Eigen::MatrixXd B = Eigen::MatrixXd::Identity(n, n);
+  if (all_stuck && system.contacts() > 0) {
+    const Eigen::FullPivLU<Eigen::MatrixXd> constraints(system.W.transpose());
+    if (constraints.dimensionOfKernel() == 0) return {};
+    B = constraints.kernel();
+  }
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(B.transpose() * system.K * B,
+                                                                        B.transpose() * system.M * B);
+  LinearModes result;
+  for (Eigen::Index k = 0; k < B.cols(); ++k) {
+    Eigen::VectorXd shape = B * modes.eigenvectors().col(k);
+    const double omega = std::sqrt(modes.eigenvalues()[k]);
+    result.frequency.push_back(omega);
+    result.damping.push_back(damping_ratio(system, shape, omega));
+    Eigen::Index largest = 0;
+    shape.cwiseAbs().maxCoeff(&largest);
+    shape /= shape[largest];
+    result.shape.emplace_back(shape.data(), shape.data() + n);
+  }
+  return result;
+}
+
+}  // namespace frahm::periodic

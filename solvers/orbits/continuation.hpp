@@ -1,0 +1,216 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+#include "solvers/mechanics/linear_response.hpp"
+#include "solvers/orbits/shooting.hpp"
+
+// Orbits one after the other along the frequency: each starts from an extrapolation of those before it, and
+// the section is kept away from events.
+namespace frahm::periodic {
+
+template <int N, int H>
+class Continuation {
+ public:
+  using S = Sizes<N, H>;
+
+  explicit Continuation(Flow<N, H>& flow) : flow_(flow), shooting_(flow) {}
+
+  // Nothing is known: the next orbit starts from the linear response without friction.
+  void forget() {
+    begin_row();
+    has_row_start_ = false;
+    section_ = 0.0;
+  }
+  // A new row of frequencies: the next orbit starts from that which started the row before.
+  void begin_row() {
+    known_ = 0;
+    at_row_start_ = true;
+  }
+
+  // The orbit of the flow as it is set, at angular frequency omega [rad/s].
+  void find(double omega, bool half_period, Orbit<N, H>& orbit);
+
+ private:
+  struct Known {
+    double omega = 0.0;
+    typename S::State z;         // displacements [m], velocities [m/s], at the section
+    std::uint64_t sequence = 0;  // of the modes the orbit goes through
+  };
+
+  void predict(double omega, bool half_period, Orbit<N, H>& orbit);
+  typename S::State response_without_friction(double phase) const;
+  bool move_section(Orbit<N, H>& orbit) const;
+  void remember(double omega, const Orbit<N, H>& orbit);
+  static std::uint64_t mode_sequence(const Flow<N, H>& flow, const Orbit<N, H>& orbit);
+
+  Flow<N, H>& flow_;
+  Shooting<N, H> shooting_;
+  static constexpr std::size_t kHistory = 8;
+  std::array<Known, kHistory> history_;  // latest first
+  std::size_t known_ = 0;
+  Known row_start_;
+  bool has_row_start_ = false, at_row_start_ = true;
+  double section_ = 0.0, row_section_ = 0.0;
+};
+
+template <int N, int H>
+void Continuation<N, H>::find(double omega, bool half_period, Orbit<N, H>& orbit) {
+  predict(omega, half_period, orbit);
+  shooting_.find(orbit);
+  if (orbit.status == Status::failed && known_ > 0) {  // from further back, without the orbits before
+    forget();
+    predict(omega, half_period, orbit);
+    shooting_.find(orbit);
+  }
+  if (orbit.status == Status::failed) {
+    known_ = 0;
+    return;
+  }
+  const bool moved = move_section(orbit);
+  if (moved) {
+    shooting_.find(orbit);
+    known_ = 0;
+    section_ = orbit.section;
+    if (orbit.status == Status::failed) return;
+  }
+  remember(omega, orbit);
+}
+
+template <int N, int H>
+void Continuation<N, H>::predict(double omega, bool half_period, Orbit<N, H>& orbit) {
+  const Eigen::Index n = flow_.equations().masses();
+  orbit.half_period = half_period;
+  if (at_row_start_ && has_row_start_) {
+    history_[0] = row_start_;
+    section_ = row_section_;
+    known_ = 1;
+  }
+  orbit.section = section_;
+  // Without friction the linear response is the orbit, and of several (no damping either) the one meant.
+  const bool has_friction = (flow_.equations().limit.array() > 0.0).any();
+  if (known_ == 0 || !has_friction) {
+    orbit.z = response_without_friction(orbit.section);
+    return;
+  }
+  // Lagrange's polynomial through the orbits that went through the same modes.
+  std::size_t points = 1;
+  while (points < known_ && history_[points].sequence == history_[0].sequence) ++points;
+  orbit.z.setZero(flow_.equations().states());
+  for (std::size_t i = 0; i < points; ++i) {
+    double above = 1.0, below = 1.0;
+    for (std::size_t k = 0; k < points; ++k) {
+      if (k == i) continue;
+      above *= omega - history_[k].omega;
+      below *= history_[i].omega - history_[k].omega;
+    }
+    orbit.z += (above / below) * history_[i].z;
+  }
+  orbit.z.segment(n, n) *= flow_.equations().step;
+}
+
+// (K + i Omega C - Omega^2 M) x + D s = f,  (i Omega + rate) s = k D^T (i Omega x) + its drive, each harmonic
+// by itself; at rest where that has no answer.
+template <int N, int H>
+typename Sizes<N, H>::State Continuation<N, H>::response_without_friction(double phase) const {
+  const StepEquations<N, H>& eq = flow_.equations();
+  const Eigen::Index n = eq.masses();
+  typename S::State z = S::State::Zero(eq.states());
+  z.head(n) = eq.K_inverse * eq.force.col(0);
+  for (Eigen::Index k = 0; k < eq.phase_rate.size(); ++k) {
+    const double rate = eq.phase_rate[k];
+    Eigen::VectorXcd force(n);
+    force.real() = eq.force.col(1 + 2 * k);
+    force.imag() = -eq.force.col(2 + 2 * k);
+    Eigen::MatrixXcd stiffness = eq.K + std::complex<double>(0.0, rate) * eq.C;
+    Eigen::VectorXcd s(eq.internal_forces()), per_velocity = s;
+    for (Eigen::Index e = 0; e < s.size(); ++e) {
+      const std::complex<double> i_rate(0.0, rate), slip = i_rate + eq.internal_rate[e];
+      s[e] = std::complex<double>(eq.internal_drive(e, 1 + 2 * k), -eq.internal_drive(e, 2 + 2 * k)) / slip;
+      per_velocity[e] = eq.internal_stiffness[e] * i_rate / slip;
+      force -= eq.D.col(e) * s[e];
+      stiffness += eq.D.col(e) * per_velocity[e] * eq.D.col(e).transpose();
+    }
+    const Eigen::VectorXcd x = linear_response(eq.M, stiffness, rate, force);
+    for (Eigen::Index e = 0; e < s.size(); ++e) s[e] += per_velocity[e] * eq.D.col(e).dot(x);
+    const std::complex<double> turn = std::polar(1.0, flow_.orders()[static_cast<std::size_t>(k)] * phase);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      z[i] += (x[i] * turn).real();
+      z[n + i] -= rate * (x[i] * turn).imag();
+    }
+    for (Eigen::Index e = 0; e < s.size(); ++e) z[2 * n + e] += (s[e] * turn).real();
+  }
+  const double limit = 1e6 * flow_.static_norm();
+  if (!z.allFinite() || eq.energy_norm(z) > limit) z.setZero();
+  return z;
+}
+
+// Moves the section to the middle of the longest stretch without events when an event has come within 2 % of
+// the map's length. Returns whether it did; the orbit then holds the state there.
+template <int N, int H>
+bool Continuation<N, H>::move_section(Orbit<N, H>& orbit) const {
+  const double length = (orbit.half_period ? 0.5 : 1.0) * flow_.equations().period;
+  const auto& segments = orbit.passage.segments;
+  const double first = segments.front().length, last = segments.back().length;
+  const bool near_event = segments.size() > 1 && (first <= 0.02 * length || last <= 0.02 * length);
+  if (!near_event && !orbit.passage.starts_at_event) return false;
+  if (segments.size() == 1) {
+    orbit.z = flow_.state_within(segments.front(), orbit.section, 0.5 * length);
+    orbit.section =
+        std::fmod(orbit.section + 0.5 * length * flow_.fundamental_rate(), 2.0 * std::numbers::pi);
+    return true;
+  }
+
+  double longest = first + last, middle = 0.5 * (first - last);
+  const Segment<N, H>* in = middle >= 0.0 ? &segments.front() : &segments.back();
+  for (std::size_t i = 1; i + 1 < segments.size(); ++i) {
+    if (segments[i].length <= longest) continue;
+    longest = segments[i].length;
+    middle = segments[i].start + 0.5 * longest;
+    in = &segments[i];
+  }
+  if (longest < 0.05 * length) return false;  // events everywhere: no better place
+  const double place = middle >= 0.0 ? middle : middle + length;
+  orbit.z = flow_.state_within(*in, orbit.section, place - in->start);
+  orbit.section = std::fmod(orbit.section + place * flow_.fundamental_rate(), 2.0 * std::numbers::pi);
+  return true;
+}
+
+template <int N, int H>
+void Continuation<N, H>::remember(double omega, const Orbit<N, H>& orbit) {
+  const Eigen::Index n = flow_.equations().masses();
+  // A frequency that returns ends what is known: no polynomial goes through one place twice.
+  for (std::size_t i = 0; i < known_; ++i) {
+    if (history_[i].omega == omega) known_ = i;
+  }
+  for (std::size_t i = std::min(known_, kHistory - 1); i > 0; --i) history_[i] = history_[i - 1];
+  known_ = std::min(known_ + 1, kHistory);
+  Known& latest = history_[0];
+  latest.omega = omega;
+  latest.z = orbit.z;
+  latest.z.segment(n, n) /= flow_.equations().step;
+  latest.sequence = mode_sequence(flow_, orbit);
+  if (at_row_start_) {  // it replaces the guess it began with, which was of another row
+    known_ = 1;
+    row_start_ = latest;
+    row_section_ = section_;
+    has_row_start_ = true;
+    at_row_start_ = false;
+  }
+}
+
+template <int N, int H>
+std::uint64_t Continuation<N, H>::mode_sequence(const Flow<N, H>& flow, const Orbit<N, H>& orbit) {
+  std::uint64_t sequence = 0;
+  for (const Segment<N, H>& segment : orbit.passage.segments) {
+    const Mode<N, H>& mode = flow.mode(segment.mode);
+    sequence = (sequence ^ (mode.stuck * 2 + mode.positive * 0x9E3779B97F4A7C15ULL + 1)) * 0x100000001B3ULL;
+  }
+  return sequence;
+}
+
+}  // namespace frahm::periodic

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "solvers/flow/flow.hpp"
+
+namespace frahm::periodic {
+
+// How the search for a periodic response ended. The numbers stand in result files.
+enum class Status {
+  not_computed = 0,
+  ok = 1,
+  grazing =
+      2,  // a contact's velocity or force only touches: the response is right, its derivative does not exist
+  unbounded = 3,  // an undamped resonance that friction cannot hold: no periodic response exists
+  failed = 4,
+};
+
+// Below this relative margin of its nearest event an orbit counts as grazing.
+inline constexpr double kGrazing = 1e-9;
+
+// A periodic orbit in the units of StepEquations (time in steps), from its section over one period, or over
+// half a period where the orbit repeats with the opposite sign.
+template <int N, int H>
+struct Orbit {
+  using S = Sizes<N, H>;
+
+  Status status = Status::not_computed;
+  const char* reason = "";
+  typename S::State z;       // at the section
+  double section = 0.0;      // omega t of the section [rad]
+  bool half_period = false;  // the passage covers half a period: x(t + T/2) = -x(t)
+  Passage<N, H> passage;
+  ContactMask stuck_throughout = 0;
+  double residual = 0.0;        // of the periodic condition, relative, energy norm
+  double error_bound = 0.0;     // of every node's displacement at every time [m]; NaN where none holds
+  double contraction = 0.0;     // L, energy norm of the map's derivative
+  double floquet_radius = 0.0;  // largest Floquet multiplier of the full period, of what can move
+  int newton_iterations = 0;
+  int passages = 0;  // of the flow that the search took
+
+  double sign() const { return half_period ? -1.0 : 1.0; }
+};
+
+}  // namespace frahm::periodic

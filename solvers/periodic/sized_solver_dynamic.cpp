@@ -1,3 +1,0 @@
-#include "solvers/periodic/sized_solver.hpp"
-
-template class frahm::periodic::SizedSolver<Eigen::Dynamic, Eigen::Dynamic>;

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "solvers/quantities/quantity.hpp"
+
+// The largest and least value of a quantity over a period, gathered from candidates.
+namespace frahm::periodic {
+
+struct Extremes {
+  double most = -std::numeric_limits<double>::infinity();
+  double least = std::numeric_limits<double>::infinity();
+  // omega t in [0, 2 pi) at which each is first reached; NaN where it is only held.
+  double most_phase = std::numeric_limits<double>::quiet_NaN();
+  double least_phase = std::numeric_limits<double>::quiet_NaN();
+
+  double magnitude() const { return std::max(std::abs(most), std::abs(least)); }
+  double peak(Side side) const {
+    return side == Side::most ? most : side == Side::least ? -least : magnitude();
+  }
+};
+
+// The angle in [0, 2 pi); an angle within 1e-9 of 2 pi is 0.
+inline double whole_turns_removed(double phase) {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  const double angle = phase - kTurn * std::floor(phase / kTurn);
+  return angle > kTurn - 1e-9 ? 0.0 : angle;
+}
+
+// Keeps the extremes among candidates; of equal ones (to 1e-12) the earliest in omega t.
+class ExtremeCollector {
+ public:
+  ExtremeCollector(double section, double rate) : section_(section), rate_(rate) {}
+
+  // `reached`: the value is arrived at here, not held from before.
+  void consider(double value, double at, bool reached) {
+    extremes_.most = std::max(extremes_.most, value);
+    extremes_.least = std::min(extremes_.least, value);
+    if (!reached) return;
+    update(most_reached_, extremes_.most_phase, value, at);
+    update(least_reached_, extremes_.least_phase, -value, at);
+  }
+  const Extremes& extremes() const { return extremes_; }
+
+  Extremes with_phases() const {
+    constexpr double kNever = std::numeric_limits<double>::quiet_NaN();
+    Extremes result = extremes_;
+    if (most_reached_ < result.most - kEqual * std::abs(result.most)) result.most_phase = kNever;
+    if (least_reached_ < -result.least - kEqual * std::abs(result.least)) result.least_phase = kNever;
+    return result;
+  }
+
+ private:
+  static constexpr double kEqual = 1e-12;
+
+  void update(double& reached, double& reached_phase, double value, double at) const {
+    const double phase = whole_turns_removed(section_ + at * rate_);
+    const double tie = kEqual * std::abs(value);
+    if (value < reached - tie || (value <= reached + tie && phase >= reached_phase)) return;
+    reached = std::max(reached, value);
+    reached_phase = phase;
+  }
+
+  double section_, rate_;
+  double most_reached_ = -std::numeric_limits<double>::infinity();
+  double least_reached_ = -std::numeric_limits<double>::infinity();
+  Extremes extremes_;
+};
+
+// The extremes over the whole period of an orbit of which half is known: x(t + T/2) = -x(t).
+inline Extremes mirrored(const Extremes& half) {
+  constexpr double kEqual = 1e-12;
+  Extremes whole;
+  whole.most = half.magnitude();
+  whole.least = -whole.most;
+  const double turned = whole_turns_removed(half.least_phase + std::numbers::pi);
+  const double difference = half.most + half.least;  // most - |least|
+  if (std::abs(difference) <= kEqual * whole.most)
+    whole.most_phase = std::fmin(half.most_phase, turned);  // fmin: the one that is reached
+  else
+    whole.most_phase = difference > 0.0 ? half.most_phase : turned;
+  whole.least_phase = whole_turns_removed(whole.most_phase + std::numbers::pi);
+  return whole;
+}
+
+}  // namespace frahm::periodic

@@ -1,0 +1,111 @@
+#pragma once
+
+#include <Eigen/LU>
+#include <vector>
+
+#include "solvers/quantities/passage_sensitivity.hpp"
+
+// The derivative of a periodic orbit: delta (passage_sensitivity.hpp) repeats with the orbit,
+//   (1 - s Phi) delta(0) = s g_p,
+// g_p what delta has become at the passage's end from nothing at the section, Phi the passage's tangent,
+// s = -1 where it is of half a period.
+namespace frahm::periodic {
+
+// "" where its search has ended well enough.
+template <int N, int H>
+const char* why_no_orbit_derivative(const Orbit<N, H>& orbit) {
+  switch (orbit.status) {
+    case Status::ok:
+      return "";
+    case Status::grazing:
+      return "grazing: an event only just happens, and the derivatives on both sides differ";
+    case Status::unbounded:
+      return "the response is unbounded";
+    default:
+      return "there is no response";
+  }
+}
+
+template <int N, int H>
+class OrbitSensitivity {
+ public:
+  using S = Sizes<N, H>;
+
+  explicit OrbitSensitivity(const Flow<N, H>& flow) : flow_(flow), passage_(flow) {}
+
+  // Makes ready for derivatives of this orbit, laid out in `steps`; both must outlive them.
+  // Returns "" or why the orbit has none.
+  const char* prepare(const Orbit<N, H>& orbit, OrbitSteps<N, H>& steps);
+
+  // Along one direction; `by` must outlive what is asked below. Returns "" or why there is none.
+  const char* differentiate(const StepDerivative<N, H>& by);
+
+  // delta over the orbit's passage.
+  const PassageSensitivity<N, H>& passage() const { return passage_; }
+
+ private:
+  void add_rest_positions(typename S::State& right_side) const;
+
+  const Flow<N, H>& flow_;
+  const Orbit<N, H>* orbit_ = nullptr;
+  std::span<const OrbitStep<N, H>> steps_;
+  std::vector<ModeChange> changes_;
+  PassageSensitivity<N, H> passage_;
+  Eigen::PartialPivLU<typename S::StateSquare> periodicity_;  // of 1 - s Phi
+};
+
+template <int N, int H>
+const char* OrbitSensitivity<N, H>::prepare(const Orbit<N, H>& orbit, OrbitSteps<N, H>& steps) {
+  const StepEquations<N, H>& eq = flow_.equations();
+  orbit_ = &orbit;
+  steps.lay_out(orbit);
+  for (OrbitStep<N, H>& step : steps.steps()) steps.expand(step);
+  steps_ = steps.steps();
+  if (orbit.passage.starts_at_event)
+    return "events follow one another too closely for a section between them";
+  if (const char* reason = find_changes(flow_, steps_, changes_); *reason != '\0') return reason;
+
+  typename S::StateSquare A = -orbit.sign() * orbit.passage.tangent;
+  A.diagonal().array() += 1.0;
+  if (!orbit.half_period && orbit.stuck_throughout != 0) {
+    // A rest position may be anywhere: w^T dq(0), which is known, stands in its place.
+    for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
+      if (!contains(orbit.stuck_throughout, j)) continue;
+      A.topLeftCorner(eq.masses(), eq.masses()) += eq.W.col(j) * eq.W.col(j).transpose();
+    }
+  }
+  periodicity_.compute(A);
+  return "";
+}
+
+template <int N, int H>
+const char* OrbitSensitivity<N, H>::differentiate(const StepDerivative<N, H>& by) {
+  passage_.set_direction(by);
+  const typename S::State g_p = passage_.sweep(steps_, changes_, S::State::Zero(flow_.equations().states()));
+  typename S::State right_side = orbit_->sign() * g_p;
+  add_rest_positions(right_side);
+  const typename S::State start = periodicity_.solve(right_side);
+  constexpr double kBeyondRounding = 1e12;
+  const StepEquations<N, H>& eq = flow_.equations();
+  if (!start.allFinite() || eq.energy_norm(start) > kBeyondRounding * eq.energy_norm(right_side)) {
+    return "the period map has a multiplier of 1: the response is one of many";
+  }
+  passage_.sweep(steps_, changes_, start);
+  return "";
+}
+
+// A contact that sticks throughout rests where the energy is least, which makes the mean of w^T q zero:
+//   w^T q(t) = -p^T (y(t) - mean y).
+template <int N, int H>
+void OrbitSensitivity<N, H>::add_rest_positions(typename S::State& right_side) const {
+  if (orbit_->half_period || orbit_->stuck_throughout == 0) return;
+  const StepEquations<N, H>& eq = flow_.equations();
+  for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
+    if (!contains(orbit_->stuck_throughout, j)) continue;
+    typename S::OscillatorRow moving = passage_.equations().support_displacement.row(j);
+    moving[0] = 0.0;  // its mean
+    right_side.head(eq.masses()) -= eq.W.col(j) * moving.dot(steps_.front().left.u);
+  }
+}
+
+}  // namespace frahm::periodic

@@ -1,0 +1,120 @@
+#pragma once
+
+#include "solvers/flow/flow.hpp"
+
+// Derivatives of the equations of motion along a change of the network's values. Time is counted in steps,
+// and the step shrinks with the period: omega h is held, so that a period keeps its number of steps and the
+// oscillators of the forcing do not change.
+namespace frahm::periodic {
+
+// The derivative of StepEquations; what it does not list does not change.
+template <int N, int H>
+struct StepDerivative {
+  using S = Sizes<N, H>;
+
+  double log_step = 0.0;  // dh/h = -d omega/omega, the derivative of the period's logarithm too
+  typename S::Square M, C, K;
+  typename S::VectorByOscillators force;
+  typename S::SupportsByOscillators motion, motion_velocity, motion_acceleration;
+  typename S::ContactsByOscillators support_displacement, support_velocity, support_acceleration;
+  typename S::Contacts limit;
+  Eigen::MatrixXd internal_by_state, internal_drive;  // of s', by state and by oscillators
+
+  // system, by: the equations of `eq` and their derivative, before time was counted in steps.
+  void set(const StepEquations<N, H>& eq, const mechanics::LinearSystem& system,
+           const mechanics::LinearSystem& by);
+};
+
+// The derivative of what moves in one mode: at state z and oscillators u
+//   q'' changes by  acceleration_z z + acceleration_u u,   lambda_j by  (force_z z + force_u u)_j.
+template <int N, int H>
+struct ModeDerivative {
+  using S = Sizes<N, H>;
+  Eigen::Matrix<double, N, S::kState> acceleration_z;
+  typename S::VectorByOscillators acceleration_u;
+  Eigen::Matrix<double, Eigen::Dynamic, S::kState, Eigen::RowMajor, S::kMaxContacts, S::kState> force_z;
+  typename S::ContactsByOscillators force_u;
+
+  void set(const Flow<N, H>& flow, const Mode<N, H>& mode, const StepDerivative<N, H>& by);
+};
+
+template <int N, int H>
+void StepDerivative<N, H>::set(const StepEquations<N, H>& eq, const mechanics::LinearSystem& system,
+                               const mechanics::LinearSystem& by) {
+  const double h = eq.step;
+  log_step = -by.omega / system.omega;
+  // d(M/h^2) = dM/h^2 - 2 (M/h^2) dh/h,  d(C/h) = dC/h - (C/h) dh/h
+  M = by.M / (h * h) - 2.0 * log_step * eq.M;
+  C = by.C / h - log_step * eq.C;
+  K = by.K;
+  on_oscillators(by.constant_force, by.force, force);
+  on_oscillators(by.constant_motion, by.motion, motion);
+  motion_velocity.resizeLike(motion);
+  motion_acceleration.resizeLike(motion);
+  eq.differentiate(motion, motion_velocity);
+  eq.differentiate(motion_velocity, motion_acceleration);
+  support_displacement.noalias() = system.W_support.transpose() * motion;
+  support_velocity.noalias() = system.W_support.transpose() * motion_velocity;
+  support_acceleration.noalias() = system.W_support.transpose() * motion_acceleration;
+  limit = by.limit;
+  if constexpr (S::kInternal != 0) {
+    // s' = k (D^T v + p^T y') - rate s,  d(rate h) = h drate + (rate h) dh/h
+    const Eigen::Index n = eq.masses(), s = eq.internal_forces();
+    const Eigen::VectorXd rate = h * by.internal_rate + log_step * eq.internal_rate;
+    internal_by_state.setZero(s, eq.states());
+    internal_by_state.middleCols(n, n) = by.internal_stiffness.asDiagonal() * eq.D.transpose();
+    internal_by_state.rightCols(s) = -Eigen::MatrixXd(rate.asDiagonal());
+    internal_drive = by.internal_stiffness.asDiagonal() * (system.D_support.transpose() * eq.motion_velocity);
+    internal_drive += eq.internal_stiffness.asDiagonal() * (system.D_support.transpose() * motion_velocity);
+  }
+}
+
+// M q'' + W lambda = f and w_j^T q'' = -p_j^T y'' of the stuck contacts, differentiated:
+//   M dq'' + W dlambda = df - dM q'' = r,     w_j^T dq'' = -p_j^T dy'',    so that, with G = W^T M^-1 W,
+//   dlambda = G^+ (W^T M^-1 r + p^T dy''),    dq'' = P M^-1 r - M^-1 W G^+ p^T dy''
+template <int N, int H>
+void ModeDerivative<N, H>::set(const Flow<N, H>& flow, const Mode<N, H>& mode,
+                               const StepDerivative<N, H>& by) {
+  const StepEquations<N, H>& eq = flow.equations();
+  const Configuration<N, H>& c = flow.configuration(mode);
+  const Eigen::Index n = eq.masses(), m = eq.contacts();
+
+  Eigen::Matrix<double, N, S::kState> r_z(n, eq.states());
+  r_z.leftCols(n) = -by.K - by.M * c.Aq;
+  r_z.middleCols(n, n) = -by.C - by.M * c.Av;
+  if constexpr (S::kInternal != 0) r_z.rightCols(eq.internal_forces()) = -(by.M * c.As);
+  typename S::VectorByOscillators r_u = by.force - by.M * c.Au;
+  r_u.col(0) -= by.M * mode.acceleration;
+  for (Eigen::Index j = 0; j < m; ++j) {
+    if (!contains(mode.stuck, j)) r_u.col(0) -= (mode.sign(j) * by.limit[j]) * eq.W.col(j);
+  }
+
+  const typename S::Square mobility = c.P * eq.M_inverse;
+  acceleration_z.noalias() = mobility * r_z;
+  acceleration_u.noalias() = mobility * r_u;
+  force_z.setZero(m, eq.states());
+  force_u.setZero(m, eq.oscillators());
+  if (mode.stuck == 0) return;
+  acceleration_u -= c.reaction() * by.support_acceleration;
+  force_z.noalias() = c.reaction().transpose() * r_z;
+  force_u.noalias() = c.reaction().transpose() * r_u;
+  force_u += c.constraint() * by.support_acceleration;
+  if ((mode.stuck & (mode.stuck - 1)) == 0) return;
+
+  // Of stuck directions that depend on one another lambda is that of least sum (lambda_j / F_j)^2, which
+  // turns with the F_j: (1 - G^+ G) 2 (dF/F) lambda, in the kernel of G.
+  typename S::Contacts turn = S::Contacts::Zero(m);
+  for (Eigen::Index j = 0; j < m; ++j) {
+    if (contains(mode.stuck, j) && eq.limit[j] > 0.0) turn[j] = 2.0 * by.limit[j] / eq.limit[j];
+  }
+  typename S::ContactSquare kernel = -c.constraint() * (eq.W.transpose() * (eq.M_inverse * eq.W));
+  kernel.diagonal().array() += 1.0;
+  const typename S::ContactSquare turned = kernel * turn.asDiagonal();
+  force_z.leftCols(n) += turned * c.Lq;
+  force_z.middleCols(n, n) += turned * c.Lv;
+  if constexpr (S::kInternal != 0) force_z.rightCols(eq.internal_forces()) += turned * c.Ls;
+  force_u += turned * c.Lu;
+  force_u.col(0) += turned * mode.stuck_force;
+}
+
+}  // namespace frahm::periodic

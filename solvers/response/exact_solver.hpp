@@ -1,0 +1,16 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "solvers/quantities/quantity.hpp"
+#include "solvers/response/response.hpp"
+
+namespace frahm::periodic {
+
+// A solver of the exact friction law, whatever law the elements name, of sizes known at compile time where
+// there is one for this network. Throws mechanics::MechanicsError for a network that cannot move.
+std::unique_ptr<ResponseSolver> make_exact_solver(const mechanics::Network& network,
+                                                  std::vector<Quantity> quantities);
+
+}  // namespace frahm::periodic

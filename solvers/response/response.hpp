@@ -1,0 +1,85 @@
+#pragma once
+
+#include <numbers>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "solvers/mechanics/network.hpp"
+#include "solvers/quantities/observed_motion.hpp"
+
+// What is told of a periodic response, and the interface of what finds one.
+namespace frahm::periodic {
+
+enum class Status;
+
+// What is told of every response, whatever quantities were asked for.
+struct ResponseSummary {
+  Status status;
+  std::string reason;     // why it failed; empty otherwise
+  double residual = 0.0;  // 1
+  int newton_iterations = 0;
+  int passages = 0;          // periods (or half periods) of the flow that the search took
+  bool half_period = false;  // the response repeats with the opposite sign: x(t + T/2) = -x(t)
+};
+
+// One stretch of the response in one mode, for telling an orbit in full.
+struct Stretch {
+  double start = 0.0, length = 0.0;   // omega t [rad], from 0 to 2 pi
+  std::vector<std::string> contacts;  // per Coulomb element: "sticks", "slides +", "slides -"
+};
+
+// The response at chosen instants. Rows are samples.
+struct History {
+  std::vector<double> time;        // [s]
+  std::vector<std::string> names;  // "main_displacement", "main_velocity", ..., "guide_force"
+  std::vector<std::string> units;
+  std::vector<std::vector<double>> columns;
+
+  // Without samples: displacement and velocity of each mass, force of each element, acceleration of each
+  // mass.
+  static History of(const mechanics::Network& network) {
+    History history;
+    const auto add_column = [&](const std::string& name, const char* unit) {
+      history.names.push_back(name);
+      history.units.push_back(unit);
+      history.columns.emplace_back();
+    };
+    for (const std::string& mass : network.masses) {
+      add_column(mass + "_displacement", "m");
+      add_column(mass + "_velocity", "m s-1");
+    }
+    for (const auto& element : network.elements) add_column(element.name + "_force", "N");
+    for (const std::string& mass : network.masses) add_column(mass + "_acceleration", "m s-2");
+    return history;
+  }
+};
+
+// So many phases omega t at equal intervals over a period, both its ends included [rad].
+inline std::vector<double> phases_of_a_period(std::size_t samples) {
+  std::vector<double> phases(samples, 0.0);
+  for (std::size_t i = 1; i < samples; ++i)
+    phases[i] = 2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(samples - 1);
+  return phases;
+}
+
+// What PeriodicResponse (solvers/response/) does, for one kind of network; its comments say what is promised.
+class ResponseSolver {
+ public:
+  virtual ~ResponseSolver() = default;
+  virtual void set_values(const mechanics::NetworkValues& values) = 0;
+  virtual void set_forcing(const mechanics::NetworkValues& values) = 0;
+  virtual void forget() = 0;
+  virtual void begin_row() = 0;
+  virtual const ResponseSummary& solve() = 0;
+  virtual void quantities(std::span<double> out) = 0;
+  virtual const char* gradient(std::span<const mechanics::NetworkValues> directions,
+                               std::span<double> out) = 0;
+  virtual const char* why_no_derivative(std::size_t quantity) const = 0;
+  virtual const char* observe(std::span<const double> times, std::span<const Observed> observed,
+                              std::span<const mechanics::NetworkValues> directions, ObservedMotion& out) = 0;
+  virtual History history(std::span<const double> phases) = 0;
+  virtual std::vector<Stretch> stretches() const = 0;
+};
+
+}  // namespace frahm::periodic

@@ -1,0 +1,3 @@
+#include "solvers/response/sized_solver.hpp"
+
+template class frahm::periodic::SizedSolver<Eigen::Dynamic, Eigen::Dynamic>;
