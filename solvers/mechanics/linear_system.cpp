@@ -7,6 +7,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "solvers/laws/coulomb.hpp"
 #include "solvers/mechanics/crank.hpp"
 
 namespace frahm::mechanics {
@@ -172,6 +173,8 @@ void Assembly::set_values(const NetworkValues& values, LinearSystem& system) con
   system.D_support.setZero(p, s);
   system.internal_stiffness.setZero(s);
   system.internal_rate.setZero(s);
+  system.law.assign(contacts_, &laws::coulomb);
+  system.contact_internal.assign(contacts_, -1);
   system.orders = orders_;
   system.reference_order = network_.reference_order;
   system.odd_forcing = odd_forcing_;

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "solvers/laws/law.hpp"
 #include "solvers/mechanics/network.hpp"
 
 namespace frahm::mechanics {
@@ -56,6 +57,8 @@ struct LinearSystem {
   Eigen::MatrixXd M_support, C_support, K_support;  // blocks that couple masses to prescribed nodes
   Eigen::MatrixXd W, W_support;                     // directions of the friction contacts
   Eigen::VectorXd limit;                            // F_j [N] of each contact
+  std::vector<const laws::Law*> law;             // of each contact
+  std::vector<Eigen::Index> contact_internal;    // of each contact: its internal force, -1: none
   Eigen::MatrixXd D, D_support;                     // directions d_e, p_e of the Maxwell elements
   Eigen::VectorXd internal_stiffness;                // k_e [N/m]
   Eigen::VectorXd internal_rate;                     // k_e / c_e [rad/s]

@@ -1,5 +1,21 @@
-// Flow: the system at one set of values and one frequency. Included by flow.hpp.
+#pragma once
+
+#include <cmath>
+
+#include "solvers/flow/flow.hpp"
+
+// Bodies of Flow, for the files that instantiate it (flow_1_1.cpp and so on).
 namespace frahm::periodic {
+
+// How each contact's law acts on the flow.
+template <int N, int H>
+void set_laws(const mechanics::LinearSystem& system, StepEquations<N, H>& eq) {
+  eq.holding = 0;
+  eq.internal_of = system.contact_internal;
+  for (std::size_t j = 0; j < system.law.size(); ++j) {
+    if (system.law[j]->holds_velocity) eq.holding |= bit(static_cast<Eigen::Index>(j));
+  }
+}
 
 template <int N, int H>
 void Flow<N, H>::set_system(const mechanics::LinearSystem& system) {
@@ -23,6 +39,7 @@ void Flow<N, H>::scale_matrices(const mechanics::LinearSystem& system) {
   eq.K_root_inverse = eq.K_root.inverse();
   eq.W = system.W;
   eq.limit = system.limit;
+  set_laws(system, eq);
   eq.D = system.D;
   eq.internal_stiffness = system.internal_stiffness;
   eq.internal_rate = h * system.internal_rate;
@@ -41,26 +58,7 @@ void Flow<N, H>::set_forcing(const mechanics::LinearSystem& system) {
     scale_matrices(system);
     matrices_changed_ = false;
   }
-  const auto harmonics = static_cast<Eigen::Index>(orders_.size());
-  fundamental_rate_ = system.omega * h;
-  eq.oscillators_at_zero.clear();
-  eq.period = 2.0 * M_PI / fundamental_rate_;
-  eq.phase_rate.resize(harmonics);
-  rotation_.resize(2 * orders_.size());
-  rotation_series_.resize(2 * orders_.size());
-  for (Eigen::Index k = 0; k < harmonics; ++k) {
-    const double rate = orders_[static_cast<std::size_t>(k)] * fundamental_rate_;
-    eq.phase_rate[k] = rate;
-    const auto place = 2 * static_cast<std::size_t>(k);
-    rotation_[place] = std::cos(rate);
-    rotation_[place + 1] = std::sin(rate);
-    double term = 1.0;  // rate^i / i!, with the signs of cos: + 0 - 0, of sin: 0 + 0 -
-    for (int i = 0; i < kTerms; term *= rate / ++i) {
-      const double signed_term = i % 4 < 2 ? term : -term;
-      rotation_series_[place][i] = i % 2 == 0 ? signed_term : 0.0;
-      rotation_series_[place + 1][i] = i % 2 == 1 ? signed_term : 0.0;
-    }
-  }
+  set_oscillation(system.omega);
   on_oscillators(system.constant_force, system.force, eq.force);
   on_oscillators(system.constant_applied_force, system.applied_force, eq.applied_force);
   on_oscillators(system.constant_motion, system.motion, eq.motion);
@@ -83,6 +81,31 @@ void Flow<N, H>::set_forcing(const mechanics::LinearSystem& system) {
 
   for (Configuration<N, H>& configuration : configurations_) configuration.has_forcing = false;
   modes_.clear();
+}
+
+// The oscillators of the forcing over a step, cos and sin of order_k omega h, and their Taylor polynomials.
+template <int N, int H>
+void Flow<N, H>::set_oscillation(double omega) {
+  const auto harmonics = static_cast<Eigen::Index>(orders_.size());
+  fundamental_rate_ = omega * equations_.step;
+  equations_.oscillators_at_zero.clear();
+  equations_.period = 2.0 * M_PI / fundamental_rate_;
+  equations_.phase_rate.resize(harmonics);
+  rotation_.resize(2 * orders_.size());
+  rotation_series_.resize(2 * orders_.size());
+  for (Eigen::Index k = 0; k < harmonics; ++k) {
+    const double rate = orders_[static_cast<std::size_t>(k)] * fundamental_rate_;
+    equations_.phase_rate[k] = rate;
+    const auto place = 2 * static_cast<std::size_t>(k);
+    rotation_[place] = std::cos(rate);
+    rotation_[place + 1] = std::sin(rate);
+    double term = 1.0;  // rate^i / i!, with the signs of cos: + 0 - 0, of sin: 0 + 0 -
+    for (int i = 0; i < kTerms; term *= rate / ++i) {
+      const double signed_term = i % 4 < 2 ? term : -term;
+      rotation_series_[place][i] = i % 2 == 0 ? signed_term : 0.0;
+      rotation_series_[place + 1][i] = i % 2 == 1 ? signed_term : 0.0;
+    }
+  }
 }
 
 template <int N, int H>
@@ -110,7 +133,8 @@ std::size_t Flow<N, H>::mode_index(ContactMask stuck, ContactMask positive) {
   const Configuration<N, H>& configuration = configurations_[mode.configuration];
   mode.friction.resize(equations_.contacts());
   for (Eigen::Index j = 0; j < equations_.contacts(); ++j) {
-    mode.friction[j] = contains(stuck, j) ? 0.0 : mode.sign(j) * equations_.limit[j];
+    const bool slides = equations_.holds(j) && !contains(stuck, j);
+    mode.friction[j] = slides ? mode.sign(j) * equations_.limit[j] : 0.0;
   }
   mode.acceleration = configuration.Af * mode.friction;
   mode.step = configuration.Ef * mode.friction;
@@ -120,20 +144,31 @@ std::size_t Flow<N, H>::mode_index(ContactMask stuck, ContactMask positive) {
   return modes_.size() - 1;
 }
 
-// Scales against which velocities and forces of contacts are small: those of the larger of the state's and
-// the static response's energy, plus a support's own motion.
 template <int N, int H>
-void Flow<N, H>::set_scales(const typename S::State& z) {
-  const StepEquations<N, H>& eq = equations_;
-  const double energy = std::max(eq.energy_norm(z), static_norm_);
-  const Eigen::Index m = eq.contacts();
-  speed_scale_.resize(m);
-  force_scale_.resize(m);
-  for (Eigen::Index j = 0; j < m; ++j) {
-    // |w^T v| <= sqrt(w^T M^-1 w) sqrt(v^T M v)
-    speed_scale_[j] = std::sqrt(2.0 * eq.compliance[j]) * energy + eq.support_velocity.row(j).norm();
-    force_scale_[j] = kStepRate * speed_scale_[j] / eq.compliance[j];
+typename Sizes<N, H>::State Flow<N, H>::state_within(const Segment<N, H>& segment, double section,
+                                                     double elapsed) const {
+  const Mode<N, H>& mode = modes_[segment.mode];
+  Instant<N, H> at, next;
+  instant_at(segment.z, section + segment.start * fundamental_rate_, mode, at);
+  for (; elapsed >= 1.0; elapsed -= 1.0) {
+    step(at, mode, next);
+    at = next;
   }
+  Expansion<N, H> x;
+  expand(at, mode, x);
+  typename S::State z;
+  evaluate(x, elapsed, z);
+  return z;
+}
+
+template <int N, int H>
+typename Sizes<N, H>::State Flow<N, H>::brought_to_rest(const typename S::State& z, double phase,
+                                                        ContactMask contacts) {
+  typename S::State held = z;
+  typename S::Oscillators u(equations_.oscillators());
+  equations_.oscillators_at(phase, orders_, u);
+  configurations_[configuration_index(contacts)].hold(equations_, u, held);
+  return held;
 }
 
 }  // namespace frahm::periodic
