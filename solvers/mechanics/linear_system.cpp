@@ -7,63 +7,23 @@
 #include <numbers>
 #include <sstream>
 
-#include "solvers/laws/coulomb.hpp"
 #include "solvers/mechanics/crank.hpp"
+#include "solvers/mechanics/element_table.hpp"
 
 namespace frahm::mechanics {
 namespace {
-
-const char* value_name(ElementType type) {
-  switch (type) {
-    case ElementType::spring:
-      return "stiffness";
-    case ElementType::damper:
-      return "damping";
-    case ElementType::inerter:
-      return "inertance";
-    case ElementType::coulomb:
-      return "force";
-    case ElementType::hysteretic:
-    case ElementType::maxwell:
-      return "stiffness";
-  }
-  return "value";
-}
-
-// Of the types that have a second value; "" for the others.
-const char* second_value_name(const Element& element) {
-  if (element.type == ElementType::hysteretic) return "loss_factor";
-  if (element.type == ElementType::maxwell) return "damping";
-  if (element.type == ElementType::coulomb && element.law == FrictionLaw::arctan) return "slope";
-  return "";
-}
-
-double second_value(const NetworkValues& values, std::size_t element) {
-  return element < values.second.size() ? values.second[element] : 0.0;
-}
-
-ElementCoefficients element_law(ElementType type, double value, double second, double omega_h) {
-  switch (type) {
-    case ElementType::spring:
-      return {.stiffness = value};
-    case ElementType::damper:
-      return {.damping = value};
-    case ElementType::inerter:
-      return {.inertance = value};
-    case ElementType::coulomb:
-      return {.friction = value};
-    case ElementType::hysteretic:  // k (1 + i eta) at omega_h
-      return {.stiffness = value, .damping = second * value / omega_h};
-    case ElementType::maxwell:
-      return {.internal_damping = second};
-  }
-  return {};
-}
 
 [[noreturn]] void refuse(const std::string& thing, double value, const std::string& rule) {
   std::ostringstream message;
   message << thing << " = " << value << ": " << rule;
   throw MechanicsError(message.str());
+}
+
+void check_value(const ValueKey& key, const Element& element, double value) {
+  const std::string thing = std::string(key.key) + " of '" + element.name + "'";
+  if (!std::isfinite(value)) refuse(thing, value, "must be finite");
+  if (key.range != Range::finite && value < 0.0) refuse(thing, value, "must not be negative");
+  if (key.range == Range::positive && value == 0.0) refuse(thing, value, "must be positive");
 }
 
 void require_positive_definite(const Eigen::MatrixXd& matrix, const std::string& name,
@@ -90,30 +50,41 @@ Incidence incidence(const Network& network, const Element& element) {
   return result;
 }
 
-Assembly::Assembly(const Network& network) : network_(network), shares_(network.elements.size()) {
-  std::vector<const Element*> contact_elements;
+Assembly::Assembly(const Network& network)
+    : network_(network), shares_(network.elements.size()), internal_(network.elements.size(), -1) {
   for (std::size_t e = 0; e < network_.elements.size(); ++e) {
     const Element& element = network_.elements[e];
+    const ElementKind& kind = kind_of(element);
     incidences_.push_back(incidence(network_, element));
     if (incidences_.back().w.isZero(0.0)) {
       throw MechanicsError("element '" + element.name + "' joins no moving node");
     }
-    if (element.type == ElementType::maxwell) ++internal_forces_;
-    if (element.type == ElementType::hysteretic) has_hysteretic_ = true;
-    if (element.type != ElementType::coulomb) continue;
-    const auto same_nodes = [&](const Element* other) {
-      return (other->a == element.a && other->b == element.b) ||
-             (other->a == element.b && other->b == element.a);
-    };
-    const auto found = std::find_if(contact_elements.begin(), contact_elements.end(), same_nodes);
-    shares_[e].contact = static_cast<std::size_t>(found - contact_elements.begin());
-    if (found == contact_elements.end()) {
-      contact_elements.push_back(&element);
-    } else {
-      shares_[e].orientation = (*found)->a == element.a ? 1.0 : -1.0;
-    }
+    if (kind.has_internal_force) internal_[e] = static_cast<Eigen::Index>(internal_forces_++);
+    if (kind.depends_on_frequency) depends_on_frequency_ = true;
+    if (kind.law != nullptr) place_in_contact(e);
   }
-  contacts_ = contact_elements.size();
+  place_orders();
+}
+
+// Elements between the same two nodes share a contact where their law merges.
+void Assembly::place_in_contact(std::size_t e) {
+  const Element& element = network_.elements[e];
+  const laws::Law* law = kind_of(element).law;
+  for (std::size_t other = 0; law->merges && other < e; ++other) {
+    const Element& first = network_.elements[other];
+    const bool alike = first.a == element.a && first.b == element.b;
+    const bool opposite = first.a == element.b && first.b == element.a;
+    if (kind_of(first).law != law || !(alike || opposite)) continue;
+    shares_[e].contact = shares_[other].contact;
+    shares_[e].orientation = alike ? shares_[other].orientation : -shares_[other].orientation;
+    return;
+  }
+  shares_[e].contact = contact_laws_.size();
+  contact_laws_.push_back(law);
+  contact_internal_.push_back(internal_[e]);
+}
+
+void Assembly::place_orders() {
   for (const Excitation& excitation : network_.excitations) {
     if (excitation.order < 0) throw MechanicsError("the order of an excitation must not be negative");
     if (excitation.order > 0) orders_.push_back(excitation.order);
@@ -136,21 +107,9 @@ void Assembly::check_values(const NetworkValues& values) const {
   }
   for (std::size_t e = 0; e < network_.elements.size(); ++e) {
     const Element& element = network_.elements[e];
-    const double value = values.element[e];
-    const std::string thing = std::string(value_name(element.type)) + " of '" + element.name + "'";
-    if (!std::isfinite(value)) refuse(thing, value, "must be finite");
-    if (element.type != ElementType::spring && value < 0.0) refuse(thing, value, "must not be negative");
-    if (element.type == ElementType::maxwell && value == 0.0) refuse(thing, value, "must be positive");
-    const std::string second_name = second_value_name(element);
-    if (second_name.empty()) continue;
-    const double second = second_value(values, e);
-    const std::string second_thing = second_name + " of '" + element.name + "'";
-    if (element.type == ElementType::hysteretic) {
-      if (!(second >= 0.0 && std::isfinite(second)))
-        refuse(second_thing, second, "must be finite and not negative");
-    } else if (!(second > 0.0 && std::isfinite(second))) {
-      refuse(second_thing, second, "must be finite and positive");
-    }
+    check_value(kind_of(element).value, element, values.element[e]);
+    if (const ValueKey& second = second_key(element); second.exists())
+      check_value(second, element, second_value(values, e));
   }
 }
 
@@ -158,7 +117,7 @@ void Assembly::set_values(const NetworkValues& values, LinearSystem& system) con
   check_values(values);
   const auto n = static_cast<Eigen::Index>(network_.masses.size());
   const auto p = static_cast<Eigen::Index>(network_.prescribed.size());
-  const auto m = static_cast<Eigen::Index>(contacts_);
+  const auto m = static_cast<Eigen::Index>(contacts());
   system.M.setZero(n, n);
   system.C.setZero(n, n);
   system.K.setZero(n, n);
@@ -168,13 +127,13 @@ void Assembly::set_values(const NetworkValues& values, LinearSystem& system) con
   system.W.setZero(n, m);
   system.W_support.setZero(p, m);
   system.limit.setZero(m);
+  system.law = contact_laws_;
+  system.contact_internal = contact_internal_;
   const auto s = static_cast<Eigen::Index>(internal_forces_);
   system.D.setZero(n, s);
   system.D_support.setZero(p, s);
   system.internal_stiffness.setZero(s);
   system.internal_rate.setZero(s);
-  system.law.assign(contacts_, &laws::coulomb);
-  system.contact_internal.assign(contacts_, -1);
   system.orders = orders_;
   system.reference_order = network_.reference_order;
   system.odd_forcing = odd_forcing_;
@@ -184,7 +143,6 @@ void Assembly::set_values(const NetworkValues& values, LinearSystem& system) con
   const double omega_h =
       values.hysteretic_omega > 0.0 ? values.hysteretic_omega : network_.reference_order * values.omega;
   system.coefficients.resize(network_.elements.size());
-  Eigen::Index internal = 0;
   // Each coefficient adds coefficient * w w^T to the block of the masses and coefficient * w p^T to that of
   // the supports.
   const auto add = [](Eigen::MatrixXd& block, Eigen::MatrixXd& support, const Incidence& at, double value) {
@@ -194,31 +152,28 @@ void Assembly::set_values(const NetworkValues& values, LinearSystem& system) con
   };
   for (std::size_t e = 0; e < network_.elements.size(); ++e) {
     const Incidence& at = incidences_[e];
-    ElementCoefficients& law = system.coefficients[e];
-    law = element_law(network_.elements[e].type, values.element[e], second_value(values, e), omega_h);
-    add(system.K, system.K_support, at, law.stiffness);
-    add(system.C, system.C_support, at, law.damping);
-    add(system.M, system.M_support, at, law.inertance);
-    switch (network_.elements[e].type) {
-      case ElementType::coulomb: {
-        const auto contact = static_cast<Eigen::Index>(shares_[e].contact);
-        system.W.col(contact) = shares_[e].orientation * at.w;
-        system.W_support.col(contact) = shares_[e].orientation * at.p;
-        system.limit[contact] += law.friction;
-        break;
-      }
-      case ElementType::maxwell:
-        law.internal = internal++;
-        system.D.col(law.internal) = at.w;
-        system.D_support.col(law.internal) = at.p;
-        system.internal_stiffness[law.internal] = values.element[e];
-        system.internal_rate[law.internal] = values.element[e] / law.internal_damping;
-        break;
-      case ElementType::spring:
-      case ElementType::damper:
-      case ElementType::inerter:
-      case ElementType::hysteretic:
-        break;
+    const Added<double> added =
+        kind_of(network_.elements[e]).adds(values.element[e], second_value(values, e), omega_h);
+    system.coefficients[e] = {.stiffness = added.stiffness,
+                              .damping = added.damping,
+                              .inertance = added.inertance,
+                              .friction = added.limit,
+                              .internal = internal_[e],
+                              .internal_damping = added.internal_damping};
+    add(system.K, system.K_support, at, added.stiffness);
+    add(system.C, system.C_support, at, added.damping);
+    add(system.M, system.M_support, at, added.inertance);
+    if (has_contact(network_.elements[e])) {
+      const auto contact = static_cast<Eigen::Index>(shares_[e].contact);
+      system.W.col(contact) = shares_[e].orientation * at.w;
+      system.W_support.col(contact) = shares_[e].orientation * at.p;
+      system.limit[contact] += added.limit;
+    }
+    if (const Eigen::Index place = internal_[e]; place >= 0) {
+      system.D.col(place) = at.w;
+      system.D_support.col(place) = at.p;
+      system.internal_stiffness[place] = added.internal_stiffness;
+      system.internal_rate[place] = added.internal_rate;
     }
   }
   require_positive_definite(system.M, "mass", "a mass of zero needs an inerter that moves with it");

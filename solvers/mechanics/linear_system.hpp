@@ -23,28 +23,31 @@ struct Incidence {
 };
 Incidence incidence(const Network& network, const Element& element);
 
-// The place of a Coulomb element in a friction contact. Elements between the same two nodes act as one
-// contact, whose limit is the sum of theirs; each carries the share F_j / sum F of its force.
+// The place of an element with a law in a contact. Elements of a law that merges between the same two nodes
+// act as one contact, whose limit is the sum of theirs; each carries the share F_j / sum F of its force.
 struct ContactShare {
   std::size_t contact = 0;  // index of the contact
   double orientation = 1;   // +1 if the element points as the contact does, -1 otherwise
 };
 
-// Force of an element by its coefficients: k u + c v + b v' + friction Sgn(v) + s.
+// Force of an element by its coefficients: k u + c v + b v' + the force of a contact + s.
 struct ElementCoefficients {
-  double stiffness = 0.0;        // k [N/m]
-  double damping = 0.0;          // c [N s/m]; of a hysteretic element eta k / omega_h
-  double inertance = 0.0;        // b [kg]
-  double friction = 0.0;         // [N]
-  Eigen::Index internal = -1;    // place of the internal force s among the system's, -1: none
-  double internal_damping = 0.0;  // of the damper that s runs through [N s/m]
+  double stiffness = 0.0;         // k [N/m]
+  double damping = 0.0;           // c [N s/m]; of a hysteretic element eta k / omega_h
+  double inertance = 0.0;         // b [kg]
+  double friction = 0.0;          // limit of the contact's force [N]
+  Eigen::Index internal = -1;     // place of the internal force s among the system's, -1: none
+  double internal_damping = 0.0;  // of the damper that s runs through [N s/m], 0: none
 };
 
-// Equation of motion of a network of n masses, p prescribed nodes and m friction contacts:
+// Equation of motion of a network of n masses, p prescribed nodes and m contacts:
 //
 //   M q'' + C q' + K q + sum_e d_e s_e = f(t) - sum_j w_j lambda_j,
-//   s_e' = k_e (d_e^T q' + p_e^T y') - s_e k_e / c_e           of each Maxwell element
-//   lambda_j in F_j Sgn(w_j^T q' + p_j^T y')                   of each friction contact
+//   s_e' = k_e (d_e^T q' + p_e^T y') - rate_e s_e              of each internal force: a Maxwell element's,
+//   or
+//                                                              a contact's whose law has one
+//   lambda_j in F_j Sgn(w_j^T q' + p_j^T y')                   of each contact of the law `coulomb`; what
+//                                                              others do, their law says (solvers/laws)
 //   y(t) = y_0 + Re sum_k Y_k e^{i order_k omega t}
 //   f(t) = f_0 + Re sum_k f_k e^{i order_k omega t}, which includes what the prescribed nodes exert
 //
@@ -55,14 +58,14 @@ struct LinearSystem {
   Eigen::VectorXd mass;  // of the nodes, without inerters [kg]
   Eigen::MatrixXd M, C, K;
   Eigen::MatrixXd M_support, C_support, K_support;  // blocks that couple masses to prescribed nodes
-  Eigen::MatrixXd W, W_support;                     // directions of the friction contacts
+  Eigen::MatrixXd W, W_support;                     // directions of the contacts
   Eigen::VectorXd limit;                            // F_j [N] of each contact
-  std::vector<const laws::Law*> law;             // of each contact
-  std::vector<Eigen::Index> contact_internal;    // of each contact: its internal force, -1: none
-  Eigen::MatrixXd D, D_support;                     // directions d_e, p_e of the Maxwell elements
-  Eigen::VectorXd internal_stiffness;                // k_e [N/m]
-  Eigen::VectorXd internal_rate;                     // k_e / c_e [rad/s]
-  std::vector<ElementCoefficients> coefficients;                     // of each element
+  std::vector<const laws::Law*> law;                // of each contact
+  std::vector<Eigen::Index> contact_internal;       // place of each contact's internal force, -1: none
+  Eigen::MatrixXd D, D_support;                     // directions d_e, p_e of the internal forces
+  Eigen::VectorXd internal_stiffness;               // k_e [N/m]
+  Eigen::VectorXd internal_rate;                  // k_e / c_e of a Maxwell element, 0 without a damper [1/s]
+  std::vector<ElementCoefficients> coefficients;  // of each element
   std::vector<int> orders;                 // > 0, ascending: of the excitation, and the reference order
   int reference_order = 1;                 // the harmonic of which phases are taken
   bool odd_forcing = false;                // every component of the excitation has an odd order
@@ -84,7 +87,7 @@ class Assembly {
  public:
   explicit Assembly(const Network& network);  // keeps a copy; throws MechanicsError
 
-  // Element and mass values -> matrices, Maxwell elements and friction limits. Hysteretic elements make them
+  // Element and mass values -> matrices, internal forces and contact limits. Hysteretic elements make them
   // depend on omega, see matrices_depend_on_frequency().
   // Throws MechanicsError where a value is out of range or M or K is not positive definite.
   void set_values(const NetworkValues& values, LinearSystem& system) const;
@@ -94,22 +97,27 @@ class Assembly {
 
   const Network& network() const { return network_; }
   const std::vector<Incidence>& incidences() const { return incidences_; }  // of each element
-  const std::vector<ContactShare>& shares() const { return shares_; }       // of each element (coulomb only)
+  const std::vector<ContactShare>& shares() const { return shares_; }  // of each element that has a contact
   const std::vector<int>& orders() const { return orders_; }
-  std::size_t contacts() const { return contacts_; }
+  std::size_t contacts() const { return contact_laws_.size(); }
   std::size_t internal_forces() const { return internal_forces_; }
-  bool matrices_depend_on_frequency() const { return has_hysteretic_; }
+  bool matrices_depend_on_frequency() const { return depends_on_frequency_; }
 
  private:
+  void place_in_contact(std::size_t element);
+  void place_orders();
   void check_values(const NetworkValues& values) const;
   void add_crank(const Excitation& excitation, const ExcitationValue& value, LinearSystem& system) const;
 
   Network network_;
   std::vector<Incidence> incidences_;
   std::vector<ContactShare> shares_;
+  std::vector<Eigen::Index> internal_;  // of each element: place of its internal force, -1: none
+  std::vector<const laws::Law*> contact_laws_;
+  std::vector<Eigen::Index> contact_internal_;
   std::vector<int> orders_;
-  bool odd_forcing_ = true, has_hysteretic_ = false;
-  std::size_t contacts_ = 0, internal_forces_ = 0;
+  bool odd_forcing_ = true, depends_on_frequency_ = false;
+  std::size_t internal_forces_ = 0;
 };
 
 }  // namespace frahm::mechanics

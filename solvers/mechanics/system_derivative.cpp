@@ -6,41 +6,10 @@
 #include <numbers>
 
 #include "solvers/mechanics/crank.hpp"
+#include "solvers/mechanics/element_table.hpp"
 
 namespace frahm::mechanics {
 namespace {
-
-double second_of(const NetworkValues& values, std::size_t element) {
-  return element < values.second.size() ? values.second[element] : 0.0;
-}
-
-// A number and its derivative.
-struct Change {
-  double value, by;
-};
-
-ElementCoefficients law_derivative(ElementType type, Change value, Change second, Change omega_h) {
-  switch (type) {
-    case ElementType::spring:
-      return {.stiffness = value.by};
-    case ElementType::damper:
-      return {.damping = value.by};
-    case ElementType::inerter:
-      return {.inertance = value.by};
-    case ElementType::coulomb:
-      return {.friction = value.by};
-    case ElementType::hysteretic: {
-      // c = eta k / omega_h:  dc = (d eta k + eta dk - c d omega_h) / omega_h
-      const double c = second.value * value.value / omega_h.value;
-      return {
-          .stiffness = value.by,
-          .damping = (second.by * value.value + second.value * value.by - c * omega_h.by) / omega_h.value};
-    }
-    case ElementType::maxwell:
-      return {.internal_damping = second.by};
-  }
-  return {};
-}
 
 void resize(const LinearSystem& system, const NetworkValues& direction, LinearSystem& d) {
   const Eigen::Index n = system.masses(), p = system.W_support.rows();
@@ -69,37 +38,42 @@ void differentiate_elements(const Assembly& assembly, const NetworkValues& value
                             const NetworkValues& direction, const LinearSystem& system, LinearSystem& d) {
   const Network& network = assembly.network();
   const double reference = network.reference_order;
-  const Change omega_h = values.hysteretic_omega > 0.0
-                             ? Change{values.hysteretic_omega, direction.hysteretic_omega}
-                             : Change{reference * values.omega, reference * direction.omega};
+  const Dual omega_h = values.hysteretic_omega > 0.0
+                           ? Dual{values.hysteretic_omega, direction.hysteretic_omega}
+                           : Dual{reference * values.omega, reference * direction.omega};
   const auto add = [](Eigen::MatrixXd& block, Eigen::MatrixXd& support, const Incidence& at, double by) {
     if (by == 0.0) return;
     block.noalias() += by * at.w * at.w.transpose();
     support.noalias() += by * at.w * at.p.transpose();
   };
   for (std::size_t e = 0; e < network.elements.size(); ++e) {
-    const Change value{values.element[e], direction.element[e]};
-    const Change second{second_of(values, e), second_of(direction, e)};
+    const Element& element = network.elements[e];
+    const Added<Dual> added =
+        kind_of(element).adds(Dual{values.element[e], direction.element[e]},
+                              Dual{second_value(values, e), second_value(direction, e)}, omega_h);
     const Incidence& at = assembly.incidences()[e];
-    ElementCoefficients& law = d.coefficients[e];
-    law = law_derivative(network.elements[e].type, value, second, omega_h);
-    add(d.K, d.K_support, at, law.stiffness);
-    add(d.C, d.C_support, at, law.damping);
-    add(d.M, d.M_support, at, law.inertance);
-    if (network.elements[e].type == ElementType::coulomb) {
-      d.limit[static_cast<Eigen::Index>(assembly.shares()[e].contact)] += law.friction;
-    }
-    if (const Eigen::Index place = system.coefficients[e].internal; place >= 0) {
-      law.internal = place;
-      d.internal_stiffness[place] = value.by;
-      d.internal_rate[place] = (value.by - system.internal_rate[place] * second.by) / second.value;  // of k/c
+    const Eigen::Index internal = system.coefficients[e].internal;
+    d.coefficients[e] = {.stiffness = added.stiffness.derivative,
+                         .damping = added.damping.derivative,
+                         .inertance = added.inertance.derivative,
+                         .friction = added.limit.derivative,
+                         .internal = internal,
+                         .internal_damping = added.internal_damping.derivative};
+    add(d.K, d.K_support, at, added.stiffness.derivative);
+    add(d.C, d.C_support, at, added.damping.derivative);
+    add(d.M, d.M_support, at, added.inertance.derivative);
+    if (has_contact(element))
+      d.limit[static_cast<Eigen::Index>(assembly.shares()[e].contact)] += added.limit.derivative;
+    if (internal >= 0) {
+      d.internal_stiffness[internal] = added.internal_stiffness.derivative;
+      d.internal_rate[internal] = added.internal_rate.derivative;
     }
   }
 }
 
 // d [A e^{i turns phase}] = (dA + i turns A dphase) e^{i turns phase}
-std::complex<double> phasor_derivative(Change amplitude, Change phase, double turns) {
-  return std::complex<double>(amplitude.by, turns * amplitude.value * phase.by) *
+std::complex<double> phasor_derivative(Dual amplitude, Dual phase, double turns) {
+  return std::complex<double>(amplitude.derivative, turns * amplitude.value * phase.derivative) *
          std::polar(1.0, turns * phase.value);
 }
 
@@ -109,7 +83,7 @@ void differentiate_crank(const Excitation& excitation, const ExcitationValue& va
   const auto place = [&](int order) {
     return std::lower_bound(orders.begin(), orders.end(), order) - orders.begin();
   };
-  const Change radius{value.amplitude, by.amplitude};
+  const Dual radius{value.amplitude, by.amplitude};
   const double quarter = 0.5 * std::numbers::pi;
   d.motion(node, place(1)) += phasor_derivative(radius, {value.phase - quarter, by.phase}, 1.0);
 

@@ -5,8 +5,8 @@
 namespace frahm::mechanics {
 
 // The derivative of a LinearSystem along a change of the network's values: every number of `derivative` is
-// the derivative of that of `system`, laid out alike (its orders are copied; its W and D, which no value
-// changes, are left empty).
+// the derivative of that of `system`, laid out alike (its orders are copied; its W, D and laws, which no
+// value changes, are left empty).
 // values: those of which `assembly` made `system`.  direction: their derivative, .omega and .hysteretic_omega
 // included, in the layout of NetworkValues; an empty `second` stands for zeros.
 // The even orders of a crank are differentiated as they are kept, cut where the displacement's are.

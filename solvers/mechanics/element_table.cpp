@@ -1,0 +1,82 @@
+#include "solvers/mechanics/element_table.hpp"
+
+#include "solvers/laws/coulomb.hpp"
+
+namespace frahm::mechanics {
+namespace {
+
+constexpr ElementKind kKinds[] = {
+    // k u
+    {.type = ElementType::spring,
+     .name = "spring",
+     .value = {"stiffness", Dimension::stiffness, Range::finite},
+     .adds = [](auto k, auto, auto) { return Added<decltype(k)>{.stiffness = k}; },
+     .holds = true,
+     .stroke_is_standard = true},
+    // c v
+    {.type = ElementType::damper,
+     .name = "damper",
+     .value = {"damping", Dimension::damping, Range::not_negative},
+     .adds = [](auto c, auto, auto) { return Added<decltype(c)>{.damping = c}; },
+     .dissipates = true},
+    // b v'
+    {.type = ElementType::inerter,
+     .name = "inerter",
+     .value = {"inertance", Dimension::inertance, Range::not_negative},
+     .adds = [](auto b, auto, auto) { return Added<decltype(b)>{.inertance = b}; }},
+    // F Sgn(v)
+    {.type = ElementType::coulomb,
+     .name = "coulomb",
+     .value = {"force", Dimension::force, Range::not_negative},
+     .adds = [](auto F, auto, auto) { return Added<decltype(F)>{.limit = F}; },
+     .law = &laws::coulomb,
+     .dissipates = true,
+     .smoothed = {"slope", Dimension::inverse_speed, Range::positive}},
+    // k u + (eta k / omega_h) v: the complex stiffness k (1 + i eta) at omega_h
+    {.type = ElementType::hysteretic,
+     .name = "hysteretic",
+     .value = {"stiffness", Dimension::stiffness, Range::not_negative},
+     .second = {"loss_factor", Dimension::number, Range::not_negative},
+     .adds = [](auto k, auto eta,
+                auto omega_h) { return Added<decltype(k)>{.stiffness = k, .damping = eta * k / omega_h}; },
+     .dissipates = true,
+     .depends_on_frequency = true,
+     .holds = true},
+    // s' = k v - (k/c) s
+    {.type = ElementType::maxwell,
+     .name = "maxwell",
+     .value = {"stiffness", Dimension::stiffness, Range::positive},
+     .second = {"damping", Dimension::damping, Range::positive},
+     .adds =
+         [](auto k, auto c, auto) {
+           return Added<decltype(k)>{.internal_stiffness = k, .internal_rate = k / c, .internal_damping = c};
+         },
+     .has_internal_force = true,
+     .dissipates = true},
+};
+
+}  // namespace
+
+std::span<const ElementKind> element_kinds() {
+  return kKinds;
+}
+
+const ElementKind& kind_of(ElementType type) {
+  return kKinds[static_cast<std::size_t>(type)];
+}
+
+bool ElementKind::is_inertia_alone() const {
+  const Added<double> unit = adds(1.0, 1.0, 1.0);
+  return unit.stiffness == 0.0 && unit.damping == 0.0 && law == nullptr && !has_internal_force;
+}
+
+const ValueKey& second_key(const Element& element) {
+  const ElementKind& kind = kind_of(element);
+  return element.law == FrictionLaw::arctan && kind.can_be_smoothed() ? kind.smoothed : kind.second;
+}
+
+double second_value(const NetworkValues& values, std::size_t element) {
+  return element < values.second.size() ? values.second[element] : 0.0;
+}
+
+}  // namespace frahm::mechanics

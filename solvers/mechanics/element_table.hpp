@@ -1,0 +1,105 @@
+#pragma once
+
+#include <span>
+#include <type_traits>
+
+#include "solvers/laws/law.hpp"
+#include "solvers/mechanics/dual.hpp"
+#include "solvers/mechanics/network.hpp"
+
+// The kinds of element, a row each: all that anything else knows of them. A new kind is a row of the table in
+// element_table.cpp, and an enumerator of ElementType at its end.
+namespace frahm::mechanics {
+
+// What a value of an element measures, with its SI unit.
+enum class Dimension {
+  number,         // 1
+  stiffness,      // N/m
+  damping,        // N s/m
+  inertance,      // kg
+  force,          // N
+  inverse_speed,  // s/m
+};
+
+// Where a value must lie; every one must be finite.
+enum class Range { finite, not_negative, positive };
+
+struct ValueKey {
+  const char* key = "";  // in a study file; "": the kind has no such value
+  Dimension dimension = Dimension::number;
+  Range range = Range::finite;
+
+  constexpr bool exists() const { return key[0] != '\0'; }
+};
+
+// What an element adds between its two nodes, u its relative displacement:
+//   force k u + c u' + b u'' + s + the force of a contact of this limit,   s' = internal_stiffness u' -
+//   internal_rate s
+template <class Number>
+struct Added {
+  Number stiffness{}, damping{}, inertance{};  // k [N/m], c [N s/m], b [kg]
+  Number limit{};                              // F [N], where the kind has a law
+  Number internal_stiffness{};                 // of the spring whose force s is [N/m]
+  Number internal_rate{};                      // [1/s]; 0: no damper lets s go
+  Number internal_damping{};                   // of the damper that s runs through [N s/m]; 0: none
+};
+
+// One formula (value, second value, omega_h) -> Added, for numbers and for numbers with a derivative alike.
+// So it is given as a generic lambda without captures.
+class ElementFormula {
+ public:
+  template <class Formula>
+  requires std::is_empty_v<Formula>
+  constexpr ElementFormula(Formula)
+      : numbers_(
+            [](double value, double second, double omega_h) { return Formula{}(value, second, omega_h); }),
+        duals_([](Dual value, Dual second, Dual omega_h) { return Formula{}(value, second, omega_h); }) {}
+
+  Added<double> operator()(double value, double second, double omega_h) const {
+    return numbers_(value, second, omega_h);
+  }
+  Added<Dual> operator()(Dual value, Dual second, Dual omega_h) const {
+    return duals_(value, second, omega_h);
+  }
+
+ private:
+  Added<double> (*numbers_)(double, double, double);
+  Added<Dual> (*duals_)(Dual, Dual, Dual);
+};
+
+struct ElementKind {
+  ElementType type;
+  const char* name;  // in a study file
+  ValueKey value, second{};
+  ElementFormula adds;
+  const laws::Law* law = nullptr;  // of its contact; none: it has no contact
+  bool has_internal_force = false;
+  bool dissipates = false;
+  bool depends_on_frequency = false;  // what it adds depends on omega_h
+  bool holds = false;                 // holds a mass in its place, if its other end is held
+  // The second value under the arctan law, which smooths its contact; none: nothing smooths it.
+  ValueKey smoothed{};
+  bool stroke_is_standard = false;  // its stroke is among what an atlas shows
+
+  constexpr bool can_be_smoothed() const { return smoothed.exists(); }
+  // It feels the acceleration across it and nothing else.
+  bool is_inertia_alone() const;
+};
+
+std::span<const ElementKind> element_kinds();  // in the order of ElementType
+const ElementKind& kind_of(ElementType type);
+inline const ElementKind& kind_of(const Element& element) {
+  return kind_of(element.type);
+}
+// Whether it has a contact, of whatever law.
+inline bool has_contact(const Element& element) {
+  return kind_of(element).law != nullptr;
+}
+
+// The second value that this element has, if any: of its kind, or of the law that smooths it.
+const ValueKey& second_key(const Element& element);
+
+// 0 where it has none.
+double second_value(const NetworkValues& values, std::size_t element);
+
+}  // namespace frahm::mechanics
