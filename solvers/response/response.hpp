@@ -26,7 +26,7 @@ struct ResponseSummary {
 // One stretch of the response in one mode, for telling an orbit in full.
 struct Stretch {
   double start = 0.0, length = 0.0;   // omega t [rad], from 0 to 2 pi
-  std::vector<std::string> contacts;  // per Coulomb element: "sticks", "slides +", "slides -"
+  std::vector<std::string> contacts;  // per element with a contact: "sticks", "slides +", "slides -"
 };
 
 // The response at chosen instants. Rows are samples.
