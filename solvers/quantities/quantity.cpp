@@ -199,6 +199,19 @@ bool is_differentiable(Measure measure) {
   }
 }
 
+bool per_period(Measure measure) {
+  switch (measure) {
+    case Measure::energy:
+    case Measure::energy_input:
+    case Measure::stops:
+    case Measure::reversals:
+    case Measure::events:
+      return true;
+    default:
+      return false;
+  }
+}
+
 std::optional<Quantity> find_quantity(const std::string& name, const Network& network) {
   for (const Quantity& quantity : all_quantities(network)) {
     if (name_of(row_of(quantity.measure), quantity.index, network) == name) return quantity;

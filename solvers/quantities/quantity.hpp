@@ -100,6 +100,9 @@ std::vector<Quantity> standard_quantities(const mechanics::Network& network);
 // derivative of the period map.
 bool is_differentiable(Measure measure);
 
+// Whether it counts or adds up what happens in a period: in two periods it is twice as much.
+bool per_period(Measure measure);
+
 std::optional<Quantity> find_quantity(const std::string& name, const mechanics::Network& network);
 
 }  // namespace frahm::periodic
