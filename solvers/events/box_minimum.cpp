@@ -33,8 +33,8 @@ Step step_to_free_minimum(const MatrixXd& G, const VectorXd& c, const VectorXd& 
 
 }  // namespace
 
-VectorXd box_minimum(const MatrixXd& G, const VectorXd& c, const VectorXd& lower, const VectorXd& upper,
-                     const VectorXd& weight) {
+BoxMinimum box_minimum(const MatrixXd& G, const VectorXd& c, const VectorXd& lower, const VectorXd& upper,
+                       const VectorXd& weight) {
   const Index m = c.size();
   VectorXd lambda = VectorXd::Zero(m).cwiseMax(lower).cwiseMin(upper);
   std::vector<bool> is_free(static_cast<std::size_t>(m));
@@ -83,10 +83,10 @@ VectorXd box_minimum(const MatrixXd& G, const VectorXd& c, const VectorXd& lower
         worst = j;
       }
     }
-    if (worst < 0) return lambda;
+    if (worst < 0) return {lambda, true};
     is_free[static_cast<std::size_t>(worst)] = true;
   }
-  return lambda;
+  return {lambda, false};
 }
 
 }  // namespace frahm::periodic

@@ -1,24 +1,16 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
 
 #include "solvers/flow/constraints.hpp"
 #include "solvers/flow/equations.hpp"
 
 namespace frahm::periodic {
 
-using ContactMask = std::uint64_t;  // bit j: contact j
-inline bool contains(ContactMask mask, Eigen::Index contact) {
-  return (mask >> contact) & 1U;
-}
-inline ContactMask bit(Eigen::Index contact) {
-  return ContactMask{1} << contact;
-}
-
 // The linear system that moves while one set of contacts sticks and the others slide:
-//   q'' = Aq q + Av v + As s + Au u(t) + Af phi,   phi_j = sigma_j F_j of the sliding contacts, 0 of the
-//   stuck lambda_j = (Lq q + Lv v + Ls s + Lu u(t) + Lf phi)_j  of the stuck contacts
+//   q'' = Aq q + Av v + As s + Au u(t) + Af phi,   phi_j = sigma_j F_j of the contacts that slide, else 0
+//   s'  = spring (D^T v + p^T y') - rate s,        spring = k, 0 of an internal force that is held
+//   lambda_j = (Lq q + Lv v + Ls s + Lu u(t) + Lf phi)_j   of the stuck contacts (of an internal force: s)
 // and its exact flow over one step,
 //   z(1) = E z(0) + Eu u(0) + Ef phi,
 // the exponential of the matrix augmented by the oscillators of the forcing (C. Van Loan, IEEE Trans. Autom.
@@ -38,6 +30,8 @@ struct Configuration {
   typename S::ContactsByOscillators Lu;
   typename S::ContactSquare Lf;
   typename S::Square P;  // velocities -> velocities that keep the stuck contacts stuck, M-orthogonal
+  typename S::Internal spring;                      // of each internal force k, or 0 while it is held
+  typename S::InternalByOscillators internal_drive;  // spring p^T y'(t) [N a step]
 
   // The flow as Taylor series in the step fraction, z(s) = series_z(s) z(0) + series_u(s) u(0) + series_f(s)
   // phi.
@@ -49,18 +43,24 @@ struct Configuration {
   typename S::StateByOscillators Eu;
   typename S::StateByContacts Ef;
 
-  // Takes the last rounding out of the stuck contacts' relative velocities, M-orthogonally.
+  // Takes the last rounding out of the velocities of the contacts that are held, M-orthogonally.
   void hold(const StepEquations<N, H>& equations, const typename S::Oscillators& u,
             typename S::State& z) const {
-    if (stuck == 0) return;
+    if ((stuck & equations.holding) == 0) return;
     const Eigen::Index n = equations.masses();
     z.segment(n, n) -=
         reaction_ * (equations.W.transpose() * z.segment(n, n) + equations.support_velocity * u);
   }
 
-  // What meets the stuck contacts' constraint w_j^T q'' = -p_j^T y'', G = W^T M^-1 W over the stuck contacts:
+  // What meets the constraint w_j^T q'' = -p_j^T y'' of the contacts that are held, G = W^T M^-1 W over them:
   const typename S::ContactSquare& constraint() const { return constraint_; }  // G^+
   const typename S::VectorByContacts& reaction() const { return reaction_; }   // M^-1 W G^+
+
+  // s' without the support's part.
+  template <class Velocities, class Forces>
+  auto internal_rates(const StepEquations<N, H>& equations, const Velocities& v, const Forces& s) const {
+    return spring.asDiagonal() * (equations.D.transpose() * v) - equations.internal_rate.asDiagonal() * s;
+  }
 
   // Matrices that do not depend on the forcing.
   void set_system(const StepEquations<N, H>& equations, ContactMask stuck_contacts);
@@ -77,9 +77,9 @@ struct Configuration {
   struct Solutions {
     using Vectors =
         Eigen::Matrix<double, N, Columns, N == 1 ? Eigen::RowMajor : Eigen::ColMajor, N, MostColumns>;
-    using Maxwells = Eigen::Matrix<double, S::kInternal, Columns, Eigen::ColMajor, S::kInternal, MostColumns>;
+    using Forces = Eigen::Matrix<double, S::kInternal, Columns, Eigen::ColMajor, S::kInternal, MostColumns>;
     Vectors q, v;
-    Maxwells s;
+    Forces s;
 
     Solutions(const StepEquations<N, H>& eq, Eigen::Index columns)
         : q(eq.masses(), columns), v(eq.masses(), columns), s(eq.internal_forces(), columns) {
@@ -90,14 +90,14 @@ struct Configuration {
   };
 
   // The Taylor series of solutions whose coefficients 0 are given: coefficient k + 1 is the derivative of
-  // coefficient k over k + 1. drive_next(k, v', s') adds what drives the velocities and Maxwell forces at k.
+  // coefficient k over k + 1. drive_next(k, v', s') adds what drives the velocities and internal forces at k.
   template <class Columns, class Series, class DriveNext>
   void expand_series(const StepEquations<N, H>& equations, Columns x, Series& series,
                      const DriveNext& drive_next) const {
     const Eigen::Index n = equations.masses(), internal = equations.internal_forces();
     series.resize(equations.states() * kTerms, x.q.cols());
     typename Columns::Vectors next(n, x.q.cols());
-    typename Columns::Maxwells s_next = x.s;
+    typename Columns::Forces s_next = x.s;
     for (int k = 0; k < kTerms; ++k) {
       for (Eigen::Index column = 0; column < x.q.cols(); ++column) {
         for (Eigen::Index i = 0; i < n; ++i) {
@@ -109,8 +109,7 @@ struct Configuration {
       next.noalias() = Aq * x.q + Av * x.v;
       if constexpr (S::kInternal != 0) {
         next += As * x.s;
-        s_next = equations.internal_stiffness.asDiagonal() * (equations.D.transpose() * x.v) -
-                 equations.internal_rate.asDiagonal() * x.s;
+        s_next = internal_rates(equations, x.v, x.s);
       }
       drive_next(k, next, s_next);
       const double share = 1.0 / (k + 1.0);
@@ -137,16 +136,16 @@ void Configuration<N, H>::set_system(const StepEquations<N, H>& equations, Conta
   const Eigen::Index n = equations.masses(), m = equations.contacts();
   const typename S::VectorByContacts MW = equations.M_inverse * equations.W;
 
-  // G_S^+ with G = W^T M^-1 W over the stuck contacts. Stuck directions may depend on one another; of the
-  // forces that then serve equally, those of least sum (lambda_j / F_j)^2 are meant.
+  // G_S^+ with G = W^T M^-1 W over the contacts that are held. Their directions may depend on one another; of
+  // the forces that then serve equally, those of least sum (lambda_j / F_j)^2 are meant.
+  const ContactMask held = stuck & equations.holding;
   constraint_.setZero(m, m);
-  const Eigen::Index stuck_count = __builtin_popcountll(stuck);
-  if (stuck_count == 1) {
-    const Eigen::Index j = __builtin_ctzll(stuck);
+  if (count(held) == 1) {
+    const Eigen::Index j = first(held);
     constraint_(j, j) = 1.0 / equations.compliance[j];
-  } else if (stuck_count > 1) {
+  } else if (held != 0) {
     typename S::Contacts weight(m);
-    for (Eigen::Index j = 0; j < m; ++j) weight[j] = contains(stuck, j) ? equations.limit[j] : 0.0;
+    for (Eigen::Index j = 0; j < m; ++j) weight[j] = contains(held, j) ? equations.limit[j] : 0.0;
     constraint_ = weighted_pseudo_inverse(equations.W.transpose() * MW, weight);
   }
 
@@ -163,7 +162,16 @@ void Configuration<N, H>::set_system(const StepEquations<N, H>& equations, Conta
   Lq = -(per_force * equations.K);
   Lv = -(per_force * equations.C);
   Lf = -(per_force * equations.W);
-  if constexpr (S::kInternal != 0) Ls = -(per_force * equations.D);
+  if constexpr (S::kInternal != 0) {
+    Ls = -(per_force * equations.D);
+    spring = equations.internal_stiffness;
+    for (Eigen::Index j = 0; j < m; ++j) {
+      const Eigen::Index internal = equations.internal_of[static_cast<std::size_t>(j)];
+      if (internal < 0) continue;
+      Ls(j, internal) = 1.0;
+      if (!contains(stuck, j)) spring[internal] = 0.0;
+    }
+  }
   propagate_homogeneous(equations);
 }
 
@@ -172,7 +180,13 @@ void Configuration<N, H>::set_forcing(const StepEquations<N, H>& equations) {
   has_forcing = true;
   Au.noalias() = P * (equations.M_inverse * equations.force);
   Lu.noalias() = (equations.M_inverse * equations.W * constraint_).transpose() * equations.force;
-  if (stuck != 0) {
+  if constexpr (S::kInternal != 0) {
+    internal_drive = equations.internal_drive;
+    for (Eigen::Index i = 0; i < spring.size(); ++i) {
+      if (spring[i] == 0.0) internal_drive.row(i).setZero();
+    }
+  }
+  if ((stuck & equations.holding) != 0) {
     Au.noalias() -= reaction_ * equations.support_acceleration;
     Lu.noalias() += constraint_ * equations.support_acceleration;
   }
@@ -180,16 +194,19 @@ void Configuration<N, H>::set_forcing(const StepEquations<N, H>& equations) {
   // Column i starts from rest with oscillator i at 1. The forcing's own Taylor coefficients follow from its
   // rows.
   typename S::VectorByOscillators drive = Au, drive_rate;
-  typename S::InternalByOscillators internal_drive = equations.internal_drive, internal_drive_rate;
+  typename S::InternalByOscillators of_internal = internal_drive, of_internal_rate;
   drive_rate.resizeLike(drive);
-  internal_drive_rate.resizeLike(internal_drive);
+  of_internal_rate.resizeLike(of_internal);
   const auto forcing = [&](int k, auto& v_next, auto& s_next) {
+    const double share = 1.0 / (k + 1.0);
     v_next += drive;
-    s_next += internal_drive;
     equations.differentiate(drive, drive_rate);
-    equations.differentiate(internal_drive, internal_drive_rate);
-    drive = drive_rate * (1.0 / (k + 1.0));
-    internal_drive = internal_drive_rate * (1.0 / (k + 1.0));
+    drive = drive_rate * share;
+    if constexpr (S::kInternal != 0) {
+      s_next += of_internal;
+      equations.differentiate(of_internal, of_internal_rate);
+      of_internal = of_internal_rate * share;
+    }
   };
   const Solutions<S::kOscillators> from_rest(equations, equations.oscillators());
   expand_series(equations, from_rest, series_u, forcing);

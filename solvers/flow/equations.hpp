@@ -8,56 +8,9 @@
 #include <vector>
 
 #include "solvers/mechanics/linear_system.hpp"
-#include "solvers/flow/polynomial.hpp"
+#include "solvers/flow/sizes.hpp"
 
 namespace frahm::periodic {
-
-// Sizes and types of a system of N masses under H harmonics. Known at compile time for the systems of which
-// maps of millions of points are made; Eigen::Dynamic for all others. Contacts: at most kMaxContacts, then
-// Dynamic. Maxwell elements: none, then Dynamic.
-template <int N, int H>
-struct Sizes {
-  static constexpr bool is_fixed = N != Eigen::Dynamic;
-  static constexpr int kInternal = is_fixed ? 0 : Eigen::Dynamic;
-  static constexpr int kState = is_fixed ? 2 * N : Eigen::Dynamic;
-  static constexpr int kOscillators = is_fixed ? 1 + 2 * H : Eigen::Dynamic;
-  static constexpr int kMaxContacts = is_fixed ? 4 : Eigen::Dynamic;
-
-  using Vector = Eigen::Matrix<double, N, 1>;
-  using Square = Eigen::Matrix<double, N, N>;
-  using State = Eigen::Matrix<double, kState, 1>;  // displacements, velocities, forces of Maxwell elements
-  using Internal = Eigen::Matrix<double, kInternal, 1>;
-  using VectorByInternal = Eigen::Matrix<double, N, kInternal>;
-  using InternalByOscillators = Eigen::Matrix<double, kInternal, kOscillators>;
-  using ContactsByInternal =
-      Eigen::Matrix<double, Eigen::Dynamic, kInternal, Eigen::ColMajor, kMaxContacts, kInternal>;
-  using StateSquare = Eigen::Matrix<double, kState, kState>;
-  using Oscillators = Eigen::Matrix<double, kOscillators, 1>;  // 1, cos, sin of each harmonic's phase
-  using OscillatorRow = Eigen::Matrix<double, 1, kOscillators>;
-  using VectorByOscillators = Eigen::Matrix<double, N, kOscillators>;
-  using StateByOscillators = Eigen::Matrix<double, kState, kOscillators>;
-  using VectorByContacts =
-      Eigen::Matrix<double, N, Eigen::Dynamic, N == 1 ? Eigen::RowMajor : Eigen::ColMajor, N, kMaxContacts>;
-  using StateByContacts =
-      Eigen::Matrix<double, kState, Eigen::Dynamic, Eigen::ColMajor, kState, kMaxContacts>;
-  using ContactsByVector =
-      Eigen::Matrix<double, Eigen::Dynamic, N, N == 1 ? Eigen::ColMajor : Eigen::RowMajor, kMaxContacts, N>;
-  using ContactsByOscillators =
-      Eigen::Matrix<double, Eigen::Dynamic, kOscillators, Eigen::RowMajor, kMaxContacts, kOscillators>;
-  using Contacts = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxContacts, 1>;
-  using ContactSquare =
-      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMaxContacts, kMaxContacts>;
-  using SupportsByOscillators = Eigen::Matrix<double, Eigen::Dynamic, kOscillators, Eigen::RowMajor>;
-  static constexpr int kSeries = is_fixed ? kTerms * 2 * N : Eigen::Dynamic;
-  // Taylor polynomials of all components of the state, one below the other; and as columns.
-  using Series = Eigen::Matrix<double, kSeries, 1>;
-  using SeriesByState = Eigen::Matrix<double, kSeries, kState>;
-  using SeriesByOscillators = Eigen::Matrix<double, kSeries, kOscillators>;
-  using SeriesByContacts =
-      Eigen::Matrix<double, kSeries, Eigen::Dynamic, Eigen::ColMajor, kSeries, kMaxContacts>;
-  using StatePolynomials = Eigen::Matrix<double, kTerms, kState>;
-  using OscillatorPolynomials = Eigen::Matrix<double, kTerms, kOscillators>;
-};
 
 // Rows with row * u(t) = Re(constant + sum_k harmonic_k e^{i phi_k}):  Re(f e^{i phi}) = Re f cos phi - Im f
 // sin phi.
@@ -91,8 +44,10 @@ struct StepEquations {
       support_acceleration;                         // p_j^T y'(t), p_j^T y''(t), m rows
   typename S::Contacts limit;                       // [N]
   typename S::Contacts compliance;                  // w_j^T M^-1 w_j
+  ContactMask holding = 0;                          // contacts whose law holds the velocity while they stick
+  std::vector<Eigen::Index> internal_of;            // of each contact: its internal force, -1: none
   Eigen::MatrixXd D;                                // n x s
-  Eigen::VectorXd internal_stiffness, internal_rate;  // k [N/m]; k/c times h
+  Eigen::VectorXd internal_stiffness, internal_rate;  // k [N/m]; k/c times h, 0 without a damper
   Eigen::MatrixXd internal_drive;                    // k p^T y'(t) [N a step]
   Eigen::VectorXd phase_rate;                       // order_k omega h [rad a step], size H
   // Of each harmonic cos + i sin at phase 0; empty: 1, as in every motion but one whose excitation was
@@ -101,6 +56,8 @@ struct StepEquations {
 
   Eigen::Index masses() const { return M.rows(); }
   Eigen::Index contacts() const { return limit.size(); }
+  // Whether contact j has a stuck state that takes its velocity away; otherwise its force is a state.
+  bool holds(Eigen::Index j) const { return contains(holding, j); }
   Eigen::Index internal_forces() const { return internal_stiffness.size(); }
   Eigen::Index states() const { return 2 * masses() + internal_forces(); }
   Eigen::Index oscillators() const { return force.cols(); }
@@ -130,7 +87,8 @@ struct StepEquations {
     }
   }
 
-  // The energy norm of a state, sqrt((v^T M v + q^T K q + sum s^2 / k) / 2)  [sqrt(J)].
+  // The energy norm of a state, sqrt((v^T M v + q^T K q + sum s^2 / k) / 2)  [sqrt(J)]. No two motions under
+  // monotone laws ever move apart in it.
   template <class AnyState>
   double energy_norm(const AnyState& z) const {
     const Eigen::Index n = masses();
@@ -146,7 +104,7 @@ struct StepEquations {
 
 // The fastest rate [rad/s] at which a solution's Taylor coefficients can grow in the energy norm:
 // rho = (gamma + sqrt(gamma^2 + 4 kappa)) / 2 with gamma, kappa the largest eigenvalues of M^-1 C and M^-1 K;
-// with Maxwell elements gamma + sqrt(kappa), gamma at least their largest rate and K with their springs.
+// with internal forces gamma + sqrt(kappa), gamma at least their largest rate and K with their springs.
 // Contacts that stick only lower it (Courant-Fischer).
 double fastest_rate(const mechanics::LinearSystem& system);
 

@@ -109,6 +109,7 @@ LinearForm<N, H> Forms<N, H>::element_force(std::size_t element, const mechanics
   if (law.friction == 0.0) return form;
   const mechanics::ContactShare& place = assembly_.shares()[element];
   const auto contact = static_cast<Eigen::Index>(place.contact);
+  if (!flow_.equations().holds(contact)) return form;  // its force is the internal one
   const double limit = flow_.equations().limit[contact];
   const double share = limit > 0.0 ? place.orientation * law.friction / limit : 0.0;
   if (contains(mode.stuck, contact)) {

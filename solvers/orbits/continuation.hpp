@@ -4,9 +4,8 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <span>
 
-#include "solvers/mechanics/linear_response.hpp"
+#include "solvers/mechanics/steady_response.hpp"
 #include "solvers/orbits/shooting.hpp"
 
 // Orbits one after the other along the frequency: each starts from an extrapolation of those before it, and
@@ -32,8 +31,8 @@ class Continuation {
     at_row_start_ = true;
   }
 
-  // The orbit of the flow as it is set, at angular frequency omega [rad/s].
-  void find(double omega, bool half_period, Orbit<N, H>& orbit);
+  // The orbit of the flow, which is set to this system.
+  void find(const mechanics::LinearSystem& system, Orbit<N, H>& orbit);
 
  private:
   struct Known {
@@ -42,8 +41,8 @@ class Continuation {
     std::uint64_t sequence = 0;  // of the modes the orbit goes through
   };
 
-  void predict(double omega, bool half_period, Orbit<N, H>& orbit);
-  typename S::State response_without_friction(double phase) const;
+  void predict(const mechanics::LinearSystem& system, Orbit<N, H>& orbit);
+  typename S::State response_without_friction(const mechanics::LinearSystem& system, double phase) const;
   bool move_section(Orbit<N, H>& orbit) const;
   void remember(double omega, const Orbit<N, H>& orbit);
   static std::uint64_t mode_sequence(const Flow<N, H>& flow, const Orbit<N, H>& orbit);
@@ -59,12 +58,12 @@ class Continuation {
 };
 
 template <int N, int H>
-void Continuation<N, H>::find(double omega, bool half_period, Orbit<N, H>& orbit) {
-  predict(omega, half_period, orbit);
+void Continuation<N, H>::find(const mechanics::LinearSystem& system, Orbit<N, H>& orbit) {
+  predict(system, orbit);
   shooting_.find(orbit);
   if (orbit.status == Status::failed && known_ > 0) {  // from further back, without the orbits before
     forget();
-    predict(omega, half_period, orbit);
+    predict(system, orbit);
     shooting_.find(orbit);
   }
   if (orbit.status == Status::failed) {
@@ -78,13 +77,14 @@ void Continuation<N, H>::find(double omega, bool half_period, Orbit<N, H>& orbit
     section_ = orbit.section;
     if (orbit.status == Status::failed) return;
   }
-  remember(omega, orbit);
+  remember(system.omega, orbit);
 }
 
 template <int N, int H>
-void Continuation<N, H>::predict(double omega, bool half_period, Orbit<N, H>& orbit) {
+void Continuation<N, H>::predict(const mechanics::LinearSystem& system, Orbit<N, H>& orbit) {
   const Eigen::Index n = flow_.equations().masses();
-  orbit.half_period = half_period;
+  const double omega = system.omega;
+  orbit.half_period = system.odd_forcing;
   if (at_row_start_ && has_row_start_) {
     history_[0] = row_start_;
     section_ = row_section_;
@@ -94,7 +94,7 @@ void Continuation<N, H>::predict(double omega, bool half_period, Orbit<N, H>& or
   // Without friction the linear response is the orbit, and of several (no damping either) the one meant.
   const bool has_friction = (flow_.equations().limit.array() > 0.0).any();
   if (known_ == 0 || !has_friction) {
-    orbit.z = response_without_friction(orbit.section);
+    orbit.z = response_without_friction(system, orbit.section);
     return;
   }
   // Lagrange's polynomial through the orbits that went through the same modes.
@@ -113,37 +113,14 @@ void Continuation<N, H>::predict(double omega, bool half_period, Orbit<N, H>& or
   orbit.z.segment(n, n) *= flow_.equations().step;
 }
 
-// (K + i Omega C - Omega^2 M) x + D s = f,  (i Omega + rate) s = k D^T (i Omega x) + its drive, each harmonic
-// by itself; at rest where that has no answer.
+// The steady state without friction, at rest where that is not finite or far beyond any that is meant.
 template <int N, int H>
-typename Sizes<N, H>::State Continuation<N, H>::response_without_friction(double phase) const {
+typename Sizes<N, H>::State Continuation<N, H>::response_without_friction(
+    const mechanics::LinearSystem& system, double phase) const {
   const StepEquations<N, H>& eq = flow_.equations();
   const Eigen::Index n = eq.masses();
-  typename S::State z = S::State::Zero(eq.states());
-  z.head(n) = eq.K_inverse * eq.force.col(0);
-  for (Eigen::Index k = 0; k < eq.phase_rate.size(); ++k) {
-    const double rate = eq.phase_rate[k];
-    Eigen::VectorXcd force(n);
-    force.real() = eq.force.col(1 + 2 * k);
-    force.imag() = -eq.force.col(2 + 2 * k);
-    Eigen::MatrixXcd stiffness = eq.K + std::complex<double>(0.0, rate) * eq.C;
-    Eigen::VectorXcd s(eq.internal_forces()), per_velocity = s;
-    for (Eigen::Index e = 0; e < s.size(); ++e) {
-      const std::complex<double> i_rate(0.0, rate), slip = i_rate + eq.internal_rate[e];
-      s[e] = std::complex<double>(eq.internal_drive(e, 1 + 2 * k), -eq.internal_drive(e, 2 + 2 * k)) / slip;
-      per_velocity[e] = eq.internal_stiffness[e] * i_rate / slip;
-      force -= eq.D.col(e) * s[e];
-      stiffness += eq.D.col(e) * per_velocity[e] * eq.D.col(e).transpose();
-    }
-    const Eigen::VectorXcd x = linear_response(eq.M, stiffness, rate, force);
-    for (Eigen::Index e = 0; e < s.size(); ++e) s[e] += per_velocity[e] * eq.D.col(e).dot(x);
-    const std::complex<double> turn = std::polar(1.0, flow_.orders()[static_cast<std::size_t>(k)] * phase);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      z[i] += (x[i] * turn).real();
-      z[n + i] -= rate * (x[i] * turn).imag();
-    }
-    for (Eigen::Index e = 0; e < s.size(); ++e) z[2 * n + e] += (s[e] * turn).real();
-  }
+  typename S::State z = mechanics::steady_response(system, phase);
+  z.segment(n, n) *= eq.step;
   const double limit = 1e6 * flow_.static_norm();
   if (!z.allFinite() || eq.energy_norm(z) > limit) z.setZero();
   return z;

@@ -1,6 +1,9 @@
 #pragma once
 
-#include "solvers/flow/flow.hpp"
+#include <string>
+#include <vector>
+
+#include "solvers/events/passage.hpp"
 
 namespace frahm::periodic {
 
@@ -24,7 +27,7 @@ struct Orbit {
   using S = Sizes<N, H>;
 
   Status status = Status::not_computed;
-  const char* reason = "";
+  std::string reason;        // why it failed; empty otherwise
   typename S::State z;       // at the section
   double section = 0.0;      // omega t of the section [rad]
   bool half_period = false;  // the passage covers half a period: x(t + T/2) = -x(t)
@@ -38,6 +41,7 @@ struct Orbit {
   int passages = 0;  // of the flow that the search took
 
   double sign() const { return half_period ? -1.0 : 1.0; }
+  bool is_found() const { return status == Status::ok || status == Status::grazing; }
 };
 
 }  // namespace frahm::periodic

@@ -1,18 +1,29 @@
 #include "solvers/orbits/rest_position.hpp"
 
 #include "solvers/events/box_minimum.hpp"
+#include "solvers/events/tolerances.hpp"
 
 namespace frahm::periodic {
 
-RestShift least_energy_shift(const Eigen::MatrixXd& K_inverse, const Eigen::MatrixXd& W,
-                             const Eigen::VectorXd& q_mean, const Eigen::VectorXd& lower,
-                             const Eigen::VectorXd& upper, const Eigen::VectorXd& limit) {
-  const Eigen::MatrixXd G = W.transpose() * K_inverse * W;
-  const Eigen::VectorXd delta = box_minimum(G, W.transpose() * q_mean, lower, upper, limit);
-  RestShift shift{-(K_inverse * (W * delta)), false};
-  for (Eigen::Index j = 0; j < delta.size(); ++j) {
-    const double room = std::min(delta[j] - lower[j], upper[j] - delta[j]);
-    if (room <= kGrazing * limit[j]) shift.at_limit = true;
+RestShift least_energy_shift(const RestDirections& rest, const Eigen::VectorXd& z_mean,
+                             std::span<const StuckForce> forces) {
+  const auto m = static_cast<Eigen::Index>(forces.size());
+  Eigen::VectorXd lower(m), upper(m), size(m);
+  for (Eigen::Index j = 0; j < m; ++j) {
+    const auto& [least, most, limit] = forces[static_cast<std::size_t>(j)];
+    lower[j] = -limit - least;
+    upper[j] = limit - most;
+    if (lower[j] > upper[j] + kTie * limit) return {};
+    upper[j] = std::max(upper[j], lower[j]);
+    size[j] = limit;
+  }
+  const BoxMinimum minimum =
+      box_minimum(rest.L.transpose() * rest.E, -(rest.L.transpose() * z_mean), lower, upper, size);
+  if (!minimum.found) return {};
+  RestShift shift{minimum.lambda, RestShift::Verdict::inside};
+  for (Eigen::Index j = 0; j < m; ++j) {
+    const double room = std::min(shift.delta[j] - lower[j], upper[j] - shift.delta[j]);
+    if (room <= kGrazing * size[j]) shift.verdict = RestShift::Verdict::at_limit;
   }
   return shift;
 }

@@ -1,76 +1,58 @@
 #pragma once
 
-#include "solvers/quantities/extremes.hpp"
-#include "solvers/quantities/integrals.hpp"
+#include <Eigen/Core>
+#include <span>
+
+#include "solvers/orbits/orbit.hpp"
+#include "solvers/orbits/rest_directions.hpp"
 
 namespace frahm::periodic {
 
-struct RestShift {
-  Eigen::VectorXd displacement;  // of each mass [m]
-  bool at_limit = false;         // some contact's force reaches its limit
+// A force of a contact that sticks throughout, over the period, and its limit [N].
+struct StuckForce {
+  double least = 0.0, most = 0.0, limit = 0.0;
 };
 
-// delta with lower <= delta <= upper that minimises 1/2 q^T K q, q = q_mean - K^-1 W delta.
-// Shapes: K_inverse n x n, W n x m, q_mean n; lower, upper, limit m [N].
-RestShift least_energy_shift(const Eigen::MatrixXd& K_inverse, const Eigen::MatrixXd& W,
-                             const Eigen::VectorXd& q_mean, const Eigen::VectorXd& lower,
-                             const Eigen::VectorXd& upper, const Eigen::VectorXd& limit);
+// The shift of the mean forces of contacts that stick throughout [N].
+struct RestShift {
+  enum class Verdict {
+    inside,    // every force keeps off its limit
+    at_limit,  // some force reaches its limit
+    none,      // no shift keeps the forces within their limits
+  };
+  Eigen::VectorXd delta;
+  Verdict verdict = Verdict::none;
+};
 
-// Contacts that never slide may rest anywhere in an interval. A shift of their mean forces by delta moves the
-// whole orbit by -K^-1 W delta and leaves every velocity as it is, so all of these orbits are periodic. By
-// convention the mean position of least energy is taken,
-//   minimise 1/2 q^T K q,  q = q_mean - K^-1 W delta,  |lambda_j(t) + delta_j| <= F_j.
-// Moves `orbit` there; one whose limit is reached is grazing. False, and the orbit as it was, where no rest
-// position keeps the forces within their limits.
+// Contacts that never slide may rest anywhere in an interval (rest_directions.hpp). By convention the mean
+// position of least energy is taken: with the mean state z_mean and |lambda_j(t) + delta_j| <= F_j
+//   minimise ||z_mean + E delta||_E^2,  which is  1/2 delta^T G delta - c^T delta,
+//   G = L^T E,  c = -L^T z_mean.
+RestShift least_energy_shift(const RestDirections& rest, const Eigen::VectorXd& z_mean,
+                             std::span<const StuckForce> forces);
+
+// Moves the whole orbit by a displacement of its state.
 template <int N, int H>
-bool settle_rest_position(const mechanics::Assembly& assembly, const Flow<N, H>& flow,
-                          OrbitSteps<N, H>& steps, Integrals<N, H>& integrals, Orbit<N, H>& orbit) {
-  const StepEquations<N, H>& eq = flow.equations();
-  const Eigen::Index n = eq.masses(), m = __builtin_popcountll(orbit.stuck_throughout);
-  steps.lay_out(orbit);
-  integrals.integrate(steps, flow, orbit.half_period, [](const auto&, auto& powers) { powers.clear(); });
-  const double period = 2.0 * std::numbers::pi / flow.fundamental_rate() * eq.step;
-  const typename Sizes<N, H>::Vector mean = integrals.gram().col(eq.states()).head(n) / period;
-
-  const Forms<N, H> forms(assembly, flow);
-  Eigen::MatrixXd W(n, m);
-  Eigen::VectorXd lower(m), upper(m), limit(m);
-  for (Eigen::Index j = 0, row = 0; j < eq.contacts(); ++j) {
-    if (!contains(orbit.stuck_throughout, j)) continue;
-    const Extremes force = find_extremes(steps, flow, orbit.section, [&](const Mode<N, H>& mode) {
-      return forms.stuck_contact_force(j, mode);
-    });
-    W.col(row) = eq.W.col(j);
-    limit[row] = eq.limit[j];
-    lower[row] = -eq.limit[j] - force.least;
-    upper[row] = eq.limit[j] - force.most;
-    if (lower[row] > upper[row] + kTie * eq.limit[j]) return false;
-    upper[row] = std::max(upper[row], lower[row]);
-    ++row;
-  }
-  const RestShift shift = least_energy_shift(eq.K_inverse, W, mean, lower, upper, limit);
-  orbit.z.head(n) += shift.displacement;
-  orbit.passage.end.head(n) += shift.displacement;
-  for (Segment<N, H>& segment : orbit.passage.segments) segment.z.head(n) += shift.displacement;
-  if (shift.at_limit) orbit.status = Status::grazing;
-  return true;
+void shift_orbit(const Eigen::VectorXd& by, Orbit<N, H>& orbit) {
+  orbit.z += by;
+  orbit.passage.end += by;
+  for (Segment<N, H>& segment : orbit.passage.segments) segment.z += by;
 }
 
 // Under symmetric forcing the rest positions have zero mean, so contacts to a fixed support that never slide
-// rest at zero: takes the rounding out of them, orthogonally in the norm of K.
+// rest at zero: takes the rounding out of them, orthogonally in the energy norm.
 template <int N, int H>
 void centre_rest_position(const Flow<N, H>& flow, Orbit<N, H>& orbit) {
   const StepEquations<N, H>& eq = flow.equations();
-  const Eigen::Index n = eq.masses();
-  Eigen::MatrixXd W(n, 0);
+  ContactMask at_rest = 0;
   for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
-    if (!contains(orbit.stuck_throughout, j) || !eq.support_velocity.row(j).isZero(0.0)) continue;
-    W.conservativeResize(n, W.cols() + 1);
-    W.rightCols(1) = eq.W.col(j);
+    if (contains(orbit.stuck_throughout, j) && eq.holds(j) && eq.support_velocity.row(j).isZero(0.0))
+      at_rest |= bit(j);
   }
-  if (W.cols() == 0) return;
-  const typename Sizes<N, H>::Square off = projector_off(eq.K, W);
-  const auto centre = [&](typename Sizes<N, H>::State& z) { z.head(n) = (off * z.head(n)).eval(); };
+  if (at_rest == 0) return;
+  const Eigen::MatrixXd off =
+      Eigen::MatrixXd::Identity(eq.states(), eq.states()) - shift_projector(rest_directions(eq, at_rest));
+  const auto centre = [&](typename Sizes<N, H>::State& z) { z = (off * z).eval(); };
   centre(orbit.z);
   centre(orbit.passage.end);
   for (Segment<N, H>& segment : orbit.passage.segments) centre(segment.z);

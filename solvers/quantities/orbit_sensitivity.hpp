@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <vector>
 
+#include "solvers/orbits/rest_directions.hpp"
 #include "solvers/quantities/passage_sensitivity.hpp"
 
 // The derivative of a periodic orbit: delta (passage_sensitivity.hpp) repeats with the orbit,
@@ -45,11 +46,13 @@ class OrbitSensitivity {
 
  private:
   void add_rest_positions(typename S::State& right_side) const;
+  bool has_rest_positions() const { return !orbit_->half_period && orbit_->stuck_throughout != 0; }
 
   const Flow<N, H>& flow_;
   const Orbit<N, H>* orbit_ = nullptr;
   std::span<const OrbitStep<N, H>> steps_;
-  std::vector<ModeChange> changes_;
+  RestDirections rest_;             // of contacts that stick throughout
+  Eigen::MatrixXd shift_per_keep_;  // E (L^T E)^+
   PassageSensitivity<N, H> passage_;
   Eigen::PartialPivLU<typename S::StateSquare> periodicity_;  // of 1 - s Phi
 };
@@ -63,16 +66,16 @@ const char* OrbitSensitivity<N, H>::prepare(const Orbit<N, H>& orbit, OrbitSteps
   steps_ = steps.steps();
   if (orbit.passage.starts_at_event)
     return "events follow one another too closely for a section between them";
-  if (const char* reason = find_changes(flow_, steps_, changes_); *reason != '\0') return reason;
+  if (const char* reason = why_no_passage_derivative<N, H>(flow_, orbit.passage.changes); *reason != '\0')
+    return reason;
 
   typename S::StateSquare A = -orbit.sign() * orbit.passage.tangent;
   A.diagonal().array() += 1.0;
-  if (!orbit.half_period && orbit.stuck_throughout != 0) {
-    // A rest position may be anywhere: w^T dq(0), which is known, stands in its place.
-    for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
-      if (!contains(orbit.stuck_throughout, j)) continue;
-      A.topLeftCorner(eq.masses(), eq.masses()) += eq.W.col(j) * eq.W.col(j).transpose();
-    }
+  if (has_rest_positions()) {
+    // A rest position may be anywhere: L^T dz(0), which is known, stands in its place.
+    rest_ = rest_directions(eq, orbit.stuck_throughout);
+    shift_per_keep_ = shift_per_kept(rest_);
+    A += shift_per_keep_ * rest_.L.transpose();
   }
   periodicity_.compute(A);
   return "";
@@ -81,7 +84,7 @@ const char* OrbitSensitivity<N, H>::prepare(const Orbit<N, H>& orbit, OrbitSteps
 template <int N, int H>
 const char* OrbitSensitivity<N, H>::differentiate(const StepDerivative<N, H>& by) {
   passage_.set_direction(by);
-  const typename S::State g_p = passage_.sweep(steps_, changes_, S::State::Zero(flow_.equations().states()));
+  const typename S::State g_p = passage_.sweep(steps_, orbit_->passage.changes, S::State::Zero(flow_.equations().states()));
   typename S::State right_side = orbit_->sign() * g_p;
   add_rest_positions(right_side);
   const typename S::State start = periodicity_.solve(right_side);
@@ -90,22 +93,34 @@ const char* OrbitSensitivity<N, H>::differentiate(const StepDerivative<N, H>& by
   if (!start.allFinite() || eq.energy_norm(start) > kBeyondRounding * eq.energy_norm(right_side)) {
     return "the period map has a multiplier of 1: the response is one of many";
   }
-  passage_.sweep(steps_, changes_, start);
+  passage_.sweep(steps_, orbit_->passage.changes, start);
   return "";
 }
 
-// A contact that sticks throughout rests where the energy is least, which makes the mean of w^T q zero:
-//   w^T q(t) = -p^T (y(t) - mean y).
+// A contact that sticks throughout rests where the energy is least, which makes the mean of L^T z zero:
+//   L^T z(t) = p^T (y(t) - mean y),   L^T dz = p^T d(y - mean y) + s dk/k^2.
 template <int N, int H>
 void OrbitSensitivity<N, H>::add_rest_positions(typename S::State& right_side) const {
-  if (orbit_->half_period || orbit_->stuck_throughout == 0) return;
+  if (!has_rest_positions()) return;
   const StepEquations<N, H>& eq = flow_.equations();
+  const StepDerivative<N, H>& by = passage_.equations();
+  Eigen::VectorXd kept(rest_.L.cols());
+  Eigen::Index column = 0;
   for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
     if (!contains(orbit_->stuck_throughout, j)) continue;
-    typename S::OscillatorRow moving = passage_.equations().support_displacement.row(j);
+    typename S::OscillatorRow moving = by.support_displacement.row(j);
     moving[0] = 0.0;  // its mean
-    right_side.head(eq.masses()) -= eq.W.col(j) * moving.dot(steps_.front().left.u);
+    kept[column] = moving.dot(steps_.front().left.u);
+    if constexpr (S::kInternal != 0) {
+      if (!eq.holds(j)) {
+        const Eigen::Index internal = eq.internal_of[static_cast<std::size_t>(j)];
+        const double k = eq.internal_stiffness[internal];
+        kept[column] += orbit_->z[2 * eq.masses() + internal] * by.internal_stiffness[internal] / (k * k);
+      }
+    }
+    ++column;
   }
+  right_side += shift_per_keep_ * kept;
 }
 
 }  // namespace frahm::periodic

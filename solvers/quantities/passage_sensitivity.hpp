@@ -9,7 +9,7 @@
 // The derivative of a motion over a passage, through its events, at fixed time in steps
 // (step_derivative.hpp):
 //   delta(t) = d z(t) / d p,   delta' = A delta + dA z + dB u + ...   between events,
-// a jump where a contact comes to rest or reverses.
+// a jump where a contact comes to rest or reverses, or an internal force reaches its limit.
 // Sources: Leine and Nijmeijer, Dynamics and Bifurcations of Non-Smooth Mechanical Systems, 2004, ch. 7;
 // Hiskens and Pai, Trajectory sensitivity analysis of hybrid systems, IEEE Trans. Circuits Syst. I 47 (2000).
 namespace frahm::periodic {
@@ -21,55 +21,14 @@ struct InstantDerivative {
   typename Sizes<N, H>::Vector a;
 };
 
-// The change of mode between a segment and the next.
-struct ModeChange {
-  std::size_t step = 0;        // the last one before it
-  ContactMask arrived = 0;     // contacts that come to rest or reverse
-  Eigen::Index released = -1;  // one that lets go while none arrives; -1: none
-  double slope = 0.0;          // of what reaches its end there: relative velocity, or stuck force, a step
-  double side = 1.0;           // of a release: sign of the force
-
-  bool is_several() const { return (arrived & (arrived - 1)) != 0; }
-  Eigen::Index arriving() const { return __builtin_ctzll(arrived); }  // of a single one
-};
-
 inline constexpr const char* kSeveralArrive = "several contacts come to rest at one instant";
 
-// From the mode `before` to `after`, at the instant x seen from inside the first.
+// Why derivatives do not pass the changes of a passage; "" where they do. Contacts that come to rest together
+// may do so one after the other on either side, in either order.
 template <int N, int H>
-ModeChange mode_change(const Flow<N, H>& flow, const Mode<N, H>& before, const Instant<N, H>& x,
-                       const Mode<N, H>& after) {
-  const StepEquations<N, H>& eq = flow.equations();
-  ModeChange change;
-  for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
-    const bool stuck_before = contains(before.stuck, j), stuck_after = contains(after.stuck, j);
-    if (stuck_before && !stuck_after && change.released < 0) change.released = j;
-    if (stuck_before || (!stuck_after && before.sign(j) == after.sign(j))) continue;
-    if (eq.limit[j] == 0.0) continue;  // its friction, which is none, does not change
-    change.arrived |= bit(j);
-  }
-  if (change.arrived != 0) {
-    change.slope = flow.sliding_speed(x, change.arriving()).slope;
-  } else if (change.released >= 0) {
-    const ValueAndSlope force = flow.stuck_force(x, before, change.released);
-    change.slope = force.slope;
-    change.side = force.value > 0.0 ? 1.0 : -1.0;
-  }
-  return change;
-}
-
-// All changes within a passage, one less than it has segments. Returns "" or why derivatives do not pass
-// them.
-template <int N, int H>
-const char* find_changes(const Flow<N, H>& flow, std::span<const OrbitStep<N, H>> steps,
-                         std::vector<ModeChange>& changes) {
-  changes.clear();
-  for (std::size_t i = 0; i + 1 < steps.size(); ++i) {
-    if (!steps[i].ends_segment) continue;
-    changes.push_back(
-        mode_change(flow, flow.mode(steps[i].mode), steps[i].right, flow.mode(steps[i + 1].mode)));
-    changes.back().step = i;
-    if (changes.back().is_several()) return kSeveralArrive;
+const char* why_no_passage_derivative(const Flow<N, H>& flow, std::span<const Event> changes) {
+  for (const Event& change : changes) {
+    if (count(change.arrived & flow.equations().holding) > 1) return kSeveralArrive;
   }
   return "";
 }
@@ -88,11 +47,11 @@ class PassageSensitivity {
 
   // delta over a passage from `start`, that of the state at its beginning; returns that at its end. The
   // steps, laid out and expanded, and the changes found in them must outlive what is asked below.
-  typename S::State sweep(Steps steps, std::span<const ModeChange> changes, const typename S::State& start);
+  typename S::State sweep(Steps steps, std::span<const Event> changes, const typename S::State& start);
 
-  // delta over the arrival of one contact, between the instants seen from inside the modes before and after.
-  // Returns the derivative of its instant [steps].
-  double arrive(const ModeChange& change, const Instant<N, H>& before, const Instant<N, H>& after,
+  // delta over the arrival of contact j, whose velocity has the slope `slope` there, between the instants seen
+  // from inside the modes before and after. Returns the derivative of its instant [steps].
+  double arrive(Eigen::Index j, double slope, const Instant<N, H>& before, const Instant<N, H>& after,
                 typename S::State& delta) const;
 
   // Taylor polynomials of delta over a step, a column for each component of the state.
@@ -110,8 +69,9 @@ class PassageSensitivity {
   const ModeDerivative<N, H>& mode(std::size_t index);
   void expand(const OrbitStep<N, H>& step, const typename S::State& start, typename S::StatePolynomials& p);
   void enter(typename S::State& delta) const;
-  double cross(const ModeChange& change, const OrbitStep<N, H>& before, const OrbitStep<N, H>& after,
+  double cross(const Event& change, const OrbitStep<N, H>& before, const OrbitStep<N, H>& after,
                typename S::State& delta);
+  void keep_at_limit(ContactMask contacts, const Mode<N, H>& mode, typename S::State& delta) const;
 
   const Flow<N, H>& flow_;
   Steps steps_;
@@ -138,7 +98,7 @@ const ModeDerivative<N, H>& PassageSensitivity<N, H>::mode(std::size_t index) {
 }
 
 template <int N, int H>
-typename Sizes<N, H>::State PassageSensitivity<N, H>::sweep(Steps steps, std::span<const ModeChange> changes,
+typename Sizes<N, H>::State PassageSensitivity<N, H>::sweep(Steps steps, std::span<const Event> changes,
                                                             const typename S::State& start) {
   steps_ = steps;
   polynomials_.resize(std::max(polynomials_.size(), steps.size()));
@@ -173,6 +133,9 @@ void PassageSensitivity<N, H>::expand(const OrbitStep<N, H>& step, const typenam
   if constexpr (S::kInternal != 0) {
     internal_drive.noalias() = x.z * by_->internal_by_state.transpose();
     internal_drive.noalias() += x.u * by_->internal_drive.transpose();
+    for (Eigen::Index i = 0; i < internal; ++i) {
+      if (c.spring[i] == 0.0) internal_drive.col(i).setZero();  // it is held
+    }
   }
   p.resize(kTerms, eq.states());
   typename S::Vector q = start.head(n), v = start.segment(n, n), a(n);
@@ -187,7 +150,7 @@ void PassageSensitivity<N, H>::expand(const OrbitStep<N, H>& step, const typenam
     if constexpr (S::kInternal != 0) {
       p.row(k).tail(internal) = s.transpose();
       a += c.As * s;
-      ds = eq.internal_stiffness.asDiagonal() * (eq.D.transpose() * v) - eq.internal_rate.asDiagonal() * s;
+      ds = c.internal_rates(eq, v, s);
       s = (ds + internal_drive.row(k).transpose()) * share;
     }
     q = v * share;
@@ -195,41 +158,61 @@ void PassageSensitivity<N, H>::expand(const OrbitStep<N, H>& step, const typenam
   }
 }
 
-// Contacts that stick at the beginning: w_j^T v + p_j^T y' = 0 holds before and after.
+// At the beginning w_j^T v + p_j^T y' = 0 of contacts that are held, and s = +-F of internal forces that are.
 template <int N, int H>
 void PassageSensitivity<N, H>::enter(typename S::State& delta) const {
   const StepEquations<N, H>& eq = flow_.equations();
   const Mode<N, H>& first = flow_.mode(steps_.front().mode);
-  if (first.stuck == 0) return;
+  keep_at_limit(~first.stuck & ~eq.holding, first, delta);
+  if ((first.stuck & eq.holding) == 0) return;
   const Eigen::Index n = eq.masses();
   const typename S::Contacts slip =
       eq.W.transpose() * delta.segment(n, n) + by_->support_velocity * steps_.front().left.u;
   delta.segment(n, n) -= flow_.configuration(first).reaction() * slip;
 }
 
-// What reaches its end at the change, g(z, p) = 0, does so later by dt = -dg / g'. Then
-//   dv+ = dv- + (a- - a+) dt,
-// and dv+ = dv- where a release alone leaves the acceleration as it is.
+// s = sigma F of internal forces that slide in `mode`:  ds = sigma dF
 template <int N, int H>
-double PassageSensitivity<N, H>::cross(const ModeChange& change, const OrbitStep<N, H>& before,
+void PassageSensitivity<N, H>::keep_at_limit(ContactMask contacts, const Mode<N, H>& mode,
+                                             typename S::State& delta) const {
+  if constexpr (S::kInternal != 0) {
+    const StepEquations<N, H>& eq = flow_.equations();
+    for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
+      if (!contains(contacts, j)) continue;
+      delta[2 * eq.masses() + eq.internal_of[static_cast<std::size_t>(j)]] = mode.sign(j) * by_->limit[j];
+    }
+  }
+}
+
+// What reaches its end at the change, g(z, p) = 0, does so later by dt = -dg / g'. Then with the fields before
+// and after
+//   dz+ = dz- + (f- - f+) dt:
+// an arrival changes the acceleration, a release an internal force's rate, nothing else jumps.
+template <int N, int H>
+double PassageSensitivity<N, H>::cross(const Event& change, const OrbitStep<N, H>& before,
                                        const OrbitStep<N, H>& after, typename S::State& delta) {
-  if (change.arrived != 0) return arrive(change, before.right, after.left, delta);
-  if (change.released < 0) return 0.0;
-  const Eigen::Index j = change.released;
-  mode(before.mode);
-  const double force = stuck_force(before.mode, before.right, delta, j);
-  return (change.side * by_->limit[j] - force) / change.slope;
+  if (change.contact < 0) return 0.0;
+  double shift = 0.0;
+  if (contains(change.arrived, change.contact)) {
+    shift = arrive(change.contact, change.slope, before.right, after.left, delta);
+  } else {
+    mode(before.mode);
+    const double force = stuck_force(before.mode, before.right, delta, change.contact);
+    shift = (change.side * by_->limit[change.contact] - force) / change.slope;
+  }
+  keep_at_limit(change.released & ~flow_.equations().holding, flow_.mode(after.mode), delta);
+  return shift;
 }
 
 template <int N, int H>
-double PassageSensitivity<N, H>::arrive(const ModeChange& change, const Instant<N, H>& before,
+double PassageSensitivity<N, H>::arrive(Eigen::Index j, double slope, const Instant<N, H>& before,
                                         const Instant<N, H>& after, typename S::State& delta) const {
   const StepEquations<N, H>& eq = flow_.equations();
-  const Eigen::Index n = eq.masses(), j = change.arriving();
+  const Eigen::Index n = eq.masses();
   auto dv = delta.segment(n, n);
   const double velocity = eq.W.col(j).dot(dv) + by_->support_velocity.row(j).dot(before.u);
-  const double shift = -velocity / change.slope;
-  dv += (before.a - after.a) * shift;
+  const double shift = -velocity / slope;
+  if (eq.holds(j)) dv += (before.a - after.a) * shift;
   return shift;
 }
 

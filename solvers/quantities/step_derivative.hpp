@@ -18,6 +18,7 @@ struct StepDerivative {
   typename S::SupportsByOscillators motion, motion_velocity, motion_acceleration;
   typename S::ContactsByOscillators support_displacement, support_velocity, support_acceleration;
   typename S::Contacts limit;
+  Eigen::VectorXd internal_stiffness;                  // dk
   Eigen::MatrixXd internal_by_state, internal_drive;  // of s', by state and by oscillators
 
   // system, by: the equations of `eq` and their derivative, before time was counted in steps.
@@ -61,6 +62,7 @@ void StepDerivative<N, H>::set(const StepEquations<N, H>& eq, const mechanics::L
     // s' = k (D^T v + p^T y') - rate s,  d(rate h) = h drate + (rate h) dh/h
     const Eigen::Index n = eq.masses(), s = eq.internal_forces();
     const Eigen::VectorXd rate = h * by.internal_rate + log_step * eq.internal_rate;
+    internal_stiffness = by.internal_stiffness;
     internal_by_state.setZero(s, eq.states());
     internal_by_state.middleCols(n, n) = by.internal_stiffness.asDiagonal() * eq.D.transpose();
     internal_by_state.rightCols(s) = -Eigen::MatrixXd(rate.asDiagonal());
@@ -86,7 +88,8 @@ void ModeDerivative<N, H>::set(const Flow<N, H>& flow, const Mode<N, H>& mode,
   typename S::VectorByOscillators r_u = by.force - by.M * c.Au;
   r_u.col(0) -= by.M * mode.acceleration;
   for (Eigen::Index j = 0; j < m; ++j) {
-    if (!contains(mode.stuck, j)) r_u.col(0) -= (mode.sign(j) * by.limit[j]) * eq.W.col(j);
+    if (eq.holds(j) && !contains(mode.stuck, j))
+      r_u.col(0) -= (mode.sign(j) * by.limit[j]) * eq.W.col(j);
   }
 
   const typename S::Square mobility = c.P * eq.M_inverse;
@@ -94,18 +97,19 @@ void ModeDerivative<N, H>::set(const Flow<N, H>& flow, const Mode<N, H>& mode,
   acceleration_u.noalias() = mobility * r_u;
   force_z.setZero(m, eq.states());
   force_u.setZero(m, eq.oscillators());
-  if (mode.stuck == 0) return;
+  const ContactMask held = mode.stuck & eq.holding;
+  if (held == 0) return;
   acceleration_u -= c.reaction() * by.support_acceleration;
   force_z.noalias() = c.reaction().transpose() * r_z;
   force_u.noalias() = c.reaction().transpose() * r_u;
   force_u += c.constraint() * by.support_acceleration;
-  if ((mode.stuck & (mode.stuck - 1)) == 0) return;
+  if (count(held) == 1) return;
 
   // Of stuck directions that depend on one another lambda is that of least sum (lambda_j / F_j)^2, which
   // turns with the F_j: (1 - G^+ G) 2 (dF/F) lambda, in the kernel of G.
   typename S::Contacts turn = S::Contacts::Zero(m);
   for (Eigen::Index j = 0; j < m; ++j) {
-    if (contains(mode.stuck, j) && eq.limit[j] > 0.0) turn[j] = 2.0 * by.limit[j] / eq.limit[j];
+    if (contains(held, j) && eq.limit[j] > 0.0) turn[j] = 2.0 * by.limit[j] / eq.limit[j];
   }
   typename S::ContactSquare kernel = -c.constraint() * (eq.W.transpose() * (eq.M_inverse * eq.W));
   kernel.diagonal().array() += 1.0;

@@ -1,11 +1,10 @@
 #pragma once
 
 #include "solvers/mechanics/element_table.hpp"
-#include "solvers/orbits/continuation.hpp"
-#include "solvers/orbits/rest_position.hpp"
 #include "solvers/quantities/gradient.hpp"
 #include "solvers/quantities/observables.hpp"
 #include "solvers/quantities/orbit_observation.hpp"
+#include "solvers/response/orbit_search.hpp"
 #include "solvers/response/response.hpp"
 
 namespace frahm::periodic {
@@ -16,10 +15,9 @@ class SizedSolver final : public ResponseSolver {
  public:
   SizedSolver(const mechanics::Network& network, std::vector<Quantity> quantities)
       : assembly_(network),
-        continuation_(flow_),
+        search_(assembly_, flow_),
         observables_(assembly_, flow_, quantities),
-        gradient_(assembly_, flow_, std::move(quantities)),
-        steps_(flow_) {}
+        gradient_(assembly_, flow_, std::move(quantities)) {}
 
   void set_values(const mechanics::NetworkValues& values) override {
     values_ = values;
@@ -38,8 +36,8 @@ class SizedSolver final : public ResponseSolver {
     flow_.set_forcing(system_);
   }
 
-  void forget() override { continuation_.forget(); }
-  void begin_row() override { continuation_.begin_row(); }
+  void forget() override { search_.forget(); }
+  void begin_row() override { search_.begin_row(); }
   const ResponseSummary& solve() override;
 
   void quantities(std::span<double> out) override {
@@ -64,40 +62,23 @@ class SizedSolver final : public ResponseSolver {
   std::vector<Stretch> stretches() const override;
 
  private:
-  bool has_response() const { return orbit_.status == Status::ok || orbit_.status == Status::grazing; }
-
-  void settle();
-  ContactMask barely_sliding() const;
+  bool has_response() const { return orbit_.is_found(); }
 
   mechanics::Assembly assembly_;
   mechanics::NetworkValues values_;  // of the system
   mechanics::LinearSystem system_;
   std::vector<UndampedMode> undamped_modes_;
   Flow<N, H> flow_;
-  Continuation<N, H> continuation_;
+  OrbitSearch<N, H> search_;
   Observables<N, H> observables_;
   Gradient<N, H> gradient_;
-  OrbitSteps<N, H> steps_;
-  Integrals<N, H> integrals_;
   Orbit<N, H> orbit_;
   ResponseSummary summary_;
 };
 
 template <int N, int H>
 const ResponseSummary& SizedSolver<N, H>::solve() {
-  if (is_unbounded(system_, undamped_modes_)) {
-    orbit_.status = Status::unbounded;
-    orbit_.reason = "an undamped mode is driven at its resonance, and no friction holds it";
-    orbit_.residual = std::numeric_limits<double>::quiet_NaN();
-    orbit_.newton_iterations = orbit_.passages = 0;
-    continuation_.forget();
-  } else {
-    continuation_.find(system_.omega, system_.odd_forcing, orbit_);
-    if (!orbit_.half_period) settle();
-    if (orbit_.half_period && has_response() && orbit_.stuck_throughout != 0)
-      centre_rest_position(flow_, orbit_);
-    if (has_response() && observables_.needs_stability()) judge_stability(flow_, orbit_);
-  }
+  search_.find(system_, undamped_modes_, observables_.needs_stability(), orbit_);
   summary_.status = orbit_.status;
   summary_.reason = orbit_.reason;
   summary_.residual = orbit_.residual;
@@ -105,43 +86,6 @@ const ResponseSummary& SizedSolver<N, H>::solve() {
   summary_.passages = orbit_.passages;
   summary_.half_period = orbit_.half_period;
   return summary_;
-}
-
-// Contacts that slide for less than a hundredth of the passage, or of a search that failed, for less than
-// half.
-template <int N, int H>
-ContactMask SizedSolver<N, H>::barely_sliding() const {
-  const double share = has_response() ? 0.01 : 0.5;
-  ContactMask result = 0;
-  for (Eigen::Index j = 0; j < flow_.equations().contacts(); ++j) {
-    double sliding = 0.0;
-    for (const Segment<N, H>& segment : orbit_.passage.segments) {
-      if (!contains(flow_.mode(segment.mode).stuck, j)) sliding += segment.length;
-    }
-    if (sliding < share * flow_.equations().period && flow_.equations().limit[j] > 0.0) result |= bit(j);
-  }
-  return result;
-}
-
-// Contacts that stick throughout rest where the energy is least. The search may end on the edge of the set of
-// such orbits, where it takes ever smaller slips for the answer (the residual falls like slip^1.5): contacts
-// that barely slide are held, and if their forces then keep within their limits that is the orbit, as there
-// is only one.
-template <int N, int H>
-void SizedSolver<N, H>::settle() {
-  const ContactMask held = barely_sliding();
-  if (has_response() && held == orbit_.stuck_throughout) {
-    if (held != 0) settle_rest_position(assembly_, flow_, steps_, integrals_, orbit_);
-    return;
-  }
-  if (held == 0) return;
-  Orbit<N, H> trial = orbit_;
-  trial.z = flow_.brought_to_rest(trial.z, trial.section, held);
-  flow_.hold_contacts(held);
-  Shooting<N, H>(flow_).find(trial);
-  flow_.hold_contacts(0);
-  if (trial.status == Status::failed) return;
-  if (settle_rest_position(assembly_, flow_, steps_, integrals_, trial)) orbit_ = trial;
 }
 
 template <int N, int H>

@@ -5,7 +5,7 @@
 #include <limits>
 #include <sstream>
 
-#include "solvers/orbits/stability.hpp"
+#include "solvers/orbits/spectral_radius.hpp"
 
 namespace frahm::smooth {
 namespace {

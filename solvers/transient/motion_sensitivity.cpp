@@ -14,7 +14,8 @@ using Eigen::Index;
 
 MotionSensitivity::MotionSensitivity(std::span<const periodic::Observed> observed, std::vector<double> times,
                                      Watch watch)
-    : steps_(flow_),
+    : walk_(flow_),
+      steps_(flow_),
       time_(times.front()),
       times_(std::move(times)),
       samples_(observed),
@@ -77,7 +78,7 @@ bool MotionSensitivity::advance(double time, double phase, double longest) {
 bool MotionSensitivity::pass(double length, double phase) {
   stretch_.section = phase;
   passage_start_ = time_;
-  flow_.pass(z_, phase, length, stretch_.passage);
+  walk_.pass(z_, phase, length, stretch_.passage);
   steps_taken_ += length;
   failure_ = stretch_.passage.failure;
   if (failure_ != nullptr) return false;
@@ -100,9 +101,10 @@ void MotionSensitivity::differentiate() {
   } else {
     why_none_ = cross_border(steps.front());
   }
-  if (*why_none_ == '\0') why_none_ = periodic::find_changes<kAny, kAny>(flow_, steps, changes_);
+  const std::vector<periodic::Event>& changes = stretch_.passage.changes;
+  if (*why_none_ == '\0') why_none_ = periodic::why_no_passage_derivative<kAny, kAny>(flow_, changes);
   if (*why_none_ != '\0') return;
-  for (Direction& d : directions_) d.delta = d.sensitivity.sweep(steps, changes_, d.delta);
+  for (Direction& d : directions_) d.delta = d.sensitivity.sweep(steps, changes, d.delta);
 }
 
 // delta is taken with tau = t/h held, the initial values are given with t held:
@@ -121,14 +123,16 @@ void MotionSensitivity::begin(const Step& first) {
 const char* MotionSensitivity::cross_border(const Step& first) {
   const periodic::Mode<kAny, kAny>& after = flow_.mode(first.mode);
   if (after.stuck == ending_.mode.stuck && after.positive == ending_.mode.positive) return "";
-  periodic::ModeChange change = periodic::mode_change(flow_, ending_.mode, ending_.at, after);
-  if (change.arrived == 0) return "";
-  if (change.is_several()) {
-    const bool all_stick = (change.arrived & ~after.stuck) == 0 && change.released < 0;
+  const periodic::ContactMask arrived =
+      periodic::arrived_between(flow_.equations(), ending_.mode, after) & flow_.equations().holding;
+  if (arrived == 0) return "";
+  if (periodic::count(arrived) > 1) {
+    const bool all_stick = (arrived & ~after.stuck) == 0 && (ending_.mode.stuck & ~after.stuck) == 0;
     return all_stick ? "" : periodic::kSeveralArrive;
   }
-  change.slope = ending_.slopes[static_cast<std::size_t>(change.arriving())];
-  for (Direction& d : directions_) d.sensitivity.arrive(change, ending_.at, first.left, d.delta);
+  const Index contact = periodic::first(arrived);
+  const double slope = ending_.slopes[static_cast<std::size_t>(contact)];
+  for (Direction& d : directions_) d.sensitivity.arrive(contact, slope, ending_.at, first.left, d.delta);
   return "";
 }
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "solvers/events/walk.hpp"
 #include "solvers/quantities/step_samples.hpp"
 #include "solvers/transient/motion.hpp"
 
@@ -70,9 +71,9 @@ class MotionSensitivity {
   void sample(std::size_t step, double end);
 
   Flow flow_;
+  periodic::Walk<kAny, kAny> walk_;
   periodic::OrbitSteps<kAny, kAny> steps_;
   periodic::Orbit<kAny, kAny> stretch_;  // the passage in hand
-  std::vector<periodic::ModeChange> changes_;
   std::vector<Direction> directions_;
   State z_;
   double time_ = 0.0, passage_start_ = 0.0;  // [s]

@@ -46,6 +46,7 @@ std::vector<double> sample_times(double duration, int count) {
 
 Trajectory::Trajectory(const mechanics::Assembly& assembly, std::vector<double> times, Watch watch)
     : assembly_(assembly),
+      walk_(flow_),
       steps_(flow_),
       account_(assembly, flow_),
       held_since_(kNever),
@@ -129,7 +130,7 @@ bool Trajectory::can_last(double duration) {
 
 bool Trajectory::pass(double length, double phase) {
   stretch_.section = phase;
-  flow_.pass(z_, phase, length, stretch_.passage);
+  walk_.pass(z_, phase, length, stretch_.passage);
   steps_taken_ += length;
   failure_ = stretch_.passage.failure;
   if (failure_ != nullptr) return false;

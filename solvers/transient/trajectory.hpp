@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "solvers/events/walk.hpp"
 #include "solvers/quantities/orbit_steps.hpp"
 #include "solvers/transient/energy_account.hpp"
 #include "solvers/transient/motion.hpp"
@@ -78,6 +79,7 @@ class Trajectory {
 
   const mechanics::Assembly& assembly_;
   Flow flow_;
+  periodic::Walk<Eigen::Dynamic, Eigen::Dynamic> walk_;
   periodic::OrbitSteps<Eigen::Dynamic, Eigen::Dynamic> steps_;
   periodic::Orbit<Eigen::Dynamic, Eigen::Dynamic> stretch_;  // the passage in hand
   EnergyAccount account_;

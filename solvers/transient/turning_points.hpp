@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "solvers/events/tolerances.hpp"
 #include "solvers/flow/flow.hpp"
 #include "solvers/transient/motion.hpp"
 

@@ -9,10 +9,18 @@
 
 #include "solvers/mechanics/network.hpp"
 #include "solvers/quantities/quantity.hpp"
-#include "solvers/tuning/noise.hpp"
+#include "solvers/tuning/variance/noise.hpp"
 
 // What is to be tuned: a network whose numbers depend on design parameters, a band of frequencies, and what
 // is wanted of the response over it.
+//
+// The folders of this room; each knows those before it, none of those after it:
+//   problem/    an optimisation problem in plain terms, its KKT conditions, the libraries that solve it
+//   variance/   mean squares of a network under white noise
+//   task.hpp, optimum.hpp   the question and the answer (what asks for it is in stages/)
+//   schedules/  design parameters as variables: constants, or piecewise linear over the band
+//   exchange/   the design problem over a band: its curves, their maxima, the active ones
+//   stages/     a tuning from its start to its report
 namespace frahm::tuning {
 
 // A range of the band parameter, which sets the excitation's frequency [its SI unit]; from <= to.

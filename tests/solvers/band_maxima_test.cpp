@@ -1,5 +1,5 @@
 // Every local maximum of a curve over a band, however narrow, as long as the seeds know its width.
-#include "solvers/tuning/band_maxima.hpp"
+#include "solvers/tuning/exchange/band_maxima.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -52,7 +52,8 @@ double highest(const BandMaxima& found) {
 }
 
 TEST_CASE("a peak of a millionth of the band's width is found between two broad ones") {
-  // The narrow peak's foot is so low that no sample of an even grid of 10,000 places sees more than 2 % of it.
+  // The narrow peak's foot is so low that no sample of an even grid of 10,000 places sees more than 2 % of
+  // it.
   const auto curve = [](double x) {
     return sum(sum(magnification(x, 17.0, 0.05, 1.0), magnification(x, 29.0, 0.05, 1.0)),
                magnification(x, 23.456789, 1e-6, 1e-4));

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "solvers/tuning/problem.hpp"
+#include "solvers/tuning/problem/problem.hpp"
 
 // Problems whose optima and multipliers are known.
 namespace frahm::tuning {

@@ -1,4 +1,4 @@
-#include "solvers/tuning/nonnegative_least_squares.hpp"
+#include "solvers/tuning/problem/nonnegative_least_squares.hpp"
 
 #include <catch2/catch.hpp>
 #include <random>

@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <stdexcept>
 
-#include "solvers/tuning/kkt.hpp"
-#include "solvers/tuning/starts.hpp"
+#include "solvers/tuning/problem/kkt.hpp"
+#include "solvers/tuning/stages/starts.hpp"
 #include "tests/solvers/known_optima.hpp"
 
 // Both adapters, on optima that are known.

@@ -1,4 +1,4 @@
-#include "solvers/tuning/variance.hpp"
+#include "solvers/tuning/variance/variance.hpp"
 
 #include <array>
 #include <catch2/catch.hpp>
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "solvers/tuning/lyapunov.hpp"
+#include "solvers/tuning/variance/lyapunov.hpp"
 #include "tests/solvers/known_optima.hpp"
 
 // The mean square under white noise, against closed forms, a frequency integral and the known optima.

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "solvers/events/workspace.hpp"
+
+namespace frahm::periodic {
+
+// The tangent across an event at which a guard g(z, t) reaches zero with the slope g', the fields f before and
+// after (Leine and Nijmeijer, Dynamics and Bifurcations of Non-Smooth Mechanical Systems, 2004, ch. 7):
+//   dz+ = dz- + (f+ - f-) (grad g dz-) / g'
+// - a velocity that reaches zero:  dv+ = dv- + (a+ - a-)(w^T dv-)/(w^T a- + p^T y''); exact for a reversal, and for
+//   a stop, where it is the M-orthogonal projection onto the stuck velocities. Of contacts that arrive together
+//   each brings its own share. A contact whose force is a state leaves a as it is: nothing jumps.
+// - a force lambda that reaches its limit leaves a as it is: nothing jumps.
+// - an internal force s that does: s' falls from g' to 0, so that ds+ = ds- + (0 - g') ds-/g' = 0.
+// before: the event's instant seen from inside the mode before it; w.left: from inside the mode after.
+template <int N, int H>
+void saltate(const Flow<N, H>& flow, ContactMask arrived, ContactMask released, const Instant<N, H>& before,
+             const Mode<N, H>& mode_before, Workspace<N, H>& w, typename Sizes<N, H>::StateSquare& tangent) {
+  using S = Sizes<N, H>;
+  const StepEquations<N, H>& eq = flow.equations();
+  const Mode<N, H>& mode = flow.mode(w.mode);
+  const Eigen::Index n = eq.masses();
+  const bool alone = count(arrived & eq.holding) == 1;
+  Eigen::Matrix<double, N, S::kState> correction;
+  correction.setZero(n, eq.states());
+  for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
+    if (!contains(arrived, j)) continue;
+    const double slope = flow.sliding_speed(before, j).slope;
+    w.note_margin(std::abs(slope) / (kStepRate * w.speed_scale[j]));
+    if (slope == 0.0 || !eq.holds(j)) continue;
+    typename S::Vector change = w.left.a - before.a;
+    if (!alone) {
+      const double after = contains(mode.stuck, j) ? flow.stuck_force(w.left, mode, j).value : mode.friction[j];
+      change = -(eq.M_inverse * eq.W.col(j)) * (after - mode_before.friction[j]);
+    }
+    correction += change * (eq.W.col(j).transpose() * tangent.middleRows(n, n)) / slope;
+  }
+  tangent.middleRows(n, n) += correction;
+  if constexpr (S::kInternal != 0) {
+    for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
+      if (contains(released & ~eq.holding, j))
+        tangent.row(2 * n + eq.internal_of[static_cast<std::size_t>(j)]).setZero();
+    }
+  }
+}
+
+}  // namespace frahm::periodic

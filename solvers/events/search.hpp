@@ -1,0 +1,143 @@
+#pragma once
+
+#include "solvers/events/workspace.hpp"
+
+// The first event within a step: the first root of a guard, of any contact.
+//   a contact that slides:  its velocity reaches zero
+//   a contact that sticks:  its force reaches the limit
+// No root is missed, double roots at grazing among them: the ends of the step decide where they can, by bounds of
+// the fourth derivative, and the Bernstein coefficients of the Taylor polynomial where they cannot.
+namespace frahm::periodic {
+
+struct GuardEvent {
+  double at = 2.0;  // step fraction; beyond 1: none
+  Eigen::Index contact = 0;
+  bool release = false;  // a stuck contact's force reaches its limit; otherwise a sliding one comes to rest
+};
+inline constexpr double kNoEvent = 2.0;
+
+// The first sign change of p on (0, 1]. Where there is none, its closest approach to zero is a margin.
+template <int N, int H>
+double first_crossing(const Polynomial& p, double scale, Workspace<N, H>& w) {
+  if (!may_change_sign(p)) return kNoEvent;
+  const Roots roots = sign_changes(p);
+  if (roots.count > 0) return roots.at[0];
+  const Roots extremes = sign_changes(derivative(p));
+  for (int i = 0; i < extremes.count; ++i) {
+    const double closest = std::abs(evaluate(p, extremes.at[static_cast<std::size_t>(i)]));
+    w.note_margin(closest / scale);
+  }
+  return kNoEvent;
+}
+
+// Where the room p that a stuck force has left to its limit turns negative by more than a tie: a force that
+// only touches its limit lets nothing go.
+template <int N, int H>
+double first_lasting_fall(const Polynomial& p, double limit, Workspace<N, H>& w) {
+  const double first = first_crossing(p, limit, w);
+  if (first > 1.0 || evaluate_with_slope(p, first).slope < -1e-4 * limit) return first;
+  const Roots extremes = sign_changes(derivative(p));
+  double deepest = evaluate(p, 1.0);
+  for (int i = 0; i < extremes.count; ++i) {
+    const double at = extremes.at[static_cast<std::size_t>(i)];
+    if (at > first) deepest = std::min(deepest, evaluate(p, at));
+  }
+  if (deepest < -kTie * limit) return first;
+  w.margin = 0.0;
+  return kNoEvent;
+}
+
+// When does sliding contact j come to rest within the step?
+template <int N, int H>
+double first_stop(const Flow<N, H>& flow, Eigen::Index j, Workspace<N, H>& w) {
+  const StepEquations<N, H>& eq = flow.equations();
+  const auto polynomial = [&] {
+    const Expansion<N, H>& x = w.expand(flow);
+    Polynomial speed = x.velocity(eq.W.col(j));
+    if (flow.moving_support()) speed.noalias() += x.u * eq.support_velocity.row(j).transpose();
+    return speed;
+  };
+  const double scale = w.speed_scale[j];
+  if (scale == 0.0) return kNoEvent;
+  if (contains(w.fresh, j)) {
+    // The velocity starts like t, or like t^2 after a release: divide that root out.
+    return first_crossing(deflate(polynomial(), contains(w.just_released, j) ? 2 : 1), scale, w);
+  }
+  const ValueAndSlope left = flow.sliding_speed(w.left, j), right = flow.sliding_speed(w.right, j);
+  if (flow.mode(w.mode).sign(j) * left.value <= 0.0) return 0.0;  // at the node itself, seen late by rounding
+  switch (hermite_verdict(left, right, scale * kFourthDerivative / 384.0)) {
+    case SignVerdict::no_change:
+      return kNoEvent;
+    case SignVerdict::one_change:
+      return root_between(polynomial(), 0.0, 1.0);
+    case SignVerdict::unclear:
+      break;
+  }
+  return first_crossing(polynomial(), scale, w);
+}
+
+// The force of stuck contact j over the step.
+template <int N, int H>
+Polynomial stuck_force_polynomial(const Flow<N, H>& flow, Eigen::Index j, Workspace<N, H>& w) {
+  const Expansion<N, H>& x = w.expand(flow);
+  const Configuration<N, H>& c = flow.configuration(flow.mode(w.mode));
+  Polynomial force = x.displacement(c.Lq.row(j).transpose()) + x.velocity(c.Lv.row(j).transpose());
+  force.noalias() += x.u * c.Lu.row(j).transpose();
+  if constexpr (Sizes<N, H>::kInternal != 0) force += x.internal_force(c.Ls.row(j).transpose());
+  force[0] += flow.mode(w.mode).stuck_force[j];
+  return force;
+}
+
+// The room to the limit where it starts at none: how it goes on is up to the first coefficient that is not
+// rounding. Negative: the contact lets go at once. Otherwise its root at the start is divided out.
+// is_state: the force is an internal one, which stays at its limit while others hold the contact.
+template <int N, int H>
+double fall_from_limit(const Polynomial& room, double limit, bool is_state, Workspace<N, H>& w) {
+  if (is_state && room.cwiseAbs().sum() <= kTerms * kTie * limit) return kNoEvent;
+  int multiplicity = 1;
+  while (multiplicity < 4 && std::abs(room[multiplicity]) <= kTie * limit) ++multiplicity;
+  const Polynomial rest = deflate(room, multiplicity);
+  if (rest[0] >= 0.0) return first_lasting_fall(rest, limit, w);
+  // What falls by less than a tie over the step, and rises again, only touches.
+  return rest[0] < -kTie * limit ? 0.0 : first_lasting_fall(room, limit, w);
+}
+
+// When does the force of stuck contact j reach its limit within the step?
+template <int N, int H>
+double first_release(const Flow<N, H>& flow, Eigen::Index j, Workspace<N, H>& w) {
+  if (contains(w.held, j)) return kNoEvent;
+  const double limit = flow.equations().limit[j];
+  const Mode<N, H>& mode = flow.mode(w.mode);
+  const ValueAndSlope left = flow.stuck_force(w.left, mode, j), right = flow.stuck_force(w.right, mode, j);
+  const double margin = w.force_scale[j] * kFourthDerivative / 384.0;
+  const double largest =
+      std::max(std::max(std::abs(left.value), std::abs(right.value)),
+               std::max(std::abs(left.value + left.slope / 3.0), std::abs(right.value - right.slope / 3.0)));
+  if (largest + margin < limit) return kNoEvent;
+
+  const Polynomial force = stuck_force_polynomial(flow, j, w);
+  double first = kNoEvent;
+  for (const double side : {1.0, -1.0}) {
+    Polynomial room = -side * force;
+    room[0] += limit;
+    const bool at_limit = room[0] <= kTie * limit;
+    const bool is_state = !flow.equations().holds(j);
+    first = std::min(first, at_limit ? fall_from_limit(room, limit, is_state, w)
+                                     : first_lasting_fall(room, limit, w));
+  }
+  return first;
+}
+
+template <int N, int H>
+GuardEvent first_event(const Flow<N, H>& flow, Workspace<N, H>& w) {
+  GuardEvent first;
+  const ContactMask stuck = flow.mode(w.mode).stuck;
+  for (Eigen::Index j = 0; j < flow.equations().contacts(); ++j) {
+    const bool sticks = contains(stuck, j);
+    const double at = sticks ? first_release(flow, j, w) : first_stop(flow, j, w);
+    if (at < first.at) first = {at, j, sticks};
+  }
+  return first;
+}
+
+}  // namespace frahm::periodic

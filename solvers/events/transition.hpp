@@ -1,0 +1,194 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "solvers/events/box_minimum.hpp"
+#include "solvers/events/passage.hpp"
+#include "solvers/events/workspace.hpp"
+
+// Which contacts stick and which slide after an event. The cases:
+//
+//   what happened                        law's answer            what follows
+//   a stuck force reaches its limit      -                       it slides in the force's direction; an internal
+//                                                                force stays there
+//   a sliding velocity reaches zero      AtRest::joint_choice    the forces of all contacts at rest follow from one
+//                                                                convex problem: inside its limit a contact sticks,
+//                                                                at its limit it slides that way
+//                                        AtRest::sticks          it sticks
+//   a stuck force stands at its limit    -                       it lets go at once (two contacts released
+//   and grows after all this                                     together, or one that came to rest in a tie)
+namespace frahm::periodic {
+
+// Sliding contacts that come to rest at this event: its own, and others that do at the same instant.
+template <int N, int H>
+ContactMask arrivals(const Flow<N, H>& flow, Eigen::Index own, const Workspace<N, H>& w) {
+  const Mode<N, H>& mode = flow.mode(w.mode);
+  ContactMask arrived = own < 0 ? 0 : bit(own);
+  for (Eigen::Index j = 0; j < flow.equations().contacts(); ++j) {
+    if (contains(mode.stuck | arrived | w.fresh, j)) continue;
+    const ValueAndSlope speed = flow.sliding_speed(w.left, j);
+    const double sign = mode.sign(j);
+    if (sign * speed.value <= kRest * w.speed_scale[j] && sign * speed.slope < 0.0) arrived |= bit(j);
+  }
+  return arrived;
+}
+
+// The relative accelerations c_j = w_j^T a + p_j^T y'' of contacts if those at rest had no friction.
+template <int N, int H>
+class FreeAccelerations {
+ public:
+  FreeAccelerations(const Flow<N, H>& flow, ContactMask at_rest, const Workspace<N, H>& w)
+      : equations_(flow.equations()), u_(w.left.u) {
+    const StepEquations<N, H>& eq = equations_;
+    const Mode<N, H>& mode = flow.mode(w.mode);
+    typename Sizes<N, H>::Contacts friction = mode.friction;
+    for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
+      if (contains(at_rest, j)) friction[j] = 0.0;
+    }
+    const Eigen::Index n = eq.masses();
+    typename Sizes<N, H>::Vector force =
+        eq.force * u_ - eq.K * w.left.z.head(n) - eq.C * w.left.z.segment(n, n) - eq.W * friction;
+    if constexpr (Sizes<N, H>::kInternal != 0) force -= eq.D * w.left.z.tail(eq.internal_forces());
+    acceleration_ = eq.M_inverse * force;
+  }
+  double of(Eigen::Index j) const {
+    return equations_.W.col(j).dot(acceleration_) + equations_.support_acceleration.row(j).dot(u_);
+  }
+
+ private:
+  const StepEquations<N, H>& equations_;
+  const typename Sizes<N, H>::Oscillators& u_;
+  typename Sizes<N, H>::Vector acceleration_;
+};
+
+// What was chosen for contacts at rest.
+struct Choice {
+  ContactMask stuck = 0, forward = 0;
+};
+
+// One contact alone: it sticks where the force that this takes, c/G, is within the limit.
+template <int N, int H>
+Choice choose_alone(const StepEquations<N, H>& eq, Eigen::Index j, double c, Workspace<N, H>& w) {
+  const double force = c / eq.compliance[j], limit = eq.limit[j];
+  if (contains(w.held, j)) return {bit(j), 0};
+  if (limit > 0.0) w.note_margin(std::abs(std::abs(force) - limit) / limit);
+  if (std::abs(force) <= limit * (1.0 + kTie) && limit > 0.0) return {bit(j), 0};
+  return {0, force > 0.0 ? bit(j) : 0};
+}
+
+// Several contacts: their forces minimise  1/2 lambda^T G lambda - c^T lambda,  |lambda_j| <= F_j,
+// G = W^T M^-1 W (Glocker, Set-Valued Force Laws, 2001, ch. 9).
+template <int N, int H>
+Choice choose_together(const StepEquations<N, H>& eq, ContactMask at_rest, const FreeAccelerations<N, H>& free,
+                       Workspace<N, H>& w) {
+  constexpr double kWithoutLimit = 1e9;
+  std::vector<Eigen::Index> contacts;
+  for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
+    if (contains(at_rest, j)) contacts.push_back(j);
+  }
+  const auto m = static_cast<Eigen::Index>(contacts.size());
+  const auto contact = [&](Eigen::Index i) { return contacts[static_cast<std::size_t>(i)]; };
+  Eigen::MatrixXd G(m, m);
+  Eigen::VectorXd c(m), weight(m), bound(m);
+  for (Eigen::Index i = 0; i < m; ++i) {
+    const Eigen::Index j = contact(i);
+    const typename Sizes<N, H>::Vector MWj = eq.M_inverse * eq.W.col(j);
+    for (Eigen::Index k = 0; k < m; ++k) G(i, k) = MWj.dot(eq.W.col(contact(k)));
+    c[i] = free.of(j);
+    weight[i] = eq.limit[j] > 0.0 ? eq.limit[j] : 1.0;
+    bound[i] = contains(w.held, j) ? kWithoutLimit * weight[i] : eq.limit[j];
+  }
+  const BoxMinimum minimum = box_minimum(G, c, -bound, bound, weight);
+  if (!minimum.found) w.undecided = true;
+  const Eigen::VectorXd& force = minimum.lambda;
+  const Eigen::VectorXd acceleration = c - G * force;
+
+  Choice choice;
+  for (Eigen::Index i = 0; i < m; ++i) {
+    const Eigen::Index j = contact(i);
+    const double limit = eq.limit[j];
+    const double pull = std::abs(acceleration[i]) / (G(i, i) * weight[i] + std::abs(c[i]));
+    const double room = (limit - std::abs(force[i])) / weight[i];
+    if (limit > 0.0 && !contains(w.held, j)) w.note_margin(std::max(pull, room));
+    if (pull <= kTie && limit > 0.0)
+      choice.stuck |= bit(j);
+    else if (limit > 0.0 ? force[i] > 0.0 : acceleration[i] > 0.0)
+      choice.forward |= bit(j);
+  }
+  return choice;
+}
+
+// The mode in which all contacts at rest that ask for it are chosen together.
+template <int N, int H>
+void choose_modes(Flow<N, H>& flow, ContactMask at_rest, Workspace<N, H>& w) {
+  const Mode<N, H>& before = flow.mode(w.mode);
+  const StepEquations<N, H>& eq = flow.equations();
+  const FreeAccelerations<N, H> free(flow, at_rest, w);
+  const Choice choice = count(at_rest) == 1 ? choose_alone(eq, first(at_rest), free.of(first(at_rest)), w)
+                                            : choose_together(eq, at_rest, free, w);
+  const ContactMask sliding = at_rest & ~choice.stuck;
+  w.fresh |= sliding;
+  w.just_released &= ~sliding;
+  const ContactMask states = before.stuck & ~eq.holding;  // internal forces, which no choice concerns
+  w.mode = flow.mode_index(choice.stuck | states, (before.positive & ~at_rest) | choice.forward);
+}
+
+// A stuck contact lets go. One that was held starts from rest with no relative acceleration; an internal force
+// stays at its limit while the velocity is what it is.
+template <int N, int H>
+void release(Flow<N, H>& flow, Eigen::Index j, bool forward, Workspace<N, H>& w) {
+  const Mode<N, H>& before = flow.mode(w.mode);
+  if (flow.equations().holds(j)) {
+    w.fresh |= bit(j);
+    w.just_released |= bit(j);
+  } else {
+    const Eigen::Index internal = flow.equations().internal_of[static_cast<std::size_t>(j)];
+    w.left.z[2 * flow.equations().masses() + internal] = (forward ? 1.0 : -1.0) * flow.equations().limit[j];
+    if (std::abs(flow.sliding_speed(w.left, j).value) <= kRest * w.speed_scale[j]) w.fresh |= bit(j);
+  }
+  w.mode = flow.mode_index(before.stuck & ~bit(j), before.positive | (forward ? bit(j) : 0));
+}
+
+// Stuck contacts whose force stands at its limit and grows let go at once.
+template <int N, int H>
+void release_at_limits(Flow<N, H>& flow, Workspace<N, H>& w) {
+  for (bool again = true; again;) {
+    again = false;
+    for (Eigen::Index j = 0; j < flow.equations().contacts(); ++j) {
+      const Mode<N, H>& mode = flow.mode(w.mode);
+      if (!contains(mode.stuck & ~w.held & flow.equations().holding, j)) continue;
+      const ValueAndSlope force = flow.stuck_force(w.left, mode, j);
+      const double side = force.value > 0.0 ? 1.0 : -1.0;
+      if (side * force.value < flow.equations().limit[j] * (1.0 - kTie) || side * force.slope <= 0.0) continue;
+      release(flow, j, side > 0.0, w);
+      again = true;
+    }
+  }
+}
+
+// Takes the last rounding out of the velocities of what sticks now, and lets go what does not.
+template <int N, int H>
+void settle_mode(Flow<N, H>& flow, Workspace<N, H>& w) {
+  flow.configuration(flow.mode(w.mode)).hold(flow.equations(), w.left.u, w.left.z);
+  flow.accelerate(flow.mode(w.mode), w.left);
+  release_at_limits(flow, w);
+  flow.accelerate(flow.mode(w.mode), w.left);
+}
+
+// The mode after the contacts of `arrived` came to rest, and the contact `released` (-1: none) let go forward or
+// backward.
+template <int N, int H>
+void change_mode(Flow<N, H>& flow, ContactMask arrived, Eigen::Index released, bool forward,
+                 Workspace<N, H>& w) {
+  const ContactMask holding = flow.equations().holding;
+  if (released >= 0) release(flow, released, forward, w);
+  if (const ContactMask states = arrived & ~holding; states != 0) {
+    const Mode<N, H>& mode = flow.mode(w.mode);
+    w.mode = flow.mode_index(mode.stuck | states, mode.positive);
+  }
+  if ((arrived & holding) != 0) choose_modes(flow, (flow.mode(w.mode).stuck | arrived) & holding, w);
+  settle_mode(flow, w);
+}
+
+}  // namespace frahm::periodic

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "solvers/events/passage.hpp"
+#include "solvers/events/workspace.hpp"
+
+namespace frahm::periodic {
+
+struct GuardEvent;  // events/search.hpp
+
+// Follows motions on a flow, one passage after the other. It has the workspace; the flow has none.
+template <int N, int H>
+class Walk {
+ public:
+  using S = Sizes<N, H>;
+
+  explicit Walk(Flow<N, H>& flow) : flow_(flow) {}
+
+  // The flow from state z at `phase` (omega t) [rad] over `length` steps. held: contacts that stick whatever
+  // their force, to try whether they stick throughout.
+  void pass(const typename S::State& z, double phase, double length, Passage<N, H>& passage,
+            ContactMask held = 0);
+
+ private:
+  void enter(const typename S::State& z, double phase, Passage<N, H>& passage);
+  bool starts_at_limit(Eigen::Index contact, double speed);
+  void take_step();
+  void advance(double fraction, Passage<N, H>& passage);
+  void pass_event(const GuardEvent& event, double phase, Passage<N, H>& passage);
+  void note_change(const GuardEvent& event, const Instant<N, H>& before, const Mode<N, H>& mode_before,
+                   Passage<N, H>& passage);
+  void open_segment(Passage<N, H>& passage);
+
+  Flow<N, H>& flow_;
+  Workspace<N, H> w_;
+};
+
+extern template class Walk<1, 1>;
+extern template class Walk<1, 2>;
+extern template class Walk<2, 1>;
+extern template class Walk<Eigen::Dynamic, Eigen::Dynamic>;
+
+}  // namespace frahm::periodic

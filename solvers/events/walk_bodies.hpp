@@ -1,0 +1,194 @@
+#pragma once
+
+#include "solvers/events/saltation.hpp"
+#include "solvers/events/search.hpp"
+#include "solvers/events/transition.hpp"
+#include "solvers/events/walk.hpp"
+
+// Bodies of Walk, for the files that instantiate it (walk_1_1.cpp and so on).
+namespace frahm::periodic {
+
+template <int N, int H>
+void Walk<N, H>::pass(const typename S::State& z, double phase, double length, Passage<N, H>& passage,
+                      ContactMask held) {
+  constexpr int kMostEvents = 20000;
+  w_.held = held;
+  enter(z, phase, passage);
+  int at_this_instant = 0;
+  while (passage.failure == nullptr) {
+    flow_.step(w_.left, flow_.mode(w_.mode), w_.right);
+    w_.expanded = false;
+    const GuardEvent event = first_event(flow_, w_);
+    const double room = length - w_.clock;
+    if (event.at < room && event.at <= 1.0) {
+      at_this_instant = event.at > 0.0 ? 0 : at_this_instant + 1;
+      pass_event(event, phase, passage);
+      if (at_this_instant > 8 + 4 * flow_.equations().contacts())
+        passage.failure = "the contacts chatter at one instant";
+      if (passage.events > kMostEvents) passage.failure = "more than 20000 events in one passage";
+      if (w_.undecided) passage.failure = "the friction forces of contacts at rest were not found";
+    } else if (room <= 1.0) {
+      advance(room, passage);
+      passage.segments.back().length = length - passage.segments.back().start;
+      break;
+    } else {
+      passage.tangent = (flow_.configuration(flow_.mode(w_.mode)).E * passage.tangent).eval();
+      take_step();
+    }
+  }
+  passage.end = w_.left.z;
+  passage.margin = w_.margin;
+  if (!passage.end.allFinite()) passage.failure = "the state is not finite";
+}
+
+template <int N, int H>
+void Walk<N, H>::take_step() {
+  w_.left = w_.right;
+  w_.clock += 1.0;
+  w_.fresh = w_.just_released = 0;
+}
+
+template <int N, int H>
+void Walk<N, H>::open_segment(Passage<N, H>& passage) {
+  passage.segments.push_back({w_.clock, 0.0, w_.mode, w_.left.z});
+}
+
+// The mode at the start of a passage, and the tangent that keeps its stuck contacts stuck.
+template <int N, int H>
+void Walk<N, H>::enter(const typename S::State& z, double phase, Passage<N, H>& passage) {
+  const StepEquations<N, H>& eq = flow_.equations();
+  const Eigen::Index n = eq.masses();
+  passage.segments.clear();
+  passage.changes.clear();
+  passage.events = 0;
+  passage.failure = nullptr;
+  w_.clock = 0.0;
+  w_.margin = 1.0;
+  w_.undecided = false;
+  w_.fresh = w_.just_released = 0;
+  set_scales(flow_, z, w_);
+
+  w_.mode = flow_.mode_index(0, 0);
+  flow_.instant_at(z, phase, flow_.mode(w_.mode), w_.left);
+  ContactMask at_rest = 0, positive = 0, stuck_states = 0;
+  for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
+    const double speed = flow_.sliding_speed(w_.left, j).value;
+    if (speed > 0.0) positive |= bit(j);
+    if constexpr (S::kInternal != 0) {
+      if (!eq.holds(j)) {
+        if (!starts_at_limit(j, speed)) stuck_states |= bit(j);
+        continue;
+      }
+    }
+    if (std::abs(speed) <= kRest * w_.speed_scale[j]) at_rest |= bit(j);
+  }
+  w_.mode = flow_.mode_index(stuck_states, positive & ~at_rest);
+  if (at_rest != 0) choose_modes(flow_, at_rest, w_);
+  settle_mode(flow_, w_);
+
+  passage.starts_at_event = w_.fresh != 0;
+  passage.tangent.setIdentity(eq.states(), eq.states());
+  passage.tangent.block(n, n, n, n) = flow_.configuration(flow_.mode(w_.mode)).P;
+  if constexpr (S::kInternal != 0) {
+    for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
+      const bool stays = !eq.holds(j) && !contains(flow_.mode(w_.mode).stuck, j);
+      const Eigen::Index internal = eq.internal_of[static_cast<std::size_t>(j)];
+      if (stays) passage.tangent(2 * n + internal, 2 * n + internal) = 0.0;
+    }
+  }
+  open_segment(passage);
+}
+
+// Whether contact j, whose force is a state, starts sliding: its force at the limit, in the velocity's direction.
+// A force beyond the limit, as a search may ask for, starts there.
+template <int N, int H>
+bool Walk<N, H>::starts_at_limit(Eigen::Index j, double speed) {
+  const StepEquations<N, H>& eq = flow_.equations();
+  double& s = w_.left.z[2 * eq.masses() + eq.internal_of[static_cast<std::size_t>(j)]];
+  const double limit = eq.limit[j];
+  const bool at_limit = std::abs(s) >= limit * (1.0 - kTie);
+  s = std::clamp(s, -limit, limit);
+  if (limit == 0.0) return true;
+  return at_limit && s * speed > 0.0 && std::abs(speed) > kRest * w_.speed_scale[j];
+}
+
+// `left` and the tangent `fraction` of a step later in the same mode; the oscillators of `left` are not moved.
+template <int N, int H>
+void Walk<N, H>::advance(double fraction, Passage<N, H>& passage) {
+  Flow<N, H>::evaluate(w_.expand(flow_), fraction, w_.left.z);
+  w_.clock += fraction;
+
+  // The tangent moves with the homogeneous flow.
+  const Configuration<N, H>& configuration = flow_.configuration(flow_.mode(w_.mode));
+  const Polynomial power = powers(fraction);
+  const Eigen::Index size = passage.tangent.rows();
+  typename S::StateSquare flow(size, size);
+  for (Eigen::Index column = 0; column < size; ++column) {
+    const Eigen::Map<const typename S::StatePolynomials> series(configuration.series_z.col(column).data(),
+                                                                kTerms, size);
+    flow.col(column).noalias() = series.transpose() * power;
+  }
+  passage.tangent = (flow * passage.tangent).eval();
+}
+
+template <int N, int H>
+void Walk<N, H>::pass_event(const GuardEvent& event, double phase, Passage<N, H>& passage) {
+  // 1. Move to the event.
+  if (event.at > 0.0) {
+    advance(event.at, passage);
+    w_.fresh = w_.just_released = 0;
+  }
+  const Mode<N, H> mode_before = flow_.mode(w_.mode);
+  flow_.instant_at(typename S::State(w_.left.z), phase + w_.clock * flow_.fundamental_rate(), mode_before,
+                   w_.left);
+  passage.segments.back().length = w_.clock - passage.segments.back().start;
+  ++passage.events;
+  const Instant<N, H> before = w_.left;
+
+  // 2. What follows, of all contacts that are concerned together.
+  const ContactMask arrived = arrivals(flow_, event.release ? -1 : event.contact, w_);
+  bool forward = false;
+  if (event.release) {
+    const ValueAndSlope force = flow_.stuck_force(w_.left, mode_before, event.contact);
+    w_.note_margin(std::abs(force.slope) / w_.force_scale[event.contact]);
+    forward = force.value > 0.0;
+  }
+  change_mode(flow_, arrived, event.release ? event.contact : -1, forward, w_);
+
+  // 3. Carry the tangent across.
+  const ContactMask released = mode_before.stuck & ~flow_.mode(w_.mode).stuck;
+  saltate(flow_, arrived, released, before, mode_before, w_, passage.tangent);
+
+  // 4. Keep it, and begin the next segment. Events at one instant are one change.
+  note_change(event, before, mode_before, passage);
+  open_segment(passage);
+}
+
+template <int N, int H>
+void Walk<N, H>::note_change(const GuardEvent& event, const Instant<N, H>& before,
+                             const Mode<N, H>& mode_before, Passage<N, H>& passage) {
+  const bool same_instant = passage.segments.back().length == 0.0;
+  if (same_instant) passage.segments.pop_back();
+  if (passage.segments.empty()) return;  // at the very start
+  if (!same_instant) passage.changes.push_back({.segment = passage.segments.size() - 1});
+  Event& change = passage.changes.back();
+
+  const Mode<N, H>& after = flow_.mode(w_.mode);
+  const ContactMask arrived = arrived_between(flow_.equations(), mode_before, after);
+  change.arrived |= arrived;
+  change.released |= mode_before.stuck & ~after.stuck;
+  if (change.contact >= 0) return;  // of the first that happened at this instant
+  if (arrived != 0) {
+    // Of several that whose velocity the flow takes away, which the acceleration jumps for.
+    const ContactMask held = arrived & flow_.equations().holding;
+    change.contact = first(held != 0 ? held : arrived);
+    change.slope = flow_.sliding_speed(before, change.contact).slope;
+  } else if (event.release) {
+    const ValueAndSlope force = flow_.stuck_force(before, mode_before, event.contact);
+    change.contact = event.contact;
+    change.slope = force.slope;
+    change.side = force.value > 0.0 ? 1.0 : -1.0;
+  }
+}
+
+}  // namespace frahm::periodic

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "solvers/events/tolerances.hpp"
+#include "solvers/flow/flow.hpp"
+
+namespace frahm::periodic {
+
+// A bound of a function's fourth derivative a step, where its fastest rate is kStepRate, per unit of its scale.
+inline constexpr double kFourthDerivative = 2.0 * kStepRate * kStepRate * kStepRate * kStepRate;
+
+// Where the motion in hand stands within its passage.
+template <int N, int H>
+struct Workspace {
+  using S = Sizes<N, H>;
+
+  ContactMask held = 0;  // contacts that stick whatever their force, to try whether they stick throughout
+
+  Instant<N, H> left, right;  // the step in hand
+  Expansion<N, H> expansion;  // over it, if `expanded`
+  bool expanded = false;
+  std::size_t mode = 0;
+  double clock = 0.0;               // steps since the passage began
+  ContactMask fresh = 0;            // sliding contacts whose velocity is zero at `left`
+  ContactMask just_released = 0;    // those of them whose relative acceleration is zero there too
+  double margin = 1.0;     // as of the passage
+  bool undecided = false;  // a joint choice found no answer
+
+  // What velocities [m a step] and forces [N] of contacts are small against: those of the larger of the
+  // state's and the static response's energy, plus a support's own motion.
+  typename S::Contacts speed_scale, force_scale;
+
+  void note_margin(double relative) { margin = std::min(margin, relative); }
+  const Expansion<N, H>& expand(const Flow<N, H>& flow) {
+    if (!expanded) flow.expand(left, flow.mode(mode), expansion);
+    expanded = true;
+    return expansion;
+  }
+};
+
+template <int N, int H>
+void set_scales(const Flow<N, H>& flow, const typename Sizes<N, H>::State& z, Workspace<N, H>& w) {
+  const StepEquations<N, H>& eq = flow.equations();
+  const double energy = std::max(eq.energy_norm(z), flow.static_norm());
+  const Eigen::Index m = eq.contacts();
+  w.speed_scale.resize(m);
+  w.force_scale.resize(m);
+  for (Eigen::Index j = 0; j < m; ++j) {
+    // |w^T v| <= sqrt(w^T M^-1 w) sqrt(v^T M v)
+    w.speed_scale[j] = std::sqrt(2.0 * eq.compliance[j]) * energy + eq.support_velocity.row(j).norm();
+    const Eigen::Index internal = eq.internal_of[static_cast<std::size_t>(j)];
+    w.force_scale[j] = internal < 0 ? kStepRate * w.speed_scale[j] / eq.compliance[j]
+                                    : eq.internal_stiffness[internal] * w.speed_scale[j] / kStepRate;
+  }
+}
+
+}  // namespace frahm::periodic

@@ -1,0 +1,3 @@
+#include "solvers/flow/flow_bodies.hpp"
+
+template class frahm::periodic::Flow<1, 1>;

@@ -1,0 +1,174 @@
+#pragma once
+
+#include <cmath>
+
+#include "solvers/flow/flow.hpp"
+
+// Bodies of Flow, for the files that instantiate it (flow_1_1.cpp and so on).
+namespace frahm::periodic {
+
+// How each contact's law acts on the flow.
+template <int N, int H>
+void set_laws(const mechanics::LinearSystem& system, StepEquations<N, H>& eq) {
+  eq.holding = 0;
+  eq.internal_of = system.contact_internal;
+  for (std::size_t j = 0; j < system.law.size(); ++j) {
+    if (system.law[j]->holds_velocity) eq.holding |= bit(static_cast<Eigen::Index>(j));
+  }
+}
+
+template <int N, int H>
+void Flow<N, H>::set_system(const mechanics::LinearSystem& system) {
+  fastest_rate_ = periodic::fastest_rate(system);
+  orders_ = system.orders;
+  matrices_changed_ = true;
+}
+
+template <int N, int H>
+void Flow<N, H>::scale_matrices(const mechanics::LinearSystem& system) {
+  StepEquations<N, H>& eq = equations_;
+  const double h = eq.step;
+  eq.M = system.M / (h * h);
+  eq.C = system.C / h;
+  eq.K = system.K;
+  eq.M_inverse = eq.M.inverse();
+  eq.K_inverse = eq.K.inverse();
+  eq.M_root = cholesky_root(eq.M);
+  eq.K_root = cholesky_root(eq.K);
+  eq.M_root_inverse = eq.M_root.inverse();
+  eq.K_root_inverse = eq.K_root.inverse();
+  eq.W = system.W;
+  eq.limit = system.limit;
+  set_laws(system, eq);
+  eq.D = system.D;
+  eq.internal_stiffness = system.internal_stiffness;
+  eq.internal_rate = h * system.internal_rate;
+  const Eigen::Index m = system.contacts();
+  eq.compliance.resize(m);
+  for (Eigen::Index j = 0; j < m; ++j) eq.compliance[j] = eq.W.col(j).dot(eq.M_inverse * eq.W.col(j));
+  configurations_.clear();
+}
+
+template <int N, int H>
+void Flow<N, H>::set_forcing(const mechanics::LinearSystem& system) {
+  StepEquations<N, H>& eq = equations_;
+  const double h = step_length(fastest_rate_, system.omega, orders_.empty() ? 1 : orders_.back());
+  if (matrices_changed_ || h != eq.step) {
+    eq.step = h;
+    scale_matrices(system);
+    matrices_changed_ = false;
+  }
+  set_oscillation(system.omega);
+  on_oscillators(system.constant_force, system.force, eq.force);
+  on_oscillators(system.constant_applied_force, system.applied_force, eq.applied_force);
+  on_oscillators(system.constant_motion, system.motion, eq.motion);
+  eq.motion_velocity.resizeLike(eq.motion);
+  eq.motion_acceleration.resizeLike(eq.motion);
+  eq.differentiate(eq.motion, eq.motion_velocity);
+  eq.differentiate(eq.motion_velocity, eq.motion_acceleration);
+  eq.support_velocity.noalias() = system.W_support.transpose() * eq.motion_velocity;
+  moving_support_ = !eq.support_velocity.isZero(0.0);
+  eq.support_acceleration.noalias() = system.W_support.transpose() * eq.motion_acceleration;
+  eq.internal_drive.noalias() =
+      eq.internal_stiffness.asDiagonal() * (system.D_support.transpose() * eq.motion_velocity);
+
+  // sqrt(1/2 sum_k f_k^H K^-1 f_k)
+  static_norm_ = 0.0;
+  for (Eigen::Index i = 0; i < eq.force.cols(); ++i) {
+    static_norm_ += 0.5 * eq.force.col(i).dot(eq.K_inverse * eq.force.col(i));
+  }
+  static_norm_ = std::sqrt(static_norm_);
+
+  for (Configuration<N, H>& configuration : configurations_) configuration.has_forcing = false;
+  modes_.clear();
+}
+
+// The oscillators of the forcing over a step, cos and sin of order_k omega h, and their Taylor polynomials.
+template <int N, int H>
+void Flow<N, H>::set_oscillation(double omega) {
+  const auto harmonics = static_cast<Eigen::Index>(orders_.size());
+  fundamental_rate_ = omega * equations_.step;
+  equations_.oscillators_at_zero.clear();
+  equations_.period = 2.0 * M_PI / fundamental_rate_;
+  equations_.phase_rate.resize(harmonics);
+  rotation_.resize(2 * orders_.size());
+  rotation_series_.resize(2 * orders_.size());
+  for (Eigen::Index k = 0; k < harmonics; ++k) {
+    const double rate = orders_[static_cast<std::size_t>(k)] * fundamental_rate_;
+    equations_.phase_rate[k] = rate;
+    const auto place = 2 * static_cast<std::size_t>(k);
+    rotation_[place] = std::cos(rate);
+    rotation_[place + 1] = std::sin(rate);
+    double term = 1.0;  // rate^i / i!, with the signs of cos: + 0 - 0, of sin: 0 + 0 -
+    for (int i = 0; i < kTerms; term *= rate / ++i) {
+      const double signed_term = i % 4 < 2 ? term : -term;
+      rotation_series_[place][i] = i % 2 == 0 ? signed_term : 0.0;
+      rotation_series_[place + 1][i] = i % 2 == 1 ? signed_term : 0.0;
+    }
+  }
+}
+
+template <int N, int H>
+std::size_t Flow<N, H>::configuration_index(ContactMask stuck) {
+  std::size_t index = 0;
+  while (index < configurations_.size() && configurations_[index].stuck != stuck) ++index;
+  if (index == configurations_.size()) {
+    configurations_.emplace_back();
+    configurations_.back().set_system(equations_, stuck);
+  }
+  if (!configurations_[index].has_forcing) configurations_[index].set_forcing(equations_);
+  return index;
+}
+
+template <int N, int H>
+std::size_t Flow<N, H>::mode_index(ContactMask stuck, ContactMask positive) {
+  positive &= ~stuck;
+  for (std::size_t i = 0; i < modes_.size(); ++i) {
+    if (modes_[i].stuck == stuck && modes_[i].positive == positive) return i;
+  }
+  Mode<N, H> mode;
+  mode.stuck = stuck;
+  mode.positive = positive;
+  mode.configuration = configuration_index(stuck);
+  const Configuration<N, H>& configuration = configurations_[mode.configuration];
+  mode.friction.resize(equations_.contacts());
+  for (Eigen::Index j = 0; j < equations_.contacts(); ++j) {
+    const bool slides = equations_.holds(j) && !contains(stuck, j);
+    mode.friction[j] = slides ? mode.sign(j) * equations_.limit[j] : 0.0;
+  }
+  mode.acceleration = configuration.Af * mode.friction;
+  mode.step = configuration.Ef * mode.friction;
+  mode.series = configuration.series_f * mode.friction;
+  mode.stuck_force = configuration.Lf * mode.friction;
+  modes_.push_back(mode);
+  return modes_.size() - 1;
+}
+
+template <int N, int H>
+typename Sizes<N, H>::State Flow<N, H>::state_within(const Segment<N, H>& segment, double section,
+                                                     double elapsed) const {
+  const Mode<N, H>& mode = modes_[segment.mode];
+  Instant<N, H> at, next;
+  instant_at(segment.z, section + segment.start * fundamental_rate_, mode, at);
+  for (; elapsed >= 1.0; elapsed -= 1.0) {
+    step(at, mode, next);
+    at = next;
+  }
+  Expansion<N, H> x;
+  expand(at, mode, x);
+  typename S::State z;
+  evaluate(x, elapsed, z);
+  return z;
+}
+
+template <int N, int H>
+typename Sizes<N, H>::State Flow<N, H>::brought_to_rest(const typename S::State& z, double phase,
+                                                        ContactMask contacts) {
+  typename S::State held = z;
+  typename S::Oscillators u(equations_.oscillators());
+  equations_.oscillators_at(phase, orders_, u);
+  configurations_[configuration_index(contacts)].hold(equations_, u, held);
+  return held;
+}
+
+}  // namespace frahm::periodic

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solvers/orbits/orbit.hpp"
+#include "solvers/orbits/rest_directions.hpp"
+#include "solvers/orbits/spectral_radius.hpp"
+
+// What is certain of an orbit that was found: Floquet multipliers, contraction in the energy norm, and from them
+// a bound of its error.
+namespace frahm::periodic {
+
+// The part of a tangent matrix that can contract: the rest positions of permanently stuck contacts, which
+// keep any value for ever (multiplier +1), are projected out orthogonally in the energy norm.
+template <int N, int H>
+typename Sizes<N, H>::StateSquare moving_part(const StepEquations<N, H>& eq,
+                                              const typename Sizes<N, H>::StateSquare& tangent,
+                                              ContactMask stuck_throughout) {
+  if (stuck_throughout == 0) return tangent;
+  const Eigen::Index n = eq.masses();
+  typename Sizes<N, H>::StateSquare off = -shift_projector(rest_directions(eq, stuck_throughout));
+  off.diagonal().array() += 1.0;
+  Eigen::MatrixXd W(n, 0);
+  for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
+    if (!contains(stuck_throughout & eq.holding, j)) continue;
+    W.conservativeResize(n, W.cols() + 1);
+    W.rightCols(1) = eq.W.col(j);
+  }
+  if (W.cols() > 0) off.block(n, n, n, n) = projector_off(eq.M, W);
+  return off * tangent * off;
+}
+
+// ||A||_E, the largest factor by which a tangent matrix can stretch the energy norm.
+template <int N, int H>
+double energy_operator_norm(const StepEquations<N, H>& eq, const typename Sizes<N, H>::StateSquare& A) {
+  using S = Sizes<N, H>;
+  const Eigen::Index n = eq.masses();
+  // ||A||_E = ||R A R^-1||_2 with R^T R = blockdiag(K, M, 1/k of the internal forces).
+  typename S::StateSquare B = A;
+  B.topRows(n) = (eq.K_root * B.topRows(n)).eval();
+  B.middleRows(n, n) = (eq.M_root * B.middleRows(n, n)).eval();
+  B.leftCols(n) = (B.leftCols(n) * eq.K_root_inverse).eval();
+  B.middleCols(n, n) = (B.middleCols(n, n) * eq.M_root_inverse).eval();
+  if constexpr (S::kInternal != 0) {
+    const Eigen::VectorXd root = eq.internal_stiffness.cwiseSqrt();
+    B.bottomRows(root.size()).array().colwise() /= root.array();
+    B.rightCols(root.size()).array().rowwise() *= root.transpose().array();
+  }
+  const typename S::StateSquare gram = B.transpose() * B;
+  constexpr int kSquarings = 20;  // symmetric: the error is log(2n) / 2^20, on the low side
+  return std::sqrt(spectral_radius(gram, kSquarings));
+}
+
+// The energy norm of what rounding leaves of forces: each force that acts on a contact is known to epsilon of
+// itself, and moves the state by its static response, sqrt(w^T K^-1 w / 2) F. Of a contact that slides it is
+// its limit; of one that sticks throughout no more than what holds it, which the state's own scale has.
+template <int N, int H>
+double force_rounding(const Flow<N, H>& flow, const Orbit<N, H>& orbit) {
+  const StepEquations<N, H>& eq = flow.equations();
+  double sum = 0.0;
+  for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
+    if (contains(orbit.stuck_throughout, j)) continue;
+    sum += eq.limit[j] * std::sqrt(0.5 * eq.W.col(j).dot(eq.K_inverse * eq.W.col(j)));
+  }
+  return std::numeric_limits<double>::epsilon() * sum;
+}
+
+// Contraction, Floquet radius and error bound of a converged orbit:
+//   ||z - z*||_E <= (||r||_E + rounding) / (1 - L),   |x_n| <= sqrt(2 (K^-1)_nn) ||z||_E,
+// as long as the events are the same throughout that ball.
+template <int N, int H>
+void judge_stability(const Flow<N, H>& flow, Orbit<N, H>& orbit) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  const StepEquations<N, H>& eq = flow.equations();
+  const auto moving = moving_part<N, H>(eq, orbit.passage.tangent, orbit.stuck_throughout);
+  orbit.contraction = energy_operator_norm<N, H>(eq, moving);
+  orbit.floquet_radius = spectral_radius(moving);
+  if (orbit.half_period) orbit.floquet_radius *= orbit.floquet_radius;
+  // Where an event only just happens the map has a kink and no derivative.
+  const bool has_kink = orbit.passage.margin < kGrazing && orbit.passage.events > 0;
+  if (has_kink) orbit.floquet_radius = kNone;
+
+  const double scale = std::max(eq.energy_norm(orbit.z), flow.static_norm());
+  const double operations = 16.0 + 2.0 * eq.period + 16.0 * orbit.passage.events;
+  const double rounding = std::numeric_limits<double>::epsilon() * operations * scale +
+                          operations * force_rounding(flow, orbit);
+  const double ball = (orbit.residual * scale + rounding) / (1.0 - orbit.contraction);
+  const bool holds = orbit.contraction < 1.0 && ball < 0.1 * orbit.passage.margin * scale;
+  orbit.error_bound = holds ? ball * std::sqrt(2.0 * eq.K_inverse.diagonal().maxCoeff()) : kNone;
+}
+
+}  // namespace frahm::periodic

@@ -1,0 +1,26 @@
+#include "solvers/orbits/reasons.hpp"
+
+#include <cstdio>
+
+namespace frahm::periodic {
+namespace {
+
+std::string with_numbers(const char* format, auto... numbers) {
+  char text[200];
+  std::snprintf(text, sizeof text, format, numbers...);
+  return text;
+}
+
+}  // namespace
+
+std::string no_convergence(int passages, double residual) {
+  return with_numbers(
+      "no convergence: the period map contracts too slowly; the residual is %.1e after %d passages", residual,
+      passages);
+}
+
+std::string unbalanced(double balance) {
+  return with_numbers("the energy put in and dissipated in a period differ by %.1e of it", balance);
+}
+
+}  // namespace frahm::periodic

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+// Why there is no periodic orbit: sentences of plain text, which rows of a map and points quote.
+namespace frahm::periodic {
+
+inline constexpr const char* kTooManySteps =
+    "the excitation is too slow, or the system too stiff: more than 200000 steps a period";
+inline constexpr const char* kUnresolved =
+    "the response is so much larger than the static one that rounding hides the forces";
+inline constexpr const char* kUnbounded =
+    "an undamped mode is driven at its resonance, and no friction holds it";
+
+// The search went on for so many passages and came to this residual.
+std::string no_convergence(int passages, double residual);
+// The energy put in and dissipated in a period differ by this part.
+std::string unbalanced(double balance);
+
+}  // namespace frahm::periodic

@@ -1,0 +1,131 @@
+#pragma once
+
+#include <Eigen/LU>
+#include <limits>
+
+#include "solvers/orbits/reasons.hpp"
+#include "solvers/orbits/rest_directions.hpp"
+#include "solvers/orbits/shooting.hpp"
+
+// Bodies of Shooting, for the files that instantiate it.
+namespace frahm::periodic {
+
+template <int N, int H>
+void Shooting<N, H>::find(Orbit<N, H>& orbit, ContactMask held) {
+  const double period = flow_.equations().period;
+  section_ = orbit.section;
+  sign_ = orbit.sign();
+  length_ = orbit.half_period ? 0.5 * period : period;
+  held_ = held;
+  newton_iterations_ = passages_ = 0;
+  if (period > options_.most_steps_a_period) {
+    current_.passage.segments.clear();
+    current_.passage.failure = kTooManySteps;
+    return conclude(Verdict::gave_up, orbit);
+  }
+  current_.z = orbit.z;
+  apply_map(current_);
+  Verdict verdict = judge();
+  for (int maps = 2; verdict == Verdict::go_on; verdict = judge()) {
+    if (propose_newton_step() && try_candidate()) continue;
+    if (current_.relative <= options_.good_enough) {
+      verdict = Verdict::converged;
+      break;
+    }
+    march(maps);
+    maps = std::min(2 * maps, 256);
+  }
+  conclude(verdict, orbit);
+}
+
+template <int N, int H>
+void Shooting<N, H>::apply_map(Trial<N, H>& trial) {
+  const StepEquations<N, H>& eq = flow_.equations();
+  walk_.pass(trial.z, section_, length_, trial.passage, held_);
+  ++passages_;
+  trial.stuck_throughout = stuck_throughout(flow_, trial.passage);
+  trial.residual = sign_ * trial.passage.end - trial.z;
+  trial.norm = eq.energy_norm(trial.residual);
+  const double scale = std::max(eq.energy_norm(trial.z), flow_.static_norm());
+  trial.relative = scale > 0.0 ? trial.norm / scale : trial.norm;
+}
+
+template <int N, int H>
+typename Shooting<N, H>::Verdict Shooting<N, H>::judge() {
+  if (current_.passage.failure != nullptr) return Verdict::gave_up;
+  if (!(current_.relative > options_.tolerance)) return Verdict::converged;
+  const bool too_long = passages_ * flow_.equations().period > options_.most_steps;
+  return passages_ > options_.most_passages || too_long ? Verdict::gave_up : Verdict::go_on;
+}
+
+// The candidate is one Newton step on:  (1 - dg/dz) step = g(z) - z. A contact that sticks throughout keeps its
+// rest position (multiplier +1): L^T step = 0 in its place.
+template <int N, int H>
+bool Shooting<N, H>::propose_newton_step() {
+  const StepEquations<N, H>& eq = flow_.equations();
+  typename S::StateSquare A = -sign_ * current_.passage.tangent;
+  A.diagonal().array() += 1.0;
+  if (sign_ > 0.0 && current_.stuck_throughout != 0)
+    A += shift_projector(rest_directions(eq, current_.stuck_throughout));
+  if constexpr (S::is_fixed && S::kState <= 4) {
+    candidate_.z = A.inverse() * current_.residual;  // closed form; Newton's method forgives its rounding
+  } else {
+    candidate_.z = A.partialPivLu().solve(current_.residual);
+  }
+  candidate_.z += current_.z;
+  return candidate_.z.allFinite() && is_resolved(candidate_.z);
+}
+
+// Whether the candidate pays; it is then the current trial.
+template <int N, int H>
+bool Shooting<N, H>::try_candidate() {
+  ++newton_iterations_;
+  apply_map(candidate_);
+  const bool pays =
+      candidate_.passage.failure == nullptr && candidate_.norm < options_.pays * current_.norm;
+  if (pays) std::swap(current_, candidate_);
+  return pays;
+}
+
+template <int N, int H>
+void Shooting<N, H>::march(int maps) {
+  for (int i = 0; i < maps && current_.passage.failure == nullptr && current_.relative > options_.tolerance;
+       ++i) {
+    current_.z = sign_ * current_.passage.end;
+    apply_map(current_);
+  }
+}
+
+// Where the period map is all but the identity (a mode without damping at its resonance) Newton's step may lead
+// so far out that any state there seems to close: its residual is lost in the rounding of the state.
+template <int N, int H>
+bool Shooting<N, H>::is_resolved(const typename S::State& z) const {
+  const double largest = options_.most_magnification * flow_.static_norm();
+  return largest == 0.0 || flow_.equations().energy_norm(z) <= largest;
+}
+
+template <int N, int H>
+void Shooting<N, H>::conclude(Verdict verdict, Orbit<N, H>& orbit) {
+  std::swap(orbit.passage, current_.passage);
+  orbit.newton_iterations = newton_iterations_;
+  orbit.passages = passages_;
+  orbit.reason.clear();
+  orbit.status = Status::failed;
+  if (orbit.passage.failure != nullptr) {
+    orbit.reason = orbit.passage.failure;
+    orbit.residual = std::numeric_limits<double>::quiet_NaN();
+    return;
+  }
+  orbit.z = current_.z;
+  orbit.stuck_throughout = current_.stuck_throughout;
+  orbit.residual = current_.relative;
+  if (verdict != Verdict::converged) {
+    orbit.reason = no_convergence(passages_, current_.relative);
+  } else if (!is_resolved(orbit.z)) {
+    orbit.reason = kUnresolved;
+  } else {
+    orbit.status = orbit.passage.margin < kGrazing ? Status::grazing : Status::ok;
+  }
+}
+
+}  // namespace frahm::periodic

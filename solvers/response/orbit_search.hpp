@@ -1,0 +1,139 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "solvers/flow/linear_form.hpp"
+#include "solvers/mechanics/undamped_resonance.hpp"
+#include "solvers/orbits/certificate.hpp"
+#include "solvers/orbits/continuation.hpp"
+#include "solvers/orbits/reasons.hpp"
+#include "solvers/orbits/rest_position.hpp"
+#include "solvers/quantities/extremes.hpp"
+#include "solvers/quantities/integrals.hpp"
+#include "solvers/quantities/orbit_steps.hpp"
+
+namespace frahm::periodic {
+
+// From a system to its periodic orbit, with what is certain of it: continuation and shooting, the rest position
+// of contacts that stick throughout, the certificate.
+template <int N, int H>
+class OrbitSearch {
+ public:
+  // Both must outlive the search.
+  OrbitSearch(const mechanics::Assembly& assembly, Flow<N, H>& flow)
+      : forms_(assembly, flow), flow_(flow), continuation_(flow), shooting_(flow), steps_(flow) {}
+
+  void forget() { continuation_.forget(); }
+  void begin_row() { continuation_.begin_row(); }
+
+  // The orbit of the flow, which is set to `system`. certify: with multipliers and error bound.
+  void find(const mechanics::LinearSystem& system, const std::vector<UndampedMode>& undamped,
+            bool certify, Orbit<N, H>& orbit);
+
+ private:
+  void fail_unbounded(Orbit<N, H>& orbit);
+  void settle(Orbit<N, H>& orbit);
+  bool settle_rest_position(Orbit<N, H>& orbit);
+  bool try_held(ContactMask held, Orbit<N, H>& orbit);
+  ContactMask sliding_less_than(double share, const Orbit<N, H>& orbit) const;
+
+  Forms<N, H> forms_;
+  Flow<N, H>& flow_;
+  Continuation<N, H> continuation_;
+  Shooting<N, H> shooting_;
+  OrbitSteps<N, H> steps_;
+  Integrals<N, H> integrals_;
+  Orbit<N, H> trial_;
+};
+
+template <int N, int H>
+void OrbitSearch<N, H>::find(const mechanics::LinearSystem& system,
+                             const std::vector<UndampedMode>& undamped, bool certify,
+                             Orbit<N, H>& orbit) {
+  if (is_unbounded(system, undamped)) return fail_unbounded(orbit);
+  continuation_.find(system, orbit);
+  if (!orbit.half_period)
+    settle(orbit);
+  else if (orbit.is_found() && orbit.stuck_throughout != 0)
+    centre_rest_position(flow_, orbit);
+  if (certify && orbit.is_found()) judge_stability(flow_, orbit);
+}
+
+template <int N, int H>
+void OrbitSearch<N, H>::fail_unbounded(Orbit<N, H>& orbit) {
+  orbit.status = Status::unbounded;
+  orbit.reason = kUnbounded;
+  orbit.residual = std::numeric_limits<double>::quiet_NaN();
+  orbit.newton_iterations = orbit.passages = 0;
+  continuation_.forget();
+}
+
+// Contacts that slide for less than this share of the passage.
+template <int N, int H>
+ContactMask OrbitSearch<N, H>::sliding_less_than(double share, const Orbit<N, H>& orbit) const {
+  const StepEquations<N, H>& eq = flow_.equations();
+  ContactMask result = 0;
+  for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
+    double sliding = 0.0;
+    for (const Segment<N, H>& segment : orbit.passage.segments) {
+      if (!contains(flow_.mode(segment.mode).stuck, j)) sliding += segment.length;
+    }
+    if (sliding < share * eq.period && eq.limit[j] > 0.0) result |= bit(j);
+  }
+  return result;
+}
+
+// Contacts that stick throughout rest where the energy is least. The search may end on the edge of the set of
+// such orbits, where it takes ever smaller slips for the answer (the residual falls like slip^1.5): contacts
+// that barely slide are held, and if their forces then keep within their limits that is the orbit, as there
+// is only one.
+template <int N, int H>
+void OrbitSearch<N, H>::settle(Orbit<N, H>& orbit) {
+  if (orbit.is_found() && orbit.stuck_throughout != 0) settle_rest_position(orbit);
+  ContactMask tried = orbit.is_found() ? orbit.stuck_throughout : 0;
+  const auto shares = orbit.is_found() ? std::array{0.01, 0.1} : std::array{0.5, 0.1};
+  for (const double share : shares) {
+    const ContactMask held = sliding_less_than(share, orbit);
+    if (held == tried || held == 0) continue;
+    tried = held;
+    if (try_held(held, orbit)) return;
+  }
+}
+
+// Whether there is an orbit with these contacts held by forces within their limits; `orbit` is it then.
+template <int N, int H>
+bool OrbitSearch<N, H>::try_held(ContactMask held, Orbit<N, H>& orbit) {
+  trial_ = orbit;
+  trial_.z = flow_.brought_to_rest(trial_.z, trial_.section, held & flow_.equations().holding);
+  shooting_.find(trial_, held);
+  if (!trial_.is_found() || !settle_rest_position(trial_)) return false;
+  std::swap(orbit, trial_);
+  return true;
+}
+
+// Moves `orbit` to the rest position of least energy; one whose limit is reached is grazing. False, and the
+// orbit as it was, where no rest position keeps the forces within their limits.
+template <int N, int H>
+bool OrbitSearch<N, H>::settle_rest_position(Orbit<N, H>& orbit) {
+  const StepEquations<N, H>& eq = flow_.equations();
+  steps_.lay_out(orbit);
+  integrals_.integrate(steps_, flow_, orbit.half_period, [](const auto&, auto& powers) { powers.clear(); });
+  const double period = eq.period * eq.step;
+  const Eigen::VectorXd mean = integrals_.gram().col(eq.states()).head(eq.states()) / period;
+  std::vector<StuckForce> forces;
+  for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
+    if (!contains(orbit.stuck_throughout, j)) continue;
+    const auto form = [&](const Mode<N, H>& mode) { return forms_.stuck_contact_force(j, mode); };
+    const Extremes force = find_extremes(steps_, flow_, orbit.section, form);
+    forces.push_back({force.least, force.most, eq.limit[j]});
+  }
+  const RestDirections rest = rest_directions(eq, orbit.stuck_throughout);
+  const RestShift shift = least_energy_shift(rest, mean, forces);
+  if (shift.verdict == RestShift::Verdict::none) return false;
+  shift_orbit<N, H>(rest.E * shift.delta, orbit);
+  if (shift.verdict == RestShift::Verdict::at_limit) orbit.status = Status::grazing;
+  return true;
+}
+
+}  // namespace frahm::periodic

@@ -1,0 +1,195 @@
+#include "solvers/tuning/exchange/active_problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solvers/tuning/exchange/followed_maximum.hpp"
+
+namespace frahm::tuning {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+// Adds factor x d value / d x to `gradient` (of all variables).
+void add_gradient(const DesignSpace& space, const BandCurve& curve, std::size_t side, double factor,
+                  std::span<double> gradient) {
+  for (std::size_t p = 0; p < space.parameters(); ++p) {
+    const DesignSpace::Place& place = curve.response().place(p);
+    for (int i = 0; i < place.count; ++i)
+      gradient[place.shares[i].variable] += factor * place.shares[i].weight * curve.derivative(side, p);
+  }
+}
+
+}  // namespace
+
+ActiveProblem::ActiveProblem(const Task& task, const DesignSpace& space, const Goal& goal,
+                             const std::vector<CurveKind>& curves, const std::vector<ActivePoint>& active,
+                             const std::vector<QuadratureNode>& nodes, Effort& effort,
+                             const std::function<bool()>& stop_asked)
+    : task_(task),
+      space_(space),
+      goal_(goal),
+      curves_(curves),
+      active_(active),
+      nodes_(nodes),
+      stop_asked_(stop_asked) {
+  for (const ActivePoint& point : active_)
+    responses_.push_back(std::make_unique<BandCurve>(task, space, curves_[point.curve], effort));
+  for (std::size_t s = 0; s < task.scenarios.size(); ++s)
+    node_curves_.push_back({.scenario = s, .quantity = task.quantity, .band = task.band, .constant = {}});
+  for (const QuadratureNode& node : nodes_)
+    node_responses_.push_back(std::make_unique<BandCurve>(task, space, node_curves_[node.scenario], effort));
+  if (goal.of == Goal::Of::variance) {
+    const bool is_stroke = task.quantity.measure == periodic::Measure::stroke;
+    const NoisyKind kind = is_stroke ? NoisyKind::stroke : NoisyKind::displacement;
+    variance_.emplace(task.network, task.noise, NoisyQuantity{kind, task.quantity.index});
+  }
+  name_variables();
+  add_rows();
+  add_slope_rows();
+}
+
+void ActiveProblem::name_variables() {
+  for (std::size_t i = 0; i < space_.variables(); ++i) {
+    const DesignParameter& parameter = space_.parameter(space_.parameter_of(i));
+    Variable variable{.name = parameter.name, .lower = parameter.lower, .upper = parameter.upper};
+    if (parameter.schedule) {
+      variable.name.append(1, '[');
+      variable.name.append(std::to_string(i - space_.first(space_.parameter_of(i))));
+      variable.name.append(1, ']');
+    }
+    const double range = parameter.upper - parameter.lower;
+    const double size = std::max(std::abs(parameter.lower), std::abs(parameter.upper));
+    variable.scale = range > 0.0 ? range : size > 0.0 ? size : 1.0;
+    variables.push_back(variable);
+  }
+  if (has_bound_variable()) variables.push_back({.name = "worst", .lower = 0.0});
+}
+
+void ActiveProblem::add_rows() {
+  const std::vector<double> somewhere(space_.variables(), 0.0);
+  for (const ActivePoint& point : active_) {
+    const bool epigraph = is_epigraph(point.curve);
+    const std::size_t row = constraints.size();
+    constraints.push_back({.name = "response", .upper = epigraph ? 0.0 : bound_of(point.curve)});
+    for (std::size_t p = 0; p < space_.parameters(); ++p) {
+      const DesignSpace::Place place = space_.place(p, point.at, somewhere);
+      for (int k = 0; k < place.count; ++k) jacobian.push_back({row, place.shares[k].variable});
+    }
+    if (epigraph) jacobian.push_back({row, space_.variables()});
+  }
+}
+
+void ActiveProblem::add_slope_rows() {
+  for (std::size_t p = 0; p < space_.parameters(); ++p) {
+    const auto& schedule = space_.parameter(p).schedule;
+    if (!schedule || std::isinf(schedule->max_slope)) continue;
+    for (std::size_t k = 0; k + 1 < schedule->knots.size(); ++k) {
+      const std::size_t variable = space_.first(p) + k;
+      const double most = schedule->max_slope * (schedule->knots[k + 1] - schedule->knots[k]);
+      constraints.push_back(
+          {.name = "slope", .lower = -most, .upper = most, .scale = variables[variable].scale});
+      jacobian.push_back({constraints.size() - 1, variable});
+      jacobian.push_back({constraints.size() - 1, variable + 1});
+    }
+  }
+}
+
+void ActiveProblem::start_at(std::span<const double> x) {
+  for (std::size_t i = 0; i < x.size(); ++i) variables[i].start = x[i];
+  double worst = 0.0;
+  for (std::size_t i = 0; i < active_.size(); ++i) {
+    if (curves_[active_[i].curve].of != CurveKind::Of::objective) continue;
+    if (responses_[i]->solve(x, active_[i].at, false) != TunedResponse::State::solved) continue;
+    worst = std::max(worst, responses_[i]->value(BandCurve::larger));
+  }
+  const double size = worst > 0.0 ? worst : goal_.held > 0.0 ? goal_.held : 1.0;
+  for (std::size_t i = 0; i < active_.size(); ++i) {
+    const bool of_objective = curves_[active_[i].curve].of == CurveKind::Of::objective;
+    constraints[i].scale = of_objective ? size : 1.0;
+  }
+  if (has_bound_variable()) {
+    variables.back().start = worst;
+    variables.back().scale = objective_scale = size;
+  } else {
+    objective_scale = 1.0;
+    const double value = objective(x, {});
+    if (std::isfinite(value) && value != 0.0) objective_scale = std::abs(value);
+  }
+}
+
+double ActiveProblem::objective(std::span<const double> x, std::span<double> gradient) {
+  std::fill(gradient.begin(), gradient.end(), 0.0);
+  if (has_bound_variable()) {
+    if (!gradient.empty()) gradient.back() = 1.0;
+    return x.back();
+  }
+  return goal_.of == Goal::Of::variance ? variance(x, gradient) : integral(x, gradient);
+}
+
+double ActiveProblem::integral(std::span<const double> x, std::span<double> gradient) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    BandCurve& curve = *node_responses_[i];
+    if (curve.solve(x, nodes_[i].at, !gradient.empty()) != TunedResponse::State::solved) return kNone;
+    const double value = curve.value(BandCurve::larger), weight = nodes_[i].weight;
+    const bool square = goal_.of == Goal::Of::mean_square;
+    sum += weight * (square ? value * value : value);
+    if (!gradient.empty())
+      add_gradient(space_, curve, BandCurve::larger, weight * (square ? 2.0 * value : 1.0), gradient);
+  }
+  return sum;
+}
+
+// The mean over the scenarios. There are no schedules, so each parameter is one variable.
+double ActiveProblem::variance(std::span<const double> x, std::span<double> gradient) {
+  std::vector<double> at(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(space_.parameters()));
+  at.push_back(task_.band.from);
+  mechanics::NetworkValues values;
+  std::vector<mechanics::NetworkValues> directions;
+  std::vector<double> slopes(at.size());
+  const double share = 1.0 / static_cast<double>(task_.scenarios.size());
+  double sum = 0.0;
+  try {
+    for (std::size_t s = 0; s < task_.scenarios.size(); ++s) {
+      task_.network_at(s, at, values, &directions);
+      sum += share * variance_->mean_square(values, directions, slopes);
+      for (std::size_t p = 0; p < space_.parameters() && !gradient.empty(); ++p)
+        gradient[p] += share * slopes[p];
+    }
+  } catch (const mechanics::MechanicsError&) {
+    return kNone;  // infinite, or a value out of range: the step is taken back
+  }
+  return sum;
+}
+
+void ActiveProblem::constrain(std::span<const double> x, std::span<double> values,
+                              std::span<double> entries) {
+  std::size_t entry = 0;
+  for (std::size_t i = 0; i < active_.size(); ++i) {
+    const ActivePoint& point = active_[i];
+    BandCurve& curve = *responses_[i];
+    const bool solved = point.followed
+                            ? follow_maximum(curve, x, point.at, point.from, point.to, point.side)
+                            : curve.solve(x, point.at, !entries.empty()) == TunedResponse::State::solved;
+    const bool epigraph = is_epigraph(point.curve);
+    values[i] = solved ? curve.value(point.side) - (epigraph ? x.back() : 0.0) : kNone;
+    if (entries.empty()) continue;
+    for (std::size_t p = 0; p < space_.parameters(); ++p) {
+      const DesignSpace::Place& place = curve.response().place(p);
+      for (int k = 0; k < place.count; ++k)
+        entries[entry++] = solved ? place.shares[k].weight * curve.derivative(point.side, p) : kNone;
+    }
+    if (epigraph) entries[entry++] = -1.0;
+  }
+  std::size_t row = active_.size();
+  for (; row < constraints.size(); ++row) {
+    const std::size_t variable = jacobian[jacobian.size() - 2 * (constraints.size() - row)].variable;
+    values[row] = x[variable + 1] - x[variable];
+    if (entries.empty()) continue;
+    entries[entry++] = -1.0;
+    entries[entry++] = 1.0;
+  }
+}
+
+}  // namespace frahm::tuning

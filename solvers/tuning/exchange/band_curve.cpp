@@ -1,0 +1,112 @@
+#include "solvers/tuning/exchange/band_curve.hpp"
+
+#include <cmath>
+
+namespace frahm::tuning {
+namespace {
+
+using periodic::Measure;
+using periodic::Quantity;
+using periodic::Side;
+
+bool has_sides(const Quantity& quantity) {
+  switch (quantity.measure) {
+    case Measure::peak:
+    case Measure::stroke:
+    case Measure::velocity_peak:
+    case Measure::acceleration_peak:
+    case Measure::force_peak:
+    case Measure::transmitted_force:
+      return true;
+    default:
+      return false;
+  }
+}
+
+std::vector<Quantity> sides_of(Quantity quantity) {
+  if (!has_sides(quantity)) return {quantity};
+  std::vector<Quantity> sides{quantity, quantity};
+  sides[0].side = Side::most;
+  sides[1].side = Side::least;
+  return sides;
+}
+
+}  // namespace
+
+BandCurve::BandCurve(const Task& task, const DesignSpace& space, const CurveKind& kind, Effort& effort)
+    : task_(task),
+      kind_(kind),
+      sides_(has_sides(kind.quantity) ? 2 : 1),
+      response_(task, space, kind.scenario, sides_of(kind.quantity), effort) {
+  if (kind.of == CurveKind::Of::dominated)
+    constant_.emplace(task, space, kind.scenario, std::vector<Quantity>{kind.quantity}, effort);
+}
+
+TunedResponse::State BandCurve::solve(std::span<const double> x, double band, bool with_derivatives) {
+  using Of = CurveKind::Of;
+  const TunedResponse::State state = response_.solve(x, band, with_derivatives);
+  reason_ = response_.reason();
+  if (state != TunedResponse::State::solved) return state;
+  if (!std::isfinite(response_.value(0))) {
+    reason_ = "the quantity has no value there";
+    return TunedResponse::State::failed;
+  }
+  factor_ = 1.0;
+  offset_ = factor_slope_ = 0.0;
+  const double scale = kind_.bound != 0.0 ? std::abs(kind_.bound) : 1.0;
+  switch (kind_.of) {
+    case Of::objective:
+      if (task_.weight) {
+        const Weight weight = task_.weight(band);
+        factor_ = weight.value;
+        factor_slope_ = weight.slope;
+      }
+      break;
+    case Of::upper_limit:
+      factor_ = 1.0 / scale;
+      offset_ = 1.0 - kind_.bound / scale;
+      break;
+    case Of::lower_limit:
+      factor_ = -1.0 / scale;
+      offset_ = 1.0 + kind_.bound / scale;
+      break;
+    case Of::dominated: {
+      // The constant design stays, so its response at a frequency is found once.
+      if (band != constant_band_ || (with_derivatives && !constant_has_derivatives_)) {
+        const TunedResponse::State of_constant = constant_->solve(kind_.constant, band, with_derivatives);
+        reason_ = constant_->reason();
+        if (of_constant != TunedResponse::State::solved) return of_constant;
+        constant_band_ = band;
+        constant_has_derivatives_ = with_derivatives;
+      }
+      factor_ = 1.0 / constant_->value(0);
+      if (with_derivatives)
+        factor_slope_ = -factor_ * factor_ * 0.5 * (constant_->slope_left(0) + constant_->slope_right(0));
+      break;
+    }
+  }
+  return state;
+}
+
+std::size_t BandCurve::side_of(std::size_t side) const {
+  if (side != larger) return side;
+  return sides_ == 2 && response_.value(1) > response_.value(0) ? 1 : 0;
+}
+
+double BandCurve::value(std::size_t side) const {
+  return factor_ * response_.value(side_of(side)) + offset_;
+}
+
+double BandCurve::derivative(std::size_t side, std::size_t parameter) const {
+  return factor_ * response_.derivative(side_of(side), parameter);
+}
+
+double BandCurve::slope_left(std::size_t side) const {
+  return factor_ * response_.slope_left(side_of(side)) + factor_slope_ * response_.value(side_of(side));
+}
+
+double BandCurve::slope_right(std::size_t side) const {
+  return factor_ * response_.slope_right(side_of(side)) + factor_slope_ * response_.value(side_of(side));
+}
+
+}  // namespace frahm::tuning

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "solvers/tuning/exchange/tuned_response.hpp"
+
+namespace frahm::tuning {
+
+// A curve over the band that a design has to press down: the weighted objective, which stays under the worst
+// peak, or something that stays under 1.
+struct CurveKind {
+  enum class Of {
+    objective,    // weight X                        <= t
+    upper_limit,  // 1 + (X - limit)/|limit|         <= 1
+    lower_limit,  // 1 + (limit - X)/|limit|         <= 1
+    dominated,    // X / X of the constant design    <= 1
+  };
+  Of of = Of::objective;
+  std::size_t scenario = 0;
+  std::size_t limit = 0;  // which of the limits
+  periodic::Quantity quantity;
+  Band band;
+  double bound = 0.0;            // of a limit
+  std::vector<double> constant;  // design of `dominated`
+
+  // What the curve stays under, where that is not t. Where the constant design is the best by itself a
+  // dominating one can only touch it: a hair of room lets the optimiser do so.
+  double most() const { return of == Of::dominated ? 1.0 + kTouch : 1.0; }
+  static constexpr double kTouch = 1e-8;
+};
+
+// Its values at designs and frequencies one after the other. Where the orbit has no symmetry a peak has two
+// sides, each with a smooth value of its own.
+class BandCurve {
+ public:
+  // All must outlive the curve.
+  BandCurve(const Task& task, const DesignSpace& space, const CurveKind& kind, Effort& effort);
+
+  TunedResponse::State solve(std::span<const double> x, double band, bool with_derivatives);
+  const std::string& reason() const { return reason_; }
+
+  // The larger side, or one of two (0: most, 1: least).
+  static constexpr std::size_t larger = 2;
+  double value(std::size_t side) const;
+  double derivative(std::size_t side, std::size_t parameter) const;  // d value / d parameter, at its place
+  double slope_left(std::size_t side) const;                         // d value / d band along the schedules
+  double slope_right(std::size_t side) const;
+  // Sides that need a bound each: both of a peak without symmetry, else only the first.
+  std::size_t sides() const { return sides_ == 2 && !response_.is_symmetric() ? 2 : 1; }
+  double quantity(std::size_t side) const { return response_.value(side_of(side)); }  // unscaled, unweighted
+
+  const TunedResponse& response() const { return response_; }
+
+ private:
+  std::size_t side_of(std::size_t side) const;
+
+  const Task& task_;
+  const CurveKind& kind_;
+  std::size_t sides_;  // of the quantity
+  TunedResponse response_;
+  std::optional<TunedResponse> constant_;                            // of `dominated`
+  double constant_band_ = std::numeric_limits<double>::quiet_NaN();  // where it was solved last
+  bool constant_has_derivatives_ = false;
+  double factor_ = 1.0, offset_ = 0.0;  // value = factor X + offset at the place in hand
+  double factor_slope_ = 0.0;           // d factor / d band
+  std::string reason_;
+};
+
+}  // namespace frahm::tuning

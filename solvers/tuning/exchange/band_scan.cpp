@@ -1,0 +1,79 @@
+#include "solvers/tuning/exchange/band_scan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solvers/tuning/exchange/band_maxima.hpp"
+#include "solvers/tuning/exchange/resonance_places.hpp"
+
+namespace frahm::tuning {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr int kIntervals = 48;  // of the even grid that a scan starts from
+
+}  // namespace
+
+std::vector<double> places_of(const Task& task, const DesignSpace& space, const CurveKind& curve,
+                              std::span<const double> x, int intervals) {
+  mechanics::NetworkValues values;
+  std::vector<double> at(space.parameters() + 1);
+  const auto values_at = [&](double band) -> const mechanics::NetworkValues& {
+    for (std::size_t p = 0; p < space.parameters(); ++p) at[p] = space.place(p, band, x).value;
+    at.back() = band;
+    task.network_at(curve.scenario, at, values, nullptr);
+    return values;
+  };
+  return resonance_places(task.network, values_at, curve.band, space.knots(), intervals);
+}
+
+BandScan::BandScan(const Task& task, const DesignSpace& space, const std::vector<CurveKind>& curves,
+                   Effort& effort, const std::function<bool()>& stop_asked)
+    : task_(task), space_(space), curves_(curves), stop_asked_(stop_asked) {
+  for (const CurveKind& curve : curves_)
+    responses_.push_back(std::make_unique<BandCurve>(task, space, curve, effort));
+}
+
+void BandScan::scan_curve(std::span<const double> x, std::size_t c, double floor, double accuracy,
+                          Scan& scan) {
+  BandCurve& curve = *responses_[c];
+  const auto point_at = [&](double band) -> CurvePoint {
+    if (stop_asked_()) return {band, kNone, kNone, kNone};
+    const auto state = curve.solve(x, band, true);
+    if (state == TunedResponse::State::solved) {
+      constexpr std::size_t side = BandCurve::larger;
+      return {band, curve.value(side), curve.slope_left(side), curve.slope_right(side)};
+    }
+    const bool unbounded = state == TunedResponse::State::unbounded;
+    if (unbounded || !scan.unbounded) {
+      (unbounded ? scan.unbounded : scan.failed) = true;
+      scan.at = band;
+      scan.reason = curve.reason();
+    }
+    return {band, unbounded ? kInfinity : kNone, kNone, kNone};
+  };
+  const BandMaxima found =
+      find_band_maxima(point_at, places_of(task_, space_, curves_[c], x, kIntervals), floor, accuracy);
+  for (const CurvePoint& maximum : found.maxima) {
+    const auto state = curve.solve(x, maximum.at, false);
+    const std::size_t sides = state == TunedResponse::State::solved ? curve.sides() : 1;
+    scan.maxima.push_back({c, maximum.at, maximum.value, sides});
+  }
+  Scan::Place highest;
+  for (const CurvePoint& sample : found.samples) {
+    if (sample.value > highest.value) highest = {sample.at, sample.value};
+  }
+  scan.tightest.push_back(highest);
+  if (curves_[c].of == CurveKind::Of::objective)
+    scan.worst = std::max(scan.worst, highest.value);
+  else
+    scan.violation = std::max(scan.violation, highest.value - curves_[c].most());
+}
+
+Scan BandScan::of(std::span<const double> x, double floor, double accuracy) {
+  Scan result;
+  for (std::size_t c = 0; c < curves_.size(); ++c) scan_curve(x, c, floor, accuracy, result);
+  return result;
+}
+
+}  // namespace frahm::tuning

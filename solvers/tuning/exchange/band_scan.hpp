@@ -1,0 +1,56 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "solvers/tuning/exchange/band_curve.hpp"
+#include "solvers/tuning/problem/problem.hpp"
+
+namespace frahm::tuning {
+
+// All true local maxima of the curves of one design over their bands.
+struct Scan {
+  struct Maximum {
+    std::size_t curve = 0;
+    double at = 0.0, value = 0.0;
+    std::size_t sides = 1;
+  };
+  struct Place {
+    double at = 0.0, value = -kInfinity;
+  };
+  std::vector<Maximum> maxima;  // by curve, then place
+  std::vector<Place> tightest;  // of each curve, where it is highest, however low that is
+  double worst = 0.0;           // of the objective's curves; infinite where the response has no bound
+  double violation = 0.0;       // by which the other curves exceed 1
+  bool failed = false, unbounded = false;
+  double at = 0.0;     // where it failed or is unbounded
+  std::string reason;  // why
+};
+
+// Scans of designs, one after the other.
+class BandScan {
+ public:
+  // All must outlive the scan. stop_asked: a scan that is stopped ends at once and means nothing.
+  BandScan(const Task& task, const DesignSpace& space, const std::vector<CurveKind>& curves, Effort& effort,
+           const std::function<bool()>& stop_asked);
+
+  // floor, accuracy: see find_band_maxima.
+  Scan of(std::span<const double> x, double floor, double accuracy);
+
+ private:
+  void scan_curve(std::span<const double> x, std::size_t curve, double floor, double accuracy, Scan& scan);
+
+  const Task& task_;
+  const DesignSpace& space_;
+  const std::vector<CurveKind>& curves_;
+  const std::function<bool()>& stop_asked_;
+  std::vector<std::unique_ptr<BandCurve>> responses_;  // of each curve
+};
+
+// Places of a curve's band at a design from which no peak can hide (resonance_places.hpp).
+std::vector<double> places_of(const Task& task, const DesignSpace& space, const CurveKind& curve,
+                              std::span<const double> x, int intervals);
+
+}  // namespace frahm::tuning

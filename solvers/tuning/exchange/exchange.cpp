@@ -1,0 +1,320 @@
+#include "solvers/tuning/exchange/exchange.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solvers/tuning/exchange/band_quadrature.hpp"
+
+namespace frahm::tuning {
+namespace {
+
+constexpr int kFirstIntervals = 32;  // of the first active frequencies
+constexpr double kFine = 1e-7;       // accuracy of a scan, relative to the worst peak
+constexpr double kHighPeaks = 0.5;   // peaks lower than this share of the worst are left out
+constexpr double kSamePlace = 1e-7;  // frequencies closer than this, relative, are one
+constexpr double kNearEnd =
+    1e-2;  // the gap from which on maxima are followed and problems solved to the last digit
+constexpr SolverOptions kExact{.tolerance = 1e-9, .most_iterations = 100};
+constexpr SolverOptions kSettling{.tolerance = 1e-6, .most_iterations = 150};
+constexpr double kClosed = 1e-9;
+constexpr SolverOptions kRough{.tolerance = 1e-4, .most_iterations = 40, .feasibility = 1e-6};
+constexpr double kWithinPiece = 1.0 - 1e-6;  // of the way to a knot, on which the next piece begins
+constexpr int kRoundsThatDrop = 5;
+constexpr double kAcceptableResidual = 1e-5;
+
+// What the rounds have come to, and whether another will help.
+class Convergence {
+ public:
+  // tolerance: of gap and violation, that promised. closed: that from which nothing is left to gain.
+  Convergence(double tolerance, double closed) : tolerance_(tolerance), closed_(closed) {}
+
+  // Of a round; exact: its problem was solved to the last digit, with the maxima followed. true: no more
+  // rounds.
+  bool judge(double gap, double violation, bool exact) {
+    // The solver lets its constraints slip by its own tolerance: the bound may lie above the worst peak.
+    const double size = std::max(gap, violation);
+    const bool falls = size < 0.25 * best_;
+    best_ = std::min(best_, size);
+    stalled_ = falls ? 0 : stalled_ + 1;
+    if (size <= closed_ && exact) return true;
+    return size <= tolerance_ ? stalled_ >= 2 : stalled_ >= kPatience;
+  }
+  bool met() const { return best_ <= tolerance_; }
+
+ private:
+  static constexpr int kPatience = 6;
+  double tolerance_, closed_;
+  double best_ = std::numeric_limits<double>::infinity();
+  int stalled_ = 0;
+};
+
+bool is_solved(const Solution& solution) {
+  return solution.ending == Ending::converged || solution.kkt_residual <= kAcceptableResidual;
+}
+
+// Whether the design has to stay below a constant one everywhere.
+bool has_dominated(const std::vector<CurveKind>& curves) {
+  return std::any_of(curves.begin(), curves.end(),
+                     [](const CurveKind& curve) { return curve.of == CurveKind::Of::dominated; });
+}
+
+// Both sides of a peak without symmetry, else the larger, which is both.
+std::vector<std::size_t> sides_of(std::size_t sides) {
+  if (sides == 2) return {0, 1};
+  return {BandCurve::larger};
+}
+
+// Fewer broken limits first, then the lower objective.
+bool is_better(const Goal& goal, const Exchange::Step& step, const Scan& scan, const Exchange::Result& than) {
+  const double broken = std::max(0.0, scan.violation - 1e-9);
+  const double broken_before = std::max(0.0, than.scan.violation - 1e-9);
+  if (broken != broken_before) return broken < broken_before;
+  if (goal.of == Goal::Of::worst) return scan.worst < than.scan.worst;
+  if (goal.of == Goal::Of::mean_response && scan.worst > goal.held * (1.0 + 1e-9))
+    return scan.worst < than.scan.worst;
+  return step.objective_again < than.step.objective_again;
+}
+
+}  // namespace
+
+Exchange::Exchange(const Task& task, const DesignSpace& space, const std::vector<CurveKind>& curves,
+                   Effort& effort, const std::function<bool()>& stop_asked)
+    : task_(task),
+      space_(space),
+      curves_(curves),
+      effort_(effort),
+      stop_asked_(stop_asked),
+      scan_(task, space, curves, effort, stop_asked) {}
+
+// Whether the goal keeps a curve under a bound; else it only integrates it.
+bool Exchange::is_bounded(const Goal& goal, std::size_t curve) const {
+  return curves_[curve].of != CurveKind::Of::objective || goal.of == Goal::Of::worst ||
+         goal.of == Goal::Of::mean_response;
+}
+
+// An even grid, or the knots and the middles between them.
+std::vector<ActivePoint> Exchange::first_active(const Goal& goal, const Scan& scan) const {
+  std::vector<ActivePoint> active;
+  const std::vector<double> knots = space_.knots();
+  const bool dominates = has_dominated(curves_);
+  for (std::size_t c = 0; c < curves_.size(); ++c) {
+    if (!is_bounded(goal, c)) continue;
+    // What stays below the constant design everywhere needs no grid of its own beside that.
+    if (dominates && curves_[c].of == CurveKind::Of::objective) continue;
+    const Band band = curves_[c].band;
+    std::vector<double> places = knots;
+    for (std::size_t i = 0; i + 1 < knots.size(); ++i) places.push_back(0.5 * (knots[i] + knots[i + 1]));
+    if (knots.empty()) {
+      for (int i = 0; i <= kFirstIntervals; ++i)
+        places.push_back(band.from + (band.to - band.from) * i / kFirstIntervals);
+    }
+    std::sort(places.begin(), places.end());
+    places.erase(std::unique(places.begin(), places.end()), places.end());
+    std::size_t sides = 1;
+    for (const Scan::Maximum& maximum : scan.maxima) {
+      if (maximum.curve == c) sides = std::max(sides, maximum.sides);
+    }
+    for (const double place : places) {
+      if (place < band.from || place > band.to) continue;
+      for (const std::size_t side : sides_of(sides))
+        active.push_back({.curve = c, .at = place, .side = side});
+    }
+  }
+  return active;
+}
+
+// Whether maxima are followed as the design changes. Constants move sharp resonances out from between fixed
+// frequencies, so always; a schedule shapes the response place by place and has a grid at its knots, and what
+// its trials met stays met: at the end.
+bool Exchange::follows(bool near_end) const {
+  return near_end || has_dominated(curves_) || !space_.has_schedule();
+}
+
+// The scan's maxima join the active points. Of those that are followed, the ones before, which these are
+// again, go. One that is not takes the place of a point it differs from by next to nothing.
+void Exchange::join(const Goal& goal, const Scan& scan, bool follow, std::vector<ActivePoint>& active) const {
+  std::erase_if(active, [](const ActivePoint& point) { return point.followed; });
+  const std::vector<double> knots = space_.knots();
+  for (std::size_t i = 0; i < scan.maxima.size(); ++i) {
+    const Scan::Maximum& maximum = scan.maxima[i];
+    if (!is_bounded(goal, maximum.curve)) continue;
+    for (const std::size_t side : sides_of(maximum.sides)) {
+      ActivePoint point{.curve = maximum.curve, .at = maximum.at, .side = side};
+      point.followed = follow && can_follow(scan, i, knots, point);
+      const auto near = std::find_if(active.begin(), active.end(), [&](const ActivePoint& other) {
+        return !point.followed && other.curve == point.curve && other.side == side &&
+               std::abs(other.at - point.at) <= kSamePlace * std::abs(point.at);
+      });
+      if (near == active.end())
+        active.push_back(point);
+      else
+        *near = point;
+    }
+  }
+}
+
+// A maximum inside the band and inside a piece of every schedule can be followed half the way to the next
+// such thing on either side.
+bool Exchange::can_follow(const Scan& scan, std::size_t i, const std::vector<double>& knots,
+                          ActivePoint& point) const {
+  const Band band = curves_[point.curve].band;
+  point.from = band.from;
+  point.to = band.to;
+  const auto keep_off = [&](double place, double share) {
+    if (place < point.at) point.from = std::max(point.from, point.at - share * (point.at - place));
+    if (place > point.at) point.to = std::min(point.to, point.at + share * (place - point.at));
+  };
+  for (std::size_t k = 0; k < scan.maxima.size(); ++k) {
+    if (k != i && scan.maxima[k].curve == point.curve) keep_off(scan.maxima[k].at, 0.5);
+  }
+  for (const double knot : knots) {
+    keep_off(knot, kWithinPiece);
+    if (std::abs(knot - point.at) <= kSamePlace * std::abs(knot)) return false;
+  }
+  return point.at - point.from > kSamePlace * point.at && point.to - point.at > kSamePlace * point.at;
+}
+
+std::vector<QuadratureNode> Exchange::quadrature(std::span<const double> x, const Goal& goal) const {
+  switch (goal.of) {
+    case Goal::Of::mean_square:
+      return pole_quadrature(task_, space_, curves_, x);
+    case Goal::Of::mean_response:
+      return knot_quadrature(task_, space_, curves_);
+    default:
+      return {};
+  }
+}
+
+double Exchange::integral(const Goal& goal, std::span<const double> x) {
+  const std::vector<ActivePoint> none;
+  const std::vector<QuadratureNode> nodes = quadrature(x, goal);
+  ActiveProblem problem(task_, space_, goal, curves_, none, nodes, effort_, stop_asked_);
+  return problem.objective(x, {});
+}
+
+// The best design over the active frequencies.
+Exchange::Step Exchange::solve(const Goal& goal, std::span<const double> x,
+                               const std::vector<ActivePoint>& active, const std::string& solver,
+                               const SolverOptions& options) {
+  const std::vector<QuadratureNode> nodes = quadrature(x, goal);
+  ActiveProblem problem(task_, space_, goal, curves_, active, nodes, effort_, stop_asked_);
+  problem.start_at(x);
+  Step step;
+  step.solution = task_.solver == "ipopt" ? solve_with_ipopt(problem, options)
+                                          : solve_with_nlopt(problem, solver, options);
+  const std::vector<double>& solved = step.solution.x;
+  step.x.assign(solved.begin(), solved.begin() + static_cast<std::ptrdiff_t>(space_.variables()));
+  step.active = active;
+  // An integral changes with the nodes that suit the new design.
+  step.objective_again = goal.of == Goal::Of::worst ? step.solution.objective : integral(goal, step.x);
+  step.values.resize(problem.constraints.size());
+  problem.constrain(solved, step.values, {});
+  return step;
+}
+
+// Active points far below the bound only cost time: what of them comes up again a scan finds.
+void Exchange::drop_idle(const Goal& goal, const Step& step, std::vector<ActivePoint>& active) const {
+  constexpr double kIdle = 0.8;
+  const double worst = goal.of == Goal::Of::worst ? step.solution.objective : goal.held;
+  std::vector<bool> idle(active.size());
+  for (std::size_t i = 0; i < active.size(); ++i) {
+    const bool of_objective = curves_[active[i].curve].of == CurveKind::Of::objective;
+    const double bound = of_objective ? worst : 1.0;
+    const double value = step.values[i] + (of_objective && goal.of == Goal::Of::worst ? worst : 0.0);
+    idle[i] = value < kIdle * bound;
+  }
+  std::size_t place = 0;
+  std::erase_if(active, [&](const ActivePoint&) { return idle[place++]; });
+}
+
+double Exchange::gap_of(const Goal& goal, const Step& step, const Scan& scan) {
+  switch (goal.of) {
+    case Goal::Of::worst:
+      return (scan.worst - step.solution.objective) / scan.worst;
+    case Goal::Of::mean_response:
+      return std::max(0.0, scan.worst / goal.held - 1.0);
+    default:
+      return std::abs(step.objective_again / step.solution.objective - 1.0);
+  }
+}
+
+Exchange::Result Exchange::stopped(Result result) {
+  result.outcome = Outcome::stopped;
+  return result;
+}
+
+// Where Ipopt does not get there, SLSQP tries from the same design.
+Exchange::Result Exchange::run(const Goal& goal, const std::vector<double>& x) {
+  Result first = run_with(task_.solver, goal, x);
+  const bool has_more = first.has_step && first.outcome == Outcome::not_converged && task_.solver == "ipopt";
+  if (!has_more) return first;
+  Result second = run_with("slsqp", goal, x);
+  second.rounds.insert(second.rounds.begin(), first.rounds.begin(), first.rounds.end());
+  const bool keeps =
+      second.has_step && second.outcome != Outcome::infeasible &&
+      (second.outcome == Outcome::converged || is_better(goal, second.step, second.scan, first));
+  if (keeps || second.outcome == Outcome::stopped) return second;
+  first.rounds = std::move(second.rounds);
+  return first;
+}
+
+Exchange::Result Exchange::run_with(const std::string& solver, const Goal& goal, std::vector<double> x) {
+  Result result;
+  result.x = x;
+  result.scan = scan_.of(x, kHighPeaks, kFine);
+  if (stop_asked_()) return stopped(std::move(result));
+  if (result.scan.unbounded || result.scan.failed) {
+    result.outcome = result.scan.unbounded ? Outcome::unbounded : Outcome::failed;
+    return result;
+  }
+  if (goal.of == Goal::Of::worst && result.scan.worst == 0.0 && result.scan.violation <= 0.0) {
+    result.outcome = Outcome::converged;  // nothing can be less
+    return result;
+  }
+  const bool settles = goal.of == Goal::Of::mean_response;
+  std::vector<ActivePoint> active = first_active(goal, result.scan);
+  join(goal, result.scan, follows(settles), active);
+  Convergence convergence(task_.tolerance, settles ? task_.tolerance : kClosed);
+  SolverOptions options = settles ? kSettling : kRough;
+  bool near_end = settles;
+  bool is_last = false;
+  for (int round = 0; round < task_.most_rounds && !is_last; ++round) {
+    // 1. The best design over the active frequencies.
+    const Step step = solve(goal, x, active, solver, options);
+    // 2. Its true maxima, which join them.
+    const Scan found = scan_.of(step.x, kHighPeaks, kFine);
+    if (stop_asked_()) return stopped(std::move(result));
+    const double gap = gap_of(goal, step, found);
+    result.rounds.push_back({active.size(), step.solution.iterations, step.solution.objective, found.worst,
+                             std::max(0.0, found.violation)});
+    if (!space_.has_schedule() && round < kRoundsThatDrop) drop_idle(goal, step, active);
+    const bool exact = near_end && is_solved(step.solution);
+    near_end = settles || (std::abs(gap) < kNearEnd && found.violation < kNearEnd);
+    join(goal, found, follows(near_end), active);
+    if (!settles) options = near_end ? kExact : kRough;
+    x = step.x;
+    // 3. The best so far, and whether another round pays.
+    if (found.unbounded || found.failed) continue;
+    is_last = convergence.judge(gap, std::max(0.0, found.violation), exact);
+    const bool is_best = !result.has_step || is_better(goal, step, found, result);
+    if (is_best || (is_last && convergence.met())) result.take(step, found);
+  }
+  conclude(convergence.met(), result);
+  return result;
+}
+
+// How the rounds ended, from the design that is kept.
+void Exchange::conclude(bool gap_closed, Result& result) const {
+  if (!result.has_step) {
+    result.outcome = Outcome::failed;
+    return;
+  }
+  if (result.scan.violation > std::max(task_.tolerance, 1e-9))
+    result.outcome = Outcome::infeasible;
+  else if (gap_closed && is_solved(result.step.solution))
+    result.outcome = Outcome::converged;
+  else
+    result.outcome = Outcome::not_converged;
+}
+
+}  // namespace frahm::tuning

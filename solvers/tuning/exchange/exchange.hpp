@@ -1,0 +1,75 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "solvers/tuning/exchange/active_problem.hpp"
+#include "solvers/tuning/exchange/band_scan.hpp"
+#include "solvers/tuning/optimum.hpp"
+
+namespace frahm::tuning {
+
+// The design problem over the whole band by exchange: solved over finitely many active frequencies, then the
+// true local maxima of its design are found and join them, until the two agree (Remez 1934; R. Hettich,
+// K. O. Kortanek, SIAM Review 35 (1993) 380, sec. 7).
+class Exchange {
+ public:
+  // All must outlive the exchange.
+  Exchange(const Task& task, const DesignSpace& space, const std::vector<CurveKind>& curves, Effort& effort,
+           const std::function<bool()>& stop_asked);
+
+  // The problem over the active frequencies, solved.
+  struct Step {
+    Solution solution;
+    std::vector<double> x;            // the design alone
+    std::vector<ActivePoint> active;  // whose problem it was
+    std::vector<double> values;       // of the constraints: those of the active points first
+    double objective_again = 0.0;     // an integral with the nodes that suit the new design
+  };
+
+  struct Result {
+    Outcome outcome = Outcome::failed;
+    std::vector<double> x;  // the best design
+    Scan scan;              // of it
+    bool has_step = false;
+    Step step;  // whose solution it is
+    std::vector<Round> rounds;
+
+    void take(const Step& from, const Scan& found) {
+      x = from.x;
+      scan = found;
+      has_step = true;
+      step = from;
+    }
+  };
+  Result run(const Goal& goal, const std::vector<double>& x);
+
+  // The goal's integral or variance at a design; NaN: it has none there.
+  double integral(const Goal& goal, std::span<const double> x);
+
+ private:
+  Result run_with(const std::string& solver, const Goal& goal, std::vector<double> x);
+  Step solve(const Goal& goal, std::span<const double> x, const std::vector<ActivePoint>& active,
+             const std::string& solver, const SolverOptions& options);
+  std::vector<QuadratureNode> quadrature(std::span<const double> x, const Goal& goal) const;
+  bool is_bounded(const Goal& goal, std::size_t curve) const;
+  std::vector<ActivePoint> first_active(const Goal& goal, const Scan& scan) const;
+  bool follows(bool near_end) const;
+  void join(const Goal& goal, const Scan& scan, bool follow, std::vector<ActivePoint>& active) const;
+  bool can_follow(const Scan& scan, std::size_t maximum, const std::vector<double>& knots,
+                  ActivePoint& point) const;
+  void drop_idle(const Goal& goal, const Step& step, std::vector<ActivePoint>& active) const;
+  static double gap_of(const Goal& goal, const Step& step, const Scan& scan);
+  static Result stopped(Result result);
+  void conclude(bool gap_closed, Result& result) const;
+
+  const Task& task_;
+  const DesignSpace& space_;
+  const std::vector<CurveKind>& curves_;
+  Effort& effort_;
+  const std::function<bool()>& stop_asked_;
+  BandScan scan_;
+};
+
+}  // namespace frahm::tuning

@@ -1,0 +1,74 @@
+#include "solvers/tuning/exchange/followed_maximum.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace frahm::tuning {
+namespace {
+
+struct Slope {
+  double at = 0.0, value = 0.0;
+};
+
+// The curve at one design, by its slope.
+class Climb {
+ public:
+  Climb(BandCurve& curve, std::span<const double> x, std::size_t side) : curve_(curve), x_(x), side_(side) {}
+
+  // false: no response there
+  bool ask(double at, Slope& slope) {
+    if (curve_.solve(x_, at, true) != TunedResponse::State::solved) return false;
+    slope = {at, 0.5 * (curve_.slope_left(side_) + curve_.slope_right(side_))};
+    return std::isfinite(slope.value);
+  }
+  // What a step from here can still gain is below the rounding of the value.
+  bool is_top(const Slope& here, double step) const {
+    return std::abs(here.value * step) <= 1e-16 * std::abs(curve_.value(side_));
+  }
+
+ private:
+  BandCurve& curve_;
+  std::span<const double> x_;
+  std::size_t side_;
+};
+
+// Where a straight line through two slopes is zero.
+double secant(const Slope& a, const Slope& b) {
+  return b.at - b.value * (b.at - a.at) / (b.value - a.value);
+}
+
+}  // namespace
+
+bool follow_maximum(BandCurve& curve, std::span<const double> x, double near, double from, double to,
+                    std::size_t side) {
+  constexpr int kMostSteps = 60;
+  Climb climb(curve, x, side);
+  // 1. Uphill from `near`, by longer and longer steps, until the slope turns: the maximum is between low and
+  // high.
+  Slope low, high;
+  if (!climb.ask(near, low)) return false;
+  const double direction = low.value > 0.0 ? 1.0 : -1.0;
+  double stride = 1e-4 * (to - from);
+  for (bool turned = false; !turned; stride *= 4.0) {
+    if (low.value == 0.0) return true;
+    const double next = std::clamp(low.at + direction * stride, from, to);
+    if (next == low.at) return true;  // the end of the stretch is the highest
+    if (!climb.ask(next, high)) return false;
+    turned = high.value * direction <= 0.0;
+    if (!turned) low = high;
+  }
+  // 2. The root of the slope between them: secants, halves where these do not help (Dekker 1969).
+  Slope before = low, last = high;
+  for (int i = 0; i < kMostSteps; ++i) {
+    double next = secant(before, last);
+    const double inner = std::min(low.at, high.at), outer = std::max(low.at, high.at);
+    if (!(next > inner && next < outer)) next = 0.5 * (inner + outer);
+    if (climb.is_top(last, next - last.at) || next == last.at) return true;
+    before = last;
+    if (!climb.ask(next, last)) return false;
+    (last.value * direction > 0.0 ? low : high) = last;
+  }
+  return true;
+}
+
+}  // namespace frahm::tuning

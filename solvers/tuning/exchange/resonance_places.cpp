@@ -1,0 +1,146 @@
+#include "solvers/tuning/exchange/resonance_places.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "solvers/mechanics/linear_system.hpp"
+
+namespace frahm::tuning {
+namespace {
+
+struct Pole {
+  double omega_d = 0.0, decay = 0.0;  // [rad/s]
+};
+
+// Which contacts stick, as the columns of W.
+std::vector<std::vector<Eigen::Index>> configurations(Eigen::Index contacts) {
+  std::vector<Eigen::Index> all;
+  for (Eigen::Index j = 0; j < contacts; ++j) all.push_back(j);
+  std::vector<std::vector<Eigen::Index>> sets{{}};
+  if (contacts == 0) return sets;
+  sets.push_back(all);
+  if (contacts == 1) return sets;
+  for (Eigen::Index j = 0; j < contacts; ++j) {
+    sets.push_back({j});
+    if (contacts == 2) continue;
+    std::vector<Eigen::Index> others = all;
+    others.erase(others.begin() + j);
+    sets.push_back(others);
+  }
+  return sets;
+}
+
+// Poles of z' = A z, z = (eta, eta', s), with q = B eta what the stuck contacts leave free.
+void add_poles(const mechanics::LinearSystem& system, const std::vector<Eigen::Index>& stuck,
+               std::vector<Pole>& poles) {
+  const Eigen::Index n = system.masses(), m = system.internal_forces();
+  Eigen::MatrixXd B = Eigen::MatrixXd::Identity(n, n);
+  if (!stuck.empty()) {
+    Eigen::MatrixXd W(n, static_cast<Eigen::Index>(stuck.size()));
+    for (Eigen::Index j = 0; j < W.cols(); ++j) W.col(j) = system.W.col(stuck[static_cast<std::size_t>(j)]);
+    const Eigen::FullPivLU<Eigen::MatrixXd> constraints(W.transpose());
+    if (constraints.dimensionOfKernel() == 0) return;
+    B = constraints.kernel();
+  }
+  const Eigen::Index k = B.cols();
+  const Eigen::MatrixXd mass_inverse = (B.transpose() * system.M * B).inverse();
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * k + m, 2 * k + m);
+  A.block(0, k, k, k).setIdentity();
+  A.block(k, 0, k, k) = -mass_inverse * (B.transpose() * system.K * B);
+  A.block(k, k, k, k) = -mass_inverse * (B.transpose() * system.C * B);
+  A.block(k, 2 * k, k, m) = -mass_inverse * (B.transpose() * system.D);
+  A.block(2 * k, k, m, k) = system.internal_stiffness.asDiagonal() * (system.D.transpose() * B);
+  A.block(2 * k, 2 * k, m, m).diagonal() = -system.internal_rate;
+  const Eigen::VectorXcd eigenvalues = A.eigenvalues();
+  for (const std::complex<double>& value : eigenvalues) {
+    if (value.imag() > 0.0) poles.push_back({value.imag(), std::max(0.0, -value.real())});
+  }
+}
+
+// In an order that goes with the band: by configuration, then frequency.
+std::vector<Pole> poles_of(const mechanics::LinearSystem& system) {
+  std::vector<Pole> poles;
+  for (const auto& stuck : configurations(system.contacts())) {
+    const auto first = static_cast<std::ptrdiff_t>(poles.size());
+    add_poles(system, stuck, poles);
+    std::sort(poles.begin() + first, poles.end(),
+              [](const Pole& a, const Pole& b) { return a.omega_d < b.omega_d; });
+  }
+  return poles;
+}
+
+// The poles and the frequency at a place of the band.
+struct Station {
+  double at = 0.0, omega = 0.0;
+  std::vector<Pole> poles;
+};
+
+}  // namespace
+
+std::vector<double> resonance_places(const mechanics::Network& network, const ValuesAt& values_at,
+                                     const Band& band, const std::vector<double>& kinks, int intervals) {
+  if (band.from == band.to) return {band.from};
+  std::vector<double> places{band.from, band.to};
+  for (const double kink : kinks) {
+    if (kink > band.from && kink < band.to) places.push_back(kink);
+  }
+  const double spacing = (band.to - band.from) / intervals;
+  for (int i = 1; i < intervals; ++i) places.push_back(band.from + i * spacing);
+  std::sort(places.begin(), places.end());
+
+  const mechanics::Assembly assembly(network);
+  const auto station_at = [&](double at) {
+    mechanics::LinearSystem system;
+    Station station;
+    station.at = at;
+    try {
+      const mechanics::NetworkValues& values = values_at(at);
+      station.omega = values.omega;
+      assembly.set_values(values, system);
+      station.poles = poles_of(system);
+    } catch (const mechanics::MechanicsError&) {
+      station.poles.clear();  // the response will say what is wrong there
+    }
+    return station;
+  };
+
+  std::vector<double> close;
+  const auto crowd = [&](double centre, double width) {
+    const double least = 1e-7 * spacing;
+    close.push_back(centre);
+    for (double away = std::max(0.5 * width, least); away < spacing; away *= 2.0) {
+      close.push_back(centre - away);
+      close.push_back(centre + away);
+    }
+  };
+  Station left = station_at(places.front());
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    const Station right = station_at(places[i]);
+    if (left.poles.size() == right.poles.size()) {
+      for (std::size_t k = 0; k < left.poles.size(); ++k) {
+        for (const int order : assembly.orders()) {
+          // order omega = omega_d, by a straight line between the two stations
+          const double a = order * left.omega - left.poles[k].omega_d;
+          const double b = order * right.omega - right.poles[k].omega_d;
+          const double h = right.at - left.at, gradient = (b - a) / h;
+          const double width = std::max(left.poles[k].decay, right.poles[k].decay) / std::abs(gradient);
+          const bool inside = (a <= 0.0) != (b <= 0.0);
+          if (inside && gradient != 0.0) crowd(left.at - a / gradient, width);
+        }
+      }
+    }
+    left = right;
+  }
+  for (const double place : close) {
+    if (place > band.from && place < band.to) places.push_back(place);
+  }
+  std::sort(places.begin(), places.end());
+  const double least = 1e-10 * std::max(std::abs(band.from), std::abs(band.to));
+  places.erase(std::unique(places.begin(), places.end(), [&](double a, double b) { return b - a <= least; }),
+               places.end());
+  places.back() = band.to;
+  return places;
+}
+
+}  // namespace frahm::tuning

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "solvers/response/periodic_response.hpp"
+#include "solvers/tuning/schedules/design_space.hpp"
+#include "solvers/tuning/task.hpp"
+
+namespace frahm::tuning {
+
+struct Effort {
+  std::uint64_t orbits = 0, gradients = 0;
+};
+
+// Responses of one scenario of a task at designs and frequencies one after the other, each search starting
+// from the orbit before.
+class TunedResponse {
+ public:
+  // task, space, effort: must outlive the response. quantities: a peak with its side.
+  TunedResponse(const Task& task, const DesignSpace& space, std::size_t scenario,
+                std::vector<periodic::Quantity> quantities, Effort& effort);
+
+  enum class State { solved, unbounded, failed };
+  // At the design x and a place of the band. Where a derivative will be wanted and the orbit grazes, that of
+  // a frequency one part in 1e9 beside is found instead.
+  State solve(std::span<const double> x, double band, bool with_derivatives);
+  const std::string& reason() const { return reason_; }  // of the last solve, if not solved
+
+  double value(std::size_t quantity) const { return value_[quantity]; }
+  // d quantity / d parameter at the place, the frequency and the other parameters held.
+  double derivative(std::size_t quantity, std::size_t parameter) const {
+    return derivative_[parameter * value_.size() + quantity];
+  }
+  // d quantity / d band along the schedules, on either side of a knot.
+  double slope_left(std::size_t quantity) const { return slope(quantity, &DesignSpace::Place::slope_left); }
+  double slope_right(std::size_t quantity) const { return slope(quantity, &DesignSpace::Place::slope_right); }
+  // x(t + T/2) = -x(t): both sides of every peak are equal.
+  bool is_symmetric() const { return is_symmetric_; }
+  const mechanics::NetworkValues& values() const { return values_; }
+  const DesignSpace::Place& place(std::size_t parameter) const { return places_[parameter]; }
+
+ private:
+  State solve_at(std::span<const double> x, double band, bool with_derivatives);
+  double slope(std::size_t quantity, double DesignSpace::Place::*of_parameter) const;
+
+  const Task& task_;
+  const DesignSpace& space_;
+  std::size_t scenario_;
+  periodic::PeriodicResponse response_;
+  Effort& effort_;
+
+  mechanics::NetworkValues values_;
+  std::vector<mechanics::NetworkValues> directions_;
+  std::vector<DesignSpace::Place> places_;
+  std::vector<double> at_, value_, derivative_;
+  std::string reason_;
+  bool is_symmetric_ = false, gradient_missing_ = false;
+};
+
+}  // namespace frahm::tuning

@@ -1,0 +1,280 @@
+#include <nlopt.h>
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+
+#include "solvers/tuning/problem/scaled_problem.hpp"
+
+namespace frahm::tuning {
+namespace {
+
+// Of the random numbers of global searches, the same in every solve.
+constexpr unsigned long kSeed = 1909;
+// Relative steps at which a local search ends that does not reach the tolerance, and one within a global
+// search.
+constexpr double kSteps = 1e-15;
+constexpr double kSettled = 1e-8;
+// Of MMA's inner problem, which else loses itself in its last digits.
+constexpr double kDualEvaluations = 1000;
+// Of a local search from the best point; each must halve the KKT residual.
+constexpr int kRestarts = 20;
+// Evaluations of a global search per iteration and (variables + 1).
+constexpr int kPopulation = 10;
+
+struct NamedAlgorithm {
+  Algorithm algorithm;
+  nlopt_algorithm code;
+};
+
+const std::vector<NamedAlgorithm>& named_algorithms() {
+  static const std::vector<NamedAlgorithm> all{
+      {{.name = "slsqp", .inequalities = true, .equalities = true, .gradients = true}, NLOPT_LD_SLSQP},
+      {{.name = "mma", .inequalities = true, .gradients = true}, NLOPT_LD_MMA},
+      {{.name = "mlsl", .global = true, .gradients = true}, NLOPT_G_MLSL_LDS},
+      {{.name = "isres", .global = true, .inequalities = true, .equalities = true}, NLOPT_GN_ISRES},
+      {{.name = "direct", .global = true}, NLOPT_GN_DIRECT_L},
+      {{.name = "crs2", .global = true}, NLOPT_GN_CRS2_LM}};
+  return all;
+}
+
+const NamedAlgorithm& find_algorithm(const std::string& name) {
+  std::string known;
+  for (const NamedAlgorithm& candidate : named_algorithms()) {
+    if (candidate.algorithm.name == name) return candidate;
+    known += (known.empty() ? "" : ", ") + candidate.algorithm.name;
+  }
+  throw std::invalid_argument("algorithm '" + name + "' is none of " + known);
+}
+
+std::string names_of(bool Algorithm::*property) {
+  std::string names;
+  for (const NamedAlgorithm& candidate : named_algorithms()) {
+    if (candidate.algorithm.*property) names += (names.empty() ? "" : ", ") + candidate.algorithm.name;
+  }
+  return names;
+}
+
+bool is_equality(const Constraint& constraint) {
+  return constraint.lower == constraint.upper;
+}
+
+void check_fit(const Problem& problem, const Algorithm& algorithm) {
+  for (const Constraint& c : problem.constraints) {
+    const bool equality = is_equality(c);
+    if (equality ? algorithm.equalities : algorithm.inequalities) continue;
+    throw std::invalid_argument("algorithm '" + algorithm.name + "' takes no " +
+                                (equality ? "equality " : "") + "constraints, such as '" + c.name +
+                                "': those that do are " +
+                                names_of(equality ? &Algorithm::equalities : &Algorithm::inequalities));
+  }
+  if (!algorithm.global) return;
+  for (const Variable& v : problem.variables) {
+    if (v.lower > -kInfinity && v.upper < kInfinity) continue;
+    throw std::invalid_argument("algorithm '" + algorithm.name + "' searches a finite box: variable '" +
+                                v.name + "' has an infinite bound");
+  }
+}
+
+// One side of a constraint as NLopt takes it: sign (g - bound) <= 0, or = 0.
+struct Side {
+  std::size_t constraint = 0;
+  double sign = 1.0, bound = 0.0;
+};
+
+// NLopt's view of a ScaledProblem.
+class Program {
+ public:
+  Program(ScaledProblem& problem, const NamedAlgorithm& named, const SolverOptions& options)
+      : problem_(problem), named_(named), tolerance_(options.tolerance), feasibility_(options.feasibility) {
+    for (std::size_t j = 0; j < problem.constraints(); ++j) {
+      const double lower = problem.constraint_lower(j), upper = problem.constraint_upper(j);
+      if (lower == upper) {
+        equal_.push_back({j, 1.0, upper});
+        continue;
+      }
+      if (upper < kInfinity) unequal_.push_back({j, 1.0, upper});
+      if (lower > -kInfinity) unequal_.push_back({j, -1.0, lower});
+    }
+  }
+
+  // From x, to where NLopt ends.
+  nlopt_result run(std::vector<double>& x, int most_evaluations);
+
+ private:
+  using Solver = std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)>;
+
+  // A point where the problem is not defined is higher than any other; to DIRECT, which computes with the
+  // values, no higher than the highest.
+  double undefined() const {
+    return named_.code == NLOPT_GN_DIRECT_L ? std::max(problem_.worst_objective(), -1e300) : kInfinity;
+  }
+
+  bool go_to(unsigned n, const double* x) {
+    const bool defined = problem_.go_to({x, n});
+    record_improvement();
+    if (defined) return true;
+    if (problem_.ends()) nlopt_force_stop(solver_);
+    return false;
+  }
+
+  // A local search is over at an optimum, which NLopt itself does not recognise.
+  void record_improvement() {
+    int& recorded = problem_.record().iterations;
+    if (problem_.improvements() == recorded) return;
+    recorded = problem_.improvements();
+    const double residual = problem_.best_residual();
+    problem_.record_iteration(recorded, problem_.best_infeasibility(), residual, problem_.objective());
+    if (named_.algorithm.global) return;
+    if (residual <= tolerance_ && problem_.best_infeasibility() <= feasibility_) nlopt_force_stop(solver_);
+  }
+
+  static double objective(unsigned n, const double* x, double* gradient, void* self) {
+    auto& program = *static_cast<Program*>(self);
+    if (!program.go_to(n, x)) return program.undefined();
+    for (unsigned i = 0; gradient != nullptr && i < n; ++i) gradient[i] = program.problem_.slope(i);
+    return program.problem_.objective();
+  }
+
+  void constrain(const std::vector<Side>& sides, double* values, unsigned n, const double* x,
+                 double* gradients) {
+    const bool defined = go_to(n, x);
+    std::fill_n(gradients, gradients == nullptr ? 0 : sides.size() * n, 0.0);
+    for (std::size_t k = 0; k < sides.size(); ++k) {
+      const Side& side = sides[k];
+      values[k] = defined ? side.sign * (problem_.value(side.constraint) - side.bound) : kInfinity;
+    }
+    if (gradients == nullptr || !defined) return;
+    for (std::size_t e = 0; e < problem_.jacobian().size(); ++e) {
+      const auto [j, i] = problem_.jacobian()[e];
+      for (std::size_t k = 0; k < sides.size(); ++k) {
+        if (sides[k].constraint == j) gradients[k * n + i] = sides[k].sign * problem_.derivative(e);
+      }
+    }
+  }
+
+  static void constrain_unequal(unsigned, double* values, unsigned n, const double* x, double* gradients,
+                                void* self) {
+    auto& program = *static_cast<Program*>(self);
+    program.constrain(program.unequal_, values, n, x, gradients);
+  }
+
+  static void constrain_equal(unsigned, double* values, unsigned n, const double* x, double* gradients,
+                              void* self) {
+    auto& program = *static_cast<Program*>(self);
+    program.constrain(program.equal_, values, n, x, gradients);
+  }
+
+  void add_constraints();
+
+  ScaledProblem& problem_;
+  const NamedAlgorithm& named_;
+  double tolerance_, feasibility_;
+  std::vector<Side> unequal_, equal_;
+  nlopt_opt solver_ = nullptr;
+};
+
+void Program::add_constraints() {
+  const auto add = [&](auto function, auto constraint, const std::vector<Side>& sides) {
+    if (sides.empty()) return;
+    const std::vector<double> tolerances(sides.size(), feasibility_);
+    function(solver_, static_cast<unsigned>(sides.size()), constraint, this, tolerances.data());
+  };
+  add(nlopt_add_inequality_mconstraint, &Program::constrain_unequal, unequal_);
+  add(nlopt_add_equality_mconstraint, &Program::constrain_equal, equal_);
+}
+
+nlopt_result Program::run(std::vector<double>& x, int most_evaluations) {
+  const auto n = static_cast<unsigned>(problem_.size());
+  const Solver solver(nlopt_create(named_.code, n), &nlopt_destroy);
+  if (!solver) throw std::bad_alloc();
+  solver_ = solver.get();
+  std::vector<double> lower(n), upper(n);
+  for (unsigned i = 0; i < n; ++i) lower[i] = problem_.lower(i), upper[i] = problem_.upper(i);
+  for (unsigned i = 0; i < n; ++i) x[i] = std::clamp(x[i], lower[i], upper[i]);
+  nlopt_set_min_objective(solver_, &Program::objective, this);
+  nlopt_set_lower_bounds(solver_, lower.data());
+  nlopt_set_upper_bounds(solver_, upper.data());
+  add_constraints();
+  if (!named_.algorithm.global) nlopt_set_xtol_rel(solver_, kSteps);
+  nlopt_set_maxeval(solver_, most_evaluations);
+  if (named_.code == NLOPT_G_MLSL_LDS) {
+    const Solver local(nlopt_create(NLOPT_LD_SLSQP, n), &nlopt_destroy);
+    nlopt_set_xtol_rel(local.get(), kSettled);
+    nlopt_set_ftol_rel(local.get(), kSettled);
+    nlopt_set_local_optimizer(solver_, local.get());
+  }
+  nlopt_set_param(solver_, "dual_maxeval", kDualEvaluations);
+  nlopt_srand(kSeed);  // its generator belongs to the thread
+  double value = 0.0;
+  return nlopt_optimize(solver_, x.data(), &value);
+}
+
+const char* reason_of(nlopt_result result) {
+  switch (result) {
+    case NLOPT_MAXEVAL_REACHED:
+      return "the evaluations allowed were used up";
+    case NLOPT_FTOL_REACHED:
+    case NLOPT_XTOL_REACHED:
+    case NLOPT_SUCCESS:
+      return "the steps became too small";
+    case NLOPT_ROUNDOFF_LIMITED:
+      return "rounding leaves no step that gains";
+    case NLOPT_OUT_OF_MEMORY:
+      return "NLopt has not enough memory";
+    default:
+      return "NLopt finds no step";
+  }
+}
+
+// A local search ends where the objective's rounding hides what is to be gained, or with a Hessian gone bad:
+// it starts afresh at the best point as long as that serves.
+Solution descend(Program& program, ScaledProblem& scaled, const SolverOptions& options) {
+  std::vector<double> x = scaled.start();
+  double residual = kInfinity;
+  for (int restart = 0;; ++restart) {
+    const nlopt_result result = program.run(x, std::max(1, options.most_iterations - scaled.evaluations()));
+    scaled.record().reason = reason_of(result);
+    const bool used_up = result == NLOPT_MAXEVAL_REACHED || scaled.evaluations() >= options.most_iterations;
+    const Solution solution = scaled.finish(used_up ? Ending::iteration_limit : Ending::failed);
+    const bool gains = solution.kkt_residual < 0.5 * residual;
+    if (solution.ending == Ending::converged || used_up || scaled.ends() || !gains || restart == kRestarts) {
+      return solution;
+    }
+    residual = solution.kkt_residual;
+    x = scaled.best();
+  }
+}
+
+Solution search(Program& program, ScaledProblem& scaled, const SolverOptions& options) {
+  const int population = kPopulation * (static_cast<int>(scaled.size()) + 1);
+  std::vector<double> x = scaled.start();
+  scaled.record().reason = reason_of(program.run(x, population * options.most_iterations));
+  return scaled.finish(Ending::iteration_limit);
+}
+
+}  // namespace
+
+const std::vector<Algorithm>& nlopt_algorithms() {
+  static const std::vector<Algorithm> all = [] {
+    std::vector<Algorithm> list;
+    for (const NamedAlgorithm& named : named_algorithms()) list.push_back(named.algorithm);
+    return list;
+  }();
+  return all;
+}
+
+Solution solve_with_nlopt(Problem& problem, const std::string& algorithm, const SolverOptions& options) {
+  const NamedAlgorithm& named = find_algorithm(algorithm);
+  check(problem);
+  check_fit(problem, named.algorithm);
+  using Judging = ScaledProblem::Judging;
+  ScaledProblem scaled(problem, options, named.algorithm.gradients ? Judging::residuals : Judging::values);
+  const bool defined = scaled.can_start();
+  if (scaled.size() == 0 || scaled.ends()) return scaled.finish(Ending::failed);
+  Program program(scaled, named, options);
+  if (named.algorithm.global) return search(program, scaled, options);
+  return defined ? descend(program, scaled, options) : scaled.finish(Ending::failed);
+}
+
+}  // namespace frahm::tuning

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "solvers/tuning/exchange/exchange.hpp"
+
+namespace frahm::tuning {
+
+// What the stages of a tuning came to.
+struct Stages {
+  Exchange::Result best;               // the design and its true maxima
+  Exchange::Step decisive;             // whose multipliers tell what holds the objective; after best.has_step
+  double bound = 0.0;                  // of the objective over its active frequencies
+  Exchange::Result constant;           // the best constant design, where a parameter is scheduled
+  std::vector<double> constant_value;  // of each parameter; empty where none is
+  std::vector<Round> rounds;           // of all stages
+};
+
+// Tunes a task under given limits from one design: the constants first, from them the schedules, and last the
+// knots that the worst peak leaves free.
+class DesignTuning {
+ public:
+  // task, stop_asked, effort: must outlive the tuning.
+  DesignTuning(const Task& task, std::vector<QuantityLimit> limits, Effort& effort,
+               const std::function<bool()>& stop_asked);
+
+  // value: of each parameter; the schedules start constant.
+  Stages from(const std::vector<double>& value);
+
+  // The true objective of constant parameters, and what limits are broken on top of it; NaN: it has none.
+  double worst_of(std::span<const double> value);
+
+  const DesignSpace& space() const { return space_; }
+  const DesignSpace& constant_space() const { return constant_space_; }
+  const std::vector<CurveKind>& curves() const { return curves_; }
+  const std::vector<QuantityLimit>& limits() const { return limits_; }
+  // The integral or variance that the task minimises (not of a minimax), at a design; NaN: it has none.
+  double objective_of(std::span<const double> x);
+  // All local maxima of a design, low ones too.
+  Scan full_scan(std::span<const double> x);
+
+ private:
+  Exchange::Result tune_constant(const std::vector<double>& value);
+  std::vector<CurveKind> schedule_curves(const std::vector<double>& constant) const;
+  Exchange::Result tune_schedule(const std::vector<double>& value);
+  void settle_free_knots(double most, Stages& stages);
+  std::vector<double> place_by_place(const std::vector<double>& value);
+  Goal goal() const;
+
+  const Task& task_;
+  const std::vector<QuantityLimit> limits_;
+  Effort& effort_;
+  const std::function<bool()>& stop_asked_;
+  const DesignSpace space_, constant_space_;
+  std::vector<CurveKind> curves_;
+};
+
+}  // namespace frahm::tuning

@@ -1,0 +1,217 @@
+#include "solvers/tuning/stages/optimum_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace frahm::tuning {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kBroken = 1e-9;  // a limit exceeded by less is met
+constexpr double kSlip =
+    1e-6;  // by which a bound may lie above the worst peak: constraints are met to a tolerance
+
+std::string sentence(Outcome outcome, const Stages& stages) {
+  const auto number = [](double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", value);
+    return std::string(text);
+  };
+  const Scan& scan = stages.best.scan;
+  switch (outcome) {
+    case Outcome::converged:
+      return "the certificate gap and the KKT residual are below their tolerances";
+    case Outcome::not_converged:
+      return "the rounds of exchange no longer close the gap: " + stages.best.step.solution.reason;
+    case Outcome::infeasible:
+      return "no design was found that meets the limits: the best breaks one by " +
+             number(100.0 * scan.violation) + " %";
+    case Outcome::unbounded:
+      return "the response has no bound at " + number(scan.at) + " of the band: " + scan.reason;
+    case Outcome::failed:
+      return "the response could not be computed at " + number(scan.at) + " of the band: " + scan.reason;
+    case Outcome::stopped:
+      break;
+  }
+  return "stopped before the end";
+}
+
+// The largest multiplier a row of the problem has, in the sense that relaxing its bound lowers the objective.
+double multiplier_of_row(const Exchange::Step& step, std::size_t row) {
+  return std::max(0.0, step.solution.constraint_multipliers[row]);
+}
+
+class Report {
+ public:
+  Report(const Task& task, DesignTuning& tuning, const Stages& stages, Effort& effort)
+      : task_(task),
+        tuning_(tuning),
+        stages_(stages),
+        effort_(effort),
+        on_constants_(stages.best.x.size() != tuning.space().variables()) {}
+
+  Optimum written() {
+    Optimum optimum;
+    optimum.outcome = stages_.best.outcome;
+    optimum.reason = sentence(optimum.outcome, stages_);
+    optimum.rounds = stages_.rounds;
+    for (const Round& round : optimum.rounds) optimum.iterations += round.iterations;
+    x_ = on_constants_ ? tuning_.space().constant_design(stages_.best.x) : stages_.best.x;
+    write_parameters(optimum);
+    optimum.constant_objective = constant_objective();
+    optimum.constant = stages_.constant_value;
+    optimum.certificate_gap = optimum.kkt_residual = optimum.objective = kNone;
+    if (!stages_.best.has_step) {
+      if (optimum.outcome == Outcome::converged) write_nothing_moves(optimum);
+      return optimum;
+    }
+    scan_ = tuning_.full_scan(x_);
+    optimum.violation = std::max(0.0, scan_.violation);
+    judge_limits(optimum);
+    optimum.kkt_residual = stages_.decisive.solution.kkt_residual;
+    if (task_.objective == Objective::minimax) {
+      optimum.objective = scan_.worst;
+      optimum.certificate_gap = scan_.worst > 0.0 ? (scan_.worst - stages_.bound) / scan_.worst : kNone;
+      judge_certificate(optimum);
+    } else {
+      optimum.objective = stages_.decisive.objective_again;
+      if (optimum.outcome == Outcome::converged)  // there is no bound to compare it with
+        optimum.reason = "the KKT residual is below its tolerance";
+    }
+    write_peaks(optimum);
+    write_limits(optimum);
+    return optimum;
+  }
+
+ private:
+  static void write_nothing_moves(Optimum& optimum) {
+    optimum.objective = optimum.certificate_gap = optimum.kkt_residual = 0.0;
+    optimum.reason = "the quantity is zero over the whole band, and nothing can be less";
+  }
+
+  double constant_objective() const {
+    if (!stages_.constant.has_step) return kNone;
+    const bool minimax = task_.objective == Objective::minimax;
+    return minimax ? stages_.constant.scan.worst : stages_.constant.step.objective_again;
+  }
+
+  // The last stage of a schedule may meet limits that the one before broke.
+  void judge_limits(Optimum& optimum) const {
+    if (optimum.outcome != Outcome::infeasible || optimum.violation > std::max(task_.tolerance, kBroken))
+      return;
+    optimum.outcome = Outcome::not_converged;
+    optimum.reason =
+        "the limits are met, but the rounds of exchange do not tell how near the objective is to its least";
+  }
+
+  // The last scan looks at low peaks too, from other places: what it sees is the certificate.
+  void judge_certificate(Optimum& optimum) const {
+    // Of the problem over the active frequencies: where these are not all it says nothing of the design.
+    if (std::abs(optimum.certificate_gap) > std::max(task_.tolerance, kSlip)) optimum.kkt_residual = kNone;
+    if (optimum.outcome != Outcome::converged) return;
+    if (std::isnan(optimum.certificate_gap)) {
+      optimum.outcome = Outcome::not_converged;
+      optimum.reason = "the quantity is zero over the whole band: there is nothing to press down";
+    } else if (optimum.certificate_gap > task_.tolerance) {
+      optimum.outcome = Outcome::not_converged;
+      optimum.reason = "a last look found a higher peak than the rounds of exchange did";
+    } else if (optimum.certificate_gap < -kSlip) {
+      optimum.outcome = Outcome::not_converged;
+      optimum.reason =
+          "the last look missed a peak that the problem held: something changes over less of the "
+          "band than its poles are wide";
+    }
+  }
+
+  // Multipliers belong to bounds that are met: what an interior-point method leaves at others is its
+  // rounding.
+  void write_parameters(Optimum& optimum) const {
+    constexpr double kMet = 1e-5;  // of the range
+    const DesignSpace& space = tuning_.space();
+    const Solution& solution = stages_.decisive.solution;
+    const bool has_multipliers = solution.lower_multipliers.size() >= space.variables();
+    for (std::size_t p = 0; p < space.parameters(); ++p) {
+      const DesignParameter& parameter = space.parameter(p);
+      const double near = kMet * (parameter.upper - parameter.lower);
+      TunedParameter tuned;
+      for (std::size_t i = space.first(p); i < space.first(p) + space.count(p); ++i) {
+        tuned.value.push_back(x_[i]);
+        const bool at_lower = has_multipliers && x_[i] - parameter.lower <= near;
+        const bool at_upper = has_multipliers && parameter.upper - x_[i] <= near;
+        tuned.lower_multiplier.push_back(at_lower ? solution.lower_multipliers[i] : 0.0);
+        tuned.upper_multiplier.push_back(at_upper ? solution.upper_multipliers[i] : 0.0);
+      }
+      optimum.parameters.push_back(std::move(tuned));
+    }
+  }
+
+  // Each maximum of the objective, with the multipliers of the active points nearest to it.
+  void write_peaks(Optimum& optimum) {
+    for (const Scan::Maximum& maximum : scan_.maxima) {
+      const CurveKind& kind = tuning_.curves()[maximum.curve];
+      if (kind.of != CurveKind::Of::objective) continue;
+      BandCurve curve(task_, tuning_.space(), kind, effort_);
+      Peak peak{.scenario = kind.scenario, .at = maximum.at, .value = maximum.value, .sensitivity = {}};
+      if (curve.solve(x_, maximum.at, true) == TunedResponse::State::solved) {
+        for (std::size_t p = 0; p < tuning_.space().parameters(); ++p)
+          peak.sensitivity.push_back(curve.derivative(BandCurve::larger, p));
+      }
+      optimum.peaks.push_back(peak);
+    }
+    const Exchange::Step& step = stages_.decisive;
+    for (std::size_t row = 0; row < step.active.size(); ++row) {
+      const ActivePoint& point = step.active[row];
+      const CurveKind& kind = tuning_.curves()[std::min(point.curve, tuning_.curves().size() - 1)];
+      if (point.curve >= tuning_.curves().size() || kind.of != CurveKind::Of::objective) continue;
+      Peak* nearest = nullptr;
+      for (Peak& peak : optimum.peaks) {
+        if (peak.scenario != kind.scenario) continue;
+        if (!nearest || std::abs(peak.at - point.at) < std::abs(nearest->at - point.at)) nearest = &peak;
+      }
+      if (nearest) nearest->multiplier += multiplier_of_row(step, row);
+    }
+  }
+
+  void write_limits(Optimum& optimum) {
+    optimum.limits.resize(tuning_.limits().size());
+    std::vector<double> tightest(optimum.limits.size(), -std::numeric_limits<double>::infinity());
+    for (std::size_t c = 0; c < tuning_.curves().size(); ++c) {
+      const CurveKind& kind = tuning_.curves()[c];
+      if (kind.of == CurveKind::Of::objective) continue;
+      const Scan::Place& place = scan_.tightest[c];
+      if (place.value <= tightest[kind.limit]) continue;
+      tightest[kind.limit] = place.value;
+      BandCurve curve(task_, tuning_.space(), kind, effort_);
+      LimitState& state = optimum.limits[kind.limit];
+      state.at = place.at;
+      state.scenario = kind.scenario;
+      if (curve.solve(x_, place.at, false) == TunedResponse::State::solved)
+        state.value = curve.quantity(BandCurve::larger);
+    }
+    const Exchange::Step& step = stages_.decisive;
+    for (std::size_t row = 0; row < step.active.size(); ++row) {
+      const std::size_t c = step.active[row].curve;
+      if (c >= tuning_.curves().size() || tuning_.curves()[c].of == CurveKind::Of::objective) continue;
+      // The row's bound 1 is the limit over its size.
+      const double size = tuning_.curves()[c].bound != 0.0 ? std::abs(tuning_.curves()[c].bound) : 1.0;
+      optimum.limits[tuning_.curves()[c].limit].multiplier += multiplier_of_row(step, row) / size;
+    }
+  }
+
+  const Task& task_;
+  DesignTuning& tuning_;
+  const Stages& stages_;
+  Effort& effort_;
+  const bool on_constants_;  // the design is one of constants only
+  std::vector<double> x_;
+  Scan scan_;
+};
+
+}  // namespace
+
+Optimum report_optimum(const Task& task, DesignTuning& tuning, const Stages& stages, Effort& effort) {
+  return Report(task, tuning, stages, effort).written();
+}
+
+}  // namespace frahm::tuning

@@ -1,0 +1,75 @@
+#include "solvers/tuning/variance/lyapunov.hpp"
+
+#include <Eigen/LU>
+
+namespace frahm::tuning {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXcd;
+using Eigen::MatrixXd;
+
+constexpr int kRefinements = 2;  // each takes the rounding of the solve out of the last residual
+
+// Y of T Y + Y T^H + W = 0, the columns from the last to the first:
+//   (T + conj(T_kk)) y_k = -w_k - sum_{j > k} y_j conj(T_kj)
+MatrixXcd solve_triangular(const MatrixXcd& T, const MatrixXcd& W) {
+  const Index size = T.rows();
+  MatrixXcd Y = -W, shifted = T;
+  for (Index k = size - 1; k >= 0; --k) {
+    for (Index j = k + 1; j < size; ++j) Y.col(k) -= Y.col(j) * std::conj(T(k, j));
+    shifted.diagonal() = T.diagonal().array() + std::conj(T(k, k));
+    shifted.triangularView<Eigen::Upper>().solveInPlace(Y.col(k));
+  }
+  return Y;
+}
+
+// Y of T^H Y + Y T + W = 0, the columns from the first to the last:
+//   (T^H + T_kk) y_k = -w_k - sum_{j < k} y_j T_jk
+MatrixXcd solve_triangular_adjoint(const MatrixXcd& T, const MatrixXcd& W) {
+  const Index size = T.rows();
+  MatrixXcd Y = -W, shifted = T.adjoint();
+  for (Index k = 0; k < size; ++k) {
+    for (Index j = 0; j < k; ++j) Y.col(k) -= Y.col(j) * T(j, k);
+    shifted.diagonal() = T.diagonal().conjugate().array() + T(k, k);
+    shifted.triangularView<Eigen::Lower>().solveInPlace(Y.col(k));
+  }
+  return Y;
+}
+
+MatrixXd symmetric(const MatrixXd& P) {
+  return 0.5 * (P + P.transpose());
+}
+
+}  // namespace
+
+Lyapunov::Lyapunov(const MatrixXd& A) : A_(A), schur_(A) {}
+
+double Lyapunov::abscissa() const {
+  const Eigen::VectorXcd eigenvalues = schur_.matrixT().diagonal();
+  return eigenvalues.real().maxCoeff() / eigenvalues.cwiseAbs().maxCoeff();
+}
+
+MatrixXd Lyapunov::solve(const MatrixXd& W) const {
+  const MatrixXcd& T = schur_.matrixT();
+  const MatrixXcd& U = schur_.matrixU();
+  MatrixXd P = MatrixXd::Zero(A_.rows(), A_.cols());
+  for (int round = 0; round <= kRefinements; ++round) {
+    const MatrixXd residual = A_ * P + P * A_.transpose() + W;
+    P += symmetric((U * solve_triangular(T, U.adjoint() * residual * U) * U.adjoint()).real());
+  }
+  return P;
+}
+
+MatrixXd Lyapunov::solve_adjoint(const MatrixXd& W) const {
+  const MatrixXcd& T = schur_.matrixT();
+  const MatrixXcd& U = schur_.matrixU();
+  MatrixXd Q = MatrixXd::Zero(A_.rows(), A_.cols());
+  for (int round = 0; round <= kRefinements; ++round) {
+    const MatrixXd residual = A_.transpose() * Q + Q * A_ + W;
+    Q += symmetric((U * solve_triangular_adjoint(T, U.adjoint() * residual * U) * U.adjoint()).real());
+  }
+  return Q;
+}
+
+}  // namespace frahm::tuning

@@ -1,0 +1,193 @@
+#include "solvers/tuning/variance/variance.hpp"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "solvers/mechanics/element_table.hpp"
+#include "solvers/tuning/variance/lyapunov.hpp"
+
+namespace frahm::tuning {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using mechanics::Dual;
+using mechanics::Element;
+using mechanics::ElementKind;
+using mechanics::Incidence;
+using mechanics::MechanicsError;
+using mechanics::NetworkValues;
+
+namespace {
+
+// Real part of an eigenvalue, over the largest modulus: no smaller is no damping.
+constexpr double kLeastDamping = 1e-12;
+
+double along(const std::vector<double>& gradient, const std::vector<double>& direction) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < direction.size(); ++i) sum += gradient[i] * direction[i];
+  return sum;
+}
+
+}  // namespace
+
+// In the state's natural units, z = scale * z^: displacements by 1/sqrt(K_ii), velocities by 1/sqrt(M_ii),
+// Maxwell forces by sqrt(k_e), so that every z^2 is an energy.
+struct Variance::State {
+  mechanics::LinearSystem system;
+  MatrixXd M_inverse;
+  VectorXd b;  // M v' = ... + b w
+  VectorXd scale;
+  MatrixXd A;
+  VectorXd B, h;
+};
+
+struct Variance::Gradient {
+  std::vector<double> mass, element, second;
+};
+
+Variance::Variance(const mechanics::Network& network, const Noise& noise, const NoisyQuantity& measure)
+    : assembly_(network), noise_(noise), measure_(measure) {
+  for (const Element& element : network.elements) {
+    const ElementKind& kind = mechanics::kind_of(element);
+    if (kind.law == nullptr && !kind.depends_on_frequency) continue;
+    throw MechanicsError("element '" + element.name + "' is " + kind.name +
+                         ": the variance under white noise is that of linear elements with constant values");
+  }
+  check_drift();
+  if (!(noise.intensity > 0.0 && std::isfinite(noise.intensity))) {
+    throw MechanicsError("the intensity of the noise must be finite and positive");
+  }
+}
+
+// Coefficient of the moving support's displacement in the relative displacement of an element, in coordinates
+// relative to that support: not 0 where the element joins the ground or another support. (A force leaves
+// every support at rest: no drift.)
+double Variance::drift(const Incidence& at) const {
+  return noise_.kind == NoiseKind::force_on ? 0.0 : at.w.sum() + at.p[Index(noise_.node)];
+}
+
+void Variance::check_drift() const {
+  const auto& elements = assembly_.network().elements;
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    if (drift(assembly_.incidences()[e]) == 0.0) continue;
+    const bool measured = measure_.kind == NoisyKind::stroke && measure_.index == e;
+    if (mechanics::kind_of(elements[e]).is_inertia_alone() && !measured) continue;
+    throw MechanicsError("element '" + elements[e].name +
+                         "' joins the ground or a support at rest, from which '" +
+                         assembly_.network().prescribed[noise_.node] +
+                         "' drifts without limit under white noise of its acceleration: only an inerter may");
+  }
+}
+
+Variance::State Variance::state(const NetworkValues& values) const {
+  State result;
+  mechanics::LinearSystem& system = result.system;
+  assembly_.set_values(values, system);
+  const Index n = system.masses(), s = system.internal_forces();
+  result.M_inverse = system.M.llt().solve(MatrixXd::Identity(n, n));
+
+  // b = e_mass, or with q = x + 1 y and y'' = w:  b = -(M 1 + M_support e_node)
+  if (noise_.kind == NoiseKind::force_on) {
+    result.b = VectorXd::Unit(n, Index(noise_.node));
+  } else {
+    result.b = -(system.M.rowwise().sum() + system.M_support.col(Index(noise_.node)));
+  }
+
+  // v' = -M^-1 (K q + C v + D s) + M^-1 b w,   s_e' = k_e d_e^T v - (k_e/c_e) s_e
+  const MatrixXd& Mi = result.M_inverse;
+  MatrixXd A = MatrixXd::Zero(2 * n + s, 2 * n + s);
+  A.block(0, n, n, n).setIdentity();
+  A.block(n, 0, n, n) = -Mi * system.K;
+  A.block(n, n, n, n) = -Mi * system.C;
+  A.block(n, 2 * n, n, s) = -Mi * system.D;
+  A.block(2 * n, n, s, n) = system.internal_stiffness.asDiagonal() * system.D.transpose();
+  A.block(2 * n, 2 * n, s, s).diagonal() = -system.internal_rate;
+  VectorXd B = VectorXd::Zero(2 * n + s), h = VectorXd::Zero(2 * n + s);
+  B.segment(n, n) = Mi * result.b;
+  const auto index = Index(measure_.index);
+  h.head(n) = measure_.kind == NoisyKind::displacement ? VectorXd(VectorXd::Unit(n, index))
+                                                       : assembly_.incidences()[measure_.index].w;
+
+  result.scale.resize(2 * n + s);
+  result.scale << system.K.diagonal().cwiseSqrt().cwiseInverse(),
+      system.M.diagonal().cwiseSqrt().cwiseInverse(), system.internal_stiffness.cwiseSqrt();
+  result.A = result.scale.cwiseInverse().asDiagonal() * A * result.scale.asDiagonal();
+  result.B = B.cwiseQuotient(result.scale);
+  result.h = h.cwiseProduct(result.scale);
+  return result;
+}
+
+double Variance::mean_square(const NetworkValues& values) const {
+  return mean_square(values, {}, {});
+}
+
+double Variance::mean_square(const NetworkValues& values, const std::vector<NetworkValues>& directions,
+                             std::span<double> slopes) const {
+  const State at = state(values);
+  const Lyapunov lyapunov(at.A);
+  if (!(lyapunov.abscissa() < -kLeastDamping)) {
+    throw MechanicsError(
+        "some mode of the system is not damped: its mean square under white noise is infinite");
+  }
+  const MatrixXd P = lyapunov.solve(2.0 * std::numbers::pi * noise_.intensity * at.B * at.B.transpose());
+  const double result = at.h.dot(P * at.h);
+  if (directions.empty()) return result;
+  const Gradient by = gradient(at, values, P, lyapunov.solve_adjoint(at.h * at.h.transpose()));
+  for (std::size_t k = 0; k < directions.size(); ++k) {
+    slopes[k] = along(by.mass, directions[k].mass) + along(by.element, directions[k].element) +
+                along(by.second, directions[k].second);
+  }
+  return result;
+}
+
+// d(h^T P h) = 2 tr(dA P Q) + 2 (2 pi S_0) B^T Q dB. With G = P Q and, of M dv/dt, dA_v = -M^-1 (dK, dC, dD)
+// - M^-1 dM A_v and dB_v = M^-1 (db - dM B_v), every term is a quadratic form of an element's direction.
+Variance::Gradient Variance::gradient(const State& at, const NetworkValues& values, const MatrixXd& P,
+                                      const MatrixXd& Q) const {
+  const mechanics::Network& network = assembly_.network();
+  const Index n = at.system.masses();
+  // Back in the units of z.
+  const MatrixXd G = at.scale.asDiagonal() * P * Q * at.scale.cwiseInverse().asDiagonal();
+  const MatrixXd A_v = (at.scale.asDiagonal() * at.A * at.scale.cwiseInverse().asDiagonal()).middleRows(n, n);
+  const VectorXd B_v = at.M_inverse * at.b;
+  const VectorXd QB = (Q * at.B).cwiseQuotient(at.scale);
+  const double density = 2.0 * std::numbers::pi * noise_.intensity;
+
+  const MatrixXd by_stiffness = -2.0 * G.block(0, n, n, n) * at.M_inverse;  // w^T (...) w
+  const MatrixXd by_damping = -2.0 * G.block(n, n, n, n) * at.M_inverse;
+  const VectorXd by_b = 2.0 * density * at.M_inverse * QB.segment(n, n);  // (...)^T db
+  const MatrixXd by_inertia = -2.0 * A_v * G.middleCols(n, n) * at.M_inverse - B_v * by_b.transpose();
+  const bool moved = noise_.kind == NoiseKind::acceleration_of;
+
+  Gradient by{std::vector<double>(network.masses.size()), std::vector<double>(network.elements.size()),
+              std::vector<double>(network.elements.size())};
+  for (Index i = 0; i < n; ++i) {
+    by.mass[std::size_t(i)] = by_inertia(i, i) - (moved ? by_b[i] : 0.0);
+  }
+  for (std::size_t e = 0; e < network.elements.size(); ++e) {
+    const Incidence& incidence = assembly_.incidences()[e];
+    const VectorXd& w = incidence.w;
+    const Index internal = at.system.coefficients[e].internal, row = 2 * n + internal;
+    const auto along_change = [&](const mechanics::Added<Dual>& change) {
+      const double slope =
+          change.stiffness.derivative * w.dot(by_stiffness * w) +
+          change.damping.derivative * w.dot(by_damping * w) +
+          change.inertance.derivative * (w.dot(by_inertia * w) - drift(incidence) * by_b.dot(w));
+      if (internal < 0) return slope;
+      // s' = k w^T v - rate s
+      return slope + 2.0 * (change.internal_stiffness.derivative * G.col(row).segment(n, n).dot(w) -
+                            change.internal_rate.derivative * G(row, row));
+    };
+    const ElementKind& kind = mechanics::kind_of(network.elements[e]);
+    const double value = values.element[e], second = mechanics::second_value(values, e);
+    constexpr Dual any_frequency{1.0, 0.0};  // what depends on it was refused at construction
+    by.element[e] = along_change(kind.adds(Dual{value, 1.0}, Dual{second, 0.0}, any_frequency));
+    by.second[e] = along_change(kind.adds(Dual{value, 0.0}, Dual{second, 1.0}, any_frequency));
+  }
+  return by;
+}
+
+}  // namespace frahm::tuning
