@@ -5,6 +5,8 @@
 #include <cmath>
 #include <span>
 
+#include "solvers/mechanics/element_table.hpp"
+
 namespace frahm::identification {
 namespace {
 
@@ -40,9 +42,7 @@ Minima::Minima(const GreyBoxTask& task, Misfit& misfit, int& iterations)
       misfit_(misfit),
       iterations_(iterations),
       residuals_([&misfit](const VectorXd& p, VectorXd& r, MatrixXd* by) { return misfit(p, r, by); }),
-      rubs_(std::ranges::any_of(
-          task.network.elements,
-          [](const mechanics::Element& element) { return element.type == mechanics::ElementType::coulomb; })),
+      rubs_(std::ranges::any_of(task.network.elements, mechanics::has_contact)),
       free_(std::ranges::any_of(
           task.records, [](const TimeRecord& record) { return record.motion == MotionKind::free; })) {}
 

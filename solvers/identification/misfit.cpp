@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/linear_system.hpp"
 
 namespace frahm::identification {
@@ -195,8 +196,8 @@ std::vector<Index> Misfit::frictions(const VectorXd& p) const {
     model(record, p, &by);
     for (std::size_t i = 0; i < task_.parameters.size(); ++i) {
       for (std::size_t e = 0; e < task_.network.elements.size(); ++e) {
-        if (task_.network.elements[e].type == mechanics::ElementType::coulomb &&
-            by[i].values.element[e] != 0.0)
+        const bool moves = by[i].values.element[e] != 0.0 || mechanics::second_value(by[i].values, e) != 0.0;
+        if (mechanics::has_contact(task_.network.elements[e]) && moves)
           rubs[static_cast<std::size_t>(place(record, i))] = true;
       }
     }

@@ -7,8 +7,9 @@
 #include <numbers>
 
 #include "solvers/identification/measured_forcing.hpp"
-#include "solvers/mechanics/system_derivative.hpp"
+#include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/modes.hpp"
+#include "solvers/mechanics/system_derivative.hpp"
 #include "solvers/response/periodic_response.hpp"
 #include "solvers/transient/motion_sensitivity.hpp"
 
@@ -226,7 +227,7 @@ struct SteadyMotion final : Simulation::Kind {
 std::unique_ptr<Simulation::Kind> make_kind(const Network& network, const TimeRecord& record,
                                             const transient::Watch& watch) {
   for (const mechanics::Element& element : network.elements) {
-    if (element.type == mechanics::ElementType::coulomb && element.law != mechanics::FrictionLaw::exact)
+    if (mechanics::has_contact(element) && element.law != mechanics::FrictionLaw::exact)
       throw mechanics::MechanicsError("friction '" + element.name +
                                       "' follows the arctan law: only the exact law can be fitted");
   }

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 
+#include "solvers/mechanics/element_table.hpp"
+
 namespace frahm::periodic {
 namespace {
 
-using mechanics::ElementType;
 using mechanics::Network;
 
-enum class Owner { mass, element, coulomb, point, mode, support };
+enum class Owner { mass, element, contact, point, mode, support };
 
 struct Row {
   Measure measure;
@@ -42,13 +43,13 @@ constexpr Row kRows[] = {
     {Measure::energy, Owner::element, "energy", "J", "energy dissipated by {} in a period"},
     {Measure::energy_share, Owner::element, "energy_share", "1",
      "share of {} in the energy dissipated in a period"},
-    {Measure::stops, Owner::coulomb, "stops", "1", "stops of finite length of {} in a period",
+    {Measure::stops, Owner::contact, "stops", "1", "stops of finite length of {} in a period",
      QuantityKind::count},
-    {Measure::reversals, Owner::coulomb, "reversals", "1", "changes of sliding direction of {} in a period",
+    {Measure::reversals, Owner::contact, "reversals", "1", "changes of sliding direction of {} in a period",
      QuantityKind::count},
-    {Measure::stuck_fraction, Owner::coulomb, "stuck_fraction", "1",
+    {Measure::stuck_fraction, Owner::contact, "stuck_fraction", "1",
      "share of the period for which {} sticks"},
-    {Measure::regime, Owner::coulomb, "regime", "1", "stick-slip regime of {}", QuantityKind::flag},
+    {Measure::regime, Owner::contact, "regime", "1", "stick-slip regime of {}", QuantityKind::flag},
     {Measure::status, Owner::point, "status", "1", "how the search for the periodic response ended",
      QuantityKind::flag},
     {Measure::floquet_radius, Owner::point, "floquet_radius", "1",
@@ -84,7 +85,7 @@ std::string owner_name(Owner owner, std::size_t index, const Network& network) {
     case Owner::mass:
       return network.masses[index];
     case Owner::element:
-    case Owner::coulomb:
+    case Owner::contact:
       return network.elements[index].name;
     case Owner::mode:
       return std::to_string(index + 1);
@@ -102,7 +103,7 @@ std::size_t owner_count(Owner owner, const Network& network) {
     case Owner::mode:
       return network.masses.size();
     case Owner::element:
-    case Owner::coulomb:
+    case Owner::contact:
       return network.elements.size();
     case Owner::support:
       return 1 + network.prescribed.size();
@@ -123,7 +124,7 @@ std::string name_of(const Row& row, std::size_t index, const Network& network) {
       return index == 0 ? suffix : network.prescribed[index - 1] + "_" + suffix;
     case Owner::mass:
     case Owner::element:
-    case Owner::coulomb:
+    case Owner::contact:
       break;
   }
   return owner_name(row.owner, index, network) + "_" + suffix;
@@ -154,7 +155,7 @@ std::vector<Quantity> all_quantities(const Network& network) {
   std::vector<Quantity> result;
   for (const Row& row : kRows) {
     for (std::size_t i = 0; i < owner_count(row.owner, network); ++i) {
-      if (row.owner == Owner::coulomb && network.elements[i].type != ElementType::coulomb) continue;
+      if (row.owner == Owner::contact && !mechanics::has_contact(network.elements[i])) continue;
       result.push_back({row.measure, i});
     }
   }
@@ -170,10 +171,10 @@ std::vector<Quantity> standard_quantities(const Network& network) {
     }
   }
   for (std::size_t e = 0; e < network.elements.size(); ++e) {
-    if (network.elements[e].type == ElementType::spring) result.push_back({Measure::stroke, e});
+    if (mechanics::kind_of(network.elements[e]).stroke_is_standard) result.push_back({Measure::stroke, e});
   }
   for (std::size_t e = 0; e < network.elements.size(); ++e) {
-    if (network.elements[e].type != ElementType::coulomb) continue;
+    if (!mechanics::has_contact(network.elements[e])) continue;
     for (const Measure measure :
          {Measure::stops, Measure::stuck_fraction, Measure::regime, Measure::energy}) {
       result.push_back({measure, e});
@@ -195,6 +196,19 @@ bool is_differentiable(Measure measure) {
       return false;
     default:
       return row_of(measure).kind == QuantityKind::real;
+  }
+}
+
+bool per_period(Measure measure) {
+  switch (measure) {
+    case Measure::energy:
+    case Measure::energy_input:
+    case Measure::stops:
+    case Measure::reversals:
+    case Measure::events:
+      return true;
+    default:
+      return false;
   }
 }
 

@@ -29,7 +29,7 @@ enum class Measure {
   force_peak,
   energy,
   energy_share,
-  // of a Coulomb element
+  // of an element with a contact
   stops,
   reversals,
   stuck_fraction,
@@ -91,14 +91,17 @@ QuantityDescription describe(const Quantity& quantity, const mechanics::Network&
 std::vector<Quantity> all_quantities(const mechanics::Network& network);
 
 // What an atlas shows: peak, amplitude, mean, rms and phase of each mass; stroke of each spring; stops, stuck
-// fraction, regime and energy of each Coulomb element; status, floquet_radius, energy_balance, residual,
-// error_bound, transmitted_force.
+// fraction, regime and energy of each element with a contact; status, floquet_radius, energy_balance,
+// residual, error_bound, transmitted_force.
 std::vector<Quantity> standard_quantities(const mechanics::Network& network);
 
 // Whether a quantity is one that PeriodicResponse::gradient() differentiates: no count, flag or figure of the
 // computation itself (residual, error_bound, energy_balance), nor floquet_radius, which would take the second
 // derivative of the period map.
 bool is_differentiable(Measure measure);
+
+// Whether it counts or adds up what happens in a period: in two periods it is twice as much.
+bool per_period(Measure measure);
 
 std::optional<Quantity> find_quantity(const std::string& name, const mechanics::Network& network);
 

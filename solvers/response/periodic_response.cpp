@@ -1,5 +1,6 @@
 #include "solvers/response/periodic_response.hpp"
 
+#include "solvers/response/common_divisor.hpp"
 #include "solvers/response/exact_solver.hpp"
 #include "solvers/smooth/smooth_solver.hpp"
 
@@ -16,7 +17,8 @@ std::unique_ptr<ResponseSolver> make_solver(const mechanics::Network& network,
 }  // namespace
 
 PeriodicResponse::PeriodicResponse(const mechanics::Network& network, std::vector<Quantity> quantities)
-    : solver_(make_solver(network, std::move(quantities))) {}
+    : solver_(common_divisor(network) > 1 ? divide_orders(network, std::move(quantities), make_solver)
+                                          : make_solver(network, std::move(quantities))) {}
 PeriodicResponse::~PeriodicResponse() = default;
 PeriodicResponse::PeriodicResponse(PeriodicResponse&&) noexcept = default;
 PeriodicResponse& PeriodicResponse::operator=(PeriodicResponse&&) noexcept = default;

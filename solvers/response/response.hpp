@@ -20,13 +20,14 @@ struct ResponseSummary {
   double residual = 0.0;  // 1
   int newton_iterations = 0;
   int passages = 0;          // periods (or half periods) of the flow that the search took
-  bool half_period = false;  // the response repeats with the opposite sign: x(t + T/2) = -x(t)
+  bool half_period = false;  // the response repeats with the opposite sign: x(t + T/2) = -x(t), T the
+                             // period of the orders divided by their common divisor
 };
 
 // One stretch of the response in one mode, for telling an orbit in full.
 struct Stretch {
   double start = 0.0, length = 0.0;   // omega t [rad], from 0 to 2 pi
-  std::vector<std::string> contacts;  // per Coulomb element: "sticks", "slides +", "slides -"
+  std::vector<std::string> contacts;  // per element with a contact: "sticks", "slides +", "slides -"
 };
 
 // The response at chosen instants. Rows are samples.

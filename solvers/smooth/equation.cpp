@@ -5,14 +5,14 @@
 #include <complex>
 #include <numbers>
 
-namespace frahm::smooth {
+#include "solvers/mechanics/element_table.hpp"
 
-using mechanics::ElementType;
+namespace frahm::smooth {
 
 Equation::Equation(const mechanics::Assembly& assembly) : assembly_(assembly), orders_(assembly.orders()) {
   const auto& network = assembly.network();
   for (std::size_t e = 0; e < network.elements.size(); ++e) {
-    if (network.elements[e].type == ElementType::coulomb) elements_.push_back(e);
+    if (mechanics::kind_of(network.elements[e]).can_be_smoothed()) elements_.push_back(e);
   }
   masses_ = static_cast<Eigen::Index>(network.masses.size());
   size_ = 2 * masses_ + static_cast<Eigen::Index>(assembly.internal_forces());

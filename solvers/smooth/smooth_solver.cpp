@@ -5,8 +5,9 @@
 #include <exception>
 #include <numbers>
 
-#include "solvers/response/exact_solver.hpp"
+#include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/undamped_resonance.hpp"
+#include "solvers/response/exact_solver.hpp"
 #include "solvers/smooth/observables.hpp"
 #include "solvers/smooth/shooting.hpp"
 
@@ -14,13 +15,12 @@ namespace frahm::smooth {
 namespace {
 
 using mechanics::Element;
-using mechanics::ElementType;
 using mechanics::FrictionLaw;
 using mechanics::Network;
 using periodic::History;
 
 bool rubs(const Element& element, FrictionLaw law) {
-  return element.type == ElementType::coulomb && element.law == law;
+  return mechanics::has_contact(element) && element.law == law;
 }
 
 Network under_exact_law(Network network) {

@@ -11,21 +11,6 @@ namespace frahm::transient {
 using Eigen::Index;
 using periodic::contains, periodic::kNodes;
 
-bool dissipates(mechanics::ElementType type) {
-  using mechanics::ElementType;
-  switch (type) {
-    case ElementType::damper:
-    case ElementType::coulomb:
-    case ElementType::hysteretic:
-    case ElementType::maxwell:
-      return true;
-    case ElementType::spring:
-    case ElementType::inerter:
-      break;
-  }
-  return false;
-}
-
 EnergyAccount::EnergyAccount(const mechanics::Assembly& assembly, const Flow& flow)
     : assembly_(assembly), flow_(flow), forms_(assembly, flow) {
   const auto masses = static_cast<Index>(assembly.network().masses.size());
@@ -107,7 +92,7 @@ std::vector<EnergyAccount::Form> EnergyAccount::loss_forms() {
       losses_.push_back({e, law.damping});
       forms.push_back(forms_.velocity(assembly_.incidences()[e]));
     }
-    if (law.internal >= 0) {
+    if (law.internal_damping != 0.0) {
       losses_.push_back({e, 1.0 / law.internal_damping});
       forms.push_back(forms_.zero());
       forms.back().z[2 * flow_.equations().masses() + law.internal] = 1.0;

@@ -8,9 +8,6 @@
 
 namespace frahm::transient {
 
-// Whether elements of this type dissipate: dampers, hysteretic and Maxwell elements, friction.
-bool dissipates(mechanics::ElementType type);
-
 // The energies of a motion on the exact flow, step after step: what each element dissipates,
 //   integral of c v^2 (damper, hysteretic), of s^2 / c (Maxwell), of F |v| (friction that slides),
 // and the work of the excitation: of the outside forces on the masses, and of what drives each prescribed

@@ -6,6 +6,7 @@
 #include <limits>
 #include <sstream>
 
+#include "solvers/mechanics/element_table.hpp"
 #include "solvers/transient/step_limits.hpp"
 
 namespace frahm::transient {
@@ -235,7 +236,8 @@ void Trajectory::keep_state(const State& z, const Eigen::VectorXd& acceleration,
     samples_.acceleration[mass].push_back(acceleration[i] / (h * h));
   }
   for (std::size_t e = 0; e < dissipated.size(); ++e) {
-    if (dissipates(assembly_.network().elements[e].type)) samples_.dissipated[e].push_back(dissipated[e]);
+    if (mechanics::kind_of(assembly_.network().elements[e]).dissipates)
+      samples_.dissipated[e].push_back(dissipated[e]);
   }
 }
 

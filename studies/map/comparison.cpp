@@ -9,7 +9,6 @@
 namespace frahm::studies {
 namespace {
 
-using mechanics::ElementType;
 using mechanics::FrictionLaw;
 using periodic::QuantityDescription;
 
@@ -25,7 +24,7 @@ std::string circumstance(const Comparison& comparison) {
 bool meets_arctan_law(const StudyFile& study) {
   const auto follows = [](const mechanics::Network& network) {
     return std::any_of(network.elements.begin(), network.elements.end(), [](const mechanics::Element& each) {
-      return each.type == ElementType::coulomb && each.law == FrictionLaw::arctan;
+      return mechanics::has_contact(each) && each.law == FrictionLaw::arctan;
     });
   };
   return follows(study.network) || (study.comparison && follows(compared_network(study)));
@@ -36,7 +35,7 @@ mechanics::Network compared_network(const StudyFile& study) {
   mechanics::Network network = study.network;
   if (comparison.taylor_order == 0) {
     for (mechanics::Element& element : network.elements) {
-      if (element.type == ElementType::coulomb) element.law = comparison.law;
+      if (mechanics::kind_of(element).can_be_smoothed()) element.law = comparison.law;
     }
     return network;
   }
@@ -53,7 +52,7 @@ StudyValues compared_values(const StudyFile& study) {
   StudyValues values = study.values;
   if (comparison.taylor_order > 0 || comparison.law == FrictionLaw::exact) return values;
   for (std::size_t e = 0; e < study.network.elements.size(); ++e) {
-    if (study.network.elements[e].type == ElementType::coulomb) values.second[e] = comparison.slope;
+    if (mechanics::kind_of(study.network.elements[e]).can_be_smoothed()) values.second[e] = comparison.slope;
   }
   return values;
 }

@@ -19,12 +19,8 @@ constexpr std::size_t samples_in_period = 512;
 struct KeptOrbit {
   std::vector<double> parameters;  // SI
   periodic::History history;
-  std::vector<std::vector<double>> sliding;  // of each Coulomb element in turn: displacement, velocity
+  std::vector<std::vector<double>> sliding;  // of each element with a contact in turn: displacement, velocity
 };
-
-bool is_coulomb(const mechanics::Element& element) {
-  return element.type == mechanics::ElementType::coulomb;
-}
 
 // Displacement and velocity of the prescribed nodes at a time: y_0 + Re sum_k Y_k e^{i order_k omega t}.
 struct SupportMotion {
@@ -42,8 +38,8 @@ struct SupportMotion {
   }
 };
 
-// Relative displacement u = w^T q + p^T y of each Coulomb element and its velocity, at the instants of a
-// history, whose first columns are q and q' of one mass after the other.
+// Relative displacement u = w^T q + p^T y of each element with a contact and its velocity, at the instants of
+// a history, whose first columns are q and q' of one mass after the other.
 std::vector<std::vector<double>> sliding_motions(const mechanics::Network& network,
                                                  const mechanics::NetworkValues& values,
                                                  const periodic::History& history) {
@@ -51,8 +47,8 @@ std::vector<std::vector<double>> sliding_motions(const mechanics::Network& netwo
   mechanics::LinearSystem system;
   assembly.set_values(values, system);
   assembly.set_forcing(values, system);
-  const auto coulomb = std::ranges::count_if(network.elements, is_coulomb);
-  std::vector<std::vector<double>> motions(2 * static_cast<std::size_t>(coulomb));
+  const auto contacts = std::ranges::count_if(network.elements, mechanics::has_contact);
+  std::vector<std::vector<double>> motions(2 * static_cast<std::size_t>(contacts));
   Eigen::VectorXd q(system.masses()), v(system.masses());
   for (std::size_t i = 0; i < history.time.size(); ++i) {
     for (Eigen::Index mass = 0; mass < q.size(); ++mass) {
@@ -62,7 +58,7 @@ std::vector<std::vector<double>> sliding_motions(const mechanics::Network& netwo
     const SupportMotion support(system, history.time[i]);
     auto column = motions.begin();
     for (std::size_t e = 0; e < network.elements.size(); ++e) {
-      if (!is_coulomb(network.elements[e])) continue;
+      if (!mechanics::has_contact(network.elements[e])) continue;
       const mechanics::Incidence& incidence = assembly.incidences()[e];
       (column++)->push_back(incidence.w.dot(q) + incidence.p.dot(support.displacement));
       (column++)->push_back(incidence.w.dot(v) + incidence.p.dot(support.velocity));
@@ -107,7 +103,7 @@ std::vector<results::Variable> sample_variables(const StudyFile& study) {
   for (const std::string& mass : study.network.masses)
     add(mass + "_acceleration", "m s-2", "acceleration of " + mass);
   for (const auto& element : study.network.elements) {
-    if (!is_coulomb(element)) continue;
+    if (!mechanics::has_contact(element)) continue;
     add(element.name + "_displacement", "m", "relative displacement across " + element.name);
     add(element.name + "_sliding_velocity", "m s-1", "relative velocity across " + element.name);
   }

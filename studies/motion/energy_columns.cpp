@@ -5,6 +5,7 @@
 
 #include <ostream>
 
+#include "solvers/mechanics/element_table.hpp"
 #include "solvers/transient/energy_account.hpp"
 
 namespace frahm::studies {
@@ -12,7 +13,7 @@ namespace frahm::studies {
 void add_energies(const StudyFile& study, const transient::EnergyBudget& energy, MotionColumns& columns) {
   const auto& elements = study.network.elements;
   for (std::size_t e = 0; e < elements.size(); ++e) {
-    if (!transient::dissipates(elements[e].type)) continue;
+    if (!mechanics::kind_of(elements[e]).dissipates) continue;
     const std::string& name = elements[e].name;
     columns.add_number(name + "_energy", "J", "energy dissipated by " + name, energy.dissipated[e]);
     columns.add_number(name + "_energy_share", "1", "share of " + name + " in the energy dissipated",
@@ -36,7 +37,7 @@ void print_energies(const StudyFile& study, const transient::EnergyBudget& energ
   if (study.kind == StudyKind::transient) line("work of the excitation", energy.input, "");
   const auto& elements = study.network.elements;
   for (std::size_t e = 0; e < elements.size(); ++e) {
-    if (!transient::dissipates(elements[e].type)) continue;
+    if (!mechanics::kind_of(elements[e]).dissipates) continue;
     line("lost in " + elements[e].name, energy.dissipated[e],
          fmt::format("{:.2f} %", 100.0 * energy.share[e]));
   }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "solvers/transient/energy_account.hpp"
+#include "solvers/mechanics/element_table.hpp"
 
 namespace frahm::studies {
 
@@ -29,7 +29,7 @@ void MotionColumns::add_samples(const transient::Samples& samples) {
     add(mass + "_velocity", "m s-1", "velocity of " + mass, "time", samples.velocity[i]);
   }
   for (std::size_t e = 0; e < study_.network.elements.size(); ++e) {
-    if (!transient::dissipates(study_.network.elements[e].type)) continue;
+    if (!mechanics::kind_of(study_.network.elements[e]).dissipates) continue;
     const std::string& name = study_.network.elements[e].name;
     add(name + "_dissipated", "J", "energy dissipated by " + name + " until then", "time",
         samples.dissipated[e]);

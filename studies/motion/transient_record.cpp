@@ -26,7 +26,7 @@ mechanics::NetworkValues values_at(const StudyFile& study, double omega) {
   return values;
 }
 
-// The stops of each Coulomb element: those of its contact. Elements are in the order of the network.
+// The stops of each element with a contact: those of its contact. Elements are in the order of the network.
 struct StopsOfElement {
   std::string name;
   std::vector<Stop> stops;
@@ -36,7 +36,7 @@ std::vector<StopsOfElement> stops_of_elements(const StudyFile& study, const Forc
   std::vector<StopsOfElement> result;
   for (std::size_t e = 0; e < study.network.elements.size(); ++e) {
     const mechanics::Element& element = study.network.elements[e];
-    if (element.type != mechanics::ElementType::coulomb) continue;
+    if (!mechanics::has_contact(element)) continue;
     result.push_back({element.name, motion.stops[assembly.shares()[e].contact]});
   }
   return result;

@@ -94,7 +94,7 @@ void print_decay_choice(const StudyFile& study, const mechanics::NetworkValues& 
                       : "until rest, or until its end is clear");
   const auto& elements = study.network.elements;
   if (std::any_of(elements.begin(), elements.end(),
-                  [](const auto& element) { return element.type == mechanics::ElementType::hysteretic; })) {
+                  [](const auto& element) { return mechanics::kind_of(element).depends_on_frequency; })) {
     fmt::print(out, "reference  {:.6g}{}: the loss factors' frequency\n", values.hysteretic_omega,
                study.dimensionless ? "" : " rad/s");
   }

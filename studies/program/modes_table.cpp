@@ -28,9 +28,7 @@ void print_table(const StudyFile& study, const periodic::LinearModes& modes, std
 
 ModesAtPoint modes_at_point(const StudyFile& study, const mechanics::NetworkValues& values) {
   const auto& elements = study.network.elements;
-  const bool friction = std::any_of(elements.begin(), elements.end(), [](const mechanics::Element& element) {
-    return element.type == mechanics::ElementType::coulomb;
-  });
+  const bool friction = std::any_of(elements.begin(), elements.end(), mechanics::has_contact);
   return {periodic::linear_modes(study.network, values, false),
           periodic::linear_modes(study.network, values, true), friction};
 }

@@ -28,7 +28,7 @@ std::vector<PointReport::Parameter> numbers_of(const StudyFile& study,
 std::vector<std::string> friction_elements(const mechanics::Network& network) {
   std::vector<std::string> names;
   for (const mechanics::Element& element : network.elements) {
-    if (element.type == mechanics::ElementType::coulomb) names.push_back(element.name);
+    if (mechanics::has_contact(element)) names.push_back(element.name);
   }
   return names;
 }

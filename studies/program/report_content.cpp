@@ -25,12 +25,11 @@ std::optional<StudyFile> study_of(const results::MapReader& result, const std::f
 
 // Strokes are shown of springs, energy shares of what dissipates.
 bool is_of_no_interest(const std::string& name, const std::optional<StudyFile>& study) {
-  using mechanics::ElementType;
   if (!study) return false;
   for (const mechanics::Element& element : study->network.elements) {
-    const bool keeps_energy = element.type == ElementType::spring || element.type == ElementType::inerter;
-    if (name == element.name + "_stroke") return element.type != ElementType::spring;
-    if (name == element.name + "_energy_share") return keeps_energy;
+    const mechanics::ElementKind& kind = mechanics::kind_of(element);
+    if (name == element.name + "_stroke") return !kind.stroke_is_standard;
+    if (name == element.name + "_energy_share") return !kind.dissipates;
   }
   return false;
 }

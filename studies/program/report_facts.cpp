@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "solvers/mechanics/element_table.hpp"
 #include "studies/motion/crank_motion.hpp"
 #include "studies/motion/motion_record.hpp"
 #include "studies/tuning/tuning_record.hpp"
@@ -36,13 +37,18 @@ std::vector<results::Column> frequency_unit(const StudyFile& study) {
   return {};
 }
 
-// Elements of a type that are not without effect: of a contact, that have friction.
-results::Column number_of(const StudyFile& study, mechanics::ElementType type, const std::string& name) {
+// The number of elements of which something holds, given what each adds.
+template <class Condition>
+results::Column number_of(const StudyFile& study, const std::string& name, const Condition& holds) {
   const auto& elements = study.network.elements;
-  const std::vector<double> values = motion_values(study).element;
+  const mechanics::NetworkValues values = motion_values(study);
   double number = 0.0;
-  for (std::size_t i = 0; i < elements.size(); ++i)
-    if (elements[i].type == type && values[i] != 0.0) ++number;
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    const mechanics::ElementKind& kind = mechanics::kind_of(elements[e]);
+    constexpr double any_frequency = 1.0;
+    if (holds(kind, kind.adds(values.element[e], mechanics::second_value(values, e), any_frequency)))
+      ++number;
+  }
   return {.variable = {.name = name, .unit = "1", .long_name = "number of them in the study"},
           .values = {number}};
 }
@@ -57,9 +63,14 @@ results::Column given_duration(const StudyFile& study) {
 
 // By what the page of a motion knows whether it can end, and what a period is.
 std::vector<results::Column> motion_facts(const StudyFile& study) {
-  using mechanics::ElementType;
-  std::vector<results::Column> facts = {number_of(study, ElementType::coulomb, "rubbing_elements"),
-                                        number_of(study, ElementType::hysteretic, "hysteretic_elements"),
+  using mechanics::ElementKind;
+  using Added = mechanics::Added<double>;
+  const auto rubs = [](const ElementKind&, const Added& added) { return added.limit != 0.0; };
+  const auto hysteretic = [](const ElementKind& kind, const Added& added) {
+    return kind.depends_on_frequency && added.stiffness != 0.0;
+  };
+  std::vector<results::Column> facts = {number_of(study, "rubbing_elements", rubs),
+                                        number_of(study, "hysteretic_elements", hysteretic),
                                         given_duration(study)};
   if (study.kind == StudyKind::transient) {
     facts.push_back(excitation_frequency(study));

@@ -2,25 +2,32 @@
 
 #include <algorithm>
 
+#include "solvers/mechanics/element_table.hpp"
 #include "studies/reading/network_reading.hpp"
 #include "studies/reading/spelling.hpp"
 
 namespace frahm::studies {
 namespace {
 
-using mechanics::ElementType;
 using mechanics::ExcitationKind;
 using mechanics::FrictionLaw;
 
 void read_compared_law(NetworkReading& reading, const TomlSection& section, const StudyFile& study,
                        Comparison& comparison) {
   const auto& elements = study.network.elements;
-  const auto rubbing = std::find_if(elements.begin(), elements.end(),
-                                    [](const auto& each) { return each.type == ElementType::coulomb; });
+  const auto rubbing = std::find_if(elements.begin(), elements.end(), [](const auto& each) {
+    return mechanics::kind_of(each).can_be_smoothed();
+  });
   if (rubbing == elements.end()) section.fail("law", "the study has no coulomb element that could follow it");
   const bool arctan = section.choice_or("law", {"exact", "arctan"}) == "arctan";
   comparison.law = arctan ? FrictionLaw::arctan : FrictionLaw::exact;
   if (arctan) {
+    for (const mechanics::Element& each : elements) {
+      const mechanics::ElementKind& kind = mechanics::kind_of(each);
+      if (kind.law == nullptr || kind.can_be_smoothed()) continue;
+      section.fail("law",
+                   fmt::format("element \"{}\" is a {}, which has no arctan law", each.name, kind.name));
+    }
     comparison.slope = read_value(reading, section, "slope", Quantity::inverse_speed, Range::positive);
     return;
   }

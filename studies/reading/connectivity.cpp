@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "solvers/mechanics/element_table.hpp"
 #include "studies/reading/spelling.hpp"
 #include "studies/reading/study_reading.hpp"
 
@@ -39,9 +40,7 @@ void check_masses_are_held(const StudyContext& context, const NetworkOfStudy& sy
     const auto& element = network.elements[i];
     const Expression& stiffness = system.values.element[i].expression;
     const bool absent = stiffness.is_constant() && stiffness.evaluate(std::span<const double>{}) == 0.0;
-    const bool holds =
-        element.type == mechanics::ElementType::spring || element.type == mechanics::ElementType::hysteretic;
-    if (holds && !absent) sets.join(set_of(element.a), set_of(element.b));
+    if (mechanics::kind_of(element).holds && !absent) sets.join(set_of(element.a), set_of(element.b));
   }
   for (std::size_t i = 0; i < held; ++i) {
     if (sets.root(i) == sets.root(held)) continue;

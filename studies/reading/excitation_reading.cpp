@@ -144,7 +144,7 @@ void check_hysteretic_frequency(const NetworkReading& reading, const TomlSection
   const auto& network = reading.result.network;
   const auto hysteretic =
       std::find_if(network.elements.begin(), network.elements.end(),
-                   [](const auto& element) { return element.type == mechanics::ElementType::hysteretic; });
+                   [](const auto& element) { return mechanics::kind_of(element).depends_on_frequency; });
   if (hysteretic == network.elements.end() || section.find("reference_order")) return;
   std::vector<int> orders;
   for (const Excitation& component : network.excitations) {

@@ -119,7 +119,7 @@ void check_system(const TomlSection& section, const StudyFile& study, const Iden
 
 bool has_hysteresis(const mechanics::Network& network) {
   return std::any_of(network.elements.begin(), network.elements.end(),
-                     [](const auto& element) { return element.type == mechanics::ElementType::hysteretic; });
+                     [](const auto& element) { return mechanics::kind_of(element).depends_on_frequency; });
 }
 
 // A hysteretic element has its damping at one frequency, which nothing else tells where nothing is forced at

@@ -5,50 +5,54 @@
 #include <algorithm>
 #include <array>
 
+#include "solvers/mechanics/element_table.hpp"
 #include "studies/reading/spelling.hpp"
 
 namespace frahm::studies {
 namespace {
 
-using mechanics::ElementType;
+using mechanics::Dimension;
+using mechanics::ElementKind;
 using mechanics::Node;
 using mechanics::NodeKind;
+using mechanics::ValueKey;
 
-struct ValueKey {
-  std::string key;  // "" : none
-  Quantity quantity = Quantity::number;
-  Range range = Range::finite;
-};
-
-struct ElementKind {
-  std::string name;
-  ElementType type;
-  ValueKey value, second;
-};
-
-const std::array<ElementKind, 6>& element_kinds() {
-  static const std::array<ElementKind, 6> kinds{
-      {{"spring", ElementType::spring, {"stiffness", Quantity::stiffness}, {}},
-       {"damper", ElementType::damper, {"damping", Quantity::damping, Range::not_negative}, {}},
-       {"inerter", ElementType::inerter, {"inertance", Quantity::inertance, Range::not_negative}, {}},
-       {"coulomb", ElementType::coulomb, {"force", Quantity::force, Range::not_negative}, {}},
-       {"hysteretic",
-        ElementType::hysteretic,
-        {"stiffness", Quantity::stiffness, Range::not_negative},
-        {"loss_factor", Quantity::number, Range::not_negative}},
-       {"maxwell",
-        ElementType::maxwell,
-        {"stiffness", Quantity::stiffness, Range::positive},
-        {"damping", Quantity::damping, Range::positive}}}};
-  return kinds;
+Quantity quantity_of(Dimension dimension) {
+  switch (dimension) {
+    case Dimension::number:
+      break;
+    case Dimension::stiffness:
+      return Quantity::stiffness;
+    case Dimension::damping:
+      return Quantity::damping;
+    case Dimension::inertance:
+      return Quantity::inertance;
+    case Dimension::force:
+      return Quantity::force;
+    case Dimension::inverse_speed:
+      return Quantity::inverse_speed;
+  }
+  return Quantity::number;
 }
 
-const ValueKey arctan_slope{"slope", Quantity::inverse_speed, Range::positive};
+// The keys that elements have beside name, type and between, each once: values, then the choice of a law and
+// what smooths it.
+std::vector<std::string> keys_of_kinds() {
+  std::vector<std::string> keys;
+  const auto add = [&](const std::string& key) {
+    if (!key.empty() && std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+  };
+  for (const ElementKind& kind : mechanics::element_kinds()) add(kind.value.key);
+  for (const ElementKind& kind : mechanics::element_kinds()) add(kind.second.key);
+  add("law");
+  for (const ElementKind& kind : mechanics::element_kinds()) add(kind.smoothed.key);
+  return keys;
+}
 
 const ElementKind& read_kind(const TomlSection& section) {
   const std::string type = section.text("type");
   std::vector<std::string> known;
-  for (const ElementKind& kind : element_kinds()) {
+  for (const ElementKind& kind : mechanics::element_kinds()) {
     if (kind.name == type) return kind;
     known.push_back(kind.name);
   }
@@ -57,30 +61,36 @@ const ElementKind& read_kind(const TomlSection& section) {
 
 // Each type has its values and no key of another type.
 void check_keys_of_kind(const TomlSection& section, const ElementKind& kind) {
-  const bool rubs = kind.type == ElementType::coulomb;
-  for (const char* key : {"stiffness", "damping", "inertance", "force", "loss_factor", "law", "slope"}) {
-    const bool own = key == kind.value.key || key == kind.second.key;
-    if (own || !section.find(key) || (rubs && (key == std::string("law") || key == arctan_slope.key)))
-      continue;
-    const std::string second = kind.second.key.empty() ? "" : fmt::format(" and a {}", kind.second.key);
+  for (const std::string& key : keys_of_kinds()) {
+    const bool of_law = kind.can_be_smoothed() && (key == "law" || key == kind.smoothed.key);
+    if (of_law || key == kind.value.key || key == kind.second.key || !section.find(key)) continue;
+    const std::string second = kind.second.exists() ? fmt::format(" and a {}", kind.second.key) : "";
     section.fail(key, fmt::format("a {} has a {}{}, no {}", kind.name, kind.value.key, second, key));
   }
 }
 
 mechanics::FrictionLaw read_law(const TomlSection& section, const ElementKind& kind) {
-  if (kind.type != ElementType::coulomb) return mechanics::FrictionLaw::exact;
+  if (!kind.can_be_smoothed()) return mechanics::FrictionLaw::exact;
   if (section.choice_or("law", {"exact", "arctan"}) == "arctan") return mechanics::FrictionLaw::arctan;
-  if (section.find("slope")) section.fail("slope", "only the law \"arctan\" has a slope");
+  if (section.find(kind.smoothed.key))
+    section.fail(kind.smoothed.key, fmt::format("only the law \"arctan\" has a {}", kind.smoothed.key));
   return mechanics::FrictionLaw::exact;
 }
 
-// All coulomb elements follow one law.
-void check_one_law(const NetworkReading& reading, const TomlSection& section, mechanics::FrictionLaw law) {
+// All contacts follow their law exactly, or all are smoothed.
+void check_one_law(const NetworkReading& reading, const TomlSection& section, const ElementKind& kind,
+                   mechanics::FrictionLaw law) {
   const auto& elements = reading.result.network.elements;
   const auto other = std::find_if(elements.begin(), elements.end(), [&](const auto& element) {
-    return element.type == ElementType::coulomb && element.law != law;
+    return mechanics::has_contact(element) && element.law != law;
   });
   if (other == elements.end()) return;
+  const ElementKind& other_kind = mechanics::kind_of(*other);
+  if (!kind.can_be_smoothed() || !other_kind.can_be_smoothed()) {
+    const bool own = !kind.can_be_smoothed();
+    section.fail(fmt::format("a {} has no arctan law, which {} follows", own ? kind.name : other_kind.name,
+                             own ? fmt::format("element \"{}\"", other->name) : "this element"));
+  }
   const bool arctan = law == mechanics::FrictionLaw::arctan;
   const std::string message = fmt::format(
       "\"{}\"{}, but element \"{}\" follows \"{}\"; the coulomb elements of a study follow one law",
@@ -128,23 +138,25 @@ void read_mass(NetworkReading& reading, const TomlValue& table, std::size_t numb
 }
 
 void read_element(NetworkReading& reading, const TomlValue& table, std::size_t number) {
+  std::vector<std::string> keys{"name", "type", "between"};
+  for (std::string& key : keys_of_kinds()) keys.push_back(std::move(key));
   const TomlSection section(reading.context.source, table, label(table, "element", "name", "element", number),
-                            {"name", "type", "between", "stiffness", "damping", "inertance", "force", "law",
-                             "slope", "loss_factor"});
+                            keys);
   const std::string name = section.identifier("name");
   take_name(reading, section, name, section.where());
   const ElementKind& kind = read_kind(section);
   check_keys_of_kind(section, kind);
   const auto [a, b] = read_between(reading, section);
   const mechanics::FrictionLaw law = read_law(section, kind);
-  if (kind.type == ElementType::coulomb) check_one_law(reading, section, law);
-  reading.result.network.elements.push_back({name, kind.type, a, b, law});
+  if (kind.law != nullptr) check_one_law(reading, section, kind, law);
+  const mechanics::Element element{name, kind.type, a, b, law};
+  reading.result.network.elements.push_back(element);
   const auto read = [&](const ValueKey& value) {
-    return read_value(reading, section, value.key, value.quantity, value.range);
+    return read_value(reading, section, value.key, quantity_of(value.dimension), value.range);
   };
-  const ValueKey second = law == mechanics::FrictionLaw::arctan ? arctan_slope : kind.second;
+  const ValueKey& second = mechanics::second_key(element);
   reading.result.values.element.push_back(read(kind.value));
-  reading.result.values.second.push_back(second.key.empty() ? StudyValue{} : read(second));
+  reading.result.values.second.push_back(second.exists() ? read(second) : StudyValue{});
 }
 
 // A value that is nothing but a parameter, perhaps through other names for it, tells what that parameter is.

@@ -53,7 +53,7 @@ void read_borders(const TomlSection& section, StudyFile& study) {
   if (!study.output.borders) return;
   std::size_t contacts = 0;
   for (const mechanics::Element& element : study.network.elements) {
-    if (element.type != mechanics::ElementType::coulomb) continue;
+    if (!mechanics::has_contact(element)) continue;
     if (element.law != mechanics::FrictionLaw::exact) {
       section.fail("borders", fmt::format("element \"{}\" follows the arctan law, under which nothing sticks "
                                           "and there are no regimes to border on each other",

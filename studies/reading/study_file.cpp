@@ -96,10 +96,10 @@ std::vector<std::size_t> read_by_matrices(const StudyFile& study) {
     for (const StudyValue& value : *values) add(value);
   }
   const auto& elements = study.network.elements;
-  const bool hysteretic = std::any_of(elements.begin(), elements.end(), [](const auto& element) {
-    return element.type == mechanics::ElementType::hysteretic;  // whose damping is eta k / omega
+  const bool depends = std::any_of(elements.begin(), elements.end(), [](const auto& element) {
+    return mechanics::kind_of(element).depends_on_frequency;
   });
-  if (hysteretic) add(study.values.omega);
+  if (depends) add(study.values.omega);
   if (study.comparison) add(study.comparison->slope);
   return reads;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/network.hpp"
 #include "studies/reading/expression.hpp"
 #include "studies/reading/parameters.hpp"
@@ -13,7 +14,7 @@
 
 namespace frahm::studies {
 
-enum class Range { finite, not_negative, positive };
+using mechanics::Range;
 
 // A number of the network as the study gives it: a constant or an expression of the parameters, in SI.
 struct StudyValue {

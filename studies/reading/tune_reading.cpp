@@ -34,12 +34,12 @@ void check_variance(const TuneReading& reading, const TomlSection& section) {
                              reading.choice.quantity_name));
   }
   for (const mechanics::Element& element : reading.study.network.elements) {
-    const bool rubs = element.type == mechanics::ElementType::coulomb;
-    if (!rubs && element.type != mechanics::ElementType::hysteretic) continue;
+    const mechanics::ElementKind& kind = mechanics::kind_of(element);
+    if (kind.law == nullptr && !kind.depends_on_frequency) continue;
     section.fail("objective",
                  fmt::format("a variance is that of a linear system under white noise, and element \"{}\" is "
-                             "{}; write \"minimax\" or \"mean_square\"",
-                             element.name, rubs ? "a coulomb" : "a hysteretic"));
+                             "a {}; write \"minimax\" or \"mean_square\"",
+                             element.name, kind.name));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "solvers/mechanics/element_table.hpp"
 #include "solvers/tuning/variance/lyapunov.hpp"
 
 namespace frahm::tuning {
@@ -12,8 +13,9 @@ namespace frahm::tuning {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using mechanics::Dual;
 using mechanics::Element;
-using mechanics::ElementType;
+using mechanics::ElementKind;
 using mechanics::Incidence;
 using mechanics::MechanicsError;
 using mechanics::NetworkValues;
@@ -22,12 +24,6 @@ namespace {
 
 // Real part of an eigenvalue, over the largest modulus: no smaller is no damping.
 constexpr double kLeastDamping = 1e-12;
-
-const char* refused_type(ElementType type) {
-  if (type == ElementType::coulomb) return "coulomb";
-  if (type == ElementType::hysteretic) return "hysteretic";
-  return nullptr;
-}
 
 double along(const std::vector<double>& gradient, const std::vector<double>& direction) {
   double sum = 0.0;
@@ -55,9 +51,9 @@ struct Variance::Gradient {
 Variance::Variance(const mechanics::Network& network, const Noise& noise, const NoisyQuantity& measure)
     : assembly_(network), noise_(noise), measure_(measure) {
   for (const Element& element : network.elements) {
-    const char* type = refused_type(element.type);
-    if (type == nullptr) continue;
-    throw MechanicsError("element '" + element.name + "' is " + type +
+    const ElementKind& kind = mechanics::kind_of(element);
+    if (kind.law == nullptr && !kind.depends_on_frequency) continue;
+    throw MechanicsError("element '" + element.name + "' is " + kind.name +
                          ": the variance under white noise is that of linear elements with constant values");
   }
   check_drift();
@@ -78,7 +74,7 @@ void Variance::check_drift() const {
   for (std::size_t e = 0; e < elements.size(); ++e) {
     if (drift(assembly_.incidences()[e]) == 0.0) continue;
     const bool measured = measure_.kind == NoisyKind::stroke && measure_.index == e;
-    if (elements[e].type == ElementType::inerter && !measured) continue;
+    if (mechanics::kind_of(elements[e]).is_inertia_alone() && !measured) continue;
     throw MechanicsError("element '" + elements[e].name +
                          "' joins the ground or a support at rest, from which '" +
                          assembly_.network().prescribed[noise_.node] +
@@ -139,7 +135,7 @@ double Variance::mean_square(const NetworkValues& values, const std::vector<Netw
   const MatrixXd P = lyapunov.solve(2.0 * std::numbers::pi * noise_.intensity * at.B * at.B.transpose());
   const double result = at.h.dot(P * at.h);
   if (directions.empty()) return result;
-  const Gradient by = gradient(at, P, lyapunov.solve_adjoint(at.h * at.h.transpose()));
+  const Gradient by = gradient(at, values, P, lyapunov.solve_adjoint(at.h * at.h.transpose()));
   for (std::size_t k = 0; k < directions.size(); ++k) {
     slopes[k] = along(by.mass, directions[k].mass) + along(by.element, directions[k].element) +
                 along(by.second, directions[k].second);
@@ -149,7 +145,8 @@ double Variance::mean_square(const NetworkValues& values, const std::vector<Netw
 
 // d(h^T P h) = 2 tr(dA P Q) + 2 (2 pi S_0) B^T Q dB. With G = P Q and, of M dv/dt, dA_v = -M^-1 (dK, dC, dD)
 // - M^-1 dM A_v and dB_v = M^-1 (db - dM B_v), every term is a quadratic form of an element's direction.
-Variance::Gradient Variance::gradient(const State& at, const MatrixXd& P, const MatrixXd& Q) const {
+Variance::Gradient Variance::gradient(const State& at, const NetworkValues& values, const MatrixXd& P,
+                                      const MatrixXd& Q) const {
   const mechanics::Network& network = assembly_.network();
   const Index n = at.system.masses();
   // Back in the units of z.
@@ -173,29 +170,22 @@ Variance::Gradient Variance::gradient(const State& at, const MatrixXd& P, const 
   for (std::size_t e = 0; e < network.elements.size(); ++e) {
     const Incidence& incidence = assembly_.incidences()[e];
     const VectorXd& w = incidence.w;
-    const mechanics::ElementCoefficients& law = at.system.coefficients[e];
-    switch (network.elements[e].type) {
-      case ElementType::spring:
-        by.element[e] = w.dot(by_stiffness * w);
-        break;
-      case ElementType::damper:
-        by.element[e] = w.dot(by_damping * w);
-        break;
-      case ElementType::inerter:
-        by.element[e] = w.dot(by_inertia * w) - drift(incidence) * by_b.dot(w);
-        break;
-      case ElementType::maxwell: {
-        // s' = k w^T v - (k/c) s
-        const Index row = 2 * n + law.internal;
-        const double k = at.system.internal_stiffness[law.internal], c = law.internal_damping;
-        by.element[e] = 2.0 * (G.col(row).segment(n, n).dot(w) - G(row, row) / c);
-        by.second[e] = 2.0 * G(row, row) * k / (c * c);
-        break;
-      }
-      case ElementType::coulomb:
-      case ElementType::hysteretic:
-        break;  // refused at construction
-    }
+    const Index internal = at.system.coefficients[e].internal, row = 2 * n + internal;
+    const auto along_change = [&](const mechanics::Added<Dual>& change) {
+      const double slope =
+          change.stiffness.derivative * w.dot(by_stiffness * w) +
+          change.damping.derivative * w.dot(by_damping * w) +
+          change.inertance.derivative * (w.dot(by_inertia * w) - drift(incidence) * by_b.dot(w));
+      if (internal < 0) return slope;
+      // s' = k w^T v - rate s
+      return slope + 2.0 * (change.internal_stiffness.derivative * G.col(row).segment(n, n).dot(w) -
+                            change.internal_rate.derivative * G(row, row));
+    };
+    const ElementKind& kind = mechanics::kind_of(network.elements[e]);
+    const double value = values.element[e], second = mechanics::second_value(values, e);
+    constexpr Dual any_frequency{1.0, 0.0};  // what depends on it was refused at construction
+    by.element[e] = along_change(kind.adds(Dual{value, 1.0}, Dual{second, 0.0}, any_frequency));
+    by.second[e] = along_change(kind.adds(Dual{value, 0.0}, Dual{second, 1.0}, any_frequency));
   }
   return by;
 }

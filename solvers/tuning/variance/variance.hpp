@@ -48,7 +48,8 @@ class Variance {
 
   void check_drift() const;
   State state(const mechanics::NetworkValues& values) const;
-  Gradient gradient(const State& state, const Eigen::MatrixXd& P, const Eigen::MatrixXd& Q) const;
+  Gradient gradient(const State& state, const mechanics::NetworkValues& values, const Eigen::MatrixXd& P,
+                    const Eigen::MatrixXd& Q) const;
   double drift(const mechanics::Incidence& at) const;
 
   mechanics::Assembly assembly_;

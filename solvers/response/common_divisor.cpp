@@ -1,0 +1,170 @@
+#include "solvers/response/common_divisor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+namespace frahm::periodic {
+namespace {
+
+using mechanics::Excitation;
+using mechanics::Network;
+using mechanics::NetworkValues;
+
+// Of quantities at the reference order: they need a component there that is not zero.
+bool needs_reference_component(Measure measure) {
+  switch (measure) {
+    case Measure::phase:
+    case Measure::element_phase:
+    case Measure::magnification:
+    case Measure::transmissibility:
+    case Measure::force_transmissibility:
+      return true;
+    default:
+      return false;
+  }
+}
+
+// Counts are -1 where there is none.
+bool is_count(Measure measure) {
+  return measure == Measure::stops || measure == Measure::reversals || measure == Measure::events;
+}
+
+// Where g does not divide the reference order, any order of the excitation is: what is told at the reference
+// order is not taken from it.
+Network divided(Network network, int g) {
+  const bool divides = network.reference_order % g == 0;
+  int lowest = std::numeric_limits<int>::max();
+  for (Excitation& excitation : network.excitations) {
+    excitation.order /= g;
+    if (excitation.order > 0) lowest = std::min(lowest, excitation.order);
+  }
+  network.reference_order = divides ? network.reference_order / g : lowest;
+  return network;
+}
+
+class DividedOrders final : public ResponseSolver {
+ public:
+  DividedOrders(int divisor, int reference_order, std::vector<Quantity> quantities,
+                std::unique_ptr<ResponseSolver> solver)
+      : divisor_(divisor),
+        reference_order_(reference_order),
+        quantities_(std::move(quantities)),
+        solver_(std::move(solver)) {}
+
+  void set_values(const NetworkValues& values) override { solver_->set_values(quickened(values)); }
+  void set_forcing(const NetworkValues& values) override { solver_->set_forcing(quickened(values)); }
+  void forget() override { solver_->forget(); }
+  void begin_row() override { solver_->begin_row(); }
+  const ResponseSummary& solve() override { return solver_->solve(); }
+
+  void quantities(std::span<double> out) override {
+    solver_->quantities(out);
+    for (std::size_t i = 0; i < quantities_.size(); ++i) out[i] = told(quantities_[i].measure, out[i]);
+  }
+
+  const char* gradient(std::span<const NetworkValues> directions, std::span<double> out) override {
+    const char* reason = solver_->gradient(quickened(directions), out);
+    is_differentiable_ = *reason == '\0';
+    if (!is_differentiable_) return reason;
+    for (std::size_t i = 0; i < directions.size() * quantities_.size(); ++i)
+      out[i] = told_derivative(quantities_[i % quantities_.size()].measure, out[i]);
+    return reason;
+  }
+
+  const char* why_no_derivative(std::size_t quantity) const override {
+    if (is_differentiable_ && !has_reference_ && needs_reference_component(quantities_[quantity].measure))
+      return "the response has no component at the reference order";
+    return solver_->why_no_derivative(quantity);
+  }
+
+  const char* observe(std::span<const double> times, std::span<const Observed> observed,
+                      std::span<const NetworkValues> directions, ObservedMotion& out) override {
+    return solver_->observe(times, observed, quickened(directions), out);
+  }
+
+  History history(std::span<const double> phases) override {
+    std::vector<double> quick(phases.begin(), phases.end());
+    for (double& phase : quick) phase *= divisor_;
+    return solver_->history(quick);
+  }
+
+  std::vector<Stretch> stretches() const override {
+    const std::vector<Stretch> once = solver_->stretches();
+    std::vector<Stretch> result;
+    for (int turn = 0; turn < divisor_; ++turn) {
+      for (const Stretch& stretch : once) {
+        result.push_back(stretch);
+        result.back().start = (stretch.start + 2.0 * std::numbers::pi * turn) / divisor_;
+        result.back().length = stretch.length / divisor_;
+      }
+    }
+    return result;
+  }
+
+ private:
+  // omega_h, where it is not given, is that of the reference order at the user's own frequency.
+  const NetworkValues& quickened(const NetworkValues& values) {
+    values_ = values;
+    values_.omega *= divisor_;
+    follows_frequency_ = !(values.hysteretic_omega > 0.0);
+    if (follows_frequency_) values_.hysteretic_omega = reference_order_ * values.omega;
+    return values_;
+  }
+
+  std::span<const NetworkValues> quickened(std::span<const NetworkValues> directions) {
+    directions_.assign(directions.begin(), directions.end());
+    for (NetworkValues& direction : directions_) {
+      if (follows_frequency_) direction.hysteretic_omega = reference_order_ * direction.omega;
+      direction.omega *= divisor_;
+    }
+    return directions_;
+  }
+
+  double told(Measure measure, double value) const {
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    if (!has_reference_ && needs_reference_component(measure)) return kNone;
+    if (!has_reference_ && measure == Measure::harmonic) return std::isnan(value) ? kNone : 0.0;
+    if (measure == Measure::floquet_radius) return std::pow(value, divisor_);
+    const bool is_missing_count = value < 0.0 && is_count(measure);
+    return is_missing_count ? value : told_derivative(measure, value);
+  }
+
+  // Of what is told as a multiple of what was found, which its derivative is too.
+  double told_derivative(Measure measure, double value) const {
+    if (!has_reference_ && needs_reference_component(measure))
+      return std::numeric_limits<double>::quiet_NaN();
+    if (!has_reference_ && measure == Measure::harmonic) return 0.0;
+    if (measure == Measure::peak_phase) return value / divisor_;
+    return per_period(measure) ? value * divisor_ : value;
+  }
+
+  int divisor_, reference_order_;
+  bool has_reference_ = reference_order_ % divisor_ == 0;
+  std::vector<Quantity> quantities_;
+  std::unique_ptr<ResponseSolver> solver_;  // of the divided orders
+  NetworkValues values_;                    // as it was given them
+  std::vector<NetworkValues> directions_;
+  bool follows_frequency_ = true, is_differentiable_ = false;
+};
+
+}  // namespace
+
+int common_divisor(const Network& network) {
+  int divisor = 0;
+  for (const Excitation& excitation : network.excitations) divisor = std::gcd(divisor, excitation.order);
+  return std::max(divisor, 1);
+}
+
+std::unique_ptr<ResponseSolver> divide_orders(
+    const Network& network, std::vector<Quantity> quantities,
+    const std::function<std::unique_ptr<ResponseSolver>(const Network&, std::vector<Quantity>)>& make) {
+  const int divisor = common_divisor(network);
+  auto solver = make(divided(network, divisor), quantities);
+  return std::make_unique<DividedOrders>(divisor, network.reference_order, std::move(quantities),
+                                         std::move(solver));
+}
+
+}  // namespace frahm::periodic
