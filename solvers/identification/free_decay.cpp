@@ -190,7 +190,7 @@ void mark_undetermined(const LeastSquaresFit& fit, double size, Identification& 
     result.covariance.col(i) = result.covariance.row(i).transpose();
   }
   for (Index i = 0; i < 4; ++i) result.covariance(i, i) = std::numeric_limits<double>::infinity();
-  result.notes.push_back("the extremes are all of one size: damping and friction cannot be told apart");
+  result.notes.emplace_back("the extremes are all of one size: damping and friction cannot be told apart");
 }
 
 // How the estimates change with the extremes, each by its standard error.

@@ -68,6 +68,34 @@ TEST_CASE("rooms include each other only along the arrows") {
   }
 }
 
+// Within the solvers, from the ground up: each folder may include those before it.
+const std::vector<std::string> floors{"laws",       "algebra",   "mechanics", "flow",
+                                      "events",     "orbits",    "quantities", "smooth",
+                                      "transient",  "response",  "identification", "tuning"};
+
+TEST_CASE("a folder of the solvers includes only folders below it") {
+  const auto floor_of = [](const fs::path& file) {
+    const std::string folder = std::next(file.begin())->string();
+    return std::find(floors.begin(), floors.end(), folder) - floors.begin();
+  };
+  for (const auto& file : sources_of("solvers")) {
+    const bool is_known = floor_of(file) < static_cast<std::ptrdiff_t>(floors.size());
+    INFO(file.string());
+    CHECK(is_known);
+    for (const Include& include : includes_of(file)) {
+      if (fs::path(include.name).begin()->string() != "solvers") continue;
+      INFO("includes " << include.name);
+      CHECK(floor_of(include.name) <= floor_of(file));
+    }
+  }
+}
+
+TEST_CASE("no source is a body that does not compile alone") {
+  for (const auto& [room, allowed] : arrows) {
+    for (const auto& file : sources_of(room)) CHECK(file.extension() != ".ipp");
+  }
+}
+
 TEST_CASE("our own headers are named from the root of the repository") {
   for (const Include& include : all_includes()) {
     if (!fs::exists((root / include.file).parent_path() / include.name)) continue;
