@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "solvers/flow/flow.hpp"
+#include "solvers/events/walk.hpp"
 #include "tests/known_answers/responses.hpp"
 #include "tests/known_answers/single_mass.hpp"
 
@@ -26,7 +26,7 @@ Eigen::Vector2d march(const mechanics::NetworkValues& values, int periods) {
   Passage<1, 1> passage;
   Eigen::Vector2d z = Eigen::Vector2d::Zero();
   for (int period = 0; period < periods; ++period) {
-    flow.pass(z, 0.0, flow.equations().period, passage);
+    Walk(flow).pass(z, 0.0, flow.equations().period, passage);
     REQUIRE(passage.failure == nullptr);
     z = passage.end;
   }

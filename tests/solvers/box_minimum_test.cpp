@@ -13,7 +13,7 @@ constexpr double kOptimality = 1e-10;  // of the slope, relative to |c|
 
 // Karush-Kuhn-Tucker: the slope G lambda - c is zero inside, points inwards at neither bound.
 void check_minimum(const MatrixXd& G, const VectorXd& c, const VectorXd& limit) {
-  const VectorXd lambda = box_minimum(G, c, -limit, limit, limit);
+  const VectorXd lambda = box_minimum(G, c, -limit, limit, limit).lambda;
   const VectorXd slope = G * lambda - c;
   const double scale = c.cwiseAbs().maxCoeff() + G.cwiseAbs().maxCoeff() * limit.maxCoeff();
   for (Index j = 0; j < c.size(); ++j) {
@@ -42,7 +42,7 @@ TEST_CASE("The minimum over a box satisfies its optimality conditions, for defin
 TEST_CASE("Of forces that serve equally those of least sum (lambda / F)^2 are taken") {
   const MatrixXd G = MatrixXd::Ones(2, 2);
   const VectorXd limit = Eigen::Vector2d(3.0, 1.0), c = Eigen::Vector2d(2.0, 2.0);
-  const VectorXd lambda = box_minimum(G, c, -limit, limit, limit);
+  const VectorXd lambda = box_minimum(G, c, -limit, limit, limit).lambda;
   // lambda_1 + lambda_2 = 2 and lambda_1 / 9 = lambda_2
   CHECK_THAT(lambda[0], WithinAbs(1.8, 1e-14));
   CHECK_THAT(lambda[1], WithinAbs(0.2, 1e-14));
@@ -56,7 +56,7 @@ TEST_CASE("A limit of any size beside small ones leaves the small ones their dig
   for (const double large : {1.0, 1e4, 1e7, 1e12}) {
     INFO("large limit " << large);
     const VectorXd limit = Eigen::Vector2d(large, 1.0);
-    const VectorXd lambda = box_minimum(G, c, -limit, limit, limit);
+    const VectorXd lambda = box_minimum(G, c, -limit, limit, limit).lambda;
     CHECK_THAT(lambda[0], WithinAbs(0.65, 1e-15));
     CHECK_THAT(lambda[1], WithinAbs(0.35, 1e-15));
   }
@@ -65,7 +65,7 @@ TEST_CASE("A limit of any size beside small ones leaves the small ones their dig
 TEST_CASE("Beyond all limits together every contact stands at its own") {
   const MatrixXd G = MatrixXd::Ones(3, 3);
   const VectorXd limit = Eigen::Vector3d(1.0, 2.0, 0.5), c = Eigen::Vector3d::Constant(-9.0);
-  CHECK(box_minimum(G, c, -limit, limit, limit) == -limit);
+  CHECK(box_minimum(G, c, -limit, limit, limit).lambda == -limit);
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ Eigen::Vector2d accelerations_from_rest(double pull, double to_ground, double be
   flow.set_forcing(system);
   Passage<2, 1> passage;
   constexpr double kTime = 1e-3;  // [s]
-  flow.pass(Eigen::Vector4d::Zero(), 0.0, kTime / flow.equations().step, passage);
+  Walk(flow).pass(Eigen::Vector4d::Zero(), 0.0, kTime / flow.equations().step, passage);
   REQUIRE(passage.failure == nullptr);
   return passage.end.head<2>() * 2.0 / (kTime * kTime);
 }
@@ -170,7 +170,7 @@ TEST_CASE("5. A stop leaves a multiplier of exactly zero, a reversal none") {
     flow.set_system(system);
     flow.set_forcing(system);
     Passage<1, 1> passage;
-    flow.pass(Eigen::Vector2d(0.3, 0.2), 0.0, 3.0 * flow.equations().period, passage);
+    Walk(flow).pass(Eigen::Vector2d(0.3, 0.2), 0.0, 3.0 * flow.equations().period, passage);
     bool stuck = false;
     for (const auto& segment : passage.segments) stuck |= flow.mode(segment.mode).stuck != 0;
     const double determinant = passage.tangent.determinant() / passage.tangent.squaredNorm();

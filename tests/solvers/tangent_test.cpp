@@ -2,7 +2,7 @@
 #include <cmath>
 #include <random>
 
-#include "solvers/flow/flow.hpp"
+#include "solvers/events/walk.hpp"
 #include "tests/known_answers/random_network.hpp"
 
 // The derivative of the flow through its events, product of flow and saltation matrices, against differences.
@@ -30,8 +30,8 @@ bool difference(AnyFlow& flow, const Eigen::VectorXd& z, double length, const Pa
   Passage<kAny, kAny> ahead, behind;
   for (Eigen::Index column = 0; column < z.size(); ++column) {
     const Eigen::VectorXd step = kStep * Eigen::VectorXd::Unit(z.size(), column);
-    flow.pass(z + step, 0.3, length, ahead);
-    flow.pass(z - step, 0.3, length, behind);
+    Walk(flow).pass(z + step, 0.3, length, ahead);
+    Walk(flow).pass(z - step, 0.3, length, behind);
     if (!same_sequence(flow, centre, ahead) || !same_sequence(flow, centre, behind)) return false;
     result.col(column) = (ahead.end - behind.end) / (2.0 * kStep);
   }
@@ -56,7 +56,7 @@ TEST_CASE("The derivative through stops, releases and reversals is that of diffe
         flow.set_forcing(system);
         const Eigen::VectorXd z = Eigen::VectorXd::NullaryExpr(2 * masses, [&] { return normal(random); });
         Passage<kAny, kAny> passage;
-        flow.pass(z, 0.3, flow.equations().period, passage);
+        Walk(flow).pass(z, 0.3, flow.equations().period, passage);
         REQUIRE(passage.failure == nullptr);
         Eigen::MatrixXd expected;
         if (passage.margin < 1e-3 || !difference(flow, z, flow.equations().period, passage, expected))
@@ -99,8 +99,8 @@ TEST_CASE("The distance of two motions never grows in the energy norm") {
     double distance = flow.equations().energy_norm(a - b);
     for (int part = 0; part < 10; ++part) {
       const double length = 0.2 * flow.equations().period, phase = part * 0.4 * M_PI;
-      flow.pass(a, phase, length, first);
-      flow.pass(b, phase, length, second);
+      Walk(flow).pass(a, phase, length, first);
+      Walk(flow).pass(b, phase, length, second);
       a = first.end;
       b = second.end;
       const double now = flow.equations().energy_norm(a - b);
