@@ -1,6 +1,7 @@
 #include "solvers/mechanics/element_table.hpp"
 
 #include "solvers/laws/coulomb.hpp"
+#include "solvers/laws/jenkins.hpp"
 
 namespace frahm::mechanics {
 namespace {
@@ -51,6 +52,15 @@ constexpr ElementKind kKinds[] = {
          [](auto k, auto c, auto) {
            return Added<decltype(k)>{.internal_stiffness = k, .internal_rate = k / c, .internal_damping = c};
          },
+     .has_internal_force = true,
+     .dissipates = true},
+    // s' = k v while its slider sticks, s = +-F while it slides
+    {.type = ElementType::jenkins,
+     .name = "jenkins",
+     .value = {"stiffness", Dimension::stiffness, Range::positive},
+     .second = {"force", Dimension::force, Range::not_negative},
+     .adds = [](auto k, auto F, auto) { return Added<decltype(k)>{.limit = F, .internal_stiffness = k}; },
+     .law = &laws::jenkins,
      .has_internal_force = true,
      .dissipates = true},
 };

@@ -176,7 +176,9 @@ void Assembly::set_values(const NetworkValues& values, LinearSystem& system) con
       system.internal_rate[place] = added.internal_rate;
     }
   }
-  require_positive_definite(system.M, "mass", "a mass of zero needs an inerter that moves with it");
+  require_positive_definite(system.M, "mass",
+                            "a mass of zero needs an inerter that moves with it; a spring and a slider in "
+                            "series are one jenkins element");
   require_positive_definite(system.K, "stiffness",
                             "some motion is held by no spring, or a negative stiffness is too large");
 }

