@@ -46,11 +46,12 @@ struct LimitState {
 
 // One exchange: the problem over the active frequencies solved, then the true maxima found.
 struct Round {
-  std::size_t active = 0;  // frequencies
-  int iterations = 0;      // of the optimiser
-  double bound = 0.0;      // objective of the problem over the active frequencies
-  double worst = 0.0;      // true objective of its design
-  double violation = 0.0;  // of the limits, relative
+  std::size_t active = 0;                 // frequencies
+  int iterations = 0;                     // of the optimiser
+  double bound = 0.0;                     // objective of the problem over the active frequencies
+  double worst = 0.0;                     // true objective of its design
+  double violation = 0.0;                 // of the limits, relative
+  SolverKind solver = SolverKind::ipopt;  // of the problem; after a fall-back not the task's
 };
 
 struct Optimum {

@@ -9,6 +9,7 @@
 
 #include "solvers/mechanics/network.hpp"
 #include "solvers/quantities/quantity.hpp"
+#include "solvers/tuning/problem/solver.hpp"
 #include "solvers/tuning/variance/noise.hpp"
 
 // What is to be tuned: a network whose numbers depend on design parameters, a band of frequencies, and what
@@ -98,8 +99,8 @@ struct Task {
   // Scheduled parameters only: the response is at no frequency above that of the best constant.
   bool dominate_constant = false;
 
-  std::string solver = "ipopt";        // or a local algorithm of NLopt
-  std::string global_solver = "crs2";  // of Start::global
+  SolverKind solver = SolverKind::ipopt;        // a local one
+  SolverKind global_solver = SolverKind::crs2;  // of Start::global
   Start start = Start::given;
   std::size_t starts = 1;  // of Start::many
   double tolerance =

@@ -116,8 +116,9 @@ void add_tuning(const StudyFile& study, CanonicalText& text) {
   const auto band = [](const tuning::Band& range) { return fmt::format("{} {}", range.from, range.to); };
   text.line("kind tune objective {} of {}", static_cast<int>(tune.objective), tune.quantity_name);
   if (tune.band) text.line("band {} {}", names[tune.band->parameter], band(tune.band->range));
-  text.line("solver {} start {} global {} tolerance {}", tune.solver, static_cast<int>(tune.start),
-            tune.start == tuning::Start::global ? tune.global_solver : "", tune.tolerance);
+  text.line("solver {} start {} global {} tolerance {}", tuning::name(tune.solver),
+            static_cast<int>(tune.start),
+            tune.start == tuning::Start::global ? tuning::name(tune.global_solver) : "", tune.tolerance);
   if (tune.weight) text.line("weight {}", tune.weight->expression.canonical_text(names));
   if (tune.objective == tuning::Objective::variance)
     text.line("noise {} {} {}", static_cast<int>(tune.noise.kind), tune.noise.node, tune.noise.intensity);

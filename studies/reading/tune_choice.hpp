@@ -74,8 +74,8 @@ struct TuneChoice {
   std::string quantity_name;
   periodic::Quantity quantity;
   std::optional<BandChoice> band;  // only a variance without limits has none
-  std::string solver = "ipopt";
-  std::string global_solver = "crs2";
+  tuning::SolverKind solver = tuning::SolverKind::ipopt;
+  tuning::SolverKind global_solver = tuning::SolverKind::crs2;
   tuning::Start start = tuning::Start::given;
   std::size_t starts = 1;
   double tolerance = 1e-6;

@@ -129,7 +129,8 @@ void read_start(const TomlSection& section, TuneChoice& choice) {
   }
   if (section.find("global") && choice.start != tuning::Start::global)
     section.fail("global", "is the search of start = \"nlopt\", and the start is another");
-  choice.global_solver = section.choice_or("global", {"crs2", "isres", "direct", "mlsl"});
+  choice.global_solver =
+      tuning::solver_named(section.choice_or("global", {"crs2", "isres", "direct", "mlsl"}));
 }
 
 void read_tolerance(const TomlSection& section, TuneChoice& choice) {
@@ -296,7 +297,7 @@ void read_tuning(const StudyContext& context, const TomlValue& root, StudyFile& 
   if (choice.objective == Objective::variance) check_variance(reading, section);
   read_noise(reading, section);
   read_band(reading, section);
-  choice.solver = section.choice_or("solver", {"ipopt", "slsqp", "mma"});
+  choice.solver = tuning::solver_named(section.choice_or("solver", {"ipopt", "slsqp", "mma"}));
   read_start(section, choice);
   read_tolerance(section, choice);
   read_trade_off(reading, section);

@@ -40,7 +40,7 @@ std::string start_text(const TuneChoice& tune) {
     case tuning::Start::given:
       return "given";
     case tuning::Start::global:
-      return "nlopt " + tune.global_solver;
+      return std::string("nlopt ") + tuning::name(tune.global_solver);
     case tuning::Start::many:
       break;
   }
@@ -131,7 +131,7 @@ std::vector<results::Text> optimum_texts(const StudyFile& study, const TuningRes
                                       {"parameters", fmt::format("{}", fmt::join(designs, ","))},
                                       {"scenarios", fmt::format("{}", fmt::join(scenario_names(study), ","))},
                                       {"limits", fmt::format("{}", fmt::join(limits, ","))},
-                                      {"solver", tune.solver},
+                                      {"solver", tuning::name(tune.solver)},
                                       {"start", start_text(tune)}};
   if (tune.objective == tuning::Objective::variance) add_noise(study, texts);
   if (tune.dominate_constant) texts.emplace_back("dominate", "constant");

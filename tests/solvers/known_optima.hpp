@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "solvers/tuning/problem/problem.hpp"
+#include "solvers/tuning/problem/solver.hpp"
 
 // Problems whose optima and multipliers are known.
 namespace frahm::tuning {

@@ -115,21 +115,18 @@ class PeakTuning : public Problem {
 
 TEST_CASE("the least highest peak of an absorber is that of Nishihara and Asami") {
   for (const double mu : {0.02, 0.1}) {
-    for (const std::string solver : {"ipopt", "slsqp"}) {
-      INFO(solver << ", mu " << mu);
-      const auto solve = [&](Problem& problem) {
-        return solver == "ipopt" ? solve_with_ipopt(problem) : solve_with_nlopt(problem, solver);
-      };
+    for (const SolverKind solver : {SolverKind::ipopt, SolverKind::slsqp}) {
+      INFO(name(solver) << ", mu " << mu);
       const AbsorberOptimum exact = nishihara_asami(mu);
       PeakTuning problem(mu, 1.3, 0.03);
-      const Solution on_grid = solve(problem);
+      const Solution on_grid = solve(problem, solver);
       CHECK(on_grid.ending == Ending::converged);
       CHECK(on_grid.objective < exact.peak);  // a grid misses the peaks
       CHECK_THAT(on_grid.objective, WithinRel(exact.peak, 1e-3));
 
       problem.follow_peaks(on_grid.x);
       REQUIRE(problem.constraints.size() == 2);
-      const Solution solution = solve(problem);
+      const Solution solution = solve(problem, solver);
       CHECK(solution.ending <= Ending::acceptable);
       CHECK_THAT(solution.objective, WithinRel(exact.peak, kPeak));
       CHECK_THAT(std::exp(solution.x[0]), WithinAbs(exact.f, kTuning));

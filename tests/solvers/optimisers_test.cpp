@@ -19,18 +19,19 @@ constexpr double kMultiplier = 1e-7;  // relative: a multiplier is of first orde
 constexpr double kGlobal = 1e-3;      // of x: a search without gradients, cut off by its evaluations
 
 struct Solver {
-  std::string name;
+  SolverKind kind;
   SolverOptions options = {};
   double point = kPoint;
 
-  Solution solve(Problem& problem) const {
-    return name == "ipopt" ? solve_with_ipopt(problem, options) : solve_with_nlopt(problem, name, options);
-  }
+  const char* name() const { return tuning::name(kind); }
+  Solution solve(Problem& problem) const { return tuning::solve(problem, kind, options); }
 };
 
 // MMA takes many small steps, and by the objective alone, whose rounding hides the last digits of x.
 const std::vector<Solver> local_solvers{
-    {"ipopt"}, {"slsqp"}, {"mma", {.tolerance = 1e-8, .most_iterations = 20000}, 1e-6}};
+    {SolverKind::ipopt},
+    {SolverKind::slsqp},
+    {SolverKind::mma, {.tolerance = 1e-8, .most_iterations = 20000}, 1e-6}};
 
 void check_converged(const Solution& solution, const Solver& solver) {
   INFO(name(solution.ending) << ": " << solution.reason);
@@ -50,7 +51,7 @@ void check_point(const Solution& solution, const Solver& solver, const std::vect
 
 TEST_CASE("every local solver finds the bottom of Rosenbrock's valley") {
   for (const Solver& solver : local_solvers) {
-    INFO(solver.name);
+    INFO(solver.name());
     Rosenbrock problem;
     const Solution solution = solver.solve(problem);
     check_converged(solution, solver);
@@ -60,7 +61,7 @@ TEST_CASE("every local solver finds the bottom of Rosenbrock's valley") {
 
 TEST_CASE("a region where the problem is not defined is stepped over") {
   for (const Solver& solver : local_solvers) {
-    INFO(solver.name);
+    INFO(solver.name());
     Rosenbrock problem(1.6);  // the start is at a radius of 1.56, the minimum at 1.41
     const Solution solution = solver.solve(problem);
     check_converged(solution, solver);
@@ -70,7 +71,7 @@ TEST_CASE("a region where the problem is not defined is stepped over") {
 
 TEST_CASE("an active bound has the multiplier of what relaxing it gains") {
   for (const Solver& solver : local_solvers) {
-    INFO(solver.name);
+    INFO(solver.name());
     Rosenbrock problem;
     problem.variables[0].upper = 0.5;  // min over x2 is (1 - x1)^2, its slope -1 at 0.5
     const Solution solution = solver.solve(problem);
@@ -84,8 +85,8 @@ TEST_CASE("an active bound has the multiplier of what relaxing it gains") {
 // SLSQP's line search compares values: with equality constraints their rounding can end it above 1e-9, which
 // depends on the compiler's options.
 TEST_CASE("Hock and Schittkowski's problem 71 has its published optimum and multipliers") {
-  for (const Solver& solver : {Solver{"ipopt"}, Solver{"slsqp", {.tolerance = 1e-8}}}) {
-    INFO(solver.name);
+  for (const Solver& solver : {Solver{SolverKind::ipopt}, Solver{SolverKind::slsqp, {.tolerance = 1e-8}}}) {
+    INFO(solver.name());
     HockSchittkowski71 problem;
     const Solution solution = solver.solve(problem);
     check_converged(solution, solver);
@@ -105,9 +106,10 @@ TEST_CASE("a multiplier is what relaxing its bound gains") {
   looser.constraints[0].lower -= step;
   tighter.constraints[0].lower += step;
   const double slope =
-      (solve_with_ipopt(tighter).objective - solve_with_ipopt(looser).objective) / (2.0 * step);
+      (solve(tighter, SolverKind::ipopt).objective - solve(looser, SolverKind::ipopt).objective) /
+      (2.0 * step);
   // Differences of second order in the step, with objectives to 1e-9.
-  CHECK_THAT(-solve_with_ipopt(problem).constraint_multipliers[0], WithinAbs(slope, 2e-5));
+  CHECK_THAT(-solve(problem, SolverKind::ipopt).constraint_multipliers[0], WithinAbs(slope, 2e-5));
 }
 
 TEST_CASE("a linear minimax in epigraph form has its vertex and multipliers, whatever its unit") {
@@ -129,7 +131,7 @@ TEST_CASE("a linear minimax in epigraph form has its vertex and multipliers, wha
 
 TEST_CASE("a fixed variable stays where it is, with the multiplier of its bound") {
   for (const Solver& solver : local_solvers) {
-    INFO(solver.name);
+    INFO(solver.name());
     Rosenbrock problem;
     problem.variables[0].lower = problem.variables[0].upper = 0.5;
     const Solution solution = solver.solve(problem);
@@ -162,7 +164,7 @@ GivenProblem infeasible_problem() {
 
 TEST_CASE("constraints that cannot be met end as infeasible, where they are violated least") {
   for (const Solver& solver : local_solvers) {
-    INFO(solver.name);
+    INFO(solver.name());
     GivenProblem problem = infeasible_problem();
     const Solution solution = solver.solve(problem);
     CHECK(solution.ending == Ending::infeasible);
@@ -172,7 +174,7 @@ TEST_CASE("constraints that cannot be met end as infeasible, where they are viol
 
 TEST_CASE("an objective without limit ends as diverging or at the limit of iterations") {
   for (const Solver& solver : local_solvers) {
-    INFO(solver.name);
+    INFO(solver.name());
     GivenProblem problem = infeasible_problem();
     problem.constraints.clear();
     problem.jacobian.clear();
@@ -184,7 +186,7 @@ TEST_CASE("an objective without limit ends as diverging or at the limit of itera
 
 TEST_CASE("a start where the problem is not defined is a failure that says so") {
   for (const Solver& solver : local_solvers) {
-    INFO(solver.name);
+    INFO(solver.name());
     Rosenbrock problem(0.5);
     const Solution solution = solver.solve(problem);
     CHECK(solution.ending == Ending::failed);
@@ -194,7 +196,7 @@ TEST_CASE("a start where the problem is not defined is a failure that says so") 
 
 TEST_CASE("a stop asked for ends the solve with the best point so far") {
   for (const Solver& solver : local_solvers) {
-    INFO(solver.name);
+    INFO(solver.name());
     Rosenbrock valley;
     GivenProblem problem;
     int asked = 0;
@@ -215,9 +217,9 @@ TEST_CASE("a stop asked for ends the solve with the best point so far") {
 
 TEST_CASE("the iterations allowed are kept to") {
   for (const Solver& solver : local_solvers) {
-    INFO(solver.name);
+    INFO(solver.name());
     Rosenbrock problem;
-    const Solution solution = Solver{solver.name, {.most_iterations = 5}}.solve(problem);
+    const Solution solution = Solver{solver.kind, {.most_iterations = 5}}.solve(problem);
     CHECK(solution.ending == Ending::iteration_limit);
     CHECK(solution.iterations <= 5);
     CHECK(solution.objective < 24.2);  // that of the start
@@ -225,10 +227,8 @@ TEST_CASE("the iterations allowed are kept to") {
 }
 
 TEST_CASE("an exception of the problem comes through the solver as it was thrown") {
-  std::vector<std::string> names{"ipopt"};
-  for (const Algorithm& algorithm : nlopt_algorithms()) names.push_back(algorithm.name);
-  for (const std::string& name : names) {
-    INFO(name);
+  for (const SolverKind kind : kSolvers) {
+    INFO(name(kind));
     Rosenbrock valley;
     GivenProblem problem;
     int calls = 0;
@@ -238,21 +238,21 @@ TEST_CASE("an exception of the problem comes through the solver as it was thrown
       if (++calls > 10) throw std::out_of_range("beyond the table");
       return valley.objective(x, gradient);
     };
-    CHECK_THROWS_AS(Solver{name}.solve(problem), std::out_of_range);
+    CHECK_THROWS_AS(Solver{kind}.solve(problem), std::out_of_range);
     CHECK(calls == 11);  // it was not asked again
   }
 }
 
 TEST_CASE("every global search comes near the bottom of the valley, the same in every run") {
-  for (const Algorithm& algorithm : nlopt_algorithms()) {
-    if (!algorithm.global) continue;
-    INFO(algorithm.name);
+  for (const SolverKind kind : kSolvers) {
+    if (!abilities(kind).global) continue;
+    INFO(name(kind));
     Rosenbrock problem(2.5);
     for (Variable& v : problem.variables) v.lower = -3.0, v.upper = 3.0;
-    const Solution solution = solve_with_nlopt(problem, algorithm.name);
+    const Solution solution = solve(problem, kind);
     CHECK((solution.ending == Ending::iteration_limit || solution.ending == Ending::converged));
     for (const double x : solution.x) CHECK_THAT(x, WithinAbs(1.0, kGlobal));
-    CHECK(solve_with_nlopt(problem, algorithm.name).x == solution.x);
+    CHECK(solve(problem, kind).x == solution.x);
   }
 }
 
@@ -260,7 +260,7 @@ TEST_CASE("a global search with constraints comes near the optimum") {
   LinearMinimax problem;
   problem.variables[2].lower = -50.0;
   problem.variables[2].upper = 50.0;
-  const Solution solution = solve_with_nlopt(problem, "isres", {.most_iterations = 2000});
+  const Solution solution = solve(problem, SolverKind::isres, {.most_iterations = 2000});
   CHECK(solution.infeasibility <= SolverOptions().feasibility);
   CHECK_THAT(solution.objective, WithinAbs(0.0, 0.1));  // of a range of 100, by random numbers alone
 }
@@ -269,27 +269,25 @@ TEST_CASE("an algorithm refuses what it does not take, naming those that do") {
   HockSchittkowski71 equality;
   LinearMinimax inequality;
   Rosenbrock unbounded;
-  CHECK_THROWS_WITH(solve_with_nlopt(equality, "mma"), Contains("'squares'") && Contains("slsqp, isres"));
-  CHECK_THROWS_WITH(solve_with_nlopt(inequality, "crs2"),
-                    Contains("'rise'") && Contains("slsqp, mma, isres"));
-  CHECK_THROWS_WITH(solve_with_nlopt(unbounded, "direct"), Contains("'x1'") && Contains("infinite"));
-  CHECK_THROWS_WITH(solve_with_nlopt(unbounded, "simplex"),
-                    Contains("slsqp, mma, mlsl, isres, direct, crs2"));
+  CHECK_THROWS_WITH(solve(equality, SolverKind::mma), Contains("'squares'") && Contains("slsqp, isres"));
+  CHECK_THROWS_WITH(solve(inequality, SolverKind::crs2), Contains("'rise'") && Contains("slsqp, mma, isres"));
+  CHECK_THROWS_WITH(solve(unbounded, SolverKind::direct), Contains("'x1'") && Contains("infinite"));
+  CHECK_THROWS_WITH(solver_named("simplex"), Contains("ipopt, slsqp, mma, mlsl, isres, direct, crs2"));
 }
 
 TEST_CASE("a problem that makes no sense is refused by name") {
   Rosenbrock problem;
   problem.variables[1].scale = 0.0;
-  CHECK_THROWS_WITH(solve_with_ipopt(problem), Contains("scale of variable 'x2' = 0"));
+  CHECK_THROWS_WITH(solve(problem, SolverKind::ipopt), Contains("scale of variable 'x2' = 0"));
   problem.variables[1] = {.name = "x2", .lower = 2.0, .upper = 1.0};
-  CHECK_THROWS_WITH(solve_with_nlopt(problem, "slsqp"), Contains("'x2' = 2") && Contains("upper bound"));
+  CHECK_THROWS_WITH(solve(problem, SolverKind::slsqp), Contains("'x2' = 2") && Contains("upper bound"));
   problem.variables[1] = {.name = "x2", .start = std::nan("")};
-  CHECK_THROWS_AS(solve_with_ipopt(problem), std::invalid_argument);
+  CHECK_THROWS_AS(solve(problem, SolverKind::ipopt), std::invalid_argument);
 }
 
 TEST_CASE("the KKT residual tells an optimum from what is none") {
   HockSchittkowski71 problem;
-  const Solution solution = solve_with_ipopt(problem);
+  const Solution solution = solve(problem, SolverKind::ipopt);
   Linearization at{.x = solution.x,
                    .objective = solution.objective,
                    .gradient = std::vector<double>(4),
@@ -336,7 +334,7 @@ TEST_CASE("several starts find the lowest of several minima") {
     const double x[] = {-4.0 + 1e-4 * k};
     lowest = std::min(lowest, three_valleys(x, {}));
   }
-  for (const Solver& solver : {Solver{"ipopt"}, Solver{"slsqp"}}) {
+  for (const Solver& solver : {Solver{SolverKind::ipopt}, Solver{SolverKind::slsqp}}) {
     double best = kInfinity, first = 0.0;
     for (std::size_t start = 0; start < 8; ++start) {
       problem.variables[0].start = 3.0;
@@ -345,7 +343,7 @@ TEST_CASE("several starts find the lowest of several minima") {
       if (start == 0) first = found;
       best = std::min(best, found);
     }
-    INFO(solver.name);
+    INFO(solver.name());
     CHECK(first > lowest + 0.1);
     CHECK_THAT(best, WithinAbs(lowest, 1e-7));  // the grid is that fine
   }

@@ -181,13 +181,12 @@ class AbsorberTuning : public Problem {
 TEST_CASE("both solvers tune the absorber to the known optima from poor starts") {
   for (const Case& at : known_optima()) {
     for (const auto& [f, zeta] : {Tuning{0.3, 1.5}, Tuning{2.5, 0.02}, Tuning{1.2, 3.0}}) {
-      for (const std::string solver : {"ipopt", "slsqp"}) {
+      for (const SolverKind solver : {SolverKind::ipopt, SolverKind::slsqp}) {
         INFO(at.name << ", mu " << at.mu << ", beta " << at.beta << ", from " << f << ", " << zeta << " by "
-                     << solver);
+                     << name(solver));
         AbsorberTuning problem(at, f, zeta);
         const SolverOptions options{.tolerance = 1e-10};
-        const Solution solution = solver == "ipopt" ? solve_with_ipopt(problem, options)
-                                                    : solve_with_nlopt(problem, solver, options);
+        const Solution solution = solve(problem, solver, options);
         INFO(name(solution.ending) << " " << solution.kkt_residual);
         CHECK(solution.ending <= Ending::acceptable);
         CHECK_THAT(std::exp(solution.x[0]), WithinAbs(at.known.f, kTuning));

@@ -45,21 +45,21 @@ TEST_CASE("a tuning has its defaults, and its choices where they are made") {
   REQUIRE(plain.tune);
   CHECK(plain.kind == StudyKind::tune);
   CHECK(plain.tune->objective == Objective::minimax);
-  CHECK(plain.tune->solver == "ipopt");
+  CHECK(plain.tune->solver == frahm::tuning::SolverKind::ipopt);
   CHECK(plain.tune->start == Start::given);
   CHECK(plain.tune->starts == 1);
   CHECK(plain.tune->tolerance == 1e-6);
   CHECK_FALSE(plain.tune->dominate_constant);
   const StudyFile chosen =
       parse(heading + absorber + minimax + "solver = \"mma\"\nstart = 32\ntolerance = 1e-8\n" + of_f);
-  CHECK(chosen.tune->solver == "mma");
+  CHECK(chosen.tune->solver == frahm::tuning::SolverKind::mma);
   CHECK(chosen.tune->start == Start::many);
   CHECK(chosen.tune->starts == 32);
   CHECK(chosen.tune->tolerance == 1e-8);
   const StudyFile global =
       parse(heading + absorber + minimax + "start = \"nlopt\"\nglobal = \"isres\"\n" + of_f);
   CHECK(global.tune->start == Start::global);
-  CHECK(global.tune->global_solver == "isres");
+  CHECK(global.tune->global_solver == frahm::tuning::SolverKind::isres);
 }
 
 TEST_CASE("bands, bounds, knots and slopes are in the units the study gives, SI within") {

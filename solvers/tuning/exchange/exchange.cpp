@@ -1,9 +1,8 @@
-#include "solvers/tuning/exchange/exchange.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "solvers/tuning/exchange/band_quadrature.hpp"
+#include "solvers/tuning/exchange/exchange.hpp"
 
 namespace frahm::tuning {
 namespace {
@@ -194,14 +193,13 @@ double Exchange::integral(const Goal& goal, std::span<const double> x) {
 
 // The best design over the active frequencies.
 Exchange::Step Exchange::solve(const Goal& goal, std::span<const double> x,
-                               const std::vector<ActivePoint>& active, const std::string& solver,
+                               const std::vector<ActivePoint>& active, SolverKind solver,
                                const SolverOptions& options) {
   const std::vector<QuadratureNode> nodes = quadrature(x, goal);
   ActiveProblem problem(task_, space_, goal, curves_, active, nodes, effort_, stop_asked_);
   problem.start_at(x);
   Step step;
-  step.solution = task_.solver == "ipopt" ? solve_with_ipopt(problem, options)
-                                          : solve_with_nlopt(problem, solver, options);
+  step.solution = tuning::solve(problem, solver, options);
   const std::vector<double>& solved = step.solution.x;
   step.x.assign(solved.begin(), solved.begin() + static_cast<std::ptrdiff_t>(space_.variables()));
   step.active = active;
@@ -246,9 +244,10 @@ Exchange::Result Exchange::stopped(Result result) {
 // Where Ipopt does not get there, SLSQP tries from the same design.
 Exchange::Result Exchange::run(const Goal& goal, const std::vector<double>& x) {
   Result first = run_with(task_.solver, goal, x);
-  const bool has_more = first.has_step && first.outcome == Outcome::not_converged && task_.solver == "ipopt";
+  const bool has_more =
+      first.has_step && first.outcome == Outcome::not_converged && task_.solver == SolverKind::ipopt;
   if (!has_more) return first;
-  Result second = run_with("slsqp", goal, x);
+  Result second = run_with(SolverKind::slsqp, goal, x);
   second.rounds.insert(second.rounds.begin(), first.rounds.begin(), first.rounds.end());
   const bool keeps =
       second.has_step && second.outcome != Outcome::infeasible &&
@@ -258,7 +257,7 @@ Exchange::Result Exchange::run(const Goal& goal, const std::vector<double>& x) {
   return first;
 }
 
-Exchange::Result Exchange::run_with(const std::string& solver, const Goal& goal, std::vector<double> x) {
+Exchange::Result Exchange::run_with(SolverKind solver, const Goal& goal, std::vector<double> x) {
   Result result;
   result.x = x;
   result.scan = scan_.of(x, kHighPeaks, kFine);
@@ -286,7 +285,7 @@ Exchange::Result Exchange::run_with(const std::string& solver, const Goal& goal,
     if (stop_asked_()) return stopped(std::move(result));
     const double gap = gap_of(goal, step, found);
     result.rounds.push_back({active.size(), step.solution.iterations, step.solution.objective, found.worst,
-                             std::max(0.0, found.violation)});
+                             std::max(0.0, found.violation), solver});
     if (!space_.has_schedule() && round < kRoundsThatDrop) drop_idle(goal, step, active);
     const bool exact = near_end && is_solved(step.solution);
     near_end = settles || (std::abs(gap) < kNearEnd && found.violation < kNearEnd);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <string>
 #include <vector>
 
 #include "solvers/tuning/exchange/active_problem.hpp"
@@ -49,9 +48,9 @@ class Exchange {
   double integral(const Goal& goal, std::span<const double> x);
 
  private:
-  Result run_with(const std::string& solver, const Goal& goal, std::vector<double> x);
+  Result run_with(SolverKind solver, const Goal& goal, std::vector<double> x);
   Step solve(const Goal& goal, std::span<const double> x, const std::vector<ActivePoint>& active,
-             const std::string& solver, const SolverOptions& options);
+             SolverKind solver, const SolverOptions& options);
   std::vector<QuadratureNode> quadrature(std::span<const double> x, const Goal& goal) const;
   bool is_bounded(const Goal& goal, std::size_t curve) const;
   std::vector<ActivePoint> first_active(const Goal& goal, const Scan& scan) const;

@@ -1,3 +1,5 @@
+#include "solvers/tuning/problem/ipopt.hpp"
+
 #include <IpIpoptApplication.hpp>
 #include <IpIpoptCalculatedQuantities.hpp>
 #include <IpTNLP.hpp>

@@ -1,3 +1,5 @@
+#include "solvers/tuning/problem/nlopt.hpp"
+
 #include <nlopt.h>
 
 #include <algorithm>
@@ -22,58 +24,24 @@ constexpr int kRestarts = 20;
 // Evaluations of a global search per iteration and (variables + 1).
 constexpr int kPopulation = 10;
 
-struct NamedAlgorithm {
-  Algorithm algorithm;
-  nlopt_algorithm code;
-};
-
-const std::vector<NamedAlgorithm>& named_algorithms() {
-  static const std::vector<NamedAlgorithm> all{
-      {{.name = "slsqp", .inequalities = true, .equalities = true, .gradients = true}, NLOPT_LD_SLSQP},
-      {{.name = "mma", .inequalities = true, .gradients = true}, NLOPT_LD_MMA},
-      {{.name = "mlsl", .global = true, .gradients = true}, NLOPT_G_MLSL_LDS},
-      {{.name = "isres", .global = true, .inequalities = true, .equalities = true}, NLOPT_GN_ISRES},
-      {{.name = "direct", .global = true}, NLOPT_GN_DIRECT_L},
-      {{.name = "crs2", .global = true}, NLOPT_GN_CRS2_LM}};
-  return all;
-}
-
-const NamedAlgorithm& find_algorithm(const std::string& name) {
-  std::string known;
-  for (const NamedAlgorithm& candidate : named_algorithms()) {
-    if (candidate.algorithm.name == name) return candidate;
-    known += (known.empty() ? "" : ", ") + candidate.algorithm.name;
+nlopt_algorithm code_of(SolverKind kind) {
+  switch (kind) {
+    case SolverKind::ipopt:
+      break;
+    case SolverKind::slsqp:
+      return NLOPT_LD_SLSQP;
+    case SolverKind::mma:
+      return NLOPT_LD_MMA;
+    case SolverKind::mlsl:
+      return NLOPT_G_MLSL_LDS;
+    case SolverKind::isres:
+      return NLOPT_GN_ISRES;
+    case SolverKind::direct:
+      return NLOPT_GN_DIRECT_L;
+    case SolverKind::crs2:
+      return NLOPT_GN_CRS2_LM;
   }
-  throw std::invalid_argument("algorithm '" + name + "' is none of " + known);
-}
-
-std::string names_of(bool Algorithm::*property) {
-  std::string names;
-  for (const NamedAlgorithm& candidate : named_algorithms()) {
-    if (candidate.algorithm.*property) names += (names.empty() ? "" : ", ") + candidate.algorithm.name;
-  }
-  return names;
-}
-
-bool is_equality(const Constraint& constraint) {
-  return constraint.lower == constraint.upper;
-}
-
-void check_fit(const Problem& problem, const Algorithm& algorithm) {
-  for (const Constraint& c : problem.constraints) {
-    const bool equality = is_equality(c);
-    if (equality ? algorithm.equalities : algorithm.inequalities) continue;
-    throw std::invalid_argument("algorithm '" + algorithm.name + "' takes no " +
-                                (equality ? "equality " : "") + "constraints, such as '" + c.name +
-                                "': those that do are " +
-                                names_of(equality ? &Algorithm::equalities : &Algorithm::inequalities));
-  }
-  if (!algorithm.global) return;
-  for (const Variable& v : problem.variables) {
-    if (v.lower > -kInfinity && v.upper < kInfinity) continue;
-    throw std::invalid_argument("algorithm '" + algorithm.name + "' searches a finite box: variable '" +
-                                v.name + "' has an infinite bound");
-  }
+  throw std::invalid_argument("NLopt has no solver '" + std::string(name(kind)) + "'");
 }
 
 // One side of a constraint as NLopt takes it: sign (g - bound) <= 0, or = 0.
@@ -85,8 +53,12 @@ struct Side {
 // NLopt's view of a ScaledProblem.
 class Program {
  public:
-  Program(ScaledProblem& problem, const NamedAlgorithm& named, const SolverOptions& options)
-      : problem_(problem), named_(named), tolerance_(options.tolerance), feasibility_(options.feasibility) {
+  Program(ScaledProblem& problem, SolverKind kind, const SolverOptions& options)
+      : problem_(problem),
+        code_(code_of(kind)),
+        is_global_(abilities(kind).global),
+        tolerance_(options.tolerance),
+        feasibility_(options.feasibility) {
     for (std::size_t j = 0; j < problem.constraints(); ++j) {
       const double lower = problem.constraint_lower(j), upper = problem.constraint_upper(j);
       if (lower == upper) {
@@ -107,7 +79,7 @@ class Program {
   // A point where the problem is not defined is higher than any other; to DIRECT, which computes with the
   // values, no higher than the highest.
   double undefined() const {
-    return named_.code == NLOPT_GN_DIRECT_L ? std::max(problem_.worst_objective(), -1e300) : kInfinity;
+    return code_ == NLOPT_GN_DIRECT_L ? std::max(problem_.worst_objective(), -1e300) : kInfinity;
   }
 
   bool go_to(unsigned n, const double* x) {
@@ -125,7 +97,7 @@ class Program {
     recorded = problem_.improvements();
     const double residual = problem_.best_residual();
     problem_.record_iteration(recorded, problem_.best_infeasibility(), residual, problem_.objective());
-    if (named_.algorithm.global) return;
+    if (is_global_) return;
     if (residual <= tolerance_ && problem_.best_infeasibility() <= feasibility_) nlopt_force_stop(solver_);
   }
 
@@ -168,7 +140,8 @@ class Program {
   void add_constraints();
 
   ScaledProblem& problem_;
-  const NamedAlgorithm& named_;
+  const nlopt_algorithm code_;
+  const bool is_global_;
   double tolerance_, feasibility_;
   std::vector<Side> unequal_, equal_;
   nlopt_opt solver_ = nullptr;
@@ -186,7 +159,7 @@ void Program::add_constraints() {
 
 nlopt_result Program::run(std::vector<double>& x, int most_evaluations) {
   const auto n = static_cast<unsigned>(problem_.size());
-  const Solver solver(nlopt_create(named_.code, n), &nlopt_destroy);
+  const Solver solver(nlopt_create(code_, n), &nlopt_destroy);
   if (!solver) throw std::bad_alloc();
   solver_ = solver.get();
   std::vector<double> lower(n), upper(n);
@@ -196,9 +169,9 @@ nlopt_result Program::run(std::vector<double>& x, int most_evaluations) {
   nlopt_set_lower_bounds(solver_, lower.data());
   nlopt_set_upper_bounds(solver_, upper.data());
   add_constraints();
-  if (!named_.algorithm.global) nlopt_set_xtol_rel(solver_, kSteps);
+  if (!is_global_) nlopt_set_xtol_rel(solver_, kSteps);
   nlopt_set_maxeval(solver_, most_evaluations);
-  if (named_.code == NLOPT_G_MLSL_LDS) {
+  if (code_ == NLOPT_G_MLSL_LDS) {
     const Solver local(nlopt_create(NLOPT_LD_SLSQP, n), &nlopt_destroy);
     nlopt_set_xtol_rel(local.get(), kSettled);
     nlopt_set_ftol_rel(local.get(), kSettled);
@@ -255,25 +228,13 @@ Solution search(Program& program, ScaledProblem& scaled, const SolverOptions& op
 
 }  // namespace
 
-const std::vector<Algorithm>& nlopt_algorithms() {
-  static const std::vector<Algorithm> all = [] {
-    std::vector<Algorithm> list;
-    for (const NamedAlgorithm& named : named_algorithms()) list.push_back(named.algorithm);
-    return list;
-  }();
-  return all;
-}
-
-Solution solve_with_nlopt(Problem& problem, const std::string& algorithm, const SolverOptions& options) {
-  const NamedAlgorithm& named = find_algorithm(algorithm);
-  check(problem);
-  check_fit(problem, named.algorithm);
+Solution solve_with_nlopt(Problem& problem, SolverKind kind, const SolverOptions& options) {
   using Judging = ScaledProblem::Judging;
-  ScaledProblem scaled(problem, options, named.algorithm.gradients ? Judging::residuals : Judging::values);
+  ScaledProblem scaled(problem, options, abilities(kind).gradients ? Judging::residuals : Judging::values);
   const bool defined = scaled.can_start();
   if (scaled.size() == 0 || scaled.ends()) return scaled.finish(Ending::failed);
-  Program program(scaled, named, options);
-  if (named.algorithm.global) return search(program, scaled, options);
+  Program program(scaled, kind, options);
+  if (abilities(kind).global) return search(program, scaled, options);
   return defined ? descend(program, scaled, options) : scaled.finish(Ending::failed);
 }
 

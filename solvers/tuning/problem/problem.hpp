@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-// An optimisation problem in plain terms, and the solvers that take it:
+// An optimisation problem in plain terms (solved in solver.hpp):
 //
 //   minimise f(x)   subject to   lower_i <= x_i <= upper_i,   lower_j <= g_j(x) <= upper_j
 //
@@ -99,30 +99,5 @@ struct SolverOptions {
   int most_iterations = 500;   // a global algorithm may use 10 (variables + 1) evaluations for each
   double feasibility = 1e-10;  // largest violation of a constraint, relative to its scale
 };
-
-// All of these throw std::invalid_argument where the problem makes no sense (an empty interval, a scale that
-// is not positive, a start that is not finite), and let exceptions of the problem's functions through.
-
-// Interior-point method with exact gradients and a limited-memory Hessian. Re-entrant: solves in several
-// threads take turns inside Ipopt, whose linear solver is not thread-safe, and run side by side in the
-// problem's functions. Source: A. Waechter, L. T. Biegler, Math. Program. 106 (2006) 25-57.
-Solution solve_with_ipopt(Problem& problem, const SolverOptions& options = {});
-
-struct Algorithm {
-  std::string name;
-  bool global = false;        // searches the whole box, which must be finite
-  bool inequalities = false;  // takes constraints
-  bool equalities = false;    // takes constraints with equal bounds
-  bool gradients = false;     // uses derivatives
-};
-
-// slsqp, mma (local); mlsl, isres, direct, crs2 (global).
-const std::vector<Algorithm>& nlopt_algorithms();
-
-// One of nlopt_algorithms() by name. Equal calls give equal results in any thread. slsqp and mma choose their
-// steps by values, whose rounding may end them at a KKT residual of 1e-9 to 1e-8: acceptable. Throws
-// std::invalid_argument for another name, for constraints the algorithm does not take and, where it is
-// global, for an infinite bound.
-Solution solve_with_nlopt(Problem& problem, const std::string& algorithm, const SolverOptions& options = {});
 
 }  // namespace frahm::tuning

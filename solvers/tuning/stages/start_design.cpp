@@ -54,7 +54,7 @@ std::vector<double> global_design(const Task& task, const DesignSpace& space,
                                   const std::function<bool()>& stop_asked) {
   BoxProblem problem(space, worst_of, stop_asked);
   constexpr int kIterations = 40;  // of 10 (parameters + 1) designs each
-  return solve_with_nlopt(problem, task.global_solver, {.most_iterations = kIterations}).x;
+  return solve(problem, task.global_solver, {.most_iterations = kIterations}).x;
 }
 
 }  // namespace frahm::tuning

@@ -15,8 +15,6 @@
 namespace frahm::tuning {
 namespace {
 
-const std::vector<std::string> solvers{"ipopt", "slsqp", "mma", "mlsl", "isres", "direct", "crs2"};
-
 // Rosenbrock valleys in a chain, of another length and start in each solve.
 class Chain : public GivenProblem {
  public:
@@ -41,11 +39,10 @@ class Chain : public GivenProblem {
   }
 };
 
-std::vector<double> solve(const std::string& solver, int index) {
+std::vector<double> bits_of(SolverKind solver, int index) {
   Chain chain(index);
-  const SolverOptions short_search{.most_iterations = solver == "ipopt" ? 500 : 30};
-  const Solution solution =
-      solver == "ipopt" ? solve_with_ipopt(chain) : solve_with_nlopt(chain, solver, short_search);
+  const SolverOptions search{.most_iterations = solver == SolverKind::ipopt ? 500 : 30};
+  const Solution solution = solve(chain, solver, search);
   std::vector<double> bits = solution.x;
   bits.insert(bits.end(), {solution.objective, solution.kkt_residual, double(solution.evaluations)});
   return bits;
@@ -56,7 +53,7 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 struct Task {
-  std::string solver;
+  SolverKind solver;
   int index = 0;
 };
 
@@ -64,7 +61,7 @@ struct Task {
 // alone.
 int differences(int threads, const std::vector<Task>& tasks) {
   std::vector<std::vector<double>> alone;
-  for (const Task& task : tasks) alone.push_back(solve(task.solver, task.index));
+  for (const Task& task : tasks) alone.push_back(bits_of(task.solver, task.index));
   std::atomic<int> different = 0;
   std::vector<std::thread> team;
   for (int t = 0; t < threads; ++t) {
@@ -72,7 +69,7 @@ int differences(int threads, const std::vector<Task>& tasks) {
         [&, first = tasks.size() * static_cast<std::size_t>(t) / static_cast<std::size_t>(threads)] {
           for (std::size_t k = 0; k < tasks.size(); ++k) {
             const std::size_t place = (first + k) % tasks.size();
-            if (!same_bits(solve(tasks[place].solver, tasks[place].index), alone[place])) ++different;
+            if (!same_bits(bits_of(tasks[place].solver, tasks[place].index), alone[place])) ++different;
           }
         });
   }
@@ -89,8 +86,9 @@ int main(int count, char** arguments) {
   const int threads = std::atoi(arguments[1]), solves = std::atoi(arguments[2]);
   std::vector<frahm::tuning::Task> every_solver, ipopt;
   for (int k = 0; k < solves; ++k) {
-    for (const std::string& solver : frahm::tuning::solvers) every_solver.push_back({solver, k});
-    for (int repeat = 0; repeat < 5; ++repeat) ipopt.push_back({"ipopt", k});
+    for (const frahm::tuning::SolverKind solver : frahm::tuning::kSolvers)
+      every_solver.push_back({solver, k});
+    for (int repeat = 0; repeat < 5; ++repeat) ipopt.push_back({frahm::tuning::SolverKind::ipopt, k});
   }
   const int different =
       frahm::tuning::differences(threads, every_solver) + frahm::tuning::differences(threads, ipopt);
