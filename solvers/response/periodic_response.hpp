@@ -6,7 +6,7 @@
 
 #include "solvers/mechanics/network.hpp"
 #include "solvers/quantities/quantity.hpp"
-#include "solvers/response/response.hpp"
+#include "solvers/exact/response.hpp"
 
 namespace frahm::periodic {
 

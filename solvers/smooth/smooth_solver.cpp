@@ -7,7 +7,7 @@
 
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/undamped_resonance.hpp"
-#include "solvers/response/exact_solver.hpp"
+#include "solvers/exact/exact_solver.hpp"
 #include "solvers/smooth/observables.hpp"
 #include "solvers/smooth/shooting.hpp"
 

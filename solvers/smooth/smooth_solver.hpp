@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "solvers/quantities/quantity.hpp"
-#include "solvers/response/response.hpp"
+#include "solvers/exact/response.hpp"
 
 // Periodic responses under the arctan law, F (2/pi) arctan(slope v), which smooths Coulomb's.
 namespace frahm::smooth {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "solvers/quantities/quantity.hpp"
-#include "solvers/response/response.hpp"
+#include "solvers/exact/response.hpp"
 
 // Where the regime of a Coulomb element changes along a line, its place on which is t from 0 to 1.
 namespace frahm::studies {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <string>
 
-#include "solvers/response/exact_solver.hpp"
+#include "solvers/exact/exact_solver.hpp"
 #include "tests/known_answers/arctan.hpp"
 #include "tests/known_answers/responses.hpp"
 #include "tests/known_answers/single_mass.hpp"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "solvers/quantities/quantity.hpp"
-#include "solvers/response/response.hpp"
+#include "solvers/exact/response.hpp"
 
 namespace frahm::periodic {
 

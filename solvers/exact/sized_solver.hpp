@@ -4,8 +4,8 @@
 #include "solvers/quantities/gradient.hpp"
 #include "solvers/quantities/observables.hpp"
 #include "solvers/quantities/orbit_observation.hpp"
-#include "solvers/response/orbit_search.hpp"
-#include "solvers/response/response.hpp"
+#include "solvers/exact/orbit_search.hpp"
+#include "solvers/exact/response.hpp"
 
 namespace frahm::periodic {
 

@@ -1,3 +1,3 @@
-#include "solvers/response/sized_solver.hpp"
+#include "solvers/exact/sized_solver.hpp"
 
 template class frahm::periodic::SizedSolver<Eigen::Dynamic, Eigen::Dynamic>;

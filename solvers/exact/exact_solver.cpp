@@ -1,6 +1,6 @@
-#include "solvers/response/exact_solver.hpp"
+#include "solvers/exact/exact_solver.hpp"
 
-#include "solvers/response/sized_solver.hpp"
+#include "solvers/exact/sized_solver.hpp"
 
 namespace frahm::periodic {
 
