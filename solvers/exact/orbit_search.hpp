@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <cmath>
 #include <vector>
 
 #include "solvers/flow/linear_form.hpp"
@@ -34,7 +34,11 @@ class OrbitSearch {
  private:
   void fail_unbounded(Orbit<N, H>& orbit);
   void settle(Orbit<N, H>& orbit);
-  bool settle_rest_position(Orbit<N, H>& orbit);
+  // How far an orbit was from its rest position. From far away, as Newton's method may leave what it does not
+  // matter for, the orbit has lost digits: it is to be found again from there.
+  enum class Shift { none, near, far };
+  static constexpr double kFar = 10.0;  // of the orbit's own size: a digit
+  Shift settle_rest_position(Orbit<N, H>& orbit);
   bool try_held(ContactMask held, Orbit<N, H>& orbit);
   ContactMask sliding_less_than(double share, const Orbit<N, H>& orbit) const;
 
@@ -87,18 +91,20 @@ ContactMask OrbitSearch<N, H>::sliding_less_than(double share, const Orbit<N, H>
 // Contacts that stick throughout rest where the energy is least. The search may end on the edge of the set of
 // such orbits, where it takes ever smaller slips for the answer (the residual falls like slip^1.5): contacts
 // that barely slide are held, and if their forces then keep within their limits that is the orbit, as there
-// is only one.
+// is only one. So are those that slide rarely in an orbit without an error bound.
 template <int N, int H>
 void OrbitSearch<N, H>::settle(Orbit<N, H>& orbit) {
-  if (orbit.is_found() && orbit.stuck_throughout != 0) settle_rest_position(orbit);
-  ContactMask tried = orbit.is_found() ? orbit.stuck_throughout : 0;
-  const auto shares = orbit.is_found() ? std::array{0.01, 0.1} : std::array{0.5, 0.1};
-  for (const double share : shares) {
-    const ContactMask held = sliding_less_than(share, orbit);
-    if (held == tried || held == 0) continue;
-    tried = held;
-    if (try_held(held, orbit)) return;
+  ContactMask tried = 0;
+  if (orbit.is_found() && orbit.stuck_throughout != 0) {
+    tried = orbit.stuck_throughout;
+    if (settle_rest_position(orbit) == Shift::far) try_held(tried, orbit);
   }
+  const ContactMask barely = sliding_less_than(orbit.is_found() ? 0.01 : 0.5, orbit);
+  if (barely != 0 && barely != tried && try_held(barely, orbit)) return;
+  const ContactMask rarely = sliding_less_than(0.1, orbit);
+  if (rarely == 0 || rarely == tried || rarely == barely || !orbit.is_found()) return;
+  judge_stability(flow_, orbit);
+  if (std::isnan(orbit.error_bound)) try_held(rarely, orbit);
 }
 
 // Whether there is an orbit with these contacts held by forces within their limits; `orbit` is it then.
@@ -106,16 +112,20 @@ template <int N, int H>
 bool OrbitSearch<N, H>::try_held(ContactMask held, Orbit<N, H>& orbit) {
   trial_ = orbit;
   trial_.z = flow_.brought_to_rest(trial_.z, trial_.section, held & flow_.equations().holding);
-  shooting_.find(trial_, held);
-  if (!trial_.is_found() || !settle_rest_position(trial_)) return false;
+  Shift shift = Shift::far;
+  for (int tries = 0; tries < 3 && shift == Shift::far; ++tries) {
+    shooting_.find(trial_, held);
+    shift = trial_.is_found() ? settle_rest_position(trial_) : Shift::none;
+  }
+  if (shift != Shift::near) return false;
   std::swap(orbit, trial_);
   return true;
 }
 
-// Moves `orbit` to the rest position of least energy; one whose limit is reached is grazing. False, and the
-// orbit as it was, where no rest position keeps the forces within their limits.
+// Moves `orbit` to the rest position of least energy; one whose limit is reached is grazing. The orbit stays as
+// it was where no rest position keeps the forces within their limits.
 template <int N, int H>
-bool OrbitSearch<N, H>::settle_rest_position(Orbit<N, H>& orbit) {
+typename OrbitSearch<N, H>::Shift OrbitSearch<N, H>::settle_rest_position(Orbit<N, H>& orbit) {
   const StepEquations<N, H>& eq = flow_.equations();
   steps_.lay_out(orbit);
   integrals_.integrate(steps_, flow_, orbit.half_period, [](const auto&, auto& powers) { powers.clear(); });
@@ -130,10 +140,12 @@ bool OrbitSearch<N, H>::settle_rest_position(Orbit<N, H>& orbit) {
   }
   const RestDirections rest = rest_directions(eq, orbit.stuck_throughout);
   const RestShift shift = least_energy_shift(rest, mean, forces);
-  if (shift.verdict == RestShift::Verdict::none) return false;
-  shift_orbit<N, H>(rest.E * shift.delta, orbit);
+  if (shift.verdict == RestShift::Verdict::none) return Shift::none;
+  const typename Sizes<N, H>::State by = rest.E * shift.delta;
+  shift_orbit<N, H>(by, orbit);
   if (shift.verdict == RestShift::Verdict::at_limit) orbit.status = Status::grazing;
-  return true;
+  const double size = std::max(eq.energy_norm(orbit.z), flow_.static_norm());
+  return eq.energy_norm(by) > kFar * size ? Shift::far : Shift::near;
 }
 
 }  // namespace frahm::periodic

@@ -1,7 +1,6 @@
 #include "solvers/orbits/rest_position.hpp"
 
 #include "solvers/events/box_minimum.hpp"
-#include "solvers/events/tolerances.hpp"
 
 namespace frahm::periodic {
 
@@ -13,8 +12,9 @@ RestShift least_energy_shift(const RestDirections& rest, const Eigen::VectorXd& 
     const auto& [least, most, limit] = forces[static_cast<std::size_t>(j)];
     lower[j] = -limit - least;
     upper[j] = limit - most;
-    if (lower[j] > upper[j] + kTie * limit) return {};
-    upper[j] = std::max(upper[j], lower[j]);
+    // A force that swings from limit to limit, to what counts as grazing, rests in the middle.
+    if (lower[j] > upper[j] + kGrazing * limit) return {};
+    if (lower[j] > upper[j]) lower[j] = upper[j] = 0.5 * (lower[j] + upper[j]);
     size[j] = limit;
   }
   const BoxMinimum minimum =
