@@ -1,10 +1,11 @@
 #include "solvers/identification/forced_resonance.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "solvers/algebra/shortest_solution.hpp"
 #include "solvers/identification/least_squares.hpp"
 #include "solvers/identification/linear_fit.hpp"
 #include "solvers/identification/statement.hpp"
@@ -246,7 +247,7 @@ Identification forced_resonance(const ResonancePairs& pairs, ResponseTo shaken_b
   const Scatter s = scatter(fit.sum_of_squares(), static_cast<double>(n - 2), 0.0);
   Eigen::MatrixXd by_Y(4, n);
   by_Y.topRows(2) = std::sqrt(line_variance) * line.influence;
-  by_Y.bottomRows(2) = std::sqrt(s.variance) * fit.jacobian.completeOrthogonalDecomposition().pseudoInverse();
+  by_Y.bottomRows(2) = std::sqrt(s.variance) * algebra::pseudo_inverse(fit.jacobian);
   Identification result;
   result.estimates = line_estimates(line.p[0], line.p[1]);
   result.estimates.push_back(ratio_estimate(fit.p[0]));

@@ -1,11 +1,12 @@
 #include "solvers/identification/free_decay.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "solvers/algebra/shortest_solution.hpp"
 #include "solvers/identification/decay_fit.hpp"
 #include "solvers/identification/least_squares.hpp"
 #include "solvers/identification/statement.hpp"
@@ -196,7 +197,7 @@ void mark_undetermined(const LeastSquaresFit& fit, double size, Identification& 
 // How the estimates change with the extremes, each by its standard error.
 Eigen::MatrixXd slopes(const LeastSquaresFit& fit, const Eigen::VectorXd& x, const Eigen::VectorXd& sigma) {
   const bool with_offset = fit.p.size() > 3;
-  const Eigen::MatrixXd by_x = fit.jacobian.completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::MatrixXd by_x = algebra::pseudo_inverse(fit.jacobian);
   Eigen::MatrixXd all(with_offset ? 5 : 4, x.size());
   all.row(0) = ratio_slope(fit.p[1]) * by_x.row(1);
   all.row(1) = by_x.row(2);

@@ -1,10 +1,11 @@
 #include "solvers/identification/grey_box.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "solvers/algebra/shortest_solution.hpp"
 #include "solvers/identification/minima.hpp"
 
 namespace frahm::identification {
@@ -21,8 +22,8 @@ MatrixXd with_fixed(const MatrixXd& own, const MatrixXd& J, const MatrixXd& J_fi
                     const MatrixXd& fixed_covariance, const VectorXd& scales) {
   const Index n = own.rows(), f = fixed_covariance.rows();
   if (f == 0) return own;
-  const Eigen::CompleteOrthogonalDecomposition<MatrixXd> scaled(J * scales.asDiagonal());
-  const MatrixXd S = -(scales.asDiagonal() * scaled.solve(J_fixed));
+  const MatrixXd scaled = J * scales.asDiagonal();
+  const MatrixXd S = -(scales.asDiagonal() * algebra::shortest_solutions(scaled, J_fixed));
   MatrixXd joint(n + f, n + f);
   joint.topLeftCorner(n, n) = S * fixed_covariance * S.transpose();
   joint.topRightCorner(n, f) = S * fixed_covariance;

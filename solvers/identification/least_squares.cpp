@@ -1,9 +1,11 @@
 #include "solvers/identification/least_squares.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <unsupported/Eigen/LevenbergMarquardt>
+
+#include "solvers/algebra/shortest_solution.hpp"
+#include "solvers/algebra/singular_values.hpp"
 
 namespace frahm::identification {
 namespace {
@@ -163,7 +165,7 @@ Eigen::VectorXd gauss_newton_step(const std::vector<Unknown>& unknowns, const Le
     const auto place = static_cast<std::size_t>(i);
     J.col(i) *= fit.at_bound[place] == 0 ? unknowns[place].scale : 0.0;
   }
-  return -J.completeOrthogonalDecomposition().solve(fit.residuals);
+  return -algebra::shortest_solution(J, fit.residuals);
 }
 
 // A model that is solved to its own tolerance, such as a periodic orbit, is rough in its last digits, and the
@@ -247,13 +249,12 @@ Eigen::MatrixXd covariance(const Eigen::MatrixXd& jacobian, double variance, con
     if (none) length[i] = 1.0;
     unit.col(i) /= length[i];
   }
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(unit, Eigen::ComputeThinV);
+  const algebra::SingularValues svd = algebra::singular_values(unit);
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(n, n);
   for (Eigen::Index k = 0; k < n; ++k) {
-    const double sigma = k < svd.singularValues().size() ? svd.singularValues()[k] : 0.0;
-    const bool seen = sigma > kIndistinct * svd.singularValues()[0];
-    const Eigen::VectorXd v =
-        k < svd.matrixV().cols() ? Eigen::VectorXd(svd.matrixV().col(k)) : Eigen::VectorXd();
+    const double sigma = k < svd.values.size() ? svd.values[k] : 0.0;
+    const bool seen = sigma > kIndistinct * svd.values[0];
+    const Eigen::VectorXd v = k < svd.V.cols() ? Eigen::VectorXd(svd.V.col(k)) : Eigen::VectorXd();
     if (seen) result += (variance / (sigma * sigma)) * v * v.transpose();
     for (Eigen::Index i = 0; !seen && i < v.size(); ++i) {
       if (std::abs(v[i]) > kTakesPart) lost[static_cast<std::size_t>(i)] = true;

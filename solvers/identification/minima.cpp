@@ -1,10 +1,10 @@
 #include "solvers/identification/minima.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <span>
 
+#include "solvers/algebra/singular_values.hpp"
 #include "solvers/mechanics/element_table.hpp"
 
 namespace frahm::identification {
@@ -31,8 +31,7 @@ std::vector<Unknown> started_at(const VectorXd& p, std::vector<Unknown> unknowns
 
 // The direction, of length 1 in units of p, in which the residuals at the fit change least.
 VectorXd least_determined(const LeastSquaresFit& fit, const VectorXd& scales) {
-  const Eigen::BDCSVD<MatrixXd> svd(fit.jacobian * scales.asDiagonal(), Eigen::ComputeThinV);
-  return scales.cwiseProduct(svd.matrixV().rightCols<1>());
+  return scales.cwiseProduct(algebra::singular_values(fit.jacobian * scales.asDiagonal()).V.rightCols<1>());
 }
 
 }  // namespace

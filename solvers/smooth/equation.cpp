@@ -1,10 +1,11 @@
 #include "solvers/smooth/equation.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 #include <cmath>
 #include <complex>
 #include <numbers>
 
+#include "solvers/algebra/solve.hpp"
 #include "solvers/mechanics/element_table.hpp"
 
 namespace frahm::smooth {
@@ -35,13 +36,13 @@ void Equation::set(const mechanics::LinearSystem& system, const mechanics::Netwo
   set_linear_part(system);
   set_friction(system, values);
   energy_root_.setZero(size_, size_);
-  energy_root_.topLeftCorner(masses_, masses_) = system.K.llt().matrixU();
-  energy_root_.block(masses_, masses_, masses_, masses_) = system.M.llt().matrixU();
+  energy_root_.topLeftCorner(masses_, masses_) = algebra::upper_root(system.K);
+  energy_root_.block(masses_, masses_, masses_, masses_) = algebra::upper_root(system.M);
   energy_root_.diagonal().tail(size_ - 2 * masses_) = system.internal_stiffness.cwiseSqrt().cwiseInverse();
 
   // sqrt(1/2 sum_k f_k^H K^-1 f_k), as for the exact law
   const Eigen::MatrixXd force = rows_of(system.constant_force, system.force);
-  const Eigen::MatrixXd yielding = system.K.llt().solve(force);
+  const Eigen::MatrixXd yielding = algebra::solve_positive(system.K, force);
   static_norm_ = std::sqrt(0.5 * force.cwiseProduct(yielding).sum());
   static_displacement_ = yielding.cwiseAbs().rowwise().sum().maxCoeff();
 }
@@ -143,7 +144,7 @@ void Equation::look(double t, const Eigen::Ref<const Eigen::VectorXd>& z, Instan
 
 // Of each harmonic (i Omega - A) Z = b, and A Z = -b of the constant.
 Eigen::VectorXd Equation::response_without_friction(double t) const {
-  Eigen::VectorXd z = A_.partialPivLu().solve(-B_.col(0));
+  Eigen::VectorXd z = algebra::solve(A_, -B_.col(0));
   for (std::size_t k = 0; k < orders_.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
     const double rate = orders_[k] * omega_;
@@ -152,7 +153,7 @@ Eigen::VectorXd Equation::response_without_friction(double t) const {
     Eigen::VectorXcd b(size_);
     b.real() = B_.col(1 + 2 * i);
     b.imag() = -B_.col(2 + 2 * i);
-    z += (resolvent.partialPivLu().solve(b) * std::polar(1.0, rate * t)).real();
+    z += (algebra::solve(resolvent, b) * std::polar(1.0, rate * t)).real();
   }
   return z;
 }

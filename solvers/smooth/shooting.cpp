@@ -1,10 +1,11 @@
 #include "solvers/smooth/shooting.hpp"
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <algorithm>
 #include <limits>
 #include <sstream>
 
+#include "solvers/algebra/solve.hpp"
 #include "solvers/orbits/spectral_radius.hpp"
 
 namespace frahm::smooth {
@@ -67,7 +68,7 @@ double Shooting::estimated_error(const Orbit& orbit) const {
   const double scale = std::max(equation_.energy_norm(orbit.z), equation_.static_norm());
   if (!(scale > 0.0)) return 0.0;
   const double defect = orbit.residual + orbit.passage.local_errors / scale;
-  return equation_.energy_norm_of_map(jacobian.inverse()) * defect;
+  return equation_.energy_norm_of_map(algebra::inverse(jacobian)) * defect;
 }
 
 // residual_ = +-g(z) - z.
@@ -88,7 +89,7 @@ bool Shooting::newton(const Eigen::VectorXd& scale, Orbit& orbit) {
   const Eigen::Index size = equation_.size();
   const Eigen::MatrixXd jacobian =
       Eigen::MatrixXd::Identity(size, size) - orbit.sign() * orbit.passage.tangent;
-  const Eigen::VectorXd step = jacobian.partialPivLu().solve(residual_), z = orbit.z;
+  const Eigen::VectorXd step = algebra::solve(jacobian, residual_), z = orbit.z;
   const double before = orbit.residual;
   double share = 1.0;
   const auto may_try = [&] { return step.allFinite() && orbit.passages < options_.most_passages; };

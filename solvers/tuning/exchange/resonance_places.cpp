@@ -1,9 +1,12 @@
 #include "solvers/tuning/exchange/resonance_places.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
+#include "solvers/algebra/eigenvalues.hpp"
+#include "solvers/algebra/null_space.hpp"
+#include "solvers/algebra/solve.hpp"
 #include "solvers/mechanics/linear_system.hpp"
 
 namespace frahm::tuning {
@@ -39,12 +42,11 @@ void add_poles(const mechanics::LinearSystem& system, const std::vector<Eigen::I
   if (!stuck.empty()) {
     Eigen::MatrixXd W(n, static_cast<Eigen::Index>(stuck.size()));
     for (Eigen::Index j = 0; j < W.cols(); ++j) W.col(j) = system.W.col(stuck[static_cast<std::size_t>(j)]);
-    const Eigen::FullPivLU<Eigen::MatrixXd> constraints(W.transpose());
-    if (constraints.dimensionOfKernel() == 0) return;
-    B = constraints.kernel();
+    B = algebra::null_space(W.transpose());
+    if (B.cols() == 0) return;
   }
   const Eigen::Index k = B.cols();
-  const Eigen::MatrixXd mass_inverse = (B.transpose() * system.M * B).inverse();
+  const Eigen::MatrixXd mass_inverse = algebra::inverse(B.transpose() * system.M * B);
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * k + m, 2 * k + m);
   A.block(0, k, k, k).setIdentity();
   A.block(k, 0, k, k) = -mass_inverse * (B.transpose() * system.K * B);
@@ -52,7 +54,7 @@ void add_poles(const mechanics::LinearSystem& system, const std::vector<Eigen::I
   A.block(k, 2 * k, k, m) = -mass_inverse * (B.transpose() * system.D);
   A.block(2 * k, k, m, k) = system.internal_stiffness.asDiagonal() * (system.D.transpose() * B);
   A.block(2 * k, 2 * k, m, m).diagonal() = -system.internal_rate;
-  const Eigen::VectorXcd eigenvalues = A.eigenvalues();
+  const Eigen::VectorXcd eigenvalues = algebra::eigenvalues(A);
   for (const std::complex<double>& value : eigenvalues) {
     if (value.imag() > 0.0) poles.push_back({value.imag(), std::max(0.0, -value.real())});
   }

@@ -1,6 +1,6 @@
 #include "solvers/tuning/variance/lyapunov.hpp"
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 
 namespace frahm::tuning {
 namespace {
@@ -43,16 +43,16 @@ MatrixXd symmetric(const MatrixXd& P) {
 
 }  // namespace
 
-Lyapunov::Lyapunov(const MatrixXd& A) : A_(A), schur_(A) {}
+Lyapunov::Lyapunov(const MatrixXd& A) : A_(A), schur_(algebra::schur(A)) {}
 
 double Lyapunov::abscissa() const {
-  const Eigen::VectorXcd eigenvalues = schur_.matrixT().diagonal();
+  const Eigen::VectorXcd eigenvalues = schur_.T.diagonal();
   return eigenvalues.real().maxCoeff() / eigenvalues.cwiseAbs().maxCoeff();
 }
 
 MatrixXd Lyapunov::solve(const MatrixXd& W) const {
-  const MatrixXcd& T = schur_.matrixT();
-  const MatrixXcd& U = schur_.matrixU();
+  const MatrixXcd& T = schur_.T;
+  const MatrixXcd& U = schur_.U;
   MatrixXd P = MatrixXd::Zero(A_.rows(), A_.cols());
   for (int round = 0; round <= kRefinements; ++round) {
     const MatrixXd residual = A_ * P + P * A_.transpose() + W;
@@ -62,8 +62,8 @@ MatrixXd Lyapunov::solve(const MatrixXd& W) const {
 }
 
 MatrixXd Lyapunov::solve_adjoint(const MatrixXd& W) const {
-  const MatrixXcd& T = schur_.matrixT();
-  const MatrixXcd& U = schur_.matrixU();
+  const MatrixXcd& T = schur_.T;
+  const MatrixXcd& U = schur_.U;
   MatrixXd Q = MatrixXd::Zero(A_.rows(), A_.cols());
   for (int round = 0; round <= kRefinements; ++round) {
     const MatrixXd residual = A_.transpose() * Q + Q * A_ + W;

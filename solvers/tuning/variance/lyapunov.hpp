@@ -1,7 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
+
+#include "solvers/algebra/schur.hpp"
 
 namespace frahm::tuning {
 
@@ -19,7 +20,7 @@ class Lyapunov {
 
  private:
   Eigen::MatrixXd A_;
-  Eigen::ComplexSchur<Eigen::MatrixXd> schur_;  // A = U T U^H, T upper triangular
+  algebra::Schur schur_;
 };
 
 }  // namespace frahm::tuning

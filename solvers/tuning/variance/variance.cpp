@@ -1,10 +1,10 @@
 #include "solvers/tuning/variance/variance.hpp"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <numbers>
 #include <sstream>
 
+#include "solvers/algebra/solve.hpp"
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/tuning/variance/lyapunov.hpp"
 
@@ -87,7 +87,7 @@ Variance::State Variance::state(const NetworkValues& values) const {
   mechanics::LinearSystem& system = result.system;
   assembly_.set_values(values, system);
   const Index n = system.masses(), s = system.internal_forces();
-  result.M_inverse = system.M.llt().solve(MatrixXd::Identity(n, n));
+  result.M_inverse = algebra::solve_positive(system.M, MatrixXd(MatrixXd::Identity(n, n)));
 
   // b = e_mass, or with q = x + 1 y and y'' = w:  b = -(M 1 + M_support e_node)
   if (noise_.kind == NoiseKind::force_on) {

@@ -1,0 +1,11 @@
+#include "solvers/algebra/decompositions_once.hpp"
+
+namespace Eigen {
+
+template class ColPivHouseholderQR<MatrixXd>;
+template class CompleteOrthogonalDecomposition<MatrixXd>;
+template class FullPivLU<MatrixXd>;
+template class PartialPivLU<MatrixXd>;
+template class PartialPivLU<MatrixXcd>;
+
+}  // namespace Eigen

@@ -1,0 +1,7 @@
+#include "solvers/algebra/kernels_once.hpp"
+
+namespace Eigen::internal {
+
+FRAHM_KERNELS()
+
+}  // namespace Eigen::internal
