@@ -5,8 +5,8 @@
 // The first event within a step: the first root of a guard, of any contact.
 //   a contact that slides:  its velocity reaches zero
 //   a contact that sticks:  its force reaches the limit
-// No root is missed, double roots at grazing among them: the ends of the step decide where they can, by bounds of
-// the fourth derivative, and the Bernstein coefficients of the Taylor polynomial where they cannot.
+// No root is missed, double roots at grazing among them: the ends of the step decide where they can, by
+// bounds of the fourth derivative, and the Bernstein coefficients of the Taylor polynomial where they cannot.
 namespace frahm::periodic {
 
 struct GuardEvent {
@@ -122,8 +122,8 @@ double first_release(const Flow<N, H>& flow, Eigen::Index j, Workspace<N, H>& w)
     room[0] += limit;
     const bool at_limit = room[0] <= kTie * limit;
     const bool is_state = !flow.equations().holds(j);
-    first = std::min(first, at_limit ? fall_from_limit(room, limit, is_state, w)
-                                     : first_lasting_fall(room, limit, w));
+    first = std::min(
+        first, at_limit ? fall_from_limit(room, limit, is_state, w) : first_lasting_fall(room, limit, w));
   }
   return first;
 }
@@ -131,8 +131,9 @@ double first_release(const Flow<N, H>& flow, Eigen::Index j, Workspace<N, H>& w)
 template <int N, int H>
 GuardEvent first_event(const Flow<N, H>& flow, Workspace<N, H>& w) {
   GuardEvent first;
-  const ContactMask stuck = flow.mode(w.mode).stuck;
+  const ContactMask stuck = flow.mode(w.mode).stuck, idle = flow.configuration(flow.mode(w.mode)).idle;
   for (Eigen::Index j = 0; j < flow.equations().contacts(); ++j) {
+    if (contains(idle, j)) continue;
     const bool sticks = contains(stuck, j);
     const double at = sticks ? first_release(flow, j, w) : first_stop(flow, j, w);
     if (at < first.at) first = {at, j, sticks};

@@ -4,29 +4,35 @@
 #include <vector>
 
 #include "solvers/events/box_minimum.hpp"
+#include "solvers/events/loops.hpp"
 #include "solvers/events/passage.hpp"
 #include "solvers/events/workspace.hpp"
 
 // Which contacts stick and which slide after an event. The cases:
 //
 //   what happened                        law's answer            what follows
-//   a stuck force reaches its limit      -                       it slides in the force's direction; an internal
+//   a stuck force reaches its limit      -                       it slides in the force's direction; an
+//   internal
 //                                                                force stays there
-//   a sliding velocity reaches zero      AtRest::joint_choice    the forces of all contacts at rest follow from one
-//                                                                convex problem: inside its limit a contact sticks,
-//                                                                at its limit it slides that way
+//   a sliding velocity reaches zero      AtRest::joint_choice    the forces of all contacts at rest follow
+//   from one
+//                                                                convex problem: inside its limit a contact
+//                                                                sticks, at its limit it slides that way
 //                                        AtRest::sticks          it sticks
 //   a stuck force stands at its limit    -                       it lets go at once (two contacts released
 //   and grows after all this                                     together, or one that came to rest in a tie)
+//   in a loop of contacts the others     -                       it carries its limit and is idle (loops.hpp)
+//   hold one that let go
 namespace frahm::periodic {
 
 // Sliding contacts that come to rest at this event: its own, and others that do at the same instant.
 template <int N, int H>
 ContactMask arrivals(const Flow<N, H>& flow, Eigen::Index own, const Workspace<N, H>& w) {
   const Mode<N, H>& mode = flow.mode(w.mode);
+  const ContactMask idle = flow.configuration(mode).idle;
   ContactMask arrived = own < 0 ? 0 : bit(own);
   for (Eigen::Index j = 0; j < flow.equations().contacts(); ++j) {
-    if (contains(mode.stuck | arrived | w.fresh, j)) continue;
+    if (contains(mode.stuck | arrived | w.fresh | idle, j)) continue;
     const ValueAndSlope speed = flow.sliding_speed(w.left, j);
     const double sign = mode.sign(j);
     if (sign * speed.value <= kRest * w.speed_scale[j] && sign * speed.slope < 0.0) arrived |= bit(j);
@@ -80,8 +86,8 @@ Choice choose_alone(const StepEquations<N, H>& eq, Eigen::Index j, double c, Wor
 // Several contacts: their forces minimise  1/2 lambda^T G lambda - c^T lambda,  |lambda_j| <= F_j,
 // G = W^T M^-1 W (Glocker, Set-Valued Force Laws, 2001, ch. 9).
 template <int N, int H>
-Choice choose_together(const StepEquations<N, H>& eq, ContactMask at_rest, const FreeAccelerations<N, H>& free,
-                       Workspace<N, H>& w) {
+Choice choose_together(const StepEquations<N, H>& eq, ContactMask at_rest,
+                       const FreeAccelerations<N, H>& free, Workspace<N, H>& w) {
   constexpr double kWithoutLimit = 1e9;
   std::vector<Eigen::Index> contacts;
   for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
@@ -134,8 +140,8 @@ void choose_modes(Flow<N, H>& flow, ContactMask at_rest, Workspace<N, H>& w) {
   w.mode = flow.mode_index(choice.stuck | states, (before.positive & ~at_rest) | choice.forward);
 }
 
-// A stuck contact lets go. One that was held starts from rest with no relative acceleration; an internal force
-// stays at its limit while the velocity is what it is.
+// A stuck contact lets go. One that was held starts from rest with no relative acceleration; an internal
+// force stays at its limit while the velocity is what it is.
 template <int N, int H>
 void release(Flow<N, H>& flow, Eigen::Index j, bool forward, Workspace<N, H>& w) {
   const Mode<N, H>& before = flow.mode(w.mode);
@@ -150,7 +156,8 @@ void release(Flow<N, H>& flow, Eigen::Index j, bool forward, Workspace<N, H>& w)
   w.mode = flow.mode_index(before.stuck & ~bit(j), before.positive | (forward ? bit(j) : 0));
 }
 
-// Stuck contacts whose force stands at its limit and grows let go at once.
+// Stuck contacts whose force stands at its limit and grows let go at once; in a loop, one whose share is
+// beyond its limit does too.
 template <int N, int H>
 void release_at_limits(Flow<N, H>& flow, Workspace<N, H>& w) {
   for (bool again = true; again;) {
@@ -160,7 +167,9 @@ void release_at_limits(Flow<N, H>& flow, Workspace<N, H>& w) {
       if (!contains(mode.stuck & ~w.held & flow.equations().holding, j)) continue;
       const ValueAndSlope force = flow.stuck_force(w.left, mode, j);
       const double side = force.value > 0.0 ? 1.0 : -1.0;
-      if (side * force.value < flow.equations().limit[j] * (1.0 - kTie) || side * force.slope <= 0.0) continue;
+      const double limit = flow.equations().limit[j], size = side * force.value;
+      if (size < limit * (1.0 - kTie) || (side * force.slope <= 0.0 && size <= limit * (1.0 + 1e-9)))
+        continue;
       release(flow, j, side > 0.0, w);
       again = true;
     }
@@ -176,13 +185,17 @@ void settle_mode(Flow<N, H>& flow, Workspace<N, H>& w) {
   flow.accelerate(flow.mode(w.mode), w.left);
 }
 
-// The mode after the contacts of `arrived` came to rest, and the contact `released` (-1: none) let go forward or
-// backward.
+// The mode after the contacts of `arrived` came to rest, and the contact `released` (-1: none) let go forward
+// or backward.
 template <int N, int H>
 void change_mode(Flow<N, H>& flow, ContactMask arrived, Eigen::Index released, bool forward,
                  Workspace<N, H>& w) {
   const ContactMask holding = flow.equations().holding;
-  if (released >= 0) release(flow, released, forward, w);
+  if (released >= 0) {
+    const ContactMask idle_before = flow.configuration(flow.mode(w.mode)).idle;
+    release(flow, released, forward, w);
+    if (idle_before != 0) wake(flow, idle_before, w);
+  }
   if (const ContactMask states = arrived & ~holding; states != 0) {
     const Mode<N, H>& mode = flow.mode(w.mode);
     w.mode = flow.mode_index(mode.stuck | states, mode.positive);

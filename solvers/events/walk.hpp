@@ -29,6 +29,7 @@ class Walk {
   void note_change(const GuardEvent& event, const Instant<N, H>& before, const Mode<N, H>& mode_before,
                    Passage<N, H>& passage);
   void open_segment(Passage<N, H>& passage);
+  void begin_segment(Passage<N, H>& passage);
 
   Flow<N, H>& flow_;
   Workspace<N, H> w_;

@@ -16,6 +16,7 @@ void Walk<N, H>::pass(const typename S::State& z, double phase, double length, P
   enter(z, phase, passage);
   int at_this_instant = 0;
   while (passage.failure == nullptr) {
+    if (share_again(flow_, w_)) begin_segment(passage);
     flow_.step(w_.left, flow_.mode(w_.mode), w_.right);
     w_.expanded = false;
     const GuardEvent event = first_event(flow_, w_);
@@ -39,6 +40,17 @@ void Walk<N, H>::pass(const typename S::State& z, double phase, double length, P
   passage.end = w_.left.z;
   passage.margin = w_.margin;
   if (!passage.end.allFinite()) passage.failure = "the state is not finite";
+}
+
+// The motion goes on as it is with other shares of the forces: a segment of its own.
+template <int N, int H>
+void Walk<N, H>::begin_segment(Passage<N, H>& passage) {
+  passage.segments.back().length = w_.clock - passage.segments.back().start;
+  if (passage.segments.back().length == 0.0)
+    passage.segments.pop_back();
+  else
+    passage.changes.push_back({.segment = passage.segments.size() - 1});
+  open_segment(passage);
 }
 
 template <int N, int H>
@@ -99,8 +111,8 @@ void Walk<N, H>::enter(const typename S::State& z, double phase, Passage<N, H>& 
   open_segment(passage);
 }
 
-// Whether contact j, whose force is a state, starts sliding: its force at the limit, in the velocity's direction.
-// A force beyond the limit, as a search may ask for, starts there.
+// Whether contact j, whose force is a state, starts sliding: its force at the limit, in the velocity's
+// direction. A force beyond the limit, as a search may ask for, starts there.
 template <int N, int H>
 bool Walk<N, H>::starts_at_limit(Eigen::Index j, double speed) {
   const StepEquations<N, H>& eq = flow_.equations();
@@ -112,7 +124,8 @@ bool Walk<N, H>::starts_at_limit(Eigen::Index j, double speed) {
   return at_limit && s * speed > 0.0 && std::abs(speed) > kRest * w_.speed_scale[j];
 }
 
-// `left` and the tangent `fraction` of a step later in the same mode; the oscillators of `left` are not moved.
+// `left` and the tangent `fraction` of a step later in the same mode; the oscillators of `left` are not
+// moved.
 template <int N, int H>
 void Walk<N, H>::advance(double fraction, Passage<N, H>& passage) {
   Flow<N, H>::evaluate(w_.expand(flow_), fraction, w_.left.z);

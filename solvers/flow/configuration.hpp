@@ -20,6 +20,7 @@ struct Configuration {
   using S = Sizes<N, H>;
 
   ContactMask stuck = 0;
+  ContactMask idle = 0;      // contacts that slide by name, but that the stuck ones alone keep at rest
   bool has_forcing = false;  // set_forcing was called since the forcing changed
   typename S::Square Aq, Av;
   typename S::VectorByInternal As;
@@ -29,8 +30,8 @@ struct Configuration {
   typename S::ContactsByInternal Ls;
   typename S::ContactsByOscillators Lu;
   typename S::ContactSquare Lf;
-  typename S::Square P;  // velocities -> velocities that keep the stuck contacts stuck, M-orthogonal
-  typename S::Internal spring;                      // of each internal force k, or 0 while it is held
+  typename S::Square P;         // velocities -> velocities that keep the stuck contacts stuck, M-orthogonal
+  typename S::Internal spring;  // of each internal force k, or 0 while it is held
   typename S::InternalByOscillators internal_drive;  // spring p^T y'(t) [N a step]
 
   // The flow as Taylor series in the step fraction, z(s) = series_z(s) z(0) + series_u(s) u(0) + series_f(s)
@@ -153,6 +154,13 @@ void Configuration<N, H>::set_system(const StepEquations<N, H>& equations, Conta
   P = S::Square::Identity(n, n) - reaction_ * equations.W.transpose();
   // A projector's trace is its rank, so one without a large entry is zero: every mass is held.
   if (P.cwiseAbs().maxCoeff() < 1e-12) P.setZero();
+  idle = 0;
+  for (Eigen::Index j = 0; held != 0 && j < m; ++j) {
+    constexpr double kImmobile = 1e-10;  // of its compliance: rounding of what a loop takes away
+    const double mobility = equations.W.col(j).dot(P * MW.col(j));
+    const bool slides = contains(equations.holding & ~stuck, j);
+    if (slides && mobility <= kImmobile * equations.compliance[j]) idle |= bit(j);
+  }
   Aq.noalias() = -(P * equations.M_inverse) * equations.K;
   Av.noalias() = -(P * equations.M_inverse) * equations.C;
   Af = -(P * MW);

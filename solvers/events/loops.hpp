@@ -1,0 +1,60 @@
+#pragma once
+
+#include "solvers/events/passage.hpp"
+#include "solvers/events/workspace.hpp"
+
+// Contacts in loops: where the stuck contacts alone keep another one at rest, its force is a matter of
+// convention. It shares by least sum (lambda_j / F_j)^2 as long as every force so found is within its limit.
+// One that would exceed it carries its limit, as if it slid, while the others hold it: it is idle
+// (Configuration::idle). So no force ever exceeds its limit, and motion begins only when no distribution of
+// the forces can hold it.
+namespace frahm::periodic {
+
+// Idle contacts share again as soon as all forces would be within their limits with them.
+template <int N, int H>
+bool share_again(Flow<N, H>& flow, Workspace<N, H>& w) {
+  constexpr double kWithin = 1.0 - 1e-9;  // so that it does not go back and forth
+  const ContactMask idle = flow.configuration(flow.mode(w.mode)).idle;
+  for (Eigen::Index j = 0; idle != 0 && j < flow.equations().contacts(); ++j) {
+    if (!contains(idle, j)) continue;
+    const ContactMask stuck = flow.mode(w.mode).stuck | bit(j);
+    const std::size_t sharing = flow.mode_index(stuck, flow.mode(w.mode).positive);
+    bool within = true;
+    for (Eigen::Index i = 0; i < flow.equations().contacts(); ++i) {
+      if (!contains(stuck & flow.equations().holding & ~w.held, i)) continue;
+      const double force = flow.stuck_force(w.left, flow.mode(sharing), i).value;
+      within = within && std::abs(force) < kWithin * flow.equations().limit[i];
+    }
+    if (!within) continue;
+    w.mode = sharing;
+    flow.accelerate(flow.mode(w.mode), w.left);
+    return true;
+  }
+  return false;
+}
+
+// Contacts that were idle before a release and are free to move after it: one that would move against its own
+// friction sticks.
+template <int N, int H>
+void wake(Flow<N, H>& flow, ContactMask idle_before, Workspace<N, H>& w) {
+  const ContactMask woken = idle_before & ~flow.configuration(flow.mode(w.mode)).idle;
+  for (Eigen::Index j = 0; woken != 0 && j < flow.equations().contacts(); ++j) {
+    const Mode<N, H>& mode = flow.mode(w.mode);
+    if (!contains(woken & ~mode.stuck, j)) continue;
+    flow.accelerate(mode, w.left);
+    Expansion<N, H> x;
+    flow.expand(w.left, mode, x);
+    Polynomial speed = x.velocity(flow.equations().W.col(j));
+    speed.noalias() += x.u * flow.equations().support_velocity.row(j).transpose();
+    int first = 1;
+    while (first < 3 && std::abs(speed[first]) <= kRest * w.speed_scale[j]) ++first;
+    if (mode.sign(j) * speed[first] < 0.0) {
+      w.mode = flow.mode_index(mode.stuck | bit(j), mode.positive);
+    } else {
+      w.fresh |= bit(j);
+      if (first > 1) w.just_released |= bit(j);
+    }
+  }
+}
+
+}  // namespace frahm::periodic

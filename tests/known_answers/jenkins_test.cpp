@@ -1,0 +1,172 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "solvers/transient/forced_motion.hpp"
+#include "solvers/transient/free_decay.hpp"
+#include "tests/known_answers/responses.hpp"
+#include "tests/known_answers/single_mass.hpp"
+#include "tests/solvers/gradient_parameters.hpp"
+
+// A spring and a slider in series (Jenkins) beside a spring: x'' + 2 zeta x' + x + s = cos(r tau).
+namespace frahm::periodic {
+namespace {
+
+using Catch::Matchers::WithinAbs, Catch::Matchers::WithinRel;
+using namespace mechanics;
+constexpr double kPrinted = 1e-8;   // the reference figures have nine digits
+constexpr double kExact = 1e-10;    // relative, of closed forms
+constexpr double kBalance = 1e-10;  // of the energy
+constexpr double kGradient = 1e-6;  // of differences, extrapolated
+
+const Node ground{}, mass{NodeKind::mass, 0};
+
+Network braced_mass() {
+  return {.masses = {"x"},
+          .prescribed = {},
+          .elements = {{"spring", ElementType::spring, ground, mass},
+                       {"damper", ElementType::damper, ground, mass},
+                       {"brace", ElementType::jenkins, ground, mass}},
+          .excitations = {{ExcitationKind::force, 0, 1}}};
+}
+
+NetworkValues braced_values(double r, double zeta, double k_t, double F) {
+  return {.omega = r,
+          .mass = {1.0},
+          .element = {1.0, 2.0 * zeta, k_t},
+          .excitation = {{1.0, 0.0}},
+          .second = {0.0, 0.0, F}};
+}
+
+// Figures by two independent methods: an event-driven integration and a half-period map of the two states.
+TEST_CASE("A braced mass has the peaks of two independent methods") {
+  struct Figure {
+    double zeta, k_t, F, r, peak;
+  };
+  Responses responses(braced_mass());
+  for (const auto& [zeta, k_t, F, r, peak] :
+       {Figure{0.05, 1.0, 0.5, 1.1, 3.38660810}, Figure{0.02, 4.0, 0.3, 0.9, 4.17210554},
+        Figure{0.05, 1.0, 0.5, 1.35, 1.48851470}}) {
+    responses.solve(braced_values(r, zeta, k_t, F));
+    INFO("zeta " << zeta << " k_t " << k_t << " F " << F << " r " << r);
+    CHECK(responses["status"] == 1.0);
+    CHECK_THAT(responses["x_peak"], WithinAbs(peak, kPrinted));
+    CHECK_THAT(responses["brace_force_peak"], WithinRel(F, kExact));
+    // A cycle of amplitude X takes 4 F (X - F/k_t).
+    CHECK_THAT(responses["brace_energy"], WithinRel(4.0 * F * (responses["x_peak"] - F / k_t), kExact));
+    CHECK(responses["energy_balance"] < kBalance);
+    CHECK(responses["brace_stops"] == 2.0);
+    CHECK(responses["error_bound"] < 1e-10);
+  }
+}
+
+TEST_CASE("A brace that never slips is a spring, under forces of odd and of even orders") {
+  for (const int order : {1, 2}) {
+    Network network = braced_mass();
+    network.excitations.push_back({ExcitationKind::force, 0, 3});
+    network.excitations[0].order = order;
+    network.reference_order = order;
+    Responses responses(network);
+    for (const double k_t : {0.1, 1.0, 30.0}) {
+      for (const double r : {0.3, 0.9, 1.7}) {
+        NetworkValues values = braced_values(r, 0.05, k_t, 1e4);
+        values.excitation.push_back({0.0, 0.0});
+        responses.solve(values);
+        const double n = order * r, k = 1.0 + k_t;
+        const double X = 1.0 / std::hypot(k - n * n, 0.1 * n);
+        INFO("order " << order << " k_t " << k_t << " r " << r);
+        CHECK(responses["status"] == 1.0);
+        CHECK_THAT(responses["x_peak"], WithinRel(X, kExact));
+        CHECK_THAT(responses["x_mean"], WithinAbs(0.0, kExact * X));
+        CHECK(responses["brace_stuck_fraction"] == 1.0);
+        CHECK_THAT(responses["brace_energy"], WithinAbs(0.0, kExact));
+        CHECK(responses["floquet_radius"] < 1.0);
+      }
+    }
+  }
+}
+
+TEST_CASE("A brace without friction is not there") {
+  Responses braced(braced_mass()), bare(single_mass());
+  for (const double r : {0.4, 1.0, 2.5}) {
+    braced.solve(braced_values(r, 0.05, 2.0, 0.0));
+    bare.solve(single_mass_values(r, 0.05, 0.0));
+    CHECK_THAT(braced["x_peak"], WithinRel(bare["x_peak"], kExact));
+  }
+}
+
+TEST_CASE("A stiffer and stiffer brace approaches a slider alone, as 1/sqrt(k_t) at most") {
+  Responses braced(braced_mass()), sliding(single_mass());
+  sliding.solve(single_mass_values(0.8, 0.05, 0.3));
+  const double limit = sliding["x_peak"];
+  double last = 1.0;
+  for (const double k_t : {1e2, 1e4, 1e6}) {
+    braced.solve(braced_values(0.8, 0.05, k_t, 0.3));
+    const double off = std::abs(braced["x_peak"] - limit);
+    INFO("k_t " << k_t);
+    CHECK(braced["status"] == 1.0);
+    CHECK(off < 0.5 / std::sqrt(k_t));
+    CHECK(off < last);
+    last = off;
+  }
+}
+
+TEST_CASE("A constant load leaves a brace that never slips without a part of it where the energy is least") {
+  Network network = braced_mass();
+  network.excitations.push_back({ExcitationKind::force, 0, 0});
+  NetworkValues values = braced_values(0.7, 0.05, 2.0, 10.0);
+  values.excitation.push_back({0.6, 0.0});
+  Responses responses(network);
+  responses.solve(values);
+  // Least (1/2) x^2 + s^2 / (2 k_t) with x + s = 0.6:  x = 0.6 / 3, s = 0.4.
+  CHECK(responses["status"] == 1.0);
+  CHECK_THAT(responses["x_mean"], WithinAbs(0.2, kExact));
+  values.second[2] = 0.5;  // the swing of the force alone is 0.57: it slips
+  responses.solve(values);
+  CHECK(responses["brace_regime"] != static_cast<double>(Regime::stuck));
+  CHECK(responses["energy_balance"] < kBalance);
+}
+
+TEST_CASE("Derivatives of a braced response agree with differences") {
+  const Network network = braced_mass();
+  const std::vector<Quantity> quantities = {{Measure::peak, 0},   {Measure::rms, 0},
+                                            {Measure::phase, 0},  {Measure::energy, 2},
+                                            {Measure::stroke, 2}, {Measure::stuck_fraction, 2}};
+  for (const double r : {0.6, 1.1, 1.35}) {
+    const NetworkValues values = braced_values(r, 0.05, 1.0, 0.5);
+    std::vector<CheckedParameter> parameters;
+    for (const NamedParameter& named : all_parameters(network, values)) parameters.push_back(named.parameter);
+    const GradientCheck check = check_gradient(network, quantities, values, parameters);
+    INFO("r " << r << " " << check.reason);
+    REQUIRE(check.reason.empty());
+    for (std::size_t p = 0; p < parameters.size(); ++p) {
+      for (std::size_t q = 0; q < quantities.size(); ++q) {
+        const DerivativeCheck& each = check.columns[p][q];
+        INFO("parameter " << p << " quantity " << q << ": " << each.exact << " against " << each.difference);
+        const bool agrees = each.relative_difference() < kGradient ||
+                            std::abs(each.exact - each.difference) < 10.0 * each.uncertainty + 1e-9;
+        CHECK(agrees);
+      }
+    }
+  }
+}
+
+TEST_CASE("A brace in a decay and in a forced motion shares out all energy") {
+  const auto check = [](const transient::EnergyBudget& energy) {
+    CHECK(energy.balance < 1e-12);
+    CHECK(energy.dissipated[2] > 0.0);
+  };
+  const transient::FreeDecay decay = transient::free_decay(braced_mass(), braced_values(1.0, 0.01, 3.0, 0.4),
+                                                           {{2.0}, {}}, {.duration = 40.0, .samples = 9});
+  check(decay.energy);
+  const NetworkValues values = braced_values(1.1, 0.05, 1.0, 0.5);
+  const transient::ForcedMotion forced =
+      transient::forced_motion(braced_mass(), [&](double) { return values; }, {{0.0}, {}},
+                               {.from = 1.1, .duration = 400.0, .samples = 3});
+  check(forced.energy);
+  CHECK_THAT(std::abs(forced.peaks[0].displacement), WithinAbs(3.3866, 0.6));  // it overshoots on its way
+}
+
+}  // namespace
+}  // namespace frahm::periodic
