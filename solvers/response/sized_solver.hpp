@@ -1,11 +1,12 @@
 #pragma once
 
+#include "solvers/mechanics/undamped_resonance.hpp"
 #include "solvers/orbits/continuation.hpp"
+#include "solvers/orbits/rest_position.hpp"
 #include "solvers/quantities/gradient.hpp"
 #include "solvers/quantities/observables.hpp"
 #include "solvers/quantities/orbit_observation.hpp"
 #include "solvers/response/response.hpp"
-#include "solvers/orbits/rest_position.hpp"
 
 namespace frahm::periodic {
 
@@ -13,11 +14,11 @@ namespace frahm::periodic {
 template <int N, int H>
 class SizedSolver final : public ResponseSolver {
  public:
-  SizedSolver(const mechanics::Network& network, std::vector<Quantity> quantities)
+  SizedSolver(const mechanics::Network& network, const std::vector<Quantity>& quantities)
       : assembly_(network),
         continuation_(flow_),
         observables_(assembly_, flow_, quantities),
-        gradient_(assembly_, flow_, std::move(quantities)),
+        gradient_(assembly_, flow_, quantities),
         steps_(flow_) {}
 
   void set_values(const mechanics::NetworkValues& values) override {
@@ -171,8 +172,8 @@ History SizedSolver<N, H>::history(std::span<const double> phases) {
       result.columns[column++].push_back(sign * instant.z[n + mass] / step);
     }
     for (std::size_t e = 0; e < network.elements.size(); ++e) {
-      result.columns[column++].push_back(sign *
-                                         forms.element_force(e, system_.coefficients[e], mode).at(instant).value);
+      result.columns[column++].push_back(
+          sign * forms.element_force(e, system_.coefficients[e], mode).at(instant).value);
     }
     for (Eigen::Index mass = 0; mass < n; ++mass)
       result.columns[column++].push_back(sign * instant.a[mass] / (step * step));

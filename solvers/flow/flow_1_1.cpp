@@ -1,0 +1,4 @@
+#include "solvers/flow/flow_sizes.hpp"
+
+template class frahm::periodic::Flow<1, 1>;
+template class frahm::periodic::Forms<1, 1>;
