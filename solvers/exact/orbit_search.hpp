@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "solvers/flow/linear_form.hpp"
@@ -31,6 +32,11 @@ class OrbitSearch {
   void find(const mechanics::LinearSystem& system, const std::vector<UndampedMode>& undamped,
             bool certify, Orbit<N, H>& orbit);
 
+  // The same by another way, of kOtherWays; `orbit` is one that was found wanting. False, and `orbit` as it was,
+  // where this way leads to none.
+  static constexpr int kOtherWays = 2;
+  bool find_otherwise(int way, const mechanics::LinearSystem& system, bool certify, Orbit<N, H>& orbit);
+
  private:
   void fail_unbounded(Orbit<N, H>& orbit);
   void settle(Orbit<N, H>& orbit);
@@ -57,11 +63,28 @@ void OrbitSearch<N, H>::find(const mechanics::LinearSystem& system,
                              Orbit<N, H>& orbit) {
   if (is_unbounded(system, undamped)) return fail_unbounded(orbit);
   continuation_.find(system, orbit);
-  if (!orbit.half_period)
-    settle(orbit);
-  else if (orbit.is_found() && orbit.stuck_throughout != 0)
-    centre_rest_position(flow_, orbit);
+  settle(orbit);
   if (certify && orbit.is_found()) judge_stability(flow_, orbit);
+}
+
+// Way 0: with those contacts held that stick for most of the period. Way 1: from the response without friction,
+// as if no orbit were known, from a section a quarter of a period on.
+template <int N, int H>
+bool OrbitSearch<N, H>::find_otherwise(int way, const mechanics::LinearSystem& system, bool certify,
+                                       Orbit<N, H>& orbit) {
+  if (way == 0) {
+    const ContactMask held = sliding_less_than(0.5, orbit);
+    if (held == 0 || orbit.half_period || !try_held(held, orbit)) return false;
+  } else {
+    Orbit<N, H> other = orbit;
+    continuation_.forget();
+    continuation_.find_from(0.5 * std::numbers::pi, system, other);
+    settle(other);
+    if (!other.is_found()) return false;
+    std::swap(orbit, other);
+  }
+  if (certify) judge_stability(flow_, orbit);
+  return true;
 }
 
 template <int N, int H>
@@ -94,6 +117,10 @@ ContactMask OrbitSearch<N, H>::sliding_less_than(double share, const Orbit<N, H>
 // is only one. So are those that slide rarely in an orbit without an error bound.
 template <int N, int H>
 void OrbitSearch<N, H>::settle(Orbit<N, H>& orbit) {
+  if (orbit.half_period) {
+    if (orbit.is_found() && orbit.stuck_throughout != 0) centre_rest_position(flow_, orbit);
+    return;
+  }
   ContactMask tried = 0;
   if (orbit.is_found() && orbit.stuck_throughout != 0) {
     tried = orbit.stuck_throughout;

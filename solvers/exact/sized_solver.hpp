@@ -1,11 +1,11 @@
 #pragma once
 
+#include "solvers/exact/orbit_search.hpp"
+#include "solvers/exact/response.hpp"
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/quantities/gradient.hpp"
 #include "solvers/quantities/observables.hpp"
 #include "solvers/quantities/orbit_observation.hpp"
-#include "solvers/exact/orbit_search.hpp"
-#include "solvers/exact/response.hpp"
 
 namespace frahm::periodic {
 
@@ -13,11 +13,11 @@ namespace frahm::periodic {
 template <int N, int H>
 class SizedSolver final : public ResponseSolver {
  public:
-  SizedSolver(const mechanics::Network& network, std::vector<Quantity> quantities)
+  SizedSolver(const mechanics::Network& network, const std::vector<Quantity>& quantities)
       : assembly_(network),
         search_(assembly_, flow_),
         observables_(assembly_, flow_, quantities),
-        gradient_(assembly_, flow_, std::move(quantities)) {}
+        gradient_(assembly_, flow_, quantities) {}
 
   void set_values(const mechanics::NetworkValues& values) override {
     values_ = values;
@@ -63,6 +63,8 @@ class SizedSolver final : public ResponseSolver {
 
  private:
   bool has_response() const { return orbit_.is_found(); }
+  bool is_to_be_weighed() const;
+  void weigh();
 
   mechanics::Assembly assembly_;
   mechanics::NetworkValues values_;  // of the system
@@ -78,7 +80,9 @@ class SizedSolver final : public ResponseSolver {
 
 template <int N, int H>
 const ResponseSummary& SizedSolver<N, H>::solve() {
+  observables_.forget();
   search_.find(system_, undamped_modes_, observables_.needs_stability(), orbit_);
+  if (orbit_.is_found() && is_to_be_weighed()) weigh();
   summary_.status = orbit_.status;
   summary_.reason = orbit_.reason;
   summary_.residual = orbit_.residual;
@@ -86,6 +90,28 @@ const ResponseSummary& SizedSolver<N, H>::solve() {
   summary_.passages = orbit_.passages;
   summary_.half_period = orbit_.half_period;
   return summary_;
+}
+
+// The energy balance is checked where it is asked for, and wherever an event nearly happens otherwise.
+template <int N, int H>
+bool SizedSolver<N, H>::is_to_be_weighed() const {
+  constexpr double kNear = 1e-6;
+  return observables_.asks_energy_balance() || orbit_.passage.margin < kNear;
+}
+
+// Work in = energy lost holds for every periodic orbit. One that breaks it is found another way, or is none.
+template <int N, int H>
+void SizedSolver<N, H>::weigh() {
+  constexpr double kBalanced = 1e-9;
+  double balance = observables_.energy_balance(orbit_, system_);
+  for (int way = 0; balance > kBalanced && way < OrbitSearch<N, H>::kOtherWays; ++way) {
+    if (search_.find_otherwise(way, system_, observables_.needs_stability(), orbit_))
+      balance = observables_.energy_balance(orbit_, system_);
+  }
+  if (balance <= kBalanced) return;
+  orbit_.status = Status::failed;
+  orbit_.reason = unbalanced(balance);
+  search_.forget();
 }
 
 template <int N, int H>

@@ -33,6 +33,13 @@ class Continuation {
 
   // The orbit of the flow, which is set to this system.
   void find(const mechanics::LinearSystem& system, Orbit<N, H>& orbit);
+  // The same from the response without friction, at this section.
+  void find_from(double section, const mechanics::LinearSystem& system, Orbit<N, H>& orbit) {
+    orbit.half_period = system.odd_forcing;
+    orbit.section = section;
+    orbit.z = response_without_friction(system, section);
+    shooting_.find(orbit);
+  }
 
  private:
   struct Known {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -31,16 +32,19 @@ class Integrals {
     LinearForm<N, H> force, velocity;
   };
 
-  // Over the orbit's steps; `powers_of(mode, powers)` lists what puts energy in during a mode. The orbit
-  // covers half a period if `half_period`, and all integrals are of the whole.
-  template <class PowersOf>
+  // Lists what puts energy in during a mode.
+  using PowersOf = std::function<void(const Mode<N, H>&, std::vector<Power>&)>;
+
+  // Over the orbit's steps. The orbit covers half a period if `half_period`, and all integrals are of the
+  // whole.
   void integrate(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow, bool half_period,
                  const PowersOf& powers_of);
 
-  // Integral over a period of the product of two forms [their units x s].
-  double product(const LinearForm<N, H>& f, const LinearForm<N, H>& g) const {
-    return joined(f).dot(gram_ * joined(g));
-  }
+  const Gram& gram() const { return gram_; }         // [units of the state x s]
+  double input() const { return input_; }            // [J] in a period
+  double input_size() const { return input_size_; }  // integral of |power| [J], to quadrature accuracy
+
+ private:
   // A form's factors of y.
   using Joined = Eigen::Matrix<double, kSize, 1>;
   static Joined joined(const LinearForm<N, H>& form) {
@@ -48,11 +52,7 @@ class Integrals {
     c << form.z, form.u;
     return c;
   }
-  const Gram& gram() const { return gram_; }         // [units of the state x s]
-  double input() const { return input_; }            // [J] in a period
-  double input_size() const { return input_size_; }  // integral of |power| [J], to quadrature accuracy
 
- private:
   Gram gram_;
   std::vector<Power> powers_;  // of the mode in hand
   std::vector<std::pair<Joined, Joined>> joined_powers_;
@@ -60,7 +60,6 @@ class Integrals {
 };
 
 template <int N, int H>
-template <class PowersOf>
 void Integrals<N, H>::integrate(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow, bool half_period,
                                 const PowersOf& powers_of) {
   using Nodes = Eigen::Matrix<double, kTerms, kNodes>;
@@ -103,5 +102,10 @@ void Integrals<N, H>::integrate(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow,
   input_ *= seconds;
   input_size_ *= seconds;
 }
+
+extern template class Integrals<1, 1>;
+extern template class Integrals<1, 2>;
+extern template class Integrals<2, 1>;
+extern template class Integrals<Eigen::Dynamic, Eigen::Dynamic>;
 
 }  // namespace frahm::periodic

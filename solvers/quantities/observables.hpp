@@ -1,80 +1,89 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <limits>
 #include <span>
 #include <vector>
 
-#include "solvers/quantities/contact_history.hpp"
-#include "solvers/quantities/extremes.hpp"
-#include "solvers/quantities/fundamental_response.hpp"
-#include "solvers/quantities/integrals.hpp"
 #include "solvers/mechanics/modes.hpp"
-#include "solvers/quantities/quantity.hpp"
-#include "solvers/mechanics/undamped_resonance.hpp"
-#include "solvers/quantities/trace.hpp"
+#include "solvers/quantities/extremes.hpp"
+#include "solvers/quantities/orbit_measurement.hpp"
+#include "solvers/quantities/quantity_values.hpp"
+#include "solvers/quantities/request.hpp"
 
-// From an orbit to the quantities asked for, and to no others.
+// From an exact orbit to the quantities asked for, and to no others.
 namespace frahm::periodic {
 
 template <int N, int H>
 class Observables {
  public:
-  using S = Sizes<N, H>;
-  using Form = LinearForm<N, H>;
-
   // `assembly` and `flow` must outlive the observables.
-  Observables(const mechanics::Assembly& assembly, const Flow<N, H>& flow, std::vector<Quantity> quantities);
+  Observables(const mechanics::Assembly& assembly, const Flow<N, H>& flow,
+              const std::vector<Quantity>& quantities)
+      : flow_(flow),
+        forms_(assembly, flow),
+        steps_(flow),
+        measurement_(assembly, flow),
+        request_(values_of(quantities, assembly)) {}
 
-  bool needs_stability() const { return needs_stability_; }
-  std::size_t size() const { return quantities_.size(); }
+  bool needs_stability() const { return request_.needs.stability; }
+  bool asks_energy_balance() const { return request_.needs.input; }
 
   // Frequencies and damping of the linear modes, when the matrices have changed.
-  void set_system(const mechanics::LinearSystem& system);
+  void set_system(const mechanics::LinearSystem& system) {
+    if (request_.needs.modes) modes_of(system, measured_.natural_frequency, measured_.modal_damping);
+  }
+
+  // |work in - energy dissipated| in a period, relative. What is measured for it serves evaluate() too.
+  double energy_balance(const Orbit<N, H>& orbit, const mechanics::LinearSystem& system) {
+    Needs needs = request_.needs;
+    needs |= {.integrals = true, .energies = true, .input = true};
+    measure(orbit, system, needs);
+    is_measured_ = true;
+    return value::energy_balance(measured_, {});
+  }
+
+  // Another orbit is to be measured.
+  void forget() { is_measured_ = false; }
 
   // out[i] is quantity i.
   void evaluate(const Orbit<N, H>& orbit, const mechanics::LinearSystem& system, std::span<double> out);
   // For a point without a response.
-  void fill_missing(Status status, std::span<double> out) const;
+  void fill_missing(Status status, std::span<double> out) const { tell_missing(request_, status, out); }
 
  private:
-  void plan(const Quantity& quantity);
-  void integrate(const Orbit<N, H>& orbit);
-  void balance_energy();
-  std::complex<double> reference_component(const Form& form) const;
-  double phase_of(const Form& form, double magnitude) const;
-  double harmonic_of(std::size_t mass) const {
-    return std::abs(reference_component(forms_.displacement(mass_incidences_[mass])));
+  void measure(const Orbit<N, H>& orbit, const mechanics::LinearSystem& system, const Needs& needs) {
+    steps_.lay_out(orbit);
+    measurement_.measure(orbit, system, steps_, needs, measured_);
   }
-  ContactHistory history_of(std::size_t contact) const;
-  double element_energy(std::size_t element) const;
-  double value_of(std::size_t place) const;
-  double value_of_mass(std::size_t place) const;
-  double value_of_element(std::size_t place) const;
-  double value_of_point(const Quantity& quantity) const;
 
-  const mechanics::Assembly& assembly_;
   const Flow<N, H>& flow_;
   Forms<N, H> forms_;
-  std::vector<mechanics::Incidence> mass_incidences_;  // the displacement of each mass by itself
-  std::vector<Quantity> quantities_;
-  std::vector<std::size_t> trace_index_;  // of each quantity
-  std::vector<Trace> traces_;
-  std::vector<Extremes> extremes_;  // of each trace
-  bool needs_integrals_ = false, needs_histories_ = false, needs_stability_ = false, needs_modes_ = false;
-  std::vector<double> natural_frequency_, modal_damping_;
-
-  // Of the orbit in hand.
   OrbitSteps<N, H> steps_;
-  Integrals<N, H> integrals_;
-  std::vector<ContactHistory> histories_;
-  const Orbit<N, H>* orbit_ = nullptr;
-  const mechanics::LinearSystem* system_ = nullptr;
-  double dissipated_ = 0.0;
+  TracedOrbit<N, H> traced_;
+  OrbitMeasurement<N, H> measurement_;
+  Request request_;
+  Measured measured_;
+  bool is_measured_ = false;
 };
 
-}  // namespace frahm::periodic
+template <int N, int H>
+void Observables<N, H>::evaluate(const Orbit<N, H>& orbit, const mechanics::LinearSystem& system,
+                                 std::span<double> out) {
+  if (!is_measured_) measure(orbit, system, request_.needs);
+  measured_.traces = &request_.traces;
+  measured_.extremes.resize(request_.traces.size());
+  for (std::size_t i = 0; i < request_.traces.size(); ++i) {
+    traced_.look(steps_, flow_, [this, i](const Mode<N, H>& mode) {
+      return form_of(request_.traces[i], forms_, measured_.system->coefficients, mode);
+    });
+    const Extremes found = traced_.extremes(orbit.section);
+    measured_.extremes[i] = orbit.half_period ? mirrored(found) : found;
+  }
+  tell_values(request_, measured_, out);
+}
 
-#include "solvers/quantities/observables.ipp"
+extern template class Observables<1, 1>;
+extern template class Observables<1, 2>;
+extern template class Observables<2, 1>;
+extern template class Observables<Eigen::Dynamic, Eigen::Dynamic>;
+
+}  // namespace frahm::periodic

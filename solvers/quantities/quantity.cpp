@@ -1,84 +1,17 @@
 #include "solvers/quantities/quantity.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string_view>
 
 #include "solvers/mechanics/element_table.hpp"
+#include "solvers/quantities/quantity_table.hpp"
 
 namespace frahm::periodic {
 namespace {
 
 using mechanics::Network;
-
-enum class Owner { mass, element, contact, point, mode, support };
-
-struct Row {
-  Measure measure;
-  Owner owner;
-  const char* suffix;
-  const char* unit;
-  const char* meaning;  // {} stands for the owner's name
-  QuantityKind kind = QuantityKind::real;
-};
-
-constexpr Row kRows[] = {
-    {Measure::amplitude, Owner::mass, "amplitude", "m", "half the range of the displacement of {}"},
-    {Measure::peak, Owner::mass, "peak", "m", "largest displacement of {}, either way"},
-    {Measure::mean, Owner::mass, "mean", "m", "mean displacement of {}"},
-    {Measure::rms, Owner::mass, "rms", "m", "root mean square displacement of {}"},
-    {Measure::phase, Owner::mass, "phase", "rad", "phase lag of {} at the reference order"},
-    {Measure::peak_phase, Owner::mass, "peak_phase", "rad",
-     "omega t at which {} first reaches its largest displacement"},
-    {Measure::velocity_peak, Owner::mass, "velocity_peak", "m s-1", "largest velocity of {}, either way"},
-    {Measure::acceleration_peak, Owner::mass, "acceleration_peak", "m s-2",
-     "largest acceleration of {}, either way"},
-    {Measure::harmonic, Owner::mass, "harmonic", "m", "amplitude of {} at the reference order"},
-    {Measure::magnification, Owner::mass, "magnification", "1",
-     "amplitude of {} at the reference order over its static displacement under the same amplitudes"},
-    {Measure::transmissibility, Owner::mass, "transmissibility", "1",
-     "amplitude of {} at the reference order over that of the one support that moves"},
-    {Measure::stroke, Owner::element, "stroke", "m", "largest relative displacement across {}, either way"},
-    {Measure::element_phase, Owner::element, "phase", "rad",
-     "phase lag of the relative displacement across {} at the reference order"},
-    {Measure::force_peak, Owner::element, "force_peak", "N", "largest force of {}, either way"},
-    {Measure::energy, Owner::element, "energy", "J", "energy dissipated by {} in a period"},
-    {Measure::energy_share, Owner::element, "energy_share", "1",
-     "share of {} in the energy dissipated in a period"},
-    {Measure::stops, Owner::contact, "stops", "1", "stops of finite length of {} in a period",
-     QuantityKind::count},
-    {Measure::reversals, Owner::contact, "reversals", "1", "changes of sliding direction of {} in a period",
-     QuantityKind::count},
-    {Measure::stuck_fraction, Owner::contact, "stuck_fraction", "1",
-     "share of the period for which {} sticks"},
-    {Measure::regime, Owner::contact, "regime", "1", "stick-slip regime of {}", QuantityKind::flag},
-    {Measure::status, Owner::point, "status", "1", "how the search for the periodic response ended",
-     QuantityKind::flag},
-    {Measure::floquet_radius, Owner::point, "floquet_radius", "1",
-     "largest modulus of the Floquet multipliers of a period"},
-    {Measure::energy_input, Owner::point, "energy_input", "J", "work of the excitation in a period"},
-    {Measure::energy_balance, Owner::point, "energy_balance", "1",
-     "energy put in less energy dissipated, relative"},
-    {Measure::transmitted_force, Owner::support, "transmitted_force", "N",
-     "largest force that all elements together exert on {}"},
-    {Measure::force_transmissibility, Owner::point, "force_transmissibility", "1",
-     "amplitude at the reference order of the force on all supports over that of the applied forces"},
-    {Measure::residual, Owner::point, "residual", "1",
-     "residual of the periodic condition, relative, energy norm"},
-    {Measure::error_bound, Owner::point, "error_bound", "m",
-     "bound of the error of every displacement at every time"},
-    {Measure::newton_iterations, Owner::point, "newton_iterations", "1", "Newton steps of the search",
-     QuantityKind::count},
-    {Measure::events, Owner::point, "events", "1",
-     "stops, releases and reversals of all contacts in a period", QuantityKind::count},
-    {Measure::natural_frequency, Owner::mode, "natural_frequency", "rad s-1",
-     "undamped natural frequency {} with all friction sliding"},
-    {Measure::modal_damping, Owner::mode, "modal_damping", "1",
-     "damping ratio of mode {} with all friction sliding"},
-};
-
-const Row& row_of(Measure measure) {
-  return *std::find_if(std::begin(kRows), std::end(kRows),
-                       [&](const Row& row) { return row.measure == measure; });
-}
 
 std::string owner_name(Owner owner, std::size_t index, const Network& network) {
   switch (owner) {
@@ -113,47 +46,74 @@ std::size_t owner_count(Owner owner, const Network& network) {
   return 1;
 }
 
-std::string name_of(const Row& row, std::size_t index, const Network& network) {
-  const std::string suffix = row.suffix;
+std::string joined(std::string first, const std::string& second) {
+  first += '_';
+  first += second;
+  return first;
+}
+
+std::string name_of(const QuantityRow& row, std::size_t index, const Network& network) {
   switch (row.owner) {
     case Owner::point:
-      return suffix;
+      return row.suffix;
     case Owner::mode:
-      return suffix + "_" + std::to_string(index + 1);
+      return joined(row.suffix, std::to_string(index + 1));
     case Owner::support:
-      return index == 0 ? suffix : network.prescribed[index - 1] + "_" + suffix;
+      return index == 0 ? row.suffix : joined(network.prescribed[index - 1], row.suffix);
     case Owner::mass:
     case Owner::element:
     case Owner::contact:
       break;
   }
-  return owner_name(row.owner, index, network) + "_" + suffix;
+  return joined(owner_name(row.owner, index, network), row.suffix);
+}
+
+// The places of those of whom the standard record has something.
+std::vector<std::size_t> owners(StandardOf of, const Network& network) {
+  std::vector<std::size_t> result;
+  const std::size_t count = of == StandardOf::point    ? 1
+                            : of == StandardOf::masses ? network.masses.size()
+                                                       : network.elements.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (of == StandardOf::springs && !mechanics::kind_of(network.elements[i]).stroke_is_standard) continue;
+    if (of == StandardOf::contacts && !mechanics::has_contact(network.elements[i])) continue;
+    result.push_back(i);
+  }
+  return result;
+}
+
+// The row of a quantity by the end of its name; of several, the longest, as in main_velocity_peak.
+const QuantityRow* row_named(const std::string& name) {
+  const QuantityRow* best = nullptr;
+  for (const QuantityRow& row : quantity_table()) {
+    const std::string_view suffix = row.suffix;
+    const bool is_own = row.owner == Owner::point && name == suffix;
+    const bool is_owned = row.owner != Owner::point && name.ends_with(joined("", row.suffix));
+    if (!is_own && !is_owned) continue;
+    if (best == nullptr || suffix.size() > std::string_view(best->suffix).size()) best = &row;
+  }
+  return best;
 }
 
 }  // namespace
 
 QuantityDescription describe(const Quantity& quantity, const Network& network, bool dimensionless) {
-  const Row& row = row_of(quantity.measure);
+  const QuantityRow& row = row_of(quantity.measure);
   QuantityDescription result;
   result.name = name_of(row, quantity.index, network);
-  result.unit = dimensionless && std::string(row.unit) != "rad" ? "1" : row.unit;
+  result.unit = dimensionless && !is_angle(quantity.measure) ? "1" : row.unit;
   result.long_name = row.meaning;
   if (const auto place = result.long_name.find("{}"); place != std::string::npos) {
     result.long_name.replace(place, 2, owner_name(row.owner, quantity.index, network));
   }
   result.kind = row.kind;
-  if (quantity.measure == Measure::status) {
-    result.flags = {{"not_computed", 0}, {"ok", 1}, {"grazing", 2}, {"unbounded", 3}, {"failed", 4}};
-  } else if (quantity.measure == Measure::regime) {
-    result.flags = {{"not_computed", 0}, {"no_friction", 1}, {"non_stop", 2},
-                    {"one_stop", 3},     {"multi_stop", 4},  {"stuck", 5}};
-  }
+  for (const FlagMeaning& flag : row.flags) result.flags.emplace_back(flag.meaning, flag.value);
   return result;
 }
 
 std::vector<Quantity> all_quantities(const Network& network) {
   std::vector<Quantity> result;
-  for (const Row& row : kRows) {
+  for (const QuantityRow& row : quantity_table()) {
     for (std::size_t i = 0; i < owner_count(row.owner, network); ++i) {
       if (row.owner == Owner::contact && !mechanics::has_contact(network.elements[i])) continue;
       result.push_back({row.measure, i});
@@ -164,52 +124,37 @@ std::vector<Quantity> all_quantities(const Network& network) {
 
 std::vector<Quantity> standard_quantities(const Network& network) {
   std::vector<Quantity> result;
-  for (std::size_t i = 0; i < network.masses.size(); ++i) {
-    for (const Measure measure :
-         {Measure::peak, Measure::amplitude, Measure::mean, Measure::rms, Measure::phase}) {
-      result.push_back({measure, i});
+  for (const StandardOf of :
+       {StandardOf::masses, StandardOf::springs, StandardOf::contacts, StandardOf::point}) {
+    std::vector<const QuantityRow*> rows;
+    for (const QuantityRow& row : quantity_table()) {
+      if (row.standard.of == of) rows.push_back(&row);
     }
-  }
-  for (std::size_t e = 0; e < network.elements.size(); ++e) {
-    if (mechanics::kind_of(network.elements[e]).stroke_is_standard) result.push_back({Measure::stroke, e});
-  }
-  for (std::size_t e = 0; e < network.elements.size(); ++e) {
-    if (!mechanics::has_contact(network.elements[e])) continue;
-    for (const Measure measure :
-         {Measure::stops, Measure::stuck_fraction, Measure::regime, Measure::energy}) {
-      result.push_back({measure, e});
+    std::ranges::sort(rows, {}, [](const QuantityRow* row) { return row->standard.place; });
+    for (const std::size_t owner : owners(of, network)) {
+      for (const QuantityRow* row : rows) result.push_back({row->measure, owner});
     }
-  }
-  for (const Measure measure : {Measure::status, Measure::floquet_radius, Measure::energy_balance,
-                                Measure::residual, Measure::error_bound, Measure::transmitted_force}) {
-    result.push_back({measure, 0});
   }
   return result;
 }
 
-bool is_differentiable(Measure measure) {
-  switch (measure) {
-    case Measure::floquet_radius:
-    case Measure::energy_balance:
-    case Measure::residual:
-    case Measure::error_bound:
+bool is_shown(const Quantity& quantity, const Network& network) {
+  switch (row_of(quantity.measure).shown) {
+    case Shown::no:
       return false;
-    default:
-      return row_of(measure).kind == QuantityKind::real;
+    case Shown::of_all:
+      return true;
+    case Shown::of_springs:
+      return mechanics::kind_of(network.elements[quantity.index]).stroke_is_standard;
+    case Shown::of_dissipating:
+      return mechanics::kind_of(network.elements[quantity.index]).dissipates;
   }
+  return false;
 }
 
-bool per_period(Measure measure) {
-  switch (measure) {
-    case Measure::energy:
-    case Measure::energy_input:
-    case Measure::stops:
-    case Measure::reversals:
-    case Measure::events:
-      return true;
-    default:
-      return false;
-  }
+bool is_shown(const std::string& name) {
+  const QuantityRow* row = row_named(name);
+  return row != nullptr && row->shown != Shown::no;
 }
 
 std::optional<Quantity> find_quantity(const std::string& name, const Network& network) {
@@ -217,6 +162,42 @@ std::optional<Quantity> find_quantity(const std::string& name, const Network& ne
     if (name_of(row_of(quantity.measure), quantity.index, network) == name) return quantity;
   }
   return std::nullopt;
+}
+
+double missing_value(QuantityKind kind) {
+  switch (kind) {
+    case QuantityKind::real:
+      break;
+    case QuantityKind::count:
+      return -1.0;
+    case QuantityKind::flag:
+      return 0.0;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+bool is_missing(QuantityKind kind, double value) {
+  return kind == QuantityKind::real ? std::isnan(value) : value == missing_value(kind);
+}
+
+double missing_value(Measure measure, Status status) {
+  return measure == Measure::status ? static_cast<double>(status) : missing_value(row_of(measure).kind);
+}
+
+const char* why_not_differentiated(Measure measure) {
+  return row_of(measure).why_not_differentiated;
+}
+
+bool is_angle(Measure measure) {
+  return std::string_view(row_of(measure).unit) == "rad";
+}
+
+bool has_sides(Measure measure) {
+  return row_of(measure).of_trace == OfTrace::side;
+}
+
+bool is_of_a_period(Measure measure) {
+  return row_of(measure).of_a_period;
 }
 
 }  // namespace frahm::periodic

@@ -29,7 +29,7 @@ enum class Measure {
   force_peak,
   energy,
   energy_share,
-  // of an element with a contact
+  // of a Coulomb element
   stops,
   reversals,
   stuck_fraction,
@@ -75,6 +75,8 @@ struct Quantity {
 
 enum class QuantityKind { real, count, flag };
 
+enum class Status;  // solvers/orbits/orbit.hpp
+
 struct QuantityDescription {
   std::string name;       // "main_peak"
   std::string unit;       // UDUNITS form; "1" where `dimensionless`
@@ -83,6 +85,8 @@ struct QuantityDescription {
   std::vector<std::pair<std::string, int>> flags;  // of a flag: meaning and value
 };
 
+// All that follows is read from one table (quantity_table.hpp).
+
 QuantityDescription describe(const Quantity& quantity, const mechanics::Network& network, bool dimensionless);
 
 // Every quantity that a network has, in a fixed order. Under the arctan law nothing ever sticks: stops,
@@ -90,19 +94,36 @@ QuantityDescription describe(const Quantity& quantity, const mechanics::Network&
 // an error_bound, as that of the integration is not one.
 std::vector<Quantity> all_quantities(const mechanics::Network& network);
 
-// What an atlas shows: peak, amplitude, mean, rms and phase of each mass; stroke of each spring; stops, stuck
-// fraction, regime and energy of each element with a contact; status, floquet_radius, energy_balance,
+// What an atlas records: peak, amplitude, mean, rms and phase of each mass; stroke of each spring; stops,
+// stuck fraction, regime and energy of each element with a contact; status, floquet_radius, energy_balance,
 // residual, error_bound, transmitted_force.
 std::vector<Quantity> standard_quantities(const mechanics::Network& network);
 
-// Whether a quantity is one that PeriodicResponse::gradient() differentiates: no count, flag or figure of the
-// computation itself (residual, error_bound, energy_balance), nor floquet_radius, which would take the second
-// derivative of the period map.
-bool is_differentiable(Measure measure);
-
-// Whether it counts or adds up what happens in a period: in two periods it is twice as much.
-bool per_period(Measure measure);
+// Whether the page of an atlas shows the quantity unasked: peaks of the masses, strokes of the springs, stops
+// and regimes, the shares of what dissipates, and the status.
+bool is_shown(const Quantity& quantity, const mechanics::Network& network);
+// The same of a name whose network is not known: by its suffix, of any element.
+bool is_shown(const std::string& name);
 
 std::optional<Quantity> find_quantity(const std::string& name, const mechanics::Network& network);
+
+// What stands in the place of a quantity that is not computed: NaN of a real, -1 of a count, 0 of a flag.
+double missing_value(QuantityKind kind);
+bool is_missing(QuantityKind kind, double value);
+// The same of a response that ended in this status, which is the one quantity that it has.
+double missing_value(Measure measure, Status status);
+
+// Why PeriodicResponse::gradient() does not differentiate a quantity: it is a count, a flag or a figure of
+// the computation itself, or would take the second derivative of the period map. "" where it does.
+const char* why_not_differentiated(Measure measure);
+inline bool is_differentiable(Measure measure) {
+  return *why_not_differentiated(measure) == '\0';
+}
+
+bool is_angle(Measure measure);  // [rad], the same after a turn
+// Whether the quantity is the larger of two sides, and so has a kink where they are equal (Side).
+bool has_sides(Measure measure);
+// Whether the quantity is of one period, so that over several it is so many times as large.
+bool is_of_a_period(Measure measure);
 
 }  // namespace frahm::periodic

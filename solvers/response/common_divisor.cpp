@@ -138,7 +138,7 @@ class DividedOrders final : public ResponseSolver {
       return std::numeric_limits<double>::quiet_NaN();
     if (!has_reference_ && measure == Measure::harmonic) return 0.0;
     if (measure == Measure::peak_phase) return value / divisor_;
-    return per_period(measure) ? value * divisor_ : value;
+    return is_of_a_period(measure) ? value * divisor_ : value;
   }
 
   int divisor_, reference_order_;

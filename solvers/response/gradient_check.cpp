@@ -49,9 +49,7 @@ std::vector<double> solve(PeriodicResponse& response, const mechanics::NetworkVa
 
 // A difference that passes a turn, of a phase, is of the angle and not of its cut.
 double without_turns(double difference, Measure measure) {
-  const bool is_angle =
-      measure == Measure::phase || measure == Measure::element_phase || measure == Measure::peak_phase;
-  return is_angle ? std::remainder(difference, 2.0 * M_PI) : difference;
+  return is_angle(measure) ? std::remainder(difference, 2.0 * M_PI) : difference;
 }
 
 struct Difference {

@@ -5,9 +5,9 @@
 #include <exception>
 #include <numbers>
 
+#include "solvers/exact/exact_solver.hpp"
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/undamped_resonance.hpp"
-#include "solvers/exact/exact_solver.hpp"
 #include "solvers/smooth/observables.hpp"
 #include "solvers/smooth/shooting.hpp"
 
@@ -39,13 +39,13 @@ const Network& without_mixed_laws(const Network& network) {
 
 class SmoothSolver final : public periodic::ResponseSolver {
  public:
-  SmoothSolver(const Network& network, std::vector<Quantity> quantities)
+  SmoothSolver(const Network& network, const std::vector<Quantity>& quantities)
       : assembly_(without_mixed_laws(network)),
         exact_(periodic::make_exact_solver(under_exact_law(network), {})),
         equation_(assembly_),
         integrator_(equation_),
         shooting_(equation_, integrator_),
-        observables_(assembly_, equation_, std::move(quantities)) {}
+        observables_(assembly_, equation_, quantities) {}
 
   void set_values(const mechanics::NetworkValues& values) override {
     exact_->set_values(values);

@@ -38,11 +38,6 @@ std::size_t variable_named(const results::MapLayout& layout, const std::string& 
   return static_cast<std::size_t>(std::distance(layout.variables.begin(), found));
 }
 
-bool is_missing(double value, QuantityKind kind) {
-  if (kind == QuantityKind::flag) return value == 0.0;
-  return kind == QuantityKind::count ? value == -1.0 : std::isnan(value);
-}
-
 // Whether a run could have recorded the value. One that it could not is the work of a hand or another
 // program.
 bool is_possible(double value, const periodic::QuantityDescription& variable) {
@@ -187,8 +182,8 @@ bool KnownPoints::is_answer(std::span<const double> values, std::uint64_t points
   if (own_status_ &&
       (answers_.empty() || value(*own_status_) == static_cast<double>(periodic::Status::unbounded)))
     return true;
-  return std::ranges::any_of(answers_,
-                             [&](std::size_t q) { return !is_missing(value(q), plan_.variables[q].kind); });
+  return std::ranges::any_of(
+      answers_, [&](std::size_t q) { return !periodic::is_missing(plan_.variables[q].kind, value(q)); });
 }
 
 }  // namespace frahm::studies

@@ -1,6 +1,5 @@
 #include "studies/map/row_solver.hpp"
 
-#include <limits>
 #include <utility>
 
 #include "solvers/mechanics/linear_system.hpp"
@@ -9,20 +8,11 @@
 namespace frahm::studies {
 namespace {
 
-using periodic::QuantityKind;
-
-// What a point without a response has: a quantity of each kind, and the status `failed`.
-std::vector<double> values_of_failure(const mechanics::Network& network,
-                                      std::span<const periodic::Quantity> quantities) {
+// What a point that could not be set up has.
+std::vector<double> values_of_failure(std::span<const periodic::Quantity> quantities) {
   std::vector<double> values;
-  for (const periodic::Quantity& quantity : quantities) {
-    const QuantityKind kind = periodic::describe(quantity, network, false).kind;
-    const bool is_status = quantity.measure == periodic::Measure::status;
-    values.push_back(is_status                     ? static_cast<double>(periodic::Status::failed)
-                     : kind == QuantityKind::flag  ? 0.0
-                     : kind == QuantityKind::count ? -1.0
-                                                   : std::numeric_limits<double>::quiet_NaN());
-  }
+  for (const periodic::Quantity& quantity : quantities)
+    values.push_back(periodic::missing_value(quantity.measure, periodic::Status::failed));
   return values;
 }
 
@@ -32,7 +22,7 @@ RowSolver::RowSolver(const StudyFile& study, const mechanics::Network& network, 
                      std::vector<periodic::Quantity> quantities, bool matrices_change)
     : parameters_(study.parameters),
       values_(std::move(values)),
-      missing_(values_of_failure(network, quantities)),
+      missing_(values_of_failure(quantities)),
       matrices_change_(matrices_change),
       response_(network, std::move(quantities)),
       point_(missing_.size()) {}

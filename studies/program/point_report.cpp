@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "solvers/mechanics/linear_system.hpp"
+#include "solvers/orbits/orbit.hpp"
 #include "studies/map/comparison.hpp"
 #include "studies/map/row_solver.hpp"
 
@@ -33,17 +33,6 @@ std::vector<std::string> friction_elements(const mechanics::Network& network) {
   return names;
 }
 
-// What stands for a quantity of a point that could not be set up.
-double missing(const periodic::QuantityDescription& description) {
-  if (description.name == "status") {
-    const auto& flags = description.flags;
-    return std::find_if(flags.begin(), flags.end(), [](auto& flag) { return flag.first == "failed"; })
-        ->second;
-  }
-  if (description.kind == QuantityKind::flag) return 0.0;
-  return description.kind == QuantityKind::count ? -1.0 : std::numeric_limits<double>::quiet_NaN();
-}
-
 periodic::PeriodicResponse response_of(const StudyFile& study,
                                        const std::vector<periodic::Quantity>& quantities) {
   try {
@@ -53,11 +42,12 @@ periodic::PeriodicResponse response_of(const StudyFile& study,
   }
 }
 
+// Each with what stands for it at a point that could not be set up.
 void describe_all(const StudyFile& study, const std::vector<periodic::Quantity>& quantities,
                   PointReport& report) {
   for (const periodic::Quantity& quantity : quantities) {
-    report.quantities.push_back({periodic::describe(quantity, study.network, study.dimensionless)});
-    report.quantities.back().value = missing(report.quantities.back().description);
+    report.quantities.push_back({periodic::describe(quantity, study.network, study.dimensionless),
+                                 periodic::missing_value(quantity.measure, periodic::Status::failed)});
   }
 }
 
@@ -142,8 +132,8 @@ std::string flag_meaning(const periodic::QuantityDescription& description, doubl
 }
 
 bool has_value(const PointReport::QuantityValue& quantity) {
-  if (quantity.description.kind == QuantityKind::count) return quantity.value >= 0.0;
-  return !std::isnan(quantity.value);
+  return quantity.description.kind == QuantityKind::flag ||
+         !periodic::is_missing(quantity.description.kind, quantity.value);
 }
 
 }  // namespace frahm::studies

@@ -23,25 +23,11 @@ std::optional<StudyFile> study_of(const results::MapReader& result, const std::f
   }
 }
 
-// Strokes are shown of springs, energy shares of what dissipates.
-bool is_of_no_interest(const std::string& name, const std::optional<StudyFile>& study) {
-  if (!study) return false;
-  for (const mechanics::Element& element : study->network.elements) {
-    const mechanics::ElementKind& kind = mechanics::kind_of(element);
-    if (name == element.name + "_stroke") return !kind.stroke_is_standard;
-    if (name == element.name + "_energy_share") return !kind.dissipates;
-  }
-  return false;
-}
-
-// What an atlas shows: peaks of the masses, strokes of the springs, regimes, stops, the damping budget,
-// differences from a map compared with, and the status.
+// What the table of quantities has an atlas show, and differences from a map compared with.
 bool is_shown_by_default(const std::string& name, const std::optional<StudyFile>& study) {
-  const auto ends = [&](std::string_view end) { return name.ends_with(end); };
-  if (ends("_velocity_peak") || ends("_acceleration_peak") || ends("_force_peak")) return false;
-  if (is_of_no_interest(name, study)) return false;
-  return ends("_peak") || ends("_stroke") || ends("_regime") || ends("_stops") || ends("_energy_share") ||
-         ends("_difference") || name == "status";
+  if (name.ends_with("_difference")) return true;
+  const auto quantity = study ? periodic::find_quantity(name, study->network) : std::nullopt;
+  return quantity ? periodic::is_shown(*quantity, study->network) : periodic::is_shown(name);
 }
 
 // All recorded quantities if it is none of those.

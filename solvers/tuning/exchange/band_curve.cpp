@@ -5,26 +5,11 @@
 namespace frahm::tuning {
 namespace {
 
-using periodic::Measure;
 using periodic::Quantity;
 using periodic::Side;
 
-bool has_sides(const Quantity& quantity) {
-  switch (quantity.measure) {
-    case Measure::peak:
-    case Measure::stroke:
-    case Measure::velocity_peak:
-    case Measure::acceleration_peak:
-    case Measure::force_peak:
-    case Measure::transmitted_force:
-      return true;
-    default:
-      return false;
-  }
-}
-
 std::vector<Quantity> sides_of(Quantity quantity) {
-  if (!has_sides(quantity)) return {quantity};
+  if (!periodic::has_sides(quantity.measure)) return {quantity};
   std::vector<Quantity> sides{quantity, quantity};
   sides[0].side = Side::most;
   sides[1].side = Side::least;
@@ -36,7 +21,7 @@ std::vector<Quantity> sides_of(Quantity quantity) {
 BandCurve::BandCurve(const Task& task, const DesignSpace& space, const CurveKind& kind, Effort& effort)
     : task_(task),
       kind_(kind),
-      sides_(has_sides(kind.quantity) ? 2 : 1),
+      sides_(periodic::has_sides(kind.quantity.measure) ? 2 : 1),
       response_(task, space, kind.scenario, sides_of(kind.quantity), effort) {
   if (kind.of == CurveKind::Of::dominated)
     constant_.emplace(task, space, kind.scenario, std::vector<Quantity>{kind.quantity}, effort);

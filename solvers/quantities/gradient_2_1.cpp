@@ -1,0 +1,3 @@
+#include "solvers/quantities/gradient.hpp"
+
+template class frahm::periodic::Gradient<2, 1>;

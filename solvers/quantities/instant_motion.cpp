@@ -1,0 +1,101 @@
+#include "solvers/quantities/instant_motion.hpp"
+
+namespace frahm::periodic {
+namespace {
+
+struct ValueAndDerivative {
+  double value = 0.0, by = 0.0;
+};
+
+// w^T q + p^T y and its derivative.
+ValueAndDerivative relative(const mechanics::Incidence& at, const Eigen::VectorXd& q,
+                            const Eigen::VectorXd& q_by, const Eigen::VectorXd& y,
+                            const Eigen::VectorXd& y_by) {
+  return {at.w.dot(q) + at.p.dot(y), at.w.dot(q_by) + at.p.dot(y_by)};
+}
+
+ValueAndDerivative displacement(const mechanics::Incidence& at, const InstantMotion& m) {
+  return relative(at, m.at.q, m.by.q, m.at.y, m.by.y);
+}
+
+ValueAndDerivative velocity(const mechanics::Incidence& at, const InstantMotion& m) {
+  return relative(at, m.at.v, m.by.v, m.at.y_velocity, m.by.y_velocity);
+}
+
+ValueAndDerivative acceleration(const mechanics::Incidence& at, const InstantMotion& m) {
+  return relative(at, m.at.a, m.by.a, m.at.y_acceleration, m.by.y_acceleration);
+}
+
+// The force of elements, each product by the product rule.
+class Forces {
+ public:
+  Forces(const InstantMotion& motion, const mechanics::Assembly& assembly,
+         const mechanics::LinearSystem& system, const mechanics::LinearSystem& system_by)
+      : motion_(motion), assembly_(assembly), system_(system), by_(system_by) {}
+
+  // F = k u + c v + b v' + s + its share of the friction
+  double of_element(std::size_t e) const {
+    const mechanics::Incidence& at = assembly_.incidences()[e];
+    const mechanics::ElementCoefficients &law = system_.coefficients[e], &law_by = by_.coefficients[e];
+    double force = product(law.stiffness, law_by.stiffness, displacement(at, motion_)) +
+                   product(law.damping, law_by.damping, velocity(at, motion_)) +
+                   product(law.inertance, law_by.inertance, acceleration(at, motion_));
+    if (law.internal >= 0) force += motion_.internal_by[law.internal];
+    if (law.friction != 0.0 || law_by.friction != 0.0) force += friction(e);
+    return force;
+  }
+
+  double at_node(const mechanics::Node& node) const {
+    double sum = 0.0;
+    const auto& elements = assembly_.network().elements;
+    for (std::size_t e = 0; e < elements.size(); ++e) {
+      if (elements[e].b == node) sum += of_element(e);
+      if (elements[e].a == node) sum -= of_element(e);
+    }
+    return sum;
+  }
+
+ private:
+  static double product(double factor, double factor_by, const ValueAndDerivative& motion) {
+    return factor_by * motion.value + factor * motion.by;
+  }
+
+  // sigma F of a sliding contact; of a stuck one the share F / sum F of its force lambda.
+  double friction(std::size_t e) const {
+    const mechanics::ContactShare& place = assembly_.shares()[e];
+    const ContactForce& contact = motion_.contacts[place.contact];
+    const double force = system_.coefficients[e].friction, force_by = by_.coefficients[e].friction;
+    if (!contact.sticks) return place.orientation * contact.direction * force_by;
+    const auto j = static_cast<Eigen::Index>(place.contact);
+    const double limit = system_.limit[j];
+    const double share = force / limit;
+    const double share_by = (force_by - share * by_.limit[j]) / limit;
+    return place.orientation * (share * contact.force_by + share_by * contact.force);
+  }
+
+  const InstantMotion& motion_;
+  const mechanics::Assembly& assembly_;
+  const mechanics::LinearSystem &system_, &by_;
+};
+
+}  // namespace
+
+double trace_derivative(const Trace& trace, const InstantMotion& motion, const mechanics::Assembly& assembly,
+                        const mechanics::LinearSystem& system, const mechanics::LinearSystem& system_by) {
+  const Forces forces(motion, assembly, system, system_by);
+  switch (trace.kind) {
+    case TraceKind::velocity:
+      return velocity(trace.at, motion).by;
+    case TraceKind::acceleration:
+      return acceleration(trace.at, motion).by;
+    case TraceKind::element_force:
+      return forces.of_element(trace.element);
+    case TraceKind::support_force:
+      return forces.at_node(trace.node);
+    case TraceKind::displacement:
+      break;
+  }
+  return displacement(trace.at, motion).by;
+}
+
+}  // namespace frahm::periodic

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "solvers/mechanics/linear_system.hpp"
+#include "solvers/quantities/trace.hpp"
+
+// The derivative of a trace at one instant of a motion.
+namespace frahm::periodic {
+
+// Displacements, velocities, accelerations [SI] of the masses and of the prescribed nodes.
+struct Kinematics {
+  Eigen::VectorXd q, v, a;
+  Eigen::VectorXd y, y_velocity, y_acceleration;
+};
+
+struct ContactForce {
+  bool sticks = false;
+  double direction = 1.0;              // of a sliding contact
+  double force = 0.0, force_by = 0.0;  // lambda [N] of one that sticks, and its derivative
+};
+
+// A motion at one instant, seen from inside a mode, and its derivative along a direction, time held.
+struct InstantMotion {
+  Kinematics at, by;
+  Eigen::VectorXd internal_by;         // of the internal forces [N]
+  std::vector<ContactForce> contacts;  // where forces are traced
+};
+
+// system_by: the derivative of `system`.
+double trace_derivative(const Trace& trace, const InstantMotion& motion, const mechanics::Assembly& assembly,
+                        const mechanics::LinearSystem& system, const mechanics::LinearSystem& system_by);
+
+}  // namespace frahm::periodic

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <vector>
+
+#include "solvers/mechanics/linear_system.hpp"
+#include "solvers/quantities/candidate.hpp"
+#include "solvers/quantities/contact_history.hpp"
+#include "solvers/quantities/extreme_values.hpp"
+#include "solvers/quantities/trace.hpp"
+
+// What was measured of a periodic response, of whatever sizes, law and units of time its solver works in.
+// From it all quantities follow (quantity_values.hpp, quantity_derivatives.hpp).
+namespace frahm::periodic {
+
+// A quantity asked for, and the place of its trace among those measured.
+struct Asked {
+  Quantity quantity;
+  std::size_t trace = 0;
+};
+
+// Everything is SI. Only what the quantities asked for need is filled in (request.hpp).
+// y = (q, v, s, u): displacements [m] and velocities [m/s] of the masses, internal forces [N], and the
+// oscillators of the forcing u = (1, cos(order_1 omega t), sin(order_1 omega t), ...).
+struct Measured {
+  const mechanics::Assembly* assembly = nullptr;
+  const mechanics::LinearSystem* system = nullptr;
+  const std::vector<Trace>* traces = nullptr;
+
+  double period = 0.0;       // [s]
+  bool half_period = false;  // x(t + T/2) = -x(t)
+
+  std::vector<Extremes> extremes;                  // of each trace
+  std::vector<std::vector<Candidate>> candidates;  // of each trace, where derivatives are asked for
+
+  Eigen::MatrixXd gram;                     // integral of y y^T over a period [units of y^2 x s]
+  Eigen::MatrixXd motion, motion_velocity;  // of the prescribed nodes, rows on u [m], [m/s]
+
+  std::vector<ContactHistory> histories;  // of each contact; none of a law that never sticks
+  std::vector<double> friction_loss;      // of each element in a period [J]
+  std::vector<double> loss;               // of each element in all
+  double dissipated = 0.0;                // by all elements [J] in a period
+  double input = 0.0, input_size = 0.0;   // work of the excitation, integral of |its power| [J] in a period
+
+  Status status{};
+  double residual = 0.0;                                          // 1
+  double error_bound = std::numeric_limits<double>::quiet_NaN();  // [m]
+  double floquet_radius = 0.0;                                    // 1
+  int newton_iterations = 0;
+  int events = -1;           // in a period; -1: the law has none
+  double static_norm = 0.0;  // energy norm of the static response to the excitation's amplitudes [sqrt(J)]
+  double state_norm = 0.0;   // of the state at the section, where its motion is exact [sqrt(J)]
+
+  std::vector<double> natural_frequency, modal_damping;  // [rad/s], 1
+
+  Eigen::Index masses() const { return system->masses(); }
+  // Where the oscillators begin in y: the constant, then cosine and sine of each order.
+  Eigen::Index oscillators() const { return 2 * masses() + system->internal_forces(); }
+  const Trace& trace(const Asked& asked) const { return (*traces)[asked.trace]; }
+};
+
+// Velocities counted in displacements a step of so many seconds, to those a second.
+void in_seconds(Eigen::Index masses, double step, Eigen::MatrixXd& gram);
+
+// Of a candidate's value [its unit], of its instant as an angle omega t [rad], and how far the state there
+// changes, relative; each a unit of the parameter.
+struct CandidateDerivative {
+  double value = 0.0, angle = 0.0, state = 0.0;
+};
+
+struct ContactDerivative {
+  double stuck_fraction = 0.0, sliding_distance = 0.0;  // 1, [m]
+};
+
+// The derivative of `Measured` along one direction, a unit of the parameter. Times scale with the period.
+struct MeasuredDerivative {
+  const mechanics::LinearSystem* system = nullptr;
+  double log_period = 0.0;                                   // dT/T
+  std::vector<std::vector<CandidateDerivative>> candidates;  // of each trace
+  Eigen::MatrixXd gram, motion, motion_velocity;
+  std::vector<ContactDerivative> contacts;
+  std::vector<double> loss;
+  double dissipated = 0.0;
+  std::vector<double> natural_frequency, modal_damping;
+};
+
+// A derivative, or why there is none.
+struct Derivative {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  const char* why_none = "";
+};
+
+}  // namespace frahm::periodic

@@ -1,0 +1,6 @@
+#include "solvers/quantities/observables.hpp"
+
+template class frahm::periodic::TracedOrbit<2, 1>;
+template class frahm::periodic::Integrals<2, 1>;
+template class frahm::periodic::OrbitMeasurement<2, 1>;
+template class frahm::periodic::Observables<2, 1>;

@@ -1,0 +1,145 @@
+#pragma once
+
+#include <vector>
+
+#include "solvers/quantities/integrals.hpp"
+#include "solvers/quantities/quantity_table.hpp"
+
+namespace frahm::periodic {
+
+// Measures of an exact orbit what quantities and derivatives both need, in SI units.
+template <int N, int H>
+class OrbitMeasurement {
+ public:
+  using S = Sizes<N, H>;
+
+  // Both must outlive the measurement.
+  OrbitMeasurement(const mechanics::Assembly& assembly, const Flow<N, H>& flow)
+      : assembly_(assembly), flow_(flow), forms_(assembly, flow) {}
+
+  // steps: of the orbit, laid out.
+  void measure(const Orbit<N, H>& orbit, const mechanics::LinearSystem& system, OrbitSteps<N, H>& steps,
+               const Needs& needs, Measured& measured);
+
+ private:
+  using Powers = std::vector<typename Integrals<N, H>::Power>;
+
+  void integrate(const Orbit<N, H>& orbit, OrbitSteps<N, H>& steps, bool with_input, Measured& measured);
+  void list_powers(const Mode<N, H>& mode, const mechanics::LinearSystem& system, Powers& powers) const;
+  void follow_contacts(const Orbit<N, H>& orbit, Measured& measured);
+  double relative_displacement(Eigen::Index contact, const typename S::State& z, double phase,
+                               const mechanics::LinearSystem& system) const;
+
+  const mechanics::Assembly& assembly_;
+  const Flow<N, H>& flow_;
+  Forms<N, H> forms_;
+  Integrals<N, H> integrals_;
+  std::vector<ContactStretch> stretches_;
+};
+
+template <int N, int H>
+void OrbitMeasurement<N, H>::measure(const Orbit<N, H>& orbit, const mechanics::LinearSystem& system,
+                                     OrbitSteps<N, H>& steps, const Needs& needs, Measured& measured) {
+  const StepEquations<N, H>& eq = flow_.equations();
+  measured.assembly = &assembly_;
+  measured.system = &system;
+  measured.period = eq.period * eq.step;
+  measured.half_period = orbit.half_period;
+  measured.status = orbit.status;
+  measured.residual = orbit.residual;
+  measured.error_bound = orbit.error_bound;
+  measured.floquet_radius = orbit.floquet_radius;
+  measured.newton_iterations = orbit.newton_iterations;
+  measured.events = (orbit.half_period ? 2 : 1) * orbit.passage.events;
+  measured.static_norm = flow_.static_norm();
+  measured.state_norm = eq.energy_norm(orbit.z);
+  if (needs.integrals) integrate(orbit, steps, needs.input, measured);
+  if (needs.histories || needs.energies) follow_contacts(orbit, measured);
+  if (!needs.energies) return;
+  measured.friction_loss.assign(system.coefficients.size(), 0.0);
+  for (std::size_t e = 0; e < system.coefficients.size(); ++e) {
+    const double force = system.coefficients[e].friction;
+    if (force == 0.0) continue;
+    measured.friction_loss[e] = force * measured.histories[assembly_.shares()[e].contact].sliding_distance;
+  }
+}
+
+template <int N, int H>
+void OrbitMeasurement<N, H>::integrate(const Orbit<N, H>& orbit, OrbitSteps<N, H>& steps, bool with_input,
+                                       Measured& measured) {
+  const StepEquations<N, H>& eq = flow_.equations();
+  const mechanics::LinearSystem& system = *measured.system;
+  integrals_.integrate(steps, flow_, orbit.half_period, [&](const Mode<N, H>& mode, Powers& powers) {
+    powers.clear();
+    if (with_input) list_powers(mode, system, powers);
+  });
+  measured.gram = integrals_.gram();
+  in_seconds(eq.masses(), eq.step, measured.gram);
+  measured.input = integrals_.input();
+  measured.input_size = integrals_.input_size();
+  measured.motion = eq.motion;
+  measured.motion_velocity = eq.motion_velocity;
+  measured.motion_velocity /= eq.step;
+}
+
+// What puts energy in: outside forces on masses, and what drives each prescribed node.
+template <int N, int H>
+void OrbitMeasurement<N, H>::list_powers(const Mode<N, H>& mode, const mechanics::LinearSystem& system,
+                                         Powers& powers) const {
+  const StepEquations<N, H>& eq = flow_.equations();
+  for (Eigen::Index i = 0; i < eq.masses(); ++i) {
+    if (eq.applied_force.row(i).isZero(0.0)) continue;
+    powers.push_back({forms_.zero(), forms_.zero()});
+    powers.back().force.u = eq.applied_force.row(i).transpose();
+    powers.back().velocity.z[eq.masses() + i] = 1.0 / eq.step;
+  }
+  for (Eigen::Index s = 0; s < eq.motion.rows(); ++s) {
+    const mechanics::Node node{mechanics::NodeKind::prescribed, static_cast<std::size_t>(s)};
+    powers.push_back({forms_.node_force(node, system.coefficients, mode), forms_.zero()});
+    powers.back().velocity.u = eq.motion_velocity.row(s).transpose() / eq.step;
+  }
+}
+
+template <int N, int H>
+void OrbitMeasurement<N, H>::follow_contacts(const Orbit<N, H>& orbit, Measured& measured) {
+  const auto& segments = orbit.passage.segments;
+  const double rate = flow_.fundamental_rate();
+  measured.histories.resize(assembly_.contacts());
+  stretches_.resize(segments.size());
+  for (std::size_t contact = 0; contact < measured.histories.size(); ++contact) {
+    const auto j = static_cast<Eigen::Index>(contact);
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+      const Segment<N, H>& segment = segments[i];
+      const Mode<N, H>& mode = flow_.mode(segment.mode);
+      stretches_[i] = {segment.length, contains(mode.stuck, j), mode.sign(j), 0.0};
+      if (stretches_[i].sticks) continue;
+      const auto& end_state = i + 1 == segments.size() ? orbit.passage.end : segments[i + 1].z;
+      const double start = orbit.section + segment.start * rate, end = start + segment.length * rate;
+      stretches_[i].slid = relative_displacement(j, end_state, end, *measured.system) -
+                           relative_displacement(j, segment.z, start, *measured.system);
+    }
+    measured.histories[contact] = contact_history(stretches_, orbit.half_period);
+  }
+}
+
+// w^T q + p^T y [m] at omega t = phase.
+template <int N, int H>
+double OrbitMeasurement<N, H>::relative_displacement(Eigen::Index contact, const typename S::State& z,
+                                                     double phase,
+                                                     const mechanics::LinearSystem& system) const {
+  const StepEquations<N, H>& eq = flow_.equations();
+  double u = system.W.col(contact).dot(z.head(eq.masses()));
+  if (eq.support_velocity.row(contact).isZero(0.0)) return u;  // no support of its that moves
+  typename S::Oscillators oscillators(eq.oscillators());
+  eq.oscillators_at(phase, flow_.orders(), oscillators);
+  for (Eigen::Index s = 0; s < eq.motion.rows(); ++s)
+    u += system.W_support(s, contact) * eq.motion.row(s).dot(oscillators);
+  return u;
+}
+
+extern template class OrbitMeasurement<1, 1>;
+extern template class OrbitMeasurement<1, 2>;
+extern template class OrbitMeasurement<2, 1>;
+extern template class OrbitMeasurement<Eigen::Dynamic, Eigen::Dynamic>;
+
+}  // namespace frahm::periodic

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <span>
+
+#include "solvers/quantities/measured.hpp"
+
+// The one table of the quantities: what they are called, what must be measured for them, and how they and
+// their derivatives follow from that.
+namespace frahm::periodic {
+
+// Whose a quantity is; `support` is the ground or a prescribed node.
+enum class Owner { mass, element, contact, point, mode, support };
+
+// What stands in the standard record of an atlas, and of which of its owners.
+enum class StandardOf { none, masses, springs, contacts, point };
+struct Standard {
+  StandardOf of = StandardOf::none;
+  int place = 0;  // among those of one owner, from 1
+};
+
+// Whose quantity a page shows unasked.
+enum class Shown { no, of_all, of_springs, of_dissipating };
+
+struct FlagMeaning {
+  const char* meaning;
+  int value;
+};
+
+// What a trace (trace.hpp) is asked for.
+enum class OfTrace {
+  nothing,
+  side,                // its largest value on one side, or on either
+  range,               // both sides
+  instant,             // when its largest value is first reached
+  size,                // its magnitude, beside which a component of it is rounding
+  size_in_derivative,  // the same, for the derivative alone
+};
+
+// What has to be measured beside traces.
+struct Needs {
+  bool integrals = false;  // the Gram matrix of state and oscillators
+  bool energies = false;   // what friction takes out, for what each element dissipates
+  bool input = false;      // the work of the excitation; derivatives do without: work in = energy lost
+  bool histories = false;  // of the contacts: a law that never sticks has none
+  bool stability = false;  // of the orbit: the spectrum of its period map
+  bool modes = false;      // of the linear system
+
+  Needs& operator|=(const Needs& other) {
+    integrals |= other.integrals;
+    energies |= other.energies;
+    input |= other.input;
+    histories |= other.histories;
+    stability |= other.stability;
+    modes |= other.modes;
+    return *this;
+  }
+};
+
+struct QuantityRow {
+  Measure measure;
+  Owner owner;
+  const char* suffix;
+  const char* unit;     // UDUNITS form
+  const char* meaning;  // {} stands for the owner's name
+  QuantityKind kind = QuantityKind::real;
+  std::span<const FlagMeaning> flags = {};
+  bool of_a_period = false;  // over several periods so many times as large
+  Standard standard = {};
+  Shown shown = Shown::no;
+  TraceKind trace = TraceKind::displacement;  // of what `of_trace` is asked
+  OfTrace of_trace = OfTrace::nothing;
+  Needs needs = {};
+  double (*value)(const Measured&, const Asked&) = nullptr;
+  // nullptr: not differentiated, because:
+  Derivative (*derivative)(const Measured&, const MeasuredDerivative&, const Asked&) = nullptr;
+  const char* why_not_differentiated = "";
+};
+
+std::span<const QuantityRow> quantity_table();  // in the order of Measure
+const QuantityRow& row_of(Measure measure);
+
+}  // namespace frahm::periodic

@@ -1,0 +1,210 @@
+#include "solvers/quantities/quantity_values.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solvers/quantities/fundamental_response.hpp"
+
+namespace frahm::periodic::value {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+Eigen::Index index_of(const Asked& asked) {
+  return static_cast<Eigen::Index>(asked.quantity.index);
+}
+
+bool has_no_reference(const Measured& m) {
+  return m.half_period && m.system->reference_order % 2 == 0;
+}
+
+// X_n of a mass by itself.
+std::complex<double> reference_component(const Measured& m, Eigen::Index mass) {
+  if (has_no_reference(m)) return 0.0;
+  const Eigen::Index first = m.oscillators() + 1 + 2 * reference_place(*m.system);
+  return {2.0 / m.period * m.gram(mass, first), -2.0 / m.period * m.gram(mass, first + 1)};
+}
+
+// Integral of c v^2, of s^2 / c in a damper through which a force s runs, and friction's.
+double loss(const Measured& m, std::size_t element) {
+  const mechanics::ElementCoefficients& law = m.system->coefficients[element];
+  double energy = m.friction_loss[element];
+  if (law.damping != 0.0) energy += law.damping * square_of_velocity(m, m.assembly->incidences()[element]);
+  if (law.internal >= 0) {
+    const Eigen::Index place = 2 * m.masses() + law.internal;
+    energy += m.gram(place, place) / law.internal_damping;
+  }
+  return energy;
+}
+
+const ContactHistory& history(const Measured& m, const Asked& asked) {
+  return m.histories[m.assembly->shares()[asked.quantity.index].contact];
+}
+
+}  // namespace
+
+double integral(const mechanics::Incidence& at, const Eigen::MatrixXd& gram, const Eigen::MatrixXd& motion,
+                Eigen::Index oscillators, Eigen::Index k) {
+  const auto column = gram.col(oscillators + k);
+  double sum = at.w.dot(column.head(at.w.size()));
+  for (Eigen::Index s = 0; s < at.p.size(); ++s) {
+    if (at.p[s] != 0.0) sum += at.p[s] * motion.row(s).dot(column.segment(oscillators, motion.cols()));
+  }
+  return sum;
+}
+
+std::complex<double> reference_component(const Measured& m, const mechanics::Incidence& at) {
+  if (has_no_reference(m)) return 0.0;
+  const Eigen::Index cosine = 1 + 2 * reference_place(*m.system);
+  return {2.0 / m.period * integral(at, m.gram, m.motion, m.oscillators(), cosine),
+          -2.0 / m.period * integral(at, m.gram, m.motion, m.oscillators(), cosine + 1)};
+}
+
+double square_of_velocity(const Measured& m, const mechanics::Incidence& at) {
+  const Eigen::Index n = m.masses(), first = m.oscillators(), count = m.motion_velocity.cols();
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (at.w[i] != 0.0) sum += at.w[i] * at.w.dot(m.gram.col(n + i).segment(n, n));
+  }
+  for (Eigen::Index s = 0; s < at.p.size(); ++s) {
+    if (at.p[s] == 0.0) continue;
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const auto column = m.gram.col(first + k);
+      double with_k = 2.0 * at.w.dot(column.segment(n, n));
+      for (Eigen::Index r = 0; r < at.p.size(); ++r) {
+        if (at.p[r] != 0.0) with_k += at.p[r] * m.motion_velocity.row(r).dot(column.segment(first, count));
+      }
+      sum += at.p[s] * m.motion_velocity(s, k) * with_k;
+    }
+  }
+  return sum;
+}
+
+void add_up_losses(Measured& m) {
+  m.loss.resize(m.system->coefficients.size());
+  m.dissipated = 0.0;
+  for (std::size_t e = 0; e < m.loss.size(); ++e) m.dissipated += m.loss[e] = loss(m, e);
+}
+
+double least_dissipation(const Measured& m) {
+  return 1e-26 * m.static_norm * m.static_norm;
+}
+
+double amplitude(const Measured& m, const Asked& asked) {
+  return 0.5 * (m.extremes[asked.trace].most - m.extremes[asked.trace].least);
+}
+
+double peak(const Measured& m, const Asked& asked) {
+  return m.extremes[asked.trace].peak(asked.quantity.side);
+}
+
+double peak_phase(const Measured& m, const Asked& asked) {
+  const double phase = m.extremes[asked.trace].most_phase;
+  return std::isnan(phase) ? 0.0 : phase;  // 0: at rest all the time
+}
+
+double mean(const Measured& m, const Asked& asked) {
+  return m.half_period ? 0.0 : m.gram(index_of(asked), m.oscillators()) / m.period;
+}
+
+double rms(const Measured& m, const Asked& asked) {
+  return std::sqrt(m.gram(index_of(asked), index_of(asked)) / m.period);
+}
+
+// x_n = |X_n| cos(n omega t - phase); NaN where there is none.
+double phase(const Measured& m, const Asked& asked) {
+  const std::complex<double> component = value::reference_component(m, m.trace(asked).at);
+  const double rounding = 1e-12 * m.extremes[asked.trace].magnitude();
+  return std::abs(component) <= rounding ? kNone : -std::arg(component);
+}
+
+double harmonic(const Measured& m, const Asked& asked) {
+  return std::abs(reference_component(m, index_of(asked)));
+}
+
+double magnification(const Measured& m, const Asked& asked) {
+  return ratio(harmonic(m, asked), static_displacement(*m.system)[index_of(asked)]);
+}
+
+double transmissibility(const Measured& m, const Asked& asked) {
+  return ratio(harmonic(m, asked), support_amplitude(*m.system));
+}
+
+double energy(const Measured& m, const Asked& asked) {
+  return m.loss[asked.quantity.index];
+}
+
+double energy_share(const Measured& m, const Asked& asked) {
+  return m.dissipated > least_dissipation(m) ? energy(m, asked) / m.dissipated : 0.0;
+}
+
+double stops(const Measured& m, const Asked& asked) {
+  return history(m, asked).stops;
+}
+
+double reversals(const Measured& m, const Asked& asked) {
+  return history(m, asked).reversals;
+}
+
+double stuck_fraction(const Measured& m, const Asked& asked) {
+  return history(m, asked).stuck_fraction;
+}
+
+double regime(const Measured& m, const Asked& asked) {
+  const double force = m.system->coefficients[asked.quantity.index].friction;
+  return static_cast<double>(regime_of(force, history(m, asked)));
+}
+
+double status(const Measured& m, const Asked&) {
+  return static_cast<double>(m.status);
+}
+
+double floquet_radius(const Measured& m, const Asked&) {
+  return m.floquet_radius;
+}
+
+double energy_input(const Measured& m, const Asked&) {
+  return m.input;
+}
+
+// Where nothing moves both are rounding of the forcing's energy; where nothing that moves is strained they
+// are what the orbit's own energy fails to close by.
+double energy_balance(const Measured& m, const Asked&) {
+  const double size = std::max(m.input_size, m.dissipated);
+  const double closing = 1e-13 + 100.0 * m.residual;
+  const double rounding =
+      std::max(1e-11 * m.static_norm * m.static_norm, closing * m.state_norm * m.state_norm);
+  return size > rounding ? std::abs(m.input - m.dissipated) / size : 0.0;
+}
+
+double force_transmissibility(const Measured& m, const Asked&) {
+  Eigen::VectorXcd X(m.masses());
+  for (Eigen::Index i = 0; i < X.size(); ++i) X[i] = reference_component(m, i);
+  return periodic::force_transmissibility(*m.system, X);
+}
+
+double residual(const Measured& m, const Asked&) {
+  return m.residual;
+}
+
+double error_bound(const Measured& m, const Asked&) {
+  return m.error_bound;
+}
+
+double newton_iterations(const Measured& m, const Asked&) {
+  return m.newton_iterations;
+}
+
+double events(const Measured& m, const Asked&) {
+  return m.events;
+}
+
+double natural_frequency(const Measured& m, const Asked& asked) {
+  return m.natural_frequency[asked.quantity.index];
+}
+
+double modal_damping(const Measured& m, const Asked& asked) {
+  return m.modal_damping[asked.quantity.index];
+}
+
+}  // namespace frahm::periodic::value

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <complex>
+
+#include "solvers/quantities/measured.hpp"
+
+// The quantities as functions of what was measured, and what their derivatives need of them. The meaning of
+// each stands in the table (quantity_table.cpp).
+namespace frahm::periodic::value {
+
+double amplitude(const Measured&, const Asked&);
+double peak(const Measured&, const Asked&);  // of any trace
+double peak_phase(const Measured&, const Asked&);
+double mean(const Measured&, const Asked&);
+double rms(const Measured&, const Asked&);
+double phase(const Measured&, const Asked&);  // of a mass or element
+double harmonic(const Measured&, const Asked&);
+double magnification(const Measured&, const Asked&);
+double transmissibility(const Measured&, const Asked&);
+double energy(const Measured&, const Asked&);
+double energy_share(const Measured&, const Asked&);
+double stops(const Measured&, const Asked&);
+double reversals(const Measured&, const Asked&);
+double stuck_fraction(const Measured&, const Asked&);
+double regime(const Measured&, const Asked&);
+double status(const Measured&, const Asked&);
+double floquet_radius(const Measured&, const Asked&);
+double energy_input(const Measured&, const Asked&);
+double energy_balance(const Measured&, const Asked&);
+double force_transmissibility(const Measured&, const Asked&);
+double residual(const Measured&, const Asked&);
+double error_bound(const Measured&, const Asked&);
+double newton_iterations(const Measured&, const Asked&);
+double events(const Measured&, const Asked&);
+double natural_frequency(const Measured&, const Asked&);
+double modal_damping(const Measured&, const Asked&);
+
+// Integral over a period of (w^T q + p^T y) times oscillator k [m s]; the same with a Gram matrix and motion
+// of one's own.
+double integral(const mechanics::Incidence& at, const Eigen::MatrixXd& gram, const Eigen::MatrixXd& motion,
+                Eigen::Index oscillators, Eigen::Index k);
+// X_n of w^T q + p^T y = Re X_n e^{i n omega t} + ..., n the reference order [m].
+std::complex<double> reference_component(const Measured& measured, const mechanics::Incidence& at);
+// Integral over a period of (w^T v + p^T y')^2 [m^2/s].
+double square_of_velocity(const Measured& measured, const mechanics::Incidence& at);
+// Fills in what each element dissipates, and all together; from integrals and what friction takes out.
+void add_up_losses(Measured& measured);
+// What is dissipated below this nobody has a share of: where nothing moves dampers lose the square of a
+// rounding [J].
+double least_dissipation(const Measured& measured);
+
+}  // namespace frahm::periodic::value

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "solvers/quantities/quantity_table.hpp"
+
+// From the quantities asked for to what must be measured, and from what was measured back to them.
+namespace frahm::periodic {
+
+// What is asked of a trace.
+struct TraceUse {
+  bool either = false, most = false, least = false;  // its largest value on these sides
+  bool instant = false;                              // when it is first reached
+};
+
+struct Request {
+  std::vector<Asked> quantities;
+  std::vector<Trace> traces;   // each once
+  std::vector<TraceUse> uses;  // of each trace
+  Needs needs;
+};
+
+Request values_of(const std::vector<Quantity>& quantities, const mechanics::Assembly& assembly);
+// Of the derivatives of those that have one.
+Request derivatives_of(const std::vector<Quantity>& quantities, const mechanics::Assembly& assembly);
+
+// out[i] is quantity i. What only a law that sticks has is missing of one that does not.
+void tell_values(const Request& request, Measured& measured, std::span<double> out);
+// Of a point without a response.
+void tell_missing(const Request& request, Status status, std::span<double> out);
+// out[i] is the derivative of quantity i; where there is none, NaN, and why_none[i] says why.
+void tell_derivatives(const Request& request, const Measured& measured, MeasuredDerivative& by,
+                      std::span<double> out, std::span<const char*> why_none);
+
+// Whether a derivative asked for is that of this candidate. found: the extremes of all candidates.
+bool is_asked(const TraceUse& use, const Candidate& candidate, const Extremes& found, bool half_period);
+
+}  // namespace frahm::periodic
