@@ -104,7 +104,7 @@ double loss(const Measured& m, D d, std::size_t e) {
   double by = 0.0;
   if (law_by.damping != 0.0) by += law_by.damping * value::square_of_velocity(m, m.assembly->incidences()[e]);
   if (law.damping != 0.0) by += law.damping * square_of_velocity(m, d, m.assembly->incidences()[e]);
-  if (law.internal >= 0) {
+  if (law.internal_damping > 0.0) {
     const Eigen::Index place = 2 * m.masses() + law.internal;
     const double lost = m.gram(place, place) / law.internal_damping;
     by += (d.gram(place, place) - lost * law_by.internal_damping) / law.internal_damping;

@@ -30,7 +30,7 @@ double loss(const Measured& m, std::size_t element) {
   const mechanics::ElementCoefficients& law = m.system->coefficients[element];
   double energy = m.friction_loss[element];
   if (law.damping != 0.0) energy += law.damping * square_of_velocity(m, m.assembly->incidences()[element]);
-  if (law.internal >= 0) {
+  if (law.internal_damping > 0.0) {
     const Eigen::Index place = 2 * m.masses() + law.internal;
     energy += m.gram(place, place) / law.internal_damping;
   }

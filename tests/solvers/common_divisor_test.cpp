@@ -55,7 +55,8 @@ NetworkValues shaken_values(double omega) {
 double of_whole_period(Measure measure, double value, int g) {
   if (measure == Measure::floquet_radius) return std::pow(value, g);
   if (measure == Measure::peak_phase) return value / g;
-  return is_of_a_period(measure) ? value * g : value;
+  const bool is_missing_count = value == -1.0;  // under the arctan law
+  return is_of_a_period(measure) && !is_missing_count ? value * g : value;
 }
 
 // Every quantity of `whole` is that of `part`, whose orders are a g-th at g times the frequency.
