@@ -180,8 +180,9 @@ void Gradient<N, H>::integrate() {
   measured_by_.motion_velocity -= by_.log_step * measured_.motion_velocity;
 }
 
-// Distance slid: the sum of sigma (u(end) - u(start)) over the steps in which the contact slides; at the ends
-// of its slides its velocity is zero, so that they may shift. Time stuck: by the shifts of its ends.
+// Distance slid: the sum of sigma (u(end) - u(start)) over the steps in which the contact slides. At the end
+// of a slide its velocity is zero, so that it may shift; at its start it is of a contact that was held, and
+// of an internal force v, so that a later start takes sigma v dt away. Time stuck: by the shifts of its ends.
 template <int N, int H>
 void Gradient<N, H>::follow_contacts(const Orbit<N, H>& orbit) {
   const Eigen::Index n = flow_.equations().masses();
@@ -192,9 +193,16 @@ void Gradient<N, H>::follow_contacts(const Orbit<N, H>& orbit) {
   for (std::size_t contact = 0; contact < assembly_.contacts(); ++contact) {
     const auto j = static_cast<Eigen::Index>(contact);
     ContactDerivative& its = measured_by_.contacts[contact];
+    std::size_t changes = 0;
     for (std::size_t i = 0; i < steps.size(); ++i) {
       const Mode<N, H>& mode = flow_.mode(steps[i].mode);
+      const bool is_after_change = i > 0 && steps[i - 1].ends_segment;
+      if (is_after_change) ++changes;
       if (contains(mode.stuck, j)) continue;
+      if (is_after_change && contains(flow_.mode(steps[i - 1].mode).stuck, j)) {
+        const double speed = flow_.sliding_speed(steps[i].left, j).value;
+        its.sliding_distance -= halves * mode.sign(j) * speed * sensitivity_.passage().shift(changes - 1);
+      }
       const auto& p = sensitivity_.passage().polynomials(i);
       const typename S::State d = p.transpose() * powers(steps[i].length);
       double slid = by_.support_displacement.row(j).dot(steps[i].right.u - steps[i].left.u);
