@@ -9,14 +9,18 @@
 // What must hold of the answers to a network and to changed networks with the same motion.
 namespace frahm::invariants {
 
+// How sharply the answers are meant: an orbit that is grazing, or that all but does not attract, is hardly
+// determined by the data.
+enum class Standing { ok, neutral, grazing };
+
 struct Violation {
   std::string invariant, figure;
   double found = 0.0, expected = 0.0, allowed = 0.0;
-  bool grazing = false;  // one of the answers says so
+  Standing standing = Standing::ok;
 
   // The kind that a smaller network must show too.
   bool same_kind(const Violation& other) const {
-    return invariant == other.invariant && grazing == other.grazing;
+    return invariant == other.invariant && standing == other.standing;
   }
 };
 
