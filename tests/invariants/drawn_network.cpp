@@ -74,8 +74,8 @@ class Drawing {
   void choose_kind() {
     masses_ = 1 + std::min(pick(6), pick(6));
     const double u = uniform();
-    decades_ = u < 0.6 ? 1.0 : u < 0.9 ? 2.0 : 4.0;
-    damping_ = std::array{0.1, 0.03, 0.01, 1e-3, 1e-5}[pick(5)];
+    decades_ = u < 0.6 ? 1.0 : u < 0.9 ? 2.0 : 3.0;
+    damping_ = std::array{0.1, 0.1, 0.03, 0.03, 0.01, 0.01, 1e-3, 1e-5}[pick(8)];
   }
 
   void add_masses() {
@@ -143,7 +143,25 @@ class Drawing {
   void choose_frequency() {
     const double lowest = case_.network.reference_order;
     const double ratio = chance(0.15) ? between_powers(-2.0, -1.0) : between_powers(-0.8, 0.6);
-    case_.values.omega = two_digits(ratio / lowest);
+    constexpr double kMostStiffness = 150.0;  // fastest rate over omega: a period then takes milliseconds
+    case_.values.omega = two_digits(std::max(ratio / lowest, fastest_rate() / kMostStiffness));
+  }
+
+  // Of the elements by themselves, roughly [rad/s].
+  double fastest_rate() const {
+    double fastest = 0.0;
+    for (std::size_t e = 0; e < case_.network.elements.size(); ++e) {
+      const Element& element = case_.network.elements[e];
+      double per_mass = 0.0;
+      for (const Node& node : {element.a, element.b})
+        per_mass += node.kind == NodeKind::mass ? 1.0 / case_.values.mass[node.index] : 0.0;
+      const double value = case_.values.element[e], second = case_.values.second[e];
+      if (element.type == ElementType::damper) fastest = std::max(fastest, value * per_mass);
+      if (element.type == ElementType::maxwell) fastest = std::max(fastest, value / second);
+      if (element.type == ElementType::coulomb || element.type == ElementType::inerter) continue;
+      fastest = std::max(fastest, std::sqrt(value * per_mass));
+    }
+    return fastest;
   }
 
   std::mt19937_64 random_;
