@@ -147,7 +147,7 @@ Change orders_multiplied(const Case& original) {
   for (const Excitation& excitation : original.network.excitations)
     common = std::gcd(common, excitation.order);
   common = std::gcd(common, original.network.reference_order);
-  const int times = original.seed % 3 == 0 ? 30 : 2 + static_cast<int>(original.seed % 2);
+  const int times = original.seed % 20 == 0 ? 30 : 2 + static_cast<int>(original.seed % 2);
   Change change{common > 1 ? "orders divided" : "orders multiplied", original, {}};
   const auto new_order = [&](int order) { return common > 1 ? order / common : order * times; };
   for (Excitation& excitation : change.changed.network.excitations)
