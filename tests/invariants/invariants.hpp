@@ -34,7 +34,9 @@ struct Tally {
   int without_error_bound = 0;          // of those that are ok
 };
 
-// All violations by the network, one for each invariant: that of the figure furthest off.
-std::vector<Violation> violations_of(const Case& original, Tally* tally = nullptr);
+// All violations by the network, one for each invariant: that of the figure furthest off. `only`: of this
+// invariant; empty: of all.
+std::vector<Violation> violations_of(const Case& original, Tally* tally = nullptr,
+                                     const std::string& only = "");
 
 }  // namespace frahm::invariants

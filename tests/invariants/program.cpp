@@ -91,7 +91,7 @@ int check(const Options& options) {
     if (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > options.seconds)
       break;
     const Case drawn = draw(seed);
-    for (const Violation& violation : violations_of(drawn, &tally)) {
+    for (const Violation& violation : violations_of(drawn, &tally, options.only)) {
       if (!options.only.empty() && violation.invariant != options.only) continue;
       ++found[violation.standing][violation.invariant];
       show(drawn, violation, options);

@@ -10,7 +10,7 @@ using namespace mechanics;
 
 bool still_violates(const Case& smaller, const Violation& violation) {
   if (smaller.network.masses.empty() || smaller.network.excitations.empty()) return false;
-  const auto violations = violations_of(smaller);
+  const auto violations = violations_of(smaller, nullptr, violation.invariant);
   return std::any_of(violations.begin(), violations.end(),
                      [&](const Violation& other) { return other.same_kind(violation); });
 }
