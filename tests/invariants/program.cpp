@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "tests/invariants/changes.hpp"
 #include "tests/invariants/shrinking.hpp"
 #include "tests/invariants/study_text.hpp"
 
@@ -67,6 +68,16 @@ const char* name_of(Standing standing) {
   return standing == Standing::grazing ? " (grazing)" : " (neutral)";
 }
 
+// The network and the changed one that answers otherwise.
+void print_studies(const Case& small, const Violation& v) {
+  fmt::print("{}\n", study_text(small, fmt::format("seed {}: {}", small.seed, v.invariant)));
+  for (const Change& change : changes_of(small)) {
+    if (change.name != v.invariant) continue;
+    fmt::print("# changed\n{}\n",
+               study_text(change.changed, fmt::format("seed {}: {}, changed", small.seed, v.invariant)));
+  }
+}
+
 void show(const Case& violating, const Violation& v, const Options& options) {
   fmt::print("seed {}{} | {} | {} = {:.12g}, expected {:.12g}, off by {:.2g}, allowed {:.2g} | {}\n",
              violating.seed, name_of(v.standing), v.invariant, v.figure, v.found, v.expected,
@@ -74,8 +85,7 @@ void show(const Case& violating, const Violation& v, const Options& options) {
   if (!options.shrink) return;
   const Case small = shrunk(violating, v);
   fmt::print("  shrunk: {}\n", in_short(small));
-  if (options.study)
-    fmt::print("{}", study_text(small, fmt::format("seed {}: {}", violating.seed, v.invariant)));
+  if (options.study) print_studies(small, v);
 }
 
 void print_counts(const char* heading, const std::map<std::string, int>& counts) {
