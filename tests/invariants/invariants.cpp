@@ -1,0 +1,253 @@
+#include "tests/invariants/invariants.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "tests/invariants/changes.hpp"
+
+namespace frahm::invariants {
+namespace {
+
+using periodic::Measure;
+
+constexpr double kAgreement = 1e-8;       // of the largest displacement
+constexpr double kOtherAgreement = 1e-7;  // of the largest velocity, acceleration, force or energy
+constexpr double kOfForcing = 1e-10;      // of what the excitation would do at rest: rounding
+constexpr double kShareAgreement = 1e-6;  // of shares of a period and of energy
+constexpr double kBalance = 1e-9, kResidual = 1e-12, kStable = 1.0 + 1e-9, kLimit = 1.0 + 1e-9;
+
+bool is_energy(Measure measure) {
+  return measure == Measure::energy || measure == Measure::energy_input;
+}
+
+bool is_compared(const Figure& figure) {
+  switch (figure.quantity.measure) {
+    case Measure::error_bound:
+    case Measure::residual:
+    case Measure::energy_balance:
+    case Measure::newton_iterations:
+    case Measure::events:
+    case Measure::reversals:
+    case Measure::status:
+    case Measure::phase:
+    case Measure::peak_phase:
+    case Measure::element_phase:
+    case Measure::magnification:
+    case Measure::transmissibility:
+    case Measure::force_transmissibility:
+    case Measure::modal_damping:
+      return false;
+    default:
+      return true;
+  }
+}
+
+Standing standing_of(const Answer& one, const Answer& other) {
+  constexpr double kNeutral = 1.0 - 1e-6;
+  if (one.status == 2 || other.status == 2) return Standing::grazing;
+  if (one["floquet_radius"] > kNeutral || other["floquet_radius"] > kNeutral) return Standing::neutral;
+  return Standing::ok;
+}
+
+// Lengths, times and forces of the excitation.
+Factors size_of_forcing(const Case& c) {
+  Factors size{0.0, 1.0 / (c.values.omega * c.network.reference_order), 0.0};
+  double softest = HUGE_VAL;
+  for (std::size_t e = 0; e < c.network.elements.size(); ++e) {
+    if (c.network.elements[e].type == mechanics::ElementType::spring)
+      softest = std::min(softest, std::abs(c.values.element[e]));
+  }
+  for (std::size_t k = 0; k < c.network.excitations.size(); ++k) {
+    const double amplitude = std::abs(c.values.excitation[k].amplitude);
+    if (c.network.excitations[k].kind == mechanics::ExcitationKind::force) {
+      size.force += amplitude;
+      size.length += amplitude / softest;
+    } else {
+      size.length += amplitude;
+      size.force += amplitude * softest;
+    }
+  }
+  return size;
+}
+
+// More than rounding goes in.
+bool has_energy(const Case& c, const Answer& base) {
+  constexpr double kOfRounding = 1e-8;
+  return base["energy_input"] > kOfRounding * factor_of("J", size_of_forcing(c));
+}
+
+double largest_in_unit(const Answer& answer, const std::string& unit) {
+  double largest = 0.0;
+  for (const Figure& figure : answer.figures) {
+    if (figure.unit == unit && is_compared(figure)) largest = std::max(largest, std::abs(figure.value));
+  }
+  return largest;
+}
+
+class Worst {
+ public:
+  explicit Worst(Violation of) : worst_(std::move(of)) {}
+  void check(const std::string& figure, double found, double expected, double allowed) {
+    const double off = std::abs(found - expected);
+    if (off <= allowed || (std::isnan(found) && std::isnan(expected))) return;
+    const double excess = std::isnan(off) ? HUGE_VAL : off / std::max(allowed, 1e-300);
+    if (excess <= excess_) return;
+    excess_ = excess;
+    worst_.figure = figure;
+    worst_.found = found;
+    worst_.expected = expected;
+    worst_.allowed = allowed;
+  }
+  void add_to(std::vector<Violation>& violations) const {
+    if (excess_ > 0.0) violations.push_back(worst_);
+  }
+
+ private:
+  Violation worst_;
+  double excess_ = 0.0;
+};
+
+double allowed_difference(const Figure& figure, const Case& original, const Answer& base) {
+  const double rounding = kOfForcing * factor_of(figure.unit, size_of_forcing(original));
+  if (figure.quantity.measure == Measure::stops || figure.quantity.measure == Measure::regime) return 0.5;
+  if (figure.quantity.measure == Measure::natural_frequency) return 1e-9 * figure.value;
+  if (figure.unit == "1") return kShareAgreement;
+  const double agreement = figure.unit == "m" ? kAgreement : kOtherAgreement;
+  return agreement * largest_in_unit(base, figure.unit) + rounding;
+}
+
+bool belongs_to(const Figure& figure, const std::string& element) {
+  return !element.empty() && figure.name.rfind(element + "_", 0) == 0;
+}
+
+// What the changed network's figure must be.
+double expected_value(const Figure& figure, const Change& change) {
+  double value = figure.value * factor_of(figure.unit, change.factors);
+  if (figure.quantity.measure == Measure::mean) value *= change.sign;
+  if (is_energy(figure.quantity.measure) || figure.quantity.measure == Measure::stops)
+    value *= change.periods;
+  return value;
+}
+
+void compare(const Case& original, const Answer& base, const Change& change, const Answer& other,
+             std::vector<Violation>& violations) {
+  const Standing standing = standing_of(base, other);
+  Worst worst({change.name, "", 0, 0, 0, standing});
+  if (base.has_response() != other.has_response()) {
+    worst.check("status", other.status, base.status, 0.0);
+    worst.add_to(violations);
+    return;
+  }
+  if (!base.has_response()) return;
+  for (const Figure& figure : base.figures) {
+    if (!is_compared(figure) || belongs_to(figure, change.without)) continue;
+    if (figure.quantity.measure == Measure::energy_share && !has_energy(original, base)) continue;
+    const Figure* found = other.find(figure.name);
+    if (found == nullptr) continue;
+    if (figure.quantity.measure == Measure::floquet_radius &&
+        (change.periods != 1.0 || standing == Standing::grazing))
+      continue;
+    // One or several stops is said of a period.
+    if (figure.quantity.measure == Measure::regime && change.periods != 1.0) continue;
+    double allowed = allowed_difference(figure, original, base) * factor_of(figure.unit, change.factors);
+    if (is_energy(figure.quantity.measure)) allowed *= change.periods;
+    if (figure.unit == "m") {
+      const double bounds = base["error_bound"] * change.factors.length + other["error_bound"];
+      if (bounds > allowed) allowed = bounds;
+    }
+    worst.check(figure.name, found->value, expected_value(figure, change), allowed);
+  }
+  worst.add_to(violations);
+}
+
+// One-sided: found <= most.
+void at_most(const std::string& invariant, const std::string& figure, double found, double most,
+             const Answer& base, std::vector<Violation>& violations) {
+  if (found <= most) return;
+  violations.push_back({invariant, figure, found, most, 0.0, standing_of(base, base)});
+}
+
+void check_contacts(const Case& original, const Answer& base, std::vector<Violation>& violations) {
+  Worst stuck({"stuck throughout without stops", "", 0, 0, 0, standing_of(base, base)});
+  for (std::size_t e = 0; e < original.network.elements.size(); ++e) {
+    if (original.network.elements[e].type != mechanics::ElementType::coulomb) continue;
+    const std::string& name = original.network.elements[e].name;
+    at_most("friction within its limit", name + "_force_peak", base[name + "_force_peak"],
+            original.values.element[e] * kLimit, base, violations);
+    if (base[name + "_regime"] != 5.0) continue;
+    stuck.check(name + "_stops", base[name + "_stops"], 0.0, 0.0);
+    stuck.check(name + "_stuck_fraction", base[name + "_stuck_fraction"], 1.0, 1e-12);
+    stuck.check(name + "_reversals", base[name + "_reversals"], 0.0, 0.0);
+  }
+  stuck.add_to(violations);
+}
+
+// What the answer must be by itself. `where` is the change that it is of.
+void check_itself(const Case& asked, const Answer& base, std::vector<Violation>& violations) {
+  check_contacts(asked, base, violations);
+  if (has_energy(asked, base))
+    at_most("energy balance", "energy_balance", base["energy_balance"], kBalance, base, violations);
+  at_most("residual", "residual", base["residual"], kResidual, base, violations);
+  if (base.status == 1)
+    at_most("stable", "floquet_radius", base["floquet_radius"], kStable, base, violations);
+}
+
+void check_superposition(const Case& original, const Answer& base, std::vector<Violation>& violations) {
+  const std::vector<Case> parts = parts_of_excitation(original);
+  if (parts.empty() || !base.has_response()) return;
+  const Answer first = answer(parts[0]), second = answer(parts[1]);
+  if (!first.has_response() || !second.has_response()) return;
+  double largest = 0.0;
+  for (const Answer* of : {&base, &first, &second}) largest = std::max(largest, largest_in_unit(*of, "m"));
+  Worst worst({"superposition", "", 0, 0, 0, standing_of(base, base)});
+  for (std::size_t i = 0; i < base.displacements.size(); ++i) {
+    for (std::size_t k = 0; k < base.displacements[i].size(); ++k) {
+      worst.check(original.network.masses[i] + "_displacement", base.displacements[i][k],
+                  first.displacements[i][k] + second.displacements[i][k], kAgreement * largest);
+    }
+  }
+  worst.add_to(violations);
+}
+
+const char* name_of_status(int status) {
+  constexpr const char* kNames[] = {"refused", "ok", "grazing", "unbounded", "failed"};
+  return kNames[status];
+}
+
+void count(const Answer& base, Tally* tally) {
+  if (tally == nullptr) return;
+  ++tally->networks;
+  ++tally->statuses[name_of_status(base.status)];
+  if (!base.reason.empty()) ++tally->reasons[base.reason];
+  if (base.status == 1 && std::isnan(base["error_bound"])) ++tally->without_error_bound;
+}
+
+}  // namespace
+
+std::vector<Violation> violations_of(const Case& original, Tally* tally, const std::string& only) {
+  std::vector<Violation> violations;
+  constexpr double kPatience = 0.15;  // [s]; networks that take longer are checked by themselves alone
+  const auto start = std::chrono::steady_clock::now();
+  const Answer base = answer(original);
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+  count(base, tally);
+  if (base.status == 0) return violations;
+  if (base.has_response()) check_itself(original, base, violations);
+  if (taken.count() > kPatience) {
+    if (tally != nullptr) ++tally->slow;
+    return violations;
+  }
+  const auto asked = [&](const std::string& invariant) { return only.empty() || only == invariant; };
+  for (const Change& change : changes_of(original)) {
+    if (!asked(change.name)) continue;
+    compare(original, base, change, answer(change.changed), violations);
+    if (tally != nullptr && base.status == 1) ++tally->compared[change.name];
+  }
+  if (asked("end of a sweep"))
+    compare(original, base, {"end of a sweep", original, {}}, answer_of_sweep(original), violations);
+  if (asked("superposition")) check_superposition(original, base, violations);
+  return violations;
+}
+
+}  // namespace frahm::invariants
