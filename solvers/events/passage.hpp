@@ -9,11 +9,12 @@ namespace frahm::periodic {
 // A change of mode: what ended the segment before it, and what followed. Sensitivities, histories and the
 // certificate read it from here; nothing guesses it again from the modes on both sides.
 struct Event {
-  std::size_t segment = 0;   // that it ends; the next one begins with it
-  ContactMask arrived = 0;   // contacts whose velocity reached zero there and that stick, or slide back, since
+  std::size_t segment = 0;  // that it ends; the next one begins with it
+  ContactMask arrived = 0;  // contacts whose velocity reached zero there and that stick, or slide back, since
   ContactMask released = 0;  // contacts that stuck and slide since
   // Of the contact that ended the segment, an arrival before a release (-1: none changed): the slope of what
-  // its guard watches [m a step^2 or N a step], seen from inside the segment, and the side of a force's limit.
+  // its guard watches [m a step^2 or N a step], seen from inside the segment, and the side of a force's
+  // limit.
   Eigen::Index contact = -1;
   double slope = 0.0;
   double side = 1.0;
@@ -27,15 +28,16 @@ struct Passage {
   std::vector<Segment<N, H>> segments;
   std::vector<Event> changes;  // between the segments, one less than they are
   int events = 0;              // stops, releases and reversals, those without a change of mode among them
-  double margin = 1.0;  // how far the nearest event is from happening otherwise, relative; 0 = grazing
+  double margin = 1.0;         // how far the nearest event is from happening otherwise, relative; 0 = grazing
   bool starts_at_event = false;   // a contact comes through rest at the very start, outside the tangent
   const char* failure = nullptr;  // why the passage could not be completed
 };
 
-// Contacts that slide in the mode `before` and stick, or slide back, in `after`. One without friction does not
-// count: nothing changes for it.
+// Contacts that slide in the mode `before` and stick, or slide back, in `after`. One without friction does
+// not count: nothing changes for it.
 template <int N, int H>
-ContactMask arrived_between(const StepEquations<N, H>& eq, const Mode<N, H>& before, const Mode<N, H>& after) {
+ContactMask arrived_between(const StepEquations<N, H>& eq, const Mode<N, H>& before,
+                            const Mode<N, H>& after) {
   ContactMask arrived = 0;
   for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
     if (contains(before.stuck, j) || eq.limit[j] == 0.0) continue;

@@ -4,12 +4,13 @@
 
 namespace frahm::periodic {
 
-// The tangent across an event at which a guard g(z, t) reaches zero with the slope g', the fields f before and
-// after (Leine and Nijmeijer, Dynamics and Bifurcations of Non-Smooth Mechanical Systems, 2004, ch. 7):
+// The tangent across an event at which a guard g(z, t) reaches zero with the slope g', the fields f before
+// and after (Leine and Nijmeijer, Dynamics and Bifurcations of Non-Smooth Mechanical Systems, 2004, ch. 7):
 //   dz+ = dz- + (f+ - f-) (grad g dz-) / g'
-// - a velocity that reaches zero:  dv+ = dv- + (a+ - a-)(w^T dv-)/(w^T a- + p^T y''); exact for a reversal, and for
-//   a stop, where it is the M-orthogonal projection onto the stuck velocities. Of contacts that arrive together
-//   each brings its own share. A contact whose force is a state leaves a as it is: nothing jumps.
+// - a velocity that reaches zero:  dv+ = dv- + (a+ - a-)(w^T dv-)/(w^T a- + p^T y''); exact for a reversal,
+// and for
+//   a stop, where it is the M-orthogonal projection onto the stuck velocities. Of contacts that arrive
+//   together each brings its own share. A contact whose force is a state leaves a as it is: nothing jumps.
 // - a force lambda that reaches its limit leaves a as it is: nothing jumps.
 // - an internal force s that does: s' falls from g' to 0, so that ds+ = ds- + (0 - g') ds-/g' = 0.
 // before: the event's instant seen from inside the mode before it; w.left: from inside the mode after.
@@ -30,8 +31,10 @@ void saltate(const Flow<N, H>& flow, ContactMask arrived, ContactMask released, 
     if (slope == 0.0 || !eq.holds(j)) continue;
     typename S::Vector change = w.left.a - before.a;
     if (!alone) {
-      const double after = contains(mode.stuck, j) ? flow.stuck_force(w.left, mode, j).value : mode.friction[j];
-      change = -(eq.M_inverse * eq.W.col(j)) * (after - mode_before.friction[j]);
+      // Its force's jump, with what the contacts that stuck before then take up.
+      const double after =
+          contains(mode.stuck, j) ? flow.stuck_force(w.left, mode, j).value : mode.friction[j];
+      change = flow.configuration(mode_before).Af.col(j) * (after - mode_before.friction[j]);
     }
     correction += change * (eq.W.col(j).transpose() * tangent.middleRows(n, n)) / slope;
   }

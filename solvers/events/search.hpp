@@ -94,6 +94,7 @@ Polynomial stuck_force_polynomial(const Flow<N, H>& flow, Eigen::Index j, Worksp
 template <int N, int H>
 double fall_from_limit(const Polynomial& room, double limit, bool is_state, Workspace<N, H>& w) {
   if (is_state && room.cwiseAbs().sum() <= kTerms * kTie * limit) return kNoEvent;
+  if (room[0] < -4.0 * kTie * limit) return 0.0;  // beyond it, as in a loop of contacts
   int multiplicity = 1;
   while (multiplicity < 4 && std::abs(room[multiplicity]) <= kTie * limit) ++multiplicity;
   const Polynomial rest = deflate(room, multiplicity);

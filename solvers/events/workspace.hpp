@@ -5,7 +5,8 @@
 
 namespace frahm::periodic {
 
-// A bound of a function's fourth derivative a step, where its fastest rate is kStepRate, per unit of its scale.
+// A bound of a function's fourth derivative a step, where its fastest rate is kStepRate, per unit of its
+// scale.
 inline constexpr double kFourthDerivative = 2.0 * kStepRate * kStepRate * kStepRate * kStepRate;
 
 // Where the motion in hand stands within its passage.
@@ -19,11 +20,11 @@ struct Workspace {
   Expansion<N, H> expansion;  // over it, if `expanded`
   bool expanded = false;
   std::size_t mode = 0;
-  double clock = 0.0;               // steps since the passage began
-  ContactMask fresh = 0;            // sliding contacts whose velocity is zero at `left`
-  ContactMask just_released = 0;    // those of them whose relative acceleration is zero there too
-  double margin = 1.0;     // as of the passage
-  bool undecided = false;  // a joint choice found no answer
+  double clock = 0.0;             // steps since the passage began
+  ContactMask fresh = 0;          // sliding contacts whose velocity is zero at `left`
+  ContactMask just_released = 0;  // those of them whose relative acceleration is zero there too
+  double margin = 1.0;            // as of the passage
+  bool undecided = false;         // a joint choice found no answer
 
   // What velocities [m a step] and forces [N] of contacts are small against: those of the larger of the
   // state's and the static response's energy, plus a support's own motion.

@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "solvers/quantities/quantity.hpp"
 #include "solvers/exact/response.hpp"
+#include "solvers/quantities/quantity.hpp"
 
 namespace frahm::periodic {
 

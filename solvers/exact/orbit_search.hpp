@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -16,8 +17,8 @@
 
 namespace frahm::periodic {
 
-// From a system to its periodic orbit, with what is certain of it: continuation and shooting, the rest position
-// of contacts that stick throughout, the certificate.
+// From a system to its periodic orbit, with what is certain of it: continuation and shooting, the rest
+// position of contacts that stick throughout, the certificate.
 template <int N, int H>
 class OrbitSearch {
  public:
@@ -29,11 +30,11 @@ class OrbitSearch {
   void begin_row() { continuation_.begin_row(); }
 
   // The orbit of the flow, which is set to `system`. certify: with multipliers and error bound.
-  void find(const mechanics::LinearSystem& system, const std::vector<UndampedMode>& undamped,
-            bool certify, Orbit<N, H>& orbit);
+  void find(const mechanics::LinearSystem& system, const std::vector<UndampedMode>& undamped, bool certify,
+            Orbit<N, H>& orbit);
 
-  // The same by another way, of kOtherWays; `orbit` is one that was found wanting. False, and `orbit` as it was,
-  // where this way leads to none.
+  // The same by another way, of kOtherWays; `orbit` is one that was found wanting. False, and `orbit` as it
+  // was, where this way leads to none.
   static constexpr int kOtherWays = 2;
   bool find_otherwise(int way, const mechanics::LinearSystem& system, bool certify, Orbit<N, H>& orbit);
 
@@ -46,6 +47,7 @@ class OrbitSearch {
   static constexpr double kFar = 10.0;  // of the orbit's own size: a digit
   Shift settle_rest_position(Orbit<N, H>& orbit);
   bool try_held(ContactMask held, Orbit<N, H>& orbit);
+  double distance_slid(Eigen::Index contact, const Orbit<N, H>& orbit) const;
   ContactMask sliding_less_than(double share, const Orbit<N, H>& orbit) const;
 
   Forms<N, H> forms_;
@@ -58,17 +60,16 @@ class OrbitSearch {
 };
 
 template <int N, int H>
-void OrbitSearch<N, H>::find(const mechanics::LinearSystem& system,
-                             const std::vector<UndampedMode>& undamped, bool certify,
-                             Orbit<N, H>& orbit) {
+void OrbitSearch<N, H>::find(const mechanics::LinearSystem& system, const std::vector<UndampedMode>& undamped,
+                             bool certify, Orbit<N, H>& orbit) {
   if (is_unbounded(system, undamped)) return fail_unbounded(orbit);
   continuation_.find(system, orbit);
   settle(orbit);
   if (certify && orbit.is_found()) judge_stability(flow_, orbit);
 }
 
-// Way 0: with those contacts held that stick for most of the period. Way 1: from the response without friction,
-// as if no orbit were known, from a section a quarter of a period on.
+// Way 0: with those contacts held that stick for most of the period. Way 1: from the response without
+// friction, as if no orbit were known, from a section a quarter of a period on.
 template <int N, int H>
 bool OrbitSearch<N, H>::find_otherwise(int way, const mechanics::LinearSystem& system, bool certify,
                                        Orbit<N, H>& orbit) {
@@ -96,17 +97,36 @@ void OrbitSearch<N, H>::fail_unbounded(Orbit<N, H>& orbit) {
   continuation_.forget();
 }
 
-// Contacts that slide for less than this share of the passage.
+// How far a contact slides in a passage [m]; infinite on a support that moves, where it is not asked for.
+template <int N, int H>
+double OrbitSearch<N, H>::distance_slid(Eigen::Index j, const Orbit<N, H>& orbit) const {
+  const StepEquations<N, H>& eq = flow_.equations();
+  if (!eq.support_velocity.row(j).isZero(0.0)) return std::numeric_limits<double>::infinity();
+  const auto& segments = orbit.passage.segments;
+  double distance = 0.0;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    if (contains(flow_.mode(segments[i].mode).stuck, j)) continue;
+    const auto& end = i + 1 < segments.size() ? segments[i + 1].z : orbit.passage.end;
+    distance += std::abs(eq.W.col(j).dot((end - segments[i].z).head(eq.masses())));
+  }
+  return distance;
+}
+
+// Contacts that slide for less than this share of the passage, or by nothing to speak of, however often.
 template <int N, int H>
 ContactMask OrbitSearch<N, H>::sliding_less_than(double share, const Orbit<N, H>& orbit) const {
+  constexpr double kNothing = 1e-6;  // of the displacement that the orbit's energy is good for
   const StepEquations<N, H>& eq = flow_.equations();
+  const double energy = std::max(eq.energy_norm(orbit.z), flow_.static_norm());
   ContactMask result = 0;
   for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
+    if (eq.limit[j] == 0.0) continue;
     double sliding = 0.0;
     for (const Segment<N, H>& segment : orbit.passage.segments) {
       if (!contains(flow_.mode(segment.mode).stuck, j)) sliding += segment.length;
     }
-    if (sliding < share * eq.period && eq.limit[j] > 0.0) result |= bit(j);
+    const double reach = std::sqrt(2.0 * eq.W.col(j).dot(eq.K_inverse * eq.W.col(j))) * energy;
+    if (sliding < share * eq.period || distance_slid(j, orbit) < kNothing * reach) result |= bit(j);
   }
   return result;
 }
@@ -149,8 +169,8 @@ bool OrbitSearch<N, H>::try_held(ContactMask held, Orbit<N, H>& orbit) {
   return true;
 }
 
-// Moves `orbit` to the rest position of least energy; one whose limit is reached is grazing. The orbit stays as
-// it was where no rest position keeps the forces within their limits.
+// Moves `orbit` to the rest position of least energy; one whose limit is reached is grazing. The orbit stays
+// as it was where no rest position keeps the forces within their limits.
 template <int N, int H>
 typename OrbitSearch<N, H>::Shift OrbitSearch<N, H>::settle_rest_position(Orbit<N, H>& orbit) {
   const StepEquations<N, H>& eq = flow_.equations();

@@ -8,8 +8,8 @@
 #include "solvers/orbits/rest_directions.hpp"
 #include "solvers/orbits/spectral_radius.hpp"
 
-// What is certain of an orbit that was found: Floquet multipliers, contraction in the energy norm, and from them
-// a bound of its error.
+// What is certain of an orbit that was found: Floquet multipliers, contraction in the energy norm, and from
+// them a bound of its error.
 namespace frahm::periodic {
 
 // The part of a tangent matrix that can contract: the rest positions of permanently stuck contacts, which
@@ -84,8 +84,8 @@ void judge_stability(const Flow<N, H>& flow, Orbit<N, H>& orbit) {
 
   const double scale = std::max(eq.energy_norm(orbit.z), flow.static_norm());
   const double operations = 16.0 + 2.0 * eq.period + 16.0 * orbit.passage.events;
-  const double rounding = std::numeric_limits<double>::epsilon() * operations * scale +
-                          operations * force_rounding(flow, orbit);
+  const double rounding =
+      std::numeric_limits<double>::epsilon() * operations * scale + operations * force_rounding(flow, orbit);
   const double ball = (orbit.residual * scale + rounding) / (1.0 - orbit.contraction);
   const bool holds = orbit.contraction < 1.0 && ball < 0.1 * orbit.passage.margin * scale;
   orbit.error_bound = holds ? ball * std::sqrt(2.0 * eq.K_inverse.diagonal().maxCoeff()) : kNone;

@@ -6,9 +6,10 @@
 
 namespace frahm::periodic {
 
-// Contacts that stick throughout may rest anywhere in an interval: a shift of their mean forces by delta moves
-// the whole orbit by E delta and leaves every velocity as it is, so that all of these orbits are periodic, with
-// multiplier +1. What the flow keeps for ever is L^T z. Column j, of a contact with direction w:
+// Contacts that stick throughout may rest anywhere in an interval: a shift of their mean forces by delta
+// moves the whole orbit by E delta and leaves every velocity as it is, so that all of these orbits are
+// periodic, with multiplier +1. What the flow keeps for ever is L^T z. Column j, of a contact with direction
+// w:
 //   held by friction           E = (-K^-1 w, 0, 0)     L = (-w, 0, 0)        L^T z = -w^T q
 //   with an internal force s   E = (-K^-1 w, 0, e_s)   L = (-w, 0, e_s / k)  L^T z = s/k - w^T q
 // L^T x is 2 (E, x) of the energy norm, so that 1 - E (L^T E)^+ L^T takes them out orthogonally in it.

@@ -6,8 +6,8 @@
 #include "solvers/orbits/orbit.hpp"
 
 // The periodic orbit as a fixed point of the period map g, by Newton's method on g(z) - z = 0 with the exact
-// derivative of g. Where a Newton step does not pay, the map itself is applied: under monotone laws it expands
-// no distance in the energy norm, so the search converges whenever the map contracts.
+// derivative of g. Where a Newton step does not pay, the map itself is applied: under monotone laws it
+// expands no distance in the energy norm, so the search converges whenever the map contracts.
 namespace frahm::periodic {
 
 struct ShootingOptions {

@@ -54,12 +54,14 @@ template <int N, int H>
 typename Shooting<N, H>::Verdict Shooting<N, H>::judge() {
   if (current_.passage.failure != nullptr) return Verdict::gave_up;
   if (!(current_.relative > options_.tolerance)) return Verdict::converged;
-  const bool too_long = passages_ * flow_.equations().period > options_.most_steps;
+  // A step of many states takes as many times longer.
+  const double size = std::max(1.0, static_cast<double>(flow_.equations().states()) / 4.0);
+  const bool too_long = passages_ * flow_.equations().period * size > options_.most_steps;
   return passages_ > options_.most_passages || too_long ? Verdict::gave_up : Verdict::go_on;
 }
 
-// The candidate is one Newton step on:  (1 - dg/dz) step = g(z) - z. A contact that sticks throughout keeps its
-// rest position (multiplier +1): L^T step = 0 in its place.
+// The candidate is one Newton step on:  (1 - dg/dz) step = g(z) - z. A contact that sticks throughout keeps
+// its rest position (multiplier +1): L^T step = 0 in its place.
 template <int N, int H>
 bool Shooting<N, H>::propose_newton_step() {
   const StepEquations<N, H>& eq = flow_.equations();
@@ -81,8 +83,7 @@ template <int N, int H>
 bool Shooting<N, H>::try_candidate() {
   ++newton_iterations_;
   apply_map(candidate_);
-  const bool pays =
-      candidate_.passage.failure == nullptr && candidate_.norm < options_.pays * current_.norm;
+  const bool pays = candidate_.passage.failure == nullptr && candidate_.norm < options_.pays * current_.norm;
   if (pays) std::swap(current_, candidate_);
   return pays;
 }
@@ -96,8 +97,8 @@ void Shooting<N, H>::march(int maps) {
   }
 }
 
-// Where the period map is all but the identity (a mode without damping at its resonance) Newton's step may lead
-// so far out that any state there seems to close: its residual is lost in the rounding of the state.
+// Where the period map is all but the identity (a mode without damping at its resonance) Newton's step may
+// lead so far out that any state there seems to close: its residual is lost in the rounding of the state.
 template <int N, int H>
 bool Shooting<N, H>::is_resolved(const typename S::State& z) const {
   const double largest = options_.most_magnification * flow_.static_norm();

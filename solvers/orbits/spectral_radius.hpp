@@ -17,10 +17,11 @@ double spectral_radius(Square A, int squarings = 36) {
     return std::hypot(half_trace, std::sqrt(-discriminant));
   }
   constexpr int kBetweenScalings = 4;  // squarings that neither over- nor underflow
+  constexpr double kNothing = 1e-290;  // below, a power of two that scales it is infinite
   double exponent = 0.0, share = 1.0;  // rho = 2^exponent; powers of two scale without rounding
   for (int done = 0;; done += kBetweenScalings) {
     const double size = A.cwiseAbs().maxCoeff();
-    if (!(size > 0.0)) return size;
+    if (!(size > kNothing)) return size;
     if (done >= squarings) return std::exp2(exponent + share * std::log2(size));
     const int scale = std::ilogb(size);
     exponent += share * scale;
