@@ -8,7 +8,7 @@
 namespace frahm::studies {
 namespace {
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') {
@@ -29,7 +29,7 @@ std::string key_text(const std::string& key) {
   const bool bare = !key.empty() && std::all_of(key.begin(), key.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
   });
-  return bare ? key : quoted(key);
+  return bare ? key : in_quotes(key);
 }
 
 std::string in_line(const TomlValue& value);
@@ -50,7 +50,7 @@ std::string in_line(const TomlValue& value) {
   if (const auto* flag = value.as<bool>()) return *flag ? "true" : "false";
   if (const auto* whole = value.as<std::int64_t>()) return fmt::format("{}", *whole);
   if (const auto* number = value.as<double>()) return fmt::format("{}", *number);
-  if (const auto* text = value.as<std::string>()) return quoted(*text);
+  if (const auto* text = value.as<std::string>()) return in_quotes(*text);
   if (const auto* array = value.as<TomlArray>()) return fmt::format("[{}]", joined(*array, in_line));
   const auto entry = [](const TomlEntry& each) {
     return fmt::format("{} = {}", key_text(each.key), in_line(each.value));

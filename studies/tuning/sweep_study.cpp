@@ -118,7 +118,7 @@ SweepStudy sweep_study(const StoredTuning& stored, const std::string& stem) {
   axes.push_back(axis_of(study, study.tune->band->parameter, stored.band, ""));
   sections.push_back({"axis", {}, {{}, std::move(axes)}});
   sections.push_back({"output", {}, output_of(study)});
-  sweep.text = std::string(sweep_mark) + "\n" + toml_text(root);
+  sweep.text = fmt::format("{}\n{}", sweep_mark, toml_text(root));
   return sweep;
 }
 
