@@ -89,6 +89,63 @@ std::vector<int> iterations_of(const std::vector<Round>& rounds) {
   return iterations;
 }
 
+TEST_CASE("the exchange converges on the classical absorber") {
+  const Exchange::Result result = Tuning(absorber_task()).run();
+  const AbsorberOptimum exact = nishihara_asami(kMu);
+  REQUIRE(result.outcome == Outcome::converged);
+  CHECK_THAT(result.scan.worst, WithinRel(exact.peak, kPeak));
+  CHECK_THAT(result.step.solution.objective, WithinRel(exact.peak, kPeak));
+  const double f = std::sqrt(result.x[0] / kMu), zeta = result.x[1] / (2.0 * kMu * f);
+  CHECK_THAT(f, WithinAbs(exact.f, kTuning));
+  CHECK_THAT(zeta, WithinAbs(exact.zeta, kTuning));
+  for (const Round& round : result.rounds) CHECK(round.solver == SolverKind::ipopt);
+}
+
+TEST_CASE("both peaks of the optimum are followed, and share what holds it") {
+  const Exchange::Result result = Tuning(absorber_task()).run();
+  const Exchange::Step& step = result.step;
+  REQUIRE(result.scan.maxima.size() == 2);
+  double sum = 0.0;
+  for (const Scan::Maximum& peak : result.scan.maxima) {
+    const auto follows = [&](const ActivePoint& point) {
+      return point.followed && point.from < peak.at && peak.at < point.to;
+    };
+    const auto point = std::find_if(step.active.begin(), step.active.end(), follows);
+    REQUIRE(point != step.active.end());
+    const auto place = static_cast<std::size_t>(point - step.active.begin());
+    CHECK_THAT(step.responses[place], WithinRel(peak.value, kPeak));
+    CHECK(step.solution.constraint_multipliers[step.rows.first + place] > 0.1);
+    sum += step.solution.constraint_multipliers[step.rows.first + place];
+  }
+  CHECK_THAT(sum, WithinAbs(1.0, 1e-6));
+}
+
+TEST_CASE("the rounds begin with a grid and the peaks and end with little more than the peaks") {
+  const std::vector<Round> rounds = Tuning(absorber_task()).run().rounds;
+  CHECK(rounds.front().active >= 33 + 1);
+  CHECK(rounds.back().active < 20);
+}
+
+TEST_CASE("a limit that no design meets ends as infeasible") {
+  Tuning tuning(absorber_task());
+  tuning.limit(0.5 * nishihara_asami(kMu).peak);
+  const Exchange::Result result = tuning.run();
+  CHECK(result.outcome == Outcome::infeasible);
+  REQUIRE(result.has_step);
+  // Of no design is the response less than that of the optimum, which is twice the limit.
+  CHECK(result.scan.violation > 1.0 - kPeak);
+}
+
+TEST_CASE("an exchange that is asked to stop says so") {
+  for (const int calls : {0, 50, 150}) {
+    Tuning tuning(absorber_task());
+    int asked = 0;
+    tuning.stop_asked = [&] { return asked++ >= calls; };
+    INFO(calls);
+    CHECK(tuning.run().outcome == Outcome::stopped);
+  }
+}
+
 TEST_CASE("where Ipopt does not close the gap SLSQP tries from the same design") {
   Task task = absorber_task();
   task.tolerance = kNoGapMeets;
@@ -96,9 +153,12 @@ TEST_CASE("where Ipopt does not close the gap SLSQP tries from the same design")
   task.solver = SolverKind::slsqp;
   const std::vector<int> by_slsqp = iterations_of(Tuning(task).run().rounds);
   task.solver = SolverKind::ipopt;
-  const std::vector<int> both = iterations_of(Tuning(task).run().rounds);
+  const std::vector<Round> rounds = Tuning(task).run().rounds;
+  const std::vector<int> both = iterations_of(rounds);
   REQUIRE(both.size() > by_slsqp.size());
   CHECK(std::vector<int>(both.end() - std::ptrdiff_t(by_slsqp.size()), both.end()) == by_slsqp);
+  CHECK(rounds.front().solver == SolverKind::ipopt);
+  CHECK(rounds.back().solver == SolverKind::slsqp);
 }
 
 }  // namespace

@@ -115,7 +115,7 @@ TEST_CASE("a multiplier is what relaxing its bound gains") {
 TEST_CASE("a linear minimax in epigraph form has its vertex and multipliers, whatever its unit") {
   for (const double scale : {1.0, 1e-3, 1e5}) {
     for (const Solver& solver : local_solvers) {
-      INFO(solver.name << ", scale " << scale);
+      INFO(solver.name() << ", scale " << scale);
       LinearMinimax problem(scale);
       const Solution solution = solver.solve(problem);
       check_converged(solution, solver);

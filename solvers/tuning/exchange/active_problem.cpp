@@ -45,7 +45,7 @@ ActiveProblem::ActiveProblem(const Task& task, const DesignSpace& space, const G
     variance_.emplace(task.network, task.noise, NoisyQuantity{kind, task.quantity.index});
   }
   name_variables();
-  add_rows();
+  add_response_rows();
   add_slope_rows();
 }
 
@@ -66,7 +66,8 @@ void ActiveProblem::name_variables() {
   if (has_bound_variable()) variables.push_back({.name = "worst", .lower = 0.0});
 }
 
-void ActiveProblem::add_rows() {
+void ActiveProblem::add_response_rows() {
+  response_rows_ = {constraints.size(), active_.size()};
   const std::vector<double> somewhere(space_.variables(), 0.0);
   for (const ActivePoint& point : active_) {
     const bool epigraph = is_epigraph(point.curve);
@@ -84,6 +85,7 @@ void ActiveProblem::add_slope_rows() {
   for (std::size_t p = 0; p < space_.parameters(); ++p) {
     const auto& schedule = space_.parameter(p).schedule;
     if (!schedule || std::isinf(schedule->max_slope)) continue;
+    slope_rows_.push_back({{constraints.size(), schedule->knots.size() - 1}, space_.first(p)});
     for (std::size_t k = 0; k + 1 < schedule->knots.size(); ++k) {
       const std::size_t variable = space_.first(p) + k;
       const double most = schedule->max_slope * (schedule->knots[k + 1] - schedule->knots[k]);
@@ -106,7 +108,7 @@ void ActiveProblem::start_at(std::span<const double> x) {
   const double size = worst > 0.0 ? worst : goal_.held > 0.0 ? goal_.held : 1.0;
   for (std::size_t i = 0; i < active_.size(); ++i) {
     const bool of_objective = curves_[active_[i].curve].of == CurveKind::Of::objective;
-    constraints[i].scale = of_objective ? size : 1.0;
+    constraints[response_rows_.first + i].scale = of_objective ? size : 1.0;
   }
   if (has_bound_variable()) {
     variables.back().start = worst;
@@ -163,8 +165,34 @@ double ActiveProblem::variance(std::span<const double> x, std::span<double> grad
   return sum;
 }
 
+std::vector<double> ActiveProblem::responses_of(std::span<const double> x,
+                                                std::span<const double> values) const {
+  const auto rows = values.subspan(response_rows_.first, response_rows_.count);
+  std::vector<double> responses(rows.begin(), rows.end());
+  for (std::size_t i = 0; i < responses.size(); ++i) {
+    if (is_epigraph(active_[i].curve)) responses[i] += x.back();
+  }
+  return responses;
+}
+
 void ActiveProblem::constrain(std::span<const double> x, std::span<double> values,
                               std::span<double> entries) {
+  // The blocks' entries of the Jacobian follow each other as the blocks do.
+  std::size_t entry = constrain_responses(x, values, entries);
+  for (const SlopeRows& slopes : slope_rows_) {
+    for (std::size_t k = 0; k < slopes.rows.count; ++k) {
+      const std::size_t knot = slopes.first_knot + k;
+      values[slopes.rows.first + k] = x[knot + 1] - x[knot];
+      if (entries.empty()) continue;
+      entries[entry++] = -1.0;
+      entries[entry++] = 1.0;
+    }
+  }
+}
+
+// Returns how many entries of the Jacobian the block has filled.
+std::size_t ActiveProblem::constrain_responses(std::span<const double> x, std::span<double> values,
+                                               std::span<double> entries) {
   std::size_t entry = 0;
   for (std::size_t i = 0; i < active_.size(); ++i) {
     const ActivePoint& point = active_[i];
@@ -173,7 +201,8 @@ void ActiveProblem::constrain(std::span<const double> x, std::span<double> value
                             ? follow_maximum(curve, x, point.at, point.from, point.to, point.side)
                             : curve.solve(x, point.at, !entries.empty()) == TunedResponse::State::solved;
     const bool epigraph = is_epigraph(point.curve);
-    values[i] = solved ? curve.value(point.side) - (epigraph ? x.back() : 0.0) : kNone;
+    double& value = values[response_rows_.first + i];
+    value = solved ? curve.value(point.side) - (epigraph ? x.back() : 0.0) : kNone;
     if (entries.empty()) continue;
     for (std::size_t p = 0; p < space_.parameters(); ++p) {
       const DesignSpace::Place& place = curve.response().place(p);
@@ -182,14 +211,7 @@ void ActiveProblem::constrain(std::span<const double> x, std::span<double> value
     }
     if (epigraph) entries[entry++] = -1.0;
   }
-  std::size_t row = active_.size();
-  for (; row < constraints.size(); ++row) {
-    const std::size_t variable = jacobian[jacobian.size() - 2 * (constraints.size() - row)].variable;
-    values[row] = x[variable + 1] - x[variable];
-    if (entries.empty()) continue;
-    entries[entry++] = -1.0;
-    entries[entry++] = 1.0;
-  }
+  return entry;
 }
 
 }  // namespace frahm::tuning

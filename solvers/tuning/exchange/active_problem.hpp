@@ -5,39 +5,24 @@
 #include <optional>
 #include <vector>
 
-#include "solvers/tuning/exchange/band_curve.hpp"
+#include "solvers/tuning/exchange/active_points.hpp"
 #include "solvers/tuning/exchange/band_quadrature.hpp"
 #include "solvers/tuning/problem/problem.hpp"
 #include "solvers/tuning/variance/variance.hpp"
 
 namespace frahm::tuning {
 
-// What an optimisation minimises.
-struct Goal {
-  enum class Of {
-    worst,          // t, the worst weighted response at the active frequencies (epigraph)
-    mean_square,    // of the weighted response over the band
-    mean_response,  // over the band, with the worst response held under `held`
-    variance,       // under white noise
-  };
-  Of of = Of::worst;
-  double held = 0.0;
+// Constraints of one origin, which follow each other.
+struct RowBlock {
+  std::size_t first = 0, count = 0;
 };
 
-// A place of the band at which a side of a curve is kept under its bound, or a local maximum that is followed
-// as the design changes, between two places that it does not leave.
-struct ActivePoint {
-  std::size_t curve = 0;  // index among the problem's curves
-  double at = 0.0;
-  std::size_t side = BandCurve::larger;
-  bool followed = false;
-  double from = 0.0, to = 0.0;  // of a followed one
-};
-
-// The design problem with finitely many frequencies, a constraint for each active point, in their order:
+// The design problem with finitely many frequencies:
 //   minimise t, or an integral, or a variance, over x (and t)
-//   curve_i(at_i; x) <= t for the objective's curves (<= held where it is held), <= 1 for the others
-//   |x_{k+1} - x_k| <= max_slope (knot_{k+1} - knot_k) of each schedule
+//   responses:                   curve_i(at_i; x) <= t for the objective's curves (<= held where it is held),
+//                                <= 1 for the others; row i of the block is active point i
+//   slopes, one block for each   |x_{k+1} - x_k| <= max_slope (knot_{k+1} - knot_k); row k of the block is
+//   schedule that has a limit:   the piece from knot k on
 class ActiveProblem final : public Problem {
  public:
   // All must outlive the problem. nodes: of an integral.
@@ -45,6 +30,10 @@ class ActiveProblem final : public Problem {
                 const std::vector<CurveKind>& curves, const std::vector<ActivePoint>& active,
                 const std::vector<QuadratureNode>& nodes, Effort& effort,
                 const std::function<bool()>& stop_asked);
+
+  const RowBlock& responses() const { return response_rows_; }
+  // The curves at the active points, from the values of all constraints at x.
+  std::vector<double> responses_of(std::span<const double> x, std::span<const double> values) const;
 
   // Variables at the design x; t is what they give.
   void start_at(std::span<const double> x);
@@ -62,8 +51,15 @@ class ActiveProblem final : public Problem {
     return curves_[curve].of == CurveKind::Of::objective ? goal_.held : curves_[curve].most();
   }
   void name_variables();
-  void add_rows();
+  // The slopes of one schedule.
+  struct SlopeRows {
+    RowBlock rows;
+    std::size_t first_knot = 0;  // variable
+  };
+  void add_response_rows();
   void add_slope_rows();
+  std::size_t constrain_responses(std::span<const double> x, std::span<double> values,
+                                  std::span<double> entries);
   double integral(std::span<const double> x, std::span<double> gradient);
   double variance(std::span<const double> x, std::span<double> gradient);
 
@@ -78,6 +74,8 @@ class ActiveProblem final : public Problem {
   std::vector<CurveKind> node_curves_;
   std::vector<std::unique_ptr<BandCurve>> node_responses_;
   std::optional<Variance> variance_;
+  RowBlock response_rows_;
+  std::vector<SlopeRows> slope_rows_;
 };
 
 }  // namespace frahm::tuning

@@ -1,23 +1,21 @@
+#include "solvers/tuning/exchange/exchange.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "solvers/tuning/exchange/band_quadrature.hpp"
-#include "solvers/tuning/exchange/exchange.hpp"
 
 namespace frahm::tuning {
 namespace {
 
-constexpr int kFirstIntervals = 32;  // of the first active frequencies
-constexpr double kFine = 1e-7;       // accuracy of a scan, relative to the worst peak
-constexpr double kHighPeaks = 0.5;   // peaks lower than this share of the worst are left out
-constexpr double kSamePlace = 1e-7;  // frequencies closer than this, relative, are one
+constexpr double kFine = 1e-7;      // accuracy of a scan, relative to the worst peak
+constexpr double kHighPeaks = 0.5;  // peaks lower than this share of the worst are left out
 constexpr double kNearEnd =
     1e-2;  // the gap from which on maxima are followed and problems solved to the last digit
 constexpr SolverOptions kExact{.tolerance = 1e-9, .most_iterations = 100};
 constexpr SolverOptions kSettling{.tolerance = 1e-6, .most_iterations = 150};
 constexpr double kClosed = 1e-9;
 constexpr SolverOptions kRough{.tolerance = 1e-4, .most_iterations = 40, .feasibility = 1e-6};
-constexpr double kWithinPiece = 1.0 - 1e-6;  // of the way to a knot, on which the next piece begins
 constexpr int kRoundsThatDrop = 5;
 constexpr double kAcceptableResidual = 1e-5;
 
@@ -51,18 +49,6 @@ bool is_solved(const Solution& solution) {
   return solution.ending == Ending::converged || solution.kkt_residual <= kAcceptableResidual;
 }
 
-// Whether the design has to stay below a constant one everywhere.
-bool has_dominated(const std::vector<CurveKind>& curves) {
-  return std::any_of(curves.begin(), curves.end(),
-                     [](const CurveKind& curve) { return curve.of == CurveKind::Of::dominated; });
-}
-
-// Both sides of a peak without symmetry, else the larger, which is both.
-std::vector<std::size_t> sides_of(std::size_t sides) {
-  if (sides == 2) return {0, 1};
-  return {BandCurve::larger};
-}
-
 // Fewer broken limits first, then the lower objective.
 bool is_better(const Goal& goal, const Exchange::Step& step, const Scan& scan, const Exchange::Result& than) {
   const double broken = std::max(0.0, scan.violation - 1e-9);
@@ -85,92 +71,11 @@ Exchange::Exchange(const Task& task, const DesignSpace& space, const std::vector
       stop_asked_(stop_asked),
       scan_(task, space, curves, effort, stop_asked) {}
 
-// Whether the goal keeps a curve under a bound; else it only integrates it.
-bool Exchange::is_bounded(const Goal& goal, std::size_t curve) const {
-  return curves_[curve].of != CurveKind::Of::objective || goal.of == Goal::Of::worst ||
-         goal.of == Goal::Of::mean_response;
-}
-
-// An even grid, or the knots and the middles between them.
-std::vector<ActivePoint> Exchange::first_active(const Goal& goal, const Scan& scan) const {
-  std::vector<ActivePoint> active;
-  const std::vector<double> knots = space_.knots();
-  const bool dominates = has_dominated(curves_);
-  for (std::size_t c = 0; c < curves_.size(); ++c) {
-    if (!is_bounded(goal, c)) continue;
-    // What stays below the constant design everywhere needs no grid of its own beside that.
-    if (dominates && curves_[c].of == CurveKind::Of::objective) continue;
-    const Band band = curves_[c].band;
-    std::vector<double> places = knots;
-    for (std::size_t i = 0; i + 1 < knots.size(); ++i) places.push_back(0.5 * (knots[i] + knots[i + 1]));
-    if (knots.empty()) {
-      for (int i = 0; i <= kFirstIntervals; ++i)
-        places.push_back(band.from + (band.to - band.from) * i / kFirstIntervals);
-    }
-    std::sort(places.begin(), places.end());
-    places.erase(std::unique(places.begin(), places.end()), places.end());
-    std::size_t sides = 1;
-    for (const Scan::Maximum& maximum : scan.maxima) {
-      if (maximum.curve == c) sides = std::max(sides, maximum.sides);
-    }
-    for (const double place : places) {
-      if (place < band.from || place > band.to) continue;
-      for (const std::size_t side : sides_of(sides))
-        active.push_back({.curve = c, .at = place, .side = side});
-    }
-  }
-  return active;
-}
-
 // Whether maxima are followed as the design changes. Constants move sharp resonances out from between fixed
 // frequencies, so always; a schedule shapes the response place by place and has a grid at its knots, and what
 // its trials met stays met: at the end.
 bool Exchange::follows(bool near_end) const {
   return near_end || has_dominated(curves_) || !space_.has_schedule();
-}
-
-// The scan's maxima join the active points. Of those that are followed, the ones before, which these are
-// again, go. One that is not takes the place of a point it differs from by next to nothing.
-void Exchange::join(const Goal& goal, const Scan& scan, bool follow, std::vector<ActivePoint>& active) const {
-  std::erase_if(active, [](const ActivePoint& point) { return point.followed; });
-  const std::vector<double> knots = space_.knots();
-  for (std::size_t i = 0; i < scan.maxima.size(); ++i) {
-    const Scan::Maximum& maximum = scan.maxima[i];
-    if (!is_bounded(goal, maximum.curve)) continue;
-    for (const std::size_t side : sides_of(maximum.sides)) {
-      ActivePoint point{.curve = maximum.curve, .at = maximum.at, .side = side};
-      point.followed = follow && can_follow(scan, i, knots, point);
-      const auto near = std::find_if(active.begin(), active.end(), [&](const ActivePoint& other) {
-        return !point.followed && other.curve == point.curve && other.side == side &&
-               std::abs(other.at - point.at) <= kSamePlace * std::abs(point.at);
-      });
-      if (near == active.end())
-        active.push_back(point);
-      else
-        *near = point;
-    }
-  }
-}
-
-// A maximum inside the band and inside a piece of every schedule can be followed half the way to the next
-// such thing on either side.
-bool Exchange::can_follow(const Scan& scan, std::size_t i, const std::vector<double>& knots,
-                          ActivePoint& point) const {
-  const Band band = curves_[point.curve].band;
-  point.from = band.from;
-  point.to = band.to;
-  const auto keep_off = [&](double place, double share) {
-    if (place < point.at) point.from = std::max(point.from, point.at - share * (point.at - place));
-    if (place > point.at) point.to = std::min(point.to, point.at + share * (place - point.at));
-  };
-  for (std::size_t k = 0; k < scan.maxima.size(); ++k) {
-    if (k != i && scan.maxima[k].curve == point.curve) keep_off(scan.maxima[k].at, 0.5);
-  }
-  for (const double knot : knots) {
-    keep_off(knot, kWithinPiece);
-    if (std::abs(knot - point.at) <= kSamePlace * std::abs(knot)) return false;
-  }
-  return point.at - point.from > kSamePlace * point.at && point.to - point.at > kSamePlace * point.at;
 }
 
 std::vector<QuadratureNode> Exchange::quadrature(std::span<const double> x, const Goal& goal) const {
@@ -205,24 +110,11 @@ Exchange::Step Exchange::solve(const Goal& goal, std::span<const double> x,
   step.active = active;
   // An integral changes with the nodes that suit the new design.
   step.objective_again = goal.of == Goal::Of::worst ? step.solution.objective : integral(goal, step.x);
-  step.values.resize(problem.constraints.size());
-  problem.constrain(solved, step.values, {});
+  step.rows = problem.responses();
+  std::vector<double> values(problem.constraints.size());
+  problem.constrain(solved, values, {});
+  step.responses = problem.responses_of(solved, values);
   return step;
-}
-
-// Active points far below the bound only cost time: what of them comes up again a scan finds.
-void Exchange::drop_idle(const Goal& goal, const Step& step, std::vector<ActivePoint>& active) const {
-  constexpr double kIdle = 0.8;
-  const double worst = goal.of == Goal::Of::worst ? step.solution.objective : goal.held;
-  std::vector<bool> idle(active.size());
-  for (std::size_t i = 0; i < active.size(); ++i) {
-    const bool of_objective = curves_[active[i].curve].of == CurveKind::Of::objective;
-    const double bound = of_objective ? worst : 1.0;
-    const double value = step.values[i] + (of_objective && goal.of == Goal::Of::worst ? worst : 0.0);
-    idle[i] = value < kIdle * bound;
-  }
-  std::size_t place = 0;
-  std::erase_if(active, [&](const ActivePoint&) { return idle[place++]; });
 }
 
 double Exchange::gap_of(const Goal& goal, const Step& step, const Scan& scan) {
@@ -271,25 +163,26 @@ Exchange::Result Exchange::run_with(SolverKind solver, const Goal& goal, std::ve
     return result;
   }
   const bool settles = goal.of == Goal::Of::mean_response;
-  std::vector<ActivePoint> active = first_active(goal, result.scan);
-  join(goal, result.scan, follows(settles), active);
+  ActivePoints active(space_, curves_, goal, result.scan);
+  active.join(result.scan, follows(settles));
   Convergence convergence(task_.tolerance, settles ? task_.tolerance : kClosed);
   SolverOptions options = settles ? kSettling : kRough;
   bool near_end = settles;
   bool is_last = false;
   for (int round = 0; round < task_.most_rounds && !is_last; ++round) {
     // 1. The best design over the active frequencies.
-    const Step step = solve(goal, x, active, solver, options);
+    const Step step = solve(goal, x, active.all(), solver, options);
     // 2. Its true maxima, which join them.
     const Scan found = scan_.of(step.x, kHighPeaks, kFine);
     if (stop_asked_()) return stopped(std::move(result));
     const double gap = gap_of(goal, step, found);
-    result.rounds.push_back({active.size(), step.solution.iterations, step.solution.objective, found.worst,
-                             std::max(0.0, found.violation), solver});
-    if (!space_.has_schedule() && round < kRoundsThatDrop) drop_idle(goal, step, active);
+    result.rounds.push_back({active.all().size(), step.solution.iterations, step.solution.objective,
+                             found.worst, std::max(0.0, found.violation), solver});
+    if (!space_.has_schedule() && round < kRoundsThatDrop)
+      active.drop_idle(step.responses, goal.of == Goal::Of::worst ? step.solution.objective : goal.held);
     const bool exact = near_end && is_solved(step.solution);
     near_end = settles || (std::abs(gap) < kNearEnd && found.violation < kNearEnd);
-    join(goal, found, follows(near_end), active);
+    active.join(found, follows(near_end));
     if (!settles) options = near_end ? kExact : kRough;
     x = step.x;
     // 3. The best so far, and whether another round pays.

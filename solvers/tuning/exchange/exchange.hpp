@@ -23,7 +23,8 @@ class Exchange {
     Solution solution;
     std::vector<double> x;            // the design alone
     std::vector<ActivePoint> active;  // whose problem it was
-    std::vector<double> values;       // of the constraints: those of the active points first
+    std::vector<double> responses;    // of the active points at x
+    RowBlock rows;                    // of the active points, among the solution's multipliers
     double objective_again = 0.0;     // an integral with the nodes that suit the new design
   };
 
@@ -52,13 +53,7 @@ class Exchange {
   Step solve(const Goal& goal, std::span<const double> x, const std::vector<ActivePoint>& active,
              SolverKind solver, const SolverOptions& options);
   std::vector<QuadratureNode> quadrature(std::span<const double> x, const Goal& goal) const;
-  bool is_bounded(const Goal& goal, std::size_t curve) const;
-  std::vector<ActivePoint> first_active(const Goal& goal, const Scan& scan) const;
   bool follows(bool near_end) const;
-  void join(const Goal& goal, const Scan& scan, bool follow, std::vector<ActivePoint>& active) const;
-  bool can_follow(const Scan& scan, std::size_t maximum, const std::vector<double>& knots,
-                  ActivePoint& point) const;
-  void drop_idle(const Goal& goal, const Step& step, std::vector<ActivePoint>& active) const;
   static double gap_of(const Goal& goal, const Step& step, const Scan& scan);
   static Result stopped(Result result);
   void conclude(bool gap_closed, Result& result) const;

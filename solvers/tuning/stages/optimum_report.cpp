@@ -37,9 +37,9 @@ std::string sentence(Outcome outcome, const Stages& stages) {
   return "stopped before the end";
 }
 
-// The largest multiplier a row of the problem has, in the sense that relaxing its bound lowers the objective.
-double multiplier_of_row(const Exchange::Step& step, std::size_t row) {
-  return std::max(0.0, step.solution.constraint_multipliers[row]);
+// The multiplier of an active point's row, in the sense that relaxing its bound lowers the objective.
+double multiplier_of(const Exchange::Step& step, std::size_t point) {
+  return std::max(0.0, step.solution.constraint_multipliers[step.rows.first + point]);
 }
 
 class Report {
@@ -160,8 +160,8 @@ class Report {
       optimum.peaks.push_back(peak);
     }
     const Exchange::Step& step = stages_.decisive;
-    for (std::size_t row = 0; row < step.active.size(); ++row) {
-      const ActivePoint& point = step.active[row];
+    for (std::size_t i = 0; i < step.active.size(); ++i) {
+      const ActivePoint& point = step.active[i];
       const CurveKind& kind = tuning_.curves()[std::min(point.curve, tuning_.curves().size() - 1)];
       if (point.curve >= tuning_.curves().size() || kind.of != CurveKind::Of::objective) continue;
       Peak* nearest = nullptr;
@@ -169,7 +169,7 @@ class Report {
         if (peak.scenario != kind.scenario) continue;
         if (!nearest || std::abs(peak.at - point.at) < std::abs(nearest->at - point.at)) nearest = &peak;
       }
-      if (nearest) nearest->multiplier += multiplier_of_row(step, row);
+      if (nearest) nearest->multiplier += multiplier_of(step, i);
     }
   }
 
@@ -190,12 +190,12 @@ class Report {
         state.value = curve.quantity(BandCurve::larger);
     }
     const Exchange::Step& step = stages_.decisive;
-    for (std::size_t row = 0; row < step.active.size(); ++row) {
-      const std::size_t c = step.active[row].curve;
+    for (std::size_t i = 0; i < step.active.size(); ++i) {
+      const std::size_t c = step.active[i].curve;
       if (c >= tuning_.curves().size() || tuning_.curves()[c].of == CurveKind::Of::objective) continue;
       // The row's bound 1 is the limit over its size.
       const double size = tuning_.curves()[c].bound != 0.0 ? std::abs(tuning_.curves()[c].bound) : 1.0;
-      optimum.limits[tuning_.curves()[c].limit].multiplier += multiplier_of_row(step, row) / size;
+      optimum.limits[tuning_.curves()[c].limit].multiplier += multiplier_of(step, i) / size;
     }
   }
 

@@ -1,0 +1,17 @@
+#pragma once
+
+namespace frahm::tuning {
+
+// What an optimisation minimises.
+struct Goal {
+  enum class Of {
+    worst,          // t, the worst weighted response at the active frequencies (epigraph)
+    mean_square,    // of the weighted response over the band
+    mean_response,  // over the band, with the worst response held under `held`
+    variance,       // under white noise
+  };
+  Of of = Of::worst;
+  double held = 0.0;
+};
+
+}  // namespace frahm::tuning
