@@ -10,7 +10,6 @@
 #include "solvers/quantities/extremes.hpp"
 #include "solvers/quantities/instant_motion.hpp"
 #include "solvers/quantities/orbit_measurement.hpp"
-#include "solvers/quantities/quantity_values.hpp"
 #include "solvers/quantities/request.hpp"
 #include "solvers/quantities/sensitivity_sizes.hpp"
 
@@ -99,7 +98,6 @@ template <int N, int H>
 void Gradient<N, H>::measure(const Orbit<N, H>& orbit, const mechanics::LinearSystem& system) {
   const std::size_t traces = request_.traces.size();
   measurement_.measure(orbit, system, steps_, request_.needs, measured_);
-  if (request_.needs.energies) value::add_up_losses(measured_);
   measured_.traces = &request_.traces;
   measured_.extremes.resize(traces);
   measured_.candidates.resize(traces);

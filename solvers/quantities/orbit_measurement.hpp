@@ -4,6 +4,7 @@
 
 #include "solvers/quantities/integrals.hpp"
 #include "solvers/quantities/quantity_table.hpp"
+#include "solvers/quantities/quantity_values.hpp"
 
 namespace frahm::periodic {
 
@@ -62,6 +63,7 @@ void OrbitMeasurement<N, H>::measure(const Orbit<N, H>& orbit, const mechanics::
     if (force == 0.0) continue;
     measured.friction_loss[e] = force * measured.histories[assembly_.shares()[e].contact].sliding_distance;
   }
+  value::add_up_losses(measured);
 }
 
 template <int N, int H>

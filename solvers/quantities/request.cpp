@@ -1,7 +1,6 @@
 #include "solvers/quantities/request.hpp"
 
 #include "solvers/quantities/quantity_derivatives.hpp"
-#include "solvers/quantities/quantity_values.hpp"
 
 namespace frahm::periodic {
 namespace {
@@ -65,8 +64,7 @@ Request derivatives_of(const std::vector<Quantity>& quantities, const mechanics:
   return request_of(quantities, assembly, true);
 }
 
-void tell_values(const Request& request, Measured& measured, std::span<double> out) {
-  if (request.needs.energies) value::add_up_losses(measured);
+void tell_values(const Request& request, const Measured& measured, std::span<double> out) {
   for (std::size_t i = 0; i < request.quantities.size(); ++i) {
     const Asked& asked = request.quantities[i];
     const QuantityRow& row = row_of(asked.quantity.measure);

@@ -26,7 +26,7 @@ Request values_of(const std::vector<Quantity>& quantities, const mechanics::Asse
 Request derivatives_of(const std::vector<Quantity>& quantities, const mechanics::Assembly& assembly);
 
 // out[i] is quantity i. What only a law that sticks has is missing of one that does not.
-void tell_values(const Request& request, Measured& measured, std::span<double> out);
+void tell_values(const Request& request, const Measured& measured, std::span<double> out);
 // Of a point without a response.
 void tell_missing(const Request& request, Status status, std::span<double> out);
 // out[i] is the derivative of quantity i; where there is none, NaN, and why_none[i] says why.

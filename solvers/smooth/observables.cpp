@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "solvers/mechanics/modes.hpp"
+#include "solvers/quantities/quantity_values.hpp"
 
 namespace frahm::smooth {
 
@@ -42,6 +43,7 @@ void Observables::measure(const Orbit& orbit, const mechanics::LinearSystem& sys
   measured_.motion = equation_.motion();
   measured_.motion_velocity = equation_.motion_velocity();
   if (request_.needs.integrals) integrate(orbit);
+  if (request_.needs.energies) periodic::value::add_up_losses(measured_);
   measured_.extremes.clear();
   for (const periodic::Trace& trace : request_.traces)
     measured_.extremes.push_back(extremes_of(periodic::form_of(trace, forms_, system.coefficients), orbit));

@@ -41,6 +41,10 @@ Change in_other_units(const Case& original, const std::string& name, double leng
         values.element[e] *= stiffness;
         second_of(change.changed, e) *= damping;
         break;
+      case ElementType::jenkins:
+        values.element[e] *= stiffness;
+        second_of(change.changed, e) *= force;
+        break;
     }
   }
   for (std::size_t k = 0; k < values.excitation.size(); ++k) {
@@ -55,6 +59,7 @@ Change amplified(const Case& original, const std::string& name, double factor) {
   for (ExcitationValue& value : change.changed.values.excitation) value.amplitude *= factor;
   for (std::size_t e = 0; e < original.network.elements.size(); ++e) {
     if (original.network.elements[e].type == ElementType::coulomb) change.changed.values.element[e] *= factor;
+    if (original.network.elements[e].type == ElementType::jenkins) second_of(change.changed, e) *= factor;
   }
   return change;
 }

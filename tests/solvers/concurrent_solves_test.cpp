@@ -15,7 +15,10 @@ struct Outcome {
 
 Outcome run(const std::string& arguments) {
   Outcome outcome;
-  FILE* pipe = popen((std::string(FRAHM_CONCURRENT_SOLVES) + " " + arguments + " 2>&1").c_str(), "r");
+  std::string command = FRAHM_CONCURRENT_SOLVES " ";
+  command += arguments;
+  command += " 2>&1";
+  FILE* pipe = popen(command.c_str(), "r");
   REQUIRE(pipe != nullptr);
   char line[256];
   while (std::fgets(line, sizeof line, pipe) != nullptr) outcome.text += line;
