@@ -14,7 +14,7 @@ namespace frahm::periodic {
 template <int N, int H>
 bool share_again(Flow<N, H>& flow, Workspace<N, H>& w) {
   constexpr double kWithin = 1.0 - 1e-9;  // so that it does not go back and forth
-  const ContactMask idle = flow.configuration(flow.mode(w.mode)).idle;
+  const ContactMask idle = flow.configuration(flow.mode(w.mode)).idle & flow.equations().holding;
   for (Eigen::Index j = 0; idle != 0 && j < flow.equations().contacts(); ++j) {
     if (!contains(idle, j)) continue;
     const ContactMask stuck = flow.mode(w.mode).stuck | bit(j);

@@ -20,7 +20,9 @@ struct Configuration {
   using S = Sizes<N, H>;
 
   ContactMask stuck = 0;
-  ContactMask idle = 0;      // contacts that slide by name, but that the stuck ones alone keep at rest
+  // Contacts without events: that slide by name, but that the stuck ones alone keep at rest, or that have no
+  // force.
+  ContactMask idle = 0;
   bool has_forcing = false;  // set_forcing was called since the forcing changed
   typename S::Square Aq, Av;
   typename S::VectorByInternal As;
@@ -69,6 +71,8 @@ struct Configuration {
   void set_forcing(const StepEquations<N, H>& equations);
 
  private:
+  ContactMask frictionless_ = 0;           // internal forces without a limit, which are always zero
+  ContactMask immobile_ = 0;               // contacts that slide by name while the stuck ones hold the masses
   typename S::ContactSquare constraint_;   // zero rows and columns for sliding contacts
   typename S::VectorByContacts reaction_;  // accelerations per unit of relative acceleration
   void propagate_homogeneous(const StepEquations<N, H>& equations);
@@ -154,12 +158,12 @@ void Configuration<N, H>::set_system(const StepEquations<N, H>& equations, Conta
   P = S::Square::Identity(n, n) - reaction_ * equations.W.transpose();
   // A projector's trace is its rank, so one without a large entry is zero: every mass is held.
   if (P.cwiseAbs().maxCoeff() < 1e-12) P.setZero();
-  idle = 0;
+  immobile_ = frictionless_ = 0;
   for (Eigen::Index j = 0; held != 0 && j < m; ++j) {
     constexpr double kImmobile = 1e-10;  // of its compliance: rounding of what a loop takes away
     const double mobility = equations.W.col(j).dot(P * MW.col(j));
     const bool slides = contains(equations.holding & ~stuck, j);
-    if (slides && mobility <= kImmobile * equations.compliance[j]) idle |= bit(j);
+    if (slides && mobility <= kImmobile * equations.compliance[j]) immobile_ |= bit(j);
   }
   Aq.noalias() = -(P * equations.M_inverse) * equations.K;
   Av.noalias() = -(P * equations.M_inverse) * equations.C;
@@ -177,6 +181,7 @@ void Configuration<N, H>::set_system(const StepEquations<N, H>& equations, Conta
       const Eigen::Index internal = equations.internal_of[static_cast<std::size_t>(j)];
       if (internal < 0) continue;
       Ls(j, internal) = 1.0;
+      if (equations.limit[j] == 0.0) frictionless_ |= bit(j);
       if (!contains(stuck, j)) spring[internal] = 0.0;
     }
   }
@@ -186,6 +191,15 @@ void Configuration<N, H>::set_system(const StepEquations<N, H>& equations, Conta
 template <int N, int H>
 void Configuration<N, H>::set_forcing(const StepEquations<N, H>& equations) {
   has_forcing = true;
+  idle = frictionless_;
+  for (Eigen::Index j = 0; immobile_ != 0 && j < equations.contacts(); ++j) {
+    // Its velocity is (p_j - P_S^T G^+ W^T M^-1 w_j)^T y': none, unless a support moves it.
+    const typename S::OscillatorRow drag =
+        equations.support_velocity.row(j) -
+        (reaction_.transpose() * equations.W.col(j)).transpose() * equations.support_velocity;
+    const double size = equations.support_velocity.row(j).norm();
+    if (contains(immobile_, j) && drag.norm() <= 1e-12 * size) idle |= bit(j);
+  }
   Au.noalias() = P * (equations.M_inverse * equations.force);
   Lu.noalias() = (equations.M_inverse * equations.W * constraint_).transpose() * equations.force;
   if constexpr (S::kInternal != 0) {

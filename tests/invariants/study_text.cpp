@@ -32,6 +32,8 @@ Keys keys_of(ElementType type) {
       return {"hysteretic", "stiffness", "loss_factor"};
     case ElementType::maxwell:
       return {"maxwell", "stiffness", "damping"};
+    case ElementType::jenkins:
+      return {"jenkins", "stiffness", "force"};
   }
   return {"", "", nullptr};
 }

@@ -24,7 +24,7 @@ std::string name_on_page(const QuantityRow& row) {
     case Owner::mass:
       return "`<node>_" + suffix + "`";
     case Owner::element:
-    case Owner::coulomb:
+    case Owner::contact:
       return "`<element>_" + suffix + "`";
     case Owner::mode:
       return "`" + suffix + "_<k>`";
