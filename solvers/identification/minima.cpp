@@ -183,6 +183,11 @@ LeastSquaresFit Minima::beside(LeastSquaresFit fit) {
     best = from(best.p);
     if (!(best.sum_of_squares() < (1.0 - kLower) * fit.sum_of_squares())) return fit;
     fit = std::move(best);
+    exact_ = !misses(fit, kExactly);
+    if (exact_) {  // what lies beside it differs by rounding
+      rivals_.clear();
+      return fit;
+    }
   }
   return fit;
 }

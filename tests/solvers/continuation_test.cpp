@@ -51,11 +51,13 @@ TEST_CASE("Along a fine row an orbit takes fewer Newton steps than from nothing"
   Row followed(0.05, 0.3), alone(0.05, 0.3);
   int with_neighbours = 0, without = 0;
   for (double r = 0.3; r < 1.6; r += 0.01) {
-    REQUIRE(followed.at(r).is_found());
-    with_neighbours += followed.at(r).newton_iterations;
+    const Orbit<1, 1>& next = followed.at(r);
+    REQUIRE(next.is_found());
+    with_neighbours += next.newton_iterations;
     alone.forget();
-    REQUIRE(alone.at(r).is_found());
-    without += alone.at(r).newton_iterations;
+    const Orbit<1, 1>& fresh = alone.at(r);
+    REQUIRE(fresh.is_found());
+    without += fresh.newton_iterations;
   }
   INFO(with_neighbours << " against " << without);
   CHECK(2 * with_neighbours < without);

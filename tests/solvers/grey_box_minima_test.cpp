@@ -93,7 +93,10 @@ void check_truth(const Identification& found) {
   INFO(found.failure);
   REQUIRE(found.failure.empty());
   CHECK(found.converged);
-  CHECK(found.notes.empty());
+  {
+    INFO("note: " << (found.notes.empty() ? "" : found.notes.front()));
+    CHECK(found.notes.empty());
+  }
   for (std::size_t i = 0; i < kPlaces.size(); ++i) {
     INFO(kPlaces[i].name << " = " << found.estimates[i].value);
     CHECK(std::abs(found.estimates[i].value / kPlaces[i].of(truth) - 1.0) < 1e-10);

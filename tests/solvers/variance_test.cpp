@@ -1,6 +1,7 @@
 #include "solvers/tuning/variance/variance.hpp"
 
 #include <array>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
 #include <cmath>
