@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "solvers/mechanics/linear_system.hpp"
 #include "solvers/flow/sizes.hpp"
+#include "solvers/mechanics/linear_system.hpp"
 
 namespace frahm::periodic {
 
@@ -41,15 +41,15 @@ struct StepEquations {
       motion_acceleration;         // y(t) of the prescribed nodes
   typename S::VectorByContacts W;  // n x m
   typename S::ContactsByOscillators support_velocity,
-      support_acceleration;                         // p_j^T y'(t), p_j^T y''(t), m rows
-  typename S::Contacts limit;                       // [N]
-  typename S::Contacts compliance;                  // w_j^T M^-1 w_j
-  ContactMask holding = 0;                          // contacts whose law holds the velocity while they stick
-  std::vector<Eigen::Index> internal_of;            // of each contact: its internal force, -1: none
-  Eigen::MatrixXd D;                                // n x s
+      support_acceleration;               // p_j^T y'(t), p_j^T y''(t), m rows
+  typename S::Contacts limit;             // [N]
+  typename S::Contacts compliance;        // w_j^T M^-1 w_j
+  ContactMask holding = 0;                // contacts whose law holds the velocity while they stick
+  std::vector<Eigen::Index> internal_of;  // of each contact: its internal force, -1: none
+  Eigen::MatrixXd D;                      // n x s
   Eigen::VectorXd internal_stiffness, internal_rate;  // k [N/m]; k/c times h, 0 without a damper
-  Eigen::MatrixXd internal_drive;                    // k p^T y'(t) [N a step]
-  Eigen::VectorXd phase_rate;                       // order_k omega h [rad a step], size H
+  Eigen::MatrixXd internal_drive;                     // k p^T y'(t) [N a step]
+  Eigen::VectorXd phase_rate;                         // order_k omega h [rad a step], size H
   // Of each harmonic cos + i sin at phase 0; empty: 1, as in every motion but one whose excitation was
   // measured.
   std::vector<std::complex<double>> oscillators_at_zero;

@@ -9,8 +9,8 @@
 #include "solvers/flow/equations.hpp"
 #include "solvers/mechanics/linear_system.hpp"
 
-// The exact flow of a network whose contacts follow laws that are linear state by state (laws/law.hpp): between
-// events the system is linear and its flow an exponential. Time is counted in steps (StepEquations).
+// The exact flow of a network whose contacts follow laws that are linear state by state (laws/law.hpp):
+// between events the system is linear and its flow an exponential. Time is counted in steps (StepEquations).
 //
 // A Flow is the system at one set of values and one frequency, with a table of the modes met so far; it holds
 // nothing of any motion. What follows a motion has a workspace of its own (events/passage.hpp).
@@ -21,10 +21,10 @@ template <int N, int H>
 struct Mode {
   ContactMask stuck = 0, positive = 0;  // positive: sliding with w^T q' > 0
   std::size_t configuration = 0;
-  typename Sizes<N, H>::Contacts friction;     // sigma_j F_j of contacts that slide; 0 where it is a state [N]
-  typename Sizes<N, H>::Vector acceleration;   // Af * friction
-  typename Sizes<N, H>::State step;            // Ef * friction
-  typename Sizes<N, H>::Series series;         // series_f * friction
+  typename Sizes<N, H>::Contacts friction;    // sigma_j F_j of contacts that slide; 0 where it is a state [N]
+  typename Sizes<N, H>::Vector acceleration;  // Af * friction
+  typename Sizes<N, H>::State step;           // Ef * friction
+  typename Sizes<N, H>::Series series;        // series_f * friction
   typename Sizes<N, H>::Contacts stuck_force;  // Lf * friction
 
   double sign(Eigen::Index contact) const { return contains(positive, contact) ? 1.0 : -1.0; }

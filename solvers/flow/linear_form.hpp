@@ -45,13 +45,15 @@ class Forms {
   Form acceleration(const mechanics::Incidence& at, const Mode<N, H>& mode) const;
 
   // Force [N] of an element.
-  Form element_force(std::size_t element, const mechanics::ElementCoefficients& law, const Mode<N, H>& mode) const;
+  Form element_force(std::size_t element, const mechanics::ElementCoefficients& law,
+                     const Mode<N, H>& mode) const;
 
   // lambda_j [N] of a contact that sticks in this mode.
   Form stuck_contact_force(Eigen::Index contact, const Mode<N, H>& mode) const;
 
   // Sum of the forces [N] that all elements at `node` (ground or prescribed) need there: what drives it.
-  Form node_force(const mechanics::Node& node, const std::vector<mechanics::ElementCoefficients>& coefficients,
+  Form node_force(const mechanics::Node& node,
+                  const std::vector<mechanics::ElementCoefficients>& coefficients,
                   const Mode<N, H>& mode) const;
 
   Form zero() const {

@@ -7,7 +7,7 @@ namespace frahm::periodic {
 
 template <int N, int H>
 inline void Flow<N, H>::instant_at(const typename S::State& z, double phase, const Mode<N, H>& mode,
-                            Instant<N, H>& at) const {
+                                   Instant<N, H>& at) const {
   const StepEquations<N, H>& eq = equations_;
   at.z = z;
   at.u.resize(eq.oscillators());
@@ -90,7 +90,8 @@ inline ValueAndSlope Flow<N, H>::sliding_speed(const Instant<N, H>& at, Eigen::I
 }
 
 template <int N, int H>
-inline ValueAndSlope Flow<N, H>::stuck_force(const Instant<N, H>& at, const Mode<N, H>& mode, Eigen::Index j) const {
+inline ValueAndSlope Flow<N, H>::stuck_force(const Instant<N, H>& at, const Mode<N, H>& mode,
+                                             Eigen::Index j) const {
   const Eigen::Index n = equations_.masses();
   const Configuration<N, H>& c = configurations_[mode.configuration];
   ValueAndSlope force{c.Lq.row(j).dot(at.z.head(n)) + c.Lv.row(j).dot(at.z.segment(n, n)) +

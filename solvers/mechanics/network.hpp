@@ -27,7 +27,8 @@ struct Node {
 //   coulomb     F Sgn(v), Sgn(0) = [-1, 1]   value = friction force F [N]
 //   hysteretic  k u + (eta k / omega_h) v    value = stiffness k [N/m], second = loss factor eta [1]
 //   maxwell     s, s' = k v - (k/c) s        value = stiffness k [N/m], second = damping c [N s/m], in series
-//   jenkins     s, s' = k v, or s = +-F      value = stiffness k [N/m], second = friction force F [N], in series
+//   jenkins     s, s' = k v, or s = +-F      value = stiffness k [N/m], second = friction force F [N], in
+//   series
 enum class ElementType { spring, damper, inerter, coulomb, hysteretic, maxwell, jenkins };
 
 // Of a coulomb element. arctan smooths it: F (2/pi) arctan(slope v), second value = slope [s/m].

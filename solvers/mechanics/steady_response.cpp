@@ -31,7 +31,8 @@ Eigen::VectorXd steady_response(const LinearSystem& system, double phase) {
     // S = g (D^T X + p^T Y),  g = k i Omega / (i Omega + rate)
     const Eigen::ArrayXcd g =
         springs.array() * i_rate / (system.internal_rate.cast<Complex>().array() + i_rate);
-    const Eigen::VectorXcd from_support = g.matrix().asDiagonal() * (system.D_support.transpose() * system.motion.col(k));
+    const Eigen::VectorXcd from_support =
+        g.matrix().asDiagonal() * (system.D_support.transpose() * system.motion.col(k));
     Eigen::MatrixXcd stiffness = system.K + i_rate * system.C + (i_rate * i_rate) * system.M;
     stiffness += system.D * g.matrix().asDiagonal() * system.D.transpose();
     const Eigen::VectorXcd X = stiffness.partialPivLu().solve(system.force.col(k) - system.D * from_support);

@@ -84,7 +84,8 @@ const char* OrbitSensitivity<N, H>::prepare(const Orbit<N, H>& orbit, OrbitSteps
 template <int N, int H>
 const char* OrbitSensitivity<N, H>::differentiate(const StepDerivative<N, H>& by) {
   passage_.set_direction(by);
-  const typename S::State g_p = passage_.sweep(steps_, orbit_->passage.changes, S::State::Zero(flow_.equations().states()));
+  const typename S::State g_p =
+      passage_.sweep(steps_, orbit_->passage.changes, S::State::Zero(flow_.equations().states()));
   typename S::State right_side = orbit_->sign() * g_p;
   add_rest_positions(right_side);
   const typename S::State start = periodicity_.solve(right_side);

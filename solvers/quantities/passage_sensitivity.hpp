@@ -49,8 +49,8 @@ class PassageSensitivity {
   // steps, laid out and expanded, and the changes found in them must outlive what is asked below.
   typename S::State sweep(Steps steps, std::span<const Event> changes, const typename S::State& start);
 
-  // delta over the arrival of contact j, whose velocity has the slope `slope` there, between the instants seen
-  // from inside the modes before and after. Returns the derivative of its instant [steps].
+  // delta over the arrival of contact j, whose velocity has the slope `slope` there, between the instants
+  // seen from inside the modes before and after. Returns the derivative of its instant [steps].
   double arrive(Eigen::Index j, double slope, const Instant<N, H>& before, const Instant<N, H>& after,
                 typename S::State& delta) const;
 
@@ -184,8 +184,8 @@ void PassageSensitivity<N, H>::keep_at_limit(ContactMask contacts, const Mode<N,
   }
 }
 
-// What reaches its end at the change, g(z, p) = 0, does so later by dt = -dg / g'. Then with the fields before
-// and after
+// What reaches its end at the change, g(z, p) = 0, does so later by dt = -dg / g'. Then with the fields
+// before and after
 //   dz+ = dz- + (f- - f+) dt:
 // an arrival changes the acceleration, a release an internal force's rate, nothing else jumps.
 template <int N, int H>

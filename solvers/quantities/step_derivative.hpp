@@ -18,7 +18,7 @@ struct StepDerivative {
   typename S::SupportsByOscillators motion, motion_velocity, motion_acceleration;
   typename S::ContactsByOscillators support_displacement, support_velocity, support_acceleration;
   typename S::Contacts limit;
-  Eigen::VectorXd internal_stiffness;                  // dk
+  Eigen::VectorXd internal_stiffness;                 // dk
   Eigen::MatrixXd internal_by_state, internal_drive;  // of s', by state and by oscillators
 
   // system, by: the equations of `eq` and their derivative, before time was counted in steps.
@@ -88,8 +88,7 @@ void ModeDerivative<N, H>::set(const Flow<N, H>& flow, const Mode<N, H>& mode,
   typename S::VectorByOscillators r_u = by.force - by.M * c.Au;
   r_u.col(0) -= by.M * mode.acceleration;
   for (Eigen::Index j = 0; j < m; ++j) {
-    if (eq.holds(j) && !contains(mode.stuck, j))
-      r_u.col(0) -= (mode.sign(j) * by.limit[j]) * eq.W.col(j);
+    if (eq.holds(j) && !contains(mode.stuck, j)) r_u.col(0) -= (mode.sign(j) * by.limit[j]) * eq.W.col(j);
   }
 
   const typename S::Square mobility = c.P * eq.M_inverse;

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "solvers/quantities/quantity.hpp"
 #include "solvers/exact/response.hpp"
+#include "solvers/quantities/quantity.hpp"
 
 // Excitations whose orders have a common divisor g > 1: order 30 alone, or 4 and 6. All that happens repeats
 // g times in a period of the fundamental omega, so it is solved as what it is, the orders divided by g at g

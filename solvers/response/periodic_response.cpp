@@ -1,7 +1,7 @@
 #include "solvers/response/periodic_response.hpp"
 
-#include "solvers/response/common_divisor.hpp"
 #include "solvers/exact/exact_solver.hpp"
+#include "solvers/response/common_divisor.hpp"
 #include "solvers/smooth/smooth_solver.hpp"
 
 namespace frahm::periodic {

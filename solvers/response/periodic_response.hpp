@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
+#include "solvers/exact/response.hpp"
 #include "solvers/mechanics/network.hpp"
 #include "solvers/quantities/quantity.hpp"
-#include "solvers/exact/response.hpp"
 
 namespace frahm::periodic {
 

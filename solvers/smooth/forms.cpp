@@ -47,7 +47,8 @@ Form Forms::element_force(std::size_t element, const mechanics::ElementCoefficie
   return form;
 }
 
-Form Forms::node_force(const mechanics::Node& node, const std::vector<mechanics::ElementCoefficients>& coefficients) const {
+Form Forms::node_force(const mechanics::Node& node,
+                       const std::vector<mechanics::ElementCoefficients>& coefficients) const {
   Form sum = zero();
   const auto& elements = assembly_.network().elements;
   for (std::size_t e = 0; e < elements.size(); ++e) {

@@ -36,7 +36,8 @@ class Forms {
   // Force [N] of an element.
   Form element_force(std::size_t element, const mechanics::ElementCoefficients& law) const;
   // Sum of the forces [N] that all elements at `node` (ground or prescribed) need there: what drives it.
-  Form node_force(const mechanics::Node& node, const std::vector<mechanics::ElementCoefficients>& coefficients) const;
+  Form node_force(const mechanics::Node& node,
+                  const std::vector<mechanics::ElementCoefficients>& coefficients) const;
   // Outside force [N] on a mass.
   Form applied_force(std::size_t mass) const;
 

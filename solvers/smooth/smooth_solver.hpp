@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "solvers/quantities/quantity.hpp"
 #include "solvers/exact/response.hpp"
+#include "solvers/quantities/quantity.hpp"
 
 // Periodic responses under the arctan law, F (2/pi) arctan(slope v), which smooths Coulomb's.
 namespace frahm::smooth {

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <optional>
 
-#include "solvers/quantities/observables.hpp"
 #include "solvers/mechanics/undamped_resonance.hpp"
+#include "solvers/quantities/observables.hpp"
 #include "solvers/transient/trajectory.hpp"
 
 namespace frahm::transient {

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "solvers/quantities/quantity.hpp"
 #include "solvers/exact/response.hpp"
+#include "solvers/quantities/quantity.hpp"
 
 // Where the regime of a Coulomb element changes along a line, its place on which is t from 0 to 1.
 namespace frahm::studies {

@@ -8,8 +8,8 @@
 
 #include "solvers/mechanics/linear_system.hpp"
 #include "solvers/orbits/orbit.hpp"
-#include "solvers/response/resonance_peak.hpp"
 #include "solvers/response/periodic_response.hpp"
+#include "solvers/response/resonance_peak.hpp"
 #include "studies/map/assembly_stage.hpp"
 #include "studies/map/map_record.hpp"
 

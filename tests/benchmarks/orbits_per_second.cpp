@@ -1,11 +1,13 @@
-// Orbits per second and core, beside the strongest peer in the same run: Boost.odeint's dopri5 on the smoothed
-// friction law F (2/pi) arctan(1e5 v), integrated until the peak changes by less than 1e-4 from one period to the
-// next, which is how such maps are made today. Process CPU time, one thread, median of several repetitions.
+// Orbits per second and core, beside the strongest peer in the same run: Boost.odeint's dopri5 on the
+// smoothed friction law F (2/pi) arctan(1e5 v), integrated until the peak changes by less than 1e-4 from one
+// period to the next, which is how such maps are made today. Process CPU time, one thread, median of several
+// repetitions.
 //
-// What the exact derivatives of one peak by inertance (or damping), friction and frequency cost beside the orbit.
+// What the exact derivatives of one peak by inertance (or damping), friction and frequency cost beside the
+// orbit.
 //
-// And what the smoothed law costs here: the arctan law by CVODES and shooting, to 1e-8 and better, beside the exact
-// law at the same points.
+// And what the smoothed law costs here: the arctan law by CVODES and shooting, to 1e-8 and better, beside the
+// exact law at the same points.
 //
 //   benchmark_orbits            everything
 //   benchmark_orbits --no-peer  Frahm only
@@ -74,14 +76,11 @@ Work rig() {
   const mechanics::Node exciter{NodeKind::prescribed, 0};
   work.network.masses = {"main", "tmd"};
   work.network.prescribed = {"exciter"};
-  work.network.elements = {{"suspension", ElementType::spring, ground, main},
-                           {"drive", ElementType::spring, exciter, main},
-                           {"guide", ElementType::coulomb, ground, main},
-                           {"guide_damper", ElementType::damper, ground, main},
-                           {"tmd_spring", ElementType::spring, main, tmd},
-                           {"tmd_damper", ElementType::damper, main, tmd},
-                           {"inerter", ElementType::inerter, main, tmd},
-                           {"tmd_friction", ElementType::coulomb, main, tmd}};
+  work.network.elements = {
+      {"suspension", ElementType::spring, ground, main}, {"drive", ElementType::spring, exciter, main},
+      {"guide", ElementType::coulomb, ground, main},     {"guide_damper", ElementType::damper, ground, main},
+      {"tmd_spring", ElementType::spring, main, tmd},    {"tmd_damper", ElementType::damper, main, tmd},
+      {"inerter", ElementType::inerter, main, tmd},      {"tmd_friction", ElementType::coulomb, main, tmd}};
   work.network.excitations = {{ExcitationKind::motion, 0, 1}};
   for (const double inertance : {4.72, 8.81, 12.9}) {
     for (int i = 0; i <= 30; ++i) {
@@ -90,8 +89,8 @@ Work rig() {
         const double omega = (150.0 + 0.5 * k) * pi / 30.0;
         row.push_back({omega,
                        {102.66, 12.82},
-                       {6 * 8181.0, 8181.0, 0.01 * i * 8181.0 * 0.02955, 1.7688, 10985.1, 26.5104 + 0.4811 * inertance,
-                        inertance, 15.0109},
+                       {6 * 8181.0, 8181.0, 0.01 * i * 8181.0 * 0.02955, 1.7688, 10985.1,
+                        26.5104 + 0.4811 * inertance, inertance, 15.0109},
                        {{0.02955, -pi / 2}}});
       }
       work.rows.push_back(std::move(row));
@@ -112,8 +111,10 @@ double frahm_seconds(const Work& work, const std::vector<periodic::Quantity>& qu
     for (const auto& row : work.rows) {
       response.begin_row();
       for (std::size_t k = 0; k < row.size(); ++k) {
-        if (k == 0) response.set_values(row[k]);
-        else response.set_forcing(row[k]);
+        if (k == 0)
+          response.set_values(row[k]);
+        else
+          response.set_forcing(row[k]);
         response.solve();
         response.quantities(out);
         ++orbits;
@@ -154,11 +155,15 @@ void time_gradients(const Work& work) {
     }
   }
   const double per_point = 1e6 / static_cast<double>(points);
-  fmt::print("{:9} one peak, new element values each time: {:.2f} us an orbit; its derivatives by three parameters: {:.2f} us\n",
-             work.name, orbits * per_point, derivatives * per_point);
+  fmt::print(
+      "{:9} one peak, new element values each time: {:.2f} us an orbit; its derivatives by three parameters: "
+      "{:.2f} us\n",
+      work.name, orbits * per_point, derivatives * per_point);
 }
 
-double smooth_sign(double v) { return 2.0 / pi * std::atan(1e5 * v); }
+double smooth_sign(double v) {
+  return 2.0 / pi * std::atan(1e5 * v);
+}
 
 // Peak of coordinate 0 in steady state, by dopri5 with tolerances 1e-3 (relative) and 1e-6 (absolute).
 template <std::size_t Size, class Rate>
@@ -166,7 +171,8 @@ double integrated_peak(const Rate& rate, double omega, double relative_unit) {
   namespace odeint = boost::numeric::odeint;
   using State = std::array<double, Size>;
   State state{};
-  const auto stepper = odeint::make_controlled(1e-6 * relative_unit, 1e-3, odeint::runge_kutta_dopri5<State>());
+  const auto stepper =
+      odeint::make_controlled(1e-6 * relative_unit, 1e-3, odeint::runge_kutta_dopri5<State>());
   const double period = 2.0 * pi / omega;
   constexpr int kMostPeriods = 2000;
   double last = 0.0;
@@ -184,7 +190,8 @@ double single_mass_peak(const NetworkValues& values) {
   using State = std::array<double, 2>;
   const auto rate = [&](const State& x, State& dx, double t) {
     dx[0] = x[1];
-    dx[1] = std::cos(values.omega * t) - values.element[1] * x[1] - x[0] - values.element[2] * smooth_sign(x[1]);
+    dx[1] =
+        std::cos(values.omega * t) - values.element[1] * x[1] - x[0] - values.element[2] * smooth_sign(x[1]);
   };
   return integrated_peak<2>(rate, values.omega, 1.0);
 }
@@ -195,9 +202,11 @@ double rig_peak(const NetworkValues& values) {
   const double M = values.mass[0], m = values.mass[1], b = e[6];
   const double determinant = M * m + b * (M + m);  // of the mass matrix [M+b, -b; -b, m+b]
   const auto rate = [&](const State& x, State& dx, double t) {
-    const double drive = values.excitation[0].amplitude * std::cos(values.omega * t + values.excitation[0].phase);
+    const double drive =
+        values.excitation[0].amplitude * std::cos(values.omega * t + values.excitation[0].phase);
     const double between = e[4] * (x[0] - x[1]) + e[5] * (x[2] - x[3]) + e[7] * smooth_sign(x[2] - x[3]);
-    const double on_main = e[1] * drive - (e[0] + e[1]) * x[0] - e[3] * x[2] - e[2] * smooth_sign(x[2]) - between;
+    const double on_main =
+        e[1] * drive - (e[0] + e[1]) * x[0] - e[3] * x[2] - e[2] * smooth_sign(x[2]) - between;
     dx[0] = x[2];
     dx[1] = x[3];
     dx[2] = ((m + b) * on_main + b * between) / determinant;
@@ -222,17 +231,21 @@ void compare(const Work& work, double frahm) {
       response.set_values(work.rows[row][k]);
       response.solve();
       response.quantities({&exact, 1});
-      if (exact > 1e-6 * work.rows[row][k].excitation[0].amplitude) errors.push_back(std::abs(peak / exact - 1.0));
+      if (exact > 1e-6 * work.rows[row][k].excitation[0].amplitude)
+        errors.push_back(std::abs(peak / exact - 1.0));
       outside += cpu_seconds() - exact_start;
     }
   }
   const double peer = (cpu_seconds() - start - outside) / static_cast<double>(points);
   std::sort(errors.begin(), errors.end());
-  fmt::print("{:9} odeint dopri5 1e-3/1e-6: {:.2e} s a point ({} points), error median {:.0e}, largest {:.0e}; Frahm is {:.0f} times as fast\n",
-             work.name, peer, points, errors[errors.size() / 2], errors.back(), peer / frahm);
+  fmt::print(
+      "{:9} odeint dopri5 1e-3/1e-6: {:.2e} s a point ({} points), error median {:.0e}, largest {:.0e}; "
+      "Frahm is {:.0f} times as fast\n",
+      work.name, peer, points, errors[errors.size() / 2], errors.back(), peer / frahm);
 }
 
-// Every 7th row, every 97th point: the exact orbit from nothing known, and that of the arctan law of slope 1e5.
+// Every 7th row, every 97th point: the exact orbit from nothing known, and that of the arctan law of slope
+// 1e5.
 void compare_laws(const Work& work) {
   Network smooth = work.network;
   for (mechanics::Element& element : smooth.elements) {
@@ -261,9 +274,11 @@ void compare_laws(const Work& work) {
     }
   }
   const double per_point = 1.0 / static_cast<double>(points);
-  fmt::print("{:9} arctan law, slope 1e5, CVODES: {:.2e} s a point ({} of {} points found); exact law at the same points, each from nothing: {:.2e} s; ratio {:.0f}\n",
-             work.name, arctan_seconds * per_point, found, points, exact_seconds * per_point,
-             arctan_seconds / exact_seconds);
+  fmt::print(
+      "{:9} arctan law, slope 1e5, CVODES: {:.2e} s a point ({} of {} points found); exact law at the same "
+      "points, each from nothing: {:.2e} s; ratio {:.0f}\n",
+      work.name, arctan_seconds * per_point, found, points, exact_seconds * per_point,
+      arctan_seconds / exact_seconds);
 }
 
 }  // namespace
@@ -273,11 +288,14 @@ int main(int argc, char** argv) {
   constexpr int kRepetitions = 5;
   for (const Work& work : {single_mass(), rig()}) {
     std::vector<periodic::Quantity> peaks;
-    for (std::size_t i = 0; i < work.network.masses.size(); ++i) peaks.push_back({periodic::Measure::peak, i});
+    for (std::size_t i = 0; i < work.network.masses.size(); ++i)
+      peaks.push_back({periodic::Measure::peak, i});
     const double kernel = frahm_seconds(work, peaks, kRepetitions);
     const double standard = frahm_seconds(work, periodic::standard_quantities(work.network), kRepetitions);
-    fmt::print("{:9} peaks only: {:.3f} us an orbit, {:.0f} orbits/s a core; standard quantities: {:.3f} us, {:.0f} orbits/s\n",
-               work.name, 1e6 * kernel, 1.0 / kernel, 1e6 * standard, 1.0 / standard);
+    fmt::print(
+        "{:9} peaks only: {:.3f} us an orbit, {:.0f} orbits/s a core; standard quantities: {:.3f} us, {:.0f} "
+        "orbits/s\n",
+        work.name, 1e6 * kernel, 1.0 / kernel, 1e6 * standard, 1.0 / standard);
     time_gradients(work);
     compare_laws(work);
     if (with_peer) compare(work, kernel);

@@ -43,7 +43,8 @@ std::vector<double> numbers_of(const LinearSystem& system) {
     add(*vector);
   for (const auto* matrix : {&system.force, &system.applied_force, &system.motion}) add_both(*matrix);
   for (const ElementCoefficients& law : system.coefficients) {
-    for (const double number : {law.stiffness, law.damping, law.inertance, law.friction, law.internal_damping})
+    for (const double number :
+         {law.stiffness, law.damping, law.inertance, law.friction, law.internal_damping})
       all.push_back(number);
   }
   return all;

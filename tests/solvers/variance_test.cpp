@@ -1,8 +1,8 @@
 #include "solvers/tuning/variance/variance.hpp"
 
-#include <array>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <complex>
