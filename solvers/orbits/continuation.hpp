@@ -120,7 +120,8 @@ void Continuation<N, H>::predict(const mechanics::LinearSystem& system, Orbit<N,
   orbit.z.segment(n, n) *= flow_.equations().step;
 }
 
-// The steady state without friction, at rest where that is not finite or far beyond any that is meant.
+// The steady state without friction, at rest where that is not finite. It is only a start where there is friction,
+// and then not one far beyond any that is meant.
 template <int N, int H>
 typename Sizes<N, H>::State Continuation<N, H>::response_without_friction(
     const mechanics::LinearSystem& system, double phase) const {
@@ -128,8 +129,9 @@ typename Sizes<N, H>::State Continuation<N, H>::response_without_friction(
   const Eigen::Index n = eq.masses();
   typename S::State z = mechanics::steady_response(system, phase);
   z.segment(n, n) *= eq.step;
+  const bool is_start = (eq.limit.array() > 0.0).any();
   const double limit = 1e6 * flow_.static_norm();
-  if (!z.allFinite() || eq.energy_norm(z) > limit) z.setZero();
+  if (!z.allFinite() || (is_start && eq.energy_norm(z) > limit)) z.setZero();
   return z;
 }
 
