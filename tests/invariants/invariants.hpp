@@ -30,7 +30,6 @@ struct Tally {
   std::map<std::string, int> statuses;  // of the networks themselves
   std::map<std::string, int> reasons;   // of refusals and failures
   std::map<std::string, int> compared;  // by invariant
-  int slow = 0;                         // checked by themselves only
   int without_error_bound = 0;          // of those that are ok
 };
 

@@ -113,7 +113,6 @@ int check(const Options& options) {
   print_counts("by status", tally.statuses);
   print_counts("refused or failed, by reason", tally.reasons);
   fmt::print("  {:6} ok without an error bound\n", tally.without_error_bound);
-  fmt::print("  {:6} slow, checked by themselves only\n", tally.slow);
   print_counts("violations at status ok", found[Standing::ok]);
   print_counts("violations at status ok, Floquet radius 1", found[Standing::neutral]);
   print_counts("violations where an answer is grazing", found[Standing::grazing]);
