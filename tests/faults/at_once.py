@@ -63,11 +63,20 @@ def check_second(bench, study, expected):
     place = bench.place(study)
     assert place.call(*RUN, fault=Fault()).code == 0
 
+    def frozen_in_a_place(number):
+        """A run may do with one sync fewer than the one that was counted, and be over before its last call."""
+        for attempt in range(20):
+            place = bench.place(study)
+            try:
+                return place, frozen_at(place, Fault(number, "freeze"), *RUN)
+            except AssertionError as over:
+                if attempt == 19 or "code 0" not in str(over):
+                    raise
+
     def check(item):
         (phase, number), second = item
         case = f"{phase}, then {' '.join(second)}"
-        place = bench.place(study)
-        first = frozen_at(place, Fault(number, "freeze"), *RUN)
+        place, first = frozen_in_a_place(number)
         outcome = ended(place.start(*second))
         owner = OWNER.search(outcome.err)
         if outcome.code == 6:
