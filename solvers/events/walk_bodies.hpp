@@ -151,9 +151,9 @@ void Walk<N, H>::pass_event(const GuardEvent& event, double phase, Passage<N, H>
     advance(event.at, passage);
     w_.fresh = w_.just_released = 0;
   }
-  const Mode<N, H> mode_before = flow_.mode(w_.mode);
-  flow_.instant_at(typename S::State(w_.left.z), phase + w_.clock * flow_.fundamental_rate(), mode_before,
-                   w_.left);
+  const std::size_t mode_before = w_.mode;
+  flow_.instant_at(typename S::State(w_.left.z), phase + w_.clock * flow_.fundamental_rate(),
+                   flow_.mode(mode_before), w_.left);
   passage.segments.back().length = w_.clock - passage.segments.back().start;
   ++passage.events;
   const Instant<N, H> before = w_.left;
@@ -162,18 +162,18 @@ void Walk<N, H>::pass_event(const GuardEvent& event, double phase, Passage<N, H>
   const ContactMask arrived = arrivals(flow_, event.release ? -1 : event.contact, w_);
   bool forward = false;
   if (event.release) {
-    const ValueAndSlope force = flow_.stuck_force(w_.left, mode_before, event.contact);
+    const ValueAndSlope force = flow_.stuck_force(w_.left, flow_.mode(mode_before), event.contact);
     w_.note_margin(std::abs(force.slope) / w_.force_scale[event.contact]);
     forward = force.value > 0.0;
   }
   change_mode(flow_, arrived, event.release ? event.contact : -1, forward, w_);
 
   // 3. Carry the tangent across.
-  const ContactMask released = mode_before.stuck & ~flow_.mode(w_.mode).stuck;
-  saltate(flow_, arrived, released, before, mode_before, w_, passage.tangent);
+  const ContactMask released = flow_.mode(mode_before).stuck & ~flow_.mode(w_.mode).stuck;
+  saltate(flow_, arrived, released, before, flow_.mode(mode_before), w_, passage.tangent);
 
   // 4. Keep it, and begin the next segment. Events at one instant are one change.
-  note_change(event, before, mode_before, passage);
+  note_change(event, before, flow_.mode(mode_before), passage);
   open_segment(passage);
 }
 

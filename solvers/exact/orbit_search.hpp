@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -45,6 +46,7 @@ class OrbitSearch {
   // matter for, the orbit has lost digits: it is to be found again from there.
   enum class Shift { none, near, far };
   static constexpr double kFar = 10.0;  // of the orbit's own size: a digit
+  std::vector<StuckForce> stuck_forces(ContactMask contacts, const Orbit<N, H>& orbit);
   Shift settle_rest_position(Orbit<N, H>& orbit);
   bool try_held(ContactMask held, Orbit<N, H>& orbit);
   double distance_slid(Eigen::Index contact, const Orbit<N, H>& orbit) const;
@@ -169,27 +171,42 @@ bool OrbitSearch<N, H>::try_held(ContactMask held, Orbit<N, H>& orbit) {
   return true;
 }
 
+// Of these contacts over the orbit, while they stick.
+template <int N, int H>
+std::vector<StuckForce> OrbitSearch<N, H>::stuck_forces(ContactMask contacts, const Orbit<N, H>& orbit) {
+  steps_.lay_out(orbit);
+  std::vector<StuckForce> forces;
+  for (Eigen::Index j = 0; j < flow_.equations().contacts(); ++j) {
+    if (!contains(contacts, j)) continue;
+    const auto form = [&](const Mode<N, H>& mode) {
+      return contains(mode.stuck, j) ? forms_.stuck_contact_force(j, mode) : forms_.zero();
+    };
+    const Extremes force = find_extremes(steps_, flow_, orbit.section, form);
+    forces.push_back({force.least, force.most, flow_.equations().limit[j]});
+  }
+  return forces;
+}
+
 // Moves `orbit` to the rest position of least energy; one whose limit is reached is grazing. The orbit stays
 // as it was where no rest position keeps the forces within their limits.
 template <int N, int H>
 typename OrbitSearch<N, H>::Shift OrbitSearch<N, H>::settle_rest_position(Orbit<N, H>& orbit) {
   const StepEquations<N, H>& eq = flow_.equations();
-  steps_.lay_out(orbit);
+  const std::vector<StuckForce> forces = stuck_forces(orbit.stuck_throughout, orbit);
   integrals_.integrate(steps_, flow_, orbit.half_period, [](const auto&, auto& powers) { powers.clear(); });
   const double period = eq.period * eq.step;
   const Eigen::VectorXd mean = integrals_.gram().col(eq.states()).head(eq.states()) / period;
-  std::vector<StuckForce> forces;
-  for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
-    if (!contains(orbit.stuck_throughout, j)) continue;
-    const auto form = [&](const Mode<N, H>& mode) { return forms_.stuck_contact_force(j, mode); };
-    const Extremes force = find_extremes(steps_, flow_, orbit.section, form);
-    forces.push_back({force.least, force.most, eq.limit[j]});
-  }
   const RestDirections rest = rest_directions(eq, orbit.stuck_throughout);
   const RestShift shift = least_energy_shift(rest, mean, forces);
   if (shift.verdict == RestShift::Verdict::none) return Shift::none;
   const typename Sizes<N, H>::State by = rest.E * shift.delta;
   shift_orbit<N, H>(by, orbit);
+  // Part of the shift's forces may strain a loop alone, and no state has it: where the shares that are quoted
+  // then break a limit, the motion is followed once more from there.
+  if (flow_.has_loops() && std::ranges::any_of(stuck_forces(eq.holding, orbit), &StuckForce::breaks_limit)) {
+    shooting_.find(orbit);
+    if (!orbit.is_found()) return Shift::none;
+  }
   if (shift.verdict == RestShift::Verdict::at_limit) orbit.status = Status::grazing;
   const double size = std::max(eq.energy_norm(orbit.z), flow_.static_norm());
   return eq.energy_norm(by) > kFar * size ? Shift::far : Shift::near;

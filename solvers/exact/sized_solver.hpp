@@ -166,9 +166,9 @@ std::vector<Stretch> SizedSolver<N, H>::stretches() const {
         const mechanics::ContactShare& place = assembly_.shares()[e];
         const auto contact = static_cast<Eigen::Index>(place.contact);
         const double sign = (half == 0 ? 1.0 : -1.0) * place.orientation * mode.sign(contact);
-        stretch.contacts.push_back(contains(mode.stuck, contact) ? "sticks"
-                                   : sign > 0.0                  ? "slides +"
-                                                                 : "slides -");
+        stretch.contacts.push_back(flow_.rests(mode, contact) ? "sticks"
+                                   : sign > 0.0               ? "slides +"
+                                                              : "slides -");
       }
       result.push_back(std::move(stretch));
     }

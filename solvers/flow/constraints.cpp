@@ -1,39 +1,45 @@
 #include "solvers/flow/constraints.hpp"
 
-#include <Eigen/Dense>
+#include <vector>
+
+#include "solvers/algebra/shortest_solution.hpp"
+#include "solvers/algebra/symmetric_modes.hpp"
 
 namespace frahm::periodic {
 namespace {
 
-// Directions whose singular value is below this part of the largest depend on the others.
-constexpr double kDependent = 1e-11;
+// Where every weight counts. In coordinates in which G has a diagonal of ones: what serves is found without
+// the weights, which may be of very different size, and only what is free of it, G Z = 0, is shared by them:
+//   G^+ = Q G0^+ Q^T,  Q = 1 - Z H,  H x the least squares solution c of (Z c) / weight = x / weight.
+Eigen::MatrixXd pseudo_inverse_of(const Eigen::MatrixXd& G, const Eigen::VectorXd& weight) {
+  constexpr double kDependent = 1e-11;  // of the largest: below, a direction depends on the others
+  const Eigen::Index m = G.rows();
+  const Eigen::VectorXd size = G.diagonal().cwiseSqrt().cwiseInverse();
+  const algebra::SymmetricModes modes = algebra::symmetric_modes(size.asDiagonal() * G * size.asDiagonal());
+  Eigen::Index dependent = 0;  // the values ascend
+  while (dependent < m && modes.values[dependent] <= kDependent * modes.values[m - 1]) ++dependent;
+  const Eigen::MatrixXd serving = size.asDiagonal() * modes.vectors.rightCols(m - dependent);
+  const Eigen::MatrixXd any =
+      serving * modes.values.tail(m - dependent).cwiseInverse().asDiagonal() * serving.transpose();
+  if (dependent == 0) return any;
+  const Eigen::MatrixXd Z = size.asDiagonal() * modes.vectors.leftCols(dependent);
+  const Eigen::MatrixXd per_weight = weight.cwiseInverse().asDiagonal();
+  const Eigen::MatrixXd Q =
+      Eigen::MatrixXd::Identity(m, m) - Z * algebra::shortest_solutions(per_weight * Z, per_weight);
+  return Q * any * Q.transpose();
+}
 
 }  // namespace
 
 Eigen::MatrixXd weighted_pseudo_inverse(const Eigen::MatrixXd& G, const Eigen::VectorXd& weight) {
-  const Eigen::VectorXd size =
-      (weight.array() > 0.0).select(G.diagonal().cwiseSqrt().cwiseInverse(), 0.0).matrix();
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
-  solver.setThreshold(kDependent);
-  // Directions that do not depend on one another have one answer, whatever the weights, which may be of very
-  // different size.
-  solver.compute(size.asDiagonal() * G * size.asDiagonal());
-  const bool independent = solver.rank() == (weight.array() > 0.0).count();
-  if (independent) return size.asDiagonal() * solver.pseudoInverse() * size.asDiagonal();
-  solver.compute(weight.asDiagonal() * G * weight.asDiagonal());
-  return weight.asDiagonal() * solver.pseudoInverse() * weight.asDiagonal();
-}
-
-Eigen::MatrixXd projector_off(const Eigen::MatrixXd& A, const Eigen::MatrixXd& W) {
-  const Eigen::MatrixXd A_inverse_W = A.llt().solve(W);
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> gram;
-  gram.setThreshold(kDependent);
-  gram.compute(W.transpose() * A_inverse_W);
-  return Eigen::MatrixXd::Identity(A.rows(), A.rows()) - A_inverse_W * gram.solve(W.transpose());
-}
-
-Eigen::MatrixXd cholesky_root(const Eigen::MatrixXd& A) {
-  return A.llt().matrixU();
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index j = 0; j < weight.size(); ++j) {
+    if (weight[j] > 0.0 && G(j, j) > 0.0) kept.push_back(j);
+  }
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(G.rows(), G.cols());
+  if (kept.size() == 1) result(kept[0], kept[0]) = 1.0 / G(kept[0], kept[0]);
+  if (kept.size() > 1) result(kept, kept) = pseudo_inverse_of(G(kept, kept), weight(kept));
+  return result;
 }
 
 }  // namespace frahm::periodic

@@ -9,11 +9,4 @@ namespace frahm::periodic {
 // lambda do, that of least sum (lambda_j / weight_j)^2. Rows and columns of weight 0 are left out (zero).
 Eigen::MatrixXd weighted_pseudo_inverse(const Eigen::MatrixXd& G, const Eigen::VectorXd& weight);
 
-// 1 - A^-1 W (W^T A^-1 W)^+ W^T (n x n): takes out the motion in the directions W (n x m), orthogonally in
-// the norm of A, symmetric positive definite.
-Eigen::MatrixXd projector_off(const Eigen::MatrixXd& A, const Eigen::MatrixXd& W);
-
-// R, upper triangular, with R^T R = A, symmetric positive definite.
-Eigen::MatrixXd cholesky_root(const Eigen::MatrixXd& A);
-
 }  // namespace frahm::periodic

@@ -1,16 +1,15 @@
 #include "solvers/flow/equations.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <numbers>
+
+#include "solvers/algebra/symmetric_modes.hpp"
 
 namespace frahm::periodic {
 
 double fastest_rate(const mechanics::LinearSystem& system) {
   const auto largest = [&](const Eigen::MatrixXd& matrix) {
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix, system.M,
-                                                                           Eigen::EigenvaluesOnly);
-    return std::max(0.0, solver.eigenvalues().maxCoeff());
+    return std::max(0.0, algebra::symmetric_values(matrix, system.M).maxCoeff());
   };
   if (system.internal_forces() > 0) {
     const double gamma = std::max(largest(system.C), system.internal_rate.maxCoeff());

@@ -86,6 +86,7 @@ class Flow {
   const std::vector<int>& orders() const { return orders_; }
   double fundamental_rate() const { return fundamental_rate_; }  // omega h [rad a step]
   bool moving_support() const { return moving_support_; }        // some contact rubs on a prescribed node
+  bool has_loops() const { return has_loops_; }  // the directions of contacts depend on one another
   // The energy norm of the static response to the excitation's amplitudes [sqrt(J)].
   double static_norm() const { return static_norm_; }
 
@@ -94,6 +95,15 @@ class Flow {
   const Mode<N, H>& mode(std::size_t index) const { return modes_[index]; }
   const Configuration<N, H>& configuration(const Mode<N, H>& mode) const {
     return configurations_[mode.configuration];
+  }
+  // Whether a contact does not move: it sticks, or others that do keep it at rest while it carries its limit.
+  bool rests(const Mode<N, H>& mode, Eigen::Index contact) const {
+    const bool is_idle = contains(configuration(mode).idle, contact) && equations_.limit[contact] > 0.0;
+    return contains(mode.stuck, contact) || is_idle;
+  }
+  // What takes velocities to those that keep these contacts stuck, orthogonally in the norm of M.
+  const typename S::Square& keeping_stuck(ContactMask contacts) {
+    return configurations_[configuration_index(contacts)].P;
   }
   // z with the velocities of these contacts' rest at `phase`.
   typename S::State brought_to_rest(const typename S::State& z, double phase, ContactMask contacts);
@@ -130,6 +140,7 @@ class Flow {
   double static_norm_ = 0.0;
   bool matrices_changed_ = true;
   bool moving_support_ = false;
+  bool has_loops_ = false;
 };
 
 // The sizes that are known at compile time are instantiated in flow/flow_*.cpp, each in its own file.

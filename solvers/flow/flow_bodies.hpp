@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "solvers/algebra/null_space.hpp"
+#include "solvers/algebra/solve.hpp"
 #include "solvers/flow/flow.hpp"
 
 // Bodies of Flow, for the files that instantiate it (flow_1_1.cpp and so on).
@@ -15,6 +17,17 @@ void set_laws(const mechanics::LinearSystem& system, StepEquations<N, H>& eq) {
   for (std::size_t j = 0; j < system.law.size(); ++j) {
     if (system.law[j]->holds_velocity) eq.holding |= bit(static_cast<Eigen::Index>(j));
   }
+}
+
+// Whether stuck contacts can keep another one at rest: their directions depend on one another.
+template <int N, int H>
+bool holds_in_loops(const StepEquations<N, H>& eq) {
+  Eigen::MatrixXd held(eq.masses(), count(eq.holding));
+  Eigen::Index column = 0;
+  for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
+    if (eq.holds(j)) held.col(column++) = eq.W.col(j);
+  }
+  return column > 1 && algebra::null_space(held).cols() > 0;
 }
 
 template <int N, int H>
@@ -33,13 +46,14 @@ void Flow<N, H>::scale_matrices(const mechanics::LinearSystem& system) {
   eq.K = system.K;
   eq.M_inverse = eq.M.inverse();
   eq.K_inverse = eq.K.inverse();
-  eq.M_root = cholesky_root(eq.M);
-  eq.K_root = cholesky_root(eq.K);
+  eq.M_root = algebra::upper_root(eq.M);
+  eq.K_root = algebra::upper_root(eq.K);
   eq.M_root_inverse = eq.M_root.inverse();
   eq.K_root_inverse = eq.K_root.inverse();
   eq.W = system.W;
   eq.limit = system.limit;
   set_laws(system, eq);
+  has_loops_ = holds_in_loops(eq);
   eq.D = system.D;
   eq.internal_stiffness = system.internal_stiffness;
   eq.internal_rate = h * system.internal_rate;
@@ -126,7 +140,7 @@ std::size_t Flow<N, H>::mode_index(ContactMask stuck, ContactMask positive) {
   for (std::size_t i = 0; i < modes_.size(); ++i) {
     if (modes_[i].stuck == stuck && modes_[i].positive == positive) return i;
   }
-  Mode<N, H> mode;
+  Mode<N, H>& mode = modes_.emplace_back();
   mode.stuck = stuck;
   mode.positive = positive;
   mode.configuration = configuration_index(stuck);
@@ -136,11 +150,10 @@ std::size_t Flow<N, H>::mode_index(ContactMask stuck, ContactMask positive) {
     const bool slides = equations_.holds(j) && !contains(stuck, j);
     mode.friction[j] = slides ? mode.sign(j) * equations_.limit[j] : 0.0;
   }
-  mode.acceleration = configuration.Af * mode.friction;
-  mode.step = configuration.Ef * mode.friction;
-  mode.series = configuration.series_f * mode.friction;
-  mode.stuck_force = configuration.Lf * mode.friction;
-  modes_.push_back(mode);
+  mode.acceleration.noalias() = configuration.Af.lazyProduct(mode.friction);
+  mode.step.noalias() = configuration.Ef.lazyProduct(mode.friction);
+  mode.series.noalias() = configuration.series_f.lazyProduct(mode.friction);
+  mode.stuck_force.noalias() = configuration.Lf.lazyProduct(mode.friction);
   return modes_.size() - 1;
 }
 

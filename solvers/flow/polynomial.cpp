@@ -94,7 +94,9 @@ SignVerdict verdict_from_ends(const Polynomial& p) {
 
 double root_between(const Polynomial& p, double lo, double hi) {
   const Polynomial d = derivative(p), dd = derivative(d);
-  const ValueAndSlope left = evaluate_with_slope(p, lo), right = evaluate_with_slope(p, hi);
+  const bool whole = lo == 0.0 && hi == 1.0;
+  const ValueAndSlope left = whole ? ValueAndSlope{p[0], p[1]} : evaluate_with_slope(p, lo);
+  const ValueAndSlope right = whole ? ValueAndSlope{p.sum(), d.sum()} : evaluate_with_slope(p, hi);
   if (left.value == 0.0) return lo;
   if (right.value == 0.0) return hi;
   const double side = left.value > 0.0 ? 1.0 : -1.0;

@@ -1,8 +1,10 @@
 #include "solvers/mechanics/modes.hpp"
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <limits>
+
+#include "solvers/algebra/null_space.hpp"
+#include "solvers/algebra/symmetric_modes.hpp"
 
 namespace frahm::periodic {
 namespace {
@@ -22,12 +24,12 @@ double damping_ratio(const mechanics::LinearSystem& system, const Eigen::VectorX
 
 void modes_of(const mechanics::LinearSystem& system, std::vector<double>& frequency,
               std::vector<double>& damping) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(system.K, system.M);
+  const algebra::SymmetricModes modes = algebra::symmetric_modes(system.K, system.M);
   frequency.clear();
   damping.clear();
   for (Eigen::Index k = 0; k < system.masses(); ++k) {
-    const Eigen::VectorXd shape = modes.eigenvectors().col(k);  // phi^T M phi = 1
-    const double omega = std::sqrt(modes.eigenvalues()[k]);
+    const Eigen::VectorXd shape = modes.vectors.col(k);  // phi^T M phi = 1
+    const double omega = std::sqrt(modes.values[k]);
     frequency.push_back(omega);
     damping.push_back(damping_ratio(system, shape, omega));
   }
@@ -39,13 +41,13 @@ void modes_of(const mechanics::LinearSystem& system, std::vector<double>& freque
 void modes_derivative(const mechanics::LinearSystem& system, const mechanics::LinearSystem& by,
                       std::vector<double>& frequency, std::vector<double>& damping) {
   constexpr double kSame = 1e-9;  // of lambda: below, which mode is which is rounding
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(system.K, system.M);
-  const Eigen::VectorXd& lambda = modes.eigenvalues();
+  const algebra::SymmetricModes modes = algebra::symmetric_modes(system.K, system.M);
+  const Eigen::VectorXd& lambda = modes.values;
   const Eigen::ArrayXd k = system.internal_stiffness.array(), rate = system.internal_rate.array();
   frequency.clear();
   damping.clear();
   for (Eigen::Index i = 0; i < system.masses(); ++i) {
-    const Eigen::VectorXd phi = modes.eigenvectors().col(i);
+    const Eigen::VectorXd phi = modes.vectors.col(i);
     const double omega = std::sqrt(lambda[i]);
     const Eigen::VectorXd pull = by.K * phi - lambda[i] * (by.M * phi);
     const double omega_by = phi.dot(pull) / (2.0 * omega);
@@ -55,7 +57,7 @@ void modes_derivative(const mechanics::LinearSystem& system, const mechanics::Li
       if (j == i) continue;
       const double apart = lambda[i] - lambda[j];
       simple = simple && std::abs(apart) > kSame * lambda[i];
-      phi_by += modes.eigenvectors().col(j) * (modes.eigenvectors().col(j).dot(pull) / apart);
+      phi_by += modes.vectors.col(j) * (modes.vectors.col(j).dot(pull) / apart);
     }
     const Eigen::ArrayXd below = omega * omega + rate * rate;
     const Eigen::ArrayXd dampers = k * rate / below;
@@ -82,16 +84,15 @@ LinearModes linear_modes(const mechanics::Network& network, const mechanics::Net
   // What still moves when every contact sticks: displacements B eta with W^T B = 0.
   Eigen::MatrixXd B = Eigen::MatrixXd::Identity(n, n);
   if (all_stuck && system.contacts() > 0) {
-    const Eigen::FullPivLU<Eigen::MatrixXd> constraints(system.W.transpose());
-    if (constraints.dimensionOfKernel() == 0) return {};
-    B = constraints.kernel();
+    B = algebra::null_space(system.W.transpose());
+    if (B.cols() == 0) return {};
   }
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(B.transpose() * system.K * B,
-                                                                        B.transpose() * system.M * B);
+  const algebra::SymmetricModes modes =
+      algebra::symmetric_modes(B.transpose() * system.K * B, B.transpose() * system.M * B);
   LinearModes result;
   for (Eigen::Index k = 0; k < B.cols(); ++k) {
-    Eigen::VectorXd shape = B * modes.eigenvectors().col(k);
-    const double omega = std::sqrt(modes.eigenvalues()[k]);
+    Eigen::VectorXd shape = B * modes.vectors.col(k);
+    const double omega = std::sqrt(modes.values[k]);
     result.frequency.push_back(omega);
     result.damping.push_back(damping_ratio(system, shape, omega));
     Eigen::Index largest = 0;

@@ -1,8 +1,10 @@
 #include "solvers/mechanics/undamped_resonance.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 #include <cmath>
 #include <numbers>
+
+#include "solvers/algebra/symmetric_modes.hpp"
 
 namespace frahm::periodic {
 namespace {
@@ -30,19 +32,19 @@ std::vector<UndampedMode> undamped_modes(const mechanics::LinearSystem& system) 
   if (damped.info() == Eigen::Success && damped.matrixLLT().diagonal().minCoeff() > 1e-7 * std::sqrt(scale))
     return result;
 
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(system.K, system.M);
-  const Eigen::VectorXd& squares = modes.eigenvalues();
+  const algebra::SymmetricModes modes = algebra::symmetric_modes(system.K, system.M);
+  const Eigen::VectorXd& squares = modes.values;
   for (Eigen::Index first = 0; first < n;) {
     Eigen::Index last = first + 1;
     while (last < n && squares[last] - squares[first] <= 1e-12 * squares[last]) ++last;
-    const Eigen::MatrixXd shapes = modes.eigenvectors().middleCols(first, last - first);
+    const Eigen::MatrixXd shapes = modes.vectors.middleCols(first, last - first);
     const Eigen::MatrixXd loss = shapes.transpose() * C * shapes;  // positive semidefinite
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> losses(loss);
+    const algebra::SymmetricModes losses = algebra::symmetric_modes(loss);
     const double frequency = std::sqrt(squares[first]);
     for (Eigen::Index k = 0; k < last - first; ++k) {
       // Damping ratios below 1e-14 are rounding.
-      if (losses.eigenvalues()[k] <= 2e-14 * frequency) {
-        result.push_back({frequency, shapes * losses.eigenvectors().col(k)});
+      if (losses.values[k] <= 2e-14 * frequency) {
+        result.push_back({frequency, shapes * losses.vectors.col(k)});
       }
     }
     first = last;

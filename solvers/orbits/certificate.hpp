@@ -15,20 +15,15 @@ namespace frahm::periodic {
 // The part of a tangent matrix that can contract: the rest positions of permanently stuck contacts, which
 // keep any value for ever (multiplier +1), are projected out orthogonally in the energy norm.
 template <int N, int H>
-typename Sizes<N, H>::StateSquare moving_part(const StepEquations<N, H>& eq,
+typename Sizes<N, H>::StateSquare moving_part(Flow<N, H>& flow,
                                               const typename Sizes<N, H>::StateSquare& tangent,
                                               ContactMask stuck_throughout) {
   if (stuck_throughout == 0) return tangent;
-  const Eigen::Index n = eq.masses();
-  typename Sizes<N, H>::StateSquare off = -shift_projector(rest_directions(eq, stuck_throughout));
+  const Eigen::Index n = flow.equations().masses();
+  typename Sizes<N, H>::StateSquare off =
+      -shift_projector(rest_directions(flow.equations(), stuck_throughout));
   off.diagonal().array() += 1.0;
-  Eigen::MatrixXd W(n, 0);
-  for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
-    if (!contains(stuck_throughout & eq.holding, j)) continue;
-    W.conservativeResize(n, W.cols() + 1);
-    W.rightCols(1) = eq.W.col(j);
-  }
-  if (W.cols() > 0) off.block(n, n, n, n) = projector_off(eq.M, W);
+  off.block(n, n, n, n) = flow.keeping_stuck(stuck_throughout);
   return off * tangent * off;
 }
 
@@ -53,28 +48,28 @@ double energy_operator_norm(const StepEquations<N, H>& eq, const typename Sizes<
   return std::sqrt(spectral_radius(gram, kSquarings));
 }
 
-// The energy norm of what rounding leaves of forces: each force that acts on a contact is known to epsilon of
-// itself, and moves the state by its static response, sqrt(w^T K^-1 w / 2) F. Of a contact that slides it is
-// its limit; of one that sticks throughout no more than what holds it, which the state's own scale has.
+// The energy norm of the static responses to the contacts' forces, sqrt(w^T K^-1 w / 2) F: each force rounds,
+// and moves the state by so much of itself. Of a contact that slides it is its limit; of one that sticks
+// throughout no more than what holds it, which the state's own scale has.
 template <int N, int H>
-double force_rounding(const Flow<N, H>& flow, const Orbit<N, H>& orbit) {
+double static_forces(const Flow<N, H>& flow, const Orbit<N, H>& orbit) {
   const StepEquations<N, H>& eq = flow.equations();
   double sum = 0.0;
   for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
     if (contains(orbit.stuck_throughout, j)) continue;
     sum += eq.limit[j] * std::sqrt(0.5 * eq.W.col(j).dot(eq.K_inverse * eq.W.col(j)));
   }
-  return std::numeric_limits<double>::epsilon() * sum;
+  return sum;
 }
 
 // Contraction, Floquet radius and error bound of a converged orbit:
 //   ||z - z*||_E <= (||r||_E + rounding) / (1 - L),   |x_n| <= sqrt(2 (K^-1)_nn) ||z||_E,
 // as long as the events are the same throughout that ball.
 template <int N, int H>
-void judge_stability(const Flow<N, H>& flow, Orbit<N, H>& orbit) {
+void judge_stability(Flow<N, H>& flow, Orbit<N, H>& orbit) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const StepEquations<N, H>& eq = flow.equations();
-  const auto moving = moving_part<N, H>(eq, orbit.passage.tangent, orbit.stuck_throughout);
+  const auto moving = moving_part(flow, orbit.passage.tangent, orbit.stuck_throughout);
   orbit.contraction = energy_operator_norm<N, H>(eq, moving);
   orbit.floquet_radius = spectral_radius(moving);
   if (orbit.half_period) orbit.floquet_radius *= orbit.floquet_radius;
@@ -83,9 +78,7 @@ void judge_stability(const Flow<N, H>& flow, Orbit<N, H>& orbit) {
   if (has_kink) orbit.floquet_radius = kNone;
 
   const double scale = std::max(eq.energy_norm(orbit.z), flow.static_norm());
-  const double operations = 16.0 + 2.0 * eq.period + 16.0 * orbit.passage.events;
-  const double rounding =
-      std::numeric_limits<double>::epsilon() * operations * scale + operations * force_rounding(flow, orbit);
+  const double rounding = rounding_of(eq, orbit.passage) * (scale + static_forces(flow, orbit));
   const double ball = (orbit.residual * scale + rounding) / (1.0 - orbit.contraction);
   const bool holds = orbit.contraction < 1.0 && ball < 0.1 * orbit.passage.margin * scale;
   orbit.error_bound = holds ? ball * std::sqrt(2.0 * eq.K_inverse.diagonal().maxCoeff()) : kNone;

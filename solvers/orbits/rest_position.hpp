@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <span>
 
 #include "solvers/orbits/orbit.hpp"
@@ -11,6 +12,7 @@ namespace frahm::periodic {
 // A force of a contact that sticks throughout, over the period, and its limit [N].
 struct StuckForce {
   double least = 0.0, most = 0.0, limit = 0.0;
+  bool breaks_limit() const { return std::max(most, -least) > limit * (1.0 + 1e-9); }
 };
 
 // The shift of the mean forces of contacts that stick throughout [N].

@@ -28,7 +28,7 @@ void Shooting<N, H>::find(Orbit<N, H>& orbit, ContactMask held) {
   Verdict verdict = judge();
   for (int maps = 2; verdict == Verdict::go_on; verdict = judge()) {
     if (propose_newton_step() && try_candidate()) continue;
-    if (current_.relative <= options_.good_enough) {
+    if (is_good_enough()) {
       verdict = Verdict::converged;
       break;
     }
@@ -95,6 +95,14 @@ void Shooting<N, H>::march(int maps) {
     current_.z = sign_ * current_.passage.end;
     apply_map(current_);
   }
+}
+
+// Whether a residual that does not fall further is what rounding leaves of a passage.
+template <int N, int H>
+bool Shooting<N, H>::is_good_enough() const {
+  constexpr double kRoundings = 32.0;
+  const double rounding = kRoundings * rounding_of(flow_.equations(), current_.passage);
+  return current_.relative <= std::max(options_.good_enough, rounding);
 }
 
 // Where the period map is all but the identity (a mode without damping at its resonance) Newton's step may

@@ -209,7 +209,7 @@ void Gradient<N, H>::follow_contacts(const Orbit<N, H>& orbit) {
     }
     double stuck = 0.0;  // [steps]
     for (std::size_t k = 0; k < segments.size(); ++k) {
-      if (!contains(flow_.mode(segments[k].mode).stuck, j)) continue;
+      if (!flow_.rests(flow_.mode(segments[k].mode), j)) continue;
       if (k + 1 < segments.size()) stuck += sensitivity_.passage().shift(k);
       if (k > 0) stuck -= sensitivity_.passage().shift(k - 1);
     }

@@ -26,6 +26,8 @@ class Integrals {
   using S = Sizes<N, H>;
   static constexpr int kSize = S::is_fixed ? S::kState + S::kOscillators : Eigen::Dynamic;
   using Gram = Eigen::Matrix<double, kSize, kSize>;
+  // Columns of whole vector registers.
+  static constexpr int kPaddedSize = S::is_fixed ? (kSize + 3) / 4 * 4 : Eigen::Dynamic;
 
   // A force and the velocity it works at.
   struct Power {
@@ -46,12 +48,14 @@ class Integrals {
 
  private:
   // A form's factors of y.
-  using Joined = Eigen::Matrix<double, kSize, 1>;
+  using Joined = Eigen::Matrix<double, kPaddedSize, 1>;
   static Joined joined(const LinearForm<N, H>& form) {
-    Joined c(form.z.size() + form.u.size());
-    c << form.z, form.u;
+    Joined c = Joined::Zero(padded(form.z.size() + form.u.size()));
+    c.head(form.z.size()) = form.z;
+    c.segment(form.z.size(), form.u.size()) = form.u;
     return c;
   }
+  static Eigen::Index padded(Eigen::Index size) { return S::is_fixed ? kPaddedSize : size; }
 
   Gram gram_;
   std::vector<Power> powers_;  // of the mode in hand
@@ -63,16 +67,16 @@ template <int N, int H>
 void Integrals<N, H>::integrate(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow, bool half_period,
                                 const PowersOf& powers_of) {
   using Nodes = Eigen::Matrix<double, kTerms, kNodes>;
-  using Samples = Eigen::Matrix<double, kSize, kNodes>;
+  using Samples = Eigen::Matrix<double, kPaddedSize, kNodes>;
   const StepEquations<N, H>& eq = flow.equations();
   const Eigen::Index size = eq.states() + eq.oscillators();
   Nodes full;
   for (int i = 0; i < kNodes; ++i) full.col(i) = powers(kNodeAt[i]);
 
-  gram_.setZero(size, size);
+  Eigen::Matrix<double, kPaddedSize, kSize> gram = decltype(gram)::Zero(padded(size), size);
   input_ = input_size_ = 0.0;
   bool starts_segment = true;
-  Samples y(size, kNodes), weighted(size, kNodes);
+  Samples y = Samples::Zero(padded(size), kNodes), weighted = y;
   for (OrbitStep<N, H>& step : orbit.steps()) {
     if (starts_segment) {
       powers_of(flow.mode(step.mode), powers_);
@@ -84,9 +88,9 @@ void Integrals<N, H>::integrate(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow,
     Nodes at = full;
     if (step.length < 1.0) at.array().colwise() *= powers(step.length).array();
     y.topRows(eq.states()) = x.z.transpose().lazyProduct(at);
-    y.bottomRows(eq.oscillators()) = x.u.transpose().lazyProduct(at);
+    y.middleRows(eq.states(), eq.oscillators()) = x.u.transpose().lazyProduct(at);
     for (int i = 0; i < kNodes; ++i) weighted.col(i) = (step.length * kNodeWeight[i]) * y.col(i);
-    gram_ += weighted.lazyProduct(y.transpose());
+    gram += weighted.lazyProduct(y.topRows(size).transpose());
 
     Eigen::Matrix<double, 1, kNodes> power = Eigen::Matrix<double, 1, kNodes>::Zero();
     for (const auto& [force, velocity] : joined_powers_) {
@@ -98,7 +102,7 @@ void Integrals<N, H>::integrate(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow,
     }
   }
   const double seconds = (half_period ? 2.0 : 1.0) * eq.step;
-  gram_ *= seconds;
+  gram_ = seconds * gram.topRows(size);
   input_ *= seconds;
   input_size_ *= seconds;
 }

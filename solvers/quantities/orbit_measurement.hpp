@@ -113,7 +113,7 @@ void OrbitMeasurement<N, H>::follow_contacts(const Orbit<N, H>& orbit, Measured&
     for (std::size_t i = 0; i < segments.size(); ++i) {
       const Segment<N, H>& segment = segments[i];
       const Mode<N, H>& mode = flow_.mode(segment.mode);
-      stretches_[i] = {segment.length, contains(mode.stuck, j), mode.sign(j), 0.0};
+      stretches_[i] = {segment.length, flow_.rests(mode, j), mode.sign(j), 0.0};
       if (stretches_[i].sticks) continue;
       const auto& end_state = i + 1 == segments.size() ? orbit.passage.end : segments[i + 1].z;
       const double start = orbit.section + segment.start * rate, end = start + segment.length * rate;

@@ -1,11 +1,12 @@
 #include "solvers/transient/trajectory.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
 
+#include "solvers/algebra/null_space.hpp"
+#include "solvers/algebra/solve.hpp"
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/transient/step_limits.hpp"
 
@@ -206,9 +207,7 @@ void Trajectory::find_free_directions() {
   }
   free_directions_ = Eigen::MatrixXd::Identity(n, n);
   if (constraints.rows() == 0) return;
-  const Eigen::FullPivLU<Eigen::MatrixXd> factor(constraints);
-  free_directions_ =
-      factor.dimensionOfKernel() > 0 ? Eigen::MatrixXd(factor.kernel()) : Eigen::MatrixXd(n, 0);
+  free_directions_ = algebra::null_space(constraints);
 }
 
 void Trajectory::keep_samples(Step& step, double at) {
@@ -266,7 +265,7 @@ Eigen::VectorXd Trajectory::resting_place(const State& z) const {
   }
   if (stuck_ == 0) return q + eq.K_inverse * force;
   const Eigen::MatrixXd& B = free_directions_;
-  q += B * (B.transpose() * eq.K * B).llt().solve(B.transpose() * force);
+  q += B * algebra::solve_positive(B.transpose() * eq.K * B, Eigen::VectorXd(B.transpose() * force));
   return q;
 }
 

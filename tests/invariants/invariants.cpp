@@ -134,7 +134,8 @@ void compare(const Case& original, const Answer& base, const Change& change, con
   const Standing standing = standing_of(base, other);
   Worst worst({change.name, "", 0, 0, 0, standing});
   if (base.has_response() != other.has_response()) {
-    worst.check("status", other.status, base.status, 0.0);
+    worst.check("status" + (other.reason.empty() ? "" : " (" + other.reason + ")"), other.status, base.status,
+                0.0);
     worst.add_to(violations);
     return;
   }

@@ -101,13 +101,13 @@ int check(const Options& options) {
     if (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > options.seconds)
       break;
     const Case drawn = draw(seed);
+    if (options.replay && options.study && !options.shrink)
+      fmt::print("{}", study_text(drawn, fmt::format("seed {}", seed)));
     for (const Violation& violation : violations_of(drawn, &tally, options.only)) {
       if (!options.only.empty() && violation.invariant != options.only) continue;
       ++found[violation.standing][violation.invariant];
       show(drawn, violation, options);
     }
-    if (options.replay && options.study && !options.shrink)
-      fmt::print("{}", study_text(drawn, fmt::format("seed {}", seed)));
   }
   fmt::print("\n{} networks\n", tally.networks);
   print_counts("by status", tally.statuses);

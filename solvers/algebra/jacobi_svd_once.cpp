@@ -1,3 +1,0 @@
-#include <Eigen/SVD>
-
-template class Eigen::JacobiSVD<Eigen::MatrixXd>;
