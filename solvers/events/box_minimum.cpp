@@ -73,8 +73,9 @@ BoxMinimum box_minimum(const MatrixXd& G, const VectorXd& c, const VectorXd& low
     }
     // All free components are at their minimum: does a bound hold one back that should move?
     const VectorXd slope = G * lambda - c;
+    const double rounding = 1e-12 * (c.cwiseAbs() + G.cwiseAbs() * lambda.cwiseAbs()).maxCoeff();
     Index worst = -1;
-    double largest = 1e-12 * (c.cwiseAbs().maxCoeff() + 1e-300);
+    double largest = rounding + 1e-300;
     for (Index j = 0; j < m; ++j) {
       if (is_free[static_cast<std::size_t>(j)] || !(lower[j] < upper[j])) continue;
       const double pull = lambda[j] == upper[j] ? slope[j] : -slope[j];

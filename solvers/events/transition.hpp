@@ -35,7 +35,7 @@ ContactMask arrivals(const Flow<N, H>& flow, Eigen::Index own, const Workspace<N
     if (contains(mode.stuck | arrived | w.fresh | idle, j)) continue;
     const ValueAndSlope speed = flow.sliding_speed(w.left, j);
     const double sign = mode.sign(j);
-    if (sign * speed.value <= kRest * w.speed_scale[j] && sign * speed.slope < 0.0) arrived |= bit(j);
+    if (sign * speed.value <= w.rest_speed[j] && sign * speed.slope < 0.0) arrived |= bit(j);
   }
   return arrived;
 }
@@ -151,7 +151,7 @@ void release(Flow<N, H>& flow, Eigen::Index j, bool forward, Workspace<N, H>& w)
   } else {
     const Eigen::Index internal = flow.equations().internal_of[static_cast<std::size_t>(j)];
     w.left.z[2 * flow.equations().masses() + internal] = (forward ? 1.0 : -1.0) * flow.equations().limit[j];
-    if (std::abs(flow.sliding_speed(w.left, j).value) <= kRest * w.speed_scale[j]) w.fresh |= bit(j);
+    if (std::abs(flow.sliding_speed(w.left, j).value) <= w.rest_speed[j]) w.fresh |= bit(j);
   }
   w.mode = flow.mode_index(before.stuck & ~bit(j), before.positive | (forward ? bit(j) : 0));
 }

@@ -92,7 +92,7 @@ void Walk<N, H>::enter(const typename S::State& z, double phase, Passage<N, H>& 
         continue;
       }
     }
-    if (std::abs(speed) <= kRest * w_.speed_scale[j]) at_rest |= bit(j);
+    if (std::abs(speed) <= w_.rest_speed[j]) at_rest |= bit(j);
   }
   w_.mode = flow_.mode_index(stuck_states, positive & ~at_rest);
   if (at_rest != 0) choose_modes(flow_, at_rest, w_);
@@ -121,7 +121,7 @@ bool Walk<N, H>::starts_at_limit(Eigen::Index j, double speed) {
   const bool at_limit = std::abs(s) >= limit * (1.0 - kTie);
   s = std::clamp(s, -limit, limit);
   if (limit == 0.0) return true;
-  return at_limit && s * speed > 0.0 && std::abs(speed) > kRest * w_.speed_scale[j];
+  return at_limit && s * speed > 0.0 && std::abs(speed) > w_.rest_speed[j];
 }
 
 // `left` and the tangent `fraction` of a step later in the same mode; the oscillators of `left` are not

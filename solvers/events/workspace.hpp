@@ -29,6 +29,9 @@ struct Workspace {
   // What velocities [m a step] and forces [N] of contacts are small against: those of the larger of the
   // state's and the static response's energy, plus a support's own motion.
   typename S::Contacts speed_scale, force_scale;
+  // Below which a contact's velocity counts as zero [m a step]: kRest of its scale, or what its own friction
+  // stops within kRest of a step, as the velocities of what a strong contact holds round by its force.
+  typename S::Contacts rest_speed;
 
   void note_margin(double relative) { margin = std::min(margin, relative); }
   const Expansion<N, H>& expand(const Flow<N, H>& flow) {
@@ -45,12 +48,15 @@ void set_scales(const Flow<N, H>& flow, const typename Sizes<N, H>::State& z, Wo
   const Eigen::Index m = eq.contacts();
   w.speed_scale.resize(m);
   w.force_scale.resize(m);
+  w.rest_speed.resize(m);
   for (Eigen::Index j = 0; j < m; ++j) {
     // |w^T v| <= sqrt(w^T M^-1 w) sqrt(v^T M v)
     w.speed_scale[j] = std::sqrt(2.0 * eq.compliance[j]) * energy + eq.support_velocity.row(j).norm();
     const Eigen::Index internal = eq.internal_of[static_cast<std::size_t>(j)];
     w.force_scale[j] = internal < 0 ? kStepRate * w.speed_scale[j] / eq.compliance[j]
                                     : eq.internal_stiffness[internal] * w.speed_scale[j] / kStepRate;
+    const double stopped_in_a_step = eq.holds(j) ? eq.limit[j] * eq.compliance[j] : 0.0;
+    w.rest_speed[j] = kRest * std::max(w.speed_scale[j], stopped_in_a_step);
   }
 }
 

@@ -22,7 +22,11 @@ Eigen::MatrixXd pseudo_inverse_of(const Eigen::MatrixXd& G, const Eigen::VectorX
   const Eigen::MatrixXd any =
       serving * modes.values.tail(m - dependent).cwiseInverse().asDiagonal() * serving.transpose();
   if (dependent == 0) return any;
-  const Eigen::MatrixXd Z = size.asDiagonal() * modes.vectors.leftCols(dependent);
+  Eigen::MatrixXd Z = size.asDiagonal() * modes.vectors.leftCols(dependent);
+  for (Eigen::Index j = 0; j < m; ++j) {
+    constexpr double kRounding = 1e-12;  // of a vector of length 1: this one is in no loop
+    if (modes.vectors.row(j).head(dependent).norm() < kRounding) Z.row(j).setZero();
+  }
   const Eigen::MatrixXd per_weight = weight.cwiseInverse().asDiagonal();
   const Eigen::MatrixXd Q =
       Eigen::MatrixXd::Identity(m, m) - Z * algebra::shortest_solutions(per_weight * Z, per_weight);

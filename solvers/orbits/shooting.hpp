@@ -52,7 +52,7 @@ class Shooting {
   bool propose_newton_step();
   bool try_candidate();
   void march(int maps);
-  bool is_good_enough() const;
+  void start_at_rest();
   bool is_resolved(const typename S::State& z) const;
   void conclude(Verdict verdict, Orbit<N, H>& orbit);
 

@@ -67,6 +67,9 @@ Factors size_of_forcing(const Case& c) {
       size.force += amplitude * softest;
     }
   }
+  // The faster of the excitation and of a force on the lightest mass.
+  const double lightest = *std::ranges::min_element(c.values.mass);
+  if (size.force > 0.0) size.time = std::min(size.time, std::sqrt(size.length * lightest / size.force));
   return size;
 }
 
