@@ -10,7 +10,9 @@ namespace frahm::periodic {
 // - a velocity that reaches zero:  dv+ = dv- + (a+ - a-)(w^T dv-)/(w^T a- + p^T y''); exact for a reversal,
 // and for
 //   a stop, where it is the M-orthogonal projection onto the stuck velocities. Of contacts that arrive
-//   together each brings its own share. A contact whose force is a state leaves a as it is: nothing jumps.
+//   together each brings its own share, the first also that of stuck contacts which they release: only what
+//   moves as one with them lets go at once. A contact whose force is a state leaves a as it is: nothing
+//   jumps.
 // - a force lambda that reaches its limit leaves a as it is: nothing jumps.
 // - an internal force s that does: s' falls from g' to 0, so that ds+ = ds- + (0 - g') ds-/g' = 0.
 // before: the event's instant seen from inside the mode before it; w.left: from inside the mode after.
@@ -24,20 +26,29 @@ void saltate(const Flow<N, H>& flow, ContactMask arrived, ContactMask released, 
   const bool alone = count(arrived & eq.holding) == 1;
   Eigen::Matrix<double, N, S::kState> correction;
   correction.setZero(n, eq.states());
+  typename S::Vector left = w.left.a - before.a;        // of the jump, what no contact has brought yet
+  using Earlier = Eigen::Matrix<double, 1, S::kState>;  // by which a contact arrives, a unit of the state
+  Earlier earlier = Earlier::Zero(eq.states());
+  bool is_first = true;
   for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
     if (!contains(arrived, j)) continue;
     const double slope = flow.sliding_speed(before, j).slope;
     w.note_margin(std::abs(slope) / (kStepRate * w.speed_scale[j]));
     if (slope == 0.0 || !eq.holds(j)) continue;
-    typename S::Vector change = w.left.a - before.a;
+    const Earlier its_earlier = eq.W.col(j).transpose() * tangent.middleRows(n, n) / slope;
+    if (is_first) earlier = its_earlier;
+    is_first = false;
+    typename S::Vector change = left;
     if (!alone) {
       // Its force's jump, with what the contacts that stuck before then take up.
       const double after =
           contains(mode.stuck, j) ? flow.stuck_force(w.left, mode, j).value : mode.friction[j];
       change = flow.configuration(mode_before).Af.col(j) * (after - mode_before.friction[j]);
     }
-    correction += change * (eq.W.col(j).transpose() * tangent.middleRows(n, n)) / slope;
+    correction += change * its_earlier;
+    left -= change;
   }
+  correction += left * earlier;
   tangent.middleRows(n, n) += correction;
   if constexpr (S::kInternal != 0) {
     for (Eigen::Index j = 0; j < eq.contacts(); ++j) {

@@ -14,11 +14,11 @@
 //   a stuck force reaches its limit      -                       it slides in the force's direction; an
 //   internal
 //                                                                force stays there
-//   a sliding velocity reaches zero      AtRest::joint_choice    the forces of all contacts at rest follow
+//   a sliding velocity reaches zero      it holds a velocity     the forces of all contacts at rest follow
 //   from one
 //                                                                convex problem: inside its limit a contact
 //                                                                sticks, at its limit it slides that way
-//                                        AtRest::sticks          it sticks
+//                                        its force is a state    it sticks
 //   a stuck force stands at its limit    -                       it lets go at once (two contacts released
 //   and grows after all this                                     together, or one that came to rest in a tie)
 //   in a loop of contacts the others     -                       it carries its limit and is idle (loops.hpp)

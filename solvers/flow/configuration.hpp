@@ -51,8 +51,9 @@ struct Configuration {
             typename S::State& z) const {
     if ((stuck & equations.holding) == 0) return;
     const Eigen::Index n = equations.masses();
-    z.segment(n, n) -=
-        reaction_ * (equations.W.transpose() * z.segment(n, n) + equations.support_velocity * u);
+    typename S::Contacts slip = equations.W.transpose() * z.segment(n, n);
+    slip.noalias() += equations.support_velocity * u;
+    z.segment(n, n).noalias() -= reaction_ * slip;
   }
 
   // What meets the constraint w_j^T q'' = -p_j^T y'' of the contacts that are held, G = W^T M^-1 W over them:
@@ -165,17 +166,19 @@ void Configuration<N, H>::set_system(const StepEquations<N, H>& equations, Conta
     const bool slides = contains(equations.holding & ~stuck, j);
     if (slides && mobility <= kImmobile * equations.compliance[j]) immobile_ |= bit(j);
   }
-  Aq.noalias() = -(P * equations.M_inverse) * equations.K;
-  Av.noalias() = -(P * equations.M_inverse) * equations.C;
-  Af = -(P * MW);
-  if constexpr (S::kInternal != 0) As = -(P * (equations.M_inverse * equations.D));
-  const typename S::ContactsByVector per_force =
-      (equations.M_inverse * equations.W * constraint_).transpose();
-  Lq = -(per_force * equations.K);
-  Lv = -(per_force * equations.C);
-  Lf = -(per_force * equations.W);
+  // Of a force on the masses: the acceleration that is left, and what the stuck contacts take, with the sign
+  // of what the springs and dampers pull with.
+  const typename S::Square left = -(P * equations.M_inverse);
+  const typename S::ContactsByVector taken = -reaction_.transpose();
+  Aq.noalias() = left * equations.K;
+  Av.noalias() = left * equations.C;
+  Af.noalias() = left * equations.W;
+  Lq.noalias() = taken * equations.K;
+  Lv.noalias() = taken * equations.C;
+  Lf.noalias() = taken * equations.W;
   if constexpr (S::kInternal != 0) {
-    Ls = -(per_force * equations.D);
+    As.noalias() = left * equations.D;
+    Ls.noalias() = taken * equations.D;
     spring = equations.internal_stiffness;
     for (Eigen::Index j = 0; j < m; ++j) {
       const Eigen::Index internal = equations.internal_of[static_cast<std::size_t>(j)];
@@ -194,14 +197,15 @@ void Configuration<N, H>::set_forcing(const StepEquations<N, H>& equations) {
   idle = frictionless_;
   for (Eigen::Index j = 0; immobile_ != 0 && j < equations.contacts(); ++j) {
     // Its velocity is (p_j - P_S^T G^+ W^T M^-1 w_j)^T y': none, unless a support moves it.
-    const typename S::OscillatorRow drag =
-        equations.support_velocity.row(j) -
-        (reaction_.transpose() * equations.W.col(j)).transpose() * equations.support_velocity;
+    const typename S::Contacts share = reaction_.transpose() * equations.W.col(j);
+    typename S::OscillatorRow drag = equations.support_velocity.row(j);
+    drag.noalias() -= share.transpose() * equations.support_velocity;
     const double size = equations.support_velocity.row(j).norm();
     if (contains(immobile_, j) && drag.norm() <= 1e-12 * size) idle |= bit(j);
   }
-  Au.noalias() = P * (equations.M_inverse * equations.force);
-  Lu.noalias() = (equations.M_inverse * equations.W * constraint_).transpose() * equations.force;
+  const typename S::VectorByOscillators free = equations.M_inverse * equations.force;
+  Au.noalias() = P * free;
+  Lu.noalias() = reaction_.transpose() * equations.force;
   if constexpr (S::kInternal != 0) {
     internal_drive = equations.internal_drive;
     for (Eigen::Index i = 0; i < spring.size(); ++i) {

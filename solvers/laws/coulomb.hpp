@@ -7,11 +7,6 @@ namespace frahm::laws {
 // Dry friction, lambda in F Sgn(u'), Sgn(0) = [-1, 1]: static limit and kinetic force are equal.
 // While it sticks u' = 0 and lambda is what that needs, |lambda| <= F. At rest lambda of all such contacts
 // together follows from one convex problem (events/transition.hpp).
-inline constexpr Law coulomb{.name = "coulomb",
-                             .holds_velocity = true,
-                             .has_internal_force = false,
-                             .at_rest = AtRest::joint_choice,
-                             .monotone = true,
-                             .merges = true};
+inline constexpr Law coulomb{.name = "coulomb", .holds_velocity = true, .merges = true};
 
 }  // namespace frahm::laws

@@ -20,11 +20,6 @@ namespace frahm::laws {
 // energy from the difference, so the distance of the energy norm with (s_1 - s_2)^2/k_t never grows. It keeps
 // each guarantee of a monotone law. A slider that never slides leaves a family of orbits, told apart by the
 // constant part of s.
-inline constexpr Law jenkins{.name = "jenkins",
-                             .holds_velocity = false,
-                             .has_internal_force = true,
-                             .at_rest = AtRest::sticks,
-                             .monotone = true,
-                             .merges = false};
+inline constexpr Law jenkins{.name = "jenkins", .holds_velocity = false, .merges = false};
 
 }  // namespace frahm::laws

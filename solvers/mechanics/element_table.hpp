@@ -8,7 +8,9 @@
 #include "solvers/mechanics/network.hpp"
 
 // The kinds of element, a row each: all that anything else knows of them. A new kind is a row of the table in
-// element_table.cpp, and an enumerator of ElementType at its end.
+// element_table.cpp, and an enumerator of ElementType at its end; beside it the README's table of elements
+// and the switches of tests/invariants. An element has at most two values: a third is a new list of
+// NetworkValues, and of all that goes through its lists.
 namespace frahm::mechanics {
 
 // What a value of an element measures, with its SI unit.

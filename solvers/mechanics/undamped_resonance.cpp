@@ -24,8 +24,11 @@ bool outgrows_friction(const mechanics::LinearSystem& system, const Eigen::Vecto
 std::vector<UndampedMode> undamped_modes(const mechanics::LinearSystem& system) {
   std::vector<UndampedMode> result;
   const Eigen::Index n = system.masses();
-  // A Maxwell element takes energy out wherever it is strained, as its damper would.
-  const Eigen::VectorXd dampers = system.internal_stiffness.cwiseQuotient(system.internal_rate);
+  // A Maxwell element takes energy out wherever it is strained, as its damper would. A slider behind a spring
+  // takes out what its friction does.
+  const Eigen::VectorXd dampers =
+      (system.internal_rate.array() > 0.0)
+          .select(system.internal_stiffness.cwiseQuotient(system.internal_rate), 0.0);
   const Eigen::MatrixXd C = system.C + system.D * dampers.asDiagonal() * system.D.transpose();
   const Eigen::LLT<Eigen::MatrixXd> damped(C);
   const double scale = C.cwiseAbs().maxCoeff();

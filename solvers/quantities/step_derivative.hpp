@@ -81,12 +81,15 @@ void ModeDerivative<N, H>::set(const Flow<N, H>& flow, const Mode<N, H>& mode,
   const Configuration<N, H>& c = flow.configuration(mode);
   const Eigen::Index n = eq.masses(), m = eq.contacts();
 
-  Eigen::Matrix<double, N, S::kState> r_z(n, eq.states());
-  r_z.leftCols(n) = -by.K - by.M * c.Aq;
-  r_z.middleCols(n, n) = -by.C - by.M * c.Av;
-  if constexpr (S::kInternal != 0) r_z.rightCols(eq.internal_forces()) = -(by.M * c.As);
-  typename S::VectorByOscillators r_u = by.force - by.M * c.Au;
-  r_u.col(0) -= by.M * mode.acceleration;
+  Eigen::Matrix<double, N, S::kState> r_z = decltype(r_z)::Zero(n, eq.states());
+  r_z.leftCols(n) = -by.K;
+  r_z.middleCols(n, n) = -by.C;
+  r_z.leftCols(n).noalias() -= by.M * c.Aq;
+  r_z.middleCols(n, n).noalias() -= by.M * c.Av;
+  if constexpr (S::kInternal != 0) r_z.rightCols(eq.internal_forces()).noalias() -= by.M * c.As;
+  typename S::VectorByOscillators r_u = by.force;
+  r_u.noalias() -= by.M * c.Au;
+  r_u.col(0).noalias() -= by.M * mode.acceleration;
   for (Eigen::Index j = 0; j < m; ++j) {
     if (eq.holds(j) && !contains(mode.stuck, j)) r_u.col(0) -= (mode.sign(j) * by.limit[j]) * eq.W.col(j);
   }
@@ -110,9 +113,11 @@ void ModeDerivative<N, H>::set(const Flow<N, H>& flow, const Mode<N, H>& mode,
   for (Eigen::Index j = 0; j < m; ++j) {
     if (contains(held, j) && eq.limit[j] > 0.0) turn[j] = 2.0 * by.limit[j] / eq.limit[j];
   }
-  typename S::ContactSquare kernel = -c.constraint() * (eq.W.transpose() * (eq.M_inverse * eq.W));
-  kernel.diagonal().array() += 1.0;
-  const typename S::ContactSquare turned = kernel * turn.asDiagonal();
+  const typename S::VectorByContacts MW = eq.M_inverse * eq.W;
+  const typename S::ContactSquare G = eq.W.transpose() * MW;
+  typename S::ContactSquare turned = S::ContactSquare::Identity(m, m);
+  turned.noalias() -= c.constraint() * G;
+  for (Eigen::Index j = 0; j < m; ++j) turned.col(j) *= turn[j];
   force_z.leftCols(n) += turned * c.Lq;
   force_z.middleCols(n, n) += turned * c.Lv;
   if constexpr (S::kInternal != 0) force_z.rightCols(eq.internal_forces()) += turned * c.Ls;

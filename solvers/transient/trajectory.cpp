@@ -171,7 +171,7 @@ void Trajectory::note_mode(const periodic::Mode<Eigen::Dynamic, Eigen::Dynamic>&
                            const State& z) {
   if (has_mode_ && mode.stuck == stuck_ && mode.positive == positive_) return;
   const auto& eq = flow_.equations();
-  const Eigen::VectorXd creeps_to = has_mode_ ? resting_place(z) : z.head(eq.masses()).eval();
+  const State creeps_to = has_mode_ ? resting_state(z) : z;
   const ContactMask stopped = mode.stuck & ~stuck_, released = stuck_ & ~mode.stuck;
   for (Index j = 0; j < eq.contacts(); ++j) {
     auto& stops = stops_[static_cast<std::size_t>(j)];
@@ -195,13 +195,13 @@ void Trajectory::note_mode(const periodic::Mode<Eigen::Dynamic, Eigen::Dynamic>&
   if (!held || std::isnan(held_since_)) held_since_ = held ? at : kNever;
 }
 
-// The directions in which the masses move while the contacts that stick do.
+// The directions in which the masses move while the contacts that are held stick.
 void Trajectory::find_free_directions() {
   const auto& eq = flow_.equations();
   const Index n = eq.masses();
   Eigen::MatrixXd constraints(0, n);
   for (Index j = 0; j < eq.contacts(); ++j) {
-    if (!contains(stuck_, j)) continue;
+    if (!contains(stuck_ & eq.holding, j)) continue;
     constraints.conservativeResize(constraints.rows() + 1, n);
     constraints.bottomRows(1) = eq.W.col(j).transpose();
   }
@@ -241,10 +241,8 @@ void Trajectory::keep_state(const State& z, const Eigen::VectorXd& acceleration,
 }
 
 void Trajectory::come_to_rest() {
-  const Eigen::VectorXd place = tends_to();
-  z_.setZero();
-  z_.head(place.size()) = place;
-  acceleration_.setZero(place.size());
+  z_ = tends_to();
+  acceleration_.setZero(flow_.equations().masses());
 }
 
 void Trajectory::finish() {
@@ -253,30 +251,40 @@ void Trajectory::finish() {
 }
 
 // With q = q_0 + B y, B the free directions, the forces balance along them:
-//   B^T (K q - f_0 + W phi) = 0,  phi_j = sigma_j F_j of the contacts that slide.
-Eigen::VectorXd Trajectory::resting_place(const State& z) const {
+//   B^T (K q - f_0 + W phi + D s) = 0,  phi_j = sigma_j F_j of the contacts that slide,
+// and of the internal forces s_i = s_0 + k D_i^T (q - q_0) where a slider sticks, 0 where a damper lets go.
+Trajectory::State Trajectory::resting_state(const State& z) const {
   const auto& eq = flow_.equations();
-  Eigen::VectorXd q = z.head(eq.masses());
-  if (free_directions_.cols() == 0) return q;
-  if (stuck_ == 0) q.setZero();
-  Eigen::VectorXd force = eq.force.col(0) - eq.K * q;
+  const Index n = eq.masses();
+  Eigen::VectorXd stiffness = Eigen::VectorXd::Zero(eq.internal_forces()), s = stiffness;
+  Eigen::VectorXd force = eq.force.col(0) - eq.K * z.head(n);
   for (Index j = 0; j < eq.contacts(); ++j) {
-    if (!contains(stuck_, j)) force -= (contains(positive_, j) ? 1.0 : -1.0) * eq.limit[j] * eq.W.col(j);
+    const bool sticks = contains(stuck_, j);
+    if (!sticks) force -= (contains(positive_, j) ? 1.0 : -1.0) * eq.limit[j] * eq.W.col(j);
+    if (eq.holds(j)) continue;
+    const Index internal = eq.internal_of[static_cast<std::size_t>(j)];
+    s[internal] = z[2 * n + internal];
+    if (!sticks) continue;
+    stiffness[internal] = eq.internal_stiffness[internal];
+    force -= s[internal] * eq.D.col(internal);
   }
-  if (stuck_ == 0) return q + eq.K_inverse * force;
+  const Eigen::MatrixXd K = eq.K + eq.D * stiffness.asDiagonal() * eq.D.transpose();
   const Eigen::MatrixXd& B = free_directions_;
-  q += B * algebra::solve_positive(B.transpose() * eq.K * B, Eigen::VectorXd(B.transpose() * force));
-  return q;
+  Eigen::VectorXd moved = Eigen::VectorXd::Zero(n);
+  if (B.cols() > 0)
+    moved = B * algebra::solve_positive(B.transpose() * K * B, Eigen::VectorXd(B.transpose() * force));
+  State rest = State::Zero(eq.states());
+  rest.head(n) = z.head(n) + moved;
+  rest.tail(s.size()) = s + stiffness.cwiseProduct(eq.D.transpose() * moved);
+  return rest;
 }
 
-Eigen::VectorXd Trajectory::tends_to() const {
-  return crept_ ? creeps_to_ : resting_place(z_);
+Trajectory::State Trajectory::tends_to() const {
+  return crept_ ? creeps_to_ : resting_state(z_);
 }
 
 double Trajectory::distance_from_rest() const {
-  State offset = z_;
-  offset.head(flow_.equations().masses()) -= resting_place(z_);
-  return flow_.equations().energy_norm(offset);
+  return flow_.equations().energy_norm(State(z_ - resting_state(z_)));
 }
 
 bool Trajectory::friction_slides() const {
@@ -290,8 +298,8 @@ bool Trajectory::friction_slides() const {
 bool Trajectory::is_at_rest() const {
   const auto& eq = flow_.equations();
   constexpr double kGone = 1e-12;
-  return has_mode_ && free_directions_.cols() == 0 &&
-         z_.tail(eq.states() - 2 * eq.masses()).norm() <= kGone * eq.limit.norm();
+  const auto relaxing = (eq.internal_rate.array() > 0.0).select(z_.tail(eq.internal_forces()), 0.0);
+  return has_mode_ && free_directions_.cols() == 0 && relaxing.matrix().norm() <= kGone * eq.limit.norm();
 }
 
 }  // namespace frahm::transient

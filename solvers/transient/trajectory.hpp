@@ -53,8 +53,9 @@ class Trajectory {
   bool has_crept() const { return crept_; }  // a contact's velocity died away without ever reaching zero
   double held_since() const { return held_since_; }  // [s], of all masses; NaN: some mass is free
 
-  // Where the masses are at rest, or tend to while the contacts stick and slide as they do [m].
-  Eigen::VectorXd tends_to() const;
+  // Where the masses are at rest, or tend to while the contacts stick and slide as they do: the state there,
+  // displacements [m] first.
+  Flow::S::State tends_to() const;
 
   const TurningPoints& turning_points(std::size_t mass) const { return turning_points_[mass]; }
   const std::vector<Stop>& stops(std::size_t contact) const { return stops_[contact]; }
@@ -75,7 +76,7 @@ class Trajectory {
   void find_free_directions();
   void keep_samples(Step& step, double at);
   void keep_state(const State& z, const Eigen::VectorXd& acceleration, const std::vector<double>& dissipated);
-  Eigen::VectorXd resting_place(const State& z) const;
+  State resting_state(const State& z) const;
 
   const mechanics::Assembly& assembly_;
   Flow flow_;
@@ -96,8 +97,8 @@ class Trajectory {
   Eigen::MatrixXd free_directions_;  // of the masses, while these contacts stick
   Eigen::VectorXd deceleration_;     // of each sliding contact at the end of the step before [m a step^2]
   bool crept_ = false;
-  Eigen::VectorXd creeps_to_;  // [m]
-  double held_since_;          // [s]
+  State creeps_to_;    // [m]
+  double held_since_;  // [s]
 
   std::vector<TurningPoints> turning_points_;
   std::vector<std::vector<Stop>> stops_;

@@ -3,6 +3,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "solvers/mechanics/modes.hpp"
 #include "solvers/transient/forced_motion.hpp"
 #include "solvers/transient/free_decay.hpp"
 #include "tests/known_answers/responses.hpp"
@@ -130,10 +131,14 @@ TEST_CASE("A constant load leaves a brace that never slips without a part of it 
 
 TEST_CASE("Derivatives of a braced response agree with differences") {
   const Network network = braced_mass();
-  const std::vector<Quantity> quantities = {{Measure::peak, 0},   {Measure::rms, 0},
-                                            {Measure::phase, 0},  {Measure::energy, 2},
-                                            {Measure::stroke, 2}, {Measure::stuck_fraction, 2}};
-  for (const double r : {0.6, 1.1, 1.35}) {
+  const std::vector<Quantity> quantities = {{Measure::peak, 0},
+                                            {Measure::rms, 0},
+                                            {Measure::phase, 0},
+                                            {Measure::energy, 2},
+                                            {Measure::stroke, 2},
+                                            {Measure::stuck_fraction, 2},
+                                            {Measure::transmitted_force, 0}};
+  for (const double r : {0.6, 1.1, 1.35, 3.0}) {  // at the last the slider sticks: its force moves
     const NetworkValues values = braced_values(r, 0.05, 1.0, 0.5);
     std::vector<CheckedParameter> parameters;
     for (const NamedParameter& named : all_parameters(network, values)) parameters.push_back(named.parameter);
@@ -150,6 +155,41 @@ TEST_CASE("Derivatives of a braced response agree with differences") {
       }
     }
   }
+}
+
+TEST_CASE("A spring and a slider that rests beside it keep what locks them in") {
+  Network network = braced_mass();
+  network.excitations.clear();
+  NetworkValues values = braced_values(1.0, 0.025, 0.7, 0.2);
+  values.excitation.clear();
+  const transient::FreeDecay damped =
+      transient::free_decay(network, values, {{3.0}, {}}, {.duration = 0.0, .samples = 2001});
+  CHECK(damped.end == transient::DecayEnd::decayed);
+  CHECK_THAT(damped.masses[0].rest, WithinAbs(damped.history.displacement[0].back(), 1e-5));
+  CHECK(std::abs(damped.masses[0].rest) > 1e-3);  // x = -s, by less than F
+  CHECK(std::abs(damped.masses[0].rest) < 0.2);
+
+  network.elements[1].type = ElementType::coulomb;
+  values.element[1] = 0.05;
+  const transient::FreeDecay held = transient::free_decay(network, values, {{3.0}, {}}, {.duration = 0.0});
+  CHECK(held.end == transient::DecayEnd::at_rest);
+  CHECK(held.stop_time > 0.0);
+}
+
+TEST_CASE("Without damping a slider behind a spring holds a resonance up to 4 F / pi") {
+  Responses responses(braced_mass());
+  NetworkValues values = braced_values(1.0, 0.0, 0.5, 0.3);
+  for (const double load : {0.97, 1.03}) {
+    values.excitation[0].amplitude = load * 4.0 * 0.3 / std::numbers::pi;
+    responses.solve(values);
+    CHECK(responses["status"] == (load < 1.0 ? 1.0 : 3.0));
+  }
+}
+
+TEST_CASE("With all friction stuck the spring behind a slider pulls") {
+  const LinearModes modes = linear_modes(braced_mass(), braced_values(1.0, 0.0, 3.0, 0.1), true);
+  REQUIRE(modes.frequency.size() == 1);
+  CHECK_THAT(modes.frequency[0], WithinRel(2.0, kExact));
 }
 
 TEST_CASE("A brace in a decay and in a forced motion shares out all energy") {

@@ -34,17 +34,25 @@ std::vector<std::vector<Eigen::Index>> configurations(Eigen::Index contacts) {
   return sets;
 }
 
-// Poles of z' = A z, z = (eta, eta', s), with q = B eta what the stuck contacts leave free.
+// Poles of z' = A z, z = (eta, eta', s), with q = B eta what the contacts that are held leave free. A slider
+// behind a spring has s' = k u' while it sticks, and s' = 0 while it slides.
 void add_poles(const mechanics::LinearSystem& system, const std::vector<Eigen::Index>& stuck,
                std::vector<Pole>& poles) {
   const Eigen::Index n = system.masses(), m = system.internal_forces();
-  Eigen::MatrixXd B = Eigen::MatrixXd::Identity(n, n);
-  if (!stuck.empty()) {
-    Eigen::MatrixXd W(n, static_cast<Eigen::Index>(stuck.size()));
-    for (Eigen::Index j = 0; j < W.cols(); ++j) W.col(j) = system.W.col(stuck[static_cast<std::size_t>(j)]);
-    B = algebra::null_space(W.transpose());
-    if (B.cols() == 0) return;
+  Eigen::MatrixXd B = Eigen::MatrixXd::Identity(n, n), held(n, 0);
+  Eigen::VectorXd spring = system.internal_stiffness;
+  for (Eigen::Index j = 0; j < system.contacts(); ++j) {
+    const auto contact = static_cast<std::size_t>(j);
+    const bool sticks = std::ranges::find(stuck, j) != stuck.end();
+    if (!system.law[contact]->holds_velocity) {
+      if (!sticks) spring[system.contact_internal[contact]] = 0.0;
+    } else if (sticks) {
+      held.conservativeResize(n, held.cols() + 1);
+      held.rightCols(1) = system.W.col(j);
+    }
   }
+  if (held.cols() > 0) B = algebra::null_space(held.transpose());
+  if (B.cols() == 0) return;
   const Eigen::Index k = B.cols();
   const Eigen::MatrixXd mass_inverse = algebra::inverse(B.transpose() * system.M * B);
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * k + m, 2 * k + m);
@@ -52,7 +60,7 @@ void add_poles(const mechanics::LinearSystem& system, const std::vector<Eigen::I
   A.block(k, 0, k, k) = -mass_inverse * (B.transpose() * system.K * B);
   A.block(k, k, k, k) = -mass_inverse * (B.transpose() * system.C * B);
   A.block(k, 2 * k, k, m) = -mass_inverse * (B.transpose() * system.D);
-  A.block(2 * k, k, m, k) = system.internal_stiffness.asDiagonal() * (system.D.transpose() * B);
+  A.block(2 * k, k, m, k) = spring.asDiagonal() * (system.D.transpose() * B);
   A.block(2 * k, 2 * k, m, m).diagonal() = -system.internal_rate;
   const Eigen::VectorXcd eigenvalues = algebra::eigenvalues(A);
   for (const std::complex<double>& value : eigenvalues) {
