@@ -79,10 +79,10 @@ BoxMinimum box_minimum(const MatrixXd& G, const VectorXd& c, const VectorXd& low
     for (Index j = 0; j < m; ++j) {
       if (is_free[static_cast<std::size_t>(j)] || !(lower[j] < upper[j])) continue;
       const double pull = lambda[j] == upper[j] ? slope[j] : -slope[j];
-      if (pull > largest) {
-        largest = pull;
-        worst = j;
-      }
+      if (pull <= largest) continue;
+      largest = pull;
+      worst = j;
+      if (change > most_changes / 2) break;  // the first instead of the worst: no cycle (R. G. Bland 1977)
     }
     if (worst < 0) return {lambda, true};
     is_free[static_cast<std::size_t>(worst)] = true;

@@ -33,6 +33,33 @@ bool share_again(Flow<N, H>& flow, Workspace<N, H>& w) {
   return false;
 }
 
+// The first coefficient of contact j's sliding speed that is not zero, where it starts from rest at w.left:
+// its power of time, and its sign.
+struct FirstMotion {
+  int power = 1;
+  double sign = 1.0;
+};
+template <int N, int H>
+FirstMotion first_motion(const Flow<N, H>& flow, Eigen::Index j, Workspace<N, H>& w) {
+  const Mode<N, H>& mode = flow.mode(w.mode);
+  flow.accelerate(mode, w.left);
+  Expansion<N, H> x;
+  flow.expand(w.left, mode, x);
+  Polynomial speed = x.velocity(flow.equations().W.col(j));
+  speed.noalias() += x.u * flow.equations().support_velocity.row(j).transpose();
+  FirstMotion first;
+  while (first.power < 3 && std::abs(speed[first.power]) <= kRest * w.speed_scale[j]) ++first.power;
+  first.sign = speed[first.power] < 0.0 ? -1.0 : 1.0;
+  return first;
+}
+
+// Contact j slides from rest, from here on.
+template <int N, int H>
+void start_sliding(Eigen::Index j, FirstMotion first, Workspace<N, H>& w) {
+  w.fresh |= bit(j);
+  if (first.power > 1) w.just_released |= bit(j);
+}
+
 // Contacts that were idle before a release and are free to move after it: one that would move against its own
 // friction sticks.
 template <int N, int H>
@@ -41,18 +68,31 @@ void wake(Flow<N, H>& flow, ContactMask idle_before, Workspace<N, H>& w) {
   for (Eigen::Index j = 0; woken != 0 && j < flow.equations().contacts(); ++j) {
     const Mode<N, H>& mode = flow.mode(w.mode);
     if (!contains(woken & ~mode.stuck, j)) continue;
-    flow.accelerate(mode, w.left);
-    Expansion<N, H> x;
-    flow.expand(w.left, mode, x);
-    Polynomial speed = x.velocity(flow.equations().W.col(j));
-    speed.noalias() += x.u * flow.equations().support_velocity.row(j).transpose();
-    int first = 1;
-    while (first < 3 && std::abs(speed[first]) <= kRest * w.speed_scale[j]) ++first;
-    if (mode.sign(j) * speed[first] < 0.0) {
+    const FirstMotion first = first_motion(flow, j, w);
+    if (mode.sign(j) * first.sign < 0.0)
       w.mode = flow.mode_index(mode.stuck | bit(j), mode.positive);
-    } else {
-      w.fresh |= bit(j);
-      if (first > 1) w.just_released |= bit(j);
+    else
+      start_sliding(j, first, w);
+  }
+}
+
+// A contact that was held at rest lets go, and those whose internal force stood at its limit beside it slide
+// on with it where they move that way.
+template <int N, int H>
+void slide_on(Flow<N, H>& flow, Workspace<N, H>& w) {
+  if constexpr (Sizes<N, H>::kInternal != 0) {
+    const StepEquations<N, H>& eq = flow.equations();
+    for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
+      const Mode<N, H>& mode = flow.mode(w.mode);
+      if (eq.holds(j) || !contains(mode.stuck, j) || eq.limit[j] == 0.0) continue;
+      const double force = w.left.z[2 * eq.masses() + eq.internal_of[static_cast<std::size_t>(j)]];
+      if (std::abs(force) < eq.limit[j] * (1.0 - kTie)) continue;
+      if (std::abs(flow.sliding_speed(w.left, j).value) > w.rest_speed[j]) continue;
+      const FirstMotion first = first_motion(flow, j, w);
+      if (first.sign * force < 0.0) continue;
+      const ContactMask forward = force > 0.0 ? bit(j) : 0;
+      w.mode = flow.mode_index(mode.stuck & ~bit(j), mode.positive | forward);
+      start_sliding(j, first, w);
     }
   }
 }

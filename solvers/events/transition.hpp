@@ -195,6 +195,7 @@ void change_mode(Flow<N, H>& flow, ContactMask arrived, Eigen::Index released, b
     const ContactMask idle_before = flow.configuration(flow.mode(w.mode)).idle;
     release(flow, released, forward, w);
     if (idle_before != 0) wake(flow, idle_before, w);
+    if (contains(holding, released)) slide_on(flow, w);
   }
   if (const ContactMask states = arrived & ~holding; states != 0) {
     const Mode<N, H>& mode = flow.mode(w.mode);

@@ -201,9 +201,13 @@ typename OrbitSearch<N, H>::Shift OrbitSearch<N, H>::settle_rest_position(Orbit<
   if (shift.verdict == RestShift::Verdict::none) return Shift::none;
   const typename Sizes<N, H>::State by = rest.E * shift.delta;
   shift_orbit<N, H>(by, orbit);
-  // Part of the shift's forces may strain a loop alone, and no state has it: where the shares that are quoted
-  // then break a limit, the motion is followed once more from there.
-  if (flow_.has_loops() && std::ranges::any_of(stuck_forces(eq.holding, orbit), &StuckForce::breaks_limit)) {
+  // Part of the shift's forces may strain a loop alone, and no state has it. Where the shares that are quoted
+  // then break a limit, or a force stood at its limit before the shift, the motion is followed once more from
+  // there.
+  const bool stood_at_limit = orbit.status == Status::grazing && shift.verdict == RestShift::Verdict::inside;
+  const bool breaks_limit =
+      flow_.has_loops() && std::ranges::any_of(stuck_forces(eq.holding, orbit), &StuckForce::breaks_limit);
+  if (stood_at_limit || breaks_limit) {
     shooting_.find(orbit);
     if (!orbit.is_found()) return Shift::none;
   }

@@ -257,7 +257,10 @@ Trajectory::State Trajectory::resting_state(const State& z) const {
   const auto& eq = flow_.equations();
   const Index n = eq.masses();
   Eigen::VectorXd stiffness = Eigen::VectorXd::Zero(eq.internal_forces()), s = stiffness;
-  Eigen::VectorXd force = eq.force.col(0) - eq.K * z.head(n);
+  // Where nothing sticks any start serves, and from zero nothing rounds.
+  const Eigen::VectorXd q =
+      stuck_ == 0 ? Eigen::VectorXd(Eigen::VectorXd::Zero(n)) : Eigen::VectorXd(z.head(n));
+  Eigen::VectorXd force = eq.force.col(0) - eq.K * q;
   for (Index j = 0; j < eq.contacts(); ++j) {
     const bool sticks = contains(stuck_, j);
     if (!sticks) force -= (contains(positive_, j) ? 1.0 : -1.0) * eq.limit[j] * eq.W.col(j);
@@ -274,7 +277,7 @@ Trajectory::State Trajectory::resting_state(const State& z) const {
   if (B.cols() > 0)
     moved = B * algebra::solve_positive(B.transpose() * K * B, Eigen::VectorXd(B.transpose() * force));
   State rest = State::Zero(eq.states());
-  rest.head(n) = z.head(n) + moved;
+  rest.head(n) = q + moved;
   rest.tail(s.size()) = s + stiffness.cwiseProduct(eq.D.transpose() * moved);
   return rest;
 }

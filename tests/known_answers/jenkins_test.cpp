@@ -186,6 +186,38 @@ TEST_CASE("Without damping a slider behind a spring holds a resonance up to 4 F 
   }
 }
 
+TEST_CASE("A slider at its limit beside a contact that holds it slides on with it, and nothing grazes") {
+  Network network = braced_mass();
+  network.elements.push_back({"guide", ElementType::coulomb, ground, mass});
+  network.excitations.push_back({ExcitationKind::force, 0, 3});
+  Responses responses(network);
+  for (int i = 0; i < 50; ++i) {
+    NetworkValues values = braced_values(0.165 + 2e-4 * i, 0.05, 1.0, 0.1);
+    values.element.push_back(0.5);
+    values.second.push_back(0.0);
+    values.excitation.push_back({0.7, 1.0});
+    responses.solve(values);
+    INFO("r " << values.omega);
+    CHECK(responses["status"] == 1.0);
+    CHECK(responses["energy_balance"] < kBalance);
+  }
+}
+
+TEST_CASE("A slider shaken down under a constant load is no grazing contact") {
+  Network network = braced_mass();
+  network.excitations.push_back({ExcitationKind::force, 0, 0});
+  Responses responses(network);
+  for (const double F : {0.4, 0.5, 0.7}) {
+    NetworkValues values = braced_values(1.0, 0.3, 0.5, F);
+    values.element[0] = 2.0;
+    values.excitation.push_back({0.3, 0.0});
+    responses.solve(values);
+    CHECK(responses["status"] == 1.0);
+    CHECK(responses["error_bound"] < kExact);
+    CHECK(responses["brace_force_peak"] < 0.37);  // the slider never moves
+  }
+}
+
 TEST_CASE("With all friction stuck the spring behind a slider pulls") {
   const LinearModes modes = linear_modes(braced_mass(), braced_values(1.0, 0.0, 3.0, 0.1), true);
   REQUIRE(modes.frequency.size() == 1);
