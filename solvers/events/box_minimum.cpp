@@ -27,7 +27,9 @@ Step step_to_free_minimum(const MatrixXd& G, const VectorXd& c, const VectorXd& 
   target += inverse * (right - G_free * target);
   const VectorXd rest = right - G_free * target;
   const VectorXd size = G_free.cwiseAbs() * target.cwiseAbs() + right.cwiseAbs();
-  if ((rest.array().abs() <= 1e-10 * size.array()).all()) return {target - start, true};
+  // Rounding of the others reaches a contact that nothing pulls at.
+  const double rounding = 1e-14 * size.maxCoeff();
+  if ((rest.array().abs() <= 1e-10 * size.array() + rounding).all()) return {target - start, true};
   return {weight_free.cwiseAbs2().cwiseProduct(rest), false};
 }
 
@@ -79,10 +81,10 @@ BoxMinimum box_minimum(const MatrixXd& G, const VectorXd& c, const VectorXd& low
     for (Index j = 0; j < m; ++j) {
       if (is_free[static_cast<std::size_t>(j)] || !(lower[j] < upper[j])) continue;
       const double pull = lambda[j] == upper[j] ? slope[j] : -slope[j];
-      if (pull <= largest) continue;
-      largest = pull;
-      worst = j;
-      if (change > most_changes / 2) break;  // the first instead of the worst: no cycle (R. G. Bland 1977)
+      if (pull > largest) {
+        largest = pull;
+        worst = j;
+      }
     }
     if (worst < 0) return {lambda, true};
     is_free[static_cast<std::size_t>(worst)] = true;
