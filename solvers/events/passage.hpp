@@ -1,6 +1,5 @@
 #pragma once
 
-#include <limits>
 #include <vector>
 
 #include "solvers/flow/flow.hpp"
@@ -33,13 +32,6 @@ struct Passage {
   bool starts_at_event = false;   // a contact comes through rest at the very start, outside the tangent
   const char* failure = nullptr;  // why the passage could not be completed
 };
-
-// What rounding adds to a state over a passage, relative: each step and each event rounds a few times.
-template <int N, int H>
-double rounding_of(const StepEquations<N, H>& eq, const Passage<N, H>& passage) {
-  const double operations = 16.0 + 2.0 * eq.period + 16.0 * passage.events;
-  return operations * std::numeric_limits<double>::epsilon();
-}
 
 // Contacts that slide in the mode `before` and stick, or slide back, in `after`. One without friction does
 // not count: nothing changes for it.

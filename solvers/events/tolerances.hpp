@@ -3,9 +3,8 @@
 namespace frahm::periodic {
 
 // Relative tolerances of switching, all of them.
-//   kRest  a contact is at rest below this part of its velocity scale (workspace.hpp): rounding of a passage
-//   is
-//          1e-13 of it
+//   kRest  a contact is at rest below this part of its velocity scale (workspace.hpp), of which the rounding
+//          of a passage is 1e-13
 //   kTie   between sticking and sliding: ties go to sticking, else zero-length slips would chatter for ever
 inline constexpr double kRest = 1e-11;
 inline constexpr double kTie = 1e-12;

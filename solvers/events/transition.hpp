@@ -11,11 +11,10 @@
 // Which contacts stick and which slide after an event. The cases:
 //
 //   what happened                        law's answer            what follows
-//   a stuck force reaches its limit      -                       it slides in the force's direction; an
-//   internal
-//                                                                force stays there
-//   a sliding velocity reaches zero      it holds a velocity     the forces of all contacts at rest follow
-//   from one
+//   a stuck force reaches its limit      -                       it slides in the force's direction; a force
+//                                                                that is a state stays there
+//   a sliding velocity reaches zero      it holds a velocity     the forces of all contacts at rest come of
+//   one
 //                                                                convex problem: inside its limit a contact
 //                                                                sticks, at its limit it slides that way
 //                                        its force is a state    it sticks

@@ -83,19 +83,19 @@ LinearModes linear_modes(const mechanics::Network& network, const mechanics::Net
   const Eigen::Index n = system.masses();
   // What still moves when every contact sticks: displacements B eta with W^T B = 0 of those that are held.
   // The springs behind the others pull.
-  Eigen::MatrixXd B = Eigen::MatrixXd::Identity(n, n), K = system.K, held(n, 0);
+  Eigen::MatrixXd K = system.K;
+  std::vector<Eigen::Index> held;
   for (Eigen::Index j = 0; all_stuck && j < system.contacts(); ++j) {
     const auto contact = static_cast<std::size_t>(j);
     if (system.law[contact]->holds_velocity) {
-      held.conservativeResize(n, held.cols() + 1);
-      held.rightCols(1) = system.W.col(j);
+      held.push_back(j);
     } else {
       const Eigen::Index internal = system.contact_internal[contact];
       const Eigen::VectorXd d = system.D.col(internal);
       K += system.internal_stiffness[internal] * d * d.transpose();
     }
   }
-  if (held.cols() > 0) B = algebra::null_space(held.transpose());
+  const Eigen::MatrixXd B = algebra::null_space(system.W(Eigen::all, held).transpose());
   if (B.cols() == 0) return {};
   const algebra::SymmetricModes modes =
       algebra::symmetric_modes(B.transpose() * K * B, B.transpose() * system.M * B);

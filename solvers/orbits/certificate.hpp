@@ -78,7 +78,9 @@ void judge_stability(Flow<N, H>& flow, Orbit<N, H>& orbit) {
   if (has_kink) orbit.floquet_radius = kNone;
 
   const double scale = std::max(eq.energy_norm(orbit.z), flow.static_norm());
-  const double rounding = rounding_of(eq, orbit.passage) * (scale + static_forces(flow, orbit));
+  const double operations = 16.0 + 2.0 * eq.period + 16.0 * orbit.passage.events;
+  const double rounding =
+      std::numeric_limits<double>::epsilon() * operations * (scale + static_forces(flow, orbit));
   const double ball = (orbit.residual * scale + rounding) / (1.0 - orbit.contraction);
   const bool holds = orbit.contraction < 1.0 && ball < 0.1 * orbit.passage.margin * scale;
   orbit.error_bound = holds ? ball * std::sqrt(2.0 * eq.K_inverse.diagonal().maxCoeff()) : kNone;

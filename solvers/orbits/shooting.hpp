@@ -11,12 +11,11 @@
 namespace frahm::periodic {
 
 struct ShootingOptions {
-  double tolerance = 1e-13;  // of the relative residual: a few units of rounding of one passage
-  double good_enough =
-      1e-12;          // accepted when the residual does not fall further; in long passages their rounding
-  double pays = 0.9;  // a Newton step that leaves more of the residual is refused
-  int most_passages = 20000;  // enough for the map alone at damping ratios of 1e-3
-  double most_steps = 2e7;    // of all passages together: about a second of work
+  double tolerance = 1e-13;    // of the relative residual: a few units of rounding of one passage
+  double good_enough = 1e-12;  // accepted when rounding keeps the residual from falling further
+  double pays = 0.9;           // a Newton step that leaves more of the residual is refused
+  int most_passages = 20000;   // enough for the map alone at damping ratios of 1e-3
+  double most_steps = 2e7;     // of all passages together: about a second of work
   double most_steps_a_period = 2e5;
   double most_magnification = 1e13;  // of the static response: beyond, rounding of the orbit hides the forces
 };

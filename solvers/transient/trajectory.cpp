@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <vector>
 
 #include "solvers/algebra/null_space.hpp"
 #include "solvers/algebra/solve.hpp"
@@ -198,16 +199,11 @@ void Trajectory::note_mode(const periodic::Mode<Eigen::Dynamic, Eigen::Dynamic>&
 // The directions in which the masses move while the contacts that are held stick.
 void Trajectory::find_free_directions() {
   const auto& eq = flow_.equations();
-  const Index n = eq.masses();
-  Eigen::MatrixXd constraints(0, n);
+  std::vector<Index> held;
   for (Index j = 0; j < eq.contacts(); ++j) {
-    if (!contains(stuck_ & eq.holding, j)) continue;
-    constraints.conservativeResize(constraints.rows() + 1, n);
-    constraints.bottomRows(1) = eq.W.col(j).transpose();
+    if (contains(stuck_ & eq.holding, j)) held.push_back(j);
   }
-  free_directions_ = Eigen::MatrixXd::Identity(n, n);
-  if (constraints.rows() == 0) return;
-  free_directions_ = algebra::null_space(constraints);
+  free_directions_ = algebra::null_space(eq.W(Eigen::all, held).transpose());
 }
 
 void Trajectory::keep_samples(Step& step, double at) {

@@ -38,8 +38,8 @@ std::vector<std::vector<Eigen::Index>> configurations(Eigen::Index contacts) {
 // behind a spring has s' = k u' while it sticks, and s' = 0 while it slides.
 void add_poles(const mechanics::LinearSystem& system, const std::vector<Eigen::Index>& stuck,
                std::vector<Pole>& poles) {
-  const Eigen::Index n = system.masses(), m = system.internal_forces();
-  Eigen::MatrixXd B = Eigen::MatrixXd::Identity(n, n), held(n, 0);
+  const Eigen::Index m = system.internal_forces();
+  std::vector<Eigen::Index> held;
   Eigen::VectorXd spring = system.internal_stiffness;
   for (Eigen::Index j = 0; j < system.contacts(); ++j) {
     const auto contact = static_cast<std::size_t>(j);
@@ -47,11 +47,10 @@ void add_poles(const mechanics::LinearSystem& system, const std::vector<Eigen::I
     if (!system.law[contact]->holds_velocity) {
       if (!sticks) spring[system.contact_internal[contact]] = 0.0;
     } else if (sticks) {
-      held.conservativeResize(n, held.cols() + 1);
-      held.rightCols(1) = system.W.col(j);
+      held.push_back(j);
     }
   }
-  if (held.cols() > 0) B = algebra::null_space(held.transpose());
+  const Eigen::MatrixXd B = algebra::null_space(system.W(Eigen::all, held).transpose());
   if (B.cols() == 0) return;
   const Eigen::Index k = B.cols();
   const Eigen::MatrixXd mass_inverse = algebra::inverse(B.transpose() * system.M * B);
