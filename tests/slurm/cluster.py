@@ -241,6 +241,8 @@ class Cluster:
         for pid in [daemon.pid, *keepers, *jobs]:
             _kill(pid)
         daemon.wait()
+        # One that waits for the disk dies, and lets go of its files, only when the disk has answered.
+        wait_until(f"the processes of {node} are gone", 60, lambda: not {*keepers, *jobs} & {*descendants(self.init)})
 
     def _idle_nodes(self):
         found = subprocess.run(["sinfo", "-hN", "-o", "%T"], env=self.environment, capture_output=True, text=True, timeout=20)

@@ -45,7 +45,7 @@ class Drill:
 
     def ended_well(self, job):
         state = self.fields(job)["JobState"]
-        assert state not in ENDED_BADLY, f"job {job}: {state}\n{self.cluster.run('scontrol', 'show', 'job', job)}"
+        assert state not in ENDED_BADLY, f"job {job}: {state}"
         return state == "COMPLETED"
 
     def wait_for_end(self, jobs, seconds=150):
@@ -176,11 +176,13 @@ def run_drill(program, source):
             check_same(raw_bytes("array.h5"), plain, "the array job")
             check_mpi(drill)
             check_same(raw_bytes("mpi.h5"), plain, "the MPI job")
-        except BaseException:
+        except BaseException as error:
+            print(cluster.logs(), file=sys.stderr)
             for name in sorted(os.listdir(".")):
                 if name.endswith(".log"):
-                    print(f"--- {name}\n{open(name, errors='replace').read()}", file=sys.stderr)
-            print(cluster.logs(), file=sys.stderr)
+                    lines = open(name, errors="replace").readlines()
+                    print(f"--- {name}\n{''.join(lines[-8:])}", file=sys.stderr)
+            print(f"--- jobs\n{cluster.run('scontrol', '--oneliner', 'show', 'job')}--- {error!r}", file=sys.stderr)
             raise
         finally:
             os.chdir(home)
