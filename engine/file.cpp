@@ -27,9 +27,9 @@ auto uninterrupted(Call call) {
 }
 
 // What the holder of the lock left in the file; empty if nothing.
-std::string read_owner(const File& file, std::uint64_t owner_offset) {
+std::string read_owner(const File& file, std::uint64_t owner_at) {
   std::array<char, owner_size> text{};
-  file.read_at(owner_offset, std::as_writable_bytes(std::span(text)));
+  file.read_at(owner_at, std::as_writable_bytes(std::span(text)));
   return std::string(text.data(), strnlen(text.data(), text.size()));
 }
 
@@ -132,7 +132,7 @@ bool File::is_at_its_path() const {
   return here.st_dev == there.st_dev && here.st_ino == there.st_ino;
 }
 
-File open_locked(const std::filesystem::path& path, std::uint64_t owner_offset) {
+File open_locked(const std::filesystem::path& path, std::uint64_t owner_at) {
   using std::chrono::steady_clock;
   const auto give_up = steady_clock::now() + std::chrono::seconds(1);
   for (;;) {
@@ -142,7 +142,7 @@ File open_locked(const std::filesystem::path& path, std::uint64_t owner_offset) 
       if (file.is_at_its_path()) return file;
       continue;
     }
-    if (steady_clock::now() > give_up) throw Locked(path, read_owner(file, owner_offset));
+    if (steady_clock::now() > give_up) throw Locked(path, read_owner(file, owner_at));
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
 }

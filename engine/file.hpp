@@ -51,9 +51,9 @@ class File {
 
 // Opens `path` for writing (created if absent) and takes its lock; waits up to a second, as a process that
 // removes a file holds its lock for a moment.
-// owner_offset: where in the file its holder leaves `this_process()`, to be named in the message.
+// owner_at: where in the file its holder leaves `this_process()`, to be named in the message.
 // Throws Locked, IoError.
-File open_locked(const std::filesystem::path& path, std::uint64_t owner_offset);
+File open_locked(const std::filesystem::path& path, std::uint64_t owner_at);
 
 constexpr std::size_t owner_size = 84;  // bytes kept for the owner's text
 

@@ -90,6 +90,12 @@ void check_axis(const Axis& axis, Names& names) {
 
 }  // namespace
 
+std::vector<std::uint64_t> shape_of(const MapLayout& layout) {
+  std::vector<std::uint64_t> shape;
+  for (const Axis& axis : layout.axes) shape.push_back(axis.size);
+  return shape;
+}
+
 void check(const MapLayout& layout) {
   Names names;
   for (const Axis& axis : layout.axes) check_axis(axis, names);

@@ -54,6 +54,8 @@ struct MapLayout {
   std::vector<std::uint64_t> chunk = {};  // shape of a chunk [points], one for each axis, clipped to the axis
 };
 
+std::vector<std::uint64_t> shape_of(const MapLayout& layout);  // the sizes of its axes
+
 // One variable of a group, such as /optimum or /decay, with all its values.
 struct Column {
   Variable variable;

@@ -11,12 +11,6 @@
 namespace frahm::results {
 namespace {
 
-Shape shape_of(const MapLayout& layout) {
-  Shape shape;
-  for (const Axis& axis : layout.axes) shape.push_back(axis.size);
-  return shape;
-}
-
 // Throws std::invalid_argument unless `start` is the first point of a chunk of the map.
 void check_start(const Shape& start, const Shape& chunk, const Shape& map) {
   bool right = start.size() == map.size();

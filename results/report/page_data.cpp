@@ -53,12 +53,6 @@ Json axis_json(const Axis& axis) {
   return json;
 }
 
-Shape shape_of(const MapLayout& layout) {
-  Shape shape;
-  for (const Axis& axis : layout.axes) shape.push_back(axis.size);
-  return shape;
-}
-
 // The longest axis: along it neighbours are most alike.
 std::size_t longest(const Shape& shape) {
   return static_cast<std::size_t>(std::max_element(shape.begin(), shape.end()) - shape.begin());

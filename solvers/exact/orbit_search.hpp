@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <vector>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/flow/linear_form.hpp"
 #include "solvers/mechanics/undamped_resonance.hpp"
 #include "solvers/orbits/certificate.hpp"
@@ -94,7 +94,7 @@ template <int N, int H>
 void OrbitSearch<N, H>::fail_unbounded(Orbit<N, H>& orbit) {
   orbit.status = Status::unbounded;
   orbit.reason = kUnbounded;
-  orbit.residual = std::numeric_limits<double>::quiet_NaN();
+  orbit.residual = kNone;
   orbit.newton_iterations = orbit.passages = 0;
   continuation_.forget();
 }
@@ -103,7 +103,7 @@ void OrbitSearch<N, H>::fail_unbounded(Orbit<N, H>& orbit) {
 template <int N, int H>
 double OrbitSearch<N, H>::distance_slid(Eigen::Index j, const Orbit<N, H>& orbit) const {
   const StepEquations<N, H>& eq = flow_.equations();
-  if (!eq.support_velocity.row(j).isZero(0.0)) return std::numeric_limits<double>::infinity();
+  if (!eq.support_velocity.row(j).isZero(0.0)) return kInfinity;
   const auto& segments = orbit.passage.segments;
   double distance = 0.0;
   for (std::size_t i = 0; i < segments.size(); ++i) {

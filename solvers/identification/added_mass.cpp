@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/identification/linear_fit.hpp"
 #include "solvers/identification/statement.hpp"
 
@@ -40,7 +40,7 @@ double welch_satterthwaite(const Eigen::RowVectorXd& u, const std::vector<double
   double fourth = 0.0;
   for (Eigen::Index i = 0; i < u.size(); ++i)
     fourth += std::pow(u[i], 4) / degrees_of_freedom[static_cast<std::size_t>(i)];
-  return fourth > 0.0 ? std::pow(u.squaredNorm(), 2) / fourth : std::numeric_limits<double>::infinity();
+  return fourth > 0.0 ? std::pow(u.squaredNorm(), 2) / fourth : kInfinity;
 }
 
 }  // namespace
@@ -61,7 +61,6 @@ Identification added_mass(const AddedMassRows& rows) {
     return no_result(
         "the frequencies do not fall with the added mass as those of a mass on a spring: 1/omega^2 = " +
         number(at_zero) + " + " + number(slope) + " added, both must be positive");
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const Scatter s = known ? Scatter{1.0, kInfinity} : scatter(fit.chi_squared, fit.degrees_of_freedom, 0.0);
   // m = p_0 / p_1, k = 1 / p_1
   Eigen::Matrix2d by_p;

@@ -3,9 +3,9 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/algebra/shortest_solution.hpp"
 #include "solvers/identification/decay_fit.hpp"
 #include "solvers/identification/least_squares.hpp"
@@ -187,10 +187,10 @@ void mark_undetermined(const LeastSquaresFit& fit, double size, Identification& 
   const Eigen::MatrixXd tells = covariance(fit.jacobian, 1.0, scales);
   if (std::isfinite(tells(1, 1)) && std::isfinite(tells(2, 2))) return;
   for (Index i = 0; i < 4; ++i) {
-    result.covariance.row(i).setConstant(std::numeric_limits<double>::quiet_NaN());
+    result.covariance.row(i).setConstant(kNone);
     result.covariance.col(i) = result.covariance.row(i).transpose();
   }
-  for (Index i = 0; i < 4; ++i) result.covariance(i, i) = std::numeric_limits<double>::infinity();
+  for (Index i = 0; i < 4; ++i) result.covariance(i, i) = kInfinity;
   result.notes.emplace_back("the extremes are all of one size: damping and friction cannot be told apart");
 }
 

@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/algebra/shortest_solution.hpp"
 #include "solvers/identification/minima.hpp"
 
@@ -111,7 +111,7 @@ double degrees_of_sum(double V_1, double nu_1, double V_2, double nu_2) {
 // The fixed ones keep theirs; what the fitted ones have from them counts as one variance, that of the fixed
 // one known least.
 void set_degrees_of_freedom(const GreyBoxTask& task, const MatrixXd& own, Identification& result) {
-  double fixed = std::numeric_limits<double>::infinity();
+  double fixed = kInfinity;
   for (const FixedParameter& each : task.fixed) fixed = std::min(fixed, each.degrees_of_freedom);
   const auto fitted = static_cast<std::size_t>(own.rows());
   for (std::size_t i = 0; i < result.estimates.size(); ++i) {
@@ -143,8 +143,8 @@ void estimate(const GreyBoxTask& task, Misfit& misfit, const LeastSquaresFit& fi
                                 .long_name = fixed.name + " as found before",
                                 .value = fixed.value});
   result.degrees_of_freedom = static_cast<double>(fit.residuals.size() - fit.p.size());
-  const double variance = result.degrees_of_freedom > 0.0 ? fit.sum_of_squares() / result.degrees_of_freedom
-                                                          : std::numeric_limits<double>::quiet_NaN();
+  const double variance =
+      result.degrees_of_freedom > 0.0 ? fit.sum_of_squares() / result.degrees_of_freedom : kNone;
   MatrixXd J, J_fixed;
   if (!misfit.evaluate(fit.p, r, &J, &J_fixed)) J = fit.jacobian;
   const MatrixXd own = covariance(J, variance, scales);

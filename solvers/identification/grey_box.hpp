@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/identification/identification.hpp"
 #include "solvers/identification/measurement.hpp"
 #include "solvers/mechanics/network.hpp"
@@ -24,7 +25,7 @@ struct FittedParameter {
 struct FixedParameter {
   std::string name, unit;
   double value = 0.0;
-  double degrees_of_freedom = std::numeric_limits<double>::infinity();  // of that variance
+  double degrees_of_freedom = kInfinity;  // of that variance
 };
 
 // Numbers of the network, the values it starts from, and how they change.

@@ -4,14 +4,12 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <limits>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/identification/statement.hpp"
 
 namespace frahm::identification {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 // Of a mass on a shaken support, T^2 = (1 + 4 zeta^2 u) / ((1 - u)^2 + 4 zeta^2 u), u = (omega/omega_n)^2.
 // With w = sqrt(1 + 8 zeta^2) its peak is T_p^2 = (w + 1)^2 / ((w - 1)(w + 3)) at u = 2 / (w + 1), and

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/identification/fourier_fit.hpp"
 #include "solvers/identification/statement.hpp"
 
@@ -192,9 +192,9 @@ void check_loss(double force, Identification& result) {
   const bool none = std::abs(k->value) * X->value <= kRounding * force;
   if (!none && !(k->low <= 0.0 && k->high >= 0.0)) return;
   const Index loss = find("loss_factor") - result.estimates.begin();
-  result.covariance.row(loss).setConstant(std::numeric_limits<double>::quiet_NaN());
-  result.covariance.col(loss).setConstant(std::numeric_limits<double>::quiet_NaN());
-  result.covariance(loss, loss) = std::numeric_limits<double>::infinity();
+  result.covariance.row(loss).setConstant(kNone);
+  result.covariance.col(loss).setConstant(kNone);
+  result.covariance(loss, loss) = kInfinity;
   result.notes.push_back("the storage stiffness may be zero: the loss factor is not determined");
   set_intervals(result);
 }

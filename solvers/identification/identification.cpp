@@ -2,13 +2,11 @@
 
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
-#include <limits>
+
+#include "solvers/algebra/no_value.hpp"
 
 namespace frahm::identification {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // How many standard errors the interval reaches either way.
 double reach(double degrees_of_freedom) {

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <limits>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "solvers/algebra/no_value.hpp"
 
 // What measurements tell of a system: estimates, how sure they are, and how well the model follows the data.
 namespace frahm::identification {
@@ -19,7 +20,7 @@ struct Estimate {
   double standard_error = 0.0;
   double low = 0.0, high = 0.0;  // interval of kConfidence, by Student's t; -inf, inf or NaN likewise
   // Of the variance behind the interval, may be infinite. NaN: those of the whole Identification.
-  double degrees_of_freedom = std::numeric_limits<double>::quiet_NaN();
+  double degrees_of_freedom = kNone;
 };
 inline constexpr double kConfidence = 0.95;
 

@@ -4,13 +4,12 @@
 #include <cmath>
 #include <unsupported/Eigen/LevenbergMarquardt>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/algebra/shortest_solution.hpp"
 #include "solvers/algebra/singular_values.hpp"
 
 namespace frahm::identification {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // p(q) that stays within the bounds whatever q is, and its derivative. Source: [25].
 //   both bounds  p = a + (b - a) (sin q + 1) / 2
@@ -263,7 +262,7 @@ Eigen::MatrixXd covariance(const Eigen::MatrixXd& jacobian, double variance, con
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = 0; j < n; ++j) {
       const bool none = lost[static_cast<std::size_t>(i)] || lost[static_cast<std::size_t>(j)];
-      result(i, j) = none ? std::numeric_limits<double>::quiet_NaN() : result(i, j) / (length[i] * length[j]);
+      result(i, j) = none ? kNone : result(i, j) / (length[i] * length[j]);
     }
     if (lost[static_cast<std::size_t>(i)]) result(i, i) = kInfinity;
   }

@@ -2,9 +2,10 @@
 
 #include <Eigen/Core>
 #include <functional>
-#include <limits>
 #include <string>
 #include <vector>
+
+#include "solvers/algebra/no_value.hpp"
 
 // Nonlinear least squares within bounds:  minimise sum_i r_i(p)^2,  lower <= p <= upper.
 // Levenberg-Marquardt (Eigen's port of MINPACK's lmder), in variables whose bounds are taken away by MINUIT's
@@ -14,8 +15,8 @@ namespace frahm::identification {
 struct Unknown {
   std::string name;
   double start = 0.0;  // moved inside the bounds where it is not
-  double lower = -std::numeric_limits<double>::infinity();
-  double upper = std::numeric_limits<double>::infinity();
+  double lower = -kInfinity;
+  double upper = kInfinity;
   double scale = 1.0;  // typical size, > 0
 };
 

@@ -3,7 +3,8 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "solvers/algebra/no_value.hpp"
 
 namespace frahm::identification {
 
@@ -26,7 +27,7 @@ LinearFit linear_fit(const Eigen::MatrixXd& A, const Eigen::VectorXd& y, const E
 
 double corrected_akaike(double rss, Eigen::Index data, Eigen::Index unknowns, double rounding) {
   const auto n = static_cast<double>(data), k = static_cast<double>(unknowns) + 1.0;  // and the variance
-  if (!(n - k - 1.0 > 0.0)) return std::numeric_limits<double>::infinity();
+  if (!(n - k - 1.0 > 0.0)) return kInfinity;
   // AICc = n ln(rss / n) + 2 k + 2 k (k + 1) / (n - k - 1)
   return n * std::log(std::max(rss / n, rounding * rounding)) + 2.0 * k + 2.0 * k * (k + 1.0) / (n - k - 1.0);
 }
@@ -35,7 +36,7 @@ Scatter scatter(double chi_squared, double degrees_of_freedom, double data_degre
   const bool few = degrees_of_freedom < kFewResiduals;
   if (few && data_degrees_of_freedom > 0.0) return {1.0, data_degrees_of_freedom};
   if (degrees_of_freedom > 0.0) return {chi_squared / degrees_of_freedom, degrees_of_freedom};
-  return {std::numeric_limits<double>::quiet_NaN(), 0.0};
+  return {kNone, 0.0};
 }
 
 }  // namespace frahm::identification

@@ -3,8 +3,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/linear_system.hpp"
 
@@ -218,7 +218,7 @@ double Misfit::weigh_by_residuals(const VectorXd& p) {
   for (Index i = 0; i < J.cols(); ++i) J.col(i).normalize();
   const Eigen::ColPivHouseholderQR<MatrixXd> qr(J);
   const MatrixXd Q = qr.householderQ() * MatrixXd::Identity(J.rows(), qr.rank());
-  double least = std::numeric_limits<double>::infinity(), largest = 0.0;
+  double least = kInfinity, largest = 0.0;
   Index row = 0;
   for (std::size_t record = 0; record < task_.records.size(); ++record) {
     const auto samples = static_cast<Index>(horizon_[record]);

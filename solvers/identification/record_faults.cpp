@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/identification/statement.hpp"
 
 namespace frahm::identification {
@@ -75,7 +75,7 @@ Level level_about(Samples x, std::size_t at) {
 }
 
 double least_step(Samples x) {
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   for (std::size_t i = 1; i < x.size(); ++i) {
     if (x[i] != x[i - 1]) least = std::min(least, std::abs(x[i] - x[i - 1]));
   }

@@ -1,15 +1,13 @@
 #include "solvers/identification/resonance_magnification.hpp"
 
 #include <cmath>
-#include <limits>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/identification/linear_fit.hpp"
 #include "solvers/identification/statement.hpp"
 
 namespace frahm::identification {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 std::string wrong(const MagnificationRows& rows) {
   const std::string bad = first_of({unless_equal("static and resonant displacement",

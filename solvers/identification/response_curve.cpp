@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/identification/linear_fit.hpp"
 #include "solvers/identification/statement.hpp"
 
@@ -53,7 +54,7 @@ Window window_of(const ResponseCurve& curve) {
 struct Parabola {
   Eigen::VectorXd p;
   Eigen::MatrixXd influence;  // dp / dX
-  double rss = 0.0, criterion = std::numeric_limits<double>::infinity();
+  double rss = 0.0, criterion = kInfinity;
 
   bool empty() const { return p.size() == 0; }
   Eigen::VectorXd basis(double z) const {
@@ -125,8 +126,6 @@ double bisect(const Function& f, double low, double high) {
     ((f(middle) > 0.0) == rises ? high : low) = middle;
   return 0.5 * (low + high);
 }
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 // Where 1/X^2 is least inside the window; NaN: at an end.
 double lowest(const Parabola& fit) {

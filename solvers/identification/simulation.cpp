@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <numbers>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/identification/measured_forcing.hpp"
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/modes.hpp"
@@ -23,7 +23,7 @@ using transient::InitialState;
 using transient::MotionSensitivity;
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
-constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+constexpr double kUnlimited = kInfinity;
 
 // Passages of a free motion are short, so that what counts as rest shrinks with it, and not in step with its
 // half periods, so that stops do not fall between two passages.

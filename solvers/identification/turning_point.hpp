@@ -1,7 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <limits>
+
+#include "solvers/algebra/no_value.hpp"
 
 // One turning point of a measured free vibration, from the samples about it.
 namespace frahm::identification {
@@ -18,7 +19,7 @@ struct TurningPoint {
   double phase = 0.0, x = 0.0;       // of the turn, [m]
   double rss = 0.0, rounding = 0.0;  // [m^2], [m]
   Eigen::Matrix2d cofactor;          // of x and phase, for samples of variance 1
-  double criterion = std::numeric_limits<double>::infinity();
+  double criterion = kInfinity;
   Eigen::VectorXd before, after;  // coefficients of phi_2, phi_3 ... on the two sides
   Eigen::Index unknowns = 0;
 };

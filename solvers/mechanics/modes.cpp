@@ -1,8 +1,8 @@
 #include "solvers/mechanics/modes.hpp"
 
 #include <cmath>
-#include <limits>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/algebra/null_space.hpp"
 #include "solvers/algebra/symmetric_modes.hpp"
 
@@ -69,9 +69,8 @@ void modes_derivative(const mechanics::LinearSystem& system, const mechanics::Li
                            2.0 * strain.dot((dampers * strain_by.array()).matrix()) +
                            strain.dot((dampers_by * strain.array()).matrix());
     const double ratio = damping_ratio(system, phi, omega);
-    const double none = std::numeric_limits<double>::quiet_NaN();
-    frequency.push_back(simple ? omega_by : none);
-    damping.push_back(simple ? loss_by / (2.0 * omega) - ratio * omega_by / omega : none);
+    frequency.push_back(simple ? omega_by : kNone);
+    damping.push_back(simple ? loss_by / (2.0 * omega) - ratio * omega_by / omega : kNone);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/orbits/orbit.hpp"
 #include "solvers/orbits/rest_directions.hpp"
 #include "solvers/orbits/spectral_radius.hpp"
@@ -67,7 +68,6 @@ double static_forces(const Flow<N, H>& flow, const Orbit<N, H>& orbit) {
 // as long as the events are the same throughout that ball.
 template <int N, int H>
 void judge_stability(Flow<N, H>& flow, Orbit<N, H>& orbit) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const StepEquations<N, H>& eq = flow.equations();
   const auto moving = moving_part(flow, orbit.passage.tangent, orbit.stuck_throughout);
   orbit.contraction = energy_operator_norm<N, H>(eq, moving);

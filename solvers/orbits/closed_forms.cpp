@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
+
+#include "solvers/algebra/no_value.hpp"
 
 namespace frahm::periodic {
 namespace {
 
 using std::numbers::pi;
 using Complex = std::complex<double>;
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 // sin(z)/z, -> 1 at z = 0.
 Complex sinc(Complex z) {

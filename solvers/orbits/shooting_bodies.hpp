@@ -1,8 +1,8 @@
 #pragma once
 
 #include <Eigen/LU>
-#include <limits>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/orbits/reasons.hpp"
 #include "solvers/orbits/rest_directions.hpp"
 #include "solvers/orbits/shooting.hpp"
@@ -131,7 +131,7 @@ void Shooting<N, H>::conclude(Verdict verdict, Orbit<N, H>& orbit) {
   orbit.status = Status::failed;
   if (orbit.passage.failure != nullptr) {
     orbit.reason = orbit.passage.failure;
-    orbit.residual = std::numeric_limits<double>::quiet_NaN();
+    orbit.residual = kNone;
     return;
   }
   orbit.z = current_.z;

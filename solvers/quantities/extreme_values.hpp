@@ -2,20 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/quantities/quantity.hpp"
 
 // The largest and least value of a quantity over a period, gathered from candidates.
 namespace frahm::periodic {
 
 struct Extremes {
-  double most = -std::numeric_limits<double>::infinity();
-  double least = std::numeric_limits<double>::infinity();
+  double most = -kInfinity;
+  double least = kInfinity;
   // omega t in [0, 2 pi) at which each is first reached; NaN where it is only held.
-  double most_phase = std::numeric_limits<double>::quiet_NaN();
-  double least_phase = std::numeric_limits<double>::quiet_NaN();
+  double most_phase = kNone;
+  double least_phase = kNone;
 
   double magnitude() const { return std::max(std::abs(most), std::abs(least)); }
   double peak(Side side) const {
@@ -46,10 +46,9 @@ class ExtremeCollector {
   const Extremes& extremes() const { return extremes_; }
 
   Extremes with_phases() const {
-    constexpr double kNever = std::numeric_limits<double>::quiet_NaN();
     Extremes result = extremes_;
-    if (most_reached_ < result.most - kEqual * std::abs(result.most)) result.most_phase = kNever;
-    if (least_reached_ < -result.least - kEqual * std::abs(result.least)) result.least_phase = kNever;
+    if (most_reached_ < result.most - kEqual * std::abs(result.most)) result.most_phase = kNone;
+    if (least_reached_ < -result.least - kEqual * std::abs(result.least)) result.least_phase = kNone;
     return result;
   }
 
@@ -65,8 +64,8 @@ class ExtremeCollector {
   }
 
   double section_, rate_;
-  double most_reached_ = -std::numeric_limits<double>::infinity();
-  double least_reached_ = -std::numeric_limits<double>::infinity();
+  double most_reached_ = -kInfinity;
+  double least_reached_ = -kInfinity;
   Extremes extremes_;
 };
 

@@ -2,7 +2,8 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <limits>
+
+#include "solvers/algebra/no_value.hpp"
 
 namespace frahm::periodic {
 namespace {
@@ -93,7 +94,7 @@ double modulus_derivative(std::complex<double> z, std::complex<double> z_by) {
 }
 
 double ratio(double a, double b) {
-  return b > 0.0 ? a / b : std::numeric_limits<double>::quiet_NaN();
+  return b > 0.0 ? a / b : kNone;
 }
 
 }  // namespace frahm::periodic

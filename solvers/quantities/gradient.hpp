@@ -1,10 +1,10 @@
 #pragma once
 
 #include <algorithm>
-#include <limits>
 #include <span>
 #include <vector>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/mechanics/modes.hpp"
 #include "solvers/mechanics/system_derivative.hpp"
 #include "solvers/quantities/extremes.hpp"
@@ -89,7 +89,7 @@ const char* Gradient<N, H>::evaluate(const Orbit<N, H>& orbit, const mechanics::
       tell_derivatives(request_, measured_, measured_by_, out.subspan(d * count, count), why_none_);
   }
   if (*reason == '\0') return reason;
-  std::fill(out.begin(), out.end(), std::numeric_limits<double>::quiet_NaN());
+  std::fill(out.begin(), out.end(), kNone);
   std::fill(why_none_.begin(), why_none_.end(), reason);
   return reason;
 }

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <limits>
 #include <vector>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/mechanics/linear_system.hpp"
 #include "solvers/quantities/candidate.hpp"
 #include "solvers/quantities/contact_history.hpp"
@@ -44,9 +44,9 @@ struct Measured {
   double input = 0.0, input_size = 0.0;   // work of the excitation, integral of |its power| [J] in a period
 
   Status status{};
-  double residual = 0.0;                                          // 1
-  double error_bound = std::numeric_limits<double>::quiet_NaN();  // [m]
-  double floquet_radius = 0.0;                                    // 1
+  double residual = 0.0;        // 1
+  double error_bound = kNone;   // [m]
+  double floquet_radius = 0.0;  // 1
   int newton_iterations = 0;
   int events = -1;           // in a period; -1: the law has none
   double static_norm = 0.0;  // energy norm of the static response to the excitation's amplitudes [sqrt(J)]
@@ -87,7 +87,7 @@ struct MeasuredDerivative {
 
 // A derivative, or why there is none.
 struct Derivative {
-  double value = std::numeric_limits<double>::quiet_NaN();
+  double value = kNone;
   const char* why_none = "";
 };
 

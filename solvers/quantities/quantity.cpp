@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string_view>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/quantities/quantity_table.hpp"
 
@@ -173,7 +173,7 @@ double missing_value(QuantityKind kind) {
     case QuantityKind::flag:
       return 0.0;
   }
-  return std::numeric_limits<double>::quiet_NaN();
+  return kNone;
 }
 
 bool is_missing(QuantityKind kind, double value) {

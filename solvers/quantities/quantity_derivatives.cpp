@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/quantities/fundamental_response.hpp"
 #include "solvers/quantities/quantity_values.hpp"
 
@@ -26,7 +27,7 @@ Derivative extreme(const Measured& m, D by, std::size_t trace, Side side) {
   if (m.half_period) side = Side::either;  // both sides are alike
   const Extremes& found = m.extremes[trace];
   double state_change = 0.0;  // of the orbit at the extremes
-  double smallest = std::numeric_limits<double>::infinity(), largest = -smallest;
+  double smallest = kInfinity, largest = -smallest;
   const auto include = [&](double value) {
     smallest = std::min(smallest, value);
     largest = std::max(largest, value);

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/quantities/fundamental_response.hpp"
 
 namespace frahm::periodic::value {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 Eigen::Index index_of(const Asked& asked) {
   return static_cast<Eigen::Index>(asked.quantity.index);

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "solvers/algebra/no_value.hpp"
+
 namespace frahm::periodic {
 namespace {
 
@@ -124,7 +126,6 @@ class DividedOrders final : public ResponseSolver {
   }
 
   double told(Measure measure, double value) const {
-    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     if (!has_reference_ && needs_reference_component(measure)) return kNone;
     if (!has_reference_ && measure == Measure::harmonic) return std::isnan(value) ? kNone : 0.0;
     if (measure == Measure::floquet_radius) return std::pow(value, divisor_);
@@ -134,8 +135,7 @@ class DividedOrders final : public ResponseSolver {
 
   // Of what is told as a multiple of what was found, which its derivative is too.
   double told_derivative(Measure measure, double value) const {
-    if (!has_reference_ && needs_reference_component(measure))
-      return std::numeric_limits<double>::quiet_NaN();
+    if (!has_reference_ && needs_reference_component(measure)) return kNone;
     if (!has_reference_ && measure == Measure::harmonic) return 0.0;
     if (measure == Measure::peak_phase) return value / divisor_;
     return is_of_a_period(measure) ? value * divisor_ : value;

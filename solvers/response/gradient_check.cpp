@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/mechanics/linear_system.hpp"
 #include "solvers/orbits/orbit.hpp"
 
 namespace frahm::periodic {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kFirstStep = 0.02;  // of the parameter: events of most orbits stay as they are
 constexpr int kSteps = 13;           // each half of the one before; the last 5e-6: rounding weighs 1e-7
 

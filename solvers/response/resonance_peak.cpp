@@ -6,17 +6,17 @@
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <tuple>
 #include <utility>
 #include <vector>
+
+#include "solvers/algebra/no_value.hpp"
 
 namespace frahm::periodic {
 namespace {
 
 using Function = std::function<double(double)>;
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kInfinite = kInfinity;
 constexpr std::uintmax_t kMostEvaluations = 200;
 constexpr std::size_t kMostMaxima = 16;  // solved: a curve of few modes has fewer
 

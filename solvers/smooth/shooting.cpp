@@ -2,9 +2,9 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <limits>
 #include <sstream>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/algebra/solve.hpp"
 #include "solvers/orbits/spectral_radius.hpp"
 
@@ -49,7 +49,7 @@ void Shooting::find(const Eigen::VectorXd& scale, Orbit& orbit) {
   }
   if (orbit.passage.failure != nullptr) {
     orbit.reason = orbit.passage.failure;
-    orbit.residual = std::numeric_limits<double>::quiet_NaN();
+    orbit.residual = kNone;
   } else if (!(orbit.residual <= options_.good_enough)) {
     orbit.reason = no_convergence(orbit);
   } else if (const double error = estimated_error(orbit); !(error <= options_.largest_error)) {

@@ -5,6 +5,7 @@
 #include <exception>
 #include <numbers>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/exact/exact_solver.hpp"
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/undamped_resonance.hpp"
@@ -75,7 +76,7 @@ class SmoothSolver final : public periodic::ResponseSolver {
   }
 
   const char* gradient(std::span<const mechanics::NetworkValues>, std::span<double> out) override {
-    std::fill(out.begin(), out.end(), std::numeric_limits<double>::quiet_NaN());
+    std::fill(out.begin(), out.end(), kNone);
     return why_no_derivative(0);
   }
   const char* why_no_derivative(std::size_t) const override {
@@ -111,7 +112,7 @@ class SmoothSolver final : public periodic::ResponseSolver {
 };
 
 const periodic::ResponseSummary& SmoothSolver::solve() {
-  orbit_.residual = std::numeric_limits<double>::quiet_NaN();
+  orbit_.residual = kNone;
   orbit_.newton_iterations = orbit_.passages = 0;
   orbit_.half_period = system_.odd_forcing;
   if (periodic::is_unbounded(system_, undamped_modes_)) {  // arctan friction takes out less than the exact

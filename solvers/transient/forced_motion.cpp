@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <numbers>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/transient/trajectory.hpp"
 
 namespace frahm::transient {
@@ -156,7 +156,7 @@ ForcedMotion run(const Problem& problem, int stairs) {
     complete = keep_frequency(driven, sweep.frequency(sweep.time), phase, options.duration);
   ForcedMotion motion;
   motion.stairs = stairs;
-  motion.discretisation_error = std::numeric_limits<double>::quiet_NaN();
+  motion.discretisation_error = kNone;
   if (!complete) motion.failure = driven.trajectory.failure();
   if (complete) driven.trajectory.finish();
   motion.energy = driven.trajectory.energy_budget();

@@ -2,18 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <optional>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/mechanics/undamped_resonance.hpp"
 #include "solvers/quantities/observables.hpp"
 #include "solvers/transient/trajectory.hpp"
 
 namespace frahm::transient {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 // Passages are short, so that what counts as rest shrinks with the motion, and not in step with its half
 // periods, so that stops do not fall between two passages.

@@ -1,8 +1,8 @@
 #include "solvers/transient/motion_sensitivity.hpp"
 
 #include <algorithm>
-#include <limits>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/transient/step_limits.hpp"
 
 namespace frahm::transient {
@@ -178,7 +178,7 @@ bool MotionSensitivity::is_at_rest() const {
 void MotionSensitivity::finish() {
   if (!is_at_rest()) {
     // The last instant, which lies before no step.
-    return sample(steps_.steps().size() - 1, std::numeric_limits<double>::infinity());
+    return sample(steps_.steps().size() - 1, kInfinity);
   }
   for (; next_sample_ < times_.size(); ++next_sample_) {
     const auto row = static_cast<Index>(next_sample_);

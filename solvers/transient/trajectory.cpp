@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 #include <vector>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/algebra/null_space.hpp"
 #include "solvers/algebra/solve.hpp"
 #include "solvers/mechanics/element_table.hpp"
@@ -17,7 +17,7 @@ namespace {
 using Eigen::Index;
 using periodic::bit, periodic::contains, periodic::ContactMask;
 
-constexpr double kNever = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNever = kNone;
 
 void check_initial(double value, const char* what) {
   const double size = std::abs(value);
@@ -296,9 +296,9 @@ bool Trajectory::friction_slides() const {
 // Held masses are released again only by forces that still change: those of Maxwell elements.
 bool Trajectory::is_at_rest() const {
   const auto& eq = flow_.equations();
-  constexpr double kGone = 1e-12;
+  constexpr double kRelaxed = 1e-12;
   const auto relaxing = (eq.internal_rate.array() > 0.0).select(z_.tail(eq.internal_forces()), 0.0);
-  return has_mode_ && free_directions_.cols() == 0 && relaxing.matrix().norm() <= kGone * eq.limit.norm();
+  return has_mode_ && free_directions_.cols() == 0 && relaxing.matrix().norm() <= kRelaxed * eq.limit.norm();
 }
 
 }  // namespace frahm::transient

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <functional>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/mechanics/network.hpp"
 #include "solvers/quantities/quantity.hpp"
 #include "solvers/tuning/problem/solver.hpp"
@@ -33,8 +33,7 @@ struct Band {
 struct Schedule {
   std::vector<double>
       knots;  // of the band parameter, ascending, at least two, from one end of the band to the other
-  double max_slope =
-      std::numeric_limits<double>::infinity();  // of the parameter over the band parameter, either way
+  double max_slope = kInfinity;  // of the parameter over the band parameter, either way
 };
 
 struct DesignParameter {
@@ -60,8 +59,8 @@ struct Weight {
 struct QuantityLimit {
   std::string name;  // of the quantity
   periodic::Quantity quantity;
-  double lower = -std::numeric_limits<double>::infinity();
-  double upper = std::numeric_limits<double>::infinity();
+  double lower = -kInfinity;
+  double upper = kInfinity;
   std::optional<Band> band;  // absent: the task's
 };
 

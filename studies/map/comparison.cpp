@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "solvers/algebra/no_value.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -89,8 +90,7 @@ void compare(std::span<const double> own, std::span<const double> other, std::sp
   for (std::size_t i = 0; i < own.size(); ++i) {
     const double size = std::abs(own[i]);
     variables[2 * i] = other[i];
-    variables[2 * i + 1] =
-        size > 0.0 ? std::abs(own[i] - other[i]) / size : std::numeric_limits<double>::quiet_NaN();
+    variables[2 * i + 1] = size > 0.0 ? std::abs(own[i] - other[i]) / size : kNone;
   }
   variables.back() = other.back();
 }

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 
+#include "solvers/algebra/no_value.hpp"
 #include "studies/map/grid.hpp"
 #include "studies/map/map_chunks.hpp"
 
@@ -70,7 +70,7 @@ std::vector<FlagCounts> count_flags(const results::MapReader& map) {
 
 WorstAlongAxis worst_along_slowest_axis(const results::MapReader& map, std::size_t variable) {
   WorstAlongAxis result{.variable = variable, .rows = {}};
-  result.rows.resize(map.layout().axes.front().size, {std::numeric_limits<double>::quiet_NaN(), {}});
+  result.rows.resize(map.layout().axes.front().size, {kNone, {}});
   std::vector<std::size_t> dimensions(map.layout().axes.size());
   for (std::size_t d = 0; d < dimensions.size(); ++d) dimensions[d] = d;
   for_each_chunk(map.layout(), [&](const MapBox& box) {

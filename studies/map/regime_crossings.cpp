@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <optional>
+
+#include "solvers/algebra/no_value.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -193,12 +194,12 @@ bool has_regime(Regime regime) {
 RegimePoint regime_point(Regime regime, const std::vector<periodic::Stretch>& stretches,
                          std::size_t element) {
   const auto sticks = [&](const periodic::Stretch& stretch) { return stretch.contacts[element] == "sticks"; };
-  double briefest = std::numeric_limits<double>::infinity();
+  double briefest = kInfinity;
   // From the first change between sticking and sliding once around.
   const std::size_t n = stretches.size();
   std::size_t first = 0;
   while (first < n && sticks(stretches[first]) == sticks(stretches[(first + n - 1) % n])) ++first;
-  if (first == n) return {regime, std::numeric_limits<double>::quiet_NaN()};
+  if (first == n) return {regime, kNone};
   double length = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
     const periodic::Stretch& stretch = stretches[(first + i) % n];

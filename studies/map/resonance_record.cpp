@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <memory>
 #include <utility>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/mechanics/linear_system.hpp"
 #include "solvers/orbits/orbit.hpp"
 #include "solvers/response/periodic_response.hpp"
@@ -61,7 +61,7 @@ class ResponseCurves {
   }
 
   std::vector<double> solve(double at) {
-    std::vector<double> amplitudes(study_.output.resonances.size(), std::numeric_limits<double>::quiet_NaN());
+    std::vector<double> amplitudes(study_.output.resonances.size(), kNone);
     set(at);
     try {
       response_.set_values(values_);
@@ -69,7 +69,7 @@ class ResponseCurves {
       return amplitudes;  // such a point of the map has failed, with its reason
     }
     if (response_.solve().status == periodic::Status::unbounded) {
-      std::fill(amplitudes.begin(), amplitudes.end(), std::numeric_limits<double>::infinity());
+      std::fill(amplitudes.begin(), amplitudes.end(), kInfinity);
       return amplitudes;
     }
     std::vector<double> found(2 * amplitudes.size());

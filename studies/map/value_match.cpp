@@ -4,6 +4,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "solvers/algebra/no_value.hpp"
+
 namespace frahm::studies {
 namespace {
 
@@ -19,7 +21,7 @@ std::vector<Value> distinct(std::span<const double> values) {
   sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
   std::vector<Value> result;
   for (std::size_t i = 0; i < sorted.size(); ++i) {
-    double step = std::numeric_limits<double>::infinity();
+    double step = kInfinity;
     if (i > 0) step = sorted[i] - sorted[i - 1];
     if (i + 1 < sorted.size()) step = std::min(step, sorted[i + 1] - sorted[i]);
     const double length = sorted.size() > 1 ? static_cast<double>(sorted.size()) * step : 0.0;
@@ -38,7 +40,7 @@ std::size_t first_not_below(std::span<const Value> values, double value) {
 std::uint32_t same_of(std::span<const Value> known, const Value& wanted) {
   const std::size_t above = first_not_below(known, wanted.value);
   std::uint32_t nearest = ValueMatch::none;
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   for (std::size_t i = above > 0 ? above - 1 : 0; i < std::min(above + 1, known.size()); ++i) {
     const double difference = std::abs(known[i].value - wanted.value);
     if (difference > known[i].rounding + wanted.rounding || difference >= least) continue;

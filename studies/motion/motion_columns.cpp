@@ -1,15 +1,15 @@
 #include "studies/motion/motion_columns.hpp"
 
 #include <algorithm>
-#include <limits>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/mechanics/element_table.hpp"
 
 namespace frahm::studies {
 
 void MotionColumns::add(const std::string& name, const char* unit, const std::string& long_name,
                         const std::string& dimension, std::vector<double> values, std::size_t size) {
-  values.resize(std::max(size, values.size()), std::numeric_limits<double>::quiet_NaN());
+  values.resize(std::max(size, values.size()), kNone);
   const bool bare = study_.dimensionless && std::string(unit) != "rad";
   columns_.push_back({.variable = {.name = name, .unit = bare ? "1" : unit, .long_name = long_name},
                       .dimension = dimension,

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/mechanics/linear_system.hpp"
 #include "solvers/orbits/orbit.hpp"
 #include "studies/map/comparison.hpp"
@@ -107,7 +107,7 @@ PointReport tell_point(const StudyFile& study, std::vector<double> parameters, s
   } catch (const mechanics::MechanicsError& error) {
     // As in a map: such a point is one that failed.
     report.reason = error.what();
-    report.residual = std::numeric_limits<double>::quiet_NaN();
+    report.residual = kNone;
     report.status = status_of(report);
     if (gradient) report.gradient = PointGradient{"there is no response", {}, {}};
     return report;

@@ -5,28 +5,29 @@
 #include "solvers/response/periodic_response.hpp"
 #include "solvers/transient/free_decay.hpp"
 #include "studies/program/verify_cases.hpp"
+#include "studies/program/verify_system.hpp"
 
 namespace frahm::studies {
 namespace {
 
-using mechanics::ElementType, mechanics::ExcitationKind, mechanics::NodeKind;
+using mechanics::ElementType, mechanics::ExcitationKind;
 using std::numbers::pi;
 
 constexpr double of_linear_response = 1e-10;
 constexpr double of_turning_points = 1e-12;  // relative to the first
 
-const mechanics::Node ground{}, mass{NodeKind::mass, 0};
+const mechanics::Node ground{};
 
 // Amplitude and phase lag of a unit mass on one spring and one more element, under a force cos(r t).
 struct Response {
   double amplitude = 0.0, phase = 0.0;
 };
 Response respond(ElementType beside, double r, double value, double second) {
-  const mechanics::Network network{
-      .masses = {"x"},
-      .prescribed = {},
-      .elements = {{"spring", ElementType::spring, ground, mass}, {"beside", beside, ground, mass}},
-      .excitations = {{ExcitationKind::force, 0, 1}}};
+  const mechanics::Network network{.masses = {"x"},
+                                   .prescribed = {},
+                                   .elements = {{"spring", ElementType::spring, ground, moving_mass},
+                                                {"beside", beside, ground, moving_mass}},
+                                   .excitations = {{ExcitationKind::force, 0, 1}}};
   const double spring = beside == ElementType::hysteretic ? 1e-300 : 1.0;  // its own stiffness instead
   periodic::PeriodicResponse response(network,
                                       {{periodic::Measure::harmonic, 0}, {periodic::Measure::phase, 0}});
@@ -59,9 +60,9 @@ void add_free_decay(std::vector<VerifyCase>& cases) {
   VerifyCase stop{"Free decay with friction: time of the stop", of_turning_points};
   const mechanics::Network network{.masses = {"x"},
                                    .prescribed = {},
-                                   .elements = {{"spring", ElementType::spring, ground, mass},
-                                                {"damper", ElementType::damper, ground, mass},
-                                                {"friction", ElementType::coulomb, ground, mass}},
+                                   .elements = {{"spring", ElementType::spring, ground, moving_mass},
+                                                {"damper", ElementType::damper, ground, moving_mass},
+                                                {"friction", ElementType::coulomb, ground, moving_mass}},
                                    .excitations = {}};
   for (const double zeta : {0.0, 0.01, 0.1, 0.5}) {
     for (const double x_f : {0.013, 0.07, 0.21}) {

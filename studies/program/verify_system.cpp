@@ -10,12 +10,12 @@ using mechanics::Node;
 using mechanics::NodeKind;
 using periodic::Measure;
 
-constexpr Node mass{NodeKind::mass, 0}, base{NodeKind::prescribed, 0};
+constexpr Node base{NodeKind::prescribed, 0};
 
 std::vector<mechanics::Element> spring_damper_friction(Node support, Node friction_support) {
-  return {{"spring", ElementType::spring, support, mass},
-          {"damper", ElementType::damper, support, mass},
-          {"friction", ElementType::coulomb, friction_support, mass}};
+  return {{"spring", ElementType::spring, support, moving_mass},
+          {"damper", ElementType::damper, support, moving_mass},
+          {"friction", ElementType::coulomb, friction_support, moving_mass}};
 }
 
 const std::vector<periodic::Quantity> asked_for = {{Measure::amplitude, 0},      {Measure::stroke, 0},

@@ -11,6 +11,8 @@
 // (or k Y).
 namespace frahm::studies {
 
+inline constexpr mechanics::Node moving_mass{mechanics::NodeKind::mass, 0};  // the one that moves
+
 mechanics::Network forced_mass(
     const std::vector<int>& orders);                     // a force of each order on the mass, all to ground
 mechanics::Network mass_on_base(bool friction_on_base);  // spring and damper to a base that moves

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "results/map_reader.hpp"
 #include "results/store_error.hpp"
+#include "solvers/algebra/no_value.hpp"
 #include "studies/reading/identify_reading.hpp"
 #include "studies/reading/readable_file.hpp"
 #include "studies/reading/spelling.hpp"
@@ -46,8 +46,7 @@ EarlierEstimates estimates_among(const Columns& columns, const std::string& file
     earlier.units.push_back(number->variable.unit);
     earlier.values.push_back(number->values.front());
     const results::Column* freedom = find_number(columns, of + "_degrees_of_freedom");
-    earlier.degrees_of_freedom.push_back(freedom ? freedom->values.front()
-                                                 : std::numeric_limits<double>::infinity());
+    earlier.degrees_of_freedom.push_back(freedom ? freedom->values.front() : kInfinity);
     earlier.covariance.push_back(row.values);
   }
   return earlier;

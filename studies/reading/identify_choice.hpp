@@ -2,11 +2,11 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/identification/measurement.hpp"
 #include "studies/reading/parameters.hpp"
 #include "studies/reading/study_values.hpp"
@@ -61,8 +61,8 @@ struct RecordChoice {
 struct IdentifiedParameter {
   std::size_t parameter = 0;  // index in Parameters::list, of a number
   UsualUnit unit;
-  double lower = -std::numeric_limits<double>::infinity();
-  double upper = std::numeric_limits<double>::infinity();
+  double lower = -kInfinity;
+  double upper = kInfinity;
   bool each_record = false;
   std::string estimate;  // of the other methods: the estimate whose value it takes; "" of a grey box
   Position position;
@@ -70,9 +70,9 @@ struct IdentifiedParameter {
 
 // `fixed_from`: the value of a parameter as an earlier identification found it.
 struct FixedEstimate {
-  std::size_t parameter = 0;  // index in Parameters::list, of a number
-  double value = 0.0;         // SI
-  double degrees_of_freedom = std::numeric_limits<double>::infinity();  // behind its variance
+  std::size_t parameter = 0;              // index in Parameters::list, of a number
+  double value = 0.0;                     // SI
+  double degrees_of_freedom = kInfinity;  // behind its variance
 };
 
 enum class IdentifyStart { given, free_decay };

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
-#include <limits>
 #include <vector>
 
+#include "solvers/algebra/no_value.hpp"
 #include "studies/reading/dual.hpp"
 
 namespace frahm::studies {
@@ -22,7 +22,7 @@ struct LookupTable {
 
 inline Dual LookupTable::at(const Dual& value) const {
   if (!(value.value >= x.front() && value.value <= x.back())) {
-    return {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
+    return {kNone, kNone};
   }
   const auto right = std::upper_bound(x.begin() + 1, x.end() - 1, value.value);
   const auto i = static_cast<std::size_t>(right - x.begin());

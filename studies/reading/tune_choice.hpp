@@ -1,11 +1,11 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/quantities/quantity.hpp"
 #include "solvers/tuning/task.hpp"
 #include "studies/reading/parameters.hpp"
@@ -27,8 +27,8 @@ struct DesignChoice {
   std::size_t parameter = 0;  // index in Parameters::list, of a number
   UsualUnit unit;
   double lower = 0.0, upper = 0.0;
-  std::vector<double> knots;  // of its schedule over the band parameter; empty: one constant
-  double max_slope = std::numeric_limits<double>::infinity();  // of the schedule, either way
+  std::vector<double> knots;       // of its schedule over the band parameter; empty: one constant
+  double max_slope = kInfinity;    // of the schedule, either way
   std::optional<StudyValue> rule;  // another schedule to compare with, over parameters and the band
   Position position;
 
@@ -40,8 +40,8 @@ struct LimitChoice {
   std::string name;  // of the quantity
   periodic::Quantity quantity;
   UsualUnit unit;
-  double lower = -std::numeric_limits<double>::infinity();
-  double upper = std::numeric_limits<double>::infinity();
+  double lower = -kInfinity;
+  double upper = kInfinity;
   std::optional<tuning::Band> band;
 };
 
@@ -64,8 +64,8 @@ struct ColumnChoice {
   std::string name;
   StudyValue value;
   std::string unit = "1";  // of the number the expression gives; not converted
-  double lower = -std::numeric_limits<double>::infinity();
-  double upper = std::numeric_limits<double>::infinity();
+  double lower = -kInfinity;
+  double upper = kInfinity;
 };
 
 // [tune] and what belongs to it.

@@ -5,6 +5,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "solvers/algebra/no_value.hpp"
 #include "studies/tuning/tuned_design.hpp"
 #include "studies/tuning/tuning_about.hpp"
 
@@ -82,8 +83,7 @@ std::vector<NamedLimit> named_limits(const StudyFile& study, double trade_off) {
   for (const LimitChoice& limit : study.tune->limits)
     limits.push_back({named(limit.name), limit.unit, limit.lower, limit.upper});
   if (const auto& choice = study.tune->trade_off)
-    limits.push_back(
-        {named(choice->name), choice->unit, -std::numeric_limits<double>::infinity(), trade_off});
+    limits.push_back({named(choice->name), choice->unit, -kInfinity, trade_off});
   return limits;
 }
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "solvers/algebra/no_value.hpp"
 #include "studies/tuning/outcome_words.hpp"
 #include "studies/tuning/tuning_about.hpp"
 
@@ -20,7 +20,7 @@ std::string per_unit(const std::string& a, const std::string& b) {
 
 using results::Type;
 using tuning::Optimum;
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+constexpr double missing = kNone;
 
 void add_numbers(const TuningAbout& about, GroupColumns& columns) {
   const std::string unit = objective_unit(about.study);

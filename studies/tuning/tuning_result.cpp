@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/mechanics/linear_system.hpp"
 #include "studies/tuning/tuned_design.hpp"
 #include "studies/tuning/tuning_task.hpp"
@@ -16,7 +17,7 @@ namespace {
 using tuning::Optimum, tuning::Outcome;
 
 double or_worst(double value) {
-  return std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
+  return std::isnan(value) ? kInfinity : value;
 }
 
 // Less is better.

@@ -17,7 +17,7 @@ namespace {
 
 using tuning::Optimum;
 
-std::string with_unit(double value, const std::string& unit) {
+std::string eight_digits(double value, const std::string& unit) {
   return fmt::format("{:.8g}{}", value, unit.empty() || unit == "1" ? "" : " " + unit);
 }
 
@@ -85,15 +85,15 @@ void print_design(const TuningAbout& about, std::ostream& out) {
 void print_objective(const TuningAbout& about, std::ostream& out) {
   const Optimum& optimum = about.optimum;
   const std::string unit = objective_unit(about.study);
-  fmt::print(out, "\n{:<24}{}\n", "objective", with_unit(optimum.objective, unit));
+  fmt::print(out, "\n{:<24}{}\n", "objective", eight_digits(optimum.objective, unit));
   for (const tuning::Curve& curve : about.result.assessment.curves) {
     if (curve.name == "after" || !about.tune.band) continue;
     const bool minimax = about.tune.objective == tuning::Objective::minimax;
     fmt::print(out, "  {}, {:<8}  {}\n", minimax ? "worst peak" : "objective ", curve.name,
-               with_unit(curve.worst, unit));
+               eight_digits(curve.worst, unit));
   }
   if (about.tune.has_schedule())
-    fmt::print(out, "  the best constant     {}\n", with_unit(optimum.constant_objective, unit));
+    fmt::print(out, "  the best constant     {}\n", eight_digits(optimum.constant_objective, unit));
   if (!std::isnan(optimum.certificate_gap))
     fmt::print(out, "{:<24}{:.3g} (relative)\n", "certificate gap", optimum.certificate_gap);
   fmt::print(out, "{:<24}{:.3g}\n", "KKT residual", optimum.kkt_residual);
@@ -193,7 +193,7 @@ void print_task(const StudyFile& study, std::ostream& out) {
     const BandChoice& band = *tune.band;
     const double factor = band.unit.si_factor;
     fmt::print(out, " over {} = {:.6g} .. {}", study.parameters.list[band.parameter].name,
-               band.range.from / factor, with_unit(band.range.to / factor, band.unit.text));
+               band.range.from / factor, eight_digits(band.range.to / factor, band.unit.text));
   }
   if (tune.objective == tuning::Objective::variance)
     fmt::print(out, " under white noise, {}", noise_words(study));

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/tuning/exchange/followed_maximum.hpp"
 
 namespace frahm::tuning {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 // Adds factor x d value / d x to `gradient` (of all variables).
 void add_gradient(const DesignSpace& space, const BandCurve& curve, std::size_t side, double factor,

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <vector>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/tuning/exchange/tuned_response.hpp"
 
 namespace frahm::tuning {
@@ -60,8 +60,8 @@ class BandCurve {
   const CurveKind& kind_;
   std::size_t sides_;  // of the quantity
   TunedResponse response_;
-  std::optional<TunedResponse> constant_;                            // of `dominated`
-  double constant_band_ = std::numeric_limits<double>::quiet_NaN();  // where it was solved last
+  std::optional<TunedResponse> constant_;  // of `dominated`
+  double constant_band_ = kNone;           // where it was solved last
   bool constant_has_derivatives_ = false;
   double factor_ = 1.0, offset_ = 0.0;  // value = factor X + offset at the place in hand
   double factor_slope_ = 0.0;           // d factor / d band

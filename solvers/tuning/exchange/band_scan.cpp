@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/tuning/exchange/band_maxima.hpp"
 #include "solvers/tuning/exchange/resonance_places.hpp"
 
 namespace frahm::tuning {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr int kIntervals = 48;  // of the even grid that a scan starts from
 
 }  // namespace

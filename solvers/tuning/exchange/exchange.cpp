@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/tuning/exchange/band_quadrature.hpp"
 
 namespace frahm::tuning {
@@ -41,7 +42,7 @@ class Convergence {
  private:
   static constexpr int kPatience = 6;
   double tolerance_, closed_;
-  double best_ = std::numeric_limits<double>::infinity();
+  double best_ = kInfinity;
   int stalled_ = 0;
 };
 

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "solvers/algebra/no_value.hpp"
 
 // An optimisation problem in plain terms (solved in solver.hpp):
 //
@@ -12,8 +13,6 @@
 //
 // Bounds may be infinite; equal bounds fix a variable or make a constraint an equality.
 namespace frahm::tuning {
-
-inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Variable {
   std::string name;

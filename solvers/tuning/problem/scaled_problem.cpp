@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solvers/algebra/no_value.hpp"
+
 namespace frahm::tuning {
 namespace {
 
@@ -233,7 +235,7 @@ Solution ScaledProblem::finish(Ending ending) {
       conclude({std::vector<double>(n), std::vector<double>(n), std::vector<double>(constraints())}, ending);
   result.ending = stopped_ ? Ending::stopped : ending;
   result.reason = reason_of(result.ending, solution_.reason);
-  result.kkt_residual = std::numeric_limits<double>::quiet_NaN();
+  result.kkt_residual = kNone;
   return result;
 }
 

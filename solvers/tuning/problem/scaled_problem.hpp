@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/tuning/problem/kkt.hpp"
 #include "solvers/tuning/problem/problem.hpp"
 
@@ -66,7 +67,7 @@ class ScaledProblem {
     std::vector<double> x;  // in the problem's units, as the objective
     double objective = 0.0, infeasibility = 0.0;
     // Of the KKT conditions; NaN where it was not looked at.
-    double residual = std::numeric_limits<double>::quiet_NaN();
+    double residual = kNone;
   };
   double residual() const;
   bool may_be_optimal(const Best& here) const;

@@ -1,13 +1,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/tuning/optimum.hpp"
 #include "solvers/tuning/stages/design_tuning.hpp"
 
 namespace frahm::tuning {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kChanges[] = {-0.10, -0.05, -0.01, 0.01, 0.05, 0.10};
 constexpr int kSamples = 400;
 

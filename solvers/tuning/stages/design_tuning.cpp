@@ -4,10 +4,10 @@
 #include <cmath>
 #include <optional>
 
+#include "solvers/algebra/no_value.hpp"
+
 namespace frahm::tuning {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 // The last stage may raise the worst peak by this share of it, to have room to move in.
 constexpr double kRoom = 1e-7;
@@ -164,7 +164,7 @@ std::vector<double> DesignTuning::place_by_place(const std::vector<double>& star
       if (!parameter.schedule) continue;
       for (std::size_t k = 0; k < space_.count(p); ++k) {
         const std::size_t variable = space_.first(p) + k;
-        double least = std::numeric_limits<double>::infinity(), best = x[variable];
+        double least = kInfinity, best = x[variable];
         for (int i = 0; i <= kTried; ++i) {
           x[variable] = parameter.lower + (parameter.upper - parameter.lower) * i / kTried;
           if (curve.solve(x, parameter.schedule->knots[k], false) != TunedResponse::State::solved) continue;

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <cstdio>
 
+#include "solvers/algebra/no_value.hpp"
+
 namespace frahm::tuning {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kBroken = 1e-9;  // a limit exceeded by less is met
 constexpr double kSlip =
     1e-6;  // by which a bound may lie above the worst peak: constraints are met to a tolerance
@@ -175,7 +176,7 @@ class Report {
 
   void write_limits(Optimum& optimum) {
     optimum.limits.resize(tuning_.limits().size());
-    std::vector<double> tightest(optimum.limits.size(), -std::numeric_limits<double>::infinity());
+    std::vector<double> tightest(optimum.limits.size(), -kInfinity);
     for (std::size_t c = 0; c < tuning_.curves().size(); ++c) {
       const CurveKind& kind = tuning_.curves()[c];
       if (kind.of == CurveKind::Of::objective) continue;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/mechanics/linear_system.hpp"
 #include "solvers/tuning/optimum.hpp"
 #include "solvers/tuning/stages/design_tuning.hpp"
@@ -9,8 +10,6 @@
 
 namespace frahm::tuning {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 void check(const Task& task) {
   const auto refuse = [](const std::string& what) { throw mechanics::MechanicsError(what); };
