@@ -7,16 +7,11 @@
 #include <cmath>
 
 #include "studies/reading/spelling.hpp"
+#include "studies/reading/trimmed.hpp"
 #include "studies/reading/units.hpp"
 
 namespace frahm::studies {
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(' ');
-  if (first == std::string_view::npos) return "";
-  return text.substr(first, text.find_last_not_of(' ') - first + 1);
-}
 
 class AssignmentReading {
  public:

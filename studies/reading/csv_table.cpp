@@ -9,6 +9,7 @@
 
 #include "studies/reading/readable_file.hpp"
 #include "studies/reading/study_source.hpp"
+#include "studies/reading/trimmed.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -17,12 +18,6 @@ constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 constexpr std::size_t longest_shown = 40;  // characters of a cell in a message
 
 using Cells = boost::tokenizer<boost::escaped_list_separator<char>>;
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
 
 std::string text_of(const std::filesystem::path& path, const std::string& name) {
   std::string text = read_file(path, name);

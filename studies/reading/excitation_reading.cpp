@@ -115,15 +115,6 @@ void read_motion(NetworkReading& reading, const TomlValue& table, std::size_t nu
   }
 }
 
-// The frequency, and with it which parameters are angular frequencies or ratios of them.
-void read_frequency(NetworkReading& reading, const TomlSection& section) {
-  auto& omega = reading.result.values.omega;
-  omega = read_value(reading, section, "frequency", Quantity::angular_frequency, Range::positive);
-  for (const std::size_t i : reading.parameters.inputs_of(omega.expression.reads())) {
-    reading.parameters.list[i].in_frequency = true;
-  }
-}
-
 // 1 if there are constant forces alone, where they will do.
 int lowest_order(const NetworkReading& reading, const TomlSection& section, bool constant_will_do) {
   int lowest = std::numeric_limits<int>::max();
@@ -183,7 +174,8 @@ void read_prescribed_nodes(NetworkReading& reading, const TomlValue& excitation)
 
 void read_excitation(NetworkReading& reading, const TomlValue& excitation, bool constant_will_do) {
   const TomlSection section(reading.context.source, excitation, "[excitation]", excitation_keys);
-  read_frequency(reading, section);
+  reading.result.values.omega =
+      read_value(reading, section, "frequency", Quantity::angular_frequency, Range::positive);
   std::size_t number = 0;
   for (const TomlValue* table : read_tables(section.source(), excitation, force_path)) {
     read_force(reading, *table, ++number);

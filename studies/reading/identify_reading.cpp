@@ -62,17 +62,6 @@ void read_method(const TomlSection& section, IdentifyChoice& choice) {
   choice.cycles = static_cast<std::size_t>(cycles);
 }
 
-std::optional<StudyValue> read_optional(NetworkReading& reading, const TomlSection& section,
-                                        const std::string& key, Quantity quantity,
-                                        Range range = Range::positive) {
-  if (!section.find(key)) return std::nullopt;
-  StudyValue value = read_value(reading, section, key, quantity, range);
-  if (quantity != Quantity::angular_frequency) return value;
-  for (const std::size_t i : reading.parameters.inputs_of(value.expression.reads()))
-    reading.parameters.list[i].in_frequency = true;
-  return value;
-}
-
 void read_known_values(NetworkReading& reading, const TomlSection& section, IdentifyChoice& choice) {
   choice.mass = read_optional(reading, section, "mass", Quantity::mass);
   choice.stiffness = read_optional(reading, section, "stiffness", Quantity::stiffness);

@@ -13,17 +13,6 @@ using mechanics::NodeKind;
 constexpr std::int64_t most_samples = 10'000'000;      // of a history: some hundred megabytes
 constexpr std::int64_t samples_of_a_transient = 1001;  // smooth to the eye over dozens of periods
 
-std::optional<StudyValue> read_optional(NetworkReading& reading, const TomlSection& section,
-                                        const std::string& key, Quantity quantity) {
-  if (!section.find(key)) return std::nullopt;
-  StudyValue value = read_value(reading, section, key, quantity, Range::positive);
-  if (quantity != Quantity::angular_frequency) return value;
-  for (const std::size_t i : reading.parameters.inputs_of(value.expression.reads())) {
-    reading.parameters.list[i].in_frequency = true;
-  }
-  return value;
-}
-
 int read_samples(const TomlSection& section, std::int64_t otherwise) {
   const std::int64_t samples = section.integer_or("samples", otherwise);
   const bool none = samples == 0 && otherwise == 0;

@@ -240,6 +240,10 @@ StudyValue read_value(NetworkReading& reading, const TomlSection& section, const
   if (value->as<std::string>()) {
     result.expression = read_expression(reading.context, reading.parameters, result.where, *value);
     note_quantity(reading.parameters, result);
+    if (quantity != Quantity::angular_frequency) return result;
+    for (const std::size_t i : reading.parameters.inputs_of(result.expression.reads())) {
+      reading.parameters.list[i].in_frequency = true;
+    }
     return result;
   }
   const NumberWithUnit number = read_number_with_unit(reading.context, result.where, *value);
@@ -249,6 +253,12 @@ StudyValue read_value(NetworkReading& reading, const TomlSection& section, const
     throw section.source().error_at(number.unit_position, fmt::format("{}: {}", result.where, error.what()));
   }
   return result;
+}
+
+std::optional<StudyValue> read_optional(NetworkReading& reading, const TomlSection& section,
+                                        const std::string& key, Quantity quantity, Range range) {
+  if (!section.find(key)) return std::nullopt;
+  return read_value(reading, section, key, quantity, range);
 }
 
 NetworkOfStudy read_network(const StudyContext& context, const TomlValue& root, Parameters& parameters,

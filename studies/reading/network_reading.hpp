@@ -39,6 +39,9 @@ std::vector<std::string> node_names(const mechanics::Network& network);
 // absent.
 StudyValue read_value(NetworkReading& reading, const TomlSection& section, const std::string& key,
                       Quantity quantity, Range range, std::optional<double> otherwise = std::nullopt);
+std::optional<StudyValue> read_optional(NetworkReading& reading, const TomlSection& section,
+                                        const std::string& key, Quantity quantity,
+                                        Range range = Range::positive);
 
 // [[excitation.motion]] names the nodes of prescribed motion, so it comes before the elements. [excitation]
 // with its forces and the frequency comes after the masses. Constant forces alone are refused unless
