@@ -1,6 +1,7 @@
 #include "solvers/tuning/variance/lyapunov.hpp"
 
 #include <Eigen/Core>
+#include <complex>
 
 namespace frahm::tuning {
 namespace {
@@ -37,8 +38,25 @@ MatrixXcd solve_triangular_adjoint(const MatrixXcd& T, const MatrixXcd& W) {
   return Y;
 }
 
-MatrixXd symmetric(const MatrixXd& P) {
-  return 0.5 * (P + P.transpose());
+// U^H R U
+MatrixXcd in_schur_basis(const MatrixXcd& U, const MatrixXd& R) {
+  const MatrixXcd right = R.cast<std::complex<double>>() * U;
+  return U.adjoint() * right;
+}
+
+// The symmetric part of U Y U^H, which is real but for rounding.
+MatrixXd from_schur_basis(const MatrixXcd& U, const MatrixXcd& Y) {
+  const MatrixXcd right = Y * U.adjoint();
+  const MatrixXcd P = U * right;
+  return 0.5 * (P.real() + P.real().transpose());
+}
+
+// A P + P A^T + W
+MatrixXd residual(const MatrixXd& A, const MatrixXd& P, const MatrixXd& W) {
+  MatrixXd R = W;
+  R.noalias() += A * P;
+  R.noalias() += P * A.transpose();
+  return R;
 }
 
 }  // namespace
@@ -51,23 +69,20 @@ double Lyapunov::abscissa() const {
 }
 
 MatrixXd Lyapunov::solve(const MatrixXd& W) const {
-  const MatrixXcd& T = schur_.T;
-  const MatrixXcd& U = schur_.U;
   MatrixXd P = MatrixXd::Zero(A_.rows(), A_.cols());
   for (int round = 0; round <= kRefinements; ++round) {
-    const MatrixXd residual = A_ * P + P * A_.transpose() + W;
-    P += symmetric((U * solve_triangular(T, U.adjoint() * residual * U) * U.adjoint()).real());
+    const MatrixXcd R = in_schur_basis(schur_.U, residual(A_, P, W));
+    P += from_schur_basis(schur_.U, solve_triangular(schur_.T, R));
   }
   return P;
 }
 
 MatrixXd Lyapunov::solve_adjoint(const MatrixXd& W) const {
-  const MatrixXcd& T = schur_.T;
-  const MatrixXcd& U = schur_.U;
+  const MatrixXd transposed = A_.transpose();
   MatrixXd Q = MatrixXd::Zero(A_.rows(), A_.cols());
   for (int round = 0; round <= kRefinements; ++round) {
-    const MatrixXd residual = A_.transpose() * Q + Q * A_ + W;
-    Q += symmetric((U * solve_triangular_adjoint(T, U.adjoint() * residual * U) * U.adjoint()).real());
+    const MatrixXcd R = in_schur_basis(schur_.U, residual(transposed, Q, W));
+    Q += from_schur_basis(schur_.U, solve_triangular_adjoint(schur_.T, R));
   }
   return Q;
 }
