@@ -18,9 +18,15 @@ enum class Outcome {
   stopped,        // by the caller
 };
 
+// A multiplier tells what holds an optimum: it is 0 of a peak, bound or limit that does not, and NaN where
+// the tuning did not converge. Rounding counts as 0.
+
+enum class AtBound { no, lower, upper };
+
 // A design parameter at the optimum [SI]. One entry each of a constant, one per knot of a schedule.
 struct TunedParameter {
   std::vector<double> value;
+  std::vector<AtBound> at_bound;
   std::vector<double> lower_multiplier,
       upper_multiplier;  // fall of the objective per unit by which the bound is moved outwards, >= 0
 };
@@ -28,10 +34,9 @@ struct TunedParameter {
 // A local maximum of the weighted quantity over the band.
 struct Peak {
   std::size_t scenario = 0;
-  double at = 0.0;     // band parameter [SI]
-  double value = 0.0;  // weighted
-  double multiplier =
-      0.0;  // its share in what holds the optimum; shares of a minimax sum to 1. 0: not active
+  double at = 0.0;          // band parameter [SI]
+  double value = 0.0;       // weighted
+  double multiplier = 0.0;  // its share in what holds the optimum; shares of a minimax sum to 1
   std::vector<double>
       sensitivity;  // d value / d parameter, of the design parameters and of their schedules as a whole
 };
@@ -41,6 +46,7 @@ struct LimitState {
   double value = 0.0;  // of the quantity
   double at = 0.0;     // band parameter [SI]
   std::size_t scenario = 0;
+  double excess = 0.0;      // of the value over the limit, relative to the limit; 0 where the limit is met
   double multiplier = 0.0;  // how much the objective falls per unit by which the limit is relaxed, >= 0
 };
 

@@ -22,7 +22,9 @@ class Writing {
   }
   void take(const double& number) { take(std::bit_cast<std::uint64_t>(number)); }
   void take(const int& number) { take(static_cast<std::uint64_t>(number)); }
-  void take(const tuning::Outcome& outcome) { take(static_cast<int>(outcome)); }
+  template <class Choice>
+  requires std::is_enum_v<Choice>
+  void take(const Choice& choice) { take(static_cast<int>(choice)); }
   void take(const std::string& text) {
     take(std::uint64_t{text.size()});
     const auto bytes = std::as_bytes(std::span(text));
@@ -46,7 +48,9 @@ class Reading {
   void take(std::uint64_t& number) { number = engine::get_little_endian<std::uint64_t>(first(word).data()); }
   void take(double& number) { number = std::bit_cast<double>(next()); }
   void take(int& number) { number = static_cast<int>(next()); }
-  void take(tuning::Outcome& outcome) { outcome = static_cast<tuning::Outcome>(next()); }
+  template <class Choice>
+  requires std::is_enum_v<Choice>
+  void take(Choice& choice) { choice = static_cast<Choice>(next()); }
   void take(std::string& text) {
     const auto bytes = first(next());
     text.assign(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -88,11 +92,11 @@ template <class Archive, class Item>
 void each(Archive& archive, Item& item) {
   using Type = std::remove_const_t<Item>;
   if constexpr (std::is_same_v<Type, TunedParameter>) {
-    members(archive, item.value, item.lower_multiplier, item.upper_multiplier);
+    members(archive, item.value, item.at_bound, item.lower_multiplier, item.upper_multiplier);
   } else if constexpr (std::is_same_v<Type, Peak>) {
     members(archive, item.scenario, item.at, item.value, item.multiplier, item.sensitivity);
   } else if constexpr (std::is_same_v<Type, LimitState>) {
-    members(archive, item.value, item.at, item.scenario, item.multiplier);
+    members(archive, item.value, item.at, item.scenario, item.excess, item.multiplier);
   } else if constexpr (std::is_same_v<Type, Round>) {
     members(archive, item.active, item.iterations, item.bound, item.worst, item.violation);
   } else if constexpr (std::is_same_v<Type, Optimum>) {

@@ -22,7 +22,8 @@ TuningResult example_of(const StudyFile& study) {
   tuning::Optimum optimum;
   for (const DesignChoice& design : tune.designs) {
     const std::vector<double> zeros(design.is_scheduled() ? design.knots.size() : 1, 0.0);
-    optimum.parameters.push_back({zeros, zeros, zeros});
+    optimum.parameters.push_back(
+        {.value = zeros, .at_bound = {}, .lower_multiplier = zeros, .upper_multiplier = zeros});
   }
   optimum.peaks.emplace_back();
   optimum.rounds.emplace_back();

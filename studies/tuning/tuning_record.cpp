@@ -20,7 +20,6 @@ std::string per_unit(const std::string& a, const std::string& b) {
 
 using results::Type;
 using tuning::Optimum;
-constexpr double missing = kNone;
 
 void add_numbers(const TuningAbout& about, GroupColumns& columns) {
   const std::string unit = objective_unit(about.study);
@@ -58,7 +57,7 @@ void add_design(const TuningAbout& about, GroupColumns& columns, std::size_t i) 
   const bool known = has_design(about.study, about.optimum);
   const std::size_t size = choice.is_scheduled() ? choice.knots.size() : 1;
   const auto spoken = [&](std::vector<double> values, double by) {
-    values.resize(size, missing);
+    values.resize(size, kNone);
     for (double& value : values) value *= by;
     return values;
   };
@@ -78,6 +77,11 @@ void add_design(const TuningAbout& about, GroupColumns& columns, std::size_t i) 
     columns.add_number(name + "_max_slope", per_unit(unit, about.band_unit),
                        "largest slope that the schedule of " + name + " may have, up or down",
                        choice.max_slope * about.tune.band->unit.si_factor / factor);
+  std::vector<double> at_bound;  // flags from 1
+  for (const tuning::AtBound end : tuned.at_bound) at_bound.push_back(1.0 + static_cast<double>(end));
+  at_bound.resize(size, 0.0);
+  columns.add_flag(name + "_at_bound", "whether " + name + " lies on a bound", along,
+                   {"no", "lower", "upper"}, at_bound);
   const std::string price = per_unit(objective_unit(about.study), unit);
   columns.add(name + "_lower_multiplier", price,
               "fall of the objective per unit by which the lower bound of " + name + " is moved down", along,
@@ -86,7 +90,7 @@ void add_design(const TuningAbout& about, GroupColumns& columns, std::size_t i) 
               "fall of the objective per unit by which the upper bound of " + name + " is moved up", along,
               spoken(tuned.upper_multiplier, factor));
   if (!about.tune.has_schedule()) return;
-  const double constant = i < about.optimum.constant.size() ? about.optimum.constant[i] : missing;
+  const double constant = i < about.optimum.constant.size() ? about.optimum.constant[i] : kNone;
   columns.add_number(name + "_constant", unit, name + " of the best constant design", constant / factor);
 }
 
@@ -109,7 +113,7 @@ void add_peaks(const TuningAbout& about, GroupColumns& columns) {
     const double factor = about.designs[i].choice.unit.si_factor;
     std::vector<double> slopes;
     for (const tuning::Peak& peak : about.optimum.peaks)
-      slopes.push_back(i < peak.sensitivity.size() ? peak.sensitivity[i] * factor : missing);
+      slopes.push_back(i < peak.sensitivity.size() ? peak.sensitivity[i] * factor : kNone);
     columns.add(about.designs[i].name + "_sensitivity", per_unit(unit, about.designs[i].unit),
                 "derivative of the maximum by " + about.designs[i].name + " as a whole", "peak", slopes);
   }
@@ -124,18 +128,21 @@ void add_limits(const TuningAbout& about, GroupColumns& columns) {
     const bool known = i < about.optimum.limits.size();
     const tuning::LimitState state = known ? about.optimum.limits[i] : tuning::LimitState{};
     columns.add_number(name + "_limited", unit, name + " where it is nearest to its limit",
-                       known ? state.value / factor : missing);
+                       known ? state.value / factor : kNone);
     columns.add_number(name + "_lower_limit", unit, "lower limit of " + name,
-                       std::isfinite(lower) ? lower / factor : missing);
+                       std::isfinite(lower) ? lower / factor : kNone);
     columns.add_number(name + "_upper_limit", unit, "upper limit of " + name,
-                       std::isfinite(upper) ? upper / factor : missing);
+                       std::isfinite(upper) ? upper / factor : kNone);
     columns.add_number(name + "_limited_at", about.band_unit, about.band + " there",
-                       known ? about.spoken_band(state.at) : missing);
+                       known ? about.spoken_band(state.at) : kNone);
     columns.add_count(name + "_limited_scenario", "scenario there, from 0", "",
                       {known ? static_cast<double>(state.scenario) : -1.0});
+    columns.add_number(name + "_limit_excess", "1",
+                       name + " over its limit, relative to the limit; 0 where the limit is met",
+                       known ? state.excess : kNone);
     columns.add_number(name + "_limit_multiplier", per_unit(objective_unit(about.study), unit),
                        "fall of the objective per unit by which the limit is relaxed",
-                       known ? state.multiplier * factor : missing);
+                       known ? state.multiplier * factor : kNone);
   }
 }
 
@@ -200,7 +207,7 @@ void add_designs(const TuningAbout& about, const std::string& prefix, const std:
       for (const Optimum* optimum : optima)
         values.push_back(has_design(about.study, *optimum)
                              ? optimum->parameters[i].value[k] / choice.unit.si_factor
-                             : missing);
+                             : kNone);
       const std::string knot = choice.is_scheduled() ? fmt::format("_{}", k) : "";
       columns.add(prefix + name + knot, unit,
                   fmt::format("{}{} {}", name, knot.empty() ? "" : fmt::format(" at knot {}", k), what),

@@ -25,23 +25,13 @@ std::string in_brackets(const std::string& name, const std::string& unit) {
   return unit.empty() || unit == "1" ? name : fmt::format("{} [{}]", name, unit);
 }
 
-// An optimiser of interior points ends this near to a bound, part of the range.
-constexpr double on_a_bound = 1e-6;
-
-// The bound on which a parameter lies, and what moving it by one unit would give; "" if it lies on none.
-struct HeldBy {
-  std::string bound;
-  double multiplier = 0.0;
-};
-HeldBy held_by(const DesignChoice& design, const tuning::TunedParameter& tuned, std::size_t k) {
-  const double near = on_a_bound * (design.upper - design.lower);
-  const auto multiplier = [&](const std::vector<double>& of) { return k < of.size() ? of[k] : 0.0; };
-  const HeldBy lower{"lower", multiplier(tuned.lower_multiplier)},
-      upper{"upper", multiplier(tuned.upper_multiplier)};
-  const bool at_lower = tuned.value[k] <= design.lower + near,
-             at_upper = tuned.value[k] >= design.upper - near;
-  if (at_lower && at_upper) return lower.multiplier >= upper.multiplier ? lower : upper;
-  return at_lower ? lower : at_upper ? upper : HeldBy{};
+// The bound on which a parameter lies, and, where that holds the optimum, what moving it by one unit gives.
+std::string bound_words(const tuning::TunedParameter& tuned, double factor) {
+  if (tuned.at_bound[0] == tuning::AtBound::no) return "";
+  const bool lower = tuned.at_bound[0] == tuning::AtBound::lower;
+  const double multiplier = (lower ? tuned.lower_multiplier : tuned.upper_multiplier)[0] * factor;
+  return fmt::format("  {} bound{}", lower ? "lower" : "upper",
+                     multiplier > 0.0 ? fmt::format(", {:.4g} a unit", multiplier) : "");
 }
 
 std::string percent(double part, const char* form) {
@@ -55,9 +45,7 @@ void print_constant(const TuningAbout& about, std::size_t i, std::ostream& out) 
   const double before = about.study.parameters.nominal()[choice.parameter];
   fmt::print(out, "{:<22}{:>16.10g}{:>14.6g}{:>12.6g}{:>12.6g}", in_brackets(name, unit),
              tuned.value[0] / factor, before / factor, choice.lower / factor, choice.upper / factor);
-  const HeldBy held = held_by(choice, tuned, 0);
-  if (!held.bound.empty()) fmt::print(out, "  {} bound, {:.4g} a unit", held.bound, held.multiplier * factor);
-  fmt::print(out, "\n");
+  fmt::print(out, "{}\n", bound_words(tuned, factor));
 }
 
 void print_schedule(const TuningAbout& about, std::size_t i, std::ostream& out) {
@@ -69,13 +57,13 @@ void print_schedule(const TuningAbout& about, std::size_t i, std::ostream& out) 
   fmt::print(out, "{:<22}{:>16}{:>14.6g}{:>12.6g}{:>12.6g}", in_brackets(name, unit),
              fmt::format("{:.5g} .. {:.5g}", *least / factor, *most / factor), before / factor,
              choice.lower / factor, choice.upper / factor);
-  std::size_t held = 0;
-  for (std::size_t k = 0; k < tuned.value.size(); ++k) held += !held_by(choice, tuned, k).bound.empty();
-  fmt::print(out, "  {} knots over {}, {} held by bounds\n", choice.knots.size(), about.band, held);
+  const auto between = std::ranges::count(tuned.at_bound, tuning::AtBound::no);
+  fmt::print(out, "  {} knots over {}, {} on bounds\n", choice.knots.size(), about.band,
+             std::ssize(tuned.at_bound) - between);
 }
 
 void print_design(const TuningAbout& about, std::ostream& out) {
-  fmt::print(out, "\n{:<22}{:>16}{:>14}{:>12}{:>12}  held by\n", "parameter", "optimum", "before", "lower",
+  fmt::print(out, "\n{:<22}{:>16}{:>14}{:>12}{:>12}  lies on\n", "parameter", "optimum", "before", "lower",
              "upper");
   for (std::size_t i = 0; i < about.designs.size(); ++i) {
     about.designs[i].choice.is_scheduled() ? print_schedule(about, i, out) : print_constant(about, i, out);
@@ -101,7 +89,7 @@ void print_objective(const TuningAbout& about, std::ostream& out) {
 }
 
 void print_peaks(const TuningAbout& about, std::ostream& out) {
-  const auto is_active = [](const tuning::Peak& peak) { return peak.multiplier > 1e-6; };
+  const auto is_active = [](const tuning::Peak& peak) { return peak.multiplier > 0.0; };
   if (std::none_of(about.optimum.peaks.begin(), about.optimum.peaks.end(), is_active)) return;
   const auto names = scenario_names(about.study);
   fmt::print(out, "\nactive peaks\n{:>18}{:>18}{:>10}\n", in_brackets(about.band, about.band_unit),
@@ -123,9 +111,10 @@ void print_limits(const TuningAbout& about, std::ostream& out) {
     const auto bound = [&](double value) {
       return std::isfinite(value) ? fmt::format("{:.6g}", value / factor) : std::string("-");
     };
-    fmt::print(out, "{:<34}{:>14.6g}{:>12}{:>12}{:>14.4g}\n", in_brackets(name, unit.text),
-               about.optimum.limits[i].value / factor, bound(lower), bound(upper),
-               about.optimum.limits[i].multiplier * factor);
+    const tuning::LimitState& state = about.optimum.limits[i];
+    fmt::print(out, "{:<34}{:>14.6g}{:>12}{:>12}{:>14.4g}{}\n", in_brackets(name, unit.text),
+               state.value / factor, bound(lower), bound(upper), state.multiplier * factor,
+               state.excess > 0.0 ? fmt::format("  broken by {:.4g} %", 100.0 * state.excess) : "");
   }
 }
 

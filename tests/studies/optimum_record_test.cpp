@@ -14,7 +14,9 @@ tuning::Optimum sample() {
   optimum.outcome = tuning::Outcome::not_converged;
   optimum.reason = "the gap falls no more";
   optimum.trade_off = 0.08;
-  optimum.parameters = {{{1.0 / 3.0, -0.0}, {0.0, 1e-300}, {5e-324, 2.0}}, {{11e3}, {0.0}, {0.0}}};
+  optimum.parameters = {
+      {{1.0 / 3.0, -0.0}, {tuning::AtBound::no, tuning::AtBound::upper}, {0.0, 1e-300}, {5e-324, 2.0}},
+      {{11e3}, {tuning::AtBound::lower}, {0.0}, {0.0}}};
   optimum.objective = 0.1;
   optimum.certificate_gap = std::numeric_limits<double>::quiet_NaN();
   optimum.kkt_residual = std::numeric_limits<double>::infinity();
@@ -22,7 +24,7 @@ tuning::Optimum sample() {
   optimum.constant_objective = 0.2;
   optimum.constant = {6.0, 11e3};
   optimum.peaks = {{1, 25.0, 0.1, 0.5, {1.0, -2.0}}, {0, 30.0, 0.09, 0.0, {}}};
-  optimum.limits = {{0.07, 26.0, 1, 3.5}};
+  optimum.limits = {{0.07, 26.0, 1, 0.25, 3.5}};
   optimum.rounds = {{7, 12, 0.099, 0.101, 0.0}, {9, 4, 0.1, 0.1, 0.0}};
   optimum.iterations = 16;
   optimum.orbits = std::uint64_t{1} << 40;
@@ -46,11 +48,13 @@ TEST_CASE("a record of optima is read back to the last bit") {
   CHECK(one.outcome == tuning::Outcome::not_converged);
   CHECK(one.reason == "the gap falls no more");
   CHECK(std::signbit(one.parameters[0].value[1]));
+  CHECK(one.parameters[0].at_bound[1] == tuning::AtBound::upper);
   CHECK(one.parameters[0].upper_multiplier[0] == 5e-324);
   CHECK(std::isnan(one.certificate_gap));
   CHECK(one.constant == std::vector<double>{6.0, 11e3});
   CHECK(one.peaks[0].sensitivity == std::vector<double>{1.0, -2.0});
   CHECK(one.limits[0].scenario == 1);
+  CHECK(one.limits[0].excess == 0.25);
   CHECK(one.rounds[1].active == 9);
   CHECK(one.orbits == std::uint64_t{1} << 40);
 }

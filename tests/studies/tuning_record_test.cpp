@@ -50,10 +50,12 @@ tuning::Optimum optimum_of(double objective, tuning::Outcome outcome = tuning::O
 // A result of the rig's shape, made up.
 TuningResult rig_result(const StudyFile& study) {
   tuning::Optimum optimum = optimum_of(0.02);
-  optimum.parameters = {{{5, 9, 6}, {0, 0, 0}, {0, 1e-3, 0}}, {{12e3}, {0}, {2e-6}}};
+  using enum tuning::AtBound;
+  optimum.parameters = {{{5, 9, 6}, {no, upper, no}, {0, 0, 0}, {0, 1e-3, 0}},
+                        {{12e3}, {upper}, {0}, {2e-6}}};
   const tuning::Band& band = study.tune->band->range;
   optimum.peaks = {{0, band.from, 0.02, 1.0, {1e-3, 3e-6}}};
-  optimum.limits = {{0.07, band.to, 0, 0.25}};
+  optimum.limits = {{0.07, band.to, 0, 0.125, 0.25}};
   optimum.constant = {8.0, 11e3};
   TuningResult result{.starts = {{0, {optimum_of(0.03)}}, {1, {optimum}}}, .best = {1}, .assessment = {}};
   result.assessment.band = {band.from, 0.5 * (band.from + band.to), band.to};
@@ -78,6 +80,8 @@ TEST_CASE("the record of a tuning is in the units of its study") {
   CHECK(unit("k") == "kN/m");
   CHECK_THAT(values("k_upper_multiplier")[0], Catch::WithinRel(2e-3, rounding));
   CHECK(unit("k_upper_multiplier") == "m (kN/m)-1");
+  CHECK(values("k_at_bound") == std::vector<double>{3});
+  CHECK(values("I_at_bound") == std::vector<double>{1, 3, 1});
   CHECK_THAT(values("k_before")[0], Catch::WithinRel(11.0, rounding));
   CHECK(values("I") == std::vector<double>{5, 9, 6});
   CHECK(named(columns, "I").dimension == "knots_I");
@@ -88,6 +92,7 @@ TEST_CASE("the record of a tuning is in the units of its study") {
   CHECK_THAT(values("k_sensitivity")[0], Catch::WithinRel(3e-3, rounding));
   CHECK_THAT(values("peak_n")[0], Catch::WithinRel(150.0, rounding));
   CHECK_THAT(values("tmd_spring_stroke_limited")[0], Catch::WithinRel(70.0, rounding));
+  CHECK(values("tmd_spring_stroke_limit_excess") == std::vector<double>{0.125});
   CHECK_THAT(values("tmd_spring_stroke_limit_multiplier")[0], Catch::WithinRel(0.25e-3, rounding));
   CHECK(std::isnan(values("tmd_spring_stroke_lower_limit")[0]));
   CHECK(named(columns, "response_after").dimension == "n");

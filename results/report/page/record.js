@@ -34,6 +34,10 @@ export class Group {
     const column = this.byName.get(name);
     return column ? meaningOf(column, column.values[i]) : "";
   }
+  // The words of a flag, one of each row; none where there is no such flag.
+  words(name) {
+    return Array.from(this.values(name) ?? [], (_, i) => this.word(name, i));
+  }
   along(dimension) {
     return this.columns.filter((column) => column.dimension === dimension);
   }

@@ -2,9 +2,7 @@
 import { words } from "./units.js";
 
 export const designNames = { before: "before", after: "tuned", constant: "best constant", rule: "rule" };
-const brokenFrom = 1e-5; // relative, from which a limit counts as broken
 const sameHeight = 1e-6; // relative, within which two peaks are as high
-const heldFrom = 1e-6; // share, or relative gain, from which something counts as holding the design
 
 // "(m)2" to "m": the unit of the root of a mean square or a variance.
 export function rootUnit(unit) {
@@ -41,6 +39,7 @@ function parameterOf(group, name) {
     before: number("before"),
     constant: number("constant"),
     maxSlope: number("max_slope"),
+    atBound: group.words(`${name}_at_bound`),
     lowerMultiplier: group.values(`${name}_lower_multiplier`) ?? [],
     upperMultiplier: group.values(`${name}_upper_multiplier`) ?? [],
     schedule: group.values(`${name}_schedule`),
@@ -68,20 +67,12 @@ function peaksOf(group, band, scenarios, { converged, objective }) {
       atEnd: isEndOf(group.values(band), at),
       value,
       share,
-      active: converged && share > heldFrom,
+      active: share > 0,
       asHigh: Math.abs(value - objective) <= sameHeight * Math.abs(objective),
       number: i,
       scenario: scenarios[group.values("peak_scenario")[i]] ?? "",
     };
   });
-}
-
-// How far a value lies beyond its limits, relative to the limit, and beyond which; 0 where it keeps them.
-function brokenBy(value, lower, upper) {
-  const over = Number.isFinite(upper) ? (value - upper) / Math.abs(upper || 1) : 0;
-  const under = Number.isFinite(lower) ? (lower - value) / Math.abs(lower || 1) : 0;
-  const most = Math.max(over, under);
-  return { broken: most > brokenFrom ? most : 0, brokenEnd: over >= under ? "at most" : "at least" };
 }
 
 // The part of the band over which a limit holds, if the study names one.
@@ -94,22 +85,22 @@ function limitBand(study, name) {
 function limitsOf({ group, study, scenarios, converged, objective }, names) {
   return names.map((name) => {
     const number = (suffix) => group.number(`${name}_${suffix}`);
-    const multiplier = number("limit_multiplier"),
-      limit = number("upper_limit");
+    const value = number("limited"),
+      lower = number("lower_limit"),
+      multiplier = number("limit_multiplier");
     return {
       name,
       unit: group.column(`${name}_limited`)?.unit ?? "1",
-      value: number("limited"),
+      value,
       at: number("limited_at"),
       scenario: scenarios[number("limited_scenario")] ?? "",
-      lower: number("lower_limit"),
-      upper: limit,
+      lower,
+      upper: number("upper_limit"),
       multiplier,
       band: limitBand(study, name),
-      ...brokenBy(number("limited"), number("lower_limit"), limit),
-      active:
-        converged &&
-        multiplier * Math.abs(Number.isFinite(limit) ? limit : number("lower_limit")) > heldFrom * objective,
+      excess: number("limit_excess"),
+      brokenEnd: value < lower ? "at least" : "at most",
+      active: multiplier > 0,
     };
   });
 }
@@ -138,32 +129,26 @@ function extraColumns(group, band) {
     }));
 }
 
-// Bounds of a parameter that hold the design of a tuning that converged: [{end, knots, multiplier, gain}], gain: relative fall of the objective
+// Bounds of a parameter that hold the design: [{end, knots, multiplier, gain}], gain: relative fall of the objective
 // when that bound is moved outwards by a hundredth of the range.
-export function heldBounds({ converged, objective }, parameter) {
-  if (!converged) return [];
+export function heldBounds({ objective }, parameter) {
   const room = (parameter.upper - parameter.lower) / 100;
   return [
     ["lower", parameter.lowerMultiplier],
     ["upper", parameter.upperMultiplier],
   ]
     .map(([end, multipliers]) => {
-      const gains = Array.from(multipliers, (multiplier) => (multiplier * room) / objective);
-      const held = gains.filter((gain) => gain > heldFrom).length;
-      const sum = (values) => Array.from(values).reduce((a, b) => a + b, 0);
-      return { end, knots: held, multiplier: sum(multipliers), gain: sum(gains) };
+      const holding = Array.from(multipliers).filter((multiplier) => multiplier > 0);
+      const sum = holding.reduce((a, b) => a + b, 0);
+      return { end, knots: holding.length, multiplier: sum, gain: (sum * room) / objective };
     })
     .filter(({ knots }) => knots > 0);
 }
 
 // Knots of a schedule that lie on a bound: {lower, upper}, each an array of numbers of knots.
-export function knotsAtBounds({ values, lower, upper }) {
-  const near = 1e-5 * (upper - lower),
-    numbers = Array.from(values, (_, i) => i);
-  return {
-    lower: numbers.filter((i) => values[i] <= lower + near),
-    upper: numbers.filter((i) => values[i] >= upper - near),
-  };
+export function knotsAtBounds({ atBound }) {
+  const on = (end) => atBound.flatMap((at, i) => (at === end ? [i] : []));
+  return { lower: on("lower"), upper: on("upper") };
 }
 
 const atSlope = 1e-6; // relative, within which a piece is as steep as it may be

@@ -202,20 +202,20 @@ function boundsMet({ parameters }) {
 }
 
 // "It breaks the limit of stroke, at most 5 mm over 20 to 48 rad/s, by 12 %: 5.6 mm at 30 rad/s (heavy)."
-function brokenSentence(tuning, { name, unit, value, at, scenario, band, lower, upper, broken, brokenEnd }) {
+function brokenSentence(tuning, { name, unit, value, at, scenario, band, lower, upper, excess, brokenEnd }) {
   const text = (number) => quantityText(number, unit, digits);
   const over = band ? ` over ${numberText(band.from, digits)} to ${placeText(tuning, band.to)}` : "";
   const there = Number.isFinite(at) && tuning.band ? ` at ${placeText(tuning, at)}` : "";
   return (
     `It breaks the limit of ${words(name)}, ${brokenEnd} ${text(brokenEnd === "at most" ? upper : lower)}${over}, by ` +
-    `${percentText(100 * broken, digits)}: ${text(value)}${there}${scenario ? ` (${words(scenario)})` : ""}.`
+    `${percentText(100 * excess, digits)}: ${text(value)}${there}${scenario ? ` (${words(scenario)})` : ""}.`
   );
 }
 
 // Of a design that is no proven optimum: what it breaks, and where it lies; its multipliers mean nothing.
 function unprovenSentences(tuning) {
   const broken = tuning.limits
-    .filter((limit) => limit.broken > 0)
+    .filter((limit) => limit.excess > 0)
     .map((limit) => brokenSentence(tuning, limit));
   const met = boundsMet(tuning);
   return [...broken, ...(met.length ? [`It lies on ${listText(met)}.`] : [])];

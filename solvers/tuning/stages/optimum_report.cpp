@@ -82,10 +82,14 @@ class Report {
     }
     write_peaks(optimum);
     write_limits(optimum);
+    judge_multipliers(optimum);
     return optimum;
   }
 
  private:
+  // By its relative excess.
+  bool is_broken(double excess) const { return excess > std::max(task_.tolerance, kBroken); }
+
   static void write_nothing_moves(Optimum& optimum) {
     optimum.objective = optimum.certificate_gap = optimum.kkt_residual = 0.0;
     optimum.reason = "the quantity is zero over the whole band, and nothing can be less";
@@ -99,8 +103,7 @@ class Report {
 
   // The last stage of a schedule may meet limits that the one before broke.
   void judge_limits(Optimum& optimum) const {
-    if (optimum.outcome != Outcome::infeasible || optimum.violation > std::max(task_.tolerance, kBroken))
-      return;
+    if (optimum.outcome != Outcome::infeasible || is_broken(optimum.violation)) return;
     optimum.outcome = Outcome::not_converged;
     optimum.reason =
         "the limits are met, but the rounds of exchange do not tell how near the objective is to its least";
@@ -125,6 +128,28 @@ class Report {
     }
   }
 
+  // What holds an optimum holds it by more than rounding: a peak by its share, a bound or a limit by what the
+  // objective falls, relatively, when it gives way by a hundredth of the range or by itself.
+  void judge_multipliers(Optimum& optimum) const {
+    constexpr double kHolds = 1e-6;
+    const bool known = optimum.outcome == Outcome::converged;
+    const auto judge = [&](double& multiplier, double move, double of) {
+      multiplier = !known ? kNone : multiplier * move > kHolds * of ? multiplier : 0.0;
+    };
+    for (Peak& peak : optimum.peaks) judge(peak.multiplier, 1.0, 1.0);
+    for (std::size_t p = 0; p < optimum.parameters.size(); ++p) {
+      const DesignParameter& parameter = tuning_.space().parameter(p);
+      const double move = 0.01 * (parameter.upper - parameter.lower);
+      for (double& m : optimum.parameters[p].lower_multiplier) judge(m, move, optimum.objective);
+      for (double& m : optimum.parameters[p].upper_multiplier) judge(m, move, optimum.objective);
+    }
+    for (std::size_t i = 0; i < optimum.limits.size(); ++i) {
+      const QuantityLimit& limit = tuning_.limits()[i];
+      const double size = std::abs(std::isfinite(limit.upper) ? limit.upper : limit.lower);
+      judge(optimum.limits[i].multiplier, size, optimum.objective);
+    }
+  }
+
   // Multipliers belong to bounds that are met: what an interior-point method leaves at others is its
   // rounding.
   void write_parameters(Optimum& optimum) const {
@@ -138,8 +163,12 @@ class Report {
       TunedParameter tuned;
       for (std::size_t i = space.first(p); i < space.first(p) + space.count(p); ++i) {
         tuned.value.push_back(x_[i]);
-        const bool at_lower = has_multipliers && x_[i] - parameter.lower <= near;
-        const bool at_upper = has_multipliers && parameter.upper - x_[i] <= near;
+        const AtBound at_bound = x_[i] - parameter.lower <= near   ? AtBound::lower
+                                 : parameter.upper - x_[i] <= near ? AtBound::upper
+                                                                   : AtBound::no;
+        const bool at_lower = has_multipliers && at_bound == AtBound::lower;
+        const bool at_upper = has_multipliers && at_bound == AtBound::upper;
+        tuned.at_bound.push_back(at_bound);
         tuned.lower_multiplier.push_back(at_lower ? solution.lower_multipliers[i] : 0.0);
         tuned.upper_multiplier.push_back(at_upper ? solution.upper_multipliers[i] : 0.0);
       }
@@ -181,6 +210,9 @@ class Report {
       const CurveKind& kind = tuning_.curves()[c];
       if (kind.of == CurveKind::Of::objective) continue;
       const Scan::Place& place = scan_.tightest[c];
+      const double excess = place.value - kind.most();
+      if (is_broken(excess))
+        optimum.limits[kind.limit].excess = std::max(optimum.limits[kind.limit].excess, excess);
       if (place.value <= tightest[kind.limit]) continue;
       tightest[kind.limit] = place.value;
       BandCurve curve(task_, tuning_.space(), kind, effort_);

@@ -37,7 +37,11 @@ function close(value, expected, tolerance = rounding) {
   );
 }
 
-function minimax(changes = {}, outcome = 1, texts = {}) {
+const ends = ["not_computed", "no", "lower", "upper"];
+
+// Of a tuning that did not converge no multiplier is known.
+function minimax(changes = {}, outcome = 1, texts = {}, atBound = [3]) {
+  const known = (values) => (outcome === 1 ? values : values.map(() => NaN));
   const group = sampleGroup(
     {
       reason: "because",
@@ -61,11 +65,11 @@ function minimax(changes = {}, outcome = 1, texts = {}) {
       k_lower: ["N/m", "", 500],
       k_upper: ["N/m", "", 1000],
       k_before: ["N/m", "", 800],
-      k_lower_multiplier: ["m (N/m)-1", "", 0],
-      k_upper_multiplier: ["m (N/m)-1", "", 1e-5],
+      k_lower_multiplier: ["m (N/m)-1", "", known([0])],
+      k_upper_multiplier: ["m (N/m)-1", "", known([1e-5])],
       peak_omega: ["rad s-1", "peak", [12, 18]],
       peak_value: ["m", "peak", [0.025, 0.02]],
-      peak_multiplier: ["1", "peak", [1, 0]],
+      peak_multiplier: ["1", "peak", known([1, 0])],
       peak_scenario: ["1", "peak", [0, 0]],
       k_sensitivity: ["m (N/m)-1", "peak", [-1e-5, 2e-5]],
       omega: ["rad s-1", "omega", [10, 12, 14, 16, 20]],
@@ -77,7 +81,7 @@ function minimax(changes = {}, outcome = 1, texts = {}) {
       k_detuning: ["1", "change", [0.2, -0.01]],
       ...changes,
     },
-    { outcome: ["", outcome, outcomes] },
+    { outcome: ["", outcome, outcomes], k_at_bound: ["", atBound, ends] },
   );
   return sampleRecord({ optimum: group });
 }
@@ -155,10 +159,8 @@ test("the worst detuning is the largest growth of that change", () => {
 });
 
 test("knots on a bound are counted", () => {
-  assert.deepEqual(knotsAtBounds({ values: [1, 1.000001, 2, 3], lower: 1, upper: 3 }), {
-    lower: [0, 1],
-    upper: [3],
-  });
+  const { parameters } = tuningOf(minimax({}, 1, {}, [2, 2, 1, 3]));
+  assert.deepEqual(knotsAtBounds(parameters[0]), { lower: [0, 1], upper: [3] });
 });
 
 test("of a mean square the words are of roots, and the decibels of amplitudes", () => {
@@ -241,7 +243,8 @@ test("of a design that breaks a limit there is no certificate, no multiplier, an
     stroke_limited: ["mm", "", 35.7],
     stroke_upper_limit: ["mm", "", 5],
     stroke_lower_limit: ["mm", "", NaN],
-    stroke_limit_multiplier: ["m (mm)-1", "", 0.003],
+    stroke_limit_excess: ["1", "", 6.14],
+    stroke_limit_multiplier: ["m (mm)-1", "", NaN],
   };
   const text = told(broken, 3, { limits: "stroke" });
   assert.match(
@@ -364,10 +367,12 @@ test("a broken limit is told with the bound that it breaks, its part of the band
       stroke_limited_at: ["rad s-1", "", 20],
       stroke_lower_limit: ["mm", "", 0.2],
       stroke_upper_limit: ["mm", "", 8],
+      stroke_limit_excess: ["1", "", 0.25],
       stroke_2_limited: ["mm", "", 9],
       stroke_2_limited_at: ["rad s-1", "", 12],
       stroke_2_lower_limit: ["mm", "", NaN],
       stroke_2_upper_limit: ["mm", "", 7.5],
+      stroke_2_limit_excess: ["1", "", 0.2],
     },
     3,
     { limits: "stroke,stroke_2" },

@@ -160,9 +160,9 @@ function peaksTable(tuning) {
 }
 
 function multiplierText(tuning, limit) {
-  if (limit.broken > 0) {
+  if (limit.excess > 0) {
     const side = limit.brokenEnd === "at most" ? "above" : "below";
-    return `${numberText(100 * limit.broken, 4)} % ${side} its limit`;
+    return `${numberText(100 * limit.excess, 4)} % ${side} its limit`;
   }
   if (!tuning.converged) return "not known";
   return limit.active ? per(limit.multiplier, tuning.unit, limit.unit) : "does not bind";
