@@ -65,6 +65,22 @@ constexpr ElementKind kKinds[] = {
      .dissipates = true},
 };
 
+constexpr bool rows_stand_as_enumerators_do() {
+  std::size_t row = 0;
+  for (const ElementKind& kind : kKinds) {
+    if (kind.type != static_cast<ElementType>(row++)) return false;
+  }
+  return true;
+}
+static_assert(rows_stand_as_enumerators_do(), "kind_of() looks a row up by its ElementType");
+
+const Element* first_element(const Network& network, bool (*is_meant)(const ElementKind&)) {
+  for (const Element& element : network.elements) {
+    if (is_meant(kind_of(element))) return &element;
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 std::span<const ElementKind> element_kinds() {
@@ -83,6 +99,15 @@ bool ElementKind::is_inertia_alone() const {
 const ValueKey& second_key(const Element& element) {
   const ElementKind& kind = kind_of(element);
   return element.law == FrictionLaw::arctan && kind.can_be_smoothed() ? kind.smoothed : kind.second;
+}
+
+const Element* frequency_dependent_element(const Network& network) {
+  return first_element(network, [](const ElementKind& kind) { return kind.depends_on_frequency; });
+}
+
+const Element* element_unfit_for_noise(const Network& network) {
+  return first_element(
+      network, [](const ElementKind& kind) { return kind.law != nullptr || kind.depends_on_frequency; });
 }
 
 double second_value(const NetworkValues& values, std::size_t element) {

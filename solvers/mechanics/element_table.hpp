@@ -98,6 +98,12 @@ inline bool has_contact(const Element& element) {
   return kind_of(element).law != nullptr;
 }
 
+// The first element whose values depend on the frequency (hysteretic), or null.
+const Element* frequency_dependent_element(const Network& network);
+
+// The first that is not a linear element with constant values, or null.
+const Element* element_unfit_for_noise(const Network& network);
+
 // The second value that this element has, if any: of its kind, or of the law that smooths it.
 const ValueKey& second_key(const Element& element);
 

@@ -60,9 +60,9 @@ Assembly::Assembly(const Network& network)
       throw MechanicsError("element '" + element.name + "' joins no moving node");
     }
     if (kind.has_internal_force) internal_[e] = static_cast<Eigen::Index>(internal_forces_++);
-    if (kind.depends_on_frequency) depends_on_frequency_ = true;
     if (kind.law != nullptr) place_in_contact(e);
   }
+  depends_on_frequency_ = frequency_dependent_element(network_) != nullptr;
   place_orders();
 }
 

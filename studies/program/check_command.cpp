@@ -92,9 +92,7 @@ void print_decay_choice(const StudyFile& study, const mechanics::NetworkValues& 
   fmt::print(out, "decay      free vibration, {}\n",
              duration ? "for " + seconds_text(study, stated(study, *duration))
                       : "until rest, or until its end is clear");
-  const auto& elements = study.network.elements;
-  if (std::any_of(elements.begin(), elements.end(),
-                  [](const auto& element) { return mechanics::kind_of(element).depends_on_frequency; })) {
+  if (mechanics::frequency_dependent_element(study.network)) {
     fmt::print(out, "reference  {:.6g}{}: the loss factors' frequency\n", values.hysteretic_omega,
                study.dimensionless ? "" : " rad/s");
   }

@@ -133,10 +133,8 @@ int lowest_order(const NetworkReading& reading, const TomlSection& section, bool
 // A hysteretic element has its damping at one frequency only, omega_h.
 void check_hysteretic_frequency(const NetworkReading& reading, const TomlSection& section) {
   const auto& network = reading.result.network;
-  const auto hysteretic =
-      std::find_if(network.elements.begin(), network.elements.end(),
-                   [](const auto& element) { return mechanics::kind_of(element).depends_on_frequency; });
-  if (hysteretic == network.elements.end() || section.find("reference_order")) return;
+  const mechanics::Element* hysteretic = mechanics::frequency_dependent_element(network);
+  if (!hysteretic || section.find("reference_order")) return;
   std::vector<int> orders;
   for (const Excitation& component : network.excitations) {
     if (component.order > 0) orders.push_back(component.order);

@@ -106,16 +106,11 @@ void check_system(const TomlSection& section, const StudyFile& study, const Iden
                "a grey box fits parameters of a system, and the study has none: [[mass]] and [[element]]");
 }
 
-bool has_hysteresis(const mechanics::Network& network) {
-  return std::any_of(network.elements.begin(), network.elements.end(),
-                     [](const auto& element) { return mechanics::kind_of(element).depends_on_frequency; });
-}
-
 // A hysteretic element has its damping at one frequency, which nothing else tells where nothing is forced at
 // a known one.
 void check_reference_frequency(const TomlSection& section, const StudyFile& study,
                                const IdentifyChoice& choice) {
-  if (choice.reference_frequency || !has_hysteresis(study.network)) return;
+  if (choice.reference_frequency || !mechanics::frequency_dependent_element(study.network)) return;
   for (const RecordChoice& record : choice.records) {
     const bool free = record.motion == identification::MotionKind::free;
     if (!free && !study.network.excitations.empty()) continue;

@@ -95,11 +95,7 @@ std::vector<std::size_t> read_by_matrices(const StudyFile& study) {
   for (const auto* values : {&study.values.mass, &study.values.element, &study.values.second}) {
     for (const StudyValue& value : *values) add(value);
   }
-  const auto& elements = study.network.elements;
-  const bool depends = std::any_of(elements.begin(), elements.end(), [](const auto& element) {
-    return mechanics::kind_of(element).depends_on_frequency;
-  });
-  if (depends) add(study.values.omega);
+  if (mechanics::frequency_dependent_element(study.network)) add(study.values.omega);
   if (study.comparison) add(study.comparison->slope);
   return reads;
 }

@@ -33,13 +33,11 @@ void check_variance(const TuneReading& reading, const TomlSection& section) {
                              "element's <element>_stroke (its rms)",
                              reading.choice.quantity_name));
   }
-  for (const mechanics::Element& element : reading.study.network.elements) {
-    const mechanics::ElementKind& kind = mechanics::kind_of(element);
-    if (kind.law == nullptr && !kind.depends_on_frequency) continue;
+  if (const mechanics::Element* unfit = mechanics::element_unfit_for_noise(reading.study.network)) {
     section.fail("objective",
                  fmt::format("a variance is that of a linear system under white noise, and element \"{}\" is "
                              "a {}; write \"minimax\" or \"mean_square\"",
-                             element.name, kind.name));
+                             unfit->name, mechanics::kind_of(*unfit).name));
   }
 }
 

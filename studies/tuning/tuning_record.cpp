@@ -33,6 +33,7 @@ void add_numbers(const TuningAbout& about, GroupColumns& columns) {
                      about.optimum.certificate_gap);
   columns.add_number("kkt_residual", "1", "residual of the conditions of a local optimum",
                      about.optimum.kkt_residual);
+  columns.add_number("tolerance", "1", "of the certificate gap and the KKT residual", about.tune.tolerance);
   columns.add_number("violation", "1", "largest violation of a limit, relative", about.optimum.violation);
   columns.add_flag("outcome", "how the tuning ended", "", outcome_words(),
                    outcome_flags({about.optimum.outcome}));

@@ -3,7 +3,6 @@ import { symbolText } from "./axes.js";
 import { numberText, quantityText, unitText } from "./units.js";
 
 const roundingGap = 1e-12; // relative
-const metResidual = 1e-6; // relative: the tolerance that a tuning has unless its study says otherwise
 
 // How near the worst peak is to the bound that the tuning found. Where no design keeps the limits nothing was pressed
 // towards that bound.
@@ -23,7 +22,7 @@ function conditionSentences({ group, converged, infeasible }) {
   if (infeasible || Number.isNaN(residual)) return [];
   const text = `${numberText(residual, 2)} (relative)`;
   if (converged) return [`The conditions of a local optimum hold to ${text}.`];
-  return residual <= metResidual
+  return residual <= group.number("tolerance")
     ? [`The conditions of a local optimum hold to ${text} at the last step, which is no proof of one.`]
     : [`The conditions of a local optimum do not hold: KKT residual ${text}.`];
 }

@@ -50,10 +50,8 @@ struct Variance::Gradient {
 
 Variance::Variance(const mechanics::Network& network, const Noise& noise, const NoisyQuantity& measure)
     : assembly_(network), noise_(noise), measure_(measure) {
-  for (const Element& element : network.elements) {
-    const ElementKind& kind = mechanics::kind_of(element);
-    if (kind.law == nullptr && !kind.depends_on_frequency) continue;
-    throw MechanicsError("element '" + element.name + "' is " + kind.name +
+  if (const Element* unfit = mechanics::element_unfit_for_noise(network)) {
+    throw MechanicsError("element '" + unfit->name + "' is " + mechanics::kind_of(*unfit).name +
                          ": the variance under white noise is that of linear elements with constant values");
   }
   check_drift();

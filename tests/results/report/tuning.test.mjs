@@ -59,6 +59,7 @@ function minimax(changes = {}, outcome = 1, texts = {}, atBound = [3]) {
       objective: ["m", "", 0.025],
       certificate_gap: ["1", "", 1e-9],
       kkt_residual: ["1", "", 2e-10],
+      tolerance: ["1", "", 1e-6],
       violation: ["1", "", 0],
       best_start: ["1", "", 0],
       k: ["N/m", "", 1000],
@@ -358,6 +359,13 @@ test("of a design that did not converge, but keeps its limits, the gap that is l
   const text = told({ certificate_gap: ["1", "", -0.0139], kkt_residual: ["1", "", 0.49] }, 2);
   assert.match(text, /There is no certificate; .* differ by 0\.014 \(relative\)/);
   assert.match(text, /local optimum do not hold: KKT residual 0\.49/);
+});
+
+test("the conditions of an optimum are judged by the tolerance that the study asks for", () => {
+  const at = (tolerance) =>
+    told({ kkt_residual: ["1", "", 1e-4], tolerance: ["1", "", tolerance] }, 2);
+  assert.match(at(1e-3), /hold to 0\.0001 \(relative\) at the last step/);
+  assert.match(at(1e-6), /do not hold: KKT residual/);
 });
 
 test("a broken limit is told with the bound that it breaks, its part of the band, and where", () => {
