@@ -13,10 +13,9 @@
 //   what happened                        law's answer            what follows
 //   a stuck force reaches its limit      -                       it slides in the force's direction; a force
 //                                                                that is a state stays there
-//   a sliding velocity reaches zero      it holds a velocity     the forces of all contacts at rest come of
-//   one
-//                                                                convex problem: inside its limit a contact
-//                                                                sticks, at its limit it slides that way
+//   a sliding velocity reaches zero      it holds a velocity     the forces of all at rest solve one convex
+//                                                                problem: inside its limit a contact sticks,
+//                                                                at its limit it slides that way
 //                                        its force is a state    it sticks
 //   a stuck force stands at its limit    -                       it lets go at once (two contacts released
 //   and grows after all this                                     together, or one that came to rest in a tie)

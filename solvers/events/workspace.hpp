@@ -44,7 +44,7 @@ struct Workspace {
 template <int N, int H>
 void set_scales(const Flow<N, H>& flow, const typename Sizes<N, H>::State& z, Workspace<N, H>& w) {
   const StepEquations<N, H>& eq = flow.equations();
-  const double energy = std::max(eq.energy_norm(z), flow.static_norm());
+  const double energy = flow.energy_scale(z);
   const Eigen::Index m = eq.contacts();
   w.speed_scale.resize(m);
   w.force_scale.resize(m);

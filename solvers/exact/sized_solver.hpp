@@ -3,6 +3,7 @@
 #include "solvers/exact/orbit_search.hpp"
 #include "solvers/exact/response.hpp"
 #include "solvers/mechanics/element_table.hpp"
+#include "solvers/orbits/phase.hpp"
 #include "solvers/quantities/gradient.hpp"
 #include "solvers/quantities/observables.hpp"
 #include "solvers/quantities/orbit_observation.hpp"
@@ -120,13 +121,9 @@ History SizedSolver<N, H>::history(std::span<const double> phases) {
   History result = History::of(network);
   const Forms<N, H> forms(assembly_, flow_);
   const Eigen::Index n = flow_.equations().masses();
-  const double step = flow_.equations().step, turn = 2.0 * std::numbers::pi;
-  const double covered = orbit_.half_period ? 0.5 * turn : turn;
+  const double step = flow_.equations().step;
   for (const double phase : phases) {
-    double from_section = std::fmod(phase, turn) - orbit_.section;
-    double sign = 1.0;
-    for (; from_section < 0.0; from_section += covered) sign *= orbit_.sign();
-    for (; from_section >= covered; from_section -= covered) sign *= orbit_.sign();
+    const auto [from_section, sign] = place_on_orbit(phase, orbit_.section, orbit_.half_period);
     const double at = from_section / flow_.fundamental_rate();
     const auto& segments = orbit_.passage.segments;
     auto segment = segments.begin();

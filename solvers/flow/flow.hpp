@@ -89,6 +89,10 @@ class Flow {
   bool has_loops() const { return has_loops_; }  // the directions of contacts depend on one another
   // The energy norm of the static response to the excitation's amplitudes [sqrt(J)].
   double static_norm() const { return static_norm_; }
+  // Of what residuals and errors of a state z are relative to [sqrt(J)].
+  double energy_scale(const typename Sizes<N, H>::State& z) const {
+    return std::max(equations_.energy_norm(z), static_norm_);
+  }
 
   // The table of modes: an index stays good until the next set_forcing.
   std::size_t mode_index(ContactMask stuck, ContactMask positive);

@@ -77,7 +77,7 @@ void judge_stability(Flow<N, H>& flow, Orbit<N, H>& orbit) {
   const bool has_kink = orbit.passage.margin < kGrazing && orbit.passage.events > 0;
   if (has_kink) orbit.floquet_radius = kNone;
 
-  const double scale = std::max(eq.energy_norm(orbit.z), flow.static_norm());
+  const double scale = flow.energy_scale(orbit.z);
   const double operations = 16.0 + 2.0 * eq.period + 16.0 * orbit.passage.events;
   const double rounding =
       std::numeric_limits<double>::epsilon() * operations * (scale + static_forces(flow, orbit));

@@ -50,7 +50,7 @@ void Shooting<N, H>::apply_map(Trial<N, H>& trial) {
   if (sign_ > 0.0 && trial.stuck_throughout != 0)
     trial.residual -= shift_projector(rest_directions(eq, trial.stuck_throughout)) * trial.residual;
   trial.norm = eq.energy_norm(trial.residual);
-  const double scale = std::max(eq.energy_norm(trial.z), flow_.static_norm());
+  const double scale = flow_.energy_scale(trial.z);
   trial.relative = scale > 0.0 ? trial.norm / scale : trial.norm;
 }
 

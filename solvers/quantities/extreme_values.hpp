@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "solvers/algebra/no_value.hpp"
+#include "solvers/orbits/phase.hpp"
 #include "solvers/quantities/quantity.hpp"
 
 // The largest and least value of a quantity over a period, gathered from candidates.
@@ -22,13 +23,6 @@ struct Extremes {
     return side == Side::most ? most : side == Side::least ? -least : magnitude();
   }
 };
-
-// The angle in [0, 2 pi); an angle within 1e-9 of 2 pi is 0.
-inline double whole_turns_removed(double phase) {
-  constexpr double kTurn = 2.0 * std::numbers::pi;
-  const double angle = phase - kTurn * std::floor(phase / kTurn);
-  return angle > kTurn - 1e-9 ? 0.0 : angle;
-}
 
 // Keeps the extremes among candidates; of equal ones (to 1e-12) the earliest in omega t.
 class ExtremeCollector {

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <algorithm>
-#include <numbers>
 #include <span>
 #include <vector>
 
 #include "solvers/mechanics/system_derivative.hpp"
+#include "solvers/orbits/phase.hpp"
 #include "solvers/quantities/orbit_sensitivity.hpp"
 #include "solvers/quantities/step_samples.hpp"
 
@@ -65,21 +65,18 @@ class OrbitObservation {
 
   // Where each time lies on the orbit, step by step.
   void place(const Orbit<N, H>& orbit, double omega, std::span<const double> times) {
-    const double turn = 2.0 * std::numbers::pi, covered = orbit.half_period ? 0.5 * turn : turn;
     const double rate = flow_.fundamental_rate();
     const auto steps = steps_.steps();
     places_.clear();
     for (std::size_t i = 0; i < times.size(); ++i) {
-      const double from_section = omega * times[i] - orbit.section;
-      const double passages = std::floor(from_section / covered);
-      const bool odd = std::fmod(std::abs(passages), 2.0) == 1.0;
-      const double at = (from_section - passages * covered) / rate;
+      const auto [from_section, sign] = place_on_orbit(omega * times[i], orbit.section, orbit.half_period);
+      const double at = from_section / rate;
       const auto after = [](double value, const OrbitStep<N, H>& step) { return value < step.start; };
       const auto next = std::upper_bound(steps.begin() + 1, steps.end(), at, after);
       const auto step = static_cast<std::size_t>(next - steps.begin()) - 1;
       places_.push_back({step, static_cast<Eigen::Index>(i),
-                         std::clamp(at - steps[step].start, 0.0, steps[step].length),
-                         odd ? orbit.sign() : 1.0, omega * times[i] / rate});
+                         std::clamp(at - steps[step].start, 0.0, steps[step].length), sign,
+                         omega * times[i] / rate});
     }
     std::stable_sort(places_.begin(), places_.end(),
                      [](const Sample& a, const Sample& b) { return a.step < b.step; });

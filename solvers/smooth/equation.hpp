@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <vector>
 
 #include "solvers/mechanics/linear_system.hpp"
@@ -57,6 +58,8 @@ class Equation {
   double energy_norm(const Eigen::VectorXd& z) const;
   double energy_norm_of_map(const Eigen::MatrixXd& map) const;
   double static_norm() const { return static_norm_; }
+  // Of what residuals and errors of a state z are relative to [sqrt(J)].
+  double energy_scale(const Eigen::VectorXd& z) const { return std::max(energy_norm(z), static_norm_); }
   // Largest static displacement under the amplitudes of the forcing [m].
   double static_displacement() const { return static_displacement_; }
 

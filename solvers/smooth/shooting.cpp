@@ -65,7 +65,7 @@ double Shooting::estimated_error(const Orbit& orbit) const {
   const Eigen::Index size = equation_.size();
   const Eigen::MatrixXd jacobian =
       Eigen::MatrixXd::Identity(size, size) - orbit.sign() * orbit.passage.tangent;
-  const double scale = std::max(equation_.energy_norm(orbit.z), equation_.static_norm());
+  const double scale = equation_.energy_scale(orbit.z);
   if (!(scale > 0.0)) return 0.0;
   const double defect = orbit.residual + orbit.passage.local_errors / scale;
   return equation_.energy_norm_of_map(algebra::inverse(jacobian)) * defect;
@@ -78,7 +78,7 @@ void Shooting::apply_map(const Eigen::VectorXd& scale, Orbit& orbit) {
   ++orbit.passages;
   if (orbit.passage.failure != nullptr) return;
   residual_ = orbit.sign() * orbit.passage.end - orbit.z;
-  const double size = std::max(equation_.energy_norm(orbit.z), equation_.static_norm());
+  const double size = equation_.energy_scale(orbit.z);
   const double norm = equation_.energy_norm(residual_);
   orbit.residual = size > 0.0 ? norm / size : norm;
 }

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <numbers>
 
 #include "solvers/algebra/no_value.hpp"
 #include "solvers/exact/exact_solver.hpp"
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/undamped_resonance.hpp"
+#include "solvers/orbits/phase.hpp"
 #include "solvers/smooth/observables.hpp"
 #include "solvers/smooth/shooting.hpp"
 
@@ -203,14 +203,12 @@ Eigen::VectorXd SmoothSolver::scale(double displacement, double velocity) const 
 
 // The orbit at omega t = phase.
 void SmoothSolver::state_at(double phase, Eigen::VectorXd& z) const {
-  const double covered = equation_.period() * (orbit_.half_period ? 0.5 : 1.0);
-  double from_section = std::fmod(phase, 2.0 * std::numbers::pi) / system_.omega - orbit_.section, sign = 1.0;
-  for (; from_section < 0.0; from_section += covered) sign *= orbit_.sign();
-  for (; from_section >= covered; from_section -= covered) sign *= orbit_.sign();
-  const double t = orbit_.section + from_section;
+  const periodic::PlaceOnOrbit place =
+      periodic::place_on_orbit(phase, system_.omega * orbit_.section, orbit_.half_period);
+  const double t = orbit_.section + place.from_section / system_.omega;
   const Trajectory& trajectory = orbit_.passage.trajectory;
   trajectory.state(trajectory.step_at(t), t, z);
-  z *= sign;
+  z *= place.sign;
 }
 
 History SmoothSolver::history(std::span<const double> phases) {

@@ -136,7 +136,7 @@ bool Trajectory::pass(double length, double phase) {
   steps_taken_ += length;
   failure_ = stretch_.passage.failure;
   if (failure_ != nullptr) return false;
-  energy_scale_ = std::max(flow_.equations().energy_norm(z_), flow_.static_norm());
+  energy_scale_ = flow_.energy_scale(z_);
   steps_.lay_out(stretch_);
   for (Step& step : steps_.steps()) follow(step);
   z_ = stretch_.passage.end;
