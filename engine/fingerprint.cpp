@@ -9,17 +9,17 @@ namespace {
 
 std::string difference(const LogHeader& kept, const LogHeader& wanted) {
   if (kept.fingerprint.physics != wanted.fingerprint.physics) {
-    return fmt::format("keeps tiles of another physics ({}, this study has {})", kept.fingerprint.physics,
+    return fmt::format("holds tiles of another system ({}, this study has {})", kept.fingerprint.physics,
                        wanted.fingerprint.physics);
   }
   return fmt::format(
-      "keeps tiles of the same physics on another grid ({} of {} tiles, this study has {} of {} tiles)",
+      "holds tiles of the same physics on another grid ({} of {} tiles, this study has {} of {} tiles)",
       kept.fingerprint.grid, kept.tiles, wanted.fingerprint.grid, wanted.tiles);
 }
 
 std::string difference(const Fingerprint& kept, const Fingerprint& wanted) {
   if (kept.physics != wanted.physics) {
-    return fmt::format("is the result of another physics ({}, this study has {})", kept.physics,
+    return fmt::format("is the result of another system ({}, this study has {})", kept.physics,
                        wanted.physics);
   }
   return fmt::format(

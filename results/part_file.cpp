@@ -17,17 +17,17 @@ namespace {
   throw StoreError(path.string(), what, std::strerror(error));
 }
 
-// told: the path to name in a message.
-void sync(const std::filesystem::path& path, int flags, const std::filesystem::path& told) {
+// named: the path that a message names.
+void sync(const std::filesystem::path& path, int flags, const std::filesystem::path& named) {
   const bool is_directory = (flags & O_DIRECTORY) != 0;
   const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC);
   if (descriptor < 0)
-    fail(told, is_directory ? "cannot open its directory to sync" : "cannot open to sync", errno);
+    fail(named, is_directory ? "cannot open its directory to sync" : "cannot open to sync", errno);
   const int error = ::fsync(descriptor) == 0 ? 0 : errno;
   ::close(descriptor);
   // Some file systems cannot sync a directory and say EINVAL: there is nothing more to do then.
   if (error == 0 || (error == EINVAL && is_directory)) return;
-  fail(told, is_directory ? "cannot sync its directory" : "cannot sync", error);
+  fail(named, is_directory ? "cannot sync its directory" : "cannot sync", error);
 }
 
 }  // namespace

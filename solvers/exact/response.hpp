@@ -8,12 +8,12 @@
 #include "solvers/mechanics/network.hpp"
 #include "solvers/quantities/observed_motion.hpp"
 
-// What is told of a periodic response, and the interface of what finds one.
+// A summary of a periodic response, and the interface of its solvers.
 namespace frahm::periodic {
 
 enum class Status;
 
-// What is told of every response, whatever quantities were asked for.
+// Of every response, whatever quantities were asked for.
 struct ResponseSummary {
   Status status;
   std::string reason;     // why it failed; empty otherwise

@@ -76,8 +76,8 @@ class Flow {
   // Matrices and friction limits; call set_forcing before the next passage.
   void set_system(const mechanics::LinearSystem& system);
   void set_forcing(const mechanics::LinearSystem& system);
-  // Each harmonic's cos + i sin at phase 0, in the order of the system's, in the place of 1, until the next
-  // set_forcing: the same forcing with other amplitudes and phases, without any of its matrices anew.
+  // The same forcing with other amplitudes and phases, until the next set_forcing; no matrix is computed
+  // again. at_zero: of each harmonic of the system, cos + i sin at phase 0, which is 1 otherwise.
   void set_oscillators(std::span<const std::complex<double>> at_zero) {
     equations_.oscillators_at_zero.assign(at_zero.begin(), at_zero.end());
   }

@@ -64,7 +64,8 @@ class DividedOrders final : public ResponseSolver {
 
   void quantities(std::span<double> out) override {
     solver_->quantities(out);
-    for (std::size_t i = 0; i < quantities_.size(); ++i) out[i] = told(quantities_[i].measure, out[i]);
+    for (std::size_t i = 0; i < quantities_.size(); ++i)
+      out[i] = of_whole_period(quantities_[i].measure, out[i]);
   }
 
   const char* gradient(std::span<const NetworkValues> directions, std::span<double> out) override {
@@ -72,7 +73,7 @@ class DividedOrders final : public ResponseSolver {
     is_differentiable_ = *reason == '\0';
     if (!is_differentiable_) return reason;
     for (std::size_t i = 0; i < directions.size() * quantities_.size(); ++i)
-      out[i] = told_derivative(quantities_[i % quantities_.size()].measure, out[i]);
+      out[i] = derivative_of_whole_period(quantities_[i % quantities_.size()].measure, out[i]);
     return reason;
   }
 
@@ -125,16 +126,16 @@ class DividedOrders final : public ResponseSolver {
     return directions_;
   }
 
-  double told(Measure measure, double value) const {
+  double of_whole_period(Measure measure, double value) const {
     if (!has_reference_ && needs_reference_component(measure)) return kNone;
     if (!has_reference_ && measure == Measure::harmonic) return std::isnan(value) ? kNone : 0.0;
     if (measure == Measure::floquet_radius) return std::pow(value, divisor_);
     const bool is_missing_count = value < 0.0 && is_count(measure);
-    return is_missing_count ? value : told_derivative(measure, value);
+    return is_missing_count ? value : derivative_of_whole_period(measure, value);
   }
 
-  // Of what is told as a multiple of what was found, which its derivative is too.
-  double told_derivative(Measure measure, double value) const {
+  // A quantity of the whole period is a multiple of what was found, and so is its derivative.
+  double derivative_of_whole_period(Measure measure, double value) const {
     if (!has_reference_ && needs_reference_component(measure)) return kNone;
     if (!has_reference_ && measure == Measure::harmonic) return 0.0;
     if (measure == Measure::peak_phase) return value / divisor_;

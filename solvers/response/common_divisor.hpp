@@ -10,7 +10,7 @@
 // Excitations whose orders have a common divisor g > 1: order 30 alone, or 4 and 6. All that happens repeats
 // g times in a period of the fundamental omega, so it is solved as what it is, the orders divided by g at g
 // omega, where a search covers a g-th of the time and each of its steps resolves the motion g times as well;
-// and what is found is told for the period that was asked for.
+// and what is found is converted to the period that was asked for.
 namespace frahm::periodic {
 
 // Of the orders above zero, a crank counting as its first; 1 where there is none.
@@ -18,10 +18,10 @@ int common_divisor(const mechanics::Network& network);
 
 // A solver for a network whose orders have a common divisor, over one that `make` gives for the divided
 // orders. For a period of the network's own fundamental: energies and counts are g times those of the shorter
-// period, Floquet multipliers their power g, and omega t is a g-th of g omega t. The regime, which is told by
-// the number of stops, is that of the shorter period, and so is ResponseSummary::half_period. Where g does
-// not divide the reference order the response has no component there: `harmonic` is 0, and what takes its
-// phase or its ratio to another such component is NaN.
+// period, Floquet multipliers their power g, and omega t is a g-th of g omega t. The regime, which follows
+// from the number of stops, is that of the shorter period, and so is ResponseSummary::half_period. Where g
+// does not divide the reference order the response has no component there: `harmonic` is 0, and what takes
+// its phase or its ratio to another such component is NaN.
 std::unique_ptr<ResponseSolver> divide_orders(
     const mechanics::Network& network, std::vector<Quantity> quantities,
     const std::function<std::unique_ptr<ResponseSolver>(const mechanics::Network&, std::vector<Quantity>)>&

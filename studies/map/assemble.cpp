@@ -16,7 +16,7 @@
 namespace frahm::studies {
 namespace {
 
-constexpr std::size_t most_failures_told = 1000;  // in the record; their number is told anyway
+constexpr std::size_t most_failures_listed = 1000;  // in the record, which also has their number
 
 // The points that failed, in the order of their tiles.
 class Failures {
@@ -24,11 +24,11 @@ class Failures {
   // A point of a tile.
   void add(const MapBox& box, const FailedPoint& point) {
     ++number_;
-    if (first_.size() < most_failures_told) first_.push_back({index_of(box, point.place), point.reason});
+    if (first_.size() < most_failures_listed) first_.push_back({index_of(box, point.place), point.reason});
   }
   void add(const Failures& later) {
     number_ += later.number_;
-    const std::size_t room = most_failures_told - first_.size();
+    const std::size_t room = most_failures_listed - first_.size();
     first_.insert(first_.end(), later.first_.begin(),
                   later.first_.begin() + static_cast<std::ptrdiff_t>(std::min(room, later.first_.size())));
   }

@@ -23,7 +23,7 @@ namespace frahm::studies {
 class KnownPoints {
  public:
   // plan: of the map to be; must outlive this.  file: finished or partial.  Throws engine::ResumeRefused for
-  // a result of another physics, StudyError where no point can be common, results::StoreError.
+  // a result of another system, StudyError where no point can be common, results::StoreError.
   KnownPoints(const MapPlan& plan, const std::filesystem::path& file);
 
   // Puts the values of the tile's known points in their places among `values` (of a TileRecord) and marks

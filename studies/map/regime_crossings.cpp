@@ -16,7 +16,7 @@ using periodic::Regime;
 // vanish.
 constexpr double shortest_event = 2e-9 * std::numbers::pi;
 constexpr double nearly_vanished = 3.0;
-// From where regimes change to where the event has vanished; beyond it rounding has told the way.
+// From where regimes change to where the event has vanished; beyond it rounding has led the search.
 constexpr double most_correction = 1e-4;
 // Parts of parts that are searched where third regimes are met: 2^5 crossings of an edge at most.
 constexpr int deepest_part = 5;

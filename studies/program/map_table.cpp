@@ -37,14 +37,14 @@ std::uint64_t failed_points(const std::vector<FlagCounts>& flags) {
 // The lines are those of provenance(): "<point as --at takes it>: <reason>".
 void print_failures(const MapPlan& plan, const std::filesystem::path& study, const std::string& lines,
                     std::uint64_t failed) {
-  std::istringstream told(lines);
+  std::istringstream rows(lines);
   std::string line;
   if (failed > 0) {
     fmt::print(std::cerr, "{} points failed; the first of them:\n", failed);
   } else {
     fmt::print(std::cerr, "some points failed; the first of them:\n");
   }
-  for (int i = 0; i < most_failures_shown && std::getline(told, line); ++i) {
+  for (int i = 0; i < most_failures_shown && std::getline(rows, line); ++i) {
     const std::size_t colon = line.find(": ");
     fmt::print(std::cerr, "  {}\n    frahm point {} --at \"{}\"", line, study.string(),
                line.substr(0, colon));

@@ -14,7 +14,7 @@
 
 namespace frahm::studies {
 
-// One point told in full.
+// The full report of one point.
 struct PointReport {
   struct Parameter {
     std::string name;

@@ -41,7 +41,7 @@ constexpr const char* overview =
 constexpr const char* first_steps = R"(
 A study file describes a system and the axes of a map. From there:
   frahm check study.toml                      is it right, how long will it take
-  frahm point study.toml --at r=0.9,f=0.1     one response, told in full
+  frahm point study.toml --at r=0.9,f=0.1     the full report of one response
   frahm run study.toml                        the whole map, into study.h5; run again to resume
   frahm status study.h5                       what is in a file, or how far it is
   frahm report study.h5                       its page: maps, curves and numbers to look at
@@ -194,7 +194,7 @@ void add_check(CLI::App& program, CheckOptions& options, Action& action) {
 }
 
 void add_point(CLI::App& program, PointOptions& options, Action& action) {
-  CLI::App* point = add_command(program, "point", "one response, told in full", point_examples);
+  CLI::App* point = add_command(program, "point", "the full report of one response", point_examples);
   add_study(*point, options.study);
   point->add_option("--at", options.at, "name=value,...; the rest as the study states it")
       ->allow_extra_args(false);
@@ -376,7 +376,7 @@ int lead(engine::Ranks* ranks, int argc, const char* const* argv, std::ostream& 
 }
 
 // Of the other ranks: a run is shared, whatever else is asked for is done by rank 0. They say nothing
-// themselves; what goes wrong with one is told by rank 0.
+// themselves; rank 0 reports what goes wrong with one.
 int follow(engine::Ranks& ranks, int argc, const char* const* argv) {
   CLI::App program(overview, "frahm");
   CommandLine line;

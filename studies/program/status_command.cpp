@@ -32,12 +32,12 @@ std::string number_text(const results::Column& column) {
 // A file without a map holds one motion or optimum: its single numbers, and how many rows its other columns
 // have.
 void print_group(const results::MapReader& map, const std::string& group, std::ostream& out) {
-  std::vector<std::string> told;
+  std::vector<std::string> printed;
   for (const results::Column& column : map.columns(group)) {
     if (column.dimension.empty()) {
       fmt::print(out, "{:<22} {}\n", column.variable.name, number_text(column));
-    } else if (std::find(told.begin(), told.end(), column.dimension) == told.end()) {
-      told.push_back(column.dimension);
+    } else if (std::find(printed.begin(), printed.end(), column.dimension) == printed.end()) {
+      printed.push_back(column.dimension);
       fmt::print(out, "{:<22} {} rows\n", column.dimension, column.values.size());
     }
   }

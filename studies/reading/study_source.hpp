@@ -7,7 +7,7 @@
 
 namespace frahm::studies {
 
-// What is wrong in a study, told to its author. what() is the whole message.
+// A mistake in a study, reported to its author. what() is the whole message.
 class StudyError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

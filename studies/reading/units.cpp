@@ -105,7 +105,7 @@ ut_status visit_galilean(const ut_unit*, double scale, const ut_unit* underlying
 
 }  // namespace
 
-// UDUNITS prints its complaints unless told otherwise; how it was told before is put back at the end.
+// UDUNITS prints its complaints unless a handler is set; the handler of before is put back at the end.
 struct UnitSystem::Database {
   ut_error_message_handler previous_handler = ut_set_error_message_handler(ut_ignore);
   ut_system* system = ut_read_xml(nullptr);

@@ -22,7 +22,7 @@ struct TuningResult {
 
   std::size_t limits() const { return best.size(); }
   const tuning::Optimum& optimum(std::size_t limit) const { return starts[best[limit]].optima[limit]; }
-  // The last one of the trade-off, which is told in full.
+  // The last one of the trade-off, which the record has in full.
   const tuning::Optimum& optimum() const { return optimum(limits() - 1); }
 };
 
@@ -33,7 +33,7 @@ std::size_t best_of(const std::vector<const tuning::Optimum*>& optima);
 // Chooses among the starts and assesses the optimum. Throws StudyError for a task without meaning.
 TuningResult tuning_result(const StudyFile& study, std::vector<StartResult> starts);
 
-// Whether an optimum has a design, so that its response can be told.
+// Whether an optimum has a design, so that it has a response.
 bool has_design(const StudyFile& study, const tuning::Optimum& optimum);
 
 }  // namespace frahm::studies

@@ -146,7 +146,7 @@ TEST_CASE("A decay's file is exported, summed up, recomputed for its study and r
   CHECK(runs::frahm({"run", study, "-o", file}).code == 0);
   const runs::Outcome other = runs::frahm({"run", study, "-o", file, "--set", "F=3 N"});
   CHECK(other.code == 5);
-  CHECK_THAT(other.err, Catch::Contains("is the result of another physics") && !Catch::Contains("tiles"));
+  CHECK_THAT(other.err, Catch::Contains("is the result of another system") && !Catch::Contains("tiles"));
   CHECK(runs::frahm({"run", studies + "lecture_free_vibration.toml", "-o", file}).code == 5);
   CHECK_THAT(runs::frahm({"status", file}).out, Catch::Contains("stop_time"));
   const runs::Outcome table = runs::frahm({"export", file, "-o", "-"});

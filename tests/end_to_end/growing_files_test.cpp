@@ -77,7 +77,7 @@ TEST_CASE("a map never takes the place of one it grows from that has points it h
   CHECK(points_of(run(study, folder / "other.h5", {"--from", output}).out) == Points{5 * 31, 0});
 }
 
-TEST_CASE("what cannot be grown from is refused: another physics, no map, no common value, no such file") {
+TEST_CASE("what cannot be grown from is refused: another system, no map, no common value, no such file") {
   const Folder folder;
   const std::string study = folder.write("small.toml", small), output = folder / "new.h5";
   REQUIRE(run(study, folder / "old.h5", {"--set", "zeta=0.1"}).code == 0);
@@ -87,7 +87,7 @@ TEST_CASE("what cannot be grown from is refused: another physics, no map, no com
     return outcome.err;
   };
   const std::string kept = provenance(folder / "old.h5", "fingerprint_physics");
-  CHECK_THAT(refused(small, folder / "old.h5", 5), Catch::Contains("another physics (" + kept) &&
+  CHECK_THAT(refused(small, folder / "old.h5", 5), Catch::Contains("another system (" + kept) &&
                                                        Catch::Contains("this study has") &&
                                                        Catch::Contains("leave --from out"));
   REQUIRE(run(study, folder / "old.h5", {"--fresh"}).code == 0);
@@ -147,7 +147,7 @@ TEST_CASE("shards that grow a map in its place are merged into it, and a part ne
   const Folder folder;
   const std::string study = folder.write("map.toml", small), output = folder / "map.h5";
   REQUIRE(run(study, output).code == 0);
-  folder.write("map.toml", reduced("den_hartog", {}));  // of another physics: it does not touch the file
+  folder.write("map.toml", reduced("den_hartog", {}));  // of another system: it does not touch the file
   CHECK(run(study, output, {"--from", output, "--shard", "0/2"}).code == 5);
   folder.write("map.toml", larger);
   const auto whole = run(study, folder / "whole.h5", {"--from", output});

@@ -93,7 +93,7 @@ TEST_CASE("a finished run is not repeated, and a file of another study is not ov
   CHECK(folder.names() == Names{"small.h5", "small.toml"});
   const auto other = run(study, output, {"--set", "zeta=0.1"});
   CHECK(other.code == 5);
-  CHECK_THAT(other.err, Catch::Contains("another physics") && Catch::Contains("--fresh"));
+  CHECK_THAT(other.err, Catch::Contains("another system") && Catch::Contains("--fresh"));
   CHECK(run(study, output, {"--set", "zeta=0.1", "--fresh"}).code == 0);
   CHECK(provenance(output, "overrides") == "zeta=0.1");
   CHECK(folder.names() == Names{"small.h5", "small.toml"});

@@ -99,7 +99,7 @@ TEST_CASE("merge does not replace the result of another study") {
     if (partial) arguments.emplace_back("--partial");
     const auto outcome = frahm(arguments);
     CHECK(outcome.code == 5);
-    CHECK_THAT(outcome.err, Catch::Contains("another physics") && Catch::Contains("give merge another file"));
+    CHECK_THAT(outcome.err, Catch::Contains("another system") && Catch::Contains("give merge another file"));
     CHECK(text_of(result) == bytes);
   }
   CHECK(frahm({"merge", others}).code == 0);  // nothing of it was lost

@@ -115,9 +115,9 @@ def check_foreign(bench, study, expected, files):
     shard = OUTPUT + ".shard-0-of-2.frahm-log"
     for case, other in (("physics", other_physics), ("grid", other_grid)):
         check_refused(bench, study, expected, files | {shard: other[shard]}, f"other {case}", 5,
-                      "another physics" if case == "physics" else "another grid", shard)
+                      "another system" if case == "physics" else "another grid", shard)
         check_refused(bench, study, expected, {LOG: other[shard]}, f"own log of other {case}", 5,
-                      "another physics" if case == "physics" else "another grid", LOG)
+                      "another system" if case == "physics" else "another grid", LOG)
     swapped = files[LOG][:ends_of_records(files[LOG])[2]] + other_physics[shard][HEADER_SIZE:]
     check_used(bench, study, expected, {LOG: swapped}, "records of another study behind two of its own", 2)
     for name in LOG, shard:

@@ -128,7 +128,8 @@ TEST_CASE(
              Catch::WithinRel(smooth["energy_input"], kBalance));
 }
 
-TEST_CASE("at the paper's slope the rig's main peak is the exact one to 1e-4 wherever nothing stops") {
+TEST_CASE("at the paper's slope the rig's main peak is the exact one to 1e-4 wherever nothing stops",
+          "[slow]") {
   Responses smooth(under_arctan(rig())), exact(rig());
   int compared = 0;
   for (const double I : {4.72, 6.36, 8.81, 12.9}) {

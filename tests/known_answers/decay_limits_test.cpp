@@ -55,7 +55,7 @@ TEST_CASE("A given duration is what is computed, and little more, however long t
   }
 }
 
-TEST_CASE("A stiff decay without a duration is cut off, and what has been computed is kept") {
+TEST_CASE("A stiff decay without a duration is cut off, and what has been computed is kept", "[slow]") {
   const FreeOscillator oscillator{.m = 1.0, .k = 100.0, .zeta = 1e4};
   const FreeDecay decay = decay_of(oscillator, 1.0, {.samples = 5});
   CHECK(decay.end == DecayEnd::cut_off);

@@ -10,7 +10,7 @@
 namespace frahm::invariants {
 namespace {
 
-TEST_CASE("What leaves the motion of a random network as it is leaves its response as it is") {
+TEST_CASE("What leaves the motion of a random network as it is leaves its response as it is", "[slow]") {
   constexpr std::uint64_t kNetworks = 300;
   for (std::uint64_t seed = 1; seed <= kNetworks; ++seed) {
     std::string broken;

@@ -55,7 +55,7 @@ double largest_error(const Samples& history, periodic::EventIntegrator& referenc
   return error;
 }
 
-TEST_CASE("Random networks let go decay as the independent integration says") {
+TEST_CASE("Random networks let go decay as the independent integration says", "[slow]") {
   std::mt19937 random(20240611);
   int at_rest = 0;
   for (int trial = 0; trial < 60; ++trial) {
@@ -89,7 +89,8 @@ TEST_CASE("Random networks let go decay as the independent integration says") {
   CHECK(at_rest > 5);
 }
 
-TEST_CASE("Random networks shaken from random initial values move as the independent integration says") {
+TEST_CASE("Random networks shaken from random initial values move as the independent integration says",
+          "[slow]") {
   std::mt19937 random(20240612);
   for (int trial = 0; trial < 40; ++trial) {
     const RandomNetwork drawn =
@@ -115,7 +116,7 @@ TEST_CASE("Random networks shaken from random initial values move as the indepen
   }
 }
 
-TEST_CASE("Random networks in a run-up lose what they are given") {
+TEST_CASE("Random networks in a run-up lose what they are given", "[slow]") {
   std::mt19937 random(20240613);
   for (int trial = 0; trial < 16; ++trial) {
     const RandomNetwork drawn = random_network({.masses = 1 + trial % 3,

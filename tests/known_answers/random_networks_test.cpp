@@ -77,7 +77,8 @@ void check_network(const RandomNetwork& drawn) {
 }
 
 TEST_CASE(
-    "Random networks of 1 to 5 masses with up to 3 contacts balance, are stable and return to themselves") {
+    "Random networks of 1 to 5 masses with up to 3 contacts balance, are stable and return to themselves",
+    "[slow]") {
   const std::vector<std::vector<int>> orders = {{1}, {1, 3}, {1, 2}, {2}, {0, 1}};
   int points = 0;
   for (const int masses : {1, 2, 3, 5}) {
@@ -100,7 +101,7 @@ TEST_CASE(
   CHECK(points == 320);
 }
 
-TEST_CASE("So do networks with Maxwell and hysteretic elements") {
+TEST_CASE("So do networks with Maxwell and hysteretic elements", "[slow]") {
   const std::vector<std::vector<int>> orders = {{1}, {1, 3}, {1, 2}, {0, 1}};
   for (unsigned trial = 0; trial < 60; ++trial) {
     std::mt19937 random(7000U + trial);

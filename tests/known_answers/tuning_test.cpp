@@ -85,8 +85,8 @@ TEST_CASE("the closed form of Nishihara and Asami is a minimum of the worst magn
   }
 }
 
-TEST_CASE(
-    "the classical damper is tuned to the exact H-infinity optimum at six mass ratios from poor starts") {
+TEST_CASE("the classical damper is tuned to the exact H-infinity optimum at six mass ratios from poor starts",
+          "[slow]") {
   for (const double mu : mass_ratios) {
     const AbsorberOptimum form = nishihara_asami(mu);
     for (const std::size_t start : {0, 1, 2, 3}) {
@@ -186,7 +186,7 @@ TEST_CASE("no peak hides: one a hundred-thousandth of the band wide is found, pr
   }
 }
 
-TEST_CASE("limits that no design meets, and a resonance that nothing bounds, are said to be so") {
+TEST_CASE("limits that no design meets, and a resonance that nothing bounds, are said to be so", "[slow]") {
   Task narrow = absorber(0.05, 0.0);
   narrow.limits.push_back({"stroke", {periodic::Measure::stroke, 1}, -1.0, 0.01, {}});
   narrow.limits.back().lower = -std::numeric_limits<double>::infinity();
@@ -202,7 +202,7 @@ TEST_CASE("limits that no design meets, and a resonance that nothing bounds, are
   CHECK(unbounded.reason.find("bound") != std::string::npos);
 }
 
-TEST_CASE("a schedule meets a limit that no constants do") {
+TEST_CASE("a schedule meets a limit that no constants do", "[slow]") {
   // No constants bring the main mass below 6.4.
   Task task = absorber(0.05, 0.0);
   task.quantity = {periodic::Measure::stroke, 1};

@@ -27,7 +27,7 @@ Outcome run(const std::string& arguments) {
   return outcome;
 }
 
-TEST_CASE("solves in several threads end, and give the bits of solves alone") {
+TEST_CASE("solves in several threads end, and give the bits of solves alone", "[slow]") {
   for (const std::string load : {"2 5", "4 3"}) {
     const Outcome outcome = run(load);
     INFO("threads and solves " << load << ", exit code " << outcome.exit_code << "\n" << outcome.text);

@@ -91,7 +91,8 @@ int stops_of(const Network& network, const NetworkValues& values) {
   return static_cast<int>(counts[0] + counts[1]);
 }
 
-TEST_CASE("The rig's derivatives by k, c, I, D, d and omega are those of differences at 200 random points") {
+TEST_CASE("The rig's derivatives by k, c, I, D, d and omega are those of differences at 200 random points",
+          "[slow]") {
   std::mt19937 random(20261121);
   const auto uniform = [&](double from, double to) {
     return std::uniform_real_distribution<double>(from, to)(random);
@@ -131,7 +132,7 @@ TEST_CASE("The rig's derivatives by k, c, I, D, d and omega are those of differe
   CHECK(grazing < 5);
 }
 
-TEST_CASE("So are those of random networks by every number they have") {
+TEST_CASE("So are those of random networks by every number they have", "[slow]") {
   const std::vector<std::vector<int>> orders = {{1}, {1, 3}, {1, 2}, {2}, {0, 1}};
   int with_gradient = 0, compared = 0, undecided = 0;
   for (unsigned trial = 0; trial < 60; ++trial) {

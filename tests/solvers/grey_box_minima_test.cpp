@@ -74,7 +74,7 @@ bool has_note(const Identification& found, const std::string& part) {
 constexpr double kAlike = 0.01;  // of a sum of squares that has a standard deviation of 39: the same minimum
 
 // Fits that only grow along the record end with another number of half swings in a third of these.
-TEST_CASE("A noisy decay that has come to rest is fitted as well from afar as from the truth") {
+TEST_CASE("A noisy decay that has come to rest is fitted as well from afar as from the truth", "[slow]") {
   constexpr double kDisplacement = 1e-4, kVelocity = 3e-2;
   for (unsigned seed = 0; seed < 20; ++seed) {
     const TimeRecord record = decay(kTruth, kDisplacement, kVelocity, seed);

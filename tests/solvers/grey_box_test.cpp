@@ -180,7 +180,7 @@ TEST_CASE("Each record has a release of its own, the parameters are common to al
   }
 }
 
-TEST_CASE("The stated intervals cover each parameter in at least 90 of 100 noisy records") {
+TEST_CASE("The stated intervals cover each parameter in at least 90 of 100 noisy records", "[slow]") {
   const mechanics::Network network = kOscillator.network();
   const TimeRecord clean = displacements("decay", MotionKind::free, network, kReleased, 7.0, 700);
   std::mt19937 random(20261123);

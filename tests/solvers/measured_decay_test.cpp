@@ -211,8 +211,8 @@ TEST_CASE("Of a hundred noisy viscous decays the decrement's intervals hold the 
   }
 }
 
-TEST_CASE(
-    "Of a hundred noisy decays the intervals of damping and friction hold the truth in ninety at least") {
+TEST_CASE("Of a hundred noisy decays the intervals of damping and friction hold the truth in ninety at least",
+          "[slow]") {
   for (const auto& [zeta, x_f] : {std::pair{0.02, 0.008}, {0.0, 0.012}, {0.03, 0.0}}) {
     const FreeOscillator oscillator{.m = 2.0, .k = 50.0, .zeta = zeta, .x_f = x_f};
     const Trace trace = trace_of(oscillator, 10.3, 100.0);
@@ -266,7 +266,8 @@ TEST_CASE("A record that tells no damping says why") {
 // A tuned mass of 12.82 kg on 10985.1 N/m that rubs with 15 N, let go at 30 mm, at 500 samples a second with
 // noise of 0.02 and 0.005 mm; and a strongly damped one. All of a first displacement of 1.
 TEST_CASE(
-    "The frequency of a short decay is not biased, and its interval holds the truth as often as it says") {
+    "The frequency of a short decay is not biased, and its interval holds the truth as often as it says",
+    "[slow]") {
   struct Case {
     FreeOscillator oscillator;
     double periods, samples, noise;

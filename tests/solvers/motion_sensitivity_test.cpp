@@ -275,7 +275,8 @@ Case random_case(int number, std::mt19937& random) {
   return result;
 }
 
-TEST_CASE("Derivatives of 120 random motions are those of differences, through every event and up to rest") {
+TEST_CASE("Derivatives of 120 random motions are those of differences, through every event and up to rest",
+          "[slow]") {
   std::mt19937 random(20261122);
   Tally tally;
   for (int number = 0; number < 120; ++number) {

@@ -243,7 +243,7 @@ TEST_CASE("an exception of the problem comes through the solver as it was thrown
   }
 }
 
-TEST_CASE("every global search comes near the bottom of the valley, the same in every run") {
+TEST_CASE("every global search comes near the bottom of the valley, the same in every run", "[slow]") {
   for (const SolverKind kind : kSolvers) {
     if (!abilities(kind).global) continue;
     INFO(name(kind));

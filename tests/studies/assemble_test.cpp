@@ -287,7 +287,8 @@ std::string said_by_stage(std::chrono::milliseconds each, engine::ProgressStyle 
   return said.str();
 }
 
-TEST_CASE("an assembly that takes longer than a second shows its progress, and a quick one says nothing") {
+TEST_CASE("an assembly that takes longer than a second shows its progress, and a quick one says nothing",
+          "[slow]") {
   using namespace std::chrono_literals;
   CHECK(said_by_stage(0ms, engine::ProgressStyle::plain).empty());
   CHECK(said_by_stage(500ms, engine::ProgressStyle::none).empty());

@@ -74,7 +74,7 @@ TEST_CASE("a tuning without a schedule has no table of one") {
   CHECK_THROWS_WITH(schedule_table(stored, std::nullopt), Catch::Contains("nothing is scheduled"));
 }
 
-TEST_CASE("every study written out is the study that was read") {
+TEST_CASE("every study written out is the study that was read", "[slow]") {
   for (const char* folder : {"/studies", "/tests/studies/wrong"}) {
     for (const auto& entry : std::filesystem::directory_iterator(FRAHM_SOURCE_DIR + std::string(folder))) {
       if (entry.path().extension() != ".toml" || entry.path().filename().string().starts_with("toml_"))

@@ -35,7 +35,7 @@ class ActivePoints {
   // is not takes the place of a point it differs from by next to nothing. follow: those that can be.
   void join(const Scan& scan, bool follow);
 
-  // Points far below the bound only cost time: what of them comes up again a scan finds.
+  // Drops points far below the bound, which only cost time; a scan finds those that rise again.
   // responses: of each point at the design found. worst: bound of the objective's.
   void drop_idle(std::span<const double> responses, double worst);
 

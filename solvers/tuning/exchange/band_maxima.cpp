@@ -54,7 +54,7 @@ class Search {
   void search(const CurvePoint& a, const CurvePoint& b, double narrowest) {
     const double h = b.at - a.at;
     if (!is_finite(a) || !is_finite(b)) {
-      // A place without a value between two that have one is told by the samples; what is beside it is
+      // A place without a value between two that have one is left to the samples; its surroundings are
       // searched down to a thousandth of the seeds' spacing.
       if (h < 1e6 * narrowest || (!is_finite(a) && !is_finite(b))) return;
       const CurvePoint m = ask(0.5 * (a.at + b.at));

@@ -5,7 +5,7 @@
 
 namespace frahm::tuning {
 
-// What is told of a tuning: the design, its true maxima with the multipliers that hold them, its limits.
+// The report of a tuning: the design, its true maxima with the multipliers that hold them, its limits.
 Optimum report_optimum(const Task& task, DesignTuning& tuning, const Stages& stages, Effort& effort);
 
 }  // namespace frahm::tuning
