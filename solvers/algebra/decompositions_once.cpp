@@ -3,8 +3,6 @@
 namespace Eigen {
 
 template class ColPivHouseholderQR<MatrixXd>;
-template class CompleteOrthogonalDecomposition<MatrixXd>;
-template class FullPivLU<MatrixXd>;
 template class PartialPivLU<MatrixXd>;
 template class PartialPivLU<MatrixXcd>;
 

@@ -7,8 +7,6 @@
 namespace Eigen {
 
 extern template class ColPivHouseholderQR<MatrixXd>;
-extern template class CompleteOrthogonalDecomposition<MatrixXd>;
-extern template class FullPivLU<MatrixXd>;
 extern template class PartialPivLU<MatrixXd>;
 extern template class PartialPivLU<MatrixXcd>;
 

@@ -126,7 +126,7 @@ TEST_CASE("a variance without a band has the objective of the design before besi
       heading + absorber +
       "[tune]\nobjective = \"variance\"\nquantity = \"main_rms\"\nnoise = { force_on = \"main\" }\n" + of_f);
   tuning::Optimum optimum = optimum_of(2.0);
-  optimum.parameters = {{{0.9}, {0}, {0}}};
+  optimum.parameters = {{{0.9}, {tuning::AtBound::no}, {0}, {0}}};
   TuningResult result{.starts = {{0, {optimum}}}, .best = {0}, .assessment = {}};
   result.assessment.curves = {{"before", {}, 3.0}, {"after", {}, 2.0}};
   const auto columns = optimum_columns(study, result);
