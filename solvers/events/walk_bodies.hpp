@@ -33,6 +33,7 @@ void Walk<N, H>::pass(const typename S::State& z, double phase, double length, P
       passage.segments.back().length = length - passage.segments.back().start;
       break;
     } else {
+      at_this_instant = 0;
       passage.tangent = (flow_.configuration(flow_.mode(w_.mode)).E * passage.tangent).eval();
       take_step();
     }
