@@ -65,6 +65,7 @@ class Report {
     optimum.certificate_gap = optimum.kkt_residual = optimum.objective = kNone;
     if (!stages_.best.has_step) {
       if (optimum.outcome == Outcome::converged) write_nothing_moves(optimum);
+      judge_multipliers(optimum);
       return optimum;
     }
     scan_ = tuning_.full_scan(x_);
