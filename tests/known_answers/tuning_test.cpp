@@ -194,12 +194,15 @@ TEST_CASE("limits that no design meets, and a resonance that nothing bounds, are
   CHECK(infeasible.outcome == tuning::Outcome::infeasible);
   CHECK(infeasible.violation > 0.0);
   CHECK(infeasible.parameters.at(0).value.size() == 1);
+  CHECK(infeasible.limits.at(0).excess > 0.0);
+  CHECK(std::isnan(infeasible.limits.at(0).multiplier));
 
   Task undamped = absorber(0.05, 0.0);
   undamped.parameters = {{"f", 0.9, 1.1, 1.0, {}}, {"zeta", 0.0, 0.0, 0.0, {}}};
   const Optimum unbounded = tuned(undamped);
   CHECK(unbounded.outcome == tuning::Outcome::unbounded);
   CHECK(unbounded.reason.find("bound") != std::string::npos);
+  CHECK(std::isnan(unbounded.parameters.at(0).lower_multiplier.at(0)));
 }
 
 TEST_CASE("a schedule meets a limit that no constants do", "[slow]") {
@@ -230,6 +233,7 @@ TEST_CASE("a limit's multiplier is what relaxing it gives") {
   const double most = 0.5 * (21.0 + limited(1e6).limits[0].value), step = 1e-3;
   const Optimum optimum = limited(most);
   REQUIRE(optimum.limits[0].multiplier > 0.0);
+  CHECK(optimum.limits[0].excess == 0.0);
   CHECK(optimum.limits[0].value == Approx(most).epsilon(1e-8));
   const double slope = (limited(most + step).objective - limited(most - step).objective) / (2.0 * step);
   CHECK(-slope == Approx(optimum.limits[0].multiplier).epsilon(1e-3));  // of a difference
