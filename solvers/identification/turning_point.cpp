@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "solvers/identification/linear_fit.hpp"
 
@@ -59,6 +60,8 @@ TurningPoint parabola(const Quarters& quarters) {
 struct Degrees {
   Index common, jump;
   Index unknowns() const { return common + jump; }  // X and the turn's place among them
+
+  friend bool operator==(const Degrees&, const Degrees&) = default;
 };
 
 // Columns: X, the turn's place, the shapes of both sides, those behind the turn.
@@ -142,14 +145,16 @@ TurningPoint turning_point(const Quarters& quarters) {
   if (std::min(before, n - before) < kLeastOfSide) return {};
   // One less of few samples.
   constexpr Degrees kOfFew{3, 2}, kLeast{4, 2};
-  TurningPoint best = fit_of(quarters, start, n > kLeast.unknowns() + 1 ? kLeast : kOfFew);
+  const Degrees first = n > kLeast.unknowns() + 1 ? kLeast : kOfFew;
+  TurningPoint best = fit_of(quarters, start, first);
   // The degree goes up by two: what an even power misses an odd one does not find. The first that does not
   // predict better ends it: one of many would fit the noise by chance.
   for (Index degree = 4; best.converged && degree <= kHighestDegree; degree += 2) {
     const TurningPoint last = best;
-    for (const Index jump : {Index{2}, Index{4}, degree}) {
+    for (const Index jump : std::set<Index>{2, 4, degree}) {
       const Degrees degrees{degree, jump};
-      if (n <= degrees.unknowns()) continue;
+      // The first fit again would be better or not by its rounding alone.
+      if (degrees == first || n <= degrees.unknowns()) continue;
       const TurningPoint fit = fit_of(quarters, last, degrees);
       if (fit.converged && fit.criterion < best.criterion) best = fit;
     }

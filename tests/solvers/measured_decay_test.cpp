@@ -92,6 +92,27 @@ TEST_CASE("What turns no more ends the extremes: a rest, the noise, the ends of 
   }
 }
 
+TEST_CASE("Turning points of a noisy trace do not hang on rounding: other units of length, the same turns") {
+  constexpr double kSame = 1e-9;  // the shift between fits of another degree is some 1e-3 of a half period
+  const FreeOscillator oscillator{.m = 2.0, .k = 50.0, .zeta = 0.02, .x_f = 0.01};
+  const Trace trace = trace_of(oscillator, 6.3, 60.0);
+  for (int seed = 1; seed <= 20; ++seed) {
+    const std::vector<double> noisy = Noise(seed).on(trace.displacement, 0.001);
+    const FoundExtrema found = find_extrema(trace.time, noisy);
+    for (const double unit : {1.0 / 3.0, 0.0254, 1.1}) {
+      std::vector<double> scaled = noisy;
+      for (double& x : scaled) x *= unit;
+      const FoundExtrema again = find_extrema(trace.time, scaled);
+      INFO("noise " << seed << ", unit " << unit);
+      REQUIRE(again.extrema.time.size() == found.extrema.time.size());
+      for (std::size_t i = 0; i < again.extrema.time.size(); ++i) {
+        CHECK_THAT(again.extrema.time[i], WithinAbs(found.extrema.time[i], kSame));
+        CHECK_THAT(again.extrema.displacement[i] / unit, WithinAbs(found.extrema.displacement[i], kSame));
+      }
+    }
+  }
+}
+
 TEST_CASE("The logarithmic decrement of a viscous decay gives back the damping ratio, exactly") {
   for (const double zeta : {0.002, 0.05, 0.3}) {
     const FreeOscillator oscillator{.m = 2.0, .k = 50.0, .zeta = zeta};
