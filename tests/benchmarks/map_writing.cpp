@@ -29,6 +29,7 @@
 #include "engine/run.hpp"
 #include "results/storage.hpp"
 #include "studies/map/assemble.hpp"
+#include "tests/study_path.hpp"
 
 namespace {
 
@@ -155,7 +156,7 @@ void measure(const studies::StudyFile& study, const std::filesystem::path& folde
 
 // Den Hartog's map with so many points along the friction: 2886 points each.
 studies::StudyFile single_mass(int frictions) {
-  std::ifstream file(FRAHM_SOURCE_DIR "/studies/den_hartog.toml");
+  std::ifstream file(study_path("den_hartog"));
   std::string text(std::istreambuf_iterator<char>(file), {});
   const std::string points = "points = 25\n";
   const std::size_t at = text.find(points);
@@ -171,7 +172,7 @@ int main(int argc, char** argv) {
                         "frahm-writing-XXXXXX")
                            .string();
   if (::mkdtemp(folder.data()) == nullptr) throw std::runtime_error("cannot make the folder " + folder);
-  studies::StudyFile rig = studies::read_study(FRAHM_SOURCE_DIR "/studies/rig_atlas.toml");
+  studies::StudyFile rig = studies::read_study(study_path("rig_atlas"));
   rig.output.borders = false;  // what they cost is no writing
   measure(rig, folder);
   measure(single_mass(350), folder);

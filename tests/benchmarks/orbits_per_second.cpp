@@ -68,7 +68,7 @@ Work single_mass() {
   return work;
 }
 
-// The rig (README, studies/rig_atlas.toml): 150..350 rpm, friction 0..0.3, inertance 4.72, 8.81, 12.9 kg.
+// The rig (README, studies/rig/rig_atlas.toml): 150..350 rpm, friction 0..0.3, inertance 4.72, 8.81, 12.9 kg.
 double rig_peak(const NetworkValues& values);
 Work rig() {
   Work work{"rig", {}, {}, rig_peak};

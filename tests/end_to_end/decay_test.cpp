@@ -9,17 +9,16 @@
 
 #include "tests/end_to_end/motion_file.hpp"
 #include "tests/known_answers/free_oscillator.hpp"
+#include "tests/study_path.hpp"
 
 namespace {
 
 using frahm::transient::FreeOscillator;
 constexpr double kExact = 1e-12;  // of times, and of displacements relative to the first
 
-const std::string studies = FRAHM_SOURCE_DIR "/studies/";
-
 void check_against_recursion(const std::string& study, const std::string& node,
                              const FreeOscillator& oscillator, double x_0, std::size_t turning_points) {
-  const runs::MotionFile file(studies + study + ".toml", "decay");
+  const runs::MotionFile file(study_path(study), "decay");
   INFO(study);
   const auto expected = oscillator.turning_points(x_0, 100000);
   CHECK(expected.size() == turning_points + 1);
@@ -60,14 +59,14 @@ TEST_CASE("rig_decay_inerter_low.toml and _high.toml: 7 turning points each, wit
 TEST_CASE("lecture_free_vibration_friction.toml: each cycle loses 4 F/k and the mass stops off centre") {
   check_against_recursion("lecture_free_vibration_friction", "mass", oscillator_of(2.0, 800.0, 0.0, 2.0),
                           0.052, 10);
-  const runs::MotionFile file(studies + "lecture_free_vibration_friction.toml", "decay");
+  const runs::MotionFile file(study_path("lecture_free_vibration_friction"), "decay");
   CHECK_THAT(file["mass_rest"][0], Catch::WithinAbs(0.002, kExact));
   CHECK_THAT(file["mass_extremum"][0] - file["mass_extremum"][2], Catch::WithinAbs(0.010, kExact));
 }
 
 TEST_CASE(
     "lecture_free_vibration.toml: the logarithmic decrement, and no overshoot from critical damping on") {
-  const std::string study = studies + "lecture_free_vibration.toml";
+  const std::string study = study_path("lecture_free_vibration");
   const runs::MotionFile under(study, "decay");
   const double expected = 2.0 * std::numbers::pi * 0.1 / std::sqrt(1.0 - 0.01);
   for (std::size_t i = 0; i < 4; ++i) {
@@ -137,7 +136,7 @@ TEST_CASE("SIGTERM stops a motion with code 4 and leaves no file") {
 
 TEST_CASE("A decay's file is exported, summed up, recomputed for its study and refused to another") {
   const runs::Folder folder;
-  const std::string study = studies + "lecture_free_vibration_friction.toml", file = folder / "decay.h5";
+  const std::string study = study_path("lecture_free_vibration_friction"), file = folder / "decay.h5";
   const runs::Outcome first = runs::frahm({"run", study, "-o", file});
   CHECK(first.code == 0);
   CHECK_THAT(first.out, Catch::Contains("comes to rest at 1.570796327 s"));
@@ -147,7 +146,7 @@ TEST_CASE("A decay's file is exported, summed up, recomputed for its study and r
   const runs::Outcome other = runs::frahm({"run", study, "-o", file, "--set", "F=3 N"});
   CHECK(other.code == 5);
   CHECK_THAT(other.err, Catch::Contains("is the result of another system") && !Catch::Contains("tiles"));
-  CHECK(runs::frahm({"run", studies + "lecture_free_vibration.toml", "-o", file}).code == 5);
+  CHECK(runs::frahm({"run", study_path("lecture_free_vibration"), "-o", file}).code == 5);
   CHECK_THAT(runs::frahm({"status", file}).out, Catch::Contains("stop_time"));
   const runs::Outcome table = runs::frahm({"export", file, "-o", "-"});
   CHECK_THAT(table.out, Catch::StartsWith("mass_extremum_time [s],") || Catch::StartsWith("time [s],"));

@@ -25,7 +25,7 @@ class Growing:
     def __init__(self, program, source, folder):
         self.program, self.folder = program, folder
         self.study, self.earlier = os.path.join(folder, "map.toml"), os.path.join(folder, "earlier.h5")
-        with open(os.path.join(source, "studies", "den_hartog.toml")) as file:
+        with open(os.path.join(source, "studies", "classics", "den_hartog.toml")) as file:
             text = file.read()
         assert text.count("points = 481") == 1 and text.count("points = 25\n") == 1
         coarse = os.path.join(folder, "coarse.toml")

@@ -21,9 +21,9 @@ def check(condition, what):
 
 
 def identify(frahm, source, folder):
-    shutil.copytree(os.path.join(source, "studies", "data"), os.path.join(folder, "data"))
+    shutil.copytree(os.path.join(source, "studies", "identification", "data"), os.path.join(folder, "data"))
     for name in ("identify_rig_tmd_mass", "identify_rig_tmd", "identify_rig_damping_law"):
-        shutil.copy(os.path.join(source, "studies", name + ".toml"), folder)
+        shutil.copy(os.path.join(source, "studies", "identification", name + ".toml"), folder)
         subprocess.run([frahm, "run", name + ".toml", "--progress", "none"], cwd=folder, check=True,
                        stdout=subprocess.DEVNULL)
     return os.path.join(folder, "identify_rig_damping_law.h5")

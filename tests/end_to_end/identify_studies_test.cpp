@@ -9,12 +9,13 @@
 #include <sstream>
 
 #include "tests/end_to_end/runs.hpp"
+#include "tests/study_path.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path studies = fs::path(FRAHM_SOURCE_DIR) / "studies";
+const fs::path studies = fs::path(FRAHM_SOURCE_DIR) / "studies/identification";
 
 // The rig as published (tests/known_answers/rig.hpp has its sources).
 constexpr double M = 102.66, K = 7 * 8181.0, C = 1.7688, D = 10.1270;
@@ -44,7 +45,7 @@ class Laboratory {
 
   // Measures a study of a motion anew, without noise.
   void measure(const std::string& study, const std::string& data, std::vector<std::string> more) const {
-    std::vector<std::string> arguments{"export", (studies / (study + ".toml")).string(), "--data",
+    std::vector<std::string> arguments{"export", study_path(study), "--data",
                                        folder_ / ("data/" + data + ".csv")};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const runs::Outcome outcome = runs::frahm(arguments);
@@ -54,9 +55,8 @@ class Laboratory {
 
   void run(const std::string& study) {
     INFO(study);
-    const runs::Outcome outcome =
-        runs::frahm({"run", folder_.write(study + ".toml", text_of(studies / (study + ".toml"))), "-o",
-                     folder_ / (study + ".h5")});
+    const runs::Outcome outcome = runs::frahm(
+        {"run", folder_.write(study + ".toml", text_of(study_path(study))), "-o", folder_ / (study + ".h5")});
     INFO(outcome.err);
     REQUIRE(outcome.code == 0);
     printed = outcome.out;

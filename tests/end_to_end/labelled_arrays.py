@@ -17,7 +17,7 @@ REDUCED = {"I": 42, "FP": 2, "omega": 81}
 
 
 def reduced_study(source):
-    with open(os.path.join(source, "studies", "rig_atlas.toml")) as file:
+    with open(os.path.join(source, "studies", "rig", "rig_atlas.toml")) as file:
         text = file.read()
     for parameter, points in REDUCED.items():
         text, count = re.subn(rf'(parameter = "{parameter}"\n(?:unit.*\n)?from.*\nto.*\npoints = )\d+', rf"\g<1>{points}", text)

@@ -56,7 +56,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         for study, check, group in (("rig_decay_main", check_decay, "decay"), ("rig_forced_250rpm_I6", check_transient, "transient")):
             path = os.path.join(folder, study + ".h5")
-            subprocess.run([program, "run", os.path.join(source, "studies", study + ".toml"), "-o", path], check=True,
+            subprocess.run([program, "run", os.path.join(source, "studies", "rig", study + ".toml"), "-o", path], check=True,
                            stdout=subprocess.DEVNULL)
             check(path, "netcdf4")
             check(path, "h5netcdf")

@@ -9,6 +9,7 @@
 #include "results/map_reader.hpp"
 #include "tests/end_to_end/runs.hpp"
 #include "tests/studies/small_studies.hpp"
+#include "tests/study_path.hpp"
 
 namespace {
 
@@ -106,7 +107,7 @@ std::string text_of(const std::string& path) {
 
 TEST_CASE(
     "what is no result is not overwritten, --fresh or not: a foreign file, the study, a folder, a device") {
-  const std::string decay = text_of(FRAHM_SOURCE_DIR "/studies/lecture_free_vibration_friction.toml");
+  const std::string decay = text_of(study_path("lecture_free_vibration_friction"));
   for (const std::string& text : {small, decay}) {
     const Folder folder;
     const std::string study = folder.write("small.toml", text);

@@ -175,7 +175,7 @@ def check_errors(folder, expected):
 
 def check_tuning(program, source, mpiexec):
     """The starts of a tuning are its tiles."""
-    with open(os.path.join(source, "studies", "tune_h2_force.toml")) as file:
+    with open(os.path.join(source, "studies", "tuning", "tune_h2_force.toml")) as file:
         lines = [line for line in file.read().splitlines() if not line.startswith("start ")]
     with tempfile.TemporaryDirectory() as path:
         folder = Folder(program, mpiexec, path, "\n".join(lines).replace("[tune]", "[tune]\nstart = 16"))
@@ -188,7 +188,7 @@ def main():
     random.seed(6)
     program, source, mpiexec = sys.argv[1:]
     check_tuning(program, source, mpiexec)
-    with open(os.path.join(source, "studies", "rig_atlas.toml")) as file:
+    with open(os.path.join(source, "studies", "rig", "rig_atlas.toml")) as file:
         study = file.read()
     assert study.count("points = 42\n") == 1
     study = study.replace("points = 42\n", "points = 6\n")

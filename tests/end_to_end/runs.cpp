@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "studies/program/program.hpp"
+#include "tests/study_path.hpp"
 
 namespace runs {
 namespace {
@@ -45,7 +46,7 @@ Outcome frahm(const std::vector<std::string>& arguments) {
 }
 
 std::string reduced(const std::string& name, const std::map<std::string, int>& points) {
-  std::istringstream text(read_text(std::string(FRAHM_SOURCE_DIR) + "/studies/" + name + ".toml"));
+  std::istringstream text(read_text(study_path(name)));
   std::string result, line, parameter;
   while (std::getline(text, line)) {
     if (line.starts_with("parameter = ")) parameter = line.substr(13, line.size() - 14);

@@ -80,7 +80,7 @@ class Runs:
 
 def check_tuning(program, source):
     """The starts of a tuning, as the points of a map."""
-    with open(os.path.join(source, "studies", "tune_classical.toml")) as file:
+    with open(os.path.join(source, "studies", "tuning", "tune_classical.toml")) as file:
         text = re.sub(r"(?m)^start .*\n", "", file.read())
     assert text.count("[tune]\n") == 1
     with tempfile.TemporaryDirectory() as folder:
@@ -98,7 +98,7 @@ def check_tuning(program, source):
 
 def check_assembly(program, source):
     """A map of many chunks with borders, resonances and orbits, assembled whole and in part by teams of any size."""
-    with open(os.path.join(source, "studies", "den_hartog.toml")) as file:
+    with open(os.path.join(source, "studies", "classics", "den_hartog.toml")) as file:
         text = file.read()
     assert text.count("values = [0, 0.02, 0.05, 0.1, 0.2, 0.5]") == 1
     text = text.replace("values = [0, 0.02, 0.05, 0.1, 0.2, 0.5]", "from = 0.02\nto = 0.5\npoints = 12")
@@ -155,7 +155,7 @@ def main():
     check_assembly(program, source)
     with tempfile.TemporaryDirectory() as folder:
         study_path, output = os.path.join(folder, "study.toml"), os.path.join(folder, "map.h5")
-        shutil.copy(os.path.join(source, "studies", "den_hartog.toml"), study_path)
+        shutil.copy(os.path.join(source, "studies", "classics", "den_hartog.toml"), study_path)
         runs = Runs(program, folder, study_path)
         one = runs.finish(output, "--threads", "1")
         assert len(one) > 10 and one["main_peak"][1] == (6, 25, 481)

@@ -9,10 +9,9 @@
 #include "studies/reading/study_file.hpp"
 #include "tests/end_to_end/motion_file.hpp"
 #include "tests/end_to_end/runs.hpp"
+#include "tests/study_path.hpp"
 
 namespace {
-
-const std::string studies = FRAHM_SOURCE_DIR "/studies/";
 
 // Peak of the periodic response of a transient study's system.
 double periodic_peak(const frahm::studies::StudyFile& study, const std::string& quantity) {
@@ -31,7 +30,7 @@ double periodic_peak(const frahm::studies::StudyFile& study, const std::string& 
 TEST_CASE("rig_forced_250rpm_*.toml: after 250 periods from rest the motion is the periodic one") {
   for (const char* name : {"rig_forced_250rpm_I6", "rig_forced_250rpm_I13", "rig_forced_250rpm_I6_crank",
                            "rig_forced_250rpm_I13_crank"}) {
-    const std::string path = studies + name + ".toml";
+    const std::string path = study_path(name);
     const runs::MotionFile file(path, "transient");
     const auto study = frahm::studies::read_study(path);
     INFO(name);
@@ -59,8 +58,8 @@ TEST_CASE("rig_forced_250rpm_periodic.toml: both runs in the steady state, crank
   const runs::Map map = runs::run_study(runs::reduced("rig_forced_250rpm_periodic", {}));
   const std::string names[] = {"rig_forced_250rpm_I6", "rig_forced_250rpm_I13"};
   for (std::size_t i = 0; i < 2; ++i) {
-    const auto harmonic = frahm::studies::read_study(studies + names[i] + ".toml");
-    const auto crank = frahm::studies::read_study(studies + names[i] + "_crank.toml");
+    const auto harmonic = frahm::studies::read_study(study_path(names[i]));
+    const auto crank = frahm::studies::read_study(study_path(names[i] + std::string("_crank")));
     for (const std::string peak : {"main_peak", "tmd_peak"}) {
       INFO(names[i] << " " << peak);
       CHECK_THAT(map[peak][i], Catch::WithinRel(periodic_peak(crank, peak), 1e-9));
@@ -71,7 +70,7 @@ TEST_CASE("rig_forced_250rpm_periodic.toml: both runs in the steady state, crank
 }
 
 TEST_CASE("run_up.toml: the resonance passed in a run-up stays below that of the steady state") {
-  const runs::MotionFile file(studies + "run_up.toml", "transient");
+  const runs::MotionFile file(study_path("run_up"), "transient");
   const double peak = file["machine_peak"][0], steady = 0.16 / (2.0 * 0.05 * 200.0);
   CHECK(peak < steady);
   CHECK(peak > 0.5 * steady);
@@ -84,11 +83,10 @@ TEST_CASE("run_up.toml: the resonance passed in a run-up stays below that of the
 }
 
 TEST_CASE("A transient of a wrong sweep, or of a network that cannot move, is refused with its reason") {
-  const runs::Outcome same =
-      runs::frahm({"run", studies + "run_up.toml", "-o", "-", "--set", "omega=1000 rpm"});
+  const runs::Outcome same = runs::frahm({"run", study_path("run_up"), "-o", "-", "--set", "omega=1000 rpm"});
   CHECK(same.code == 2);
   CHECK_THAT(same.err, Catch::Contains("sweep_to: is the frequency at which the motion begins"));
-  const runs::Outcome still = runs::frahm({"check", studies + "run_up.toml", "--set", "M=0 kg"});
+  const runs::Outcome still = runs::frahm({"check", study_path("run_up"), "--set", "M=0 kg"});
   CHECK(still.code == 2);
   CHECK_THAT(still.err, Catch::Contains("mass matrix"));
 }

@@ -10,6 +10,7 @@
 
 #include "tests/end_to_end/runs.hpp"
 #include "tests/known_answers/nishihara_asami.hpp"
+#include "tests/study_path.hpp"
 
 namespace {
 
@@ -32,7 +33,7 @@ std::string text_of(const std::string& path) {
 class Tuned {
  public:
   explicit Tuned(const std::string& name, const std::vector<std::string>& set = {})
-      : Tuned(name, text_of(std::string(FRAHM_SOURCE_DIR) + "/studies/" + name + ".toml"), set) {}
+      : Tuned(name, text_of(study_path(name)), set) {}
   Tuned(const std::string& name, const std::string& text, const std::vector<std::string>& set) {
     INFO(name);
     std::vector<std::string> arguments{"run", folder_.write(name + ".toml", text), "-o",
@@ -210,7 +211,7 @@ TEST_CASE("tune_rig_schedule_stiffness_damping.toml: better than the best consta
 }
 
 TEST_CASE("tune_rig_schedule.toml: with the range closed it is the constant") {
-  std::string text = text_of(std::string(FRAHM_SOURCE_DIR) + "/studies/tune_rig_schedule.toml");
+  std::string text = text_of(study_path("tune_rig_schedule"));
   text = runs::replaced(text, "lower = 4.72", "lower = 8.0");
   text = runs::replaced(text, "upper = 12.9", "upper = 8.0");
   const Tuned tuned("closed", text, {});
@@ -294,7 +295,7 @@ TEST_CASE("tune_rig_robust.toml: the worst of all scenarios is pressed down, and
   const Tuned tuned("tune_rig_robust");
   CHECK(tuned.of("certificate_gap") < certified);
   for (const char* friction : {"friction=1", "friction=0.2", "friction=3"}) {
-    std::string text = text_of(std::string(FRAHM_SOURCE_DIR) + "/studies/tune_rig_inertance_stiffness.toml");
+    std::string text = text_of(study_path("tune_rig_inertance_stiffness"));
     INFO(friction);
     const Tuned alone("alone", text, {friction});
     CHECK(alone.of("objective") <= tuned.of("objective") * (1.0 + 1e-9));

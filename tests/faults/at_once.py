@@ -137,7 +137,7 @@ def check_shards(bench, study, expected):
 
 def check_at_once(bench):
     """One piece of work, such as a decay, keeps no logs; the second is refused all the same."""
-    with open(os.path.join(bench.source, "studies", "lecture_free_vibration_friction.toml")) as file:
+    with open(os.path.join(bench.source, "studies", "lecture", "lecture_free_vibration_friction.toml")) as file:
         place = bench.place(file.read())
     first = frozen_at(place, Fault(6, "freeze"), *RUN)
     outcome = ended(place.start(*RUN))

@@ -26,7 +26,7 @@ HEADER_SIZE, RECORD_HEAD = 256, struct.Struct("<4sIQQQ")  # of a shard log: engi
 
 def sweep_study(source):
     """24 tiles of 129 points, and an orbit."""
-    with open(os.path.join(source, "studies", "den_hartog.toml")) as file:
+    with open(os.path.join(source, "studies", "classics", "den_hartog.toml")) as file:
         text = file.read()
     for old, new in (("values = [0, 0.02, 0.05, 0.1, 0.2, 0.5]", "values = [0.02, 0.1]"),
                      ("points = 25", "points = 12"), ("points = 481", "points = 129")):
@@ -41,13 +41,13 @@ orbits = [{ r = 0.9, f = 0.3272727272727272, zeta = 0.1 }]
 
 def larger_sweep(source):
     """About a second of one processor, in 300 tiles."""
-    with open(os.path.join(source, "studies", "den_hartog.toml")) as file:
+    with open(os.path.join(source, "studies", "classics", "den_hartog.toml")) as file:
         return file.read().replace("points = 25", "points = 50")
 
 
 def tuning_study(source):
     """The starts of a tuning are its tiles."""
-    with open(os.path.join(source, "studies", "tune_h2_force.toml")) as file:
+    with open(os.path.join(source, "studies", "tuning", "tune_h2_force.toml")) as file:
         text = re.sub(r"(?m)^start .*\n", "", file.read())
     assert text.count("[tune]\n") == 1
     return text.replace("[tune]\n", "[tune]\nstart = 4\n")

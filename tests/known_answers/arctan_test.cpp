@@ -192,7 +192,7 @@ TEST_CASE(
   }
 }
 
-// B of X_arctan = X + (A + B ln(slope)) / slope, see studies/law_error_slope.toml: the response at the
+// B of X_arctan = X + (A + B ln(slope)) / slope, see studies/rig/law_error_slope.toml: the response at the
 // maximum to a kick |a+| dt at each reversal, dt slope / ln(slope) = (2 f/pi) (1/a-^2 - 1/a+^2). From just
 // behind one reversal to just behind the next the perturbation z = (dx, dv) goes as -D E z + (0, kick), D =
 // diag(1, a+/a-), E free decay over half a period.

@@ -142,7 +142,7 @@ def check_same(found, expected, what):
 
 
 def reduced_study(source, path, frictions, frequencies=401):
-    with open(os.path.join(source, "studies", "rig_atlas.toml")) as file:
+    with open(os.path.join(source, "studies", "rig", "rig_atlas.toml")) as file:
         text = file.read()
     for before, after in ((31, frictions), (401, frequencies)):
         text, count = re.subn(rf"(?m)^points = {before}$", f"points = {after}", text)

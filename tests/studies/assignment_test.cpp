@@ -4,6 +4,8 @@
 #include <numbers>
 #include <string>
 
+#include "tests/study_path.hpp"
+
 namespace {
 
 using namespace frahm::studies;
@@ -11,10 +13,10 @@ using namespace frahm::studies;
 constexpr double rounding = 1e-14;  // a few roundings of double arithmetic
 
 StudyFile rig() {
-  return read_study(FRAHM_SOURCE_DIR "/studies/rig_atlas.toml");
+  return read_study(study_path("rig_atlas"));
 }
 StudyFile den_hartog() {
-  return read_study(FRAHM_SOURCE_DIR "/studies/den_hartog.toml");
+  return read_study(study_path("den_hartog"));
 }
 
 std::string complaint_about(const StudyFile& study, const std::string& text) {

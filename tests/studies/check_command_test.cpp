@@ -6,6 +6,7 @@
 
 #include "studies/map/map_sample.hpp"
 #include "studies/reading/settings.hpp"
+#include "tests/study_path.hpp"
 
 namespace {
 
@@ -15,15 +16,13 @@ using frahm::studies::plan_map;
 using frahm::studies::read_study_with;
 using frahm::studies::sample_map;
 
-const std::string studies = std::string(FRAHM_SOURCE_DIR) + "/studies/";
-
 bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
 TEST_CASE("Checking the rig atlas tells its size, its array of tasks and its modes") {
   std::ostringstream out;
-  CHECK(check_command({.study = studies + "rig_atlas.toml", .set = {"K=8000 N/m"}, .threads = 2}, out) == 0);
+  CHECK(check_command({.study = study_path("rig_atlas"), .set = {"K=8000 N/m"}, .threads = 2}, out) == 0);
   const std::string text = out.str();
   INFO(text);
   CHECK(has(text, "rig_atlas.toml is a valid study: Tuned mass damper with inerter: the rig"));
@@ -41,7 +40,7 @@ TEST_CASE("Checking the rig atlas tells its size, its array of tasks and its mod
 
 TEST_CASE("A simulation of ranks tells time, efficiency and losses of 1, 10, 100 ... ranks") {
   std::ostringstream out;
-  CHECK(check_command({.study = studies + "rig_atlas.toml", .threads = 2, .simulate_ranks = 250}, out) == 0);
+  CHECK(check_command({.study = study_path("rig_atlas"), .threads = 2, .simulate_ranks = 250}, out) == 0);
   const std::string text = out.str();
   INFO(text);
   CHECK(has(text, "On ranks of 2 threads each"));
@@ -49,15 +48,15 @@ TEST_CASE("A simulation of ranks tells time, efficiency and losses of 1, 10, 100
        {"\n      1        2 ", "\n     10       20 ", "\n    100      200 ", "\n    250      500 "})
     CHECK(has(text, row));
   CHECK(has(text, "Efficiency "));
-  CHECK_THROWS_WITH(check_command({.study = studies + "tune_classical.toml", .simulate_ranks = 2}, out),
+  CHECK_THROWS_WITH(check_command({.study = study_path("tune_classical"), .simulate_ranks = 2}, out),
                     Catch::Contains("--simulate-ranks is for maps"));
   CHECK_THROWS_WITH(
-      check_command({.study = studies + "rig_atlas.toml", .threads = 4096, .simulate_ranks = 100'000}, out),
+      check_command({.study = study_path("rig_atlas"), .threads = 4096, .simulate_ranks = 100'000}, out),
       Catch::Contains("threads in all"));
 }
 
 TEST_CASE("A sample of a map is at least a tile and at most the map") {
-  const MapPlan plan = plan_map(read_study_with(studies + "cheng_zu.toml", {}), {});
+  const MapPlan plan = plan_map(read_study_with(study_path("cheng_zu"), {}), {});
   const auto one = sample_map(plan, 0.0);
   CHECK(one.points == plan.grid.box(0).points());
   CHECK(one.seconds > 0.0);
@@ -70,7 +69,7 @@ TEST_CASE("A sample of a map is at least a tile and at most the map") {
 }
 
 TEST_CASE("Points that fail in a sample are counted and the first is named") {
-  MapPlan plan = plan_map(read_study_with(studies + "den_hartog.toml", {}), {});
+  MapPlan plan = plan_map(read_study_with(study_path("den_hartog"), {}), {});
   // A stiffness of zero is no study; a map may meet one all the same, through a table or an expression.
   plan.study.values.element[0].expression = frahm::studies::Expression(0.0);
   const auto sample = sample_map(plan, 0.0);

@@ -6,10 +6,10 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "tests/study_path.hpp"
+
 namespace frahm::studies {
 namespace {
-
-const std::string kStudies = FRAHM_SOURCE_DIR "/studies/";
 
 const results::Column& column(const std::vector<results::Column>& columns, const std::string& name) {
   for (const auto& each : columns) {
@@ -19,7 +19,7 @@ const results::Column& column(const std::vector<results::Column>& columns, const
 }
 
 TEST_CASE("The rig's crank over a turn, and its Taylor errors of 0.0323, 4.93e-4 and 1.50e-5 of l_AC") {
-  const auto columns = crank_motions(read_study(kStudies + "rig_crank.toml"));
+  const auto columns = crank_motions(read_study(study_path("rig_crank")));
   CHECK_NOTHROW(results::check(columns));
   CHECK(columns.size() == 8);
   for (const auto& each : columns) {
@@ -57,8 +57,8 @@ TEST_CASE("The rig's crank over a turn, and its Taylor errors of 0.0323, 4.93e-4
 }
 
 TEST_CASE("A study without a crank has no crank motion") {
-  CHECK(crank_motions(read_study(kStudies + "rig_atlas.toml")).empty());
-  CHECK(crank_motions(read_study(kStudies + "rig_decay_main.toml")).empty());
+  CHECK(crank_motions(read_study(study_path("rig_atlas"))).empty());
+  CHECK(crank_motions(read_study(study_path("rig_decay_main"))).empty());
 }
 
 TEST_CASE("Two cranks on one node, without units, have names of their own") {

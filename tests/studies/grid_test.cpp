@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "tests/studies/small_studies.hpp"
+#include "tests/study_path.hpp"
 
 namespace {
 
@@ -74,7 +75,7 @@ TEST_CASE("the tiles of a map hold each of its points once, and its chunks are u
 }
 
 TEST_CASE("the rig atlas is cut into tiles of whole frequency rows, and chunks of 128 KiB and more") {
-  const Grid grid = grid_of(read_study(FRAHM_SOURCE_DIR "/studies/rig_atlas.toml"));
+  const Grid grid = grid_of(read_study(study_path("rig_atlas")));
   CHECK(grid.points() == 522102);
   CHECK(grid.tile == std::vector<std::uint64_t>{1, 4, 401});
   CHECK(grid.tiles() == 42 * 8);
@@ -95,7 +96,7 @@ TEST_CASE("a row of frequencies longer than 4000 is cut") {
 }
 
 TEST_CASE("a point is told as the option --at takes it, with its units") {
-  const StudyFile rig = read_study(FRAHM_SOURCE_DIR "/studies/rig_atlas.toml");
+  const StudyFile rig = read_study(study_path("rig_atlas"));
   CHECK(point_text(rig, std::vector<std::uint64_t>{41, 1, 400}) == "I=12.9 kg,FP=0.01,omega=350 rpm");
 }
 

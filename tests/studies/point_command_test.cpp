@@ -13,6 +13,7 @@
 #include "solvers/orbits/closed_forms.hpp"
 #include "studies/reading/study_file.hpp"
 #include "tests/results/temporary_directory.hpp"
+#include "tests/study_path.hpp"
 
 namespace {
 
@@ -24,8 +25,6 @@ using frahm::studies::StudyError;
 
 constexpr double agreement = 1e-9;  // with closed forms
 constexpr double printed = 1e-9;    // ten digits
-
-const std::string studies = std::string(FRAHM_SOURCE_DIR) + "/studies/";
 
 struct Told {
   int code = 0;
@@ -65,7 +64,7 @@ std::vector<std::vector<std::string>> read_csv(const std::filesystem::path& path
 }
 
 TEST_CASE("A point tells its status, every quantity, the modes over the period and the natural frequencies") {
-  const Told told = tell({.study = studies + "den_hartog.toml", .at = {"r=0.9", "f=0.1"}});
+  const Told told = tell({.study = study_path("den_hartog"), .at = {"r=0.9", "f=0.1"}});
   CHECK(told.code == 0);
   CHECK(told.has("status ok\n"));
   CHECK(told.has("  zeta = 0.05\n"));
@@ -82,17 +81,17 @@ TEST_CASE("A point tells its status, every quantity, the modes over the period a
 }
 
 TEST_CASE("A point of the rig is asked for and told in the units of the study") {
-  const Told as_usual = tell({.study = studies + "rig_atlas.toml", .at = {"omega=250", "I=6.36"}});
+  const Told as_usual = tell({.study = study_path("rig_atlas"), .at = {"omega=250", "I=6.36"}});
   CHECK(as_usual.has("  omega = 250 rpm\n"));
   CHECK(as_usual.has("  A = 29.55 mm\n"));
-  const Told in_hertz = tell({.study = studies + "rig_atlas.toml", .at = {"omega=4.1666666666666667 Hz"}});
+  const Told in_hertz = tell({.study = study_path("rig_atlas"), .at = {"omega=4.1666666666666667 Hz"}});
   CHECK_THAT(in_hertz.number("main_peak"), WithinRel(as_usual.number("main_peak"), printed));
   CHECK(as_usual.number("energy_balance") < 1e-10);
   CHECK(as_usual.number("floquet_radius") < 1.0);
 }
 
 TEST_CASE("The same point is one JSON object, with null where there is no value") {
-  const Told json = tell({.study = studies + "den_hartog.toml", .at = {"r=0.9", "f=0.1"}, .json = true});
+  const Told json = tell({.study = study_path("den_hartog"), .at = {"r=0.9", "f=0.1"}, .json = true});
   const double exact = frahm::periodic::non_stop_response(0.9, 0.05, 0.1).amplitude;
   CHECK(json.code == 0);
   CHECK_THAT(json.json_number("main_amplitude"), WithinAbs(exact, agreement));
@@ -100,15 +99,14 @@ TEST_CASE("The same point is one JSON object, with null where there is no value"
   CHECK(json.has("\"meaning\": \"non_stop\""));
   CHECK(json.has("\"sliding\": ["));
 
-  const Told none =
-      tell({.study = studies + "den_hartog.toml", .at = {"r=1", "f=0.5", "zeta=0"}, .json = true});
+  const Told none = tell({.study = study_path("den_hartog"), .at = {"r=1", "f=0.5", "zeta=0"}, .json = true});
   CHECK(none.has("\"status\": \"unbounded\""));
   CHECK(none.has("\"value\": null"));
   CHECK_FALSE(none.has(" nan"));
 }
 
 TEST_CASE("A point without a response says why and shows no numbers for it") {
-  const Told told = tell({.study = studies + "den_hartog.toml", .at = {"r=1", "f=0.5", "zeta=0"}});
+  const Told told = tell({.study = study_path("den_hartog"), .at = {"r=1", "f=0.5", "zeta=0"}});
   CHECK(told.code == 0);
   CHECK(told.has("status unbounded: an undamped mode"));
   CHECK_FALSE(told.has(" nan"));
@@ -154,7 +152,7 @@ points = 3
 TEST_CASE("A history is a CSV file of one period with names and their units above it") {
   TemporaryDirectory directory;
   const auto path = directory / "history.csv";
-  const Told told = tell({.study = studies + "rig_atlas.toml", .at = {"omega=250"}, .history = path});
+  const Told told = tell({.study = study_path("rig_atlas"), .at = {"omega=250"}, .history = path});
   const auto rows = read_csv(path);
   REQUIRE(rows.size() == 1 + 513);
   CHECK(rows[0][0] == "time [s]");
@@ -175,7 +173,7 @@ TEST_CASE("A history is a CSV file of one period with names and their units abov
 TEST_CASE("A history that cannot be written is an error, and nothing is left of it") {
   TemporaryDirectory directory;
   const auto nowhere = directory / "no_such_folder/history.csv";
-  PointOptions options{.study = studies + "den_hartog.toml", .history = nowhere};
+  PointOptions options{.study = study_path("den_hartog"), .history = nowhere};
   CHECK_THROWS_AS(tell(options), frahm::engine::IoError);
 
   std::filesystem::create_directory(directory / "folder");
@@ -186,25 +184,25 @@ TEST_CASE("A history that cannot be written is an error, and nothing is left of 
   options.history = "-";
   CHECK_THROWS_WITH(tell(options), Catch::Contains("--history"));
   options = {
-      .study = studies + "den_hartog.toml", .at = {"r=1,f=0.5,zeta=0"}, .history = directory / "none.csv"};
+      .study = study_path("den_hartog"), .at = {"r=1,f=0.5,zeta=0"}, .history = directory / "none.csv"};
   CHECK_THROWS_WITH(tell(options), Catch::Contains("unbounded") && Catch::Contains("no time history"));
   CHECK_FALSE(std::filesystem::exists(directory / "none.csv"));
 }
 
 TEST_CASE("Wrong names, values and units of a point are told") {
   const auto at = [](const std::string& text) {
-    return tell({.study = studies + "rig_atlas.toml", .at = {text}});
+    return tell({.study = study_path("rig_atlas"), .at = {text}});
   };
   CHECK_THROWS_WITH(at("omgea=250"), Catch::Contains("omgea") && Catch::Contains("did you mean \"omega\""));
   CHECK_THROWS_WITH(at("omega=250 kg"), Catch::Contains("kg"));
   CHECK_THROWS_WITH(at("omega=-250"), Catch::Contains("must be > 0"));
   CHECK_THROWS_AS(at("omega"), StudyError);
-  CHECK_THROWS_AS(tell({.study = studies + "no_such_study.toml"}), StudyError);
+  CHECK_THROWS_AS(tell({.study = "no_such_study.toml"}), StudyError);
 }
 
 TEST_CASE("A crank longer than anywhere on the grid is as good at a point, up to the longest that can be") {
   const auto at = [](const std::string& text) {
-    return tell({.study = studies + "rig_crank.toml", .at = {"omega=250 rpm,I=6.36 kg,FP=0", text}});
+    return tell({.study = study_path("rig_crank"), .at = {"omega=250 rpm,I=6.36 kg,FP=0", text}});
   };
   CHECK(at("L=32.9 mm").has("status ok"));
   CHECK_THROWS_WITH(

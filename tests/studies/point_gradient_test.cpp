@@ -10,6 +10,7 @@
 #include "solvers/orbits/closed_forms.hpp"
 #include "studies/program/point_command.hpp"
 #include "studies/reading/settings.hpp"
+#include "tests/study_path.hpp"
 
 namespace {
 
@@ -22,8 +23,6 @@ using frahm::studies::StudyFile;
 
 constexpr double kDifference = 1e-6;  // of exact derivatives and differences, relative
 constexpr double kClosedForm = 1e-9;
-
-const std::string studies = std::string(FRAHM_SOURCE_DIR) + "/studies/";
 
 PointGradient gradient_of(const StudyFile& study, const std::vector<std::string>& at) {
   return gradient_at(study, frahm::studies::parameters_at(study, at));
@@ -48,7 +47,7 @@ std::string tell(const PointOptions& options) {
 
 TEST_CASE(
     "A study's derivatives by its parameters go through its expressions and have the parameter's unit") {
-  const StudyFile study = frahm::studies::read_study(studies + "rig_atlas.toml");
+  const StudyFile study = frahm::studies::read_study(study_path("rig_atlas"));
   const PointGradient gradient = gradient_of(study, {"omega=250 rpm", "I=6.36", "FP=0.05"});
   CHECK(gradient.reason.empty());
   std::vector<std::string> names;
@@ -63,7 +62,7 @@ TEST_CASE(
 }
 
 TEST_CASE("The one mass's derivative by its friction is that of Den Hartog's formula") {
-  const StudyFile study = frahm::studies::read_study(studies + "den_hartog.toml");
+  const StudyFile study = frahm::studies::read_study(study_path("den_hartog"));
   const PointGradient gradient = gradient_of(study, {"r=0.9", "f=0.1"});
   const auto [V, G, H] = frahm::periodic::den_hartog_functions(0.9, 0.05);
   const double exact = -H * H * 0.1 / std::sqrt(V * V - H * H * 0.01) - G;
@@ -109,7 +108,7 @@ values = [0.1, 0.2]
 }
 
 TEST_CASE("A point tells its derivatives, exact, by differences and how far they are apart") {
-  PointOptions options{.study = studies + "den_hartog.toml", .at = {"r=0.9", "f=0.1"}, .gradient = true};
+  PointOptions options{.study = study_path("den_hartog"), .at = {"r=0.9", "f=0.1"}, .gradient = true};
   const std::string text = tell(options);
   CHECK(text.find("Derivatives by parameters in SI units") != std::string::npos);
   CHECK(text.find("\nby f ") != std::string::npos);
@@ -128,7 +127,7 @@ TEST_CASE("At grazing a point says why it has no derivatives") {
   friction.precision(17);
   friction << "f=" << f;
   const std::string text =
-      tell({.study = studies + "den_hartog.toml", .at = {"r=0.22", friction.str()}, .gradient = true});
+      tell({.study = study_path("den_hartog"), .at = {"r=0.22", friction.str()}, .gradient = true});
   CHECK(text.find("status grazing") != std::string::npos);
   CHECK(text.find("  none: grazing") != std::string::npos);
   CHECK(text.find("by differences") == std::string::npos);

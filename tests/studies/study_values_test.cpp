@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "studies/reading/study_file.hpp"
+#include "tests/study_path.hpp"
 
 namespace {
 
@@ -38,7 +39,7 @@ std::vector<double> values_at(const StudyFile& study, std::vector<double> parame
 
 TEST_CASE("the derivative of every value by every parameter agrees with differences") {
   for (const char* name : {"rig_atlas", "cheng_zu", "den_hartog"}) {
-    const StudyFile study = read_study(std::string(FRAHM_SOURCE_DIR "/studies/") + name + ".toml");
+    const StudyFile study = read_study(study_path(name));
     const auto nominal = study.parameters.nominal();
     for (std::size_t by = 0; by < nominal.size(); ++by) {
       INFO(name << ", by " << study.parameters.list[by].name);
@@ -59,7 +60,7 @@ TEST_CASE("the derivative of every value by every parameter agrees with differen
 }
 
 TEST_CASE("evaluation does not move the values it has once made room for") {
-  const StudyFile study = read_study(FRAHM_SOURCE_DIR "/studies/rig_atlas.toml");
+  const StudyFile study = read_study(study_path("rig_atlas"));
   auto parameters = study.parameters.nominal();
   NetworkValues values;
   evaluate(study.values, study.parameters, parameters, values);

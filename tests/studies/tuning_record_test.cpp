@@ -9,6 +9,7 @@
 #include "studies/reading/units.hpp"
 #include "studies/tuning/tuning_plan.hpp"
 #include "tests/studies/small_tunings.hpp"
+#include "tests/study_path.hpp"
 
 namespace {
 
@@ -138,7 +139,7 @@ TEST_CASE("a variance without a band has the objective of the design before besi
 }
 
 TEST_CASE("a variance under support motion says that it is of the motion relative to the support") {
-  const StudyFile study = read_study(FRAHM_SOURCE_DIR "/studies/tune_h2_support.toml");
+  const StudyFile study = read_study(study_path("tune_h2_support"));
   const TuningResult result{.starts = {{0, {optimum_of(2.0)}}}, .best = {0}, .assessment = {}};
   CHECK(text_of("noise", study, result) == "the acceleration of base");
   CHECK(text_of("noise_density", study, result) == "1");

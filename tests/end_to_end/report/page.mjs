@@ -2,10 +2,10 @@
 // whatever the browser complains of.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdirSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
-import { dirname, join } from "node:path";
+import { basename, dirname, join } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
 
 // Set by CTest.
@@ -15,7 +15,13 @@ const screenshots = process.env.FRAHM_SCREENSHOTS;
 const { chromium } = createRequire(join(process.env.FRAHM_NODE_MODULES, "page.cjs"))("playwright-core");
 
 export const sources = join(dirname(fileURLToPath(import.meta.url)), "..", "..", "..");
-export const study = (name) => join(sources, "studies", `${name}.toml`);
+
+// The file of one of the project's studies by its name; the folders under studies/ are by topic.
+export function study(name) {
+  const found = readdirSync(join(sources, "studies"), { recursive: true }).find((path) => basename(path) === `${name}.toml`);
+  assert.ok(found, `there is a study ${name}`);
+  return join(sources, "studies", found);
+}
 
 // A folder of the test's own; removed at its end.
 export function folderOf(test) {
