@@ -74,6 +74,7 @@ void refuse_same_names(const StudyFile& study, const std::vector<results::Column
   const auto twice = std::adjacent_find(names.begin(), names.end());
   if (twice == names.end()) return;
   throw StudyError(
+      rules::name_taken,
       fmt::format("{}: the result would have two things called \"{}\": one a parameter, record or mass "
                   "of the study; call that otherwise",
                   study.source.name, *twice));

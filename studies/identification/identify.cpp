@@ -38,19 +38,21 @@ void name_parameters(const StudyFile& study, Identification& fit) {
     const std::string& own = study.parameters.list[parameter.parameter].name;
     if (parameter.estimate.empty() || parameter.estimate == own) continue;
     const auto place = std::find(names.begin(), names.end(), parameter.estimate);
-    const auto fail = [&](const std::string& what) {
-      throw study.source.error_at(parameter.position,
+    const auto fail = [&](Rule rule, const std::string& what) {
+      throw study.source.error_at(rule, parameter.position,
                                   fmt::format("[[identify.parameter]] \"{}\": {}", own, what));
     };
     if (place == names.end()) throw std::logic_error("no estimate " + parameter.estimate);
     if (std::find(names.begin(), names.end(), own) != names.end())
-      fail(fmt::format("an estimate of the method {} has this name; call the parameter otherwise",
+      fail(rules::name_taken,
+           fmt::format("an estimate of the method {} has this name; call the parameter otherwise",
                        method_name(study.identify->method)));
     const auto taken = static_cast<std::size_t>(place - names.begin());
     identification::Estimate alias = fit.estimates[taken];
     const std::string unit = recorded_unit(study, parameter.parameter);
     if (unit != "1" && unit != alias.unit)
-      fail(fmt::format("is in {}, and the estimate \"{}\" in {}", unit, parameter.estimate, alias.unit));
+      fail(rules::two_units,
+           fmt::format("is in {}, and the estimate \"{}\" in {}", unit, parameter.estimate, alias.unit));
     alias.name = own;
     add_derived(fit, std::move(alias), Eigen::VectorXd::Unit(fit.covariance.rows(), place - names.begin()));
   }
@@ -74,7 +76,8 @@ IdentificationResult identify(const StudyFile& study, const transient::Watch& wa
       result.fit = identify_in_closed_form(study);
     }
     if (!result.fit.failure.empty())
-      throw StudyError(fmt::format("{}: nothing is identified: {}", study.source.name, result.fit.failure));
+      throw StudyError(rules::not_computed,
+                       fmt::format("{}: nothing is identified: {}", study.source.name, result.fit.failure));
     name_parameters(study, result.fit);
     for (const RecordChoice& record : study.identify->records) {
       if (record.doubtful > 0)
@@ -84,7 +87,7 @@ IdentificationResult identify(const StudyFile& study, const transient::Watch& wa
     }
     return result;
   } catch (const mechanics::MechanicsError& error) {
-    throw StudyError(study.source.name + ": " + error.what());
+    throw StudyError(rules::not_computed, study.source.name + ": " + error.what());
   }
 }
 

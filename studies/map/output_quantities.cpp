@@ -22,8 +22,9 @@ std::vector<periodic::Quantity> listed_quantities(const StudyFile& study) {
     if (!quantity) {
       std::vector<std::string> known;
       for (const auto& each : periodic::all_quantities(study.network)) known.push_back(name_of(study, each));
-      throw study.source.error_at(name.position, fmt::format("[output]: quantities: there is no \"{}\"{}",
-                                                             name.text, suggestion(name.text, known)));
+      throw study.source.error_at(
+          rules::unknown_name, name.position,
+          fmt::format("[output]: quantities: there is no \"{}\"{}", name.text, suggestion(name.text, known)));
     }
     result.push_back(*quantity);
   }
@@ -84,9 +85,10 @@ void check_report(const StudyFile& study, const std::vector<periodic::QuantityDe
   for (const OutputChoice::Name& name : study.report_quantities) {
     if (std::find(names.begin(), names.end(), name.text) != names.end()) continue;
     throw study.source.error_at(
-        name.position, fmt::format("[report]: quantities: \"{}\" is not recorded by this study{}; [output] "
-                                   "quantities chooses what is",
-                                   name.text, suggestion(name.text, names)));
+        rules::unknown_name, name.position,
+        fmt::format("[report]: quantities: \"{}\" is not recorded by this study{}; [output] "
+                    "quantities chooses what is",
+                    name.text, suggestion(name.text, names)));
   }
 }
 
@@ -118,7 +120,7 @@ std::vector<periodic::QuantityDescription> output_variables(
     const auto other = taken.find(name);
     if (other == taken.end()) continue;
     throw study.source.error_at(
-        other->second.position,
+        rules::name_taken, other->second.position,
         fmt::format("\"{}\" is the name of {} and of {}, which stand in one file; rename it", name,
                     other->second.what, what));
   }
@@ -126,7 +128,7 @@ std::vector<periodic::QuantityDescription> output_variables(
     const auto [other, is_free] = taken.try_emplace(variable.name, Taken{variable.long_name, {}});
     if (is_free) continue;
     throw study.source.error_at(
-        other->second.position,
+        rules::name_taken, other->second.position,
         fmt::format("\"{}\" is the name of {} and of a result ({}), which stand in one file; rename it",
                     variable.name, other->second.what, variable.long_name));
   }

@@ -58,7 +58,8 @@ void refuse_overruled(const StudyFile& study, const std::vector<std::string>& se
     for (const Assignment& assignment : parse_assignments(study, "--set", text)) {
       const std::string why = overruled_by(study, assignment.parameter);
       if (why.empty()) continue;
-      throw StudyError(fmt::format("--set \"{}\": \"{}\" {}", text,
+      throw StudyError(rules::wrong_option,
+                       fmt::format("--set \"{}\": \"{}\" {}", text,
                                    study.parameters.list[assignment.parameter].name, why));
     }
   }

@@ -45,6 +45,7 @@ std::vector<double> sample_times_of(const StudyFile& study, double duration, dou
   const double steps = std::floor(duration * rate * (1.0 + kRounding));
   if (!(steps >= 1.0 && steps < kMostSamples)) {
     throw StudyError(
+        rules::out_of_range,
         fmt::format("{}: {:.6g} s at {:.6g} samples a second make {:.6g} samples; must be from 2 "
                     "to ten million",
                     study.source.name, duration, rate, steps + 1.0));
@@ -97,7 +98,8 @@ std::vector<MeasuredColumn> periodic_columns(const StudyFile& study, const mecha
   response.set_values(values);
   const periodic::ResponseSummary& summary = response.solve();
   if (summary.status != periodic::Status::ok && summary.status != periodic::Status::grazing)
-    throw StudyError(fmt::format("{}: there is no periodic response: {}", study.source.name, summary.reason));
+    throw StudyError(rules::not_computed,
+                     fmt::format("{}: there is no periodic response: {}", study.source.name, summary.reason));
   std::vector<double> phases;
   for (const double time : times) phases.push_back(values.omega * time);
   return columns_of(response.history(phases));
@@ -115,10 +117,11 @@ std::vector<MeasuredColumn> chosen(const StudyFile& study, std::vector<MeasuredC
   for (const std::string& name : names) {
     const auto place = std::find(known.begin(), known.end(), name);
     if (place == known.end()) {
-      throw StudyError(fmt::format("--columns: nothing is called \"{}\"{}", name, suggestion(name, known)));
+      throw StudyError(rules::unknown_name,
+                       fmt::format("--columns: nothing is called \"{}\"{}", name, suggestion(name, known)));
     }
     if (std::count(names.begin(), names.end(), name) > 1)
-      throw StudyError(fmt::format("--columns: \"{}\" is asked for twice", name));
+      throw StudyError(rules::given_twice, fmt::format("--columns: \"{}\" is asked for twice", name));
     columns.push_back(all[static_cast<std::size_t>(place - known.begin())]);
   }
   return columns;
@@ -158,7 +161,7 @@ Measurements measure(const StudyFile& study, std::span<const double> parameters,
     add_noise(options.noise, result.columns);
     return result;
   } catch (const mechanics::MechanicsError& error) {
-    throw StudyError(study.source.name + ": " + error.what());
+    throw StudyError(rules::not_computed, study.source.name + ": " + error.what());
   }
 }
 

@@ -50,7 +50,7 @@ transient::ForcedOptions forced_options(const StudyFile& study) {
   if (motion.sweep_to) {
     options.sweep = {stated(study, *motion.sweep_to), stated(study, *motion.sweep_rate)};
     if (options.sweep.to == options.from) {
-      throw study.source.error_at(motion.sweep_to->position,
+      throw study.source.error_at(rules::wrong_order, motion.sweep_to->position,
                                   fmt::format("{}: is the frequency at which the motion begins; leave out "
                                               "sweep_to and sweep_rate for one frequency",
                                               motion.sweep_to->where));
@@ -68,10 +68,11 @@ ForcedMotion solve_transient(const StudyFile& study, const transient::Watch& wat
     ForcedMotion motion = transient::forced_motion(
         study.network, [&](double omega) { return values_at(study, omega); }, initial_state(study), options);
     if (!motion.failure.empty())
-      throw StudyError(study.source.name + ": the motion is not computed: " + motion.failure);
+      throw StudyError(rules::not_computed,
+                       study.source.name + ": the motion is not computed: " + motion.failure);
     return motion;
   } catch (const mechanics::MechanicsError& error) {
-    throw StudyError(study.source.name + ": " + error.what());
+    throw StudyError(rules::not_computed, study.source.name + ": " + error.what());
   }
 }
 

@@ -33,7 +33,8 @@ Amount amount_of(const char* option, const std::string& text) {
   const char* end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, amount.value);
   if (error != std::errc{} || !(amount.value > 0.0) || !std::isfinite(amount.value))
-    throw StudyError(fmt::format("{} \"{}\": must be a number > 0, with its unit or without", option, text));
+    throw StudyError(rules::wrong_option,
+                     fmt::format("{} \"{}\": must be a number > 0, with its unit or without", option, text));
   amount.unit.assign(stop, end);
   amount.unit.erase(0, amount.unit.find_first_not_of(' '));
   return amount;
@@ -43,11 +44,12 @@ double si_amount(const StudyFile& study, const char* option, const std::string& 
   const Amount amount = amount_of(option, text);
   if (amount.unit.empty()) return amount.value;
   if (study.dimensionless)
-    throw StudyError(fmt::format("{} \"{}\": a dimensionless study has no units", option, text));
+    throw StudyError(rules::wrong_option,
+                     fmt::format("{} \"{}\": a dimensionless study has no units", option, text));
   try {
     return UnitSystem().to_si(amount.value, amount.unit, quantity);
   } catch (const UnitError& error) {
-    throw StudyError(fmt::format("{} \"{}\": {}", option, text, error.what()));
+    throw StudyError(rules::wrong_option, fmt::format("{} \"{}\": {}", option, text, error.what()));
   }
 }
 
@@ -64,7 +66,8 @@ std::uint64_t seed_of(const std::string& text) {
   const char* end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, seed);
   if (error == std::errc{} && stop == end) return seed;
-  throw StudyError(fmt::format("--seed \"{}\": must be a whole number from 0 to 18446744073709551615", text));
+  throw StudyError(rules::wrong_option,
+                   fmt::format("--seed \"{}\": must be a whole number from 0 to 18446744073709551615", text));
 }
 
 Quantity quantity_of(std::string_view column) {
@@ -84,6 +87,7 @@ SensorNoise noise_of(const StudyFile& study, const DataOptions& options) {
   }
   if (amount.unit.empty() && !study.dimensionless) {
     throw StudyError(
+        rules::wrong_option,
         fmt::format("--noise \"{}\": has no unit; write a share such as 1%, or an amount such as \"0.1 mm\"",
                     options.noise));
   }
@@ -100,7 +104,8 @@ void check_place(const std::filesystem::path& place) {
   std::string line;
   if (!there || !std::filesystem::is_regular_file(place)) return;
   if (std::getline(there, line) && line.starts_with(data_mark)) return;
-  throw StudyError(fmt::format("{}: is there already and not made by frahm export --data; name another file",
+  throw StudyError(rules::wrong_file,
+                   fmt::format("{}: is there already and not made by frahm export --data; name another file",
                                place.string()));
 }
 
@@ -129,7 +134,9 @@ std::string csv(const StudyFile& study, const std::filesystem::path& file, const
 
 StudyFile study_of(const std::filesystem::path& file, const std::vector<std::string>& set) {
   if (file.extension() == ".toml") return read_study_with(file, set);
-  if (!set.empty()) throw StudyError("--set: a result is of parameters that are settled; name its study");
+  if (!set.empty())
+    throw StudyError(rules::wrong_option,
+                     "--set: a result is of parameters that are settled; name its study");
   return read_stored_study(results::MapReader(file), file).study;
 }
 
@@ -138,10 +145,10 @@ StudyFile study_of(const std::filesystem::path& file, const std::vector<std::str
 int export_data(const std::filesystem::path& file, const DataOptions& options, std::ostream& out) {
   const StudyFile study = study_of(file, options.set);
   if (study.identify)
-    throw StudyError(
-        fmt::format("{}: an identification reads measurements and has no motion of its own; "
-                    "frahm export --study makes a study of what it found",
-                    file.string()));
+    throw StudyError(rules::other_kind,
+                     fmt::format("{}: an identification reads measurements and has no motion of its own; "
+                                 "frahm export --study makes a study of what it found",
+                                 file.string()));
   const MeasurementOptions asked{
       .rate = rate_of(study, options.rate),
       .duration = options.duration.empty()
@@ -151,7 +158,7 @@ int export_data(const std::filesystem::path& file, const DataOptions& options, s
       .columns = options.columns};
   const bool motion = study.kind == StudyKind::decay || study.kind == StudyKind::transient;
   if (motion && !options.at.empty())
-    throw StudyError("--at: belongs to the periodic response of a sweep or tuning");
+    throw StudyError(rules::wrong_option, "--at: belongs to the periodic response of a sweep or tuning");
   const std::vector<double> parameters = parameters_at(study, options.at);
   const std::string table = csv(study, file, options, measure(study, parameters, asked));
   if (options.output == "-") {

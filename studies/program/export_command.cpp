@@ -132,13 +132,14 @@ void write_export(const ExportOptions& options, const results::MapReader& map, s
 
 [[noreturn]] void refuse_place(const std::filesystem::path& place) {
   throw StudyError(
+      rules::wrong_file,
       fmt::format("{}: is there already and not made by frahm export; name another file", place.string()));
 }
 
 // A study replaces nothing but an earlier one of its own kind, which begins with this mark.
 void check_place_of_study(const char* option, const std::filesystem::path& place, const char* mark) {
   if (place.extension() != ".toml")
-    throw StudyError(fmt::format("{} {}: a study is named .toml", option, place.string()));
+    throw StudyError(rules::wrong_file, fmt::format("{} {}: a study is named .toml", option, place.string()));
   std::ifstream there(place);
   std::string line;
   if (!there || (std::getline(there, line) && line == mark)) return;
@@ -171,17 +172,21 @@ void check_options(const ExportOptions& options) {
   const DataOptions& data = options.data;
   const int asked = int{!options.group.empty()} + int{options.schedule} + int{!options.sweep.empty()} +
                     int{!options.study.empty()} + int{!data.output.empty()};
-  if (asked > 1) throw StudyError("--group, --schedule, --sweep, --study and --data: one of them at a time");
+  if (asked > 1)
+    throw StudyError(rules::wrong_option,
+                     "--group, --schedule, --sweep, --study and --data: one of them at a time");
   const bool of_data = !data.set.empty() || !data.at.empty() || !data.rate.empty() ||
                        !data.duration.empty() || !data.noise.empty() || !data.columns.empty() ||
                        !data.seed.empty();
   if (of_data && data.output.empty())
-    throw StudyError("--set, --at, --rate, --duration, --noise, --seed and --columns: belong to --data");
-  if (options.step && !options.schedule) throw StudyError("--step: belongs to --schedule");
+    throw StudyError(rules::wrong_option,
+                     "--set, --at, --rate, --duration, --noise, --seed and --columns: belong to --data");
+  if (options.step && !options.schedule)
+    throw StudyError(rules::wrong_option, "--step: belongs to --schedule");
   for (const auto& [option, file] : {std::pair("--sweep", options.sweep), std::pair("--study", options.study),
                                      std::pair("--data", data.output)}) {
     if (!file.empty() && !options.output.empty())
-      throw StudyError(fmt::format("--output: {} names its own file", option));
+      throw StudyError(rules::wrong_option, fmt::format("--output: {} names its own file", option));
   }
 }
 
@@ -194,6 +199,7 @@ int export_command(const ExportOptions& options, std::ostream& out) {
   if (!options.data.output.empty()) return export_data(options.file, options.data, out);
   if (options.file.extension() == ".toml")
     throw StudyError(
+        rules::wrong_file,
         fmt::format("{}: is a study, whose result is exported, or with --data what sensors would "
                     "show of it",
                     options.file.string()));

@@ -29,6 +29,7 @@ void require_node() {
   const ProgramEnd version = run_program_of_system("node", {"--version"});
   if (version.found) return;
   throw StudyError(
+      rules::not_installed,
       "--figures: needs the program node, which is not on the PATH (Debian: apt-get install nodejs)");
 }
 

@@ -38,7 +38,7 @@ periodic::PeriodicResponse response_of(const StudyFile& study,
   try {
     return {study.network, quantities};
   } catch (const mechanics::MechanicsError& error) {
-    throw StudyError(study.source.name + ": " + error.what());
+    throw StudyError(rules::not_computed, study.source.name + ": " + error.what());
   }
 }
 

@@ -167,7 +167,7 @@ void add_run(CLI::App& program, RunTexts& texts, Action& action) {
     action = [&, run](std::ostream& out) {
       options.run.shard = run->count("--shard") == 0 ? shard_of_array_task(std::getenv) : shard_of(shard);
       if (run->count("--from") > 0 && options.from.empty())
-        throw StudyError("--from \"\": name the result whose points are taken over");
+        throw StudyError(rules::wrong_option, "--from \"\": name the result whose points are taken over");
       if (run->count("--time-budget") > 0) options.run.time_budget = time_span_of("--time-budget", budget);
       const bool leads = !options.run.ranks || options.run.ranks->rank() == 0;
       return leads ? run_command(options, out) : assist_command(options);

@@ -41,6 +41,7 @@ void print_rank_table(const Grid& grid, const MapSample& sample, int ranks, int 
                       std::ostream& out) {
   if (static_cast<std::int64_t>(ranks) * threads > most_threads)
     throw StudyError(
+        rules::wrong_option,
         fmt::format("--simulate-ranks {} with --threads {}: at most {} threads in all can be replayed", ranks,
                     threads, most_threads));
   const double share = static_cast<double>(grid.points()) / static_cast<double>(sample.points);

@@ -35,7 +35,8 @@ transient::Watch watch_for_stop(const engine::StopRequest& stop) {
 
 void refuse_sharing(const RunCommandOptions& options, const StudyFile& study) {
   if (options.run.shard.count <= 1) return;
-  throw StudyError(fmt::format("{}: {} is one piece of work, which an array of tasks cannot share",
+  throw StudyError(rules::other_kind,
+                   fmt::format("{}: {} is one piece of work, which an array of tasks cannot share",
                                study.source.name, kind_noun(study.kind)));
 }
 
@@ -45,7 +46,8 @@ void refuse_own_data(const StudyFile& study, const std::filesystem::path& output
   std::error_code ignored;  // a file that is not there is no other's
   for (const std::filesystem::path& file : study.identify->files) {
     if (std::filesystem::equivalent(output, file, ignored))
-      throw StudyError(fmt::format("{}: is a file that the study reads; name another for the result with -o",
+      throw StudyError(rules::wrong_file,
+                       fmt::format("{}: is a file that the study reads; name another for the result with -o",
                                    output.string()));
   }
 }

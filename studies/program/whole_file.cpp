@@ -55,10 +55,12 @@ void check_output_is_not_input(const std::filesystem::path& output, const std::f
   std::error_code error;
   if (std::filesystem::equivalent(output, input, error)) {
     throw StudyError(
+        rules::wrong_file,
         fmt::format("{}: is the file that is read; name another for the output", output.string()));
   }
   if (output.extension() == ".toml" || output.extension() == ".h5") {
-    throw StudyError(fmt::format("{}: has the name of a study or a result; name this output {}",
+    throw StudyError(rules::wrong_file,
+                     fmt::format("{}: has the name of a study or a result; name this output {}",
                                  output.string(), extension));
   }
 }

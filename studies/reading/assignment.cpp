@@ -20,24 +20,27 @@ class AssignmentReading {
 
   Assignment read() const {
     const std::size_t equals = text_.find('=');
-    if (equals == std::string_view::npos) fail("write name=value, such as omega=250 or \"omega=250 rpm\"");
+    if (equals == std::string_view::npos)
+      fail(rules::wrong_option, "write name=value, such as omega=250 or \"omega=250 rpm\"");
     const std::size_t parameter = named(trimmed(text_.substr(0, equals)));
     return {parameter,
             value(study_.parameters.list[parameter], parameter, trimmed(text_.substr(equals + 1)))};
   }
 
  private:
-  [[noreturn]] void fail(std::string_view message) const {
-    throw StudyError(fmt::format("{} \"{}\": {}", option_, text_, message));
+  [[noreturn]] void fail(Rule rule, std::string_view message) const {
+    throw StudyError(rule, fmt::format("{} \"{}\": {}", option_, text_, message));
   }
 
   std::size_t named(std::string_view name) const {
     const auto parameter = study_.parameters.find(name);
     if (!parameter) {
-      fail(fmt::format("no parameter is called \"{}\"{}", name, suggestion(name, study_.parameters.names())));
+      fail(rules::unknown_name,
+           fmt::format("no parameter is called \"{}\"{}", name, suggestion(name, study_.parameters.names())));
     }
     if (!study_.parameters.list[*parameter].is_number()) {
-      fail(fmt::format("\"{}\" is computed from other parameters; set those", name));
+      fail(rules::computed_parameter,
+           fmt::format("\"{}\" is computed from other parameters; set those", name));
     }
     return *parameter;
   }
@@ -47,22 +50,24 @@ class AssignmentReading {
     double number = 0.0;
     const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
     if (error != std::errc{} || !std::isfinite(number))
-      fail(fmt::format("\"{}\" is not a finite number", value));
+      fail(rules::not_finite, fmt::format("\"{}\" is not a finite number", value));
     const std::string_view unit = trimmed(value.substr(static_cast<std::size_t>(end - value.data())));
     const double si = number * (unit.empty() ? usual_unit(study_, index).si_factor : factor(parameter, unit));
-    if (!std::isfinite(si)) fail("the value in SI units is out of range");
+    if (!std::isfinite(si)) fail(rules::not_finite, "the value in SI units is out of range");
     return si;
   }
 
   double factor(const Parameter& parameter, std::string_view unit) const {
     if (study_.dimensionless) {
-      if (unit != "1") fail(fmt::format("the unit \"{}\" has no meaning in a dimensionless study", unit));
+      if (unit != "1")
+        fail(rules::unit_in_dimensionless,
+             fmt::format("the unit \"{}\" has no meaning in a dimensionless study", unit));
       return 1.0;
     }
     try {
       return si_factor(parameter, UnitSystem().parse(unit));
     } catch (const UnitError& error) {
-      fail(error.what());
+      fail(error.rule(), error.what());
     }
   }
 
@@ -82,8 +87,8 @@ std::vector<Assignment> parse_assignments(const StudyFile& study, std::string_vi
       return other.parameter == assignment.parameter;
     });
     if (twice) {
-      throw StudyError(
-          fmt::format("{}: \"{}\" is given twice", option, study.parameters.list[assignment.parameter].name));
+      throw StudyError(rules::given_twice, fmt::format("{}: \"{}\" is given twice", option,
+                                                       study.parameters.list[assignment.parameter].name));
     }
     assignments.push_back(assignment);
     more = comma != std::string_view::npos;

@@ -19,18 +19,20 @@ std::size_t read_axis_parameter(const TomlSection& section, const StudyFile& stu
   const std::string name = section.text("parameter");
   const auto index = study.parameters.find(name);
   if (!index) {
-    section.fail("parameter", fmt::format("no parameter is called \"{}\"{}", name,
-                                          suggestion(name, study.parameters.names())));
+    section.fail(
+        rules::unknown_name, "parameter",
+        fmt::format("no parameter is called \"{}\"{}", name, suggestion(name, study.parameters.names())));
   }
   if (!study.parameters.list[*index].is_number()) {
-    section.fail("parameter",
+    section.fail(rules::computed_parameter, "parameter",
                  fmt::format("\"{}\" is computed from other parameters; an axis needs one that is a "
                              "number",
                              name));
   }
   for (const ParameterAxis& other : study.axes) {
     if (other.parameter != *index) continue;
-    section.fail("parameter", fmt::format("\"{}\" has an axis already (line {})", name, other.position.line));
+    section.fail(rules::given_twice, "parameter",
+                 fmt::format("\"{}\" has an axis already (line {})", name, other.position.line));
   }
   return *index;
 }
@@ -49,12 +51,13 @@ void read_axis_unit(const StudyContext& context, const TomlSection& section, con
     try {
       axis.si_factor = si_factor(parameter, *unit);
     } catch (const UnitError& error) {
-      section.fail("unit", error.what());
+      section.fail(error.rule(), "unit", error.what());
     }
     axis.unit = unit->text;
   } else if (parameter.unit) {
     if (si_factor(parameter, *parameter.unit) != 1.0) {
       section.fail(
+          rules::missing_unit,
           fmt::format("the parameter is given in \"{0}\" and its axis in no unit; add unit = \"{0}\" or "
                       "another",
                       parameter.unit->text));
@@ -82,18 +85,21 @@ std::vector<double> read_range(const TomlSection& section) {
   section.require("points");
   const std::int64_t points = section.integer_or("points", 0);
   if (points < 1 || points > most_points) {
-    section.fail("points",
+    section.fail(rules::out_of_range, "points",
                  fmt::format("{} is out of range: a whole number from 2 to {}", points, most_points));
   }
   if (points == 1)
-    section.fail("points", "one point does not reach from \"from\" to \"to\"; write values = [...]");
+    section.fail(rules::out_of_range, "points",
+                 "one point does not reach from \"from\" to \"to\"; write values = [...]");
   if (from == to)
-    section.fail("to", fmt::format("\"from\" and \"to\" are the same, {}; write values = [...]", to));
+    section.fail(rules::wrong_order, "to",
+                 fmt::format("\"from\" and \"to\" are the same, {}; write values = [...]", to));
   const bool logarithmic = section.choice_or("spacing", {"linear", "log"}) == "log";
   for (const char* end : {"from", "to"}) {
     if (logarithmic && !(section.number(end) > 0.0)) {
-      section.fail(end, fmt::format("{} is not possible with spacing = \"log\": both ends must be > 0",
-                                    section.number(end)));
+      section.fail(rules::out_of_range, end,
+                   fmt::format("{} is not possible with spacing = \"log\": both ends must be > 0",
+                               section.number(end)));
     }
   }
   return spaced(from, to, static_cast<std::size_t>(points), logarithmic);
@@ -102,12 +108,16 @@ std::vector<double> read_range(const TomlSection& section) {
 std::vector<double> read_listed(const TomlSection& section) {
   for (const char* key : {"from", "to", "points", "spacing"}) {
     if (section.find(key))
-      section.fail(key, "does not go with \"values\": give either values or from, to and points");
+      section.fail(rules::key_without_use, key,
+                   "does not go with \"values\": give either values or from, to and points");
   }
   const TomlValue& list = section.require("values");
   const auto* items = list.as<TomlArray>();
-  if (!items) section.fail("values", fmt::format("expected an array of numbers, found {}", described(list)));
-  if (items->empty()) section.fail("values", "the array is empty; an axis needs at least one value");
+  if (!items)
+    section.fail(rules::wrong_type, "values",
+                 fmt::format("expected an array of numbers, found {}", described(list)));
+  if (items->empty())
+    section.fail(rules::empty, "values", "the array is empty; an axis needs at least one value");
   std::vector<double> values;
   for (const TomlValue& item : *items) {
     values.push_back(read_number(section.source(), fmt::format("{}: values", section.where()), item));
@@ -121,7 +131,8 @@ void check_values_differ(const TomlSection& section, const ParameterAxis& axis) 
   std::sort(sorted.begin(), sorted.end());
   const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
   if (twice != sorted.end() && axis.zip.empty()) {
-    section.fail(section.find("values") ? "values" : "points", fmt::format("{} appears twice", *twice));
+    section.fail(rules::given_twice, section.find("values") ? "values" : "points",
+                 fmt::format("{} appears twice", *twice));
   }
 }
 
@@ -129,7 +140,7 @@ void convert_axis(const TomlSection& section, ParameterAxis& axis) {
   for (const double value : axis.values) {
     axis.si_values.push_back(value * axis.si_factor);
     if (!std::isfinite(axis.si_values.back()))
-      section.fail(fmt::format("{} is out of range in SI units", value));
+      section.fail(rules::not_finite, fmt::format("{} is out of range in SI units", value));
   }
 }
 
@@ -141,10 +152,10 @@ void add_to_grid(const TomlSection& section, StudyFile& study) {
     const ParameterAxis& other = study.axes[dimension.axes.front()];
     if (axis.zip.empty() || other.zip != axis.zip) continue;
     if (axis.values.size() != dimension.size) {
-      section.fail(
-          "zip", fmt::format("{} values cannot advance together with the {} of axis \"{}\" (line {})",
-                             axis.values.size(), dimension.size, study.parameters.list[other.parameter].name,
-                             other.position.line));
+      section.fail(rules::wrong_length, "zip",
+                   fmt::format("{} values cannot advance together with the {} of axis \"{}\" (line {})",
+                               axis.values.size(), dimension.size,
+                               study.parameters.list[other.parameter].name, other.position.line));
     }
     dimension.axes.push_back(index);
     return;
@@ -162,7 +173,7 @@ void read_axis(const StudyContext& context, const TomlValue& table, std::size_t 
   const Parameter& parameter = study.parameters.list[axis.parameter];
   read_axis_unit(context, section, parameter, axis);
   if (!section.find("values") && !section.find("from")) {
-    section.fail("its values are missing: give values = [...] or from, to and points");
+    section.fail(rules::missing_key, "its values are missing: give values = [...] or from, to and points");
   }
   axis.values = section.find("values") ? read_listed(section) : read_range(section);
   if (section.find("zip")) axis.zip = section.identifier("zip");
@@ -177,7 +188,7 @@ void check_zip_names(const StudyContext& context, const StudyFile& study) {
   for (const ParameterAxis& zipped : study.axes) {
     for (const ParameterAxis& axis : study.axes) {
       if (zipped.zip != study.parameters.list[axis.parameter].name) continue;
-      throw context.source.error_at(zipped.position,
+      throw context.source.error_at(rules::name_taken, zipped.position,
                                     fmt::format("axis \"{}\": zip: \"{}\" is the name of a parameter "
                                                 "on an axis; give the zip a name of its own",
                                                 study.parameters.list[zipped.parameter].name, zipped.zip));
@@ -190,14 +201,15 @@ void check_zip_names(const StudyContext& context, const StudyFile& study) {
 void read_axes(const StudyContext& context, const TomlValue& root, StudyFile& study) {
   const auto tables = read_tables(context.source, root, "axis");
   if (tables.empty())
-    throw context.source.error_at(root.position, "the study has no [[axis]]: a sweep needs one");
+    throw context.source.error_at(rules::missing_section, root.position,
+                                  "the study has no [[axis]]: a sweep needs one");
   for (std::size_t i = 0; i < tables.size(); ++i) read_axis(context, *tables[i], i + 1, study);
   check_zip_names(context, study);
   double points = 1.0;
   for (const GridDimension& dimension : study.dimensions) points *= static_cast<double>(dimension.size);
   if (points > most_grid_points) {
     throw context.source.error_at(
-        tables.back()->position,
+        rules::too_large, tables.back()->position,
         fmt::format("the grid has {:.3g} points, more than the {:.0e} allowed", points, most_grid_points));
   }
 }
@@ -214,7 +226,8 @@ void read_coordinates(const StudyContext& context, const TomlValue& root, StudyF
     for (const GridDimension& dimension : study.dimensions) taken.push_back(dimension.name);
     for (const DerivedCoordinate& other : study.coordinates) taken.push_back(other.name);
     if (std::find(taken.begin(), taken.end(), coordinate.name) != taken.end()) {
-      section.fail("name", "the name is taken by a parameter, a zip or another coordinate");
+      section.fail(rules::name_taken, "name",
+                   "the name is taken by a parameter, a zip or another coordinate");
     }
     const TomlValue& value = section.require("value");
     coordinate.value.where = fmt::format("{}: value", section.where());
@@ -226,7 +239,7 @@ void read_coordinates(const StudyContext& context, const TomlValue& root, StudyF
     }
     const auto moving = dimensions_moving(study, coordinate.value.expression.reads());
     if (moving.size() != 1) {
-      section.fail("value",
+      section.fail(rules::wrong_dependence, "value",
                    fmt::format("depends on {}; a coordinate depends on the parameters of one axis (or of one "
                                "zip)",
                                moving.empty() ? "no axis" : "several axes"));

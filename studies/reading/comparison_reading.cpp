@@ -18,29 +18,34 @@ void read_compared_law(NetworkReading& reading, const TomlSection& section, cons
   const auto rubbing = std::find_if(elements.begin(), elements.end(), [](const auto& each) {
     return mechanics::kind_of(each).can_be_smoothed();
   });
-  if (rubbing == elements.end()) section.fail("law", "the study has no coulomb element that could follow it");
+  if (rubbing == elements.end())
+    section.fail(rules::no_contact, "law", "the study has no coulomb element that could follow it");
   const bool arctan = section.choice_or("law", {"exact", "arctan"}) == "arctan";
   comparison.law = arctan ? FrictionLaw::arctan : FrictionLaw::exact;
   if (arctan) {
     for (const mechanics::Element& each : elements) {
       const mechanics::ElementKind& kind = mechanics::kind_of(each);
       if (kind.law == nullptr || kind.can_be_smoothed()) continue;
-      section.fail("law",
+      section.fail(rules::wrong_law, "law",
                    fmt::format("element \"{}\" is a {}, which has no arctan law", each.name, kind.name));
     }
     comparison.slope = read_value(reading, section, "slope", Quantity::inverse_speed, Range::positive);
     return;
   }
-  if (section.find("slope")) section.fail("slope", "only the law \"arctan\" has a slope");
+  if (section.find("slope"))
+    section.fail(rules::key_without_use, "slope", "only the law \"arctan\" has a slope");
   if (rubbing->law == FrictionLaw::exact)
-    section.fail("law", "the study follows the exact law itself; compare it with \"arctan\"");
+    section.fail(rules::wrong_law, "law",
+                 "the study follows the exact law itself; compare it with \"arctan\"");
 }
 
 void read_compared_profile(const TomlSection& section, const StudyFile& study, Comparison& comparison) {
-  if (section.find("slope")) section.fail("slope", "belongs to a compared law, not to a compared profile");
+  if (section.find("slope"))
+    section.fail(rules::key_without_use, "slope", "belongs to a compared law, not to a compared profile");
   const std::int64_t order = section.integer_or("taylor_order", 0);
   if (order != 1 && order != 2 && order != 4)
-    section.fail("taylor_order", fmt::format("{} is not possible; write 1, 2 or 4", order));
+    section.fail(rules::out_of_range, "taylor_order",
+                 fmt::format("{} is not possible; write 1, 2 or 4", order));
   comparison.taylor_order = static_cast<int>(order);
   const auto& excitations = study.network.excitations;
   const auto differs = [&](const mechanics::Excitation& each) {
@@ -49,16 +54,17 @@ void read_compared_profile(const TomlSection& section, const StudyFile& study, C
   if (std::any_of(excitations.begin(), excitations.end(), differs)) return;
   const bool none = std::none_of(excitations.begin(), excitations.end(),
                                  [](const auto& each) { return each.kind == ExcitationKind::crank; });
-  section.fail("taylor_order", none ? "the study has no motion of the profile \"crank\" to be cut"
-                                    : "the study's cranks are cut at this order themselves");
+  section.fail(rules::key_without_use, "taylor_order",
+               none ? "the study has no motion of the profile \"crank\" to be cut"
+                    : "the study's cranks are cut at this order themselves");
 }
 
 // A real-valued quantity of the study by its name.
 periodic::Quantity read_quantity(const TomlSection& section, const OutputChoice::Name& name,
                                  const StudyFile& study) {
-  const auto fail = [&](const std::string& message) {
+  const auto fail = [&](Rule rule, const std::string& message) {
     throw section.source().error_at(
-        name.position, fmt::format("{}: quantities: \"{}\"{}", section.where(), name.text, message));
+        rule, name.position, fmt::format("{}: quantities: \"{}\"{}", section.where(), name.text, message));
   };
   const auto describe = [&](const periodic::Quantity& quantity) {
     return periodic::describe(quantity, study.network, study.dimensionless);
@@ -67,10 +73,11 @@ periodic::Quantity read_quantity(const TomlSection& section, const OutputChoice:
   if (!quantity) {
     std::vector<std::string> known;
     for (const auto& each : periodic::all_quantities(study.network)) known.push_back(describe(each).name);
-    fail(" is no quantity of the study" + suggestion(name.text, known));
+    fail(rules::unknown_name, " is no quantity of the study" + suggestion(name.text, known));
   }
   if (describe(*quantity).kind != periodic::QuantityKind::real)
-    fail(" is a count or a flag; a relative difference is of numbers that vary continuously");
+    fail(rules::unfit_quantity,
+         " is a count or a flag; a relative difference is of numbers that vary continuously");
   return *quantity;
 }
 
@@ -82,10 +89,10 @@ void read_comparison(const StudyContext& context, const TomlValue& root, StudyFi
   const TomlSection section(context.source, entry->value, "[compare]",
                             {"law", "slope", "taylor_order", "quantities"});
   if ((section.find("law") != nullptr) == (section.find("taylor_order") != nullptr))
-    section.fail(
-        fmt::format("needs either \"law\", another friction law, or \"taylor_order\", another crank "
-                    "profile; it has {}",
-                    section.find("law") ? "both" : "neither"));
+    section.fail(rules::one_of_two_keys,
+                 fmt::format("needs either \"law\", another friction law, or \"taylor_order\", another crank "
+                             "profile; it has {}",
+                             section.find("law") ? "both" : "neither"));
   Comparison comparison;
   NetworkReading reading(context, study.parameters);
   if (section.find("law")) {

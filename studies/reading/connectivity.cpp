@@ -49,7 +49,7 @@ void check_masses_are_held(const StudyContext& context, const NetworkOfStudy& sy
       if (sets.root(j) == sets.root(i)) floating.push_back(fmt::format("\"{}\"", network.masses[j]));
     }
     throw context.source.error_at(
-        masses[i],
+        rules::floating_mass, masses[i],
         fmt::format("{} {} float{} free: no chain of springs leads to ground or to a node of prescribed "
                     "motion, so the stiffness matrix is not positive definite",
                     floating.size() == 1 ? "mass" : "the masses", listed(floating, " and "),

@@ -45,11 +45,13 @@ void check_even(const CsvReading& reading) {
     const std::string hint = row.separator == ',' ? ", and decimals are written with a point" : "";
     const std::string place = fmt::format("{}:{}", reading.result.file, row.line);
     if (alike)
-      reading.fail(fmt::format("{}: {} cells, but {} in line {}; all rows have as many{}", place,
+      reading.fail(rules::wrong_length,
+                   fmt::format("{}: {} cells, but {} in line {}; all rows have as many{}", place,
                                row.cells.size(), first.cells.size(), first.line, hint));
-    reading.fail(fmt::format("{}: separated by {}, but line {} by {}; all rows are separated alike{}", place,
-                             separator_name(row.separator), first.line, separator_name(first.separator),
-                             hint));
+    reading.fail(
+        rules::wrong_row,
+        fmt::format("{}: separated by {}, but line {} by {}; all rows are separated alike{}", place,
+                    separator_name(row.separator), first.line, separator_name(first.separator), hint));
   }
 }
 
@@ -87,6 +89,7 @@ void refuse_misspelt(const CsvReading& reading, const RecordForm& form) {
                                      [&](const char* ending) { return name.ends_with(ending); });
     if (!of_node || form.find(name)) continue;
     reading.fail(
+        rules::unknown_name,
         fmt::format("{}:{}: \"{}\" is of no node of the study{}; where it means nothing here, say which "
                     "columns do: columns = {{ ... }}",
                     reading.result.file, reading.result.header, name, suggestion(name, known)));
@@ -96,7 +99,8 @@ void refuse_misspelt(const CsvReading& reading, const RecordForm& form) {
 // Without `columns` those count whose header is the name of a role.
 std::vector<WantedColumn> wanted_by_header(const CsvReading& reading) {
   if (reading.header.empty()) {
-    reading.fail(fmt::format("{}: has no header; say which column is what: columns = {{ {} = 1, ... }}",
+    reading.fail(rules::no_header,
+                 fmt::format("{}: has no header; say which column is what: columns = {{ {} = 1, ... }}",
                              reading.result.file, reading.forms.front().roles.front().name));
   }
   std::vector<std::string> found;
@@ -108,9 +112,9 @@ std::vector<WantedColumn> wanted_by_header(const CsvReading& reading) {
   for (const Role& role : form.roles) {
     const bool there = std::find(found.begin(), found.end(), role.name) != found.end();
     if (role.required && !there)
-      reading.fail(fmt::format("{}:{}: no column is called \"{}\"{}", reading.result.file,
-                               reading.result.header, role.name,
-                               suggestion(role.name, header_names(reading))));
+      reading.fail(rules::unknown_column, fmt::format("{}:{}: no column is called \"{}\"{}",
+                                                      reading.result.file, reading.result.header, role.name,
+                                                      suggestion(role.name, header_names(reading))));
     if (there) wanted.push_back({role.name, std::nullopt, role.name, reading.record.position()});
   }
   if (!form.is_trace && !named(reading, label_role).empty())
@@ -134,9 +138,10 @@ void check_order(const CsvReading& reading, const WantedColumn& column,
   const std::string name = column_name(reading.header[*column.number - 1]).name;
   for (const WantedColumn& other : wanted) {
     if (other.role == column.role || other.role != name) continue;
-    reading.fail(column.position, fmt::format("columns: {}: column {} of {} is headed \"{}\"; number and "
-                                              "header disagree",
-                                              column.role, *column.number, reading.result.file, name));
+    reading.fail(rules::unknown_column, column.position,
+                 fmt::format("columns: {}: column {} of {} is headed \"{}\"; number and "
+                             "header disagree",
+                             column.role, *column.number, reading.result.file, name));
   }
 }
 
@@ -148,20 +153,22 @@ std::size_t index_of(const CsvReading& reading, const WantedColumn& column,
     const std::size_t count =
         reading.header.empty() ? reading.rows.front().cells.size() : reading.header.size();
     if (*column.number > count)
-      reading.fail(column.position,
+      reading.fail(rules::unknown_column, column.position,
                    fmt::format("{}: there is no column {}; {} has {}", where, *column.number, file, count));
     check_order(reading, column, wanted);
     return *column.number - 1;
   }
   if (reading.header.empty())
-    reading.fail(column.position,
+    reading.fail(rules::no_header, column.position,
                  fmt::format("{}: {} has no header; give the number of the column, from 1", where, file));
   const std::vector<std::size_t> found = named(reading, column.name);
   if (found.empty())
-    reading.fail(column.position, fmt::format("{}: no column of {} is called \"{}\"{}", where, file,
-                                              column.name, suggestion(column.name, header_names(reading))));
+    reading.fail(rules::unknown_column, column.position,
+                 fmt::format("{}: no column of {} is called \"{}\"{}", where, file, column.name,
+                             suggestion(column.name, header_names(reading))));
   if (found.size() > 1)
-    reading.fail(fmt::format("{}:{}: columns {} and {} are both called \"{}\"", file, reading.result.header,
+    reading.fail(rules::given_twice,
+                 fmt::format("{}:{}: columns {} and {} are both called \"{}\"", file, reading.result.header,
                              found[0] + 1, found[1] + 1, column.name));
   return found.front();
 }
@@ -172,7 +179,8 @@ void leave_out_doubtful(CsvReading& reading, std::size_t column) {
   for (CsvRow& row : reading.rows) {
     const std::string& cell = row.cells[column];
     if (cell != "0" && cell != "1")
-      reading.fail(fmt::format("{}:{}: {}: \"{}\" is neither 0 nor 1, which marks a doubtful row",
+      reading.fail(rules::wrong_row,
+                   fmt::format("{}:{}: {}: \"{}\" is neither 0 nor 1, which marks a doubtful row",
                                reading.result.file, row.line, called(reading, column), cell));
     reading.result.first_is_doubtful |= cell == "1" && &row == &reading.rows.front();
     if (cell == "0") kept.push_back(std::move(row));
@@ -189,8 +197,8 @@ RawColumn numbers_of(const CsvReading& reading, const Role& role, std::size_t in
     const std::string& cell = row.cells[index];
     const auto number = cell_number(cell);
     if (!number || !std::isfinite(*number))
-      reading.fail(
-          fmt::format("{}:{}: {}: {}", reading.result.file, row.line, column.called, cell_problem(cell)));
+      reading.fail(rules::wrong_row, fmt::format("{}:{}: {}: {}", reading.result.file, row.line,
+                                                 column.called, cell_problem(cell)));
     column.values.push_back(*number);
   }
   return column;
@@ -200,9 +208,9 @@ RawRecord read_columns_of(CsvReading reading, const std::filesystem::path& path)
   try {
     reading.rows = read_csv(path, reading.result.file);
   } catch (const StudyError& error) {
-    reading.fail(error.what());
+    reading.fail(error.rule(), error.what());
   }
-  if (reading.rows.empty()) reading.fail(fmt::format("{}: has no rows", reading.result.file));
+  if (reading.rows.empty()) reading.fail(rules::too_few, fmt::format("{}: has no rows", reading.result.file));
   check_even(reading);
   take_header(reading);
   std::vector<WantedColumn> wanted = read_wanted(reading.record, reading.forms);
@@ -211,16 +219,17 @@ RawRecord read_columns_of(CsvReading reading, const std::filesystem::path& path)
   want_doubtful(reading, wanted);
   const RecordForm& form = form_of_wanted(reading.record, reading.forms, wanted);
   if (reading.rows.empty())
-    reading.fail(
-        fmt::format("{}:{}: has no rows below its header", reading.result.file, reading.result.header));
+    reading.fail(rules::too_few, fmt::format("{}:{}: has no rows below its header", reading.result.file,
+                                             reading.result.header));
 
   std::vector<std::size_t> index;
   for (const WantedColumn& column : wanted) {
     index.push_back(index_of(reading, column, wanted));
     const auto same = std::find(index.begin(), index.end() - 1, index.back());
     if (same != index.end() - 1)
-      reading.fail(column.position, fmt::format("columns: {}: column {} is {} already", column.role,
-                                                index.back() + 1, wanted[same - index.begin()].role));
+      reading.fail(rules::given_twice, column.position,
+                   fmt::format("columns: {}: column {} is {} already", column.role, index.back() + 1,
+                               wanted[same - index.begin()].role));
   }
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     if (wanted[i].role == doubtful_role) leave_out_doubtful(reading, index[i]);

@@ -18,8 +18,9 @@ double read_bound(const TomlSection& section, const char* key, double si_factor,
 
 void check_bounds(const TomlSection& section, double lower, double upper) {
   if (lower <= upper) return;
-  section.fail("upper", fmt::format("{} is below \"lower\" = {}; bounds go from the lower to the upper",
-                                    section.number("upper"), section.number("lower")));
+  section.fail(rules::wrong_order, "upper",
+               fmt::format("{} is below \"lower\" = {}; bounds go from the lower to the upper",
+                           section.number("upper"), section.number("lower")));
 }
 
 std::size_t read_design_parameter(const TuneReading& reading, const TomlSection& section) {
@@ -29,13 +30,15 @@ std::size_t read_design_parameter(const TuneReading& reading, const TomlSection&
   const auto twice = std::find_if(designs.begin(), designs.end(),
                                   [&](const DesignChoice& other) { return other.parameter == parameter; });
   if (twice != designs.end())
-    section.fail("parameter",
+    section.fail(rules::given_twice, "parameter",
                  fmt::format("\"{}\" is a design parameter already (line {})", name, twice->position.line));
   const auto& band = reading.choice.band;
   if (band && band->parameter == parameter)
-    section.fail("parameter", fmt::format("\"{}\" runs over the band; it cannot be tuned", name));
+    section.fail(rules::key_without_use, "parameter",
+                 fmt::format("\"{}\" runs over the band; it cannot be tuned", name));
   if (!network_depends_on(reading.study, parameter))
-    section.fail("parameter", fmt::format("no value of the network depends on \"{}\"", name));
+    section.fail(rules::wrong_dependence, "parameter",
+                 fmt::format("no value of the network depends on \"{}\"", name));
   return parameter;
 }
 
@@ -53,19 +56,21 @@ std::vector<double> read_knots(const TomlSection& section, const BandChoice& ban
   if (!value.as<TomlArray>()) {
     const std::int64_t count = section.integer_or("knots", 0);
     if (count < 2 || count > most_knots)
-      section.fail("knots", fmt::format("{} is out of range: a whole number from 2 to {}, or an array of "
-                                        "places",
-                                        count, most_knots));
+      section.fail(rules::out_of_range, "knots",
+                   fmt::format("{} is out of range: a whole number from 2 to {}, or an array of "
+                               "places",
+                               count, most_knots));
     return even_knots(band.range, static_cast<std::size_t>(count));
   }
   std::vector<double> knots = read_numbers(section, "knots");
   for (double& knot : knots) knot *= band.unit.si_factor;
   const auto falls = std::adjacent_find(knots.begin(), knots.end(), std::greater_equal<>());
   if (falls != knots.end())
-    section.fail("knots", fmt::format("{} follows {}; knots rise from one end of the band to the other",
-                                      falls[1] / band.unit.si_factor, falls[0] / band.unit.si_factor));
+    section.fail(rules::wrong_order, "knots",
+                 fmt::format("{} follows {}; knots rise from one end of the band to the other",
+                             falls[1] / band.unit.si_factor, falls[0] / band.unit.si_factor));
   if (knots.size() < 2 || knots.front() != band.range.from || knots.back() != band.range.to)
-    section.fail("knots",
+    section.fail(rules::wrong_order, "knots",
                  fmt::format("the first and the last knot are the ends of the band, {} and {}",
                              band.range.from / band.unit.si_factor, band.range.to / band.unit.si_factor));
   return knots;
@@ -77,16 +82,19 @@ void read_schedule(const TuneReading& reading, const TomlSection& section, Desig
   if (!value) return;
   const auto& band = reading.choice.band;
   if (reading.choice.objective == tuning::Objective::variance || !band)
-    section.fail("schedule", "a variance is that of one system for all frequencies; leave the schedule out");
+    section.fail(rules::key_without_use, "schedule",
+                 "a variance is that of one system for all frequencies; leave the schedule out");
   if (!(band->range.from < band->range.to))
-    section.fail("schedule", "the band is a single frequency; leave the schedule out");
+    section.fail(rules::key_without_use, "schedule",
+                 "the band is a single frequency; leave the schedule out");
   const TomlSection schedule(reading.context.source, *value, fmt::format("{}: schedule", section.where()),
                              {"knots", "max_slope"});
   design.knots = read_knots(schedule, *band);
   if (!schedule.find("max_slope")) return;
   design.max_slope = schedule.number("max_slope");
   if (!(design.max_slope > 0.0))
-    schedule.fail("max_slope", fmt::format("{} is not possible; must be > 0", design.max_slope));
+    schedule.fail(rules::out_of_range, "max_slope",
+                  fmt::format("{} is not possible; must be > 0", design.max_slope));
   design.max_slope *= design.unit.si_factor / band->unit.si_factor;
 }
 
@@ -104,7 +112,8 @@ void read_design(TuneReading& reading, const TomlValue& table, std::size_t numbe
   read_schedule(reading, section, design);
   if (section.find("rule")) {
     if (!design.is_scheduled())
-      section.fail("rule", "is another schedule to compare with; a constant has none");
+      section.fail(rules::key_without_use, "rule",
+                   "is another schedule to compare with; a constant has none");
     design.rule = read_formula(reading, section, "rule");
   }
   reading.choice.designs.push_back(std::move(design));
@@ -118,7 +127,8 @@ void read_limit(TuneReading& reading, const TomlValue& table, std::size_t number
   limit.quantity = read_real_quantity(reading, section, "quantity");
   limit.name = section.text("quantity");
   limit.unit = read_quantity_unit(reading, section, limit.quantity);
-  if (!section.find("lower") && !section.find("upper")) section.fail("needs \"lower\", \"upper\" or both");
+  if (!section.find("lower") && !section.find("upper"))
+    section.fail(rules::one_of_two_keys, "needs \"lower\", \"upper\" or both");
   limit.lower = read_bound(section, "lower", limit.unit.si_factor, limit.lower);
   limit.upper = read_bound(section, "upper", limit.unit.si_factor, limit.upper);
   check_bounds(section, limit.lower, limit.upper);
@@ -149,12 +159,14 @@ void read_scenario(TuneReading& reading, const TomlValue& table, std::size_t num
   ScenarioChoice scenario;
   scenario.name = section.identifier("name");
   for (const ScenarioChoice& other : reading.choice.scenarios) {
-    if (other.name == scenario.name) section.fail("name", fmt::format("\"{}\" is taken", scenario.name));
+    if (other.name == scenario.name)
+      section.fail(rules::name_taken, "name", fmt::format("\"{}\" is taken", scenario.name));
   }
   const TomlValue& set = section.require("set");
   const auto* entries = set.as<TomlTable>();
   if (!entries)
-    section.fail("set", fmt::format("expected a table such as {{ FP = 0.1 }}, found {}", described(set)));
+    section.fail(rules::wrong_type, "set",
+                 fmt::format("expected a table such as {{ FP = 0.1 }}, found {}", described(set)));
   for (const TomlEntry& entry : *entries) scenario.set.push_back(read_setting(reading, section, entry));
   reading.choice.scenarios.push_back(std::move(scenario));
 }
@@ -172,7 +184,8 @@ void read_column(TuneReading& reading, const TomlValue& table, std::size_t numbe
   column.upper = read_bound(section, "upper", 1.0, column.upper);
   check_bounds(section, column.lower, column.upper);
   if (!reading.choice.band)
-    section.fail("a column lies beside the schedule over a band, and there is no band");
+    section.fail(rules::key_without_use,
+                 "a column lies beside the schedule over a band, and there is no band");
   reading.choice.columns.push_back(std::move(column));
 }
 
@@ -199,7 +212,7 @@ bool network_depends_on(const StudyFile& study, std::size_t parameter) {
 
 void read_designs(TuneReading& reading) {
   if (read_each(reading, "design", read_design) == 0)
-    throw reading.context.source.error_at(reading.root.position,
+    throw reading.context.source.error_at(rules::missing_section, reading.root.position,
                                           "the study has no [[design]]: a tuning needs a parameter to tune");
 }
 

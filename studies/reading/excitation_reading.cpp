@@ -31,7 +31,8 @@ int read_order(const TomlSection& section, const std::string& key, std::int64_t 
   const std::int64_t order = section.integer_or(key, 1);
   if (order < least || order > highest_order) {
     section.fail(
-        key, fmt::format("{} is out of range: a whole number from {} to {}", order, least, highest_order));
+        rules::out_of_range, key,
+        fmt::format("{} is out of range: a whole number from {} to {}", order, least, highest_order));
   }
   return static_cast<int>(order);
 }
@@ -42,12 +43,14 @@ Profile read_profile(const TomlSection& section, const std::vector<std::string>&
   const bool crank = section.choice_or("profile", profiles) == "crank";
   if (crank) {
     for (const char* key : {"amplitude", "order"}) {
-      if (section.find(key)) section.fail(key, "belongs to the profile \"harmonic\", not to \"crank\"");
+      if (section.find(key))
+        section.fail(rules::key_without_use, key, "belongs to the profile \"harmonic\", not to \"crank\"");
     }
     return Profile::crank;
   }
   for (const char* key : {"crank", "rod", "taylor_order"}) {
-    if (section.find(key)) section.fail(key, "belongs to the profile \"crank\", not to \"harmonic\"");
+    if (section.find(key))
+      section.fail(rules::key_without_use, key, "belongs to the profile \"crank\", not to \"harmonic\"");
   }
   return Profile::harmonic;
 }
@@ -68,9 +71,10 @@ void read_crank(NetworkReading& reading, const TomlSection& section, Excitation 
   auto& [network, values] = reading.result;
   const std::int64_t taylor_order = section.integer_or("taylor_order", 0);
   if (section.find("taylor_order") && taylor_order != 1 && taylor_order != 2 && taylor_order != 4) {
-    section.fail("taylor_order", fmt::format("{} is not possible; write 1, 2 or 4, or leave it out for the "
-                                             "crank's full Fourier series",
-                                             taylor_order));
+    section.fail(rules::out_of_range, "taylor_order",
+                 fmt::format("{} is not possible; write 1, 2 or 4, or leave it out for the "
+                             "crank's full Fourier series",
+                             taylor_order));
   }
   component.taylor_order = static_cast<int>(taylor_order);
   component.even_orders = component.taylor_order / 2;
@@ -85,15 +89,16 @@ void read_force(NetworkReading& reading, const TomlValue& table, std::size_t num
   const TomlSection section(reading.context.source, table,
                             label(table, "force on", named, force_path, number), force_keys);
   if (section.find("on") && section.find("node"))
-    section.fail("node", "the mass is named twice, by \"on\" and \"node\"");
+    section.fail(rules::given_twice, "node", "the mass is named twice, by \"on\" and \"node\"");
   const std::string name = section.text(named);
   const auto& network = reading.result.network;
   const auto node = find_node(network, name);
   if (!node) {
-    section.fail(named, fmt::format("no mass is called \"{}\"{}", name, suggestion(name, network.masses)));
+    section.fail(rules::unknown_name, named,
+                 fmt::format("no mass is called \"{}\"{}", name, suggestion(name, network.masses)));
   }
   if (node->kind != NodeKind::mass) {
-    section.fail(named,
+    section.fail(rules::wrong_node, named,
                  fmt::format("a force acts on a mass, and \"{}\" is {}", name,
                              node->kind == NodeKind::ground ? "fixed" : "a node of prescribed motion"));
   }
@@ -124,6 +129,7 @@ int lowest_order(const NetworkReading& reading, const TomlSection& section, bool
   if (lowest == std::numeric_limits<int>::max()) {
     if (constant_will_do && !reading.result.network.excitations.empty()) return 1;
     section.fail(
+        rules::missing_section,
         "needs a [[excitation.force]] or [[excitation.motion]] of order 1 or more: nothing shakes the "
         "system");
   }
@@ -141,10 +147,10 @@ void check_hysteretic_frequency(const NetworkReading& reading, const TomlSection
     if (component.kind == ExcitationKind::crank && component.taylor_order != 1) orders.push_back(2);
   }
   if (std::all_of(orders.begin(), orders.end(), [&](int order) { return order == orders.front(); })) return;
-  section.fail(
-      fmt::format("the key \"reference_order\" is missing: the excitation has several orders, and "
-                  "the hysteretic element \"{}\" has its loss factor at reference_order x frequency",
-                  hysteretic->name));
+  section.fail(rules::missing_key,
+               fmt::format("the key \"reference_order\" is missing: the excitation has several orders, and "
+                           "the hysteretic element \"{}\" has its loss factor at reference_order x frequency",
+                           hysteretic->name));
 }
 
 }  // namespace
@@ -160,9 +166,10 @@ void read_prescribed_nodes(NetworkReading& reading, const TomlValue& excitation)
       network.prescribed.push_back(name);
       reading.names.push_back({name, fmt::format("the node \"{}\" of prescribed motion", name)});
     } else if (node->kind == NodeKind::ground) {
-      section.fail("node", "\"ground\" is fixed; give the moving support a name of its own");
+      section.fail(rules::wrong_node, "node",
+                   "\"ground\" is fixed; give the moving support a name of its own");
     } else if (node->kind == NodeKind::mass) {
-      section.fail("node",
+      section.fail(rules::wrong_node, "node",
                    fmt::format("\"{}\" is a mass, whose motion is sought; a node of prescribed motion has a "
                                "name of its own",
                                name));

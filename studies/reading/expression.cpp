@@ -64,8 +64,8 @@ class ExpressionParser {
                                                         {"max", Operation::maximum, 2}}};
   friend class Expression;
 
-  [[noreturn]] static void fail(std::size_t at, const std::string& message) {
-    throw ExpressionError(message, at + 1);
+  [[noreturn]] static void fail(Rule rule, std::size_t at, const std::string& message) {
+    throw ExpressionError(rule, message, at + 1);
   }
 
   char peek() {
@@ -86,14 +86,15 @@ class ExpressionParser {
     signed_operand();
     for (char c = peek(); c == '*' || c == '/'; c = peek()) {
       const std::size_t where = at_++;
-      if (c == '*' && peek() == '*') fail(where, "a power is written with ^, not **");
+      if (c == '*' && peek() == '*')
+        fail(rules::wrong_expression, where, "a power is written with ^, not **");
       signed_operand();
       binary(c == '*' ? Operation::multiply : Operation::divide, where);
     }
   }
 
   void signed_operand() {
-    if (++depth_ > deepest_nesting) fail(at_, "nested too deeply");
+    if (++depth_ > deepest_nesting) fail(rules::wrong_expression, at_, "nested too deeply");
     if (peek() == '-') {
       const std::size_t where = at_++;
       signed_operand();
@@ -116,7 +117,9 @@ class ExpressionParser {
     const char c = peek();
     if (is_digit(c) || c == '.') return number();
     if (is_letter(c)) return name();
-    if (c != '(') fail(at_, fmt::format("a number, a name or ( is expected here, found {}", found()));
+    if (c != '(')
+      fail(rules::wrong_expression, at_,
+           fmt::format("a number, a name or ( is expected here, found {}", found()));
     const std::size_t open = at_++;
     sum();
     close(open);
@@ -127,8 +130,9 @@ class ExpressionParser {
     const char* first = text_.data() + at_;
     const auto [end, error] = std::from_chars(first, text_.data() + text_.size(), value);
     if (error == std::errc::result_out_of_range)
-      fail(at_, "this number is out of the range of double precision");
-    if (error != std::errc{}) fail(at_, fmt::format("a number is expected here, found {}", found()));
+      fail(rules::wrong_expression, at_, "this number is out of the range of double precision");
+    if (error != std::errc{})
+      fail(rules::wrong_expression, at_, fmt::format("a number is expected here, found {}", found()));
     at_ += static_cast<std::size_t>(end - first);
     push({Operation::constant, 0, value}, at_);
   }
@@ -141,14 +145,16 @@ class ExpressionParser {
     const auto function =
         std::find_if(functions_.begin(), functions_.end(), [&](auto& f) { return f.name == word; });
     if (function != functions_.end()) {
-      if (!called) fail(where, fmt::format("{0} is a function: write {0}(...)", word));
+      if (!called)
+        fail(rules::wrong_expression, where, fmt::format("{0} is a function: write {0}(...)", word));
       return call(*function, where);
     }
     if (called) fail_unknown_function(word, where);
     if (word == "pi") return push({Operation::constant, 0, std::numbers::pi}, where);
     const auto parameter = std::find(names_.begin(), names_.end(), word);
     if (parameter == names_.end()) {
-      fail(where, fmt::format("no parameter is called \"{}\"{}", word, suggestion(word, names_)));
+      fail(rules::unknown_name, where,
+           fmt::format("no parameter is called \"{}\"{}", word, suggestion(word, names_)));
     }
     const auto index = static_cast<std::uint32_t>(parameter - names_.begin());
     result_.reads_.push_back(index);
@@ -163,8 +169,9 @@ class ExpressionParser {
       ++arguments;
     }
     if (arguments != function.arguments) {
-      fail(where, fmt::format("{} takes {} argument{}, found {}", function.name, function.arguments,
-                              function.arguments == 1 ? "" : "s", arguments));
+      fail(rules::wrong_expression, where,
+           fmt::format("{} takes {} argument{}, found {}", function.name, function.arguments,
+                       function.arguments == 1 ? "" : "s", arguments));
     }
     close(open);
     if (function.arguments == 1) {
@@ -175,7 +182,7 @@ class ExpressionParser {
   }
 
   void close(std::size_t open) {
-    if (peek() == '\0') fail(open, "this parenthesis is never closed");
+    if (peek() == '\0') fail(rules::wrong_expression, open, "this parenthesis is never closed");
     if (peek() != ')') fail_at_end_of_sum();
     ++at_;
   }
@@ -183,24 +190,30 @@ class ExpressionParser {
   // The character where an operator or the end was expected.
   [[noreturn]] void fail_at_end_of_sum() {
     const char c = peek();
-    if (c == ')') fail(at_, "this parenthesis was never opened");
-    if (c == ',') fail(at_, "a comma only separates the arguments of min and max (decimals have a point)");
+    if (c == ')') fail(rules::wrong_expression, at_, "this parenthesis was never opened");
+    if (c == ',')
+      fail(rules::wrong_expression, at_,
+           "a comma only separates the arguments of min and max (decimals have a point)");
     if (is_letter(c) || is_digit(c) || c == '(' || c == '.') {
-      fail(at_, fmt::format("an operator is missing before {} (a product is written 2*k; "
-                            "a unit {{ value = 2, unit = \"N/m\" }})",
-                            found()));
+      fail(rules::wrong_expression, at_,
+           fmt::format("an operator is missing before {} (a product is written 2*k; "
+                       "a unit {{ value = 2, unit = \"N/m\" }})",
+                       found()));
     }
-    fail(at_, fmt::format("{} has no meaning in an expression (only + - * / ^ ( ), numbers and names have)",
-                          found()));
+    fail(rules::wrong_expression, at_,
+         fmt::format("{} has no meaning in an expression (only + - * / ^ ( ), numbers and names have)",
+                     found()));
   }
 
   [[noreturn]] void fail_unknown_function(std::string_view word, std::size_t where) const {
     if (word == "pi" || std::find(names_.begin(), names_.end(), word) != names_.end()) {
-      fail(where, fmt::format("\"{0}\" is no function; a product is written {0}*(...)", word));
+      fail(rules::wrong_expression, where,
+           fmt::format("\"{0}\" is no function; a product is written {0}*(...)", word));
     }
     std::vector<std::string> known;
     for (const Function& function : functions_) known.emplace_back(function.name);
-    fail(where, fmt::format("no function is called \"{}\"{}", word, suggestion(word, known)));
+    fail(rules::unknown_name, where,
+         fmt::format("no function is called \"{}\"{}", word, suggestion(word, known)));
   }
 
   // The word or character at the cursor, in quotes; a character of several bytes whole.
@@ -217,7 +230,7 @@ class ExpressionParser {
 
   // Emission. An operation on constants alone is done now: its operands are the last instructions.
   void push(Expression::Instruction instruction, std::size_t where) {
-    if (++stack_ > Expression::stack_size) fail(where, "nested too deeply");
+    if (++stack_ > Expression::stack_size) fail(rules::wrong_expression, where, "nested too deeply");
     result_.program_.push_back(instruction);
   }
 
@@ -241,7 +254,8 @@ class ExpressionParser {
   }
 
   static double finite(double value, std::size_t where) {
-    if (!std::isfinite(value)) fail(where, "the result of this operation is not a finite number");
+    if (!std::isfinite(value))
+      fail(rules::wrong_expression, where, "the result of this operation is not a finite number");
     return value;
   }
 

@@ -12,17 +12,20 @@
 #include <vector>
 
 #include "studies/reading/dual.hpp"
+#include "studies/reading/rules.hpp"
 
 namespace frahm::studies {
 
 // A text that is no expression. column: of the offending character, 1 for the first of the text.
 class ExpressionError : public std::runtime_error {
  public:
-  ExpressionError(const std::string& message, std::size_t column)
-      : std::runtime_error(message), column_(column) {}
+  ExpressionError(Rule rule, const std::string& message, std::size_t column)
+      : std::runtime_error(message), rule_(rule), column_(column) {}
+  Rule rule() const { return rule_; }
   std::size_t column() const { return column_; }
 
  private:
+  Rule rule_;
   std::size_t column_;
 };
 

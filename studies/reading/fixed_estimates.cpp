@@ -58,18 +58,20 @@ EarlierEstimates read_earlier(const std::filesystem::path& path, const std::stri
   try {
     const results::MapReader reader(path);
     if (!reader.has_group(identification_group))
-      throw StudyError(fmt::format("{}: is the result of no identification", file));
+      throw StudyError(rules::wrong_file, fmt::format("{}: is the result of no identification", file));
     const Columns columns = reader.columns(identification_group);
     const results::Column* outcome = find_number(columns, "outcome");
     if (outcome && outcome->values.front() != converged_outcome)
-      throw StudyError(fmt::format("{}: its fit did not converge, and fixes nothing", file));
+      throw StudyError(rules::wrong_file,
+                       fmt::format("{}: its fit did not converge, and fixes nothing", file));
     earlier = estimates_among(columns, file);
   } catch (const results::StoreError& error) {
-    throw StudyError(error.what());
+    throw StudyError(rules::wrong_file, error.what());
   }
   for (const auto& row : earlier.covariance) {
     if (row.size() != earlier.names.size())
-      throw StudyError(fmt::format("{}: a row of its covariance has {} numbers, but it has {} estimates",
+      throw StudyError(rules::wrong_file,
+                       fmt::format("{}: a row of its covariance has {} numbers, but it has {} estimates",
                                    file, row.size(), earlier.names.size()));
   }
   return earlier;
@@ -79,16 +81,18 @@ EarlierEstimates read_earlier(const std::filesystem::path& path, const std::stri
 void check_unit(const IdentifyReading& reading, const EarlierEstimates& earlier, std::size_t i,
                 const Parameter& parameter) {
   const std::string& unit = earlier.units[i];
-  const auto fail = [&](const std::string& problem) {
-    throw StudyError(fmt::format("{}: the estimate \"{}\": {}", earlier.file, earlier.names[i], problem));
+  const auto fail = [&](Rule rule, const std::string& problem) {
+    throw StudyError(rule,
+                     fmt::format("{}: the estimate \"{}\": {}", earlier.file, earlier.names[i], problem));
   };
   if (unit.empty() || unit == "1") return;
   if (reading.study.dimensionless)
-    fail(fmt::format("its unit \"{}\" has no meaning in a dimensionless study", unit));
+    fail(rules::unit_in_dimensionless,
+         fmt::format("its unit \"{}\" has no meaning in a dimensionless study", unit));
   try {
     if (parameter.quantity) si_factor(reading.context.units.parse(unit), *parameter.quantity);
   } catch (const UnitError& error) {
-    fail(fmt::format("{}; the parameter is used as {}", error.what(), parameter.used_as));
+    fail(error.rule(), fmt::format("{}; the parameter is used as {}", error.what(), parameter.used_as));
   }
 }
 
@@ -100,19 +104,21 @@ bool is_fitted(const IdentifyChoice& choice, std::size_t parameter) {
 void check_free_to_fix(const IdentifyReading& reading, const EarlierEstimates& earlier, std::size_t i,
                        std::size_t parameter) {
   const IdentifyChoice& choice = reading.choice;
-  const auto fail = [&](const std::string& problem) {
-    throw StudyError(fmt::format("{}: the estimate \"{}\" {}", earlier.file, earlier.names[i], problem));
+  const auto fail = [&](Rule rule, const std::string& problem) {
+    throw StudyError(rule,
+                     fmt::format("{}: the estimate \"{}\" {}", earlier.file, earlier.names[i], problem));
   };
   for (const FixedEstimate& other : choice.fixed) {
-    if (other.parameter == parameter) fail("stands in an earlier file of fixed_from too");
+    if (other.parameter == parameter) fail(rules::given_twice, "stands in an earlier file of fixed_from too");
   }
   for (const RecordChoice& record : choice.records) {
     for (const Assignment& assignment : record.set) {
       if (assignment.parameter == parameter)
-        fail(fmt::format("fixes a parameter that the record \"{}\" sets", record.name));
+        fail(rules::given_twice, fmt::format("fixes a parameter that the record \"{}\" sets", record.name));
     }
   }
-  if (!std::isfinite(earlier.values[i])) fail("was not determined by its data and fixes nothing");
+  if (!std::isfinite(earlier.values[i]))
+    fail(rules::wrong_file, "was not determined by its data and fixes nothing");
 }
 
 // Which estimates of a file are parameters here that are not fitted again: index of the estimate, of the
@@ -137,11 +143,13 @@ std::vector<Taken> taken_from(const IdentifyReading& reading, const EarlierEstim
     if (parameters.list[i].is_number() && !is_fitted(reading.choice, i))
       open.push_back(parameters.list[i].name);
   }
-  throw StudyError(fmt::format(
-      "{}: none of its estimates is a number parameter of this study that is not fitted; it has {}, the "
-      "study {}",
-      earlier.file, earlier.names.empty() ? "none" : listed(earlier.names, " and "),
-      open.empty() ? "none" : listed(open, " and ")));
+  throw StudyError(
+      rules::unknown_name,
+      fmt::format(
+          "{}: none of its estimates is a number parameter of this study that is not fitted; it has {}, the "
+          "study {}",
+          earlier.file, earlier.names.empty() ? "none" : listed(earlier.names, " and "),
+          open.empty() ? "none" : listed(open, " and ")));
 }
 
 // Estimates of different files are independent of each other.
@@ -168,7 +176,7 @@ void read_fixed(IdentifyReading& reading, const TomlSection& identify) {
   if (const auto* list = value.as<TomlArray>()) {
     files.clear();
     for (const TomlValue& item : *list) files.push_back(&item);
-    if (files.empty()) identify.fail("fixed_from", "the list of files is empty");
+    if (files.empty()) identify.fail(rules::empty, "fixed_from", "the list of files is empty");
   }
   for (const TomlValue* item : files) {
     const std::string file = read_text(identify.source(), "[identify]: fixed_from", *item);
@@ -176,7 +184,7 @@ void read_fixed(IdentifyReading& reading, const TomlSection& identify) {
       reading.choice.files.push_back(reading.folder / file);
       fix(reading, read_earlier(reading.folder / file, file));
     } catch (const StudyError& error) {
-      throw identify.source().error_at(item->position,
+      throw identify.source().error_at(error.rule(), item->position,
                                        fmt::format("[identify]: fixed_from: {}", error.what()));
     }
   }

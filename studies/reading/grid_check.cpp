@@ -52,13 +52,15 @@ std::string place_name(const StudyFile& study, const Checked& checked, std::span
   return text;
 }
 
-[[noreturn]] void fail(const StudyFile& study, const Checked& checked, std::span<const double> parameters,
-                       const std::string& problem, const std::string& rule) {
+[[noreturn]] void fail(Rule rule, const StudyFile& study, const Checked& checked,
+                       std::span<const double> parameters, const std::string& problem,
+                       const std::string& must) {
   const Position position = checked.value ? checked.value->position : checked.parameter->position;
   const std::string where =
       checked.value ? checked.value->where : fmt::format("parameter \"{}\"", checked.parameter->name);
   throw study.source.error_at(
-      position, fmt::format("{}: {}{}; {}", where, problem, place_name(study, checked, parameters), rule));
+      rule, position,
+      fmt::format("{}: {}{}; {}", where, problem, place_name(study, checked, parameters), must));
 }
 
 void check_derived(const StudyFile& study, const Checked& checked, std::span<const double> parameters) {
@@ -66,11 +68,12 @@ void check_derived(const StudyFile& study, const Checked& checked, std::span<con
   if (std::isfinite(value)) return;
   if (const auto* table = std::get_if<TableOf>(&checked.parameter->definition)) {
     const double of = parameters[table->of];
-    fail(study, checked, parameters, fmt::format("the table \"{}\" has no value", table->file),
+    fail(rules::out_of_range, study, checked, parameters,
+         fmt::format("the table \"{}\" has no value", table->file),
          fmt::format("it covers {} from {} to {} (SI), here {:.6g}", study.parameters.list[table->of].name,
                      table->table.x.front(), table->table.x.back(), of));
   }
-  fail(study, checked, parameters, "has no value", "must be a finite number");
+  fail(rules::out_of_range, study, checked, parameters, "has no value", "must be a finite number");
 }
 
 void check_value(const StudyFile& study, const Checked& checked, std::span<const double> parameters) {
@@ -80,14 +83,15 @@ void check_value(const StudyFile& study, const Checked& checked, std::span<const
     return fmt::format("is {:.6g}{}{}", value, pure ? "" : " ",
                        pure ? "" : written_si_unit(checked.value->quantity));
   };
-  if (!std::isfinite(value)) fail(study, checked, parameters, "has no value", "must be a finite number");
+  if (!std::isfinite(value))
+    fail(rules::out_of_range, study, checked, parameters, "has no value", "must be a finite number");
   if (checked.value->range == Range::not_negative && value < 0.0) {
-    fail(study, checked, parameters, is(), "must be >= 0");
+    fail(rules::out_of_range, study, checked, parameters, is(), "must be >= 0");
   }
   if (checked.value->range != Range::positive || value > 0.0) return;
   // The only one is sweep_rate.
   const bool is_rate = checked.value->quantity == Quantity::angular_acceleration;
-  fail(study, checked, parameters, is(),
+  fail(rules::out_of_range, study, checked, parameters, is(),
        is_rate ? "must be > 0; the direction follows from sweep_to" : "must be > 0");
 }
 
@@ -141,7 +145,7 @@ double crank_ratio(const StudyFile& study, std::size_t excitation, std::span<con
   const StudyValue &crank = study.values.amplitude[excitation], &rod = study.values.rod[excitation];
   const double ratio = crank.expression.evaluate(parameters) / rod.expression.evaluate(parameters);
   if (ratio <= mechanics::kLargestCrankRatio) return ratio;
-  fail(study, {&crank, nullptr, reads_of_crank(study, excitation)}, parameters,
+  fail(rules::out_of_range, study, {&crank, nullptr, reads_of_crank(study, excitation)}, parameters,
        fmt::format("is {:.6g} times the rod", ratio),
        fmt::format("must be at most {} times the rod, or its Fourier series is too long",
                    mechanics::kLargestCrankRatio));

@@ -26,7 +26,8 @@ void leave_out_padding(RawRecord& record) {
 void keep_rows(const ColumnReading& reading, RawRecord& record, const std::vector<double>& doubtful) {
   for (std::size_t i = 0; i < record.columns.front().values.size(); ++i) {
     if (!doubtful.empty() && doubtful[i] != 0.0 && doubtful[i] != 1.0)
-      reading.fail(fmt::format("{}: value {} of the doubtful rows' marks is {}, neither 0 nor 1", record.file,
+      reading.fail(rules::wrong_row,
+                   fmt::format("{}: value {} of the doubtful rows' marks is {}, neither 0 nor 1", record.file,
                                i + 1, doubtful[i]));
     if (doubtful.empty() || doubtful[i] == 0.0) record.rows.push_back(i + 1);
   }
@@ -44,33 +45,36 @@ void check_datasets(const ColumnReading& reading, const std::vector<double>& dou
   const RawColumn& first = record.columns.front();
   for (const RawColumn& column : record.columns) {
     if (column.values.size() != first.values.size())
-      reading.fail(fmt::format("{}: {} has {} values, but {} has {}; columns are of one length", record.file,
+      reading.fail(rules::wrong_length,
+                   fmt::format("{}: {} has {} values, but {} has {}; columns are of one length", record.file,
                                column.called, column.values.size(), first.called, first.values.size()));
   }
   if (!doubtful.empty() && doubtful.size() != first.values.size())
-    reading.fail(
-        fmt::format("{}: {} has {} values, but the doubtful rows are marked by {}; columns are of "
-                    "one length",
-                    record.file, first.called, first.values.size(), doubtful.size()));
+    reading.fail(rules::wrong_length,
+                 fmt::format("{}: {} has {} values, but the doubtful rows are marked by {}; columns are of "
+                             "one length",
+                             record.file, first.called, first.values.size(), doubtful.size()));
 }
 
 void check_finite(const ColumnReading& reading) {
   for (const RawColumn& column : reading.result.columns) {
     for (std::size_t i = 0; i < column.values.size(); ++i) {
       if (std::isfinite(column.values[i])) continue;
-      reading.fail(
-          fmt::format("{}: {} is not a finite number", reading.result.place(column, i), column.values[i]));
+      reading.fail(rules::wrong_row, fmt::format("{}: {} is not a finite number",
+                                                 reading.result.place(column, i), column.values[i]));
     }
   }
 }
 
 void check_path(const ColumnReading& reading, const WantedColumn& column) {
   if (column.role == label_role)
-    reading.fail(column.position, "columns: label: labels are read from CSV files only");
+    reading.fail(rules::unknown_column, column.position,
+                 "columns: label: labels are read from CSV files only");
   if (column.number)
-    reading.fail(column.position, fmt::format("columns: {}: the path of a dataset is expected, such as "
-                                              "\"transient/time\", found the number {}",
-                                              column.role, *column.number));
+    reading.fail(rules::wrong_type, column.position,
+                 fmt::format("columns: {}: the path of a dataset is expected, such as "
+                             "\"transient/time\", found the number {}",
+                             column.role, *column.number));
 }
 
 }  // namespace
@@ -79,6 +83,7 @@ RawRecord read_hdf5_columns(ColumnReading reading, const std::filesystem::path& 
   reading.result.has_lines = false;
   if (!reading.record.find("columns"))
     reading.record.fail(
+        rules::missing_key,
         "the key \"columns\" is missing: of an HDF5 file it names the datasets, such as columns = { time = "
         "\"transient/time\" }");
   const std::vector<WantedColumn> wanted = read_wanted(reading.record, reading.forms);
@@ -98,7 +103,7 @@ RawRecord read_hdf5_columns(ColumnReading reading, const std::filesystem::path& 
       }
     }
   } catch (const std::runtime_error& error) {  // StudyError or StoreError
-    reading.fail(error.what());
+    reading.fail(rules::wrong_file, error.what());
   }
   check_datasets(reading, doubtful);
   leave_out_padding(reading.result);

@@ -37,8 +37,9 @@ LookupTable read_lookup_table(const std::filesystem::path& path) {
   LookupTable table;
   bool header_possible = true;
   for (const CsvRow& row : read_csv(path, path.string())) {
-    const auto fail = [&](std::string_view rule) {
-      throw StudyError(fmt::format("{}:{}: {}, found \"{}\"", path.string(), row.line, rule, shown(row)));
+    const auto fail = [&](std::string_view problem) {
+      throw StudyError(rules::wrong_row,
+                       fmt::format("{}:{}: {}, found \"{}\"", path.string(), row.line, problem, shown(row)));
     };
     if (row.cells.size() < 2) fail("a row has two columns separated by a comma");
     const std::optional<Point> point = as_point(row);
@@ -51,7 +52,8 @@ LookupTable read_lookup_table(const std::filesystem::path& path) {
     table.y.push_back(point->y);
   }
   if (table.x.size() < 2)
-    throw StudyError(fmt::format("{}: a table needs at least two rows of numbers", path.string()));
+    throw StudyError(rules::too_few,
+                     fmt::format("{}: a table needs at least two rows of numbers", path.string()));
   return table;
 }
 

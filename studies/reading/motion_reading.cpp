@@ -17,8 +17,9 @@ int read_samples(const TomlSection& section, std::int64_t otherwise) {
   const std::int64_t samples = section.integer_or("samples", otherwise);
   const bool none = samples == 0 && otherwise == 0;
   if (!none && (samples < 2 || samples > most_samples)) {
-    section.fail("samples", fmt::format("{} is out of range: a whole number from 2 to {}{}", samples,
-                                        most_samples, otherwise == 0 ? ", or 0 for no history" : ""));
+    section.fail(rules::out_of_range, "samples",
+                 fmt::format("{} is out of range: a whole number from 2 to {}{}", samples, most_samples,
+                             otherwise == 0 ? ", or 0 for no history" : ""));
   }
   return static_cast<int>(samples);
 }
@@ -31,15 +32,16 @@ InitialValues read_initial_values(NetworkReading& reading, const TomlValue& tabl
   const auto& network = reading.result.network;
   const auto node = find_node(network, name);
   if (!node) {
-    section.fail("node", fmt::format("no mass is called \"{}\"{}", name, suggestion(name, network.masses)));
+    section.fail(rules::unknown_name, "node",
+                 fmt::format("no mass is called \"{}\"{}", name, suggestion(name, network.masses)));
   }
   if (node->kind != NodeKind::mass) {
-    section.fail("node",
+    section.fail(rules::wrong_node, "node",
                  fmt::format("\"{}\" is {}; only a mass has initial values", name,
                              node->kind == NodeKind::ground ? "fixed" : "a node of prescribed motion"));
   }
   if (!section.find("displacement") && !section.find("velocity"))
-    section.fail("a displacement, a velocity or both are needed");
+    section.fail(rules::one_of_two_keys, "a displacement, a velocity or both are needed");
   return {node->index, read_value(reading, section, "displacement", Quantity::length, Range::finite, 0.0),
           read_value(reading, section, "velocity", Quantity::speed, Range::finite, 0.0)};
 }
@@ -51,7 +53,7 @@ void read_initial(NetworkReading& reading, const TomlValue& root, MotionChoice& 
     const bool twice = std::any_of(motion.initial.begin(), motion.initial.end(),
                                    [&](const InitialValues& other) { return other.mass == values.mass; });
     if (twice) {
-      throw reading.context.source.error_at(table->position,
+      throw reading.context.source.error_at(rules::given_twice, table->position,
                                             fmt::format("initial values of \"{}\": are given twice",
                                                         reading.result.network.masses[values.mass]));
     }
@@ -70,7 +72,8 @@ void read_decay(NetworkReading& reading, const TomlValue& root, MotionChoice& mo
       read_optional(reading, section, "reference_frequency", Quantity::angular_frequency);
   if (motion.initial.empty()) {
     throw reading.context.source.error_at(
-        root.position, "the study has no [[initial]]: nothing moves that is not displaced or set in motion");
+        rules::missing_section, root.position,
+        "the study has no [[initial]]: nothing moves that is not displaced or set in motion");
   }
 }
 
@@ -79,12 +82,13 @@ void check_run_up(const NetworkReading& reading, const TomlSection& section) {
   const Parameters& parameters = reading.parameters;
   const auto& forces = reading.result.network.excitations;
   if (std::all_of(forces.begin(), forces.end(), [](const auto& force) { return force.order == 0; }))
-    section.fail("sweep_to", "the excitation is constant and has no frequency that could run");
+    section.fail(rules::key_without_use, "sweep_to",
+                 "the excitation is constant and has no frequency that could run");
   const Expression& frequency = reading.result.values.omega.expression;
   const auto sole = frequency.sole_parameter();
   const bool is_parameter = sole && parameters.list[*sole].is_number();
   if (!is_parameter && !frequency.reads().empty()) {
-    section.fail("sweep_to",
+    section.fail(rules::wrong_dependence, "sweep_to",
                  "the excitation's frequency is computed from parameters; in a run-up it must be a "
                  "number or one parameter, which then runs");
   }
@@ -96,7 +100,7 @@ void check_run_up(const NetworkReading& reading, const TomlSection& section) {
       const auto inputs = parameters.inputs_of(value->expression.reads());
       if (std::find(inputs.begin(), inputs.end(), *sole) == inputs.end()) continue;
       throw section.source().error_at(
-          value->position,
+          rules::wrong_dependence, value->position,
           fmt::format("{}: depends on \"{}\", which runs from the frequency to sweep_to; only "
                       "the motion's frequency may change in a run-up",
                       value->where, parameters.list[*sole].name));
@@ -107,7 +111,8 @@ void check_run_up(const NetworkReading& reading, const TomlSection& section) {
 void read_transient(NetworkReading& reading, const TomlValue& root, MotionChoice& motion) {
   const TomlEntry* entry = find_entry(root, "transient");
   if (!entry)
-    throw reading.context.source.error_at(root.position, "the study has no [transient] with its duration");
+    throw reading.context.source.error_at(rules::missing_section, root.position,
+                                          "the study has no [transient] with its duration");
   const TomlSection section(reading.context.source, entry->value, "[transient]",
                             {"duration", "samples", "sweep_to", "sweep_rate"});
   motion.duration = read_optional(reading, section, "duration", Quantity::time);
@@ -115,13 +120,14 @@ void read_transient(NetworkReading& reading, const TomlValue& root, MotionChoice
   motion.sweep_to = read_optional(reading, section, "sweep_to", Quantity::angular_frequency);
   motion.sweep_rate = read_optional(reading, section, "sweep_rate", Quantity::angular_acceleration);
   if (motion.sweep_to.has_value() != motion.sweep_rate.has_value()) {
-    section.fail(
-        fmt::format("the key \"{}\" is missing: a run-up or run-down has both sweep_to and "
-                    "sweep_rate",
-                    motion.sweep_to ? "sweep_rate" : "sweep_to"));
+    section.fail(rules::missing_key,
+                 fmt::format("the key \"{}\" is missing: a run-up or run-down has both sweep_to and "
+                             "sweep_rate",
+                             motion.sweep_to ? "sweep_rate" : "sweep_to"));
   }
   if (motion.sweep_to) check_run_up(reading, section);
-  if (!motion.duration && !motion.sweep_to) section.fail("the key \"duration\" is missing (a time, s)");
+  if (!motion.duration && !motion.sweep_to)
+    section.fail(rules::missing_key, "the key \"duration\" is missing (a time, s)");
 }
 
 }  // namespace
@@ -130,7 +136,7 @@ void refuse_smooth_friction(const StudyFile& study) {
   for (std::size_t e = 0; e < study.network.elements.size(); ++e) {
     if (study.network.elements[e].law != mechanics::FrictionLaw::arctan) continue;
     const StudyValue& slope = study.values.second[e];
-    throw study.source.error_at(slope.position,
+    throw study.source.error_at(rules::wrong_law, slope.position,
                                 fmt::format("{}: {} follows friction as it is; the law \"arctan\" is for a "
                                             "sweep",
                                             slope.where, kind_noun(study.kind)));
@@ -144,7 +150,7 @@ void refuse_names_of_energies(const StudyContext& context, const StudyFile& stud
     const std::string& name = elements[e].name;
     if (name != "initial" && name != "final") continue;
     throw context.source.error_at(
-        study.values.element[e].position,
+        rules::name_taken, study.values.element[e].position,
         fmt::format("element \"{}\": the record of a motion has a number {}_energy of its own; the element "
                     "needs another name",
                     name, name));

@@ -56,7 +56,8 @@ const ElementKind& read_kind(const TomlSection& section) {
     if (kind.name == type) return kind;
     known.push_back(kind.name);
   }
-  section.fail("type", fmt::format("no element is of type \"{}\"{}", type, suggestion(type, known)));
+  section.fail(rules::unknown_name, "type",
+               fmt::format("no element is of type \"{}\"{}", type, suggestion(type, known)));
 }
 
 // Each type has its values and no key of another type.
@@ -65,7 +66,8 @@ void check_keys_of_kind(const TomlSection& section, const ElementKind& kind) {
     const bool of_law = kind.can_be_smoothed() && (key == "law" || key == kind.smoothed.key);
     if (of_law || key == kind.value.key || key == kind.second.key || !section.find(key)) continue;
     const std::string second = kind.second.exists() ? fmt::format(" and a {}", kind.second.key) : "";
-    section.fail(key, fmt::format("a {} has a {}{}, no {}", kind.name, kind.value.key, second, key));
+    section.fail(rules::unknown_key, key,
+                 fmt::format("a {} has a {}{}, no {}", kind.name, kind.value.key, second, key));
   }
 }
 
@@ -73,7 +75,8 @@ mechanics::FrictionLaw read_law(const TomlSection& section, const ElementKind& k
   if (!kind.can_be_smoothed()) return mechanics::FrictionLaw::exact;
   if (section.choice_or("law", {"exact", "arctan"}) == "arctan") return mechanics::FrictionLaw::arctan;
   if (section.find(kind.smoothed.key))
-    section.fail(kind.smoothed.key, fmt::format("only the law \"arctan\" has a {}", kind.smoothed.key));
+    section.fail(rules::key_without_use, kind.smoothed.key,
+                 fmt::format("only the law \"arctan\" has a {}", kind.smoothed.key));
   return mechanics::FrictionLaw::exact;
 }
 
@@ -88,7 +91,8 @@ void check_one_law(const NetworkReading& reading, const TomlSection& section, co
   const ElementKind& other_kind = mechanics::kind_of(*other);
   if (!kind.can_be_smoothed() || !other_kind.can_be_smoothed()) {
     const bool own = !kind.can_be_smoothed();
-    section.fail(fmt::format("a {} has no arctan law, which {} follows", own ? kind.name : other_kind.name,
+    section.fail(rules::wrong_law,
+                 fmt::format("a {} has no arctan law, which {} follows", own ? kind.name : other_kind.name,
                              own ? fmt::format("element \"{}\"", other->name) : "this element"));
   }
   const bool arctan = law == mechanics::FrictionLaw::arctan;
@@ -96,14 +100,15 @@ void check_one_law(const NetworkReading& reading, const TomlSection& section, co
       "\"{}\"{}, but element \"{}\" follows \"{}\"; the coulomb elements of a study follow one law",
       arctan ? "arctan" : "exact", section.find("law") ? "" : " is the law if none is named", other->name,
       arctan ? "exact" : "arctan");
-  section.find("law") ? section.fail("law", message) : section.fail(message);
+  section.find("law") ? section.fail(rules::wrong_law, "law", message)
+                      : section.fail(rules::wrong_law, message);
 }
 
 std::array<Node, 2> read_between(const NetworkReading& reading, const TomlSection& section) {
   const TomlValue& value = section.require("between");
   const auto* ends = value.as<TomlArray>();
   if (!ends || ends->size() != 2)
-    section.fail("between", "two nodes are expected: between = [\"ground\", \"main\"]");
+    section.fail(rules::wrong_type, "between", "two nodes are expected: between = [\"ground\", \"main\"]");
   std::array<Node, 2> nodes;
   std::array<std::string, 2> names;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -111,15 +116,16 @@ std::array<Node, 2> read_between(const NetworkReading& reading, const TomlSectio
     names[i] = read_text(section.source(), where, (*ends)[i]);
     const auto node = find_node(reading.result.network, names[i]);
     if (!node) {
-      throw section.source().error_at((*ends)[i].position,
+      throw section.source().error_at(rules::unknown_name, (*ends)[i].position,
                                       fmt::format("{}: no node is called \"{}\"{}", where, names[i],
                                                   suggestion(names[i], node_names(reading.result.network))));
     }
     nodes[i] = *node;
   }
-  if (nodes[0] == nodes[1]) section.fail("between", fmt::format("both ends are at \"{}\"", names[0]));
+  if (nodes[0] == nodes[1])
+    section.fail(rules::wrong_node, "between", fmt::format("both ends are at \"{}\"", names[0]));
   if (nodes[0].kind != NodeKind::mass && nodes[1].kind != NodeKind::mass) {
-    section.fail("between",
+    section.fail(rules::wrong_node, "between",
                  fmt::format("neither \"{}\" nor \"{}\" is a mass, so nothing moves the element freely",
                              names[0], names[1]));
   }
@@ -185,7 +191,8 @@ void check_every_motion_is_felt(const NetworkReading& reading, const TomlValue& 
     });
     if (felt) continue;
     throw reading.context.source.error_at(
-        table->position, fmt::format("motion of \"{0}\": no element is attached to the node \"{0}\"", name));
+        rules::wrong_node, table->position,
+        fmt::format("motion of \"{0}\": no element is attached to the node \"{0}\"", name));
   }
 }
 
@@ -196,7 +203,8 @@ void take_name(NetworkReading& reading, const TomlSection& section, const std::s
   for (const auto& taken : reading.names) {
     if (taken.name != name) continue;
     section.fail(
-        "name", fmt::format("the name is taken by {}; nodes and elements need different names", taken.owner));
+        rules::name_taken, "name",
+        fmt::format("the name is taken by {}; nodes and elements need different names", taken.owner));
   }
   reading.names.push_back({name, owner});
 }
@@ -233,8 +241,8 @@ StudyValue read_value(NetworkReading& reading, const TomlSection& section, const
     return result;
   }
   if (!value) {
-    section.fail(fmt::format("the key \"{}\" is missing ({}, {})", key, quantity_name(quantity),
-                             written_si_unit(quantity)));
+    section.fail(rules::missing_key, fmt::format("the key \"{}\" is missing ({}, {})", key,
+                                                 quantity_name(quantity), written_si_unit(quantity)));
   }
   result.position = value->position;
   if (value->as<std::string>()) {
@@ -250,7 +258,8 @@ StudyValue read_value(NetworkReading& reading, const TomlSection& section, const
   try {
     result.expression = Expression(number.value * (number.unit ? si_factor(*number.unit, quantity) : 1.0));
   } catch (const UnitError& error) {
-    throw section.source().error_at(number.unit_position, fmt::format("{}: {}", result.where, error.what()));
+    throw section.source().error_at(error.rule(), number.unit_position,
+                                    fmt::format("{}: {}", result.where, error.what()));
   }
   return result;
 }
@@ -269,8 +278,11 @@ NetworkOfStudy read_network(const StudyContext& context, const TomlValue& root, 
   std::size_t number = 0;
   for (const TomlValue* table : read_tables(context.source, root, "mass"))
     read_mass(reading, *table, ++number);
-  if (number == 0) throw context.source.error_at(root.position, "the study has no [[mass]]: nothing moves");
-  if (is_forced && !excitation) throw context.source.error_at(root.position, "the study has no [excitation]");
+  if (number == 0)
+    throw context.source.error_at(rules::missing_section, root.position,
+                                  "the study has no [[mass]]: nothing moves");
+  if (is_forced && !excitation)
+    throw context.source.error_at(rules::missing_section, root.position, "the study has no [excitation]");
   if (is_forced) read_prescribed_nodes(reading, excitation->value);
   number = 0;
   for (const TomlValue* table : read_tables(context.source, root, "element"))

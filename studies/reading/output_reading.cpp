@@ -16,7 +16,7 @@ void read_quantities(const TomlSection& section, OutputChoice& output) {
   if (value->as<std::string>()) {
     const std::string word = section.text("quantities");
     if (word != "standard" && word != "all") {
-      section.fail("quantities",
+      section.fail(rules::wrong_type, "quantities",
                    fmt::format("\"{0}\" is neither \"standard\" nor \"all\"; names stand in an array: "
                                "[\"{0}\"]",
                                word));
@@ -32,14 +32,17 @@ void read_orbits(const StudyContext& context, const TomlSection& section, StudyF
   const TomlValue* value = section.find("orbits");
   if (!value) return;
   const auto* points = value->as<TomlArray>();
-  if (!points) section.fail("orbits", "expected an array of points such as [{ omega = 250, I = 6.36 }]");
+  if (!points)
+    section.fail(rules::wrong_type, "orbits",
+                 "expected an array of points such as [{ omega = 250, I = 6.36 }]");
   for (const TomlValue& point : *points) {
     const auto* entries = point.as<TomlTable>();
     if (!entries) {
       throw context.source.error_at(
-          point.position, fmt::format("[output]: orbits: a point is a table such as {{ omega = 250 }}, found "
-                                      "{}",
-                                      described(point)));
+          rules::wrong_type, point.position,
+          fmt::format("[output]: orbits: a point is a table such as {{ omega = 250 }}, found "
+                      "{}",
+                      described(point)));
     }
     std::vector<Assignment> assignments;
     for (const TomlEntry& entry : *entries)
@@ -55,17 +58,20 @@ void read_borders(const TomlSection& section, StudyFile& study) {
   for (const mechanics::Element& element : study.network.elements) {
     if (!mechanics::has_contact(element)) continue;
     if (element.law != mechanics::FrictionLaw::exact) {
-      section.fail("borders", fmt::format("element \"{}\" follows the arctan law, under which nothing sticks "
-                                          "and there are no regimes to border on each other",
-                                          element.name));
+      section.fail(rules::wrong_law, "borders",
+                   fmt::format("element \"{}\" follows the arctan law, under which nothing sticks "
+                               "and there are no regimes to border on each other",
+                               element.name));
     }
     ++contacts;
   }
   if (contacts == 0)
-    section.fail("borders", "borders are those between regimes of coulomb elements, and there is none");
+    section.fail(rules::no_contact, "borders",
+                 "borders are those between regimes of coulomb elements, and there is none");
   if (contacts > most_bordered_elements)
-    section.fail("borders", fmt::format("of {} coulomb elements; at most {} can be told apart", contacts,
-                                        most_bordered_elements));
+    section.fail(rules::too_large, "borders",
+                 fmt::format("of {} coulomb elements; at most {} can be told apart", contacts,
+                             most_bordered_elements));
 }
 
 // Whether each frequency along a dimension belongs to one place of it.
@@ -88,31 +94,34 @@ void read_resonances(const StudyContext& context, const TomlSection& section, St
   const TomlValue* value = section.find("resonances");
   if (!value) return;
   const auto* names = value->as<TomlArray>();
-  if (!names) section.fail("resonances", "expected an array of masses such as [\"main\"]");
+  if (!names) section.fail(rules::wrong_type, "resonances", "expected an array of masses such as [\"main\"]");
   const std::string where = fmt::format("{}: resonances", section.where());
   const auto& masses = study.network.masses;
   for (const TomlValue& item : *names) {
     const std::string name = read_text(context.source, where, item);
     const auto mass = std::find(masses.begin(), masses.end(), name);
     if (mass == masses.end()) {
-      throw context.source.error_at(item.position, fmt::format("{}: no mass is called \"{}\"{}", where, name,
-                                                               suggestion(name, masses)));
+      throw context.source.error_at(
+          rules::unknown_name, item.position,
+          fmt::format("{}: no mass is called \"{}\"{}", where, name, suggestion(name, masses)));
     }
     const auto index = static_cast<std::size_t>(mass - masses.begin());
     auto& chosen = study.output.resonances;
     if (std::find(chosen.begin(), chosen.end(), index) != chosen.end())
-      throw context.source.error_at(item.position, fmt::format("{}: \"{}\" appears twice", where, name));
+      throw context.source.error_at(rules::given_twice, item.position,
+                                    fmt::format("{}: \"{}\" appears twice", where, name));
     chosen.push_back(index);
   }
   const auto dimension = study.frequency_dimension;
   if (!dimension || study.dimensions[*dimension].axes.size() > 1 || study.dimensions[*dimension].size < 3) {
     section.fail(
-        "resonances",
+        rules::unfit_axis, "resonances",
         "a resonance is sought along an axis of the excitation frequency: one that is zipped with no "
         "other and has at least 3 points");
   }
   if (!frequencies_differ(study, *dimension))
-    section.fail("resonances", "the excitation frequency must rise, or fall, all along its axis");
+    section.fail(rules::unfit_axis, "resonances",
+                 "the excitation frequency must rise, or fall, all along its axis");
 }
 
 }  // namespace
@@ -122,9 +131,10 @@ std::vector<OutputChoice::Name> read_quantity_names(const TomlSection& section) 
   const auto* items = value.as<TomlArray>();
   if (!items || items->empty()) {
     const bool output = section.where() == "[output]";
-    section.fail("quantities", fmt::format("expected {}an array of names, found {}",
-                                           output ? "\"standard\", \"all\" or " : "",
-                                           items ? "an empty array" : described(value)));
+    section.fail(
+        rules::wrong_type, "quantities",
+        fmt::format("expected {}an array of names, found {}", output ? "\"standard\", \"all\" or " : "",
+                    items ? "an empty array" : described(value)));
   }
   std::vector<OutputChoice::Name> names;
   const std::string where = fmt::format("{}: quantities", section.where());
@@ -132,7 +142,8 @@ std::vector<OutputChoice::Name> read_quantity_names(const TomlSection& section) 
     const std::string name = read_identifier(section.source(), where, item);
     const bool twice = std::any_of(names.begin(), names.end(), [&](auto& n) { return n.text == name; });
     if (twice)
-      throw section.source().error_at(item.position, fmt::format("{}: \"{}\" appears twice", where, name));
+      throw section.source().error_at(rules::given_twice, item.position,
+                                      fmt::format("{}: \"{}\" appears twice", where, name));
     names.push_back({name, item.position});
   }
   return names;

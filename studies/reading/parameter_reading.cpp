@@ -13,13 +13,15 @@ std::string where_is(const std::string& name) {
 }
 
 Parameter named_parameter(const StudyContext& context, const TomlEntry& entry) {
-  const auto fail = [&](std::string_view rule) {
-    throw context.source.error_at(entry.position, fmt::format("[parameters]: \"{}\" {}", entry.key, rule));
+  const auto fail = [&](Rule rule, std::string_view problem) {
+    throw context.source.error_at(rule, entry.position,
+                                  fmt::format("[parameters]: \"{}\" {}", entry.key, problem));
   };
-  if (!is_identifier(entry.key)) fail("is not a name: names are a letter followed by letters, digits and _");
+  if (!is_identifier(entry.key))
+    fail(rules::not_a_name, "is not a name: names are a letter followed by letters, digits and _");
   const auto& reserved = Expression::reserved_names();
   if (std::find(reserved.begin(), reserved.end(), entry.key) != reserved.end()) {
-    fail("has a meaning in expressions already; choose another name");
+    fail(rules::name_taken, "has a meaning in expressions already; choose another name");
   }
   Parameter parameter;
   parameter.name = entry.key;
@@ -35,14 +37,14 @@ TableOf read_table(const StudyContext& context, const Parameters& parameters, co
   const std::string of = section.identifier("of");
   const auto index = parameters.find(of);
   if (!index) {
-    section.fail("of",
+    section.fail(rules::unknown_name, "of",
                  fmt::format("no parameter is called \"{}\"{}", of, suggestion(of, parameters.names())));
   }
   table.of = *index;
   try {
     table.table = read_lookup_table(folder / table.file);
   } catch (const StudyError& error) {
-    section.fail("table", error.what());
+    section.fail(error.rule(), "table", error.what());
   }
   return table;
 }
@@ -110,7 +112,7 @@ void order_derived(const StudyContext& context, Parameters& parameters) {
   if (stuck == resolved.end()) return;
   const auto i = static_cast<std::size_t>(stuck - resolved.begin());
   throw context.source.error_at(
-      parameters.list[i].position,
+      rules::circular_definition, parameters.list[i].position,
       fmt::format("{}: its definition runs in a circle: {}", where_is(parameters.list[i].name),
                   circle_through(parameters, resolved, i)));
 }
@@ -124,8 +126,9 @@ Parameters read_parameters(const StudyContext& context, const TomlValue& root,
   if (!section) return parameters;
   const auto* entries = section->value.as<TomlTable>();
   if (!entries) {
-    throw context.source.error_at(section->position, fmt::format("[parameters]: expected a table, found {}",
-                                                                 described(section->value)));
+    throw context.source.error_at(
+        rules::wrong_type, section->position,
+        fmt::format("[parameters]: expected a table, found {}", described(section->value)));
   }
   for (const TomlEntry& entry : *entries) parameters.list.push_back(named_parameter(context, entry));
   for (std::size_t i = 0; i < entries->size(); ++i) {
@@ -141,9 +144,9 @@ void convert_parameters(const StudyContext& context, Parameters& parameters) {
     try {
       auto& value = std::get<double>(parameter.definition);
       value *= si_factor(parameter, *parameter.unit);
-      if (!std::isfinite(value)) throw UnitError("the value in SI units is out of range");
+      if (!std::isfinite(value)) throw UnitError(rules::not_finite, "the value in SI units is out of range");
     } catch (const UnitError& error) {
-      throw context.source.error_at(parameter.unit_position,
+      throw context.source.error_at(error.rule(), parameter.unit_position,
                                     fmt::format("{}: {}", where_is(parameter.name), error.what()));
     }
   }
@@ -154,9 +157,10 @@ NumberWithUnit read_number_with_unit(const StudyContext& context, const std::str
   if (is_number(value)) return {read_number(context.source, where, value), std::nullopt, value.position};
   if (!value.as<TomlTable>()) {
     throw context.source.error_at(
-        value.position, fmt::format("{}: expected a number, {{ value, unit }} or an expression in quotes, "
-                                    "found {}",
-                                    where, described(value)));
+        rules::wrong_type, value.position,
+        fmt::format("{}: expected a number, {{ value, unit }} or an expression in quotes, "
+                    "found {}",
+                    where, described(value)));
   }
   const TomlSection section(context.source, value, where, {"value", "unit"});
   const double number = section.number("value");
@@ -167,18 +171,19 @@ NumberWithUnit read_number_with_unit(const StudyContext& context, const std::str
 
 std::optional<Unit> read_unit(const StudyContext& context, const std::string& where, const TomlValue& value) {
   const std::string text = read_text(context.source, fmt::format("{}: unit", where), value);
-  const auto fail = [&](std::string_view message) {
-    throw context.source.error_at(value.position, fmt::format("{}: unit: {}", where, message));
+  const auto fail = [&](Rule rule, std::string_view message) {
+    throw context.source.error_at(rule, value.position, fmt::format("{}: unit: {}", where, message));
   };
   if (context.dimensionless) {
     if (text != "1")
-      fail(fmt::format("\"{}\" has no meaning in a dimensionless study; leave it out or write \"1\"", text));
+      fail(rules::unit_in_dimensionless,
+           fmt::format("\"{}\" has no meaning in a dimensionless study; leave it out or write \"1\"", text));
     return std::nullopt;
   }
   try {
     return context.units.parse(text);
   } catch (const UnitError& error) {
-    fail(error.what());
+    fail(error.rule(), error.what());
   }
   return std::nullopt;
 }
@@ -189,7 +194,8 @@ Expression read_expression(const StudyContext& context, const Parameters& parame
   try {
     return Expression::parse(text, parameters.names());
   } catch (const ExpressionError& error) {
-    throw context.source.error_at(context.source.inside_string(value.position, error.column() - 1),
+    throw context.source.error_at(error.rule(),
+                                  context.source.inside_string(value.position, error.column() - 1),
                                   fmt::format("{}: {}", where, error.what()));
   }
 }

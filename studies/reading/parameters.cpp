@@ -53,17 +53,20 @@ double si_factor(const Parameter& parameter, const Unit& unit) {
     try {
       return si_factor(unit, *parameter.quantity);
     } catch (const UnitError& error) {
-      throw UnitError(fmt::format("{}; the parameter is used as {}", error.what(), parameter.used_as));
+      throw UnitError(error.rule(),
+                      fmt::format("{}; the parameter is used as {}", error.what(), parameter.used_as));
     }
   }
   if (parameter.in_frequency && unit.counts_cycles()) return si_factor(unit, Quantity::angular_frequency);
   if (parameter.unit &&
       (parameter.unit->exponents != unit.exponents || parameter.unit->foreign != unit.foreign)) {
-    throw UnitError(fmt::format("the unit \"{}\" is that of {}, but the parameter \"{}\" is given in \"{}\"",
+    throw UnitError(rules::wrong_dimension,
+                    fmt::format("the unit \"{}\" is that of {}, but the parameter \"{}\" is given in \"{}\"",
                                 unit.text, dimension_name(unit), parameter.name, parameter.unit->text));
   }
   if (unit.counts_cycles()) {
     throw UnitError(
+        rules::ambiguous_unit,
         fmt::format("the unit \"{}\" may count cycles or radians here, as the excitation frequency does "
                     "not depend on \"{}\"; write rad/s, rpm or cycle/s, or no unit for SI",
                     unit.text, parameter.name));

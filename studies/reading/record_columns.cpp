@@ -9,17 +9,17 @@ std::string RawRecord::place(const RawColumn& column, std::size_t row) const {
                    : fmt::format("{}: {}: value {}", file, column.called, rows[row]);
 }
 
-StudyError data_error(const TomlSection& record, const std::string& message) {
-  return record.source().error_at(record.require("file").position,
+StudyError data_error(Rule rule, const TomlSection& record, const std::string& message) {
+  return record.source().error_at(rule, record.require("file").position,
                                   fmt::format("{}: {}", record.where(), message));
 }
 
-void ColumnReading::fail(const std::string& message) const {
-  throw data_error(record, message);
+void ColumnReading::fail(Rule rule, const std::string& message) const {
+  throw data_error(rule, record, message);
 }
 
-void ColumnReading::fail(Position position, const std::string& message) const {
-  throw record.source().error_at(position, fmt::format("{}: {}", record.where(), message));
+void ColumnReading::fail(Rule rule, Position position, const std::string& message) const {
+  throw record.source().error_at(rule, position, fmt::format("{}: {}", record.where(), message));
 }
 
 RawRecord read_columns(const TomlSection& record, const std::filesystem::path& folder,

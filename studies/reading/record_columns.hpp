@@ -34,7 +34,7 @@ struct RawRecord {
 };
 
 // The error at the file that a record names.
-StudyError data_error(const TomlSection& record, const std::string& message);
+StudyError data_error(Rule rule, const TomlSection& record, const std::string& message);
 
 // A file of measurements as it is read.
 struct ColumnReading {
@@ -42,8 +42,9 @@ struct ColumnReading {
   const std::vector<RecordForm>& forms;
   RawRecord result = {};
 
-  [[noreturn]] void fail(const std::string& message) const;                     // at the file
-  [[noreturn]] void fail(Position position, const std::string& message) const;  // at a place of the study
+  [[noreturn]] void fail(Rule rule, const std::string& message) const;  // at the file
+  [[noreturn]] void fail(Rule rule, Position position,
+                         const std::string& message) const;  // at a place of the study
 };
 
 // The columns of a file of each kind; result.file is known.

@@ -24,15 +24,16 @@ void check_units(const TomlSection& section, const RawRecord& raw) {
   if (!units) return;
   const auto* entries = units->as<TomlTable>();
   if (!entries)
-    section.fail("units", fmt::format("expected a table such as {{ displacement = \"mm\" }}, found {}",
-                                      described(*units)));
+    section.fail(
+        rules::wrong_type, "units",
+        fmt::format("expected a table such as {{ displacement = \"mm\" }}, found {}", described(*units)));
   std::vector<std::string> roles;
   for (const RawColumn& column : raw.columns) roles.push_back(column.role->name);
   for (const TomlEntry& entry : *entries) {
     if (std::find(roles.begin(), roles.end(), entry.key) != roles.end()) continue;
-    throw section.source().error_at(
-        entry.position, fmt::format("{}: units: no column of numbers is \"{}\"{}", section.where(), entry.key,
-                                    suggestion(entry.key, roles)));
+    throw section.source().error_at(rules::unknown_name, entry.position,
+                                    fmt::format("{}: units: no column of numbers is \"{}\"{}",
+                                                section.where(), entry.key, suggestion(entry.key, roles)));
   }
 }
 
@@ -45,18 +46,19 @@ std::string unit_place(const RawRecord& raw, const RawColumn& column) {
 std::optional<Unit> unit_of_file(const IdentifyReading& reading, const TomlSection& section,
                                  const RawRecord& raw, const RawColumn& column) {
   if (!column.unit) return std::nullopt;
-  const auto fail = [&](std::string_view problem) {
-    throw data_error(section, fmt::format("{}: {}", unit_place(raw, column), problem));
+  const auto fail = [&](Rule rule, std::string_view problem) {
+    throw data_error(rule, section, fmt::format("{}: {}", unit_place(raw, column), problem));
   };
   if (reading.context.dimensionless) {
     if (*column.unit != "1")
-      fail(fmt::format("the unit \"{}\" has no meaning in a dimensionless study", *column.unit));
+      fail(rules::unit_in_dimensionless,
+           fmt::format("the unit \"{}\" has no meaning in a dimensionless study", *column.unit));
     return std::nullopt;
   }
   try {
     return reading.context.units.parse(*column.unit);
   } catch (const UnitError& error) {
-    fail(error.what());
+    fail(error.rule(), error.what());
   }
   return std::nullopt;
 }
@@ -74,48 +76,52 @@ double factor_of(const IdentifyReading& reading, const TomlSection& section, con
     try {
       return in_file ? si_factor(*in_file, column.role->quantity) : 1.0;
     } catch (const UnitError& error) {
-      throw data_error(section, fmt::format("{}: {}", unit_place(raw, column), error.what()));
+      throw data_error(error.rule(), section, fmt::format("{}: {}", unit_place(raw, column), error.what()));
     }
   }
   const std::string where = fmt::format("{}: units: {}", section.where(), column.role->name);
   const auto given = read_unit(reading.context, where, entry->value);
-  const auto fail = [&](std::string_view problem) {
-    throw section.source().error_at(entry->value.position, fmt::format("{}: {}", where, problem));
+  const auto fail = [&](Rule rule, std::string_view problem) {
+    throw section.source().error_at(rule, entry->value.position, fmt::format("{}: {}", where, problem));
   };
   if (given && in_file && !is_same(*given, *in_file))
-    fail(fmt::format("\"{}\", but the file gives \"{}\" in {}", given->text, in_file->text,
-                     unit_place(raw, column)));
+    fail(rules::two_units, fmt::format("\"{}\", but the file gives \"{}\" in {}", given->text, in_file->text,
+                                       unit_place(raw, column)));
   try {
     return given ? si_factor(*given, column.role->quantity) : 1.0;
   } catch (const UnitError& error) {
-    fail(error.what());
+    fail(error.rule(), error.what());
   }
   return 1.0;
 }
 
 void check_values(const TomlSection& section, const RawRecord& raw, const RawColumn& column) {
   const auto& values = column.values;
-  const auto fail = [&](std::size_t row, const std::string& problem) {
-    throw data_error(section, fmt::format("{}: {}", raw.place(column, row), problem));
+  const auto fail = [&](Rule rule, std::size_t row, const std::string& problem) {
+    throw data_error(rule, section, fmt::format("{}: {}", raw.place(column, row), problem));
   };
   const Range range = column.role->range;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (range == Range::positive && !(values[i] > 0.0)) fail(i, fmt::format("{} must be > 0", values[i]));
-    if (range == Range::not_negative && values[i] < 0.0) fail(i, fmt::format("{} must be >= 0", values[i]));
+    if (range == Range::positive && !(values[i] > 0.0))
+      fail(rules::wrong_row, i, fmt::format("{} must be > 0", values[i]));
+    if (range == Range::not_negative && values[i] < 0.0)
+      fail(rules::wrong_row, i, fmt::format("{} must be >= 0", values[i]));
     if (column.role->increases && i > 0 && values[i] <= values[i - 1])
-      fail(i, fmt::format("{} follows {}; {} must increase from row to row", values[i], values[i - 1],
-                          column.role->name));
+      fail(rules::wrong_order, i,
+           fmt::format("{} follows {}; {} must increase from row to row", values[i], values[i - 1],
+                       column.role->name));
   }
 }
 
 void check_count(const TomlSection& section, const RawRecord& raw, const RecordForm& form) {
   if (raw.rows.size() >= form.least_rows) return;
   const bool at_line = raw.has_lines && !raw.rows.empty();
-  throw data_error(section, fmt::format("{}{}: {} of numbers{}; at least {} needed", raw.file,
-                                        at_line ? fmt::format(":{}", raw.rows.back()) : "",
-                                        raw.rows.empty() ? "no row" : "a single row",
-                                        raw.doubtful > 0 ? " that is not doubtful" : "",
-                                        form.least_rows == 1 ? "one is" : "two are"));
+  throw data_error(rules::too_few, section,
+                   fmt::format("{}{}: {} of numbers{}; at least {} needed", raw.file,
+                               at_line ? fmt::format(":{}", raw.rows.back()) : "",
+                               raw.rows.empty() ? "no row" : "a single row",
+                               raw.doubtful > 0 ? " that is not doubtful" : "",
+                               form.least_rows == 1 ? "one is" : "two are"));
 }
 
 void take_columns(const IdentifyReading& reading, const TomlSection& section, RawRecord& raw,
@@ -139,7 +145,7 @@ void refuse_other_excitation(const IdentifyReading& reading, const TomlSection& 
     const bool force = excitation.kind == mechanics::ExcitationKind::force;
     const std::string& node = force ? network.masses[excitation.node] : network.prescribed[excitation.node];
     if (record.find(node + (force ? "_force" : "_displacement"))) continue;
-    section.fail("file",
+    section.fail(rules::unfit_for_method, "file",
                  fmt::format("an excitation was measured, and takes the place of [excitation]; but \"{}\" is "
                              "excited too and was not measured",
                              node));
@@ -155,7 +161,7 @@ void read_motion_kind(const IdentifyReading& reading, const TomlSection& section
                        [&](const DataColumn& column) { return is(study, column.role); });
   };
   if (!any(is_motion))
-    section.fail(section.find("columns") ? "columns" : "file",
+    section.fail(rules::unknown_column, section.find("columns") ? "columns" : "file",
                  fmt::format("no motion of a mass was measured; the columns are {}",
                              described(record_forms(study).front())));
   const bool measured = any(is_excitation), stated = !study.network.excitations.empty();
@@ -166,18 +172,19 @@ void read_motion_kind(const IdentifyReading& reading, const TomlSection& section
                   : word == "forced" ? MotionKind::forced
                                      : MotionKind::periodic;
   if (record.motion != MotionKind::forced && measured)
-    section.fail("motion",
+    section.fail(rules::unfit_for_method, "motion",
                  fmt::format("\"{}\", but an excitation was measured, which is for \"forced\"", word));
   if (record.motion != MotionKind::free && !measured && !stated)
-    section.fail("motion",
+    section.fail(rules::missing_section, "motion",
                  fmt::format("\"{}\", but the study has no [excitation] and none was measured", word));
   if (measured && record.doubtful > 0)
-    section.fail("file",
+    section.fail(rules::doubtful_row, "file",
                  "a measured excitation drives the motion at all times: none of its rows can be left out as "
                  "doubtful");
   if (measured) refuse_other_excitation(reading, section, record);
   if (record.motion == MotionKind::free && study.motion.initial.empty())
     section.fail(
+        rules::missing_section,
         "a free motion starts from [[initial]] values, and the study has none: nothing moves that is not "
         "displaced or set in motion");
 }
@@ -198,7 +205,8 @@ void read_settings(const IdentifyReading& reading, const TomlSection& section, R
   if (!set) return;
   const auto* entries = set->as<TomlTable>();
   if (!entries)
-    section.fail("set", fmt::format("expected a table such as {{ I = 4.72 }}, found {}", described(*set)));
+    section.fail(rules::wrong_type, "set",
+                 fmt::format("expected a table such as {{ I = 4.72 }}, found {}", described(*set)));
   for (const TomlEntry& entry : *entries) record.set.push_back(read_setting(reading, section, entry));
 }
 
@@ -208,11 +216,14 @@ void check_keys(const IdentifyReading& reading, const TomlSection& section, cons
   const std::string& name = method_name(method);
   for (const char* key : {"set", "motion"}) {
     if (section.find(key) && method != Method::grey_box)
-      section.fail(key, fmt::format("belongs to the method \"grey_box\"; \"{}\" has no use for it", name));
+      section.fail(rules::key_without_use, key,
+                   fmt::format("belongs to the method \"grey_box\"; \"{}\" has no use for it", name));
   }
   const auto check = [&](const char* key, bool wanted, const char* rule) {
-    if (section.find(key) && !wanted) section.fail(key, fmt::format("has no use here; {}", rule));
-    if (!section.find(key) && wanted) section.fail(fmt::format("the key \"{}\" is missing; {}", key, rule));
+    if (section.find(key) && !wanted)
+      section.fail(rules::key_without_use, key, fmt::format("has no use here; {}", rule));
+    if (!section.find(key) && wanted)
+      section.fail(rules::missing_key, fmt::format("the key \"{}\" is missing; {}", key, rule));
   };
   check("added_mass", method == Method::added_mass && form.is_trace,
         "it is the mass added while the trace of a record of the method \"added_mass\" was taken, 0 without");
@@ -232,7 +243,7 @@ void read_record(IdentifyReading& reading, const TomlSection& section, RecordCho
   for (const RawColumn& column : raw.columns) roles.push_back(column.role->name);
   const RecordForm& form = form_of(forms, roles);
   if (form.find("extremum") && raw.doubtful > 0)
-    section.fail("file",
+    section.fail(rules::doubtful_row, "file",
                  "turning points come in turn: none can be left out as doubtful; cut the table there");
   check_count(section, raw, form);
   check_keys(reading, section, form);
@@ -240,7 +251,7 @@ void read_record(IdentifyReading& reading, const TomlSection& section, RecordCho
   if (reading.choice.method != Method::grey_box) return;
   read_motion_kind(reading, section, record);
   if (raw.first_is_doubtful && record.motion != MotionKind::periodic)
-    section.fail("file",
+    section.fail(rules::doubtful_row, "file",
                  "the motion begins at the first row, which cannot be doubtful; cut the record there, and "
                  "[[initial]] holds at the next");
   read_settings(reading, section, record);

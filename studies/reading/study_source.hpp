@@ -5,12 +5,18 @@
 #include <string>
 #include <string_view>
 
+#include "studies/reading/rules.hpp"
+
 namespace frahm::studies {
 
 // A mistake in a study, reported to its author. what() is the whole message.
 class StudyError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  StudyError(Rule rule, const std::string& message) : std::runtime_error(message), rule_(rule) {}
+  Rule rule() const { return rule_; }
+
+ private:
+  Rule rule_;
 };
 
 // A place in the text of a study: line and column count from 1, columns in characters. Line 0: no place.
@@ -27,7 +33,7 @@ struct StudySource {
   std::string text;
 
   // The error `name:line:column: message`, with the line in question below it and a mark under the column.
-  StudyError error_at(Position position, std::string_view message) const;
+  StudyError error_at(Rule rule, Position position, std::string_view message) const;
 
   // Position of the character `offset` (from 0) of the string value that starts at `string`; where the string
   // is written with escapes or over several lines, that of the string itself.

@@ -23,14 +23,16 @@ class Scan {
         continue;
       }
       if (static_cast<unsigned char>(c) >= 0x80U)
-        fail("letters beyond ASCII are for quoted text and comments only");
+        fail(rules::not_text, "letters beyond ASCII are for quoted text and comments only");
       check_nesting(c);
       advance(1);
     }
   }
 
  private:
-  [[noreturn]] void fail(std::string_view message) const { throw source_.error_at(position_, message); }
+  [[noreturn]] void fail(Rule rule, std::string_view message) const {
+    throw source_.error_at(rule, position_, message);
+  }
 
   // Steps over bytes, refusing control characters, and keeps the position.
   void advance(std::size_t bytes) {
@@ -38,7 +40,7 @@ class Scan {
       const auto c = static_cast<unsigned char>(rest_.front());
       const bool line_end = c == '\r' && rest_.size() > 1 && rest_[1] == '\n';
       if ((c < 0x20U && c != '\t' && c != '\n' && !line_end) || c == 0x7FU) {
-        fail(fmt::format("the control character 0x{:02X} does not belong in a study", c));
+        fail(rules::not_text, fmt::format("the control character 0x{:02X} does not belong in a study", c));
       }
       if (c == '\n') {
         position_ = {position_.line + 1, 1};
@@ -63,7 +65,8 @@ class Scan {
       while (!rest_.empty() && !rest_.starts_with(quote) && !(one_line && rest_.front() == '\n')) {
         advance(escapes && rest_.front() == '\\' ? 2 : 1);
       }
-      if (!rest_.starts_with(quote)) throw source_.error_at(start, "this text is never closed");
+      if (!rest_.starts_with(quote))
+        throw source_.error_at(rules::not_text, start, "this text is never closed");
       advance(quote.size());
       return true;
     }
@@ -76,7 +79,7 @@ class Scan {
     const bool separates = std::string_view("[]{},=\n").find(c) != std::string_view::npos;
     dots_ = separates ? 0 : dots_ + (c == '.');
     if (brackets_ > deepest_nesting || dots_ > deepest_nesting) {
-      fail(fmt::format("nested deeper than {} levels", deepest_nesting));
+      fail(rules::too_large, fmt::format("nested deeper than {} levels", deepest_nesting));
     }
   }
 
@@ -92,7 +95,8 @@ class Scan {
 void scan_before_toml(const StudySource& source) {
   if (source.text.size() > longest_text) {
     throw source.error_at(
-        {}, fmt::format("{} bytes are too long for a study (at most {})", source.text.size(), longest_text));
+        rules::too_large, {},
+        fmt::format("{} bytes are too long for a study (at most {})", source.text.size(), longest_text));
   }
   Scan(source).run();
 }

@@ -12,9 +12,9 @@ namespace {
 
 constexpr std::size_t longest_label = 40;  // bytes of a name shown in a message
 
-[[noreturn]] void fail_at(const StudySource& source, const TomlValue& value, const std::string& where,
-                          std::string_view message) {
-  throw source.error_at(value.position, fmt::format("{}: {}", where, message));
+[[noreturn]] void fail_at(Rule rule, const StudySource& source, const TomlValue& value,
+                          const std::string& where, std::string_view message) {
+  throw source.error_at(rule, value.position, fmt::format("{}: {}", where, message));
 }
 
 std::string key_of(const std::string& where, std::string_view key) {
@@ -40,20 +40,23 @@ TomlSection::TomlSection(const StudySource& source, const TomlValue& table, std:
                          std::vector<std::string> keys)
     : source_(&source), table_(&table), where_(std::move(where)) {
   const auto* entries = table.as<TomlTable>();
-  if (!entries) fail_at(source, table, where_, fmt::format("expected a table, found {}", described(table)));
+  if (!entries)
+    fail_at(rules::wrong_type, source, table, where_,
+            fmt::format("expected a table, found {}", described(table)));
   for (const TomlEntry& entry : *entries) {
     if (std::find(keys.begin(), keys.end(), entry.key) != keys.end()) continue;
-    throw source.error_at(entry.position, fmt::format("{}: unknown key \"{}\"{}", where_, entry.key,
-                                                      suggestion(entry.key, keys)));
+    throw source.error_at(
+        rules::unknown_key, entry.position,
+        fmt::format("{}: unknown key \"{}\"{}", where_, entry.key, suggestion(entry.key, keys)));
   }
 }
 
-void TomlSection::fail(std::string_view message) const {
-  fail_at(*source_, *table_, where_, message);
+void TomlSection::fail(Rule rule, std::string_view message) const {
+  fail_at(rule, *source_, *table_, where_, message);
 }
 
-void TomlSection::fail(std::string_view key, std::string_view message) const {
-  fail_at(*source_, require(key), key_of(where_, key), message);
+void TomlSection::fail(Rule rule, std::string_view key, std::string_view message) const {
+  fail_at(rule, *source_, require(key), key_of(where_, key), message);
 }
 
 const TomlValue* TomlSection::find(std::string_view key) const {
@@ -63,7 +66,7 @@ const TomlValue* TomlSection::find(std::string_view key) const {
 
 const TomlValue& TomlSection::require(std::string_view key) const {
   const TomlValue* value = find(key);
-  if (!value) fail(fmt::format("the key \"{}\" is missing", key));
+  if (!value) fail(rules::missing_key, fmt::format("the key \"{}\" is missing", key));
   return *value;
 }
 
@@ -82,7 +85,8 @@ std::string TomlSection::identifier(std::string_view key) const {
 bool TomlSection::boolean_or(std::string_view key, bool otherwise) const {
   const TomlValue* value = find(key);
   if (!value) return otherwise;
-  if (!value->as<bool>()) fail(key, fmt::format("expected true or false, found {}", described(*value)));
+  if (!value->as<bool>())
+    fail(rules::wrong_type, key, fmt::format("expected true or false, found {}", described(*value)));
   return *value->as<bool>();
 }
 
@@ -94,7 +98,8 @@ std::int64_t TomlSection::integer_or(std::string_view key, std::int64_t otherwis
   const TomlValue* value = find(key);
   if (!value) return otherwise;
   const auto* integer = value->as<std::int64_t>();
-  if (!integer) fail(key, fmt::format("expected a whole number, found {}", described(*value)));
+  if (!integer)
+    fail(rules::wrong_type, key, fmt::format("expected a whole number, found {}", described(*value)));
   return *integer;
 }
 
@@ -102,26 +107,29 @@ std::string TomlSection::choice_or(std::string_view key, const std::vector<std::
   if (!find(key)) return choices.front();
   const std::string word = text(key);
   if (std::find(choices.begin(), choices.end(), word) == choices.end()) {
-    fail(key, fmt::format("\"{}\" is not possible here; write {}", word, listed(quoted(choices), " or ")));
+    fail(rules::not_a_choice, key,
+         fmt::format("\"{}\" is not possible here; write {}", word, listed(quoted(choices), " or ")));
   }
   return word;
 }
 
 std::string read_text(const StudySource& source, const std::string& where, const TomlValue& value) {
   const auto* text = value.as<std::string>();
-  if (!text) fail_at(source, value, where, fmt::format("expected a text, found {}", described(value)));
-  if (text->empty()) fail_at(source, value, where, "the text is empty");
+  if (!text)
+    fail_at(rules::wrong_type, source, value, where,
+            fmt::format("expected a text, found {}", described(value)));
+  if (text->empty()) fail_at(rules::empty, source, value, where, "the text is empty");
   const bool control = std::any_of(text->begin(), text->end(), [](char c) {
     return static_cast<unsigned char>(c) < 0x20U && c != '\n' && c != '\t';
   });
-  if (control) fail_at(source, value, where, "control characters are not allowed");
+  if (control) fail_at(rules::not_text, source, value, where, "control characters are not allowed");
   return *text;
 }
 
 std::string read_identifier(const StudySource& source, const std::string& where, const TomlValue& value) {
   const std::string name = read_text(source, where, value);
   if (!is_identifier(name)) {
-    fail_at(source, value, where,
+    fail_at(rules::not_a_name, source, value, where,
             fmt::format("\"{}\" is not a name: names are a letter followed by letters, digits and _", name));
   }
   return name;
@@ -134,9 +142,11 @@ bool is_number(const TomlValue& value) {
 double read_number(const StudySource& source, const std::string& where, const TomlValue& value) {
   if (const auto* integer = value.as<std::int64_t>()) return static_cast<double>(*integer);
   const auto* number = value.as<double>();
-  if (!number) fail_at(source, value, where, fmt::format("expected a number, found {}", described(value)));
+  if (!number)
+    fail_at(rules::wrong_type, source, value, where,
+            fmt::format("expected a number, found {}", described(value)));
   if (!std::isfinite(*number))
-    fail_at(source, value, where, fmt::format("{} is not a finite number", *number));
+    fail_at(rules::not_finite, source, value, where, fmt::format("{} is not a finite number", *number));
   return *number;
 }
 
@@ -148,8 +158,9 @@ std::vector<const TomlValue*> read_tables(const StudySource& source, const TomlV
   if (!entry) return tables;
   const auto* array = entry->value.as<TomlArray>();
   if (!array) {
-    throw source.error_at(entry->position, fmt::format("expected [[{}]], as there can be several, found {}",
-                                                       path, described(entry->value)));
+    throw source.error_at(
+        rules::wrong_type, entry->position,
+        fmt::format("expected [[{}]], as there can be several, found {}", path, described(entry->value)));
   }
   for (const TomlValue& table : *array) tables.push_back(&table);
   return tables;

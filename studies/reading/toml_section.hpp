@@ -34,8 +34,9 @@ class TomlSection {
   std::string choice_or(std::string_view key,
                         const std::vector<std::string>& choices) const;  // default: the first
 
-  [[noreturn]] void fail(std::string_view message) const;                        // at the table
-  [[noreturn]] void fail(std::string_view key, std::string_view message) const;  // at the value of a key
+  [[noreturn]] void fail(Rule rule, std::string_view message) const;  // at the table
+  [[noreturn]] void fail(Rule rule, std::string_view key,
+                         std::string_view message) const;  // at the value of a key
 
  private:
   const StudySource* source_;

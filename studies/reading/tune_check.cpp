@@ -55,10 +55,11 @@ void check_over_band(StudyFile& study, std::vector<double>& parameters) {
   const BandChoice& band = *study.tune->band;
   const std::string& unit = band.unit.text;
   throw study.source.error_at(
-      value.position, fmt::format("{}: {} at {} = {:.6g}{}; {}", value.where,
-                                  std::isfinite(found) ? fmt::format("is {:.6g}", found) : "has no value",
-                                  study.parameters.list[band.parameter].name, at / band.unit.si_factor,
-                                  unit.empty() || unit == "1" ? "" : " " + unit, rule));
+      rules::out_of_range, value.position,
+      fmt::format("{}: {} at {} = {:.6g}{}; {}", value.where,
+                  std::isfinite(found) ? fmt::format("is {:.6g}", found) : "has no value",
+                  study.parameters.list[band.parameter].name, at / band.unit.si_factor,
+                  unit.empty() || unit == "1" ? "" : " " + unit, rule));
 }
 
 void check_weight_and_rules(const StudyFile& study, std::vector<double> parameters) {

@@ -28,13 +28,13 @@ void read_objective(const TomlSection& section, TuneChoice& choice) {
 void check_variance(const TuneReading& reading, const TomlSection& section) {
   const Measure measure = reading.choice.quantity.measure;
   if (measure != Measure::rms && measure != Measure::stroke) {
-    section.fail("quantity",
+    section.fail(rules::unfit_quantity, "quantity",
                  fmt::format("\"{}\" has no variance; under white noise it is a mass's <mass>_rms or an "
                              "element's <element>_stroke (its rms)",
                              reading.choice.quantity_name));
   }
   if (const mechanics::Element* unfit = mechanics::element_unfit_for_noise(reading.study.network)) {
-    section.fail("objective",
+    section.fail(rules::unfit_for_method, "objective",
                  fmt::format("a variance is that of a linear system under white noise, and element \"{}\" is "
                              "a {}; write \"minimax\" or \"mean_square\"",
                              unfit->name, mechanics::kind_of(*unfit).name));
@@ -45,39 +45,44 @@ void read_noise(TuneReading& reading, const TomlSection& section) {
   const TomlValue* value = section.find("noise");
   const bool wanted = reading.choice.objective == Objective::variance;
   if (!value && wanted)
-    section.fail(
-        "the key \"noise\" is missing: a variance needs noise = { force_on = \"<mass>\" } or "
-        "{ acceleration_of = \"<node>\" }");
+    section.fail(rules::missing_key,
+                 "the key \"noise\" is missing: a variance needs noise = { force_on = \"<mass>\" } or "
+                 "{ acceleration_of = \"<node>\" }");
   if (!value) return;
-  if (!wanted) section.fail("noise", "belongs to objective = \"variance\"");
+  if (!wanted) section.fail(rules::key_without_use, "noise", "belongs to objective = \"variance\"");
   const TomlSection noise(reading.context.source, *value, "[tune]: noise",
                           {"force_on", "acceleration_of", "intensity"});
   const bool force = noise.find("force_on") != nullptr;
   if (force == (noise.find("acceleration_of") != nullptr))
-    noise.fail("needs either \"force_on\", a mass, or \"acceleration_of\", a node of prescribed motion");
+    noise.fail(rules::one_of_two_keys,
+               "needs either \"force_on\", a mass, or \"acceleration_of\", a node of prescribed motion");
   const auto& network = reading.study.network;
   const char* key = force ? "force_on" : "acceleration_of";
   const auto& names = force ? network.masses : network.prescribed;
   const std::string name = noise.text(key);
   const auto node = std::find(names.begin(), names.end(), name);
   if (node == names.end()) {
-    noise.fail(key, fmt::format("no {} is called \"{}\"{}", force ? "mass" : "node of prescribed motion",
-                                name, suggestion(name, names)));
+    noise.fail(rules::unknown_name, key,
+               fmt::format("no {} is called \"{}\"{}", force ? "mass" : "node of prescribed motion", name,
+                           suggestion(name, names)));
   }
   reading.choice.noise.kind = force ? tuning::NoiseKind::force_on : tuning::NoiseKind::acceleration_of;
   reading.choice.noise.node = static_cast<std::size_t>(node - names.begin());
   if (noise.find("intensity")) reading.choice.noise.intensity = noise.number("intensity");
   if (!(reading.choice.noise.intensity > 0.0))
-    noise.fail("intensity", fmt::format("{} is not possible; must be > 0", reading.choice.noise.intensity));
+    noise.fail(rules::out_of_range, "intensity",
+               fmt::format("{} is not possible; must be > 0", reading.choice.noise.intensity));
 }
 
 // As with an axis, a range without a unit is SI, and refused where the parameter is given in another.
 UsualUnit read_band_unit(const TuneReading& reading, const TomlSection& section, std::size_t parameter) {
   UsualUnit unit = read_parameter_unit(reading, section, parameter);
   if (!section.find("unit") && unit.si_factor != 1.0) {
-    section.fail(fmt::format(
-        "the parameter is given in \"{0}\" and its band in no unit; add unit = \"{0}\" or another",
-        unit.text));
+    section.fail(
+        rules::missing_unit,
+        fmt::format(
+            "the parameter is given in \"{0}\" and its band in no unit; add unit = \"{0}\" or another",
+            unit.text));
   }
   return unit;
 }
@@ -92,8 +97,9 @@ void read_band(TuneReading& reading, const TomlSection& section) {
   const StudyFile& study = reading.study;
   const auto inputs = study.parameters.inputs_of(study.values.omega.expression.reads());
   if (std::find(inputs.begin(), inputs.end(), choice.parameter) == inputs.end()) {
-    band.fail("parameter", fmt::format("the excitation frequency does not depend on \"{}\"",
-                                       study.parameters.list[choice.parameter].name));
+    band.fail(rules::wrong_dependence, "parameter",
+              fmt::format("the excitation frequency does not depend on \"{}\"",
+                          study.parameters.list[choice.parameter].name));
   }
   choice.unit = read_band_unit(reading, band, choice.parameter);
   choice.range = read_range(band, choice.unit.si_factor);
@@ -104,9 +110,10 @@ void require_band(const TuneReading& reading, const TomlSection& section) {
   const TuneChoice& choice = reading.choice;
   if (choice.band) return;
   if (choice.objective != Objective::variance)
-    section.fail("the key \"band\" is missing: band = { parameter = \"omega\", from = 15.0, to = 35.0 }");
+    section.fail(rules::missing_key,
+                 "the key \"band\" is missing: band = { parameter = \"omega\", from = 15.0, to = 35.0 }");
   if (!choice.limits.empty() || choice.trade_off)
-    section.fail("the key \"band\" is missing: limits hold over a band of frequencies");
+    section.fail(rules::missing_key, "the key \"band\" is missing: limits hold over a band of frequencies");
 }
 
 void read_start(const TomlSection& section, TuneChoice& choice) {
@@ -114,19 +121,22 @@ void read_start(const TomlSection& section, TuneChoice& choice) {
   if (value && value->as<std::int64_t>()) {
     const std::int64_t starts = section.integer_or("start", 1);
     if (starts < 1 || starts > most_starts)
-      section.fail("start", fmt::format("{} is out of range: a whole number from 1 to {}, \"given\" or "
-                                        "\"nlopt\"",
-                                        starts, most_starts));
+      section.fail(rules::out_of_range, "start",
+                   fmt::format("{} is out of range: a whole number from 1 to {}, \"given\" or "
+                               "\"nlopt\"",
+                               starts, most_starts));
     choice.start = tuning::Start::many;
     choice.starts = static_cast<std::size_t>(starts);
   } else if (value && !value->as<std::string>()) {
-    section.fail("start", fmt::format("expected \"given\", \"nlopt\" or a number of starts, found {}",
-                                      described(*value)));
+    section.fail(
+        rules::wrong_type, "start",
+        fmt::format("expected \"given\", \"nlopt\" or a number of starts, found {}", described(*value)));
   } else if (section.choice_or("start", {"given", "nlopt"}) == "nlopt") {
     choice.start = tuning::Start::global;
   }
   if (section.find("global") && choice.start != tuning::Start::global)
-    section.fail("global", "is the search of start = \"nlopt\", and the start is another");
+    section.fail(rules::key_without_use, "global",
+                 "is the search of start = \"nlopt\", and the start is another");
   choice.global_solver =
       tuning::solver_named(section.choice_or("global", {"crs2", "isres", "direct", "mlsl"}));
 }
@@ -135,8 +145,9 @@ void read_tolerance(const TomlSection& section, TuneChoice& choice) {
   if (!section.find("tolerance")) return;
   choice.tolerance = section.number("tolerance");
   if (!(choice.tolerance > 0.0 && choice.tolerance < largest_tolerance))
-    section.fail("tolerance", fmt::format("{} is out of range: above 0 and below {}", choice.tolerance,
-                                          largest_tolerance));
+    section.fail(
+        rules::out_of_range, "tolerance",
+        fmt::format("{} is out of range: above 0 and below {}", choice.tolerance, largest_tolerance));
 }
 
 void read_trade_off(TuneReading& reading, const TomlSection& section) {
@@ -158,7 +169,7 @@ void check_weight(const TuneReading& reading, const TomlSection& section) {
   const TuneChoice& choice = reading.choice;
   if (!choice.weight) return;
   if (choice.objective == Objective::variance)
-    section.fail("weight", "a variance has no weight over frequencies");
+    section.fail(rules::key_without_use, "weight", "a variance has no weight over frequencies");
   const Parameters& parameters = reading.study.parameters;
   for (const std::size_t input : parameters.inputs_of(choice.weight->expression.reads())) {
     const bool designed = std::any_of(choice.designs.begin(), choice.designs.end(),
@@ -168,9 +179,10 @@ void check_weight(const TuneReading& reading, const TomlSection& section) {
       for (const Assignment& assignment : scenario.set) set = set || assignment.parameter == input;
     }
     if (designed || set)
-      section.fail("weight", fmt::format("depends on \"{}\", which the {}; a weight is of the band alone",
-                                         parameters.list[input].name,
-                                         designed ? "tuning changes" : "scenarios change"));
+      section.fail(
+          rules::wrong_dependence, "weight",
+          fmt::format("depends on \"{}\", which the {}; a weight is of the band alone",
+                      parameters.list[input].name, designed ? "tuning changes" : "scenarios change"));
   }
 }
 
@@ -178,7 +190,8 @@ void check_dominate(const TuneReading& reading, const TomlSection& section) {
   if (!section.find("dominate")) return;
   section.choice_or("dominate", {"constant"});
   if (!reading.choice.has_schedule())
-    section.fail("dominate", "needs a [[design]] with a schedule, which is to be nowhere above its constant");
+    section.fail(rules::key_without_use, "dominate",
+                 "needs a [[design]] with a schedule, which is to be nowhere above its constant");
 }
 
 }  // namespace
@@ -194,14 +207,17 @@ periodic::Quantity read_real_quantity(const TuneReading& reading, const TomlSect
   if (!quantity) {
     std::vector<std::string> known;
     for (const auto& each : periodic::all_quantities(network)) known.push_back(describe(each).name);
-    section.fail(key, fmt::format("\"{}\" is no quantity of the study{}", name, suggestion(name, known)));
+    section.fail(rules::unknown_name, key,
+                 fmt::format("\"{}\" is no quantity of the study{}", name, suggestion(name, known)));
   }
   if (describe(*quantity).kind != periodic::QuantityKind::real)
-    section.fail(key, fmt::format("\"{}\" is a count or a flag; a tuning needs a number that varies "
-                                  "continuously",
-                                  name));
+    section.fail(rules::unfit_quantity, key,
+                 fmt::format("\"{}\" is a count or a flag; a tuning needs a number that varies "
+                             "continuously",
+                             name));
   if (!periodic::is_differentiable(quantity->measure))
-    section.fail(key, fmt::format("\"{}\" has no derivative by a design; a tuning needs one", name));
+    section.fail(rules::unfit_quantity, key,
+                 fmt::format("\"{}\" has no derivative by a design; a tuning needs one", name));
   return *quantity;
 }
 
@@ -214,8 +230,9 @@ UsualUnit read_quantity_unit(const TuneReading& reading, const TomlSection& sect
   if (!unit) return {"1", 1.0};
   const Unit own = reading.context.units.parse(description.unit);
   if (own.exponents != unit->exponents || unit->foreign)
-    section.fail("unit", fmt::format("\"{}\" is the unit of {}, but {} is in {}", unit->text,
-                                     dimension_name(*unit), description.name, description.unit));
+    section.fail(rules::wrong_dimension, "unit",
+                 fmt::format("\"{}\" is the unit of {}, but {} is in {}", unit->text, dimension_name(*unit),
+                             description.name, description.unit));
   if (description.unit == si_unit(Quantity::angular_frequency))
     return {unit->text, si_factor(*unit, Quantity::angular_frequency)};
   return {unit->text, unit->scale / own.scale};
@@ -229,7 +246,7 @@ UsualUnit read_parameter_unit(const TuneReading& reading, const TomlSection& sec
     try {
       if (unit) usual = {unit->text, si_factor(definition, *unit)};
     } catch (const UnitError& error) {
-      section.fail("unit", error.what());
+      section.fail(error.rule(), "unit", error.what());
     }
   }
   if (reading.study.dimensionless) return {"1", 1.0};
@@ -243,11 +260,12 @@ std::size_t read_number_parameter(const TuneReading& reading, const TomlSection&
   const std::string name = section.text(key);
   const auto index = parameters.find(name);
   if (!index)
-    section.fail(key,
+    section.fail(rules::unknown_name, key,
                  fmt::format("no parameter is called \"{}\"{}", name, suggestion(name, parameters.names())));
   if (!parameters.list[*index].is_number())
-    section.fail(key, fmt::format("\"{}\" is computed from other parameters; {} needs one that is a number",
-                                  name, role));
+    section.fail(
+        rules::computed_parameter, key,
+        fmt::format("\"{}\" is computed from other parameters; {} needs one that is a number", name, role));
   return *index;
 }
 
@@ -255,8 +273,9 @@ std::vector<double> read_numbers(const TomlSection& section, const std::string& 
   const TomlValue& list = section.require(key);
   const auto* items = list.as<TomlArray>();
   if (!items || items->empty())
-    section.fail(key, fmt::format("expected an array of numbers, found {}",
-                                  items ? "an empty array" : described(list)));
+    section.fail(
+        rules::wrong_type, key,
+        fmt::format("expected an array of numbers, found {}", items ? "an empty array" : described(list)));
   std::vector<double> values;
   for (const TomlValue& item : *items)
     values.push_back(read_number(section.source(), fmt::format("{}: {}", section.where(), key), item));
@@ -266,8 +285,9 @@ std::vector<double> read_numbers(const TomlSection& section, const std::string& 
 tuning::Band read_range(const TomlSection& section, double si_factor) {
   const double from = section.number("from"), to = section.number("to");
   if (!(from <= to))
-    section.fail("to", fmt::format("{} is below \"from\" = {}; a band goes from the lower end to the upper",
-                                   to, from));
+    section.fail(
+        rules::wrong_order, "to",
+        fmt::format("{} is below \"from\" = {}; a band goes from the lower end to the upper", to, from));
   return {from * si_factor, to * si_factor};
 }
 
@@ -283,7 +303,9 @@ StudyValue read_formula(const TuneReading& reading, const TomlSection& section, 
 void read_tuning(const StudyContext& context, const TomlValue& root, StudyFile& study) {
   refuse_smooth_friction(study);
   const TomlEntry* entry = find_entry(root, "tune");
-  if (!entry) throw context.source.error_at(root.position, "the study has no [tune] with its objective");
+  if (!entry)
+    throw context.source.error_at(rules::missing_section, root.position,
+                                  "the study has no [tune] with its objective");
   const TomlSection section(context.source, entry->value, "[tune]",
                             {"objective", "quantity", "band", "solver", "start", "global", "tolerance",
                              "weight", "dominate", "trade_off", "noise"});

@@ -133,7 +133,8 @@ bool Unit::counts_cycles() const {
 double si_factor(const Unit& unit, Quantity expected) {
   if (!has_dimension(unit, expected)) {
     const QuantityEntry& wanted = entry(expected);
-    throw UnitError(fmt::format("the unit \"{}\" is that of {}, but {} is expected (such as {})", unit.text,
+    throw UnitError(rules::wrong_dimension,
+                    fmt::format("the unit \"{}\" is that of {}, but {} is expected (such as {})", unit.text,
                                 dimension_name(unit), wanted.name, wanted.examples));
   }
   const bool rotates = expected == Quantity::angular_frequency || expected == Quantity::angular_acceleration;
@@ -180,9 +181,11 @@ UnitSystem::~UnitSystem() = default;
 Unit UnitSystem::parse(std::string_view text) const {
   const bool blank = text.find_first_not_of(' ') == std::string_view::npos;
   const bool padded = !blank && (text.front() == ' ' || text.back() == ' ');
-  if (blank) throw UnitError("the unit is empty (leave it out for SI, or write \"1\" for a pure number)");
+  if (blank)
+    throw UnitError(rules::unknown_unit,
+                    "the unit is empty (leave it out for SI, or write \"1\" for a pure number)");
   if (text.size() > longest_unit || padded || text.find('\0') != std::string_view::npos) {
-    throw UnitError(fmt::format("\"{}\" is not a unit", text.substr(0, longest_unit)));
+    throw UnitError(rules::unknown_unit, fmt::format("\"{}\" is not a unit", text.substr(0, longest_unit)));
   }
   Reading reading;
   reading.unit.text = text;
@@ -190,16 +193,18 @@ Unit UnitSystem::parse(std::string_view text) const {
       ut_parse(database_->system, reading.unit.text.c_str(), UT_UTF8), &ut_free);
   if (!unit) {
     throw UnitError(
+        rules::unknown_unit,
         fmt::format("\"{}\" is not a unit that UDUNITS knows (such as N/m, kN/m, N s/m, kg, mm, rpm, Hz, "
                     "rad/s, degree)",
                     text));
   }
   ut_accept_visitor(unit.get(), &visitor, &reading);
   if (!reading.proportional || !(reading.unit.scale > 0.0) || !std::isfinite(reading.unit.scale)) {
-    throw UnitError(fmt::format("the unit \"{}\" is not proportional to an SI unit", text));
+    throw UnitError(rules::unknown_unit,
+                    fmt::format("the unit \"{}\" is not proportional to an SI unit", text));
   }
   const bool is_number = text != "1" && text.find_first_not_of("0123456789.eE+- ") == std::string_view::npos;
-  if (is_number) throw UnitError(fmt::format("\"{}\" is a number, not a unit", text));
+  if (is_number) throw UnitError(rules::unknown_unit, fmt::format("\"{}\" is a number, not a unit", text));
   return reading.unit;
 }
 

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "studies/reading/rules.hpp"
+
 namespace frahm::studies {
 
 // The kinds of quantity a study has, each with its SI unit.
@@ -35,7 +37,11 @@ std::string_view written_si_unit(Quantity quantity);  // for readers: "N/m"
 // expected.
 class UnitError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  UnitError(Rule rule, const std::string& message) : std::runtime_error(message), rule_(rule) {}
+  Rule rule() const { return rule_; }
+
+ private:
+  Rule rule_;
 };
 
 // A unit as read: 1 unit = scale x (m^a kg^b s^c rad^d).

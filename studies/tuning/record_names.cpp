@@ -145,10 +145,10 @@ void check_record_names(const StudyFile& study) {
     results::check(optimum_columns(study, example));
     results::check(front_columns(study, example));
   } catch (const std::invalid_argument& error) {
-    throw StudyError(
-        fmt::format("{}: the record of this tuning would need one name twice; rename a "
-                    "parameter, a column or a scenario: {}",
-                    study.source.name, error.what()));
+    throw StudyError(rules::name_taken,
+                     fmt::format("{}: the record of this tuning would need one name twice; rename a "
+                                 "parameter, a column or a scenario: {}",
+                                 study.source.name, error.what()));
   }
 }
 

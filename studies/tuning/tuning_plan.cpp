@@ -19,7 +19,7 @@ std::vector<tuning::Optimum> tune(const StudyFile& study, const tuning::Task& ta
   try {
     return tuning::tune(task, start, stop_asked);
   } catch (const mechanics::MechanicsError& error) {
-    throw StudyError(study.source.name + ": " + error.what());
+    throw StudyError(rules::not_computed, study.source.name + ": " + error.what());
   }
 }
 

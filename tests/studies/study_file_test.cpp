@@ -8,6 +8,8 @@
 #include <sstream>
 #include <string>
 
+#include "tests/study_path.hpp"
+
 namespace {
 
 using namespace frahm::studies;
@@ -37,7 +39,7 @@ std::string complaint_about(const std::string& text) {
 
 TEST_CASE("every study of the project is read") {
   std::size_t count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(studies)) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(studies)) {
     if (entry.path().extension() != ".toml") continue;
     INFO(entry.path().string());
     std::stringstream text;
@@ -51,7 +53,7 @@ TEST_CASE("every study of the project is read") {
 }
 
 TEST_CASE("the rig atlas is the network and the grid of its file") {
-  const StudyFile rig = read_study(studies + "rig_atlas.toml");
+  const StudyFile rig = read_study(study_path("rig_atlas"));
   CHECK_FALSE(rig.dimensionless);
   CHECK(rig.network.masses == std::vector<std::string>{"main", "tmd"});
   CHECK(rig.network.prescribed == std::vector<std::string>{"exciter"});
@@ -79,7 +81,7 @@ TEST_CASE("the rig atlas is the network and the grid of its file") {
 }
 
 TEST_CASE("the rig atlas has the published values at 250 rpm and I = 6.36 kg") {
-  const StudyFile rig = read_study(studies + "rig_atlas.toml");
+  const StudyFile rig = read_study(study_path("rig_atlas"));
   auto parameters = rig.parameters.nominal();
   frahm::mechanics::NetworkValues values;
   evaluate(rig.values, rig.parameters, parameters, values);
@@ -93,7 +95,7 @@ TEST_CASE("the rig atlas has the published values at 250 rpm and I = 6.36 kg") {
 }
 
 TEST_CASE("derived coordinates lie along their dimension") {
-  const StudyFile rig = read_study(studies + "rig_atlas.toml");
+  const StudyFile rig = read_study(study_path("rig_atlas"));
   REQUIRE(rig.coordinates.size() == 2);
   CHECK(rig.coordinates[0].dimension == 2);
   const auto ratios = coordinate_values(rig, rig.coordinates[0]);
@@ -104,12 +106,12 @@ TEST_CASE("derived coordinates lie along their dimension") {
 }
 
 TEST_CASE("a study of two frequencies has its orders and the lowest as reference") {
-  const StudyFile study = read_study(studies + "cheng_zu.toml");
+  const StudyFile study = read_study(study_path("cheng_zu"));
   REQUIRE(study.network.excitations.size() == 2);
   CHECK(study.network.excitations[0].order == 1);
   CHECK(study.network.excitations[1].order == 3);
   CHECK(study.network.reference_order == 1);
-  CHECK(read_study(studies + "cheng_zu_even.toml").network.excitations[1].order == 2);
+  CHECK(read_study(study_path("cheng_zu_even")).network.excitations[1].order == 2);
 }
 
 TEST_CASE("an axis runs linearly, by ratios or over given values, ends exact") {
@@ -208,7 +210,7 @@ TEST_CASE("quantities keep their places and orbits are in the units of their axe
   CHECK(study.output.single_precision);
   REQUIRE(study.output.names.size() == 2);
   const auto& name = study.output.names[1];
-  CHECK_THAT(study.source.error_at(name.position, name.text).what(),
+  CHECK_THAT(study.source.error_at(frahm::studies::rules::not_text, name.position, name.text).what(),
              Catch::StartsWith("study.toml:25:28: status\n"));
   REQUIRE(study.output.orbits.size() == 2);
   CHECK_THAT(study.output.orbits[0][0].value, Catch::WithinRel(4.0 * std::numbers::pi, rounding));
@@ -231,7 +233,7 @@ TEST_CASE("a file that cannot be read is an error that names it") {
 }
 
 TEST_CASE("parts of a study cut off anywhere are read or refused, never a crash") {
-  const StudyFile rig = read_study(studies + "rig_atlas.toml");
+  const StudyFile rig = read_study(study_path("rig_atlas"));
   const std::string& text = rig.source.text;
   std::size_t refused = 0;
   for (std::size_t length = 0; length < text.size(); length += 7) {

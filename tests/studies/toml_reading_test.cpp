@@ -75,7 +75,7 @@ TEST_CASE("a position inside a text is found where the text is written plainly")
 
 TEST_CASE("a long line is cut around the column of the error") {
   const StudySource source{"s", "a = [" + std::string(5000, '1') + "]"};
-  const std::string message = source.error_at({1, 3000}, "here").what();
+  const std::string message = source.error_at(frahm::studies::rules::not_text, {1, 3000}, "here").what();
   CHECK(message.size() < 400);
 }
 
