@@ -24,13 +24,14 @@ std::vector<double> column(const RecordChoice& record, const char* role) {
   return found ? found->values : std::vector<double>{};
 }
 
-std::optional<double> stated(const StudyFile& study, const std::optional<StudyValue>& value) {
+std::optional<double> stated(const Study& study, const std::optional<StudyValue>& value) {
   if (!value) return std::nullopt;
   return stated(study, *value);
 }
 
-OneMass known_of(const StudyFile& study) {
-  return {.mass = stated(study, study.identify->mass), .stiffness = stated(study, study.identify->stiffness)};
+OneMass known_of(const Study& study) {
+  return {.mass = stated(study, study.identify()->mass),
+          .stiffness = stated(study, study.identify()->stiffness)};
 }
 
 ResponseTo shaken_by(const IdentifyChoice& choice) {
@@ -41,24 +42,24 @@ identification::ResponseCurve curve_of(const RecordChoice& record) {
   return {.omega = column(record, "frequency"), .amplitude = column(record, "amplitude")};
 }
 
-Identification half_power_of(const StudyFile& study, const RecordChoice& record) {
+Identification half_power_of(const Study& study, const RecordChoice& record) {
   if (record.find("amplitude"))
-    return identification::half_power(curve_of(record), shaken_by(*study.identify));
+    return identification::half_power(curve_of(record), shaken_by(*study.identify()));
   return identification::half_power(identification::HalfPowerRows{.peak = column(record, "natural_frequency"),
                                                                   .lower = column(record, "lower_frequency"),
                                                                   .upper = column(record, "upper_frequency")},
-                                    shaken_by(*study.identify));
+                                    shaken_by(*study.identify()));
 }
 
-Identification magnification_of(const StudyFile& study, const RecordChoice& record) {
+Identification magnification_of(const Study& study, const RecordChoice& record) {
   if (record.find("amplitude")) {
     return identification::resonance_magnification(
-        curve_of(record), stated(study, *record.static_displacement), shaken_by(*study.identify));
+        curve_of(record), stated(study, *record.static_displacement), shaken_by(*study.identify()));
   }
   return identification::resonance_magnification(
       identification::MagnificationRows{.static_displacement = column(record, "static_displacement"),
                                         .resonant = column(record, "resonant_displacement")},
-      shaken_by(*study.identify));
+      shaken_by(*study.identify()));
 }
 
 // Turning points that were read off by someone else: a time for each, or none.
@@ -69,26 +70,26 @@ identification::DecayExtrema extrema_of(const RecordChoice& record) {
   return extrema;
 }
 
-Identification log_decrement_of(const StudyFile& study, const RecordChoice& record) {
-  const auto cycles = study.identify->cycles;
+Identification log_decrement_of(const Study& study, const RecordChoice& record) {
+  const auto cycles = study.identify()->cycles;
   if (record.find("extremum")) return identification::log_decrement(extrema_of(record), cycles);
   return identification::log_decrement(column(record, "time"), column(record, "displacement"), cycles);
 }
 
-Identification free_decay_of(const StudyFile& study, const RecordChoice& record) {
+Identification free_decay_of(const Study& study, const RecordChoice& record) {
   const identification::FreeDecayOptions options{.known = known_of(study),
-                                                 .sensor_offset = study.identify->sensor_offset};
+                                                 .sensor_offset = study.identify()->sensor_offset};
   if (record.find("extremum")) return identification::free_decay(extrema_of(record), options);
   return identification::free_decay(column(record, "time"), column(record, "displacement"), options);
 }
 
-Identification forced_resonance_of(const StudyFile& study, const RecordChoice& record) {
+Identification forced_resonance_of(const Study& study, const RecordChoice& record) {
   const OneMass known = known_of(study);
   if (record.find("slope")) {
     return identification::forced_resonance(
         identification::ResonanceLines{.slope = column(record, "slope"),
                                        .intercept = column(record, "intercept")},
-        shaken_by(*study.identify), known);
+        shaken_by(*study.identify()), known);
   }
   identification::ResonancePairs pairs{.response = column(record, "response"),
                                        .excitation = column(record, "support")};
@@ -96,7 +97,7 @@ Identification forced_resonance_of(const StudyFile& study, const RecordChoice& r
     pairs.excitation = column(record, "force");
     for (double& force : pairs.excitation) force /= *known.stiffness;  // P/k
   }
-  return identification::forced_resonance(pairs, shaken_by(*study.identify), known);
+  return identification::forced_resonance(pairs, shaken_by(*study.identify()), known);
 }
 
 Identification energy_balance_of(const RecordChoice& record) {
@@ -114,8 +115,8 @@ Identification hysteresis_loop_of(const RecordChoice& record) {
 }
 
 // The natural frequency of each record by its free decay, unless a table gives them.
-Identification added_mass_of(const StudyFile& study) {
-  const auto& records = study.identify->records;
+Identification added_mass_of(const Study& study) {
+  const auto& records = study.identify()->records;
   if (records.front().find("frequency"))
     return identification::added_mass({.added = column(records.front(), "added_mass"),
                                        .omega = column(records.front(), "frequency"),
@@ -150,9 +151,9 @@ Identification added_mass_of(const StudyFile& study) {
   return result;
 }
 
-Identification by_method(const StudyFile& study) {
-  const RecordChoice& record = study.identify->records.front();
-  switch (study.identify->method) {
+Identification by_method(const Study& study) {
+  const RecordChoice& record = study.identify()->records.front();
+  switch (study.identify()->method) {
     case IdentifyMethod::half_power:
       return half_power_of(study, record);
     case IdentifyMethod::resonance_magnification:
@@ -177,9 +178,9 @@ Identification by_method(const StudyFile& study) {
 
 }  // namespace
 
-Identification identify_in_closed_form(const StudyFile& study) {
+Identification identify_in_closed_form(const Study& study) {
   Identification result = by_method(study);
-  const auto& records = study.identify->records;
+  const auto& records = study.identify()->records;
   if (records.size() > 1) return result;  // that have their names
   for (identification::FittedRecord& fitted : result.records)
     fitted.name =

@@ -14,8 +14,8 @@ namespace {
 using identification::GreyBoxTask, identification::Identification, identification::Model;
 
 // The record that Liang and Feeny are asked about; the reading of the study has seen to it that there is one.
-std::size_t record_of(const StudyFile& study) {
-  const auto& records = study.identify->records;
+std::size_t record_of(const Study& study) {
+  const auto& records = study.identify()->records;
   const std::string role = study.network.masses.front() + "_displacement";
   const auto found = std::find_if(records.begin(), records.end(), [&](const RecordChoice& record) {
     return record.motion == identification::MotionKind::free && record.find(role);
@@ -87,14 +87,14 @@ class Distance {
 
 }  // namespace
 
-Identification first_estimates(const StudyFile& study) {
-  const RecordChoice& record = study.identify->records[record_of(study)];
+Identification first_estimates(const Study& study) {
+  const RecordChoice& record = study.identify()->records[record_of(study)];
   const DataColumn* displacement = record.find(study.network.masses.front() + "_displacement");
   return identification::free_decay(record.find("time")->values, displacement->values,
                                     identification::FreeDecayOptions{});
 }
 
-void set_start(const StudyFile& study, const Identification& first, GreyBoxTask& task) {
+void set_start(const Study& study, const Identification& first, GreyBoxTask& task) {
   const std::size_t record = record_of(study);
   const Wanted wanted{estimate_of(first, "natural_frequency"),
                       std::max(0.0, estimate_of(first, "damping_ratio")),

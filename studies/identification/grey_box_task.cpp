@@ -11,7 +11,7 @@ namespace {
 using identification::Model, identification::Signal;
 
 // What a StudyValue is worth, and how it changes with one parameter.
-Dual dual_of(const StudyFile& study, const StudyValue& value, std::span<const double> parameters,
+Dual dual_of(const Study& study, const StudyValue& value, std::span<const double> parameters,
              std::size_t by) {
   std::vector<Dual> duals;
   for (const double parameter : parameters) duals.push_back({parameter, 0.0});
@@ -24,29 +24,29 @@ double value_of(const StudyValue& value, std::span<const double> parameters) {
   return value.expression.evaluate(parameters);
 }
 
-void set_model(const StudyFile& study, std::span<double> parameters, Model& model) {
+void set_model(const Study& study, std::span<double> parameters, Model& model) {
   const std::size_t n = study.network.masses.size();
   evaluate(study.values, study.parameters, parameters, model.values);
-  if (study.identify->reference_frequency)
-    model.values.hysteretic_omega = value_of(*study.identify->reference_frequency, parameters);
+  if (study.identify()->reference_frequency)
+    model.values.hysteretic_omega = value_of(*study.identify()->reference_frequency, parameters);
   model.initial.displacement.assign(n, 0.0);
   model.initial.velocity.assign(n, 0.0);
-  for (const InitialValues& initial : study.motion.initial) {
+  for (const InitialValues& initial : study.initial()) {
     model.initial.displacement[initial.mass] = value_of(initial.displacement, parameters);
     model.initial.velocity[initial.mass] = value_of(initial.velocity, parameters);
   }
 }
 
-void differentiate_model(const StudyFile& study, std::span<const double> parameters, std::size_t by,
+void differentiate_model(const Study& study, std::span<const double> parameters, std::size_t by,
                          Model& model) {
   const std::size_t n = study.network.masses.size();
   differentiate(study.values, study.parameters, parameters, by, model.values);
-  if (study.identify->reference_frequency)
+  if (study.identify()->reference_frequency)
     model.values.hysteretic_omega =
-        dual_of(study, *study.identify->reference_frequency, parameters, by).derivative;
+        dual_of(study, *study.identify()->reference_frequency, parameters, by).derivative;
   model.initial.displacement.assign(n, 0.0);
   model.initial.velocity.assign(n, 0.0);
-  for (const InitialValues& initial : study.motion.initial) {
+  for (const InitialValues& initial : study.initial()) {
     model.initial.displacement[initial.mass] =
         dual_of(study, initial.displacement, parameters, by).derivative;
     model.initial.velocity[initial.mass] = dual_of(study, initial.velocity, parameters, by).derivative;
@@ -54,14 +54,14 @@ void differentiate_model(const StudyFile& study, std::span<const double> paramet
 }
 
 // SI values of all parameters in a record, before those that are fitted or fixed take theirs.
-std::vector<double> parameters_in_record(const StudyFile& study, const RecordChoice& record) {
+std::vector<double> parameters_in_record(const Study& study, const RecordChoice& record) {
   std::vector<double> parameters = study.parameters.nominal();
   for (const Assignment& assignment : record.set) parameters[assignment.parameter] = assignment.value;
   return parameters;
 }
 
-identification::ModelAt model_at(const StudyFile& study) {
-  const IdentifyChoice& choice = *study.identify;
+identification::ModelAt model_at(const Study& study) {
+  const IdentifyChoice& choice = *study.identify();
   std::vector<std::size_t> places;  // of the entries of `at` among the parameters
   for (const IdentifiedParameter& fitted : choice.parameters) places.push_back(fitted.parameter);
   for (const FixedEstimate& fixed : choice.fixed) places.push_back(fixed.parameter);
@@ -91,7 +91,7 @@ std::optional<std::size_t> place_of(const std::vector<std::string>& names, const
   return static_cast<std::size_t>(place - names.begin());
 }
 
-void add_column(const StudyFile& study, const DataColumn& column, identification::TimeRecord& record) {
+void add_column(const Study& study, const DataColumn& column, identification::TimeRecord& record) {
   using mechanics::ExcitationKind;
   constexpr std::array<std::pair<const char*, Signal>, 3> signals{{{"_displacement", Signal::displacement},
                                                                    {"_velocity", Signal::velocity},
@@ -114,7 +114,7 @@ void add_column(const StudyFile& study, const DataColumn& column, identification
 
 }  // namespace
 
-identification::TimeRecord time_record(const StudyFile& study, const RecordChoice& record) {
+identification::TimeRecord time_record(const Study& study, const RecordChoice& record) {
   identification::TimeRecord result;
   result.name = record.name;
   result.motion = record.motion;
@@ -128,8 +128,8 @@ identification::TimeRecord time_record(const StudyFile& study, const RecordChoic
   return result;
 }
 
-identification::GreyBoxTask grey_box_task(const StudyFile& study) {
-  const IdentifyChoice& choice = *study.identify;
+identification::GreyBoxTask grey_box_task(const Study& study) {
+  const IdentifyChoice& choice = *study.identify();
   const std::vector<double> nominal = study.parameters.nominal();
   identification::GreyBoxTask task;
   task.network = study.network;

@@ -1,14 +1,14 @@
 #pragma once
 
 #include "solvers/identification/grey_box.hpp"
-#include "studies/reading/study_file.hpp"
+#include "studies/reading/study.hpp"
 
 namespace frahm::studies {
 
 // The fit that a study of the method grey_box describes. study: must outlive it.
-identification::GreyBoxTask grey_box_task(const StudyFile& study);
+identification::GreyBoxTask grey_box_task(const Study& study);
 
 // The measurements of a record.
-identification::TimeRecord time_record(const StudyFile& study, const RecordChoice& record);
+identification::TimeRecord time_record(const Study& study, const RecordChoice& record);
 
 }  // namespace frahm::studies

@@ -13,12 +13,12 @@ namespace {
 
 using identification::Estimate, identification::FittedRecord, identification::Identification;
 
-std::string unit_of(const StudyFile& study, const std::string& unit) {
+std::string unit_of(const Study& study, const std::string& unit) {
   return study.dimensionless ? "1" : unit;
 }
 
 // prefix: of the names, "" for those of the fit itself.
-void add_estimates(const StudyFile& study, const Identification& found, const std::string& prefix,
+void add_estimates(const Study& study, const Identification& found, const std::string& prefix,
                    GroupColumns& columns) {
   for (const Estimate& estimate : found.estimates) {
     const std::string name = prefix + estimate.name, unit = unit_of(study, estimate.unit);
@@ -49,7 +49,7 @@ void add_covariance(const Identification& found, GroupColumns& columns) {
 }
 
 // The data of a residual plot.
-void add_record(const StudyFile& study, const FittedRecord& record, GroupColumns& columns) {
+void add_record(const Study& study, const FittedRecord& record, GroupColumns& columns) {
   const std::string along = record.name + "_" + record.over;
   columns.add(along, unit_of(study, record.over_unit), record.over + " of the record " + record.name, along,
               record.at);
@@ -67,7 +67,7 @@ void add_record(const StudyFile& study, const FittedRecord& record, GroupColumns
 }
 
 // A parameter or a record may be called as something that the file holds beside it.
-void refuse_same_names(const StudyFile& study, const std::vector<results::Column>& columns) {
+void refuse_same_names(const Study& study, const std::vector<results::Column>& columns) {
   std::vector<std::string> names{"estimate", "record", "row"};  // dimensions, which are indices
   for (const results::Column& column : columns) names.push_back(column.variable.name);
   std::sort(names.begin(), names.end());
@@ -82,8 +82,7 @@ void refuse_same_names(const StudyFile& study, const std::vector<results::Column
 
 }  // namespace
 
-std::vector<results::Column> identification_columns(const StudyFile& study,
-                                                    const IdentificationResult& result) {
+std::vector<results::Column> identification_columns(const Study& study, const IdentificationResult& result) {
   GroupColumns columns;
   const Identification& fit = result.fit;
   add_estimates(study, fit, "", columns);
@@ -107,15 +106,15 @@ std::vector<results::Column> identification_columns(const StudyFile& study,
   return all;
 }
 
-std::vector<results::Text> identification_texts(const StudyFile& study, const IdentificationResult& result) {
+std::vector<results::Text> identification_texts(const Study& study, const IdentificationResult& result) {
   std::vector<std::string> estimates, records;
   for (const Estimate& estimate : result.fit.estimates) estimates.push_back(estimate.name);
   for (const FittedRecord& record : result.fit.records) records.push_back(record.name);
-  std::vector<results::Text> texts{{"method", method_name(study.identify->method)},
+  std::vector<results::Text> texts{{"method", method_name(study.identify()->method)},
                                    {"estimates", fmt::format("{}", fmt::join(estimates, " "))},
                                    {"records", fmt::format("{}", fmt::join(records, " "))},
                                    {"notes", fmt::format("{}", fmt::join(result.fit.notes, "\n"))}};
-  const std::vector<std::string>& labels = study.identify->records.front().labels;
+  const std::vector<std::string>& labels = study.identify()->records.front().labels;
   if (!labels.empty()) texts.emplace_back("row_labels", fmt::format("{}", fmt::join(labels, "\n")));
   return texts;
 }

@@ -17,10 +17,10 @@ struct IdentificationResult {
 };
 
 // Throws StudyError for a value of --set that the study overrules.
-StudyPlan plan_identification(StudyFile study, std::vector<std::string> set);
+StudyPlan plan_identification(Study study, std::vector<std::string> set);
 
 // What `watch` throws is passed on. Throws StudyError for data from which nothing can be found, with the
 // reason, and for a parameter that cannot take the estimate it names.
-IdentificationResult identify(const StudyFile& study, const transient::Watch& watch = {});
+IdentificationResult identify(const Study& study, const transient::Watch& watch = {});
 
 }  // namespace frahm::studies

@@ -22,9 +22,9 @@ struct Spoken {
   double factor = 1.0;  // SI value = factor x value
   std::string unit;
 };
-Spoken spoken_of(const StudyFile& study, const Estimate& estimate) {
+Spoken spoken_of(const Study& study, const Estimate& estimate) {
   std::string name = estimate.name;
-  for (const IdentifiedParameter& parameter : study.identify->parameters) {
+  for (const IdentifiedParameter& parameter : study.identify()->parameters) {
     const std::string& own = study.parameters.list[parameter.parameter].name;
     if (parameter.each_record && estimate.name.starts_with(own + "_")) name = own;
   }
@@ -38,15 +38,15 @@ std::string number(double value, double factor) {
   return std::isnan(value) ? "-" : fmt::format("{:.8g}", value / factor);
 }
 
-std::string remark_of(const StudyFile& study, const Estimate& estimate) {
+std::string remark_of(const Study& study, const Estimate& estimate) {
   if (std::isinf(estimate.high)) return "  the data do not determine it";
-  for (const FixedEstimate& fixed : study.identify->fixed) {
+  for (const FixedEstimate& fixed : study.identify()->fixed) {
     if (study.parameters.list[fixed.parameter].name == estimate.name) return "  as found before";
   }
   return "";
 }
 
-void print_estimates(const StudyFile& study, const Identification& found, std::ostream& out) {
+void print_estimates(const Study& study, const Identification& found, std::ostream& out) {
   if (found.estimates.empty()) return;
   fmt::print(out, "{:<36}{:>16}{:>16}{:>16}\n", "", "estimate", "95 % from", "to");
   for (const Estimate& estimate : found.estimates) {
@@ -84,9 +84,9 @@ void print_quality(const Identification& found, std::ostream& out) {
                std::isnan(record.nrmse) ? "-" : fmt::format("{:.8g}", record.nrmse));
 }
 
-void print_rows(const StudyFile& study, const Identification& found, std::ostream& out) {
+void print_rows(const Study& study, const Identification& found, std::ostream& out) {
   if (found.rows.empty()) return;
-  const std::vector<std::string>& labels = study.identify->records.front().labels;
+  const std::vector<std::string>& labels = study.identify()->records.front().labels;
   fmt::print(out, "{:<36}", "row");
   for (const auto& column : found.rows) fmt::print(out, "{:>16}", column.name);
   const std::size_t rows = found.rows.front().values.size();
@@ -98,7 +98,7 @@ void print_rows(const StudyFile& study, const Identification& found, std::ostrea
 }
 
 // " N s/m": the unit of a parameter behind its value.
-std::string behind(const StudyFile& study, std::size_t parameter) {
+std::string behind(const Study& study, std::size_t parameter) {
   const std::string unit = spoken_value(study, parameter, 1.0).unit;
   return unit.empty() ? "" : " " + unit;
 }
@@ -111,8 +111,8 @@ std::string motion_word(identification::MotionKind motion) {
 
 }  // namespace
 
-void print_identification_choice(const StudyFile& study, std::ostream& out) {
-  const IdentifyChoice& choice = *study.identify;
+void print_identification_choice(const Study& study, std::ostream& out) {
+  const IdentifyChoice& choice = *study.identify();
   fmt::print(out, "{:<22}{}\n", "method", method_name(choice.method));
   for (const RecordChoice& record : choice.records) {
     std::vector<std::string> roles;
@@ -138,8 +138,8 @@ void print_identification_choice(const StudyFile& study, std::ostream& out) {
                fixed.value / usual_unit(study, fixed.parameter).si_factor, behind(study, fixed.parameter));
 }
 
-void print_identification(const StudyFile& study, const IdentificationResult& result, std::ostream& out) {
-  fmt::print(out, "{}\n", method_name(study.identify->method));
+void print_identification(const Study& study, const IdentificationResult& result, std::ostream& out) {
+  fmt::print(out, "{}\n", method_name(study.identify()->method));
   if (result.first) {
     fmt::print(out, "\nfirst, by Liang and Feeny from the turning points\n");
     if (!result.first->failure.empty()) {
@@ -151,7 +151,7 @@ void print_identification(const StudyFile& study, const IdentificationResult& re
   print_estimates(study, result.fit, out);
   print_rows(study, result.fit, out);
   // Those of a formula's own results follow from one another.
-  if (study.identify->method == IdentifyMethod::grey_box) print_correlations(result.fit, out);
+  if (study.identify()->method == IdentifyMethod::grey_box) print_correlations(result.fit, out);
   print_quality(result.fit, out);
   for (const std::string& note : result.fit.notes) fmt::print(out, "note: {}\n", note);
 }

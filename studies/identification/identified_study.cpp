@@ -27,7 +27,7 @@ TomlTable& table_of(TomlTable& root, const std::string& key) {
 }
 
 struct Stored {
-  StudyFile study;
+  Study study;
   std::vector<Assignment> overrides;
   std::vector<results::Column> columns;
   std::string name;  // of the file
@@ -58,7 +58,7 @@ Stored read(const std::filesystem::path& file) {
 // All parameters that the identification settles, with their values; a later one counts. Of one that every
 // record has for itself, that of the first record.
 std::vector<Assignment> settled(const Stored& stored) {
-  const IdentifyChoice& choice = *stored.study.identify;
+  const IdentifyChoice& choice = *stored.study.identify();
   const RecordChoice& first = choice.records.front();
   std::vector<Assignment> all = stored.overrides;
   all.insert(all.end(), first.set.begin(), first.set.end());
@@ -88,12 +88,12 @@ void remove(TomlTable& root, const std::string& key) {
 }
 
 // A name that no parameter has yet.
-std::string free_name(const StudyFile& study, std::string name) {
+std::string free_name(const Study& study, std::string name) {
   while (study.parameters.find(name)) name += "_";
   return name;
 }
 
-mechanics::NetworkValues values_at(const StudyFile& study, std::vector<double> parameters) {
+mechanics::NetworkValues values_at(const Study& study, std::vector<double> parameters) {
   mechanics::NetworkValues values;
   evaluate(study.values, study.parameters, parameters, values);
   return values;
@@ -113,7 +113,7 @@ void add_axis(const std::string& parameter, const std::string& unit, double fact
 }
 
 // A force that moves the first mass well: a thousandth of its static stiffness, and beyond all friction.
-double moving_force(const StudyFile& study, const mechanics::NetworkValues& values) {
+double moving_force(const Study& study, const mechanics::NetworkValues& values) {
   mechanics::Network network = study.network;
   network.excitations.clear();
   mechanics::NetworkValues unexcited = values;
@@ -128,7 +128,7 @@ double moving_force(const StudyFile& study, const mechanics::NetworkValues& valu
 }
 
 // The system, which nothing drives but what was measured, under a harmonic force on its first mass.
-void drive(const StudyFile& study, const mechanics::NetworkValues& values, const std::vector<double>& modes,
+void drive(const Study& study, const mechanics::NetworkValues& values, const std::vector<double>& modes,
            TomlTable& root) {
   const std::string omega = free_name(study, "omega"), force = free_name(study, "P");
   if (!entry_of(root, "parameters")) root.push_back({"parameters", {}, {{}, TomlTable{}}});
@@ -144,7 +144,7 @@ void drive(const StudyFile& study, const mechanics::NetworkValues& values, const
 
 // The motion of the first record, sampled as it was.
 void make_motion(const Stored& stored, TomlTable& root) {
-  const std::vector<double> time = stored.column(stored.study.identify->records.front().name + "_time");
+  const std::vector<double> time = stored.column(stored.study.identify()->records.front().name + "_time");
   if (time.size() < 2)
     throw StudyError(
         rules::wrong_dependence,
@@ -160,7 +160,7 @@ void make_motion(const Stored& stored, TomlTable& root) {
 }
 
 std::string study_of_system(const Stored& stored) {
-  const StudyFile& study = stored.study;
+  const Study& study = stored.study;
   TomlValue document = read_toml(study.source);
   TomlTable& root = std::get<TomlTable>(document.content);
   remove(root, "identify");
@@ -188,8 +188,8 @@ std::string study_of_system(const Stored& stored) {
 
 // m x'' + c x' + k x + F Sgn(x') = P cos(omega t), of which mass, ratio, frequency and friction were found.
 std::string study_of_one_mass(const Stored& stored) {
-  const StudyFile& study = stored.study;
-  const IdentifyChoice& choice = *study.identify;
+  const Study& study = stored.study;
+  const IdentifyChoice& choice = *study.identify();
   const double zeta = stored.value("damping_ratio");
   if (std::isnan(zeta)) {
     throw StudyError(

@@ -17,11 +17,11 @@ namespace {
 
 using identification::Identification;
 
-IdentificationResult fit_grey_box(const StudyFile& study, const transient::Watch& watch) {
+IdentificationResult fit_grey_box(const Study& study, const transient::Watch& watch) {
   IdentificationResult result;
   identification::GreyBoxTask task = grey_box_task(study);
   task.watch = watch;
-  if (study.identify->start == IdentifyStart::free_decay) {
+  if (study.identify()->start == IdentifyStart::free_decay) {
     result.first = first_estimates(study);
     if (result.first->failure.empty()) set_start(study, *result.first, task);
   }
@@ -31,10 +31,10 @@ IdentificationResult fit_grey_box(const StudyFile& study, const transient::Watch
 
 // Each parameter that takes an estimate stands among the estimates under its own name too, so that a later
 // study of the chain knows it. The reading of the study has seen to it that the method has the estimate.
-void name_parameters(const StudyFile& study, Identification& fit) {
+void name_parameters(const Study& study, Identification& fit) {
   std::vector<std::string> names;
   for (const identification::Estimate& estimate : fit.estimates) names.push_back(estimate.name);
-  for (const IdentifiedParameter& parameter : study.identify->parameters) {
+  for (const IdentifiedParameter& parameter : study.identify()->parameters) {
     const std::string& own = study.parameters.list[parameter.parameter].name;
     if (parameter.estimate.empty() || parameter.estimate == own) continue;
     const auto place = std::find(names.begin(), names.end(), parameter.estimate);
@@ -46,7 +46,7 @@ void name_parameters(const StudyFile& study, Identification& fit) {
     if (std::find(names.begin(), names.end(), own) != names.end())
       fail(rules::name_taken,
            fmt::format("an estimate of the method {} has this name; call the parameter otherwise",
-                       method_name(study.identify->method)));
+                       method_name(study.identify()->method)));
     const auto taken = static_cast<std::size_t>(place - names.begin());
     identification::Estimate alias = fit.estimates[taken];
     const std::string unit = recorded_unit(study, parameter.parameter);
@@ -60,17 +60,17 @@ void name_parameters(const StudyFile& study, Identification& fit) {
 
 }  // namespace
 
-StudyPlan plan_identification(StudyFile study, std::vector<std::string> set) {
+StudyPlan plan_identification(Study study, std::vector<std::string> set) {
   refuse_overruled(study, set);
   StudyPlan plan{.study = std::move(study), .set = std::move(set)};
   plan.fingerprint = fingerprint(plan.study, {}, {});
   return plan;
 }
 
-IdentificationResult identify(const StudyFile& study, const transient::Watch& watch) {
+IdentificationResult identify(const Study& study, const transient::Watch& watch) {
   try {
     IdentificationResult result;
-    if (study.identify->method == IdentifyMethod::grey_box) {
+    if (study.identify()->method == IdentifyMethod::grey_box) {
       result = fit_grey_box(study, watch);
     } else {
       result.fit = identify_in_closed_form(study);
@@ -79,7 +79,7 @@ IdentificationResult identify(const StudyFile& study, const transient::Watch& wa
       throw StudyError(rules::not_computed,
                        fmt::format("{}: nothing is identified: {}", study.source.name, result.fit.failure));
     name_parameters(study, result.fit);
-    for (const RecordChoice& record : study.identify->records) {
+    for (const RecordChoice& record : study.identify()->records) {
       if (record.doubtful > 0)
         result.fit.notes.push_back(fmt::format("{} doubtful row{} of {} {} left out", record.doubtful,
                                                record.doubtful == 1 ? "" : "s", record.name,

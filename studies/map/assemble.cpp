@@ -34,7 +34,7 @@ class Failures {
   }
 
   std::uint64_t number() const { return number_; }
-  std::vector<std::string> texts(const StudyFile& study) const {
+  std::vector<std::string> texts(const Study& study) const {
     std::vector<std::string> texts;
     for (const Failure& failure : first_)
       texts.push_back(fmt::format("{}: {}", point_text(study, failure.index), failure.reason));
@@ -113,7 +113,7 @@ class ChunkMaking {
 Failures write_map(const MapPlan& plan, const results::MapLayout& layout, const engine::TileIndex& index,
                    const AssemblyOptions& options, results::MapWriter& writer) {
   Failures failures;
-  const std::size_t borders = plan.study.output.borders ? create_borders(plan, writer) : 0;
+  const std::size_t borders = plan.study.sweep()->output.borders ? create_borders(plan, writer) : 0;
   engine::TileReader reader(index);
   const auto make_work = [&]() -> engine::PieceWork {
     // Shared, as a PieceWork has to be copyable.

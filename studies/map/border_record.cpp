@@ -18,7 +18,7 @@ results::Variable flag_of(const std::string& name, const std::string& long_name,
 }
 
 // The regimes as the map has them.
-results::Variable regime(const StudyFile& study, std::size_t element, const std::string& name,
+results::Variable regime(const Study& study, std::size_t element, const std::string& name,
                          const std::string& long_name) {
   results::Variable variable{.name = name, .long_name = long_name, .type = results::Type::flag};
   const auto description = periodic::describe({periodic::Measure::regime, element}, study.network, false);
@@ -29,9 +29,9 @@ results::Variable regime(const StudyFile& study, std::size_t element, const std:
 }  // namespace
 
 std::size_t create_borders(const MapPlan& plan, results::MapWriter& writer) {
-  const StudyFile& study = plan.study;
+  const Study& study = plan.study;
   std::vector<results::Variable> variables;
-  for (const ParameterAxis& axis : study.axes) {
+  for (const ParameterAxis& axis : study.sweep()->axes) {
     const std::string& name = study.parameters.list[axis.parameter].name;
     variables.push_back({.name = name,
                          .unit = axis.unit.empty() ? "1" : axis.unit,
@@ -44,7 +44,7 @@ std::size_t create_borders(const MapPlan& plan, results::MapWriter& writer) {
     elements.push_back(study.network.elements[e].name);
     one_contact = e;
   }
-  for (const GridDimension& dimension : study.dimensions) dimensions.push_back(dimension.name);
+  for (const GridDimension& dimension : study.sweep()->dimensions) dimensions.push_back(dimension.name);
   variables.push_back(flag_of("element", "coulomb element whose regime changes", elements));
   variables.push_back(flag_of("axis", "dimension of the map along which it was found to change", dimensions));
   variables.push_back(
@@ -54,13 +54,13 @@ std::size_t create_borders(const MapPlan& plan, results::MapWriter& writer) {
   return writer.create_ragged({.group = "borders", .row = "border", .row_variables = variables});
 }
 
-std::vector<double> border_row(const StudyFile& study, const MapBox& tile, const Border& border) {
-  std::vector<double> row(study.axes.size());
+std::vector<double> border_row(const Study& study, const MapBox& tile, const Border& border) {
+  std::vector<double> row(study.sweep()->axes.size());
   std::uint64_t rest = border.place;
-  for (std::size_t d = study.dimensions.size(); d-- > 0; rest /= tile.count[d]) {
+  for (std::size_t d = study.sweep()->dimensions.size(); d-- > 0; rest /= tile.count[d]) {
     const std::size_t index = tile.start[d] + rest % tile.count[d];
-    for (const std::size_t a : study.dimensions[d].axes) {
-      const std::vector<double>& values = study.axes[a].values;
+    for (const std::size_t a : study.sweep()->dimensions[d].axes) {
+      const std::vector<double>& values = study.sweep()->axes[a].values;
       row[a] = d == border.dimension ? std::lerp(values[index], values[index + 1], border.crossing.at)
                                      : values[index];
     }

@@ -48,7 +48,7 @@ class BorderCurve {
 
 }  // namespace
 
-BorderSearch::BorderSearch(const StudyFile& study, const Grid& grid)
+BorderSearch::BorderSearch(const Study& study, const Grid& grid)
     : study_(study),
       grid_(grid),
       elements_(regimes_of(study.network).size()),
@@ -76,8 +76,8 @@ bool BorderSearch::is_beyond(const Index& index, std::size_t dimension) const {
 }
 
 // Of the first element's regime at a point.
-std::size_t BorderSearch::place(const Index& index) const {
-  return wide_.place(index) * elements_;
+std::size_t BorderSearch::offset_of(const Index& index) const {
+  return wide_.offset_of(index) * elements_;
 }
 
 void BorderSearch::find_regimes() {
@@ -97,7 +97,7 @@ void BorderSearch::find_regimes_of_row(Index index) {
   const std::size_t along = grid_.order.back();
   bool is_own = true;
   for (std::size_t d = 0; d < index.size(); ++d) {
-    studies::place(study_, d, index[d], parameters_);
+    set_along(*study_.sweep(), d, index[d], parameters_);
     is_own = is_own && !is_beyond(index, d);
   }
   const std::uint64_t points = is_own ? wide_.count[along] : tile_.count[along];
@@ -114,11 +114,11 @@ void BorderSearch::find_regimes_of_row(Index index) {
 // All dimensions but that of the row are in place.
 void BorderSearch::find_regimes_of_point(const Index& index) {
   const std::size_t along = grid_.order.back();
-  studies::place(study_, along, index[along], parameters_);
-  solver_.place(parameters_);
+  set_along(*study_.sweep(), along, index[along], parameters_);
+  solver_.set_parameters(parameters_);
   std::string reason;  // the map tells it
   const std::span<const double> found = solver_.solve(reason);
-  std::ranges::transform(found, regimes_.begin() + static_cast<std::ptrdiff_t>(place(index)),
+  std::ranges::transform(found, regimes_.begin() + static_cast<std::ptrdiff_t>(offset_of(index)),
                          [](double regime) { return static_cast<Regime>(regime); });
 }
 
@@ -130,7 +130,7 @@ void BorderSearch::search_row(const Index& row, std::size_t dimension, std::vect
   for (std::uint64_t i = 0; i < tile_.count[along]; ++i) {
     lower[along] = tile_.start[along] + i;
     if (lower[dimension] + 1 == grid_.shape[dimension]) continue;
-    const std::uint64_t point = tile_.place(lower);
+    const std::uint64_t point = tile_.offset_of(lower);
     for (std::size_t element = 0; element < elements_; ++element) {
       const auto crossings = crossings_on_edge(lower, dimension, element, curves[element].forecast());
       curves[element].follow(crossings);
@@ -146,7 +146,7 @@ std::vector<RegimeCrossing> BorderSearch::crossings_on_edge(const Index& lower, 
   Index upper = lower;
   ++upper[dimension];
   return find_crossings(
-      regimes_[place(lower) + element], regimes_[place(upper) + element],
+      regimes_[offset_of(lower) + element], regimes_[offset_of(upper) + element],
       [&](double at) { return point_on_edge(lower, dimension, element, at); }, forecast);
 }
 
@@ -154,14 +154,14 @@ std::vector<RegimeCrossing> BorderSearch::crossings_on_edge(const Index& lower, 
 // of the one before, which lies near.
 RegimePoint BorderSearch::point_on_edge(const Index& lower, std::size_t dimension, std::size_t element,
                                         double at) {
-  for (std::size_t d = 0; d < lower.size(); ++d) studies::place(study_, d, lower[d], parameters_);
-  for (const std::size_t a : study_.dimensions[dimension].axes) {
-    const ParameterAxis& axis = study_.axes[a];
+  for (std::size_t d = 0; d < lower.size(); ++d) set_along(*study_.sweep(), d, lower[d], parameters_);
+  for (const std::size_t a : study_.sweep()->dimensions[dimension].axes) {
+    const ParameterAxis& axis = study_.sweep()->axes[a];
     parameters_[axis.parameter] =
         std::lerp(axis.si_values[lower[dimension]], axis.si_values[lower[dimension] + 1], at);
   }
   solver_.begin_row();
-  solver_.place(parameters_);
+  solver_.set_parameters(parameters_);
   std::string reason;
   const auto regime = static_cast<Regime>(solver_.solve(reason)[element]);
   if (!has_regime(regime)) return {regime};

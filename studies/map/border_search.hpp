@@ -22,7 +22,7 @@ namespace frahm::studies {
 class BorderSearch {
  public:
   // study, grid: must outlive this.  The elements follow the exact law.
-  BorderSearch(const StudyFile& study, const Grid& grid);
+  BorderSearch(const Study& study, const Grid& grid);
 
   // Appends the borders on the edges of a tile: those of one row of the tile after the other, in a row along
   // one dimension after the other.
@@ -32,7 +32,7 @@ class BorderSearch {
   using Index = std::vector<std::uint64_t>;
 
   bool is_beyond(const Index& index, std::size_t dimension) const;
-  std::size_t place(const Index& index) const;
+  std::size_t offset_of(const Index& index) const;
   void find_regimes();
   void find_regimes_of_row(Index index);
   void find_regimes_of_point(const Index& index);
@@ -42,7 +42,7 @@ class BorderSearch {
                                                 const std::optional<CrossingForecast>& forecast);
   RegimePoint point_on_edge(const Index& lower, std::size_t dimension, std::size_t element, double at);
 
-  const StudyFile& study_;
+  const Study& study_;
   const Grid& grid_;
   std::size_t elements_ = 0;  // Coulomb elements of the network
   RowSolver solver_;          // of their regimes

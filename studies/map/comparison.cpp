@@ -22,17 +22,18 @@ std::string circumstance(const Comparison& comparison) {
 
 }  // namespace
 
-bool meets_arctan_law(const StudyFile& study) {
+bool meets_arctan_law(const Study& study) {
   const auto follows = [](const mechanics::Network& network) {
     return std::any_of(network.elements.begin(), network.elements.end(), [](const mechanics::Element& each) {
       return mechanics::has_contact(each) && each.law == FrictionLaw::arctan;
     });
   };
-  return follows(study.network) || (study.comparison && follows(compared_network(study)));
+  return follows(study.network) ||
+         (study.sweep() && study.sweep()->comparison && follows(compared_network(study)));
 }
 
-mechanics::Network compared_network(const StudyFile& study) {
-  const Comparison& comparison = *study.comparison;
+mechanics::Network compared_network(const Study& study) {
+  const Comparison& comparison = *study.sweep()->comparison;
   mechanics::Network network = study.network;
   if (comparison.taylor_order == 0) {
     for (mechanics::Element& element : network.elements) {
@@ -48,8 +49,8 @@ mechanics::Network compared_network(const StudyFile& study) {
   return network;
 }
 
-StudyValues compared_values(const StudyFile& study) {
-  const Comparison& comparison = *study.comparison;
+StudyValues compared_values(const Study& study) {
+  const Comparison& comparison = *study.sweep()->comparison;
   StudyValues values = study.values;
   if (comparison.taylor_order > 0 || comparison.law == FrictionLaw::exact) return values;
   for (std::size_t e = 0; e < study.network.elements.size(); ++e) {
@@ -58,16 +59,16 @@ StudyValues compared_values(const StudyFile& study) {
   return values;
 }
 
-std::vector<periodic::Quantity> compared_quantities(const StudyFile& study) {
-  std::vector<periodic::Quantity> result = study.comparison->quantities;
+std::vector<periodic::Quantity> compared_quantities(const Study& study) {
+  std::vector<periodic::Quantity> result = study.sweep()->comparison->quantities;
   result.push_back({periodic::Measure::status, 0});
   return result;
 }
 
-std::vector<QuantityDescription> compared_variables(const StudyFile& study) {
-  const std::string how = circumstance(*study.comparison);
+std::vector<QuantityDescription> compared_variables(const Study& study) {
+  const std::string how = circumstance(*study.sweep()->comparison);
   std::vector<QuantityDescription> result;
-  for (const periodic::Quantity& quantity : study.comparison->quantities) {
+  for (const periodic::Quantity& quantity : study.sweep()->comparison->quantities) {
     const QuantityDescription own = periodic::describe(quantity, study.network, study.dimensionless);
     result.push_back({.name = fmt::format("{}_compared", own.name),
                       .unit = own.unit,

@@ -4,24 +4,24 @@
 #include <vector>
 
 #include "solvers/quantities/quantity.hpp"
-#include "studies/reading/study_file.hpp"
+#include "studies/reading/study.hpp"
 
 // [compare]: the same points under another friction law or crank profile, beside the study's own.
 namespace frahm::studies {
 
 // Whether the study or what it is compared with follows the arctan law.
-bool meets_arctan_law(const StudyFile& study);
+bool meets_arctan_law(const Study& study);
 
 // The rest is of a study that has a comparison. Its network and numbers, as they are compared:
-mechanics::Network compared_network(const StudyFile& study);
-StudyValues compared_values(const StudyFile& study);
+mechanics::Network compared_network(const Study& study);
+StudyValues compared_values(const Study& study);
 
 // What the other response is asked for: the compared quantities, then the status.
-std::vector<periodic::Quantity> compared_quantities(const StudyFile& study);
+std::vector<periodic::Quantity> compared_quantities(const Study& study);
 
 // The variables a comparison adds to the record: `X_compared` and `X_difference` of each quantity X, then
 // `status_compared`.
-std::vector<periodic::QuantityDescription> compared_variables(const StudyFile& study);
+std::vector<periodic::QuantityDescription> compared_variables(const Study& study);
 
 // Values of the variables.  own: of the quantities X in the study's response; other: of
 // compared_quantities().  X_difference = |X - X_compared| / |X|, NaN where either is missing or X is zero.

@@ -15,7 +15,7 @@ namespace {
 
 // A parameter on an axis of the earlier map, and its axis here.
 struct CommonParameter {
-  std::size_t axis = 0;                // index in StudyFile::axes
+  std::size_t axis = 0;                // index in Study::axes
   std::vector<double> earlier_values;  // SI
 };
 
@@ -33,11 +33,11 @@ std::vector<double> si_values(const Parameter& parameter, const results::Coordin
   return values;
 }
 
-std::vector<CommonParameter> parameters_on(const StudyFile& study, const results::Axis& earlier,
+std::vector<CommonParameter> parameters_on(const Study& study, const results::Axis& earlier,
                                            const UnitSystem& units, const std::string& file) {
   std::vector<CommonParameter> found;
-  for (std::size_t a = 0; a < study.axes.size(); ++a) {
-    const Parameter& parameter = study.parameters.list[study.axes[a].parameter];
+  for (std::size_t a = 0; a < study.sweep()->axes.size(); ++a) {
+    const Parameter& parameter = study.parameters.list[study.sweep()->axes[a].parameter];
     const auto coordinate =
         std::ranges::find(earlier.coordinates, parameter.name, &results::Coordinate::name);
     if (coordinate == earlier.coordinates.end()) continue;
@@ -52,10 +52,10 @@ std::vector<CommonParameter> parameters_on(const StudyFile& study, const results
 }
 
 // The dimension of the study that holds all these parameters.
-std::size_t common_dimension(const StudyFile& study, const std::vector<CommonParameter>& parameters,
+std::size_t common_dimension(const Study& study, const std::vector<CommonParameter>& parameters,
                              const std::string& earlier, const std::string& file) {
-  for (std::size_t d = 0; d < study.dimensions.size(); ++d) {
-    const auto& axes = study.dimensions[d].axes;
+  for (std::size_t d = 0; d < study.sweep()->dimensions.size(); ++d) {
+    const auto& axes = study.sweep()->dimensions[d].axes;
     const auto is_here = [&](const CommonParameter& each) {
       return std::ranges::find(axes, each.axis) != axes.end();
     };
@@ -78,14 +78,14 @@ std::optional<Place> place_of(const std::vector<std::vector<std::uint32_t>>& num
   return place;
 }
 
-EarlierDimension match(const StudyFile& study, const results::Axis& earlier, const UnitSystem& units,
+EarlierDimension match(const Study& study, const results::Axis& earlier, const UnitSystem& units,
                        const std::string& file) {
   const std::vector<CommonParameter> parameters = parameters_on(study, earlier, units, file);
   EarlierDimension dimension{
       .along = common_dimension(study, parameters, earlier.name, file), .index = {}, .places = 0};
   std::vector<std::vector<std::uint32_t>> known, wanted;
   for (const CommonParameter& each : parameters) {
-    ValueMatch same = match_values(each.earlier_values, study.axes[each.axis].si_values);
+    ValueMatch same = match_values(each.earlier_values, study.sweep()->axes[each.axis].si_values);
     known.push_back(std::move(same.known));
     wanted.push_back(std::move(same.wanted));
   }
@@ -93,7 +93,7 @@ EarlierDimension match(const StudyFile& study, const results::Axis& earlier, con
   for (std::uint64_t i = 0; i < earlier.size; ++i) index_of.emplace(*place_of(known, i), i);
   dimension.places = index_of.size();
   bool any = false;
-  for (std::size_t i = 0; i < study.dimensions[dimension.along].size; ++i) {
+  for (std::size_t i = 0; i < study.sweep()->dimensions[dimension.along].size; ++i) {
     const auto place = place_of(wanted, i);
     const auto found = place ? index_of.find(*place) : index_of.end();
     any = any || found != index_of.end();
@@ -107,7 +107,7 @@ EarlierDimension match(const StudyFile& study, const results::Axis& earlier, con
 
 }  // namespace
 
-std::vector<EarlierDimension> match_axes(const StudyFile& study, const results::MapLayout& earlier,
+std::vector<EarlierDimension> match_axes(const Study& study, const results::MapLayout& earlier,
                                          const std::string& file) {
   const UnitSystem units;
   std::vector<EarlierDimension> dimensions;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "results/layout.hpp"
-#include "studies/reading/study_file.hpp"
+#include "studies/reading/study.hpp"
 
 namespace frahm::studies {
 
@@ -27,7 +27,7 @@ std::uint64_t points_off_grid(const std::vector<EarlierDimension>& dimensions);
 // (value_match.hpp), so that the axes may have other values, steps, units and order.
 // file: the earlier map, for messages.  Throws StudyError where an axis has no value in common, and where
 // parameters that advanced together have dimensions of their own now.
-std::vector<EarlierDimension> match_axes(const StudyFile& study, const results::MapLayout& earlier,
+std::vector<EarlierDimension> match_axes(const Study& study, const results::MapLayout& earlier,
                                          const std::string& file);
 
 }  // namespace frahm::studies

@@ -30,10 +30,12 @@ class CanonicalText {
   std::string text_;
 };
 
-void add_parameters(const StudyFile& study, CanonicalText& text) {
+void add_parameters(const Study& study, CanonicalText& text) {
   const auto on_axis = [&](std::size_t i) {
-    if (study.tune && study.tune->band && study.tune->band->parameter == i) return true;
-    return std::ranges::any_of(study.axes, [&](const ParameterAxis& axis) { return axis.parameter == i; });
+    if (study.tune() && study.tune()->band && study.tune()->band->parameter == i) return true;
+    return study.sweep() && std::ranges::any_of(study.sweep()->axes, [&](const ParameterAxis& axis) {
+             return axis.parameter == i;
+           });
   };
   const auto names = study.parameters.names();
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -56,7 +58,7 @@ std::string node_text(const mechanics::Node& node) {
   return fmt::format("{}:{}", static_cast<int>(node.kind), node.index);
 }
 
-void add_network(const StudyFile& study, CanonicalText& text) {
+void add_network(const Study& study, CanonicalText& text) {
   const mechanics::Network& network = study.network;
   const StudyValues& values = study.values;
   const auto names = study.parameters.names();
@@ -82,26 +84,27 @@ void add_network(const StudyFile& study, CanonicalText& text) {
 }
 
 // What tells a decay or transient from another of the same network.
-void add_motion(const StudyFile& study, CanonicalText& text) {
-  const bool moves = study.kind == StudyKind::decay || study.kind == StudyKind::transient || study.identify;
-  if (!moves) return;
+void add_motion(const Study& study, CanonicalText& text) {
+  if (!study.motion() && !study.identify()) return;
   const auto names = study.parameters.names();
-  text.line("kind {}", kind_name(study.kind));
+  text.line("kind {}", kind_name(study.kind()));
   const auto add = [&](const char* what, const std::optional<StudyValue>& value) {
     if (value) text.line("{} {}", what, value->expression.canonical_text(names));
   };
-  add("reference frequency", study.motion.reference_frequency);
-  add("sweep to", study.motion.sweep_to);
-  add("sweep rate", study.motion.sweep_rate);
-  for (const InitialValues& initial : study.motion.initial) {
+  if (study.decay()) add("reference frequency", study.decay()->reference_frequency);
+  if (study.transient()) {
+    add("sweep to", study.transient()->sweep_to);
+    add("sweep rate", study.transient()->sweep_rate);
+  }
+  for (const InitialValues& initial : study.initial()) {
     text.line("initial {} {} {}", initial.mass, initial.displacement.expression.canonical_text(names),
               initial.velocity.expression.canonical_text(names));
   }
 }
 
-void add_comparison(const StudyFile& study, CanonicalText& text) {
-  if (!study.comparison) return;
-  const Comparison& comparison = *study.comparison;
+void add_comparison(const Study& study, CanonicalText& text) {
+  if (!study.sweep() || !study.sweep()->comparison) return;
+  const Comparison& comparison = *study.sweep()->comparison;
   text.line("compare law {} slope {} taylor order {}", static_cast<int>(comparison.law),
             comparison.slope.expression.canonical_text(study.parameters.names()), comparison.taylor_order);
   for (const periodic::Quantity& quantity : comparison.quantities)
@@ -109,9 +112,9 @@ void add_comparison(const StudyFile& study, CanonicalText& text) {
 }
 
 // What tells a tuning from another of the same network: whatever its optimum depends on.
-void add_tuning(const StudyFile& study, CanonicalText& text) {
-  if (!study.tune) return;
-  const TuneChoice& tune = *study.tune;
+void add_tuning(const Study& study, CanonicalText& text) {
+  if (!study.tune()) return;
+  const TuneChoice& tune = *study.tune();
   const auto names = study.parameters.names();
   const auto band = [](const tuning::Band& range) { return fmt::format("{} {}", range.from, range.to); };
   text.line("kind tune objective {} of {}", static_cast<int>(tune.objective), tune.quantity_name);
@@ -138,25 +141,25 @@ void add_tuning(const StudyFile& study, CanonicalText& text) {
 }
 
 // What a tuning's file holds beside its optimum, and how many starts it has.
-void add_assessment(const StudyFile& study, CanonicalText& text) {
-  if (!study.tune) return;
+void add_assessment(const Study& study, CanonicalText& text) {
+  if (!study.tune()) return;
   const auto names = study.parameters.names();
-  text.line("starts {}", study.tune->starts);
-  for (const DesignChoice& design : study.tune->designs) {
+  text.line("starts {}", study.tune()->starts);
+  for (const DesignChoice& design : study.tune()->designs) {
     if (design.rule) text.line("rule {}", design.rule->expression.canonical_text(names));
   }
-  for (const ColumnChoice& column : study.tune->columns)
+  for (const ColumnChoice& column : study.tune()->columns)
     text.line("column {} {} {} {}", column.name, column.value.expression.canonical_text(names), column.lower,
               column.upper);
-  for (const ScenarioChoice& scenario : study.tune->scenarios) text.line("named {}", scenario.name);
+  for (const ScenarioChoice& scenario : study.tune()->scenarios) text.line("named {}", scenario.name);
 }
 
-void add_records(const StudyFile& study, CanonicalText& text) {
+void add_records(const Study& study, CanonicalText& text) {
   const auto names = study.parameters.names();
   const auto add = [&](const char* what, const std::optional<StudyValue>& value) {
     if (value) text.line("{} {}", what, value->expression.canonical_text(names));
   };
-  for (const RecordChoice& record : study.identify->records) {
+  for (const RecordChoice& record : study.identify()->records) {
     text.line("record {} motion {}", record.name, static_cast<int>(record.motion));
     for (const Assignment& at : record.set) text.line("set {} {}", names[at.parameter], at.value);
     add("added mass", record.added_mass);
@@ -168,9 +171,9 @@ void add_records(const StudyFile& study, CanonicalText& text) {
 }
 
 // What tells an identification from another of the same network: its data, and what is made of them.
-void add_identification(const StudyFile& study, CanonicalText& text) {
-  if (!study.identify) return;
-  const IdentifyChoice& choice = *study.identify;
+void add_identification(const Study& study, CanonicalText& text) {
+  if (!study.identify()) return;
+  const IdentifyChoice& choice = *study.identify();
   const auto names = study.parameters.names();
   text.line("method {} start {} curve {} cycles {}", static_cast<int>(choice.method),
             static_cast<int>(choice.start), static_cast<int>(choice.curve), choice.cycles.value_or(0));
@@ -189,10 +192,10 @@ void add_identification(const StudyFile& study, CanonicalText& text) {
   add_records(study, text);
 }
 
-std::string physics_hash(const StudyFile& study, std::span<const periodic::Quantity> quantities) {
+std::string physics_hash(const Study& study, std::span<const periodic::Quantity> quantities) {
   CanonicalText text;
   text.line("solver {}", solver_version);
-  text.line("precision {}", study.output.single_precision ? "single" : "double");
+  text.line("precision {}", study.sweep() && study.sweep()->output.single_precision ? "single" : "double");
   text.line("units {}", study.dimensionless ? "dimensionless" : "SI");
   add_parameters(study, text);
   add_network(study, text);
@@ -206,25 +209,29 @@ std::string physics_hash(const StudyFile& study, std::span<const periodic::Quant
   return text.hash();
 }
 
-std::string grid_hash(const StudyFile& study, const Grid& grid) {
-  CanonicalText text;
-  for (const GridDimension& dimension : study.dimensions) {
+void add_map(const Study& study, const SweepChoice& sweep, CanonicalText& text) {
+  for (const GridDimension& dimension : sweep.dimensions) {
     text.line("dimension {}", dimension.size);
     for (const std::size_t a : dimension.axes) {
-      const ParameterAxis& axis = study.axes[a];
+      const ParameterAxis& axis = sweep.axes[a];
       text.line("axis {} {}", study.parameters.list[axis.parameter].name, fmt::join(axis.si_values, " "));
     }
   }
-  for (const auto& orbit : study.output.orbits) {
+  for (const auto& orbit : sweep.output.orbits) {
     for (const Assignment& at : orbit) text.line("orbit {} {}", at.parameter, at.value);
     text.line("orbit ends");
   }
-  if (study.output.borders) text.line("borders");
-  text.line("resonances {}", fmt::join(study.output.resonances, " "));
-  if (study.kind == StudyKind::decay || study.kind == StudyKind::transient)
-    text.line("samples {}", study.motion.samples);
-  if (study.motion.duration) {
-    text.line("duration {}", study.motion.duration->expression.canonical_text(study.parameters.names()));
+  if (sweep.output.borders) text.line("borders");
+  text.line("resonances {}", fmt::join(sweep.output.resonances, " "));
+}
+
+std::string grid_hash(const Study& study, const Grid& grid) {
+  CanonicalText text;
+  if (study.sweep()) add_map(study, *study.sweep(), text);
+  if (const MotionChoice* motion = study.motion()) {
+    text.line("samples {}", motion->samples);
+    if (motion->duration)
+      text.line("duration {}", motion->duration->expression.canonical_text(study.parameters.names()));
   }
   add_assessment(study, text);
   text.line("order {}", fmt::join(grid.order, " "));
@@ -234,7 +241,7 @@ std::string grid_hash(const StudyFile& study, const Grid& grid) {
 
 }  // namespace
 
-engine::Fingerprint fingerprint(const StudyFile& study, const Grid& grid,
+engine::Fingerprint fingerprint(const Study& study, const Grid& grid,
                                 std::span<const periodic::Quantity> quantities) {
   return {.physics = physics_hash(study, quantities), .grid = grid_hash(study, grid)};
 }

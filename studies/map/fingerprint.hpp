@@ -7,7 +7,7 @@
 #include "results/layout.hpp"
 #include "solvers/quantities/quantity.hpp"
 #include "studies/map/grid.hpp"
-#include "studies/reading/study_file.hpp"
+#include "studies/reading/study.hpp"
 
 namespace frahm::studies {
 
@@ -16,7 +16,7 @@ namespace frahm::studies {
 // contents of tables, quantities, precision, version of the solver. grid: the axes' SI values and the tiles,
 // a motion's duration and samples, or a tuning's starts, rules and columns. Titles, comments, names of files,
 // units and coordinates beside the axes change neither.
-engine::Fingerprint fingerprint(const StudyFile& study, const Grid& grid,
+engine::Fingerprint fingerprint(const Study& study, const Grid& grid,
                                 std::span<const periodic::Quantity> quantities);
 
 // Of the shard logs of such a study if its map grows from the result of this identity.

@@ -94,7 +94,7 @@ std::uint64_t MapBox::points() const {
   return product(count);
 }
 
-std::uint64_t MapBox::place(std::span<const std::uint64_t> index) const {
+std::uint64_t MapBox::offset_of(std::span<const std::uint64_t> index) const {
   std::uint64_t place = 0;
   for (std::size_t d = 0; d < index.size(); ++d) place = place * count[d] + (index[d] - start[d]);
   return place;
@@ -126,11 +126,11 @@ std::uint64_t Grid::tile_of(std::span<const std::uint64_t> index) const {
   return number;
 }
 
-Grid grid_of(const StudyFile& study) {
+Grid grid_of(const Study& study) {
   Grid grid;
-  for (const GridDimension& dimension : study.dimensions) grid.shape.push_back(dimension.size);
-  const std::size_t row = study.frequency_dimension.value_or(study.dimensions.size() - 1);
-  for (std::size_t d = 0; d < study.dimensions.size(); ++d) {
+  for (const GridDimension& dimension : study.sweep()->dimensions) grid.shape.push_back(dimension.size);
+  const std::size_t row = study.sweep()->frequency_dimension.value_or(study.sweep()->dimensions.size() - 1);
+  for (std::size_t d = 0; d < study.sweep()->dimensions.size(); ++d) {
     if (d != row) grid.order.push_back(d);
   }
   grid.order.push_back(row);
@@ -139,8 +139,19 @@ Grid grid_of(const StudyFile& study) {
   return grid;
 }
 
-bool matrices_change_along_rows(const StudyFile& study) {
-  return !study.frequency_dimension || study.values_depend_on_frequency;
+std::vector<double> coordinate_values(const Study& study, const DerivedCoordinate& coordinate) {
+  std::vector<double> parameters = study.parameters.nominal();
+  std::vector<double> values(study.sweep()->dimensions[coordinate.dimension].size);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    set_along(*study.sweep(), coordinate.dimension, i, parameters);
+    study.parameters.complete(std::span<double>(parameters));
+    values[i] = coordinate.value.expression.evaluate(std::span<const double>(parameters));
+  }
+  return values;
+}
+
+bool matrices_change_along_rows(const Study& study) {
+  return !study.sweep()->frequency_dimension || study.sweep()->values_depend_on_frequency;
 }
 
 bool next_point(const MapBox& box, std::span<const std::size_t> dimensions,
@@ -156,11 +167,11 @@ std::string with_unit(double value, const std::string& unit) {
   return unit.empty() || unit == "1" ? fmt::format("{}", value) : fmt::format("{} {}", value, unit);
 }
 
-std::string point_text(const StudyFile& study, std::span<const std::uint64_t> index) {
+std::string point_text(const Study& study, std::span<const std::uint64_t> index) {
   std::string text;
-  for (std::size_t d = 0; d < study.dimensions.size(); ++d) {
-    for (const std::size_t a : study.dimensions[d].axes) {
-      const ParameterAxis& axis = study.axes[a];
+  for (std::size_t d = 0; d < study.sweep()->dimensions.size(); ++d) {
+    for (const std::size_t a : study.sweep()->dimensions[d].axes) {
+      const ParameterAxis& axis = study.sweep()->axes[a];
       text += fmt::format("{}{}={}", text.empty() ? "" : ",", study.parameters.list[axis.parameter].name,
                           with_unit(axis.values[index[d]], axis.unit));
     }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/reading/study_file.hpp"
+#include "studies/reading/study.hpp"
 
 // The points of a map, and how they are cut into the tiles that are computed and kept as a whole. All of it
 // depends on the study alone, never on who computes it.
@@ -17,8 +17,8 @@ struct MapBox {
   std::vector<std::uint64_t> start, count;
 
   std::uint64_t points() const;
-  // The place of one of its points among them, in row-major order.  index: of the map.
-  std::uint64_t place(std::span<const std::uint64_t> index) const;
+  // The offset of one of its points among them, in row-major order.  index: of the map.
+  std::uint64_t offset_of(std::span<const std::uint64_t> index) const;
 };
 
 struct Grid {
@@ -52,10 +52,13 @@ struct Grid {
 
 // A tile holds whole rows, as many as make a few hundred to two thousand points; rows longer than 4000 are
 // cut.
-Grid grid_of(const StudyFile& study);
+Grid grid_of(const Study& study);
+
+// The values of a derived coordinate along its dimension.
+std::vector<double> coordinate_values(const Study& study, const DerivedCoordinate& coordinate);
 
 // Whether masses or elements change along a row, and not from row to row alone.
-bool matrices_change_along_rows(const StudyFile& study);
+bool matrices_change_along_rows(const Study& study);
 
 // Moves `index` to the next point of the box along `dimensions`, the last of which runs fastest; false, and
 // back at the start, after its last point.
@@ -64,7 +67,7 @@ bool next_point(const MapBox& box, std::span<const std::size_t> dimensions,
 
 // A point as the option --at takes it, each value in the unit of its axis: "I=4.72 kg,FP=0.1,omega=250 rpm".
 // index: one number for each dimension of the map.
-std::string point_text(const StudyFile& study, std::span<const std::uint64_t> index);
+std::string point_text(const Study& study, std::span<const std::uint64_t> index);
 
 // "250 rpm"; a unit of "" or "1" is left out.
 std::string with_unit(double value, const std::string& unit);

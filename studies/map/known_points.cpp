@@ -125,7 +125,7 @@ void KnownPoints::read_chunk(std::span<const Found> points, std::uint64_t points
   const MapBox box = box_around(points);
   std::vector<std::uint64_t> from(points.size());  // of each point within the box
   for (std::size_t i = 0; i < points.size(); ++i)
-    from[i] = box.place(index_of(points[i].offset, reader_.layout()));
+    from[i] = box.offset_of(index_of(points[i].offset, reader_.layout()));
   const std::lock_guard turn(reading_);
   for (std::size_t q = 0; q < variables_.size(); ++q) {
     const std::vector<double> read = read_variable(variables_[q], box);

@@ -12,10 +12,9 @@ namespace frahm::studies {
 namespace {
 
 // What the study's own response is asked for: what it records, and what else is compared.
-std::vector<periodic::Quantity> asked_for(const StudyFile& study,
-                                          std::vector<periodic::Quantity> quantities) {
-  if (!study.comparison) return quantities;
-  for (const periodic::Quantity& compared : study.comparison->quantities) {
+std::vector<periodic::Quantity> asked_for(const Study& study, std::vector<periodic::Quantity> quantities) {
+  if (!study.sweep()->comparison) return quantities;
+  for (const periodic::Quantity& compared : study.sweep()->comparison->quantities) {
     if (std::find(quantities.begin(), quantities.end(), compared) == quantities.end())
       quantities.push_back(compared);
   }
@@ -24,7 +23,7 @@ std::vector<periodic::Quantity> asked_for(const StudyFile& study,
 
 }  // namespace
 
-MapKernel::MapKernel(const StudyFile& study, const Grid& grid, std::vector<periodic::Quantity> quantities,
+MapKernel::MapKernel(const Study& study, const Grid& grid, std::vector<periodic::Quantity> quantities,
                      KnownPoints* earlier)
     : study_(study),
       grid_(grid),
@@ -34,10 +33,10 @@ MapKernel::MapKernel(const StudyFile& study, const Grid& grid, std::vector<perio
            matrices_change_along_rows(study)),
       parameters_(study.parameters.nominal()),
       point_(quantities.size()) {
-  if (study.output.borders) border_search_.emplace(study, grid);
-  if (!study.comparison) return;
+  if (study.sweep()->output.borders) border_search_.emplace(study, grid);
+  if (!study.sweep()->comparison) return;
   const std::vector<periodic::Quantity> asked = asked_for(study, std::move(quantities));
-  for (const periodic::Quantity& compared : study.comparison->quantities) {
+  for (const periodic::Quantity& compared : study.sweep()->comparison->quantities) {
     compared_.push_back(
         static_cast<std::size_t>(std::find(asked.begin(), asked.end(), compared) - asked.begin()));
   }
@@ -74,17 +73,17 @@ void MapKernel::operator()(std::uint64_t tile, engine::Bytes& out) {
 // The points of the row that begins at index_, along the last dimension in the order of computation.
 void MapKernel::compute_row(const MapBox& box) {
   const std::size_t along = grid_.order.back();
-  std::uint64_t place = box.place(index_), step = 1;  // of the row's first point; from one to the next
+  std::uint64_t place = box.offset_of(index_), step = 1;  // of the row's first point; from one to the next
   for (std::size_t d = 0; d < index_.size(); ++d) {
     if (d > along) step *= box.count[d];
-    if (d != along) studies::place(study_, d, index_[d], parameters_);
+    if (d != along) set_along(*study_.sweep(), d, index_[d], parameters_);
   }
   own_.begin_row();
   if (other_) other_->begin_row();
   const std::uint64_t points = box.points();
   for (std::uint64_t i = 0; i < box.count[along]; ++i, place += step) {
     if (known_[place]) continue;
-    studies::place(study_, along, box.start[along] + i, parameters_);
+    set_along(*study_.sweep(), along, box.start[along] + i, parameters_);
     compute_point();
     for (std::size_t q = 0; q < point_.size(); ++q) record_.values[q * points + place] = point_[q];
     if (!reason_.empty()) record_.failed.push_back({place, reason_});
@@ -93,13 +92,13 @@ void MapKernel::compute_row(const MapBox& box) {
 
 // Fills point_, and reason_ if the point fails.
 void MapKernel::compute_point() {
-  own_.place(parameters_);
+  own_.set_parameters(parameters_);
   const std::span<const double> own = own_.solve(reason_);
   std::copy_n(own.begin(), quantities_, point_.begin());
   if (!other_) return;
   for (std::size_t i = 0; i < compared_.size(); ++i) own_compared_[i] = own[compared_[i]];
   std::string reason;
-  other_->place(parameters_);
+  other_->set_parameters(parameters_);
   compare(own_compared_, other_->solve(reason), std::span(point_).subspan(quantities_));
   if (reason_.empty() && !reason.empty()) reason_ = fmt::format("compared: {}", reason);
 }

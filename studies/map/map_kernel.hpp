@@ -10,7 +10,7 @@
 #include "studies/map/grid.hpp"
 #include "studies/map/row_solver.hpp"
 #include "studies/map/tile_record.hpp"
-#include "studies/reading/study_file.hpp"
+#include "studies/reading/study.hpp"
 
 namespace frahm::studies {
 
@@ -26,7 +26,7 @@ class KnownPoints;
 class MapKernel {
  public:
   // study, grid, earlier: must outlive the kernel.  earlier: the points it has are not computed; may be null.
-  MapKernel(const StudyFile& study, const Grid& grid, std::vector<periodic::Quantity> quantities,
+  MapKernel(const Study& study, const Grid& grid, std::vector<periodic::Quantity> quantities,
             KnownPoints* earlier = nullptr);
 
   // Appends the record of a tile (tile_record.hpp) to `out`.
@@ -36,7 +36,7 @@ class MapKernel {
   void compute_row(const MapBox& box);
   void compute_point();
 
-  const StudyFile& study_;
+  const Study& study_;
   const Grid& grid_;
   KnownPoints* earlier_;
   std::size_t quantities_;             // of the study's own record

@@ -12,10 +12,10 @@
 #include "studies/map/tile_record.hpp"
 
 namespace frahm::studies {
-MapPlan plan_map(StudyFile study, std::vector<std::string> set) {
-  if (study.kind != StudyKind::sweep)
+MapPlan plan_map(Study study, std::vector<std::string> set) {
+  if (study.kind() != StudyKind::sweep)
     throw StudyError(rules::other_kind, fmt::format("{}: a {} is one motion, not a map", study.source.name,
-                                                    kind_name(study.kind)));
+                                                    kind_name(study.kind())));
   refuse_overruled(study, set);
   MapPlan plan;
   plan.study = std::move(study);
@@ -28,7 +28,7 @@ MapPlan plan_map(StudyFile study, std::vector<std::string> set) {
   return plan;
 }
 
-StudyPlan plan_motion(StudyFile study, std::vector<std::string> set) {
+StudyPlan plan_motion(Study study, std::vector<std::string> set) {
   StudyPlan plan{.study = std::move(study), .set = std::move(set)};
   plan.fingerprint = fingerprint(plan.study, {}, {});
   return plan;

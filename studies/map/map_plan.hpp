@@ -18,10 +18,10 @@ struct MapPlan : StudyPlan {
 };
 
 // Throws StudyError for what stands wrong in the study, and for one that is no sweep.
-MapPlan plan_map(StudyFile study, std::vector<std::string> set);
+MapPlan plan_map(Study study, std::vector<std::string> set);
 
 // The same of a decay or transient.
-StudyPlan plan_motion(StudyFile study, std::vector<std::string> set);
+StudyPlan plan_motion(Study study, std::vector<std::string> set);
 
 class KnownPoints;
 

@@ -17,7 +17,7 @@ std::string unit_or_one(const std::string& unit) {
   return unit.empty() ? "1" : unit;
 }
 
-results::Coordinate coordinate_of(const StudyFile& study, const ParameterAxis& axis) {
+results::Coordinate coordinate_of(const Study& study, const ParameterAxis& axis) {
   const Parameter& parameter = study.parameters.list[axis.parameter];
   return {.name = parameter.name,
           .unit = unit_or_one(axis.unit),
@@ -26,15 +26,15 @@ results::Coordinate coordinate_of(const StudyFile& study, const ParameterAxis& a
           .values = axis.values};
 }
 
-std::vector<results::Axis> axes_of(const StudyFile& study) {
+std::vector<results::Axis> axes_of(const Study& study) {
   std::vector<results::Axis> axes;
-  for (const GridDimension& dimension : study.dimensions) {
+  for (const GridDimension& dimension : study.sweep()->dimensions) {
     results::Axis axis{.name = dimension.name, .size = dimension.size};
     for (const std::size_t a : dimension.axes)
-      axis.coordinates.push_back(coordinate_of(study, study.axes[a]));
+      axis.coordinates.push_back(coordinate_of(study, study.sweep()->axes[a]));
     axes.push_back(std::move(axis));
   }
-  for (const DerivedCoordinate& derived : study.coordinates) {
+  for (const DerivedCoordinate& derived : study.sweep()->coordinates) {
     axes[derived.dimension].coordinates.push_back(
         {.name = derived.name,
          .unit = unit_or_one(derived.unit),
@@ -44,11 +44,11 @@ std::vector<results::Axis> axes_of(const StudyFile& study) {
   return axes;
 }
 
-results::Variable variable_of(const StudyFile& study, const periodic::QuantityDescription& description) {
+results::Variable variable_of(const Study& study, const periodic::QuantityDescription& description) {
   results::Variable variable{
       .name = description.name, .unit = description.unit, .long_name = description.long_name};
   if (description.kind == periodic::QuantityKind::count) variable.type = results::Type::int32;
-  if (description.kind == periodic::QuantityKind::real && study.output.single_precision) {
+  if (description.kind == periodic::QuantityKind::real && study.sweep()->output.single_precision) {
     variable.type = results::Type::float32;
   }
   if (description.kind == periodic::QuantityKind::flag) {
@@ -67,7 +67,7 @@ std::string utc_now() {
 }
 
 results::MapLayout file_layout(const StudyPlan& plan, const RunRecord& run) {
-  const StudyFile& study = plan.study;
+  const Study& study = plan.study;
   results::MapLayout layout{.title = study.title,
                             .source = fmt::format("frahm {}", build_facts().version),
                             .history = fmt::format("{} {}", run.started, run.command)};

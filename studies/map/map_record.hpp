@@ -42,7 +42,7 @@ void write_orbits(const MapPlan& plan, const AssemblyOptions& options, results::
 std::size_t create_borders(const MapPlan& plan, results::MapWriter& writer);
 
 // The row of a border in it.  tile: the points among which it has its place.
-std::vector<double> border_row(const StudyFile& study, const MapBox& tile, const Border& border);
+std::vector<double> border_row(const Study& study, const MapBox& tile, const Border& border);
 
 // Resonance and half-power frequencies of the masses that the study lists, solved for each point of the axes
 // other than the frequency, a curve of /resonance each; nothing if it lists none. Throws AssemblyStopped.

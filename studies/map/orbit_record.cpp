@@ -68,7 +68,7 @@ std::vector<std::vector<double>> sliding_motions(const mechanics::Network& netwo
 }
 
 KeptOrbit keep_orbit(const MapPlan& plan, const std::vector<Assignment>& point) {
-  const StudyFile& study = plan.study;
+  const Study& study = plan.study;
   KeptOrbit orbit{.parameters = study.parameters.nominal(), .history = {}, .sliding = {}};
   for (const Assignment& assignment : point) orbit.parameters[assignment.parameter] = assignment.value;
   mechanics::NetworkValues values;
@@ -88,7 +88,7 @@ KeptOrbit keep_orbit(const MapPlan& plan, const std::vector<Assignment>& point) 
 }
 
 // Names and units of the samples, which a point without an orbit does not tell.
-std::vector<results::Variable> sample_variables(const StudyFile& study) {
+std::vector<results::Variable> sample_variables(const Study& study) {
   std::vector<results::Variable> variables;
   const auto add = [&](const std::string& name, const char* unit, const std::string& long_name) {
     variables.push_back({.name = name, .unit = study.dimensionless ? "1" : unit, .long_name = long_name});
@@ -110,9 +110,9 @@ std::vector<results::Variable> sample_variables(const StudyFile& study) {
   return variables;
 }
 
-std::vector<results::Variable> row_variables(const StudyFile& study) {
+std::vector<results::Variable> row_variables(const Study& study) {
   std::vector<results::Variable> variables;
-  for (const ParameterAxis& axis : study.axes) {
+  for (const ParameterAxis& axis : study.sweep()->axes) {
     const std::string& name = study.parameters.list[axis.parameter].name;
     variables.push_back({.name = name,
                          .unit = axis.unit.empty() ? "1" : axis.unit,
@@ -132,8 +132,8 @@ std::vector<std::vector<double>> samples_of(const KeptOrbit& orbit, std::size_t 
 }  // namespace
 
 void write_orbits(const MapPlan& plan, const AssemblyOptions& options, results::MapWriter& writer) {
-  const StudyFile& study = plan.study;
-  const auto& points = study.output.orbits;
+  const Study& study = plan.study;
+  const auto& points = study.sweep()->output.orbits;
   if (points.empty()) return;
   const results::RaggedLayout layout{.group = "orbits",
                                      .row = "orbit",
@@ -143,7 +143,7 @@ void write_orbits(const MapPlan& plan, const AssemblyOptions& options, results::
   const std::size_t table = writer.create_ragged(layout);
   const auto append = [&](const KeptOrbit& orbit) {
     std::vector<double> row;
-    for (const ParameterAxis& axis : study.axes)
+    for (const ParameterAxis& axis : study.sweep()->axes)
       row.push_back(orbit.parameters[axis.parameter] / axis.si_factor);
     writer.append_ragged(table, row, samples_of(orbit, layout.sample_variables.size()));
   };

@@ -11,13 +11,13 @@
 namespace frahm::studies {
 namespace {
 
-std::string name_of(const StudyFile& study, const periodic::Quantity& quantity) {
+std::string name_of(const Study& study, const periodic::Quantity& quantity) {
   return periodic::describe(quantity, study.network, study.dimensionless).name;
 }
 
-std::vector<periodic::Quantity> listed_quantities(const StudyFile& study) {
+std::vector<periodic::Quantity> listed_quantities(const Study& study) {
   std::vector<periodic::Quantity> result;
-  for (const OutputChoice::Name& name : study.output.names) {
+  for (const OutputChoice::Name& name : study.sweep()->output.names) {
     const auto quantity = periodic::find_quantity(name.text, study.network);
     if (!quantity) {
       std::vector<std::string> known;
@@ -37,40 +37,40 @@ struct Taken {
   Position position;
 };
 
-std::map<std::string, Taken> names_of_coordinates(const StudyFile& study) {
+std::map<std::string, Taken> names_of_coordinates(const Study& study) {
   std::map<std::string, Taken> taken;
-  for (const GridDimension& dimension : study.dimensions) {
-    const Position position = study.axes[dimension.axes.front()].position;
+  for (const GridDimension& dimension : study.sweep()->dimensions) {
+    const Position position = study.sweep()->axes[dimension.axes.front()].position;
     taken.emplace(dimension.name, Taken{"the dimension of an axis", position});
   }
-  for (const ParameterAxis& axis : study.axes) {
+  for (const ParameterAxis& axis : study.sweep()->axes) {
     taken.emplace(study.parameters.list[axis.parameter].name,
                   Taken{"the parameter of an axis", axis.position});
   }
-  for (const DerivedCoordinate& coordinate : study.coordinates) {
+  for (const DerivedCoordinate& coordinate : study.sweep()->coordinates) {
     taken.emplace(coordinate.name, Taken{"a coordinate", coordinate.value.position});
   }
   return taken;
 }
 
 // Groups of the file and what stands in them beside the axes' own parameters.
-std::vector<std::pair<std::string, std::string>> names_of_groups(const StudyFile& study) {
+std::vector<std::pair<std::string, std::string>> names_of_groups(const Study& study) {
   std::vector<std::pair<std::string, std::string>> names{{"provenance", "a group of the file"}};
   const auto add = [&](const std::string& name, const char* what) { names.emplace_back(name, what); };
-  if (!study.output.orbits.empty()) {
+  if (!study.sweep()->output.orbits.empty()) {
     add("orbits", "a group of the file");
     for (const char* name : {"orbit", "sample", "row_start", "time"})
       add(name, "a variable of the orbits kept");
   }
-  if (study.output.borders) {
+  if (study.sweep()->output.borders) {
     add("borders", "a group of the file");
     for (const char* name : {"border", "element", "axis", "regime_below", "regime_above"})
       add(name, "a variable of the borders");
   }
-  if (study.output.resonances.empty()) return names;
+  if (study.sweep()->output.resonances.empty()) return names;
   add("resonance", "a group of the file");
   add("curve", "the index of the resonances");
-  for (const std::size_t mass : study.output.resonances) {
+  for (const std::size_t mass : study.sweep()->output.resonances) {
     for (const char* suffix : {"_resonance_frequency", "_resonance_amplitude", "_half_power_low",
                                "_half_power_high", "_half_power_damping"})
       add(study.network.masses[mass] + suffix, "a variable of the resonances");
@@ -79,10 +79,10 @@ std::vector<std::pair<std::string, std::string>> names_of_groups(const StudyFile
 }
 
 // A page shows what is recorded.
-void check_report(const StudyFile& study, const std::vector<periodic::QuantityDescription>& recorded) {
+void check_report(const Study& study, const std::vector<periodic::QuantityDescription>& recorded) {
   std::vector<std::string> names;
   for (const periodic::QuantityDescription& quantity : recorded) names.push_back(quantity.name);
-  for (const OutputChoice::Name& name : study.report_quantities) {
+  for (const OutputChoice::Name& name : study.sweep()->report_quantities) {
     if (std::find(names.begin(), names.end(), name.text) != names.end()) continue;
     throw study.source.error_at(
         rules::unknown_name, name.position,
@@ -94,8 +94,8 @@ void check_report(const StudyFile& study, const std::vector<periodic::QuantityDe
 
 }  // namespace
 
-std::vector<periodic::Quantity> output_quantities(const StudyFile& study) {
-  switch (study.output.quantities) {
+std::vector<periodic::Quantity> output_quantities(const Study& study) {
+  switch (study.sweep()->output.quantities) {
     case OutputChoice::Quantities::all:
       return periodic::all_quantities(study.network);
     case OutputChoice::Quantities::listed:
@@ -107,11 +107,11 @@ std::vector<periodic::Quantity> output_quantities(const StudyFile& study) {
 }
 
 std::vector<periodic::QuantityDescription> output_variables(
-    const StudyFile& study, const std::vector<periodic::Quantity>& quantities) {
+    const Study& study, const std::vector<periodic::Quantity>& quantities) {
   std::vector<periodic::QuantityDescription> result;
   for (const periodic::Quantity& quantity : quantities)
     result.push_back(periodic::describe(quantity, study.network, study.dimensionless));
-  if (study.comparison) {
+  if (study.sweep()->comparison) {
     const auto compared = compared_variables(study);
     result.insert(result.end(), compared.begin(), compared.end());
   }

@@ -3,17 +3,17 @@
 #include <vector>
 
 #include "solvers/quantities/quantity.hpp"
-#include "studies/reading/study_file.hpp"
+#include "studies/reading/study.hpp"
 
 namespace frahm::studies {
 
 // The quantities that the study asks for, in the order of the record. Throws StudyError for a name that no
 // quantity has.
-std::vector<periodic::Quantity> output_quantities(const StudyFile& study);
+std::vector<periodic::Quantity> output_quantities(const Study& study);
 
 // The variables of the record: these quantities, then what a comparison adds. Throws StudyError where two
 // names of the record would be the same.
 std::vector<periodic::QuantityDescription> output_variables(
-    const StudyFile& study, const std::vector<periodic::Quantity>& quantities);
+    const Study& study, const std::vector<periodic::Quantity>& quantities);
 
 }  // namespace frahm::studies

@@ -23,7 +23,7 @@ constexpr double least_motion = 1e-30;  // [m, or without dimension] what roundi
 // reference order over the axis's parameter.
 class ResponseCurves {
  public:
-  ResponseCurves(const StudyFile& study, std::size_t parameter)
+  ResponseCurves(const Study& study, std::size_t parameter)
       : study_(study), parameter_(parameter), response_(study.network, harmonics(study)) {}
 
   void begin(std::vector<double> parameters) {
@@ -46,9 +46,9 @@ class ResponseCurves {
 
  private:
   // Of each mass the amplitude sought and the size of its motion.
-  static std::vector<periodic::Quantity> harmonics(const StudyFile& study) {
+  static std::vector<periodic::Quantity> harmonics(const Study& study) {
     std::vector<periodic::Quantity> quantities;
-    for (const std::size_t mass : study.output.resonances) {
+    for (const std::size_t mass : study.sweep()->output.resonances) {
       quantities.push_back({periodic::Measure::harmonic, mass});
       quantities.push_back({periodic::Measure::peak, mass});
     }
@@ -61,7 +61,7 @@ class ResponseCurves {
   }
 
   std::vector<double> solve(double at) {
-    std::vector<double> amplitudes(study_.output.resonances.size(), kNone);
+    std::vector<double> amplitudes(study_.sweep()->output.resonances.size(), kNone);
     set(at);
     try {
       response_.set_values(values_);
@@ -81,7 +81,7 @@ class ResponseCurves {
     return amplitudes;
   }
 
-  const StudyFile& study_;
+  const Study& study_;
   std::size_t parameter_;
   periodic::PeriodicResponse response_;
   std::vector<double> parameters_;
@@ -90,20 +90,20 @@ class ResponseCurves {
 };
 
 // The coordinates of the rows, and of each mass its resonance.
-std::vector<results::Variable> row_variables(const StudyFile& study, std::size_t frequency_dimension) {
+std::vector<results::Variable> row_variables(const Study& study, std::size_t frequency_dimension) {
   std::vector<results::Variable> variables;
   const auto add = [&](const std::string& name, const std::string& unit, const std::string& long_name) {
     const bool pure = unit.empty() || study.dimensionless;
     variables.push_back({.name = name, .unit = pure ? "1" : unit, .long_name = long_name});
   };
-  for (std::size_t d = 0; d < study.dimensions.size(); ++d) {
+  for (std::size_t d = 0; d < study.sweep()->dimensions.size(); ++d) {
     if (d == frequency_dimension) continue;
-    for (const std::size_t a : study.dimensions[d].axes) {
-      const std::string& name = study.parameters.list[study.axes[a].parameter].name;
-      add(name, study.axes[a].unit, "parameter " + name);
+    for (const std::size_t a : study.sweep()->dimensions[d].axes) {
+      const std::string& name = study.parameters.list[study.sweep()->axes[a].parameter].name;
+      add(name, study.sweep()->axes[a].unit, "parameter " + name);
     }
   }
-  for (const std::size_t mass : study.output.resonances) {
+  for (const std::size_t mass : study.sweep()->output.resonances) {
     const std::string& name = study.network.masses[mass];
     add(name + "_resonance_frequency", "rad s-1", "angular frequency at which " + name + " moves most");
     add(name + "_resonance_amplitude", "m", "amplitude of " + name + " at the reference order there");
@@ -115,30 +115,31 @@ std::vector<results::Variable> row_variables(const StudyFile& study, std::size_t
 }
 
 // The place of a curve along each dimension, 0 along the frequency; the last dimension runs fastest.
-std::vector<std::size_t> index_of(const StudyFile& study, std::size_t frequency_dimension,
-                                  std::uint64_t curve) {
-  std::vector<std::size_t> index(study.dimensions.size(), 0);
+std::vector<std::size_t> index_of(const Study& study, std::size_t frequency_dimension, std::uint64_t curve) {
+  std::vector<std::size_t> index(study.sweep()->dimensions.size(), 0);
   for (std::size_t d = index.size(); d-- > 0;) {
     if (d == frequency_dimension) continue;
-    index[d] = curve % study.dimensions[d].size;
-    curve /= study.dimensions[d].size;
+    index[d] = curve % study.sweep()->dimensions[d].size;
+    curve /= study.sweep()->dimensions[d].size;
   }
   return index;
 }
 
 // The row of one curve; `curves` is the workspace.
-std::vector<double> solve_row(const StudyFile& study, std::size_t frequency_dimension, std::uint64_t number,
+std::vector<double> solve_row(const Study& study, std::size_t frequency_dimension, std::uint64_t number,
                               ResponseCurves& curves) {
-  const ParameterAxis& axis = study.axes[study.dimensions[frequency_dimension].axes.front()];
+  const ParameterAxis& axis =
+      study.sweep()->axes[study.sweep()->dimensions[frequency_dimension].axes.front()];
   const std::vector<std::size_t> index = index_of(study, frequency_dimension, number);
   std::vector<double> parameters = study.parameters.nominal(), row;
   for (std::size_t d = 0; d < index.size(); ++d) {
     if (d == frequency_dimension) continue;
-    place(study, d, index[d], parameters);
-    for (const std::size_t a : study.dimensions[d].axes) row.push_back(study.axes[a].values[index[d]]);
+    set_along(*study.sweep(), d, index[d], parameters);
+    for (const std::size_t a : study.sweep()->dimensions[d].axes)
+      row.push_back(study.sweep()->axes[a].values[index[d]]);
   }
   curves.begin(std::move(parameters));
-  for (std::size_t curve = 0; curve < study.output.resonances.size(); ++curve) {
+  for (std::size_t curve = 0; curve < study.sweep()->output.resonances.size(); ++curve) {
     const auto peak =
         periodic::find_resonance_peak([&](double at) { return curves.amplitude(curve, at); }, axis.si_values);
     const double resonance = curves.angular_frequency(peak.at);
@@ -153,11 +154,11 @@ std::vector<double> solve_row(const StudyFile& study, std::size_t frequency_dime
 }  // namespace
 
 void write_resonances(const MapPlan& plan, const AssemblyOptions& options, results::MapWriter& writer) {
-  const StudyFile& study = plan.study;
-  if (study.output.resonances.empty()) return;
-  const std::size_t along = *study.frequency_dimension;
-  const std::size_t parameter = study.axes[study.dimensions[along].axes.front()].parameter;
-  const std::uint64_t frequencies = study.dimensions[along].size;
+  const Study& study = plan.study;
+  if (study.sweep()->output.resonances.empty()) return;
+  const std::size_t along = *study.sweep()->frequency_dimension;
+  const std::size_t parameter = study.sweep()->axes[study.sweep()->dimensions[along].axes.front()].parameter;
+  const std::uint64_t frequencies = study.sweep()->dimensions[along].size;
   const std::size_t table = writer.create_ragged(
       {.group = "resonance", .row = "curve", .row_variables = row_variables(study, along)});
   const auto make_work = [&]() -> engine::PieceWork {

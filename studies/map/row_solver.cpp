@@ -18,7 +18,7 @@ std::vector<double> values_of_failure(std::span<const periodic::Quantity> quanti
 
 }  // namespace
 
-RowSolver::RowSolver(const StudyFile& study, const mechanics::Network& network, StudyValues values,
+RowSolver::RowSolver(const Study& study, const mechanics::Network& network, StudyValues values,
                      std::vector<periodic::Quantity> quantities, bool matrices_change)
     : parameters_(study.parameters),
       values_(std::move(values)),
@@ -32,7 +32,7 @@ void RowSolver::begin_row() {
   turn();
 }
 
-void RowSolver::place(std::span<double> parameters) {
+void RowSolver::set_parameters(std::span<double> parameters) {
   evaluate(values_, parameters_, parameters, numbers_);
 }
 

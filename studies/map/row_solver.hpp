@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "solvers/response/periodic_response.hpp"
-#include "studies/reading/study_file.hpp"
+#include "studies/reading/study.hpp"
 
 namespace frahm::studies {
 
@@ -16,7 +16,7 @@ class RowSolver {
  public:
   // study: whose parameters the values read; must outlive the solver. matrices_change: masses or elements
   // change along a row.
-  RowSolver(const StudyFile& study, const mechanics::Network& network, StudyValues values,
+  RowSolver(const Study& study, const mechanics::Network& network, StudyValues values,
             std::vector<periodic::Quantity> quantities, bool matrices_change);
 
   void forget() { response_.forget(); }  // all earlier points
@@ -24,7 +24,7 @@ class RowSolver {
   // The next point starts from the first one of the row or stretch of frequencies in hand.
   void turn() { points_onwards_ = 0; }
   // Completes the parameters (SI) and puts the point's numbers in place.
-  void place(std::span<double> parameters);
+  void set_parameters(std::span<double> parameters);
   // The quantities of the point in place; `reason` is why it fails, empty if it does not.
   std::span<const double> solve(std::string& reason);
   // How its orbit goes, if it has one (PeriodicResponse::stretches).

@@ -4,13 +4,13 @@
 #include <vector>
 
 #include "results/map_reader.hpp"
-#include "studies/reading/study_file.hpp"
+#include "studies/reading/study.hpp"
 
 namespace frahm::studies {
 
 // The study that a result was made from.
 struct StoredStudy {
-  StudyFile study;                    // with the overrides of its run
+  Study study;                        // with the overrides of its run
   std::vector<Assignment> overrides;  // these
 };
 

@@ -29,15 +29,17 @@ std::string overruled_by_measurements(const IdentifyChoice& choice, std::size_t 
 
 // What the study itself does with a parameter, so that no value of the command line can count; empty if
 // nothing.
-std::string overruled_by(const StudyFile& study, std::size_t parameter) {
-  for (const ParameterAxis& axis : study.axes) {
-    if (axis.parameter == parameter) return "runs along an axis of the map; change the axis";
+std::string overruled_by(const Study& study, std::size_t parameter) {
+  if (study.sweep()) {
+    for (const ParameterAxis& axis : study.sweep()->axes) {
+      if (axis.parameter == parameter) return "runs along an axis of the map; change the axis";
+    }
   }
-  if (study.identify) return overruled_by_measurements(*study.identify, parameter);
-  if (!study.tune) return "";
-  if (study.tune->band && study.tune->band->parameter == parameter)
+  if (study.identify()) return overruled_by_measurements(*study.identify(), parameter);
+  if (!study.tune()) return "";
+  if (study.tune()->band && study.tune()->band->parameter == parameter)
     return "runs over the band of the tuning; change the band";
-  for (const ScenarioChoice& scenario : study.tune->scenarios) {
+  for (const ScenarioChoice& scenario : study.tune()->scenarios) {
     for (const Assignment& assignment : scenario.set) {
       if (assignment.parameter == parameter)
         return fmt::format("is set by the scenario \"{}\"; change that", scenario.name);
@@ -53,7 +55,7 @@ engine::LogHeader StudyPlan::header_of_logs(const std::string& identity) const {
           .tiles = tiles};
 }
 
-void refuse_overruled(const StudyFile& study, const std::vector<std::string>& set) {
+void refuse_overruled(const Study& study, const std::vector<std::string>& set) {
   for (const std::string& text : set) {
     for (const Assignment& assignment : parse_assignments(study, "--set", text)) {
       const std::string why = overruled_by(study, assignment.parameter);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/fingerprint.hpp"
-#include "studies/reading/study_file.hpp"
+#include "studies/reading/study.hpp"
 
 namespace frahm::studies {
 
@@ -18,7 +18,7 @@ struct EarlierResult {
 
 // A study ready to be computed, of whatever kind: what its record and its shard logs are known by.
 struct StudyPlan {
-  StudyFile study;               // with the values of --set
+  Study study;                   // with the values of --set
   std::vector<std::string> set;  // as given: name=value
   engine::Fingerprint fingerprint = {};
   std::uint64_t tiles = 0;                                 // of the job; 0: it is no job
@@ -33,6 +33,6 @@ struct StudyPlan {
 
 // A value on the command line that the study overrules, by an axis, a band or its scenarios, would be
 // silently without effect: throws StudyError.
-void refuse_overruled(const StudyFile& study, const std::vector<std::string>& set);
+void refuse_overruled(const Study& study, const std::vector<std::string>& set);
 
 }  // namespace frahm::studies

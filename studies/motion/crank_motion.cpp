@@ -50,7 +50,7 @@ std::string next_name(const std::string& node, std::vector<std::string>& taken) 
 
 }  // namespace
 
-std::vector<results::Column> crank_motions(const StudyFile& study) {
+std::vector<results::Column> crank_motions(const Study& study) {
   const auto& excitations = study.network.excitations;
   const auto is_crank = [](const auto& e) { return e.kind == mechanics::ExcitationKind::crank; };
   MotionColumns columns(study);

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "results/layout.hpp"
-#include "studies/reading/study_file.hpp"
+#include "studies/reading/study.hpp"
 
 namespace frahm::studies {
 
@@ -16,6 +16,6 @@ inline constexpr int kCrankAngles = 361;  // of one turn: a degree apart, both e
 //   <node>_taylor_1, _2, _4                of the Taylor series in crank over rod, cut at that order [m]
 //   <node>_taylor_1_error, _2_error, ...   how far that is from a, relative to l_AC = a + rod [1]
 // with <node> the node driven; a second crank on it has the name <node>_2, and so on.
-std::vector<results::Column> crank_motions(const StudyFile& study);
+std::vector<results::Column> crank_motions(const Study& study);
 
 }  // namespace frahm::studies

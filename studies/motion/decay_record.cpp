@@ -17,7 +17,7 @@ namespace {
 
 using transient::DecayEnd, transient::Extremum, transient::FreeDecay;
 
-std::string ending(const StudyFile& study, const FreeDecay& decay) {
+std::string ending(const Study& study, const FreeDecay& decay) {
   const char* seconds = study.dimensionless ? "" : " s";
   const std::string left =
       fmt::format("the energy norm of its distance from rest is {:.3g} of the first", decay.remainder);
@@ -34,7 +34,7 @@ std::string ending(const StudyFile& study, const FreeDecay& decay) {
     case DecayEnd::cut_off:
       return fmt::format(
           "still moving after {:.6g}{}; {}{}", decay.duration, seconds, left,
-          study.motion.duration ? "" : "\nit is followed no further unless [decay] has a duration");
+          study.decay()->duration ? "" : "\nit is followed no further unless [decay] has a duration");
     case DecayEnd::failed:
       break;
   }
@@ -43,18 +43,18 @@ std::string ending(const StudyFile& study, const FreeDecay& decay) {
 
 }  // namespace
 
-double stated(const StudyFile& study, const StudyValue& value) {
+double stated(const Study& study, const StudyValue& value) {
   const std::vector<double> parameters = study.parameters.nominal();
   return value.expression.evaluate(std::span<const double>(parameters));
 }
 
-mechanics::NetworkValues motion_values(const StudyFile& study) {
+mechanics::NetworkValues motion_values(const Study& study) {
   mechanics::NetworkValues values;
   std::vector<double> parameters = study.parameters.nominal();
   evaluate(study.values, study.parameters, parameters, values);
-  if (study.kind != StudyKind::decay) return values;
-  if (study.motion.reference_frequency) {
-    values.hysteretic_omega = stated(study, *study.motion.reference_frequency);
+  if (study.kind() != StudyKind::decay) return values;
+  if (study.decay()->reference_frequency) {
+    values.hysteretic_omega = stated(study, *study.decay()->reference_frequency);
     return values;
   }
   try {
@@ -66,20 +66,20 @@ mechanics::NetworkValues motion_values(const StudyFile& study) {
   return values;
 }
 
-transient::InitialState initial_state(const StudyFile& study) {
+transient::InitialState initial_state(const Study& study) {
   const std::size_t n = study.network.masses.size();
   transient::InitialState state{std::vector<double>(n, 0.0), std::vector<double>(n, 0.0)};
-  for (const InitialValues& initial : study.motion.initial) {
+  for (const InitialValues& initial : study.initial()) {
     state.displacement[initial.mass] = stated(study, initial.displacement);
     state.velocity[initial.mass] = stated(study, initial.velocity);
   }
   return state;
 }
 
-FreeDecay solve_decay(const StudyFile& study, const transient::Watch& watch) {
+FreeDecay solve_decay(const Study& study, const transient::Watch& watch) {
   const transient::DecayOptions options{
-      .duration = study.motion.duration ? stated(study, *study.motion.duration) : 0.0,
-      .samples = study.motion.samples,
+      .duration = study.decay()->duration ? stated(study, *study.decay()->duration) : 0.0,
+      .samples = study.decay()->samples,
       .watch = watch};
   try {
     FreeDecay decay =
@@ -93,7 +93,7 @@ FreeDecay solve_decay(const StudyFile& study, const transient::Watch& watch) {
   }
 }
 
-std::vector<results::Column> decay_columns(const StudyFile& study, const FreeDecay& decay) {
+std::vector<results::Column> decay_columns(const Study& study, const FreeDecay& decay) {
   MotionColumns columns(study);
   std::size_t rows = 1;
   for (const auto& mass : decay.masses) rows = std::max(rows, mass.extrema.size());
@@ -122,7 +122,7 @@ std::vector<results::Column> decay_columns(const StudyFile& study, const FreeDec
   return columns.take();
 }
 
-void print_decay(const StudyFile& study, const FreeDecay& decay, std::ostream& out) {
+void print_decay(const Study& study, const FreeDecay& decay, std::ostream& out) {
   constexpr std::size_t most_rows = 12;
   fmt::print(out, "free decay: {}\n", ending(study, decay));
   for (std::size_t i = 0; i < decay.masses.size(); ++i) {

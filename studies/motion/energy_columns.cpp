@@ -10,7 +10,7 @@
 
 namespace frahm::studies {
 
-void add_energies(const StudyFile& study, const transient::EnergyBudget& energy, MotionColumns& columns) {
+void add_energies(const Study& study, const transient::EnergyBudget& energy, MotionColumns& columns) {
   const auto& elements = study.network.elements;
   for (std::size_t e = 0; e < elements.size(); ++e) {
     if (!mechanics::kind_of(elements[e]).dissipates) continue;
@@ -21,20 +21,20 @@ void add_energies(const StudyFile& study, const transient::EnergyBudget& energy,
   }
   columns.add_number("initial_energy", "J", "kinetic and potential energy at the start", energy.initial);
   columns.add_number("final_energy", "J", "kinetic and potential energy at the end", energy.final);
-  if (study.kind == StudyKind::transient)
+  if (study.kind() == StudyKind::transient)
     columns.add_number("energy_input", "J", "work of the excitation", energy.input);
   columns.add_number("energy_balance", "1",
                      "energy at the start and put in less energy dissipated and at the end, relative",
                      energy.balance);
 }
 
-void print_energies(const StudyFile& study, const transient::EnergyBudget& energy, std::ostream& out) {
+void print_energies(const Study& study, const transient::EnergyBudget& energy, std::ostream& out) {
   const auto line = [&](const std::string& what, double value, const std::string& share) {
     fmt::print(out, "{:<24}{:>18.10g}{:>10}\n", what, value, share);
   };
   fmt::print(out, "\n{:<24}{:>18}{:>10}\n", "", study.dimensionless ? "energy" : "energy [J]", "share");
   line("at the start", energy.initial, "");
-  if (study.kind == StudyKind::transient) line("work of the excitation", energy.input, "");
+  if (study.kind() == StudyKind::transient) line("work of the excitation", energy.input, "");
   const auto& elements = study.network.elements;
   for (std::size_t e = 0; e < elements.size(); ++e) {
     if (!mechanics::kind_of(elements[e]).dissipates) continue;

@@ -9,8 +9,8 @@ namespace frahm::studies {
 
 // <element>_energy, <element>_energy_share of those that dissipate; initial_energy, final_energy,
 // energy_balance, and of a transient energy_input.
-void add_energies(const StudyFile& study, const transient::EnergyBudget& energy, MotionColumns& columns);
+void add_energies(const Study& study, const transient::EnergyBudget& energy, MotionColumns& columns);
 
-void print_energies(const StudyFile& study, const transient::EnergyBudget& energy, std::ostream& out);
+void print_energies(const Study& study, const transient::EnergyBudget& energy, std::ostream& out);
 
 }  // namespace frahm::studies

@@ -22,11 +22,11 @@ constexpr double kSamplesAPeriod = 100.0;  // by default: smooth to the eye, and
 constexpr double kPeriods = 10.0;          // of a periodic response, by default
 constexpr double kMostSamples = 1e7;
 
-bool is_periodic(const StudyFile& study) {
-  return study.kind == StudyKind::sweep || study.kind == StudyKind::tune;
+bool is_periodic(const Study& study) {
+  return study.kind() == StudyKind::sweep || study.kind() == StudyKind::tune;
 }
 
-mechanics::NetworkValues values_of(const StudyFile& study, std::span<const double> at) {
+mechanics::NetworkValues values_of(const Study& study, std::span<const double> at) {
   if (!is_periodic(study)) return motion_values(study);
   std::vector<double> parameters(at.begin(), at.end());
   mechanics::NetworkValues values;
@@ -34,13 +34,14 @@ mechanics::NetworkValues values_of(const StudyFile& study, std::span<const doubl
   return values;
 }
 
-double usual_rate(const StudyFile& study, const mechanics::NetworkValues& values) {
+double usual_rate(const Study& study, const mechanics::NetworkValues& values) {
   const double lowest = periodic::linear_modes(study.network, values, false).frequency.front();
-  const double excited = study.kind == StudyKind::decay ? 0.0 : study.network.reference_order * values.omega;
+  const double excited =
+      study.kind() == StudyKind::decay ? 0.0 : study.network.reference_order * values.omega;
   return kSamplesAPeriod * std::max(lowest, excited) / kTurn;
 }
 
-std::vector<double> sample_times_of(const StudyFile& study, double duration, double rate) {
+std::vector<double> sample_times_of(const Study& study, double duration, double rate) {
   constexpr double kRounding = 1e-12;
   const double steps = std::floor(duration * rate * (1.0 + kRounding));
   if (!(steps >= 1.0 && steps < kMostSamples)) {
@@ -56,7 +57,7 @@ std::vector<double> sample_times_of(const StudyFile& study, double duration, dou
 }
 
 // All the columns of a motion there are.
-std::vector<MeasuredColumn> columns_of(const StudyFile& study, const transient::Samples& samples) {
+std::vector<MeasuredColumn> columns_of(const Study& study, const transient::Samples& samples) {
   std::vector<MeasuredColumn> columns;
   for (std::size_t i = 0; i < study.network.masses.size(); ++i) {
     const std::string& mass = study.network.masses[i];
@@ -80,19 +81,19 @@ StudyValue constant(double value) {
   return result;
 }
 
-double duration_of_motion(const StudyFile& study) {
-  if (study.kind == StudyKind::transient) return forced_options(study).duration;
-  return study.motion.duration ? stated(study, *study.motion.duration) : solve_decay(study).duration;
+double duration_of_motion(const Study& study) {
+  if (study.kind() == StudyKind::transient) return forced_options(study).duration;
+  return study.motion()->duration ? stated(study, *study.motion()->duration) : solve_decay(study).duration;
 }
 
-std::vector<MeasuredColumn> motion_columns(StudyFile study, const std::vector<double>& times) {
-  study.motion.duration = constant(times.back());
-  study.motion.samples = static_cast<int>(times.size());
-  if (study.kind == StudyKind::decay) return columns_of(study, solve_decay(study).history);
+std::vector<MeasuredColumn> motion_columns(Study study, const std::vector<double>& times) {
+  study.motion()->duration = constant(times.back());
+  study.motion()->samples = static_cast<int>(times.size());
+  if (study.kind() == StudyKind::decay) return columns_of(study, solve_decay(study).history);
   return columns_of(study, solve_transient(study).history);
 }
 
-std::vector<MeasuredColumn> periodic_columns(const StudyFile& study, const mechanics::NetworkValues& values,
+std::vector<MeasuredColumn> periodic_columns(const Study& study, const mechanics::NetworkValues& values,
                                              const std::vector<double>& times) {
   periodic::PeriodicResponse response(study.network, {});
   response.set_values(values);
@@ -106,7 +107,7 @@ std::vector<MeasuredColumn> periodic_columns(const StudyFile& study, const mecha
 }
 
 // Those that were asked for, in that order.
-std::vector<MeasuredColumn> chosen(const StudyFile& study, std::vector<MeasuredColumn> all,
+std::vector<MeasuredColumn> chosen(const Study& study, std::vector<MeasuredColumn> all,
                                    std::vector<std::string> names) {
   if (names.empty()) {
     for (const std::string& mass : study.network.masses) names.push_back(mass + "_displacement");
@@ -146,7 +147,7 @@ void add_noise(const SensorNoise& noise, std::vector<MeasuredColumn>& columns) {
 
 }  // namespace
 
-Measurements measure(const StudyFile& study, std::span<const double> parameters,
+Measurements measure(const Study& study, std::span<const double> parameters,
                      const MeasurementOptions& options) {
   try {
     const mechanics::NetworkValues values = values_of(study, parameters);

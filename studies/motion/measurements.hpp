@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/reading/study_file.hpp"
+#include "studies/reading/study.hpp"
 
 // Measurements as a sensor would take them of the motion that a study computes: to try an experiment before
 // it is made.
@@ -41,7 +41,7 @@ struct Measurements {
 // at these SI values of all parameters): <mass>_acceleration and <element>_force too.
 // Throws StudyError for a column that does not exist, with those that do, for a motion that is not computed,
 // and for more than ten million samples.
-Measurements measure(const StudyFile& study, std::span<const double> parameters,
+Measurements measure(const Study& study, std::span<const double> parameters,
                      const MeasurementOptions& options);
 
 }  // namespace frahm::studies

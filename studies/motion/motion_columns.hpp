@@ -5,14 +5,14 @@
 
 #include "results/layout.hpp"
 #include "solvers/transient/motion.hpp"
-#include "studies/reading/study_file.hpp"
+#include "studies/reading/study.hpp"
 
 namespace frahm::studies {
 
 // Columns of a group, with the units of the study: of one without units only angles keep theirs.
 class MotionColumns {
  public:
-  explicit MotionColumns(const StudyFile& study) : study_(study) {}
+  explicit MotionColumns(const Study& study) : study_(study) {}
 
   // dimension: "" for a single number.  values: padded with NaN to `size`.
   void add(const std::string& name, const char* unit, const std::string& long_name,
@@ -25,7 +25,7 @@ class MotionColumns {
   std::vector<results::Column> take() { return std::move(columns_); }
 
  private:
-  const StudyFile& study_;
+  const Study& study_;
   std::vector<results::Column> columns_;
 };
 

@@ -16,10 +16,10 @@ namespace {
 using transient::ForcedMotion, transient::Stop;
 
 // The network's values when the parameter that is the frequency, if there is one, takes another value.
-mechanics::NetworkValues values_at(const StudyFile& study, double omega) {
+mechanics::NetworkValues values_at(const Study& study, double omega) {
   std::vector<double> parameters = study.parameters.nominal();
   const auto running = study.values.omega.expression.sole_parameter();
-  if (running && study.motion.sweep_to) parameters[*running] = omega;
+  if (running && study.transient()->sweep_to) parameters[*running] = omega;
   mechanics::NetworkValues values;
   evaluate(study.values, study.parameters, parameters, values);
   values.omega = omega;
@@ -31,7 +31,7 @@ struct StopsOfElement {
   std::string name;
   std::vector<Stop> stops;
 };
-std::vector<StopsOfElement> stops_of_elements(const StudyFile& study, const ForcedMotion& motion) {
+std::vector<StopsOfElement> stops_of_elements(const Study& study, const ForcedMotion& motion) {
   const mechanics::Assembly assembly(study.network);
   std::vector<StopsOfElement> result;
   for (std::size_t e = 0; e < study.network.elements.size(); ++e) {
@@ -44,8 +44,8 @@ std::vector<StopsOfElement> stops_of_elements(const StudyFile& study, const Forc
 
 }  // namespace
 
-transient::ForcedOptions forced_options(const StudyFile& study) {
-  const MotionChoice& motion = study.motion;
+transient::ForcedOptions forced_options(const Study& study) {
+  const TransientChoice& motion = *study.transient();
   transient::ForcedOptions options{.from = stated(study, study.values.omega), .samples = motion.samples};
   if (motion.sweep_to) {
     options.sweep = {stated(study, *motion.sweep_to), stated(study, *motion.sweep_rate)};
@@ -61,7 +61,7 @@ transient::ForcedOptions forced_options(const StudyFile& study) {
   return options;
 }
 
-ForcedMotion solve_transient(const StudyFile& study, const transient::Watch& watch) {
+ForcedMotion solve_transient(const Study& study, const transient::Watch& watch) {
   transient::ForcedOptions options = forced_options(study);
   options.watch = watch;
   try {
@@ -76,10 +76,10 @@ ForcedMotion solve_transient(const StudyFile& study, const transient::Watch& wat
   }
 }
 
-std::vector<results::Column> transient_columns(const StudyFile& study, const ForcedMotion& motion) {
+std::vector<results::Column> transient_columns(const Study& study, const ForcedMotion& motion) {
   MotionColumns columns(study);
   columns.add_samples(motion.history);
-  if (study.motion.sweep_to) {
+  if (study.transient()->sweep_to) {
     columns.add("frequency", "rad s-1", "angular frequency of the excitation", "time", motion.frequency);
     columns.add_number("discretisation_error", "m",
                        "largest change of any displacement when the stairs of the run-up were last halved",
@@ -108,7 +108,7 @@ std::vector<results::Column> transient_columns(const StudyFile& study, const For
   return columns.take();
 }
 
-void print_transient(const StudyFile& study, const ForcedMotion& motion, std::ostream& out) {
+void print_transient(const Study& study, const ForcedMotion& motion, std::ostream& out) {
   const bool si = !study.dimensionless;
   fmt::print(out, "{:<16}{:>18}{:>18}\n", "", si ? "peak [m]" : "peak", si ? "at [s]" : "at");
   for (std::size_t i = 0; i < motion.peaks.size(); ++i) {
@@ -122,7 +122,7 @@ void print_transient(const StudyFile& study, const ForcedMotion& motion, std::os
         stops.empty() ? "" : fmt::format(", the last from {:.10g}{}", stops.back().onset, si ? " s" : ""));
   }
   print_energies(study, motion.energy, out);
-  if (!study.motion.sweep_to) return;
+  if (!study.transient()->sweep_to) return;
   fmt::print(out,
              "the run-up's frequency on {} stairs: no displacement changes by more than {:.2g}{} with half "
              "as many\n",

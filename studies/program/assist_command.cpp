@@ -11,16 +11,16 @@
 namespace frahm::studies {
 
 int assist_command(const RunCommandOptions& options) {
-  StudyFile study = read_study_with(options.study, options.set);
+  Study study = read_study_with(options.study, options.set);
   engine::RunOptions run = options.run;
   if (run.output.empty()) run.output = default_output(options.study);
-  if (study.kind == StudyKind::sweep) {
+  if (study.kind() == StudyKind::sweep) {
     MapPlan plan = plan_map(std::move(study), options.set);
     std::optional<KnownPoints> earlier;
     if (!options.from.empty()) plan.grown_from = earlier.emplace(plan, options.from).source();
     return engine::assist(job_of(plan, earlier ? &*earlier : nullptr), run);
   }
-  if (study.kind == StudyKind::tune) {
+  if (study.kind() == StudyKind::tune) {
     const StudyPlan plan = plan_tuning(std::move(study), options.set);
     return engine::assist(job_of_tuning(plan), run);
   }

@@ -34,10 +34,10 @@ std::string readable_size(double bytes) {
   return fmt::format("{:.3g} TB", bytes);
 }
 
-void print_grid(const StudyFile& study, const Grid& grid, std::ostream& out) {
+void print_grid(const Study& study, const Grid& grid, std::ostream& out) {
   fmt::print(out, "points  {} = ", grid.points());
-  for (std::size_t d = 0; d < study.dimensions.size(); ++d) {
-    fmt::print(out, "{}{} {}", d == 0 ? "" : " x ", grid.shape[d], study.dimensions[d].name);
+  for (std::size_t d = 0; d < study.sweep()->dimensions.size(); ++d) {
+    fmt::print(out, "{}{} {}", d == 0 ? "" : " x ", grid.shape[d], study.sweep()->dimensions[d].name);
   }
   fmt::print(out, "\ntiles   {} of {} points\n", grid.tiles(), grid.box(0).points());
 }
@@ -69,9 +69,10 @@ void print_array(const CheckOptions& options, const StudyPlan& plan, const char*
                   out);
 }
 
-void print_first_modes(const StudyFile& study, const Grid& grid, std::ostream& out) {
+void print_first_modes(const Study& study, const Grid& grid, std::ostream& out) {
   std::vector<double> parameters = study.parameters.nominal();
-  for (std::size_t d = 0; d < study.dimensions.size(); ++d) place(study, d, 0, parameters);
+  for (std::size_t d = 0; d < study.sweep()->dimensions.size(); ++d)
+    set_along(*study.sweep(), d, 0, parameters);
   mechanics::NetworkValues values;
   evaluate(study.values, study.parameters, parameters, values);
   const std::vector<std::uint64_t> first(grid.shape.size(), 0);
@@ -83,12 +84,12 @@ void print_first_modes(const StudyFile& study, const Grid& grid, std::ostream& o
   }
 }
 
-std::string seconds_text(const StudyFile& study, double seconds) {
+std::string seconds_text(const Study& study, double seconds) {
   return fmt::format("{:.6g}{}", seconds, study.dimensionless ? "" : " s");
 }
 
-void print_decay_choice(const StudyFile& study, const mechanics::NetworkValues& values, std::ostream& out) {
-  const auto& duration = study.motion.duration;
+void print_decay_choice(const Study& study, const mechanics::NetworkValues& values, std::ostream& out) {
+  const auto& duration = study.motion()->duration;
   fmt::print(out, "decay      free vibration, {}\n",
              duration ? "for " + seconds_text(study, stated(study, *duration))
                       : "until rest, or until its end is clear");
@@ -98,7 +99,7 @@ void print_decay_choice(const StudyFile& study, const mechanics::NetworkValues& 
   }
 }
 
-void print_transient_choice(const StudyFile& study, std::ostream& out) {
+void print_transient_choice(const Study& study, std::ostream& out) {
   const transient::ForcedOptions options = forced_options(study);
   const char* unit = study.dimensionless ? "" : " rad/s";
   fmt::print(out, "transient  {} at {:.6g}{}", seconds_text(study, options.duration), options.from, unit);
@@ -110,12 +111,12 @@ void print_transient_choice(const StudyFile& study, std::ostream& out) {
 }
 
 // Of a decay or transient.
-int check_motion(const StudyFile& study, std::ostream& out) {
+int check_motion(const Study& study, std::ostream& out) {
   const mechanics::NetworkValues values = motion_values(study);
   const transient::InitialState initial = initial_state(study);
   fmt::print(out, "{} is a valid study{}{}\n\n", study.source.name, study.title.empty() ? "" : ": ",
              study.title);
-  if (study.kind == StudyKind::decay) {
+  if (study.kind() == StudyKind::decay) {
     print_decay_choice(study, values, out);
   } else {
     print_transient_choice(study, out);
@@ -124,7 +125,7 @@ int check_motion(const StudyFile& study, std::ostream& out) {
     fmt::print(out, "initial    {}: {:.6g}{}, {:.6g}{}\n", study.network.masses[i], initial.displacement[i],
                study.dimensionless ? "" : " m", initial.velocity[i], study.dimensionless ? "" : " m/s");
   }
-  fmt::print(out, "samples    {}\n\n", study.motion.samples);
+  fmt::print(out, "samples    {}\n\n", study.motion()->samples);
   try {
     print_modes(study, modes_at_point(study, values), out);
   } catch (const mechanics::MechanicsError& error) {
@@ -133,7 +134,7 @@ int check_motion(const StudyFile& study, std::ostream& out) {
   return exit_code::done;
 }
 
-void print_stated_modes(const StudyFile& study, std::ostream& out) {
+void print_stated_modes(const Study& study, std::ostream& out) {
   fmt::print(out, "As the study states it:\n");
   std::vector<double> parameters = study.parameters.nominal();
   mechanics::NetworkValues values;
@@ -145,7 +146,7 @@ void print_stated_modes(const StudyFile& study, std::ostream& out) {
   }
 }
 
-void print_design_range(const StudyFile& study, const DesignChoice& design, std::ostream& out) {
+void print_design_range(const Study& study, const DesignChoice& design, std::ostream& out) {
   const double factor = design.unit.si_factor;
   const bool has_unit = !design.unit.text.empty() && design.unit.text != "1";
   fmt::print(out, "{:<22}{:.6g} .. {:.6g}{}{}, from {:.6g}", study.parameters.list[design.parameter].name,
@@ -156,28 +157,28 @@ void print_design_range(const StudyFile& study, const DesignChoice& design, std:
 }
 
 // Of a tuning.
-int check_tune(const CheckOptions& options, StudyFile read, std::ostream& out) {
+int check_tune(const CheckOptions& options, Study read, std::ostream& out) {
   const StudyPlan plan = plan_tuning(std::move(read), options.set);
-  const StudyFile& study = plan.study;
+  const Study& study = plan.study;
   fmt::print(out, "{} is a valid study{}{}\n\n", study.source.name, study.title.empty() ? "" : ": ",
              study.title);
   print_task(study, out);
   std::size_t variables = 0;
-  for (const DesignChoice& design : study.tune->designs) {
+  for (const DesignChoice& design : study.tune()->designs) {
     print_design_range(study, design, out);
     variables += design.is_scheduled() ? design.knots.size() : 1;
   }
   fmt::print(out, "{:<22}{}\n{:<22}{}\n{:<22}{}\n\n", "variables", variables, "limits",
-             study.tune->limits.size() + (study.tune->trade_off ? 1 : 0), "starts", plan.tiles);
+             study.tune()->limits.size() + (study.tune()->trade_off ? 1 : 0), "starts", plan.tiles);
   print_stated_modes(study, out);
   if (plan.tiles > 1) print_array(options, plan, "tuning", std::nullopt, out);
   return exit_code::done;
 }
 
 // Of an identification.
-int check_identification(const CheckOptions& options, StudyFile read, std::ostream& out) {
+int check_identification(const CheckOptions& options, Study read, std::ostream& out) {
   const StudyPlan plan = plan_identification(std::move(read), options.set);
-  const StudyFile& study = plan.study;
+  const Study& study = plan.study;
   fmt::print(out, "{} is a valid study{}{}\n\n", study.source.name, study.title.empty() ? "" : ": ",
              study.title);
   print_identification_choice(study, out);
@@ -201,17 +202,17 @@ int check_command(const CheckOptions& options, std::ostream& out) {
   using Clock = std::chrono::steady_clock;
   constexpr double sample_seconds = 1.0;
   const auto start = Clock::now();
-  StudyFile read = read_study_with(options.study, options.set);
-  if (options.simulate_ranks > 0 && read.kind != StudyKind::sweep)
+  Study read = read_study_with(options.study, options.set);
+  if (options.simulate_ranks > 0 && read.kind() != StudyKind::sweep)
     throw StudyError(rules::other_kind, options.study.string() +
                                             ": --simulate-ranks is for maps; this study is " +
-                                            std::string(kind_noun(read.kind)));
-  if (read.kind == StudyKind::tune) return check_tune(options, std::move(read), out);
-  if (read.identify) return check_identification(options, std::move(read), out);
-  if (read.kind != StudyKind::sweep) return check_motion(read, out);
+                                            std::string(kind_noun(read.kind())));
+  if (read.kind() == StudyKind::tune) return check_tune(options, std::move(read), out);
+  if (read.identify()) return check_identification(options, std::move(read), out);
+  if (read.kind() != StudyKind::sweep) return check_motion(read, out);
   const MapPlan plan = plan_map(std::move(read), options.set);
   const double start_seconds = std::chrono::duration<double>(Clock::now() - start).count();
-  const StudyFile& study = plan.study;
+  const Study& study = plan.study;
   const MapSample sample = sample_of(plan, sample_seconds);
   const double core_seconds =
       sample.seconds * static_cast<double>(plan.grid.points()) / static_cast<double>(sample.points);

@@ -40,7 +40,7 @@ Amount amount_of(const char* option, const std::string& text) {
   return amount;
 }
 
-double si_amount(const StudyFile& study, const char* option, const std::string& text, Quantity quantity) {
+double si_amount(const Study& study, const char* option, const std::string& text, Quantity quantity) {
   const Amount amount = amount_of(option, text);
   if (amount.unit.empty()) return amount.value;
   if (study.dimensionless)
@@ -54,7 +54,7 @@ double si_amount(const StudyFile& study, const char* option, const std::string& 
 }
 
 // Samples a second: a frequency in cycles.
-double rate_of(const StudyFile& study, const std::string& text) {
+double rate_of(const Study& study, const std::string& text) {
   if (text.empty()) return 0.0;
   const double value = si_amount(study, "--rate", text, Quantity::angular_frequency);
   return amount_of("--rate", text).unit.empty() ? value : value / (2.0 * std::numbers::pi);
@@ -77,7 +77,7 @@ Quantity quantity_of(std::string_view column) {
 }
 
 // A share of each column, or an amount in a unit that all columns can have.
-SensorNoise noise_of(const StudyFile& study, const DataOptions& options) {
+SensorNoise noise_of(const Study& study, const DataOptions& options) {
   SensorNoise noise{.seed = seed_of(options.seed)};
   if (options.noise.empty()) return noise;
   const Amount amount = amount_of("--noise", options.noise);
@@ -109,7 +109,7 @@ void check_place(const std::filesystem::path& place) {
                                place.string()));
 }
 
-std::string csv(const StudyFile& study, const std::filesystem::path& file, const DataOptions& options,
+std::string csv(const Study& study, const std::filesystem::path& file, const DataOptions& options,
                 const Measurements& measured) {
   std::string text =
       fmt::format("{} from {}, {} samples at {:.10g} {}, noise {}{}\n", data_mark, file.filename().string(),
@@ -132,7 +132,7 @@ std::string csv(const StudyFile& study, const std::filesystem::path& file, const
   return text + "\n";
 }
 
-StudyFile study_of(const std::filesystem::path& file, const std::vector<std::string>& set) {
+Study study_of(const std::filesystem::path& file, const std::vector<std::string>& set) {
   if (file.extension() == ".toml") return read_study_with(file, set);
   if (!set.empty())
     throw StudyError(rules::wrong_option,
@@ -143,8 +143,8 @@ StudyFile study_of(const std::filesystem::path& file, const std::vector<std::str
 }  // namespace
 
 int export_data(const std::filesystem::path& file, const DataOptions& options, std::ostream& out) {
-  const StudyFile study = study_of(file, options.set);
-  if (study.identify)
+  const Study study = study_of(file, options.set);
+  if (study.identify())
     throw StudyError(rules::other_kind,
                      fmt::format("{}: an identification reads measurements and has no motion of its own; "
                                  "frahm export --study makes a study of what it found",
@@ -156,7 +156,7 @@ int export_data(const std::filesystem::path& file, const DataOptions& options, s
                       : std::optional(si_amount(study, "--duration", options.duration, Quantity::time)),
       .noise = noise_of(study, options),
       .columns = options.columns};
-  const bool motion = study.kind == StudyKind::decay || study.kind == StudyKind::transient;
+  const bool motion = study.kind() == StudyKind::decay || study.kind() == StudyKind::transient;
   if (motion && !options.at.empty())
     throw StudyError(rules::wrong_option, "--at: belongs to the periodic response of a sweep or tuning");
   const std::vector<double> parameters = parameters_at(study, options.at);

@@ -31,7 +31,7 @@ struct LoggedJob {
 LoggedJob job_of_note(const std::filesystem::path& output, const engine::LogHeader& study) {
   NotedStudy noted = study_from_note({output}, study);
   LoggedJob known;
-  if (noted.study.kind == StudyKind::tune) {
+  if (noted.study.kind() == StudyKind::tune) {
     known.tuning = std::make_unique<const StudyPlan>(plan_tuning(std::move(noted.study), noted.set));
     known.job = job_of_tuning(*known.tuning);
     known.unit = "starts";

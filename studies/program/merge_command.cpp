@@ -159,7 +159,7 @@ int merge_command(const MergeOptions& options, std::ostream& out) {
   const engine::LogHeader header = study_of(logs, options.output);
   NotedStudy noted = study_from_note(places_of_note(options, logs), header);
   try {
-    return noted.study.kind == StudyKind::tune
+    return noted.study.kind() == StudyKind::tune
                ? merge_tuning(options, logs, header, std::move(noted), lock, out)
                : merge_map(options, logs, header, std::move(noted), lock, out);
   } catch (const engine::ResumeRefused& refused) {

@@ -10,7 +10,7 @@
 namespace frahm::studies {
 namespace {
 
-void print_table(const StudyFile& study, const periodic::LinearModes& modes, std::ostream& out) {
+void print_table(const Study& study, const periodic::LinearModes& modes, std::ostream& out) {
   const std::string masses = fmt::format("{}", fmt::join(study.network.masses, ", "));
   const std::string frequencies = study.dimensionless
                                       ? fmt::format("{:>12}", "frequency")
@@ -26,14 +26,14 @@ void print_table(const StudyFile& study, const periodic::LinearModes& modes, std
 
 }  // namespace
 
-ModesAtPoint modes_at_point(const StudyFile& study, const mechanics::NetworkValues& values) {
+ModesAtPoint modes_at_point(const Study& study, const mechanics::NetworkValues& values) {
   const auto& elements = study.network.elements;
   const bool friction = std::any_of(elements.begin(), elements.end(), mechanics::has_contact);
   return {periodic::linear_modes(study.network, values, false),
           periodic::linear_modes(study.network, values, true), friction};
 }
 
-void print_modes(const StudyFile& study, const ModesAtPoint& modes, std::ostream& out) {
+void print_modes(const Study& study, const ModesAtPoint& modes, std::ostream& out) {
   fmt::print(out, "Undamped modes{}\n", modes.friction ? " with all friction sliding" : "");
   print_table(study, modes.sliding, out);
   if (!modes.friction) return;

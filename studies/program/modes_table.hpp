@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "solvers/mechanics/modes.hpp"
-#include "studies/reading/study_file.hpp"
+#include "studies/reading/study.hpp"
 
 namespace frahm::studies {
 
@@ -17,9 +17,9 @@ struct ModesAtPoint {
 };
 
 // Throws mechanics::MechanicsError where the matrices have no meaning.
-ModesAtPoint modes_at_point(const StudyFile& study, const mechanics::NetworkValues& values);
+ModesAtPoint modes_at_point(const Study& study, const mechanics::NetworkValues& values);
 
 // Frequencies (rad/s, Hz and rpm, or one number in a dimensionless study), damping ratios, shapes.
-void print_modes(const StudyFile& study, const ModesAtPoint& modes, std::ostream& out);
+void print_modes(const Study& study, const ModesAtPoint& modes, std::ostream& out);
 
 }  // namespace frahm::studies

@@ -35,11 +35,11 @@ int point_command(const PointOptions& options, std::ostream& out) {
     throw StudyError(rules::wrong_option,
                      "--history \"-\": the report goes to standard output; name a file for the history");
   }
-  StudyFile study = read_study_with(options.study, options.set);
-  if (study.kind != StudyKind::sweep && study.kind != StudyKind::tune) {
+  Study study = read_study_with(options.study, options.set);
+  if (study.kind() != StudyKind::sweep && study.kind() != StudyKind::tune) {
     throw StudyError(rules::other_kind,
                      fmt::format("{}: {} has no periodic response to tell; frahm run computes what it has",
-                                 study.source.name, kind_noun(study.kind)));
+                                 study.source.name, kind_noun(study.kind())));
   }
   std::vector<double> parameters = parameters_at(study, options.at);
   set_crank_orders_at(study, parameters);

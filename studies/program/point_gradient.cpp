@@ -6,7 +6,7 @@ namespace frahm::studies {
 namespace {
 
 // The number parameters that masses, elements, excitation and frequency depend on, ascending.
-std::vector<std::size_t> inputs_of_network(const StudyFile& study) {
+std::vector<std::size_t> inputs_of_network(const Study& study) {
   std::vector<std::size_t> reads = study.values.omega.expression.reads();
   for (const std::vector<StudyValue>* list : study.values.lists()) {
     for (const StudyValue& value : *list) {
@@ -19,13 +19,13 @@ std::vector<std::size_t> inputs_of_network(const StudyFile& study) {
   return study.parameters.inputs_of(reads);
 }
 
-mechanics::NetworkValues values_at(const StudyFile& study, std::vector<double> parameters) {
+mechanics::NetworkValues values_at(const Study& study, std::vector<double> parameters) {
   mechanics::NetworkValues values;
   evaluate(study.values, study.parameters, parameters, values);
   return values;
 }
 
-periodic::CheckedParameter by_parameter(const StudyFile& study, const std::vector<double>& parameters,
+periodic::CheckedParameter by_parameter(const Study& study, const std::vector<double>& parameters,
                                         std::size_t parameter) {
   periodic::CheckedParameter checked{.value = parameters[parameter], .direction = {}};
   differentiate(study.values, study.parameters, parameters, parameter, checked.direction);
@@ -52,14 +52,14 @@ periodic::CheckedParameter by_frequency(const mechanics::NetworkValues& values) 
   return checked;
 }
 
-std::string unit_of(const StudyFile& study, const Parameter& parameter) {
+std::string unit_of(const Study& study, const Parameter& parameter) {
   if (study.dimensionless || !parameter.quantity) return "1";
   return std::string(si_unit(*parameter.quantity));
 }
 
 }  // namespace
 
-PointGradient gradient_at(const StudyFile& study, std::span<const double> parameters) {
+PointGradient gradient_at(const Study& study, std::span<const double> parameters) {
   const std::vector<double> at(parameters.begin(), parameters.end());
   const mechanics::NetworkValues values = values_at(study, at);
   PointGradient result;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "solvers/response/gradient_check.hpp"
-#include "studies/reading/study_file.hpp"
+#include "studies/reading/study.hpp"
 
 namespace frahm::studies {
 
@@ -24,6 +24,6 @@ struct PointGradient {
 
 // parameters: SI values of all parameters, complete. Throws mechanics::MechanicsError where the network's
 // values there are out of range.
-PointGradient gradient_at(const StudyFile& study, std::span<const double> parameters);
+PointGradient gradient_at(const Study& study, std::span<const double> parameters);
 
 }  // namespace frahm::studies

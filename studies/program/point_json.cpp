@@ -31,7 +31,7 @@ Json stretches_json(const PointReport& report) {
   return list;
 }
 
-Json modes_json(const StudyFile& study, const periodic::LinearModes& modes) {
+Json modes_json(const Study& study, const periodic::LinearModes& modes) {
   Json list = Json::array();
   for (std::size_t k = 0; k < modes.frequency.size(); ++k) {
     Json shape = Json::object();
@@ -69,7 +69,7 @@ Json gradient_json(const PointGradient& gradient) {
 
 }  // namespace
 
-void print_point_json(const StudyFile& study, const PointReport& report, std::ostream& out) {
+void print_point_json(const Study& study, const PointReport& report, std::ostream& out) {
   Json json{{"study", study.source.name}, {"title", study.title}};
   for (const auto& [name, spoken] : report.parameters) {
     json["parameters"][name] = {{"value", spoken.value}, {"unit", spoken.unit.empty() ? "1" : spoken.unit}};

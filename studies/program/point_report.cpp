@@ -15,8 +15,7 @@ namespace {
 
 using periodic::QuantityKind;
 
-std::vector<PointReport::Parameter> numbers_of(const StudyFile& study,
-                                               const std::vector<double>& parameters) {
+std::vector<PointReport::Parameter> numbers_of(const Study& study, const std::vector<double>& parameters) {
   std::vector<PointReport::Parameter> numbers;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const Parameter& parameter = study.parameters.list[i];
@@ -33,7 +32,7 @@ std::vector<std::string> friction_elements(const mechanics::Network& network) {
   return names;
 }
 
-periodic::PeriodicResponse response_of(const StudyFile& study,
+periodic::PeriodicResponse response_of(const Study& study,
                                        const std::vector<periodic::Quantity>& quantities) {
   try {
     return {study.network, quantities};
@@ -43,7 +42,7 @@ periodic::PeriodicResponse response_of(const StudyFile& study,
 }
 
 // Each with what stands for it at a point that could not be set up.
-void describe_all(const StudyFile& study, const std::vector<periodic::Quantity>& quantities,
+void describe_all(const Study& study, const std::vector<periodic::Quantity>& quantities,
                   PointReport& report) {
   for (const periodic::Quantity& quantity : quantities) {
     report.quantities.push_back({periodic::describe(quantity, study.network, study.dimensionless),
@@ -64,16 +63,16 @@ void solve(periodic::PeriodicResponse& response, PointReport& report) {
 }
 
 // Adds what the study's comparison says of the point. parameters: complete.
-void add_comparison(const StudyFile& study, std::vector<double> parameters,
+void add_comparison(const Study& study, std::vector<double> parameters,
                     const std::vector<periodic::Quantity>& quantities, PointReport& report) {
-  if (!study.comparison) return;
+  if (!study.sweep() || !study.sweep()->comparison) return;
   std::vector<double> own;
-  for (const periodic::Quantity& compared : study.comparison->quantities) {
+  for (const periodic::Quantity& compared : study.sweep()->comparison->quantities) {
     const auto place = std::find(quantities.begin(), quantities.end(), compared) - quantities.begin();
     own.push_back(report.quantities[static_cast<std::size_t>(place)].value);
   }
   RowSolver other(study, compared_network(study), compared_values(study), compared_quantities(study), true);
-  other.place(parameters);
+  other.set_parameters(parameters);
   const std::vector<periodic::QuantityDescription> variables = compared_variables(study);
   std::vector<double> values(variables.size());
   std::string reason;
@@ -91,7 +90,7 @@ std::string status_of(const PointReport& report) {
 
 }  // namespace
 
-PointReport tell_point(const StudyFile& study, std::vector<double> parameters, std::size_t history_samples,
+PointReport tell_point(const Study& study, std::vector<double> parameters, std::size_t history_samples,
                        bool gradient) {
   PointReport report;
   mechanics::NetworkValues values;

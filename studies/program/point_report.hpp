@@ -10,7 +10,7 @@
 #include "studies/program/modes_table.hpp"
 #include "studies/program/point_gradient.hpp"
 #include "studies/reading/settings.hpp"
-#include "studies/reading/study_file.hpp"
+#include "studies/reading/study.hpp"
 
 namespace frahm::studies {
 
@@ -43,7 +43,7 @@ struct PointReport {
 // history_samples: of the time history, both ends of the period included; 0: none is wanted. gradient: exact
 // derivatives beside differences are.
 // Throws StudyError for a network that cannot move at any values.
-PointReport tell_point(const StudyFile& study, std::vector<double> parameters, std::size_t history_samples,
+PointReport tell_point(const Study& study, std::vector<double> parameters, std::size_t history_samples,
                        bool gradient);
 
 // The value of a flag in words: "one_stop"; what is no flag has no meaning.
@@ -52,8 +52,8 @@ std::string flag_meaning(const periodic::QuantityDescription& description, doubl
 bool has_value(const PointReport::QuantityValue& quantity);
 
 // For readers.
-void print_point(const StudyFile& study, const PointReport& report, std::ostream& out);
+void print_point(const Study& study, const PointReport& report, std::ostream& out);
 // One JSON object; what has no value is null. Angles in rad, the rest with its unit beside it.
-void print_point_json(const StudyFile& study, const PointReport& report, std::ostream& out);
+void print_point_json(const Study& study, const PointReport& report, std::ostream& out);
 
 }  // namespace frahm::studies

@@ -17,7 +17,7 @@ std::string value_text(const PointReport::QuantityValue& quantity) {
   return fmt::format("{:.10g}", quantity.value);
 }
 
-void print_heading(const StudyFile& study, const PointReport& report, std::ostream& out) {
+void print_heading(const Study& study, const PointReport& report, std::ostream& out) {
   fmt::print(out, "{}{}{}\n", study.title, study.title.empty() ? "" : "  ", study.source.name);
   for (const auto& [name, value] : report.parameters) {
     fmt::print(out, "  {} = {:.12g}{}{}\n", name, value.value, value.unit.empty() ? "" : " ", value.unit);
@@ -80,7 +80,7 @@ void print_gradient(const PointGradient& gradient, std::ostream& out) {
 
 }  // namespace
 
-void print_point(const StudyFile& study, const PointReport& report, std::ostream& out) {
+void print_point(const Study& study, const PointReport& report, std::ostream& out) {
   print_heading(study, report, out);
   print_quantities(report, out);
   print_stretches(report, out);

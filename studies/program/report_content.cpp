@@ -13,7 +13,7 @@ namespace frahm::studies {
 namespace {
 
 // The study that the result holds, if it can be read again: a table that it reads may have stayed elsewhere.
-std::optional<StudyFile> study_of(const results::MapReader& result, const std::filesystem::path& file) {
+std::optional<Study> study_of(const results::MapReader& result, const std::filesystem::path& file) {
   try {
     return read_stored_study(result, file).study;
   } catch (const StudyError& error) {
@@ -24,7 +24,7 @@ std::optional<StudyFile> study_of(const results::MapReader& result, const std::f
 }
 
 // What the table of quantities has an atlas show, and differences from a map compared with.
-bool is_shown_by_default(const std::string& name, const std::optional<StudyFile>& study) {
+bool is_shown_by_default(const std::string& name, const std::optional<Study>& study) {
   if (name.ends_with("_difference")) return true;
   const auto quantity = study ? periodic::find_quantity(name, study->network) : std::nullopt;
   return quantity ? periodic::is_shown(*quantity, study->network) : periodic::is_shown(name);
@@ -32,7 +32,7 @@ bool is_shown_by_default(const std::string& name, const std::optional<StudyFile>
 
 // All recorded quantities if it is none of those.
 std::vector<std::string> default_quantities(const results::MapLayout& layout,
-                                            const std::optional<StudyFile>& study) {
+                                            const std::optional<Study>& study) {
   std::vector<std::string> shown, all;
   bool any_number = false;
   for (const results::Variable& variable : layout.variables) {
@@ -75,21 +75,23 @@ void check_size(const results::MapLayout& layout, std::size_t quantities, bool a
 
 std::vector<std::string> shown_quantities(const std::vector<std::string>& asked,
                                           const results::MapLayout& layout,
-                                          const std::optional<StudyFile>& study) {
+                                          const std::optional<Study>& study) {
   check_quantities(asked, layout);
   if (!asked.empty()) return asked;
-  if (!study || study->report_quantities.empty()) return default_quantities(layout, study);
+  if (!study || !study->sweep() || study->sweep()->report_quantities.empty())
+    return default_quantities(layout, study);
   std::vector<std::string> names;
-  for (const OutputChoice::Name& name : study->report_quantities) names.push_back(name.text);
+  for (const OutputChoice::Name& name : study->sweep()->report_quantities) names.push_back(name.text);
   return names;
 }
 
 // The names of what runs along the axes of the map.
 std::vector<std::string> axis_parameters(const results::MapLayout& layout,
-                                         const std::optional<StudyFile>& study) {
+                                         const std::optional<Study>& study) {
   std::vector<std::string> names;
   if (study) {
-    for (const ParameterAxis& axis : study->axes)
+    if (!study->sweep()) return names;
+    for (const ParameterAxis& axis : study->sweep()->axes)
       names.push_back(study->parameters.list[axis.parameter].name);
   } else {
     for (const results::Axis& axis : layout.axes) names.push_back(axis.name);
@@ -101,7 +103,7 @@ std::vector<std::string> axis_parameters(const results::MapLayout& layout,
 
 results::PageContent page_content(const results::MapReader& result, const std::filesystem::path& file,
                                   const std::vector<std::string>& quantities, bool all_digits) {
-  const std::optional<StudyFile> study = study_of(result, file);
+  const std::optional<Study> study = study_of(result, file);
   const std::vector<std::string> shown = shown_quantities(quantities, result.layout(), study);
   check_size(result.layout(), shown.size(), all_digits);
   return {.file = file.filename().string(),

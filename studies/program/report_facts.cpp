@@ -11,7 +11,7 @@ namespace frahm::studies {
 namespace {
 
 // The frequency of the excitation [rad/s] as the study states it, by which the page knows a period.
-results::Column excitation_frequency(const StudyFile& study) {
+results::Column excitation_frequency(const Study& study) {
   std::vector<double> parameters = study.parameters.nominal();
   mechanics::NetworkValues values;
   evaluate(study.values, study.parameters, parameters, values);
@@ -23,7 +23,7 @@ results::Column excitation_frequency(const StudyFile& study) {
 
 // The unit in which the study speaks of the excitation frequency, as a column of one such unit in SI; none
 // where it speaks of it in SI.
-std::vector<results::Column> frequency_unit(const StudyFile& study) {
+std::vector<results::Column> frequency_unit(const Study& study) {
   for (std::size_t i = 0; i < study.parameters.list.size(); ++i) {
     const Parameter& parameter = study.parameters.list[i];
     if (!parameter.in_frequency || parameter.quantity != Quantity::angular_frequency) continue;
@@ -39,7 +39,7 @@ std::vector<results::Column> frequency_unit(const StudyFile& study) {
 
 // The number of elements of which something holds, given what each adds.
 template <class Condition>
-results::Column number_of(const StudyFile& study, const std::string& name, const Condition& holds) {
+results::Column number_of(const Study& study, const std::string& name, const Condition& holds) {
   const auto& elements = study.network.elements;
   const mechanics::NetworkValues values = motion_values(study);
   double number = 0.0;
@@ -54,15 +54,15 @@ results::Column number_of(const StudyFile& study, const std::string& name, const
 }
 
 // Without a duration a free vibration is followed to its end, as far as it has one.
-results::Column given_duration(const StudyFile& study) {
+results::Column given_duration(const Study& study) {
   return {.variable = {.name = "given_duration",
                        .unit = "1",
                        .long_name = "whether the study says until when its motion is followed"},
-          .values = {study.motion.duration ? 1.0 : 0.0}};
+          .values = {study.motion()->duration ? 1.0 : 0.0}};
 }
 
 // By what the page of a motion knows whether it can end, and what a period is.
-std::vector<results::Column> motion_facts(const StudyFile& study) {
+std::vector<results::Column> motion_facts(const Study& study) {
   using mechanics::ElementKind;
   using Added = mechanics::Added<double>;
   const auto rubs = [](const ElementKind&, const Added& added) { return added.limit != 0.0; };
@@ -72,7 +72,7 @@ std::vector<results::Column> motion_facts(const StudyFile& study) {
   std::vector<results::Column> facts = {number_of(study, "rubbing_elements", rubs),
                                         number_of(study, "hysteretic_elements", hysteretic),
                                         given_duration(study)};
-  if (study.kind == StudyKind::transient) {
+  if (study.kind() == StudyKind::transient) {
     facts.push_back(excitation_frequency(study));
     for (results::Column& unit : frequency_unit(study)) facts.push_back(std::move(unit));
   }
@@ -81,8 +81,8 @@ std::vector<results::Column> motion_facts(const StudyFile& study) {
 
 // The parts of the band over which the limits of a tuning hold, of those that name one, in the unit of its
 // band.
-std::vector<results::Column> limit_bands(const StudyFile& study) {
-  const TuneChoice& tune = *study.tune;
+std::vector<results::Column> limit_bands(const Study& study) {
+  const TuneChoice& tune = *study.tune();
   const std::vector<NamedLimit> named = named_limits(study, 0.0);
   std::vector<results::Column> bands;
   for (std::size_t i = 0; i < tune.limits.size(); ++i) {
@@ -101,13 +101,13 @@ std::vector<results::Column> limit_bands(const StudyFile& study) {
 
 }  // namespace
 
-std::vector<results::PageGroup> report_facts(const StudyFile& study) {
+std::vector<results::PageGroup> report_facts(const Study& study) {
   std::vector<results::PageGroup> groups;
   if (std::vector<results::Column> cranks = crank_motions(study); !cranks.empty())
     groups.push_back({.name = "crank", .columns = std::move(cranks)});
-  if (study.kind == StudyKind::transient || study.kind == StudyKind::decay)
+  if (study.kind() == StudyKind::transient || study.kind() == StudyKind::decay)
     groups.push_back({.name = "study", .columns = motion_facts(study)});
-  if (study.kind == StudyKind::tune) groups.push_back({.name = "study", .columns = limit_bands(study)});
+  if (study.kind() == StudyKind::tune) groups.push_back({.name = "study", .columns = limit_bands(study)});
   return groups;
 }
 

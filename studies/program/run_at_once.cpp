@@ -33,18 +33,18 @@ transient::Watch watch_for_stop(const engine::StopRequest& stop) {
   };
 }
 
-void refuse_sharing(const RunCommandOptions& options, const StudyFile& study) {
+void refuse_sharing(const RunCommandOptions& options, const Study& study) {
   if (options.run.shard.count <= 1) return;
   throw StudyError(rules::other_kind,
                    fmt::format("{}: {} is one piece of work, which an array of tasks cannot share",
-                               study.source.name, kind_noun(study.kind)));
+                               study.source.name, kind_noun(study.kind())));
 }
 
 // What an identification reads it must not take the place of.
-void refuse_own_data(const StudyFile& study, const std::filesystem::path& output) {
-  if (!study.identify) return;
+void refuse_own_data(const Study& study, const std::filesystem::path& output) {
+  if (!study.identify()) return;
   std::error_code ignored;  // a file that is not there is no other's
-  for (const std::filesystem::path& file : study.identify->files) {
+  for (const std::filesystem::path& file : study.identify()->files) {
     if (std::filesystem::equivalent(output, file, ignored))
       throw StudyError(rules::wrong_file,
                        fmt::format("{}: is a file that the study reads; name another for the result with -o",
@@ -53,7 +53,7 @@ void refuse_own_data(const StudyFile& study, const std::filesystem::path& output
 }
 
 // An identification is made anew where its data have changed.
-bool is_of_same_file(const StudyFile& study, const std::filesystem::path& output) {
+bool is_of_same_file(const Study& study, const std::filesystem::path& output) {
   const results::MapReader map(output);
   const std::string name = std::filesystem::path(study.source.name).filename().string();
   return map.has_group(identification_group) && provenance_text(map, "study_file") == name;
@@ -62,7 +62,7 @@ bool is_of_same_file(const StudyFile& study, const std::filesystem::path& output
 void refuse_another_study(const StudyPlan& plan, const std::filesystem::path& output) {
   const auto kept = fingerprint_of_file(output);
   if (!kept || *kept == plan.fingerprint) return;
-  if (plan.study.identify && is_of_same_file(plan.study, output)) return;
+  if (plan.study.identify() && is_of_same_file(plan.study, output)) return;
   throw engine::ResumeRefused(output, *kept, plan.fingerprint);
 }
 
@@ -79,16 +79,16 @@ void write_file(const StudyPlan& plan, const RunRecord& record, const std::files
 // Returns the exit code.
 int compute(const StudyPlan& plan, const RunRecord& record, const std::filesystem::path& output,
             const transient::Watch& watch, std::ostream& out) {
-  const StudyFile& study = plan.study;
-  const std::string motion_group(kind_name(study.kind));
-  if (study.identify) {
+  const Study& study = plan.study;
+  const std::string motion_group(kind_name(study.kind()));
+  if (study.identify()) {
     const IdentificationResult result = identify(study, watch);
     write_file(plan, record, output, identification_group, identification_columns(study, result),
                identification_texts(study, result));
     print_identification(study, result, out);
     return result.fit.converged ? exit_code::done : exit_code::not_converged;
   }
-  if (study.kind == StudyKind::decay) {
+  if (study.kind() == StudyKind::decay) {
     const transient::FreeDecay decay = solve_decay(study, watch);
     write_file(plan, record, output, motion_group, decay_columns(study, decay));
     print_decay(study, decay, out);
@@ -102,11 +102,11 @@ int compute(const StudyPlan& plan, const RunRecord& record, const std::filesyste
 
 }  // namespace
 
-int run_at_once(const RunCommandOptions& options, StudyFile study, std::ostream& out) {
+int run_at_once(const RunCommandOptions& options, Study study, std::ostream& out) {
   refuse_sharing(options, study);
   const RunRecord record{.command = options.command, .threads = 1, .started = utc_now()};
-  const StudyPlan plan = study.identify ? plan_identification(std::move(study), options.set)
-                                        : plan_motion(std::move(study), options.set);
+  const StudyPlan plan = study.identify() ? plan_identification(std::move(study), options.set)
+                                          : plan_motion(std::move(study), options.set);
   const std::filesystem::path output =
       options.run.output.empty() ? default_output(options.study) : options.run.output;
   refuse_own_data(plan.study, output);

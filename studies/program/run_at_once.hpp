@@ -3,7 +3,7 @@
 #include <iosfwd>
 
 #include "studies/program/run_command.hpp"
-#include "studies/reading/study_file.hpp"
+#include "studies/reading/study.hpp"
 
 namespace frahm::studies {
 
@@ -12,6 +12,6 @@ namespace frahm::studies {
 // It takes seconds at most, so nothing is kept in between and a file of the same study is written anew.
 // A signal or the time budget stops it: then it leaves no file. Returns 0; 4 if stopped; 7 if a fit did not
 // converge. Throws as run_command().
-int run_at_once(const RunCommandOptions& options, StudyFile study, std::ostream& out);
+int run_at_once(const RunCommandOptions& options, Study study, std::ostream& out);
 
 }  // namespace frahm::studies

@@ -23,7 +23,7 @@ using Clock = std::chrono::steady_clock;
 
 }  // namespace
 
-int run_map(const RunCommandOptions& options, StudyFile study, std::ostream& out) {
+int run_map(const RunCommandOptions& options, Study study, std::ostream& out) {
   const Clock::time_point start = Clock::now();
   const std::clock_t cpu_start = std::clock();
   RunRecord record{.command = options.command, .threads = 0, .started = utc_now()};

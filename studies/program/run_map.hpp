@@ -3,12 +3,12 @@
 #include <iosfwd>
 
 #include "studies/program/run_command.hpp"
-#include "studies/reading/study_file.hpp"
+#include "studies/reading/study.hpp"
 
 namespace frahm::studies {
 
 // Computes the map of a study of kind "sweep", or what is left of it, and writes its file. Prints a short
 // table of it. Returns 0; 3 if some points failed; 4 if stopped. Throws as run_command().
-int run_map(const RunCommandOptions& options, StudyFile study, std::ostream& out);
+int run_map(const RunCommandOptions& options, Study study, std::ostream& out);
 
 }  // namespace frahm::studies

@@ -55,7 +55,7 @@ int tell_tuning(const StudyPlan& plan, const TuningResult& result, const std::fi
   return code;
 }
 
-int run_tuning(const RunCommandOptions& options, StudyFile study, std::ostream& out) {
+int run_tuning(const RunCommandOptions& options, Study study, std::ostream& out) {
   const Clock::time_point start = Clock::now();
   const std::clock_t cpu_start = std::clock();
   RunRecord record{.command = options.command, .threads = 0, .started = utc_now()};

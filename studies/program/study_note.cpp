@@ -61,7 +61,7 @@ std::optional<StudyNote> read_note(const std::filesystem::path& path) {
 
 // The study of a note. Of one that was moved with its tables and its logs, these are no longer where the
 // study was, but beside the note.
-StudyFile study_of_note(const StudyNote& note, const std::filesystem::path& path) {
+Study study_of_note(const StudyNote& note, const std::filesystem::path& path) {
   try {
     return parse_study(note.text, note.study);
   } catch (const StudyError& as_kept) {
@@ -99,7 +99,7 @@ NotedStudy study_from_note(const std::vector<std::filesystem::path>& outputs,
     const std::filesystem::path path = note_path(output, header.fingerprint);
     const auto note = read_note(path);
     if (!note) continue;
-    StudyFile study = study_of_note(*note, path);
+    Study study = study_of_note(*note, path);
     for (const std::string& set : note->set) {
       const std::vector<Assignment> assignments = parse_assignments(study, "--set", set);
       study = with_parameters(std::move(study), assignments);

@@ -19,7 +19,7 @@ bool write_study_note(const std::filesystem::path& output, const StudyPlan& plan
 
 // A study as its note keeps it.
 struct NotedStudy {
-  StudyFile study;               // with the overrides
+  Study study;                   // with the overrides
   std::vector<std::string> set;  // these, as given
   std::optional<EarlierResult> grown_from;
   std::filesystem::path note;

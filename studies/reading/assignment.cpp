@@ -15,7 +15,7 @@ namespace {
 
 class AssignmentReading {
  public:
-  AssignmentReading(const StudyFile& study, std::string_view option, std::string_view text)
+  AssignmentReading(const Study& study, std::string_view option, std::string_view text)
       : study_(study), option_(option), text_(trimmed(text)) {}
 
   Assignment read() const {
@@ -71,13 +71,13 @@ class AssignmentReading {
     }
   }
 
-  const StudyFile& study_;
+  const Study& study_;
   std::string_view option_, text_;
 };
 
 }  // namespace
 
-std::vector<Assignment> parse_assignments(const StudyFile& study, std::string_view option,
+std::vector<Assignment> parse_assignments(const Study& study, std::string_view option,
                                           std::string_view text) {
   std::vector<Assignment> assignments;
   for (bool more = true; more;) {

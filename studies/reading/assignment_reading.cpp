@@ -5,7 +5,7 @@
 
 namespace frahm::studies {
 
-Assignment read_assignment(const StudyContext& context, const StudyFile& study, const std::string& where,
+Assignment read_assignment(const StudyContext& context, const Study& study, const std::string& where,
                            const TomlEntry& entry, const WhyNot& why_not) {
   const auto fail = [&](Rule rule, Position position, const std::string& message) {
     throw context.source.error_at(rule, position, fmt::format("{}: {}: {}", where, entry.key, message));

@@ -15,7 +15,7 @@ constexpr double most_grid_points = 1e12;        // ages of computing, and far f
 const std::vector<std::string> axis_keys{"parameter", "unit",    "from",   "to",
                                          "points",    "spacing", "values", "zip"};
 
-std::size_t read_axis_parameter(const TomlSection& section, const StudyFile& study) {
+std::size_t read_axis_parameter(const TomlSection& section, const Study& study) {
   const std::string name = section.text("parameter");
   const auto index = study.parameters.find(name);
   if (!index) {
@@ -29,7 +29,7 @@ std::size_t read_axis_parameter(const TomlSection& section, const StudyFile& stu
                              "number",
                              name));
   }
-  for (const ParameterAxis& other : study.axes) {
+  for (const ParameterAxis& other : study.sweep()->axes) {
     if (other.parameter != *index) continue;
     section.fail(rules::given_twice, "parameter",
                  fmt::format("\"{}\" has an axis already (line {})", name, other.position.line));
@@ -145,11 +145,11 @@ void convert_axis(const TomlSection& section, ParameterAxis& axis) {
 }
 
 // Adds the axis to the dimension of its zip, or as a new dimension.
-void add_to_grid(const TomlSection& section, StudyFile& study) {
-  const ParameterAxis& axis = study.axes.back();
-  const std::size_t index = study.axes.size() - 1;
-  for (GridDimension& dimension : study.dimensions) {
-    const ParameterAxis& other = study.axes[dimension.axes.front()];
+void add_to_grid(const TomlSection& section, Study& study) {
+  const ParameterAxis& axis = study.sweep()->axes.back();
+  const std::size_t index = study.sweep()->axes.size() - 1;
+  for (GridDimension& dimension : study.sweep()->dimensions) {
+    const ParameterAxis& other = study.sweep()->axes[dimension.axes.front()];
     if (axis.zip.empty() || other.zip != axis.zip) continue;
     if (axis.values.size() != dimension.size) {
       section.fail(rules::wrong_length, "zip",
@@ -161,10 +161,10 @@ void add_to_grid(const TomlSection& section, StudyFile& study) {
     return;
   }
   const std::string& name = axis.zip.empty() ? study.parameters.list[axis.parameter].name : axis.zip;
-  study.dimensions.push_back({name, {index}, axis.values.size()});
+  study.sweep()->dimensions.push_back({name, {index}, axis.values.size()});
 }
 
-void read_axis(const StudyContext& context, const TomlValue& table, std::size_t number, StudyFile& study) {
+void read_axis(const StudyContext& context, const TomlValue& table, std::size_t number, Study& study) {
   const TomlSection section(context.source, table, label(table, "axis", "parameter", "axis", number),
                             axis_keys);
   ParameterAxis axis;
@@ -179,14 +179,14 @@ void read_axis(const StudyContext& context, const TomlValue& table, std::size_t 
   if (section.find("zip")) axis.zip = section.identifier("zip");
   convert_axis(section, axis);
   check_values_differ(section, axis);
-  study.axes.push_back(std::move(axis));
+  study.sweep()->axes.push_back(std::move(axis));
   add_to_grid(section, study);
 }
 
 // Dimensions, axes and coordinates share the names of the record.
-void check_zip_names(const StudyContext& context, const StudyFile& study) {
-  for (const ParameterAxis& zipped : study.axes) {
-    for (const ParameterAxis& axis : study.axes) {
+void check_zip_names(const StudyContext& context, const Study& study) {
+  for (const ParameterAxis& zipped : study.sweep()->axes) {
+    for (const ParameterAxis& axis : study.sweep()->axes) {
       if (zipped.zip != study.parameters.list[axis.parameter].name) continue;
       throw context.source.error_at(rules::name_taken, zipped.position,
                                     fmt::format("axis \"{}\": zip: \"{}\" is the name of a parameter "
@@ -198,7 +198,7 @@ void check_zip_names(const StudyContext& context, const StudyFile& study) {
 
 }  // namespace
 
-void read_axes(const StudyContext& context, const TomlValue& root, StudyFile& study) {
+void read_axes(const StudyContext& context, const TomlValue& root, Study& study) {
   const auto tables = read_tables(context.source, root, "axis");
   if (tables.empty())
     throw context.source.error_at(rules::missing_section, root.position,
@@ -206,7 +206,8 @@ void read_axes(const StudyContext& context, const TomlValue& root, StudyFile& st
   for (std::size_t i = 0; i < tables.size(); ++i) read_axis(context, *tables[i], i + 1, study);
   check_zip_names(context, study);
   double points = 1.0;
-  for (const GridDimension& dimension : study.dimensions) points *= static_cast<double>(dimension.size);
+  for (const GridDimension& dimension : study.sweep()->dimensions)
+    points *= static_cast<double>(dimension.size);
   if (points > most_grid_points) {
     throw context.source.error_at(
         rules::too_large, tables.back()->position,
@@ -214,7 +215,7 @@ void read_axes(const StudyContext& context, const TomlValue& root, StudyFile& st
   }
 }
 
-void read_coordinates(const StudyContext& context, const TomlValue& root, StudyFile& study) {
+void read_coordinates(const StudyContext& context, const TomlValue& root, Study& study) {
   std::size_t number = 0;
   for (const TomlValue* table : read_tables(context.source, root, "coordinate")) {
     const TomlSection section(context.source, *table,
@@ -223,8 +224,8 @@ void read_coordinates(const StudyContext& context, const TomlValue& root, StudyF
     DerivedCoordinate coordinate;
     coordinate.name = section.identifier("name");
     std::vector<std::string> taken = study.parameters.names();
-    for (const GridDimension& dimension : study.dimensions) taken.push_back(dimension.name);
-    for (const DerivedCoordinate& other : study.coordinates) taken.push_back(other.name);
+    for (const GridDimension& dimension : study.sweep()->dimensions) taken.push_back(dimension.name);
+    for (const DerivedCoordinate& other : study.sweep()->coordinates) taken.push_back(other.name);
     if (std::find(taken.begin(), taken.end(), coordinate.name) != taken.end()) {
       section.fail(rules::name_taken, "name",
                    "the name is taken by a parameter, a zip or another coordinate");
@@ -245,7 +246,7 @@ void read_coordinates(const StudyContext& context, const TomlValue& root, StudyF
                                moving.empty() ? "no axis" : "several axes"));
     }
     coordinate.dimension = moving.front();
-    study.coordinates.push_back(std::move(coordinate));
+    study.sweep()->coordinates.push_back(std::move(coordinate));
   }
 }
 

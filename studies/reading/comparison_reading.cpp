@@ -12,7 +12,7 @@ namespace {
 using mechanics::ExcitationKind;
 using mechanics::FrictionLaw;
 
-void read_compared_law(NetworkReading& reading, const TomlSection& section, const StudyFile& study,
+void read_compared_law(NetworkReading& reading, const TomlSection& section, const Study& study,
                        Comparison& comparison) {
   const auto& elements = study.network.elements;
   const auto rubbing = std::find_if(elements.begin(), elements.end(), [](const auto& each) {
@@ -39,7 +39,7 @@ void read_compared_law(NetworkReading& reading, const TomlSection& section, cons
                  "the study follows the exact law itself; compare it with \"arctan\"");
 }
 
-void read_compared_profile(const TomlSection& section, const StudyFile& study, Comparison& comparison) {
+void read_compared_profile(const TomlSection& section, const Study& study, Comparison& comparison) {
   if (section.find("slope"))
     section.fail(rules::key_without_use, "slope", "belongs to a compared law, not to a compared profile");
   const std::int64_t order = section.integer_or("taylor_order", 0);
@@ -61,7 +61,7 @@ void read_compared_profile(const TomlSection& section, const StudyFile& study, C
 
 // A real-valued quantity of the study by its name.
 periodic::Quantity read_quantity(const TomlSection& section, const OutputChoice::Name& name,
-                                 const StudyFile& study) {
+                                 const Study& study) {
   const auto fail = [&](Rule rule, const std::string& message) {
     throw section.source().error_at(
         rule, name.position, fmt::format("{}: quantities: \"{}\"{}", section.where(), name.text, message));
@@ -83,7 +83,7 @@ periodic::Quantity read_quantity(const TomlSection& section, const OutputChoice:
 
 }  // namespace
 
-void read_comparison(const StudyContext& context, const TomlValue& root, StudyFile& study) {
+void read_comparison(const StudyContext& context, const TomlValue& root, Study& study) {
   const TomlEntry* entry = find_entry(root, "compare");
   if (!entry) return;
   const TomlSection section(context.source, entry->value, "[compare]",
@@ -106,7 +106,7 @@ void read_comparison(const StudyContext& context, const TomlValue& root, StudyFi
   } else {
     comparison.quantities = {{periodic::Measure::peak, 0}};
   }
-  study.comparison = std::move(comparison);
+  study.sweep()->comparison = std::move(comparison);
 }
 
 }  // namespace frahm::studies

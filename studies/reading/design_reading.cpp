@@ -200,7 +200,7 @@ std::size_t read_each(TuneReading& reading, const std::string& path, const Read&
 
 }  // namespace
 
-bool network_depends_on(const StudyFile& study, std::size_t parameter) {
+bool network_depends_on(const Study& study, std::size_t parameter) {
   std::vector<std::size_t> reads = study.values.omega.expression.reads();
   for (const auto* list : study.values.lists()) {
     for (const StudyValue& value : *list)

@@ -18,7 +18,7 @@ struct Checked {
   std::vector<std::size_t> reads;        // parameters
 };
 
-std::vector<Checked> all_checked(const StudyFile& study) {
+std::vector<Checked> all_checked(const Study& study) {
   std::vector<Checked> all;
   for (const std::size_t i : study.parameters.derived)
     all.push_back({nullptr, &study.parameters.list[i], {i}});
@@ -30,18 +30,12 @@ std::vector<Checked> all_checked(const StudyFile& study) {
   for (const auto* list : values.lists()) {
     for (const StudyValue& value : *list) add(value);
   }
-  if (study.comparison && study.comparison->law == mechanics::FrictionLaw::arctan)
-    add(study.comparison->slope);
-  for (const DerivedCoordinate& coordinate : study.coordinates) add(coordinate.value);
-  for (const StudyValue* value : study.motion.values()) add(*value);
-  if (study.identify) {
-    for (const StudyValue* value : study.identify->values()) add(*value);
-  }
+  for (const StudyValue* value : study.values_of_its_kind()) add(*value);
   return all;
 }
 
 // " at omega = 400 rpm, I = 6.36 kg": the numbers on which it depends.
-std::string place_name(const StudyFile& study, const Checked& checked, std::span<const double> parameters) {
+std::string place_name(const Study& study, const Checked& checked, std::span<const double> parameters) {
   std::string text;
   for (const std::size_t i : study.parameters.inputs_of(checked.reads)) {
     const UsualUnit unit = usual_unit(study, i);
@@ -52,7 +46,7 @@ std::string place_name(const StudyFile& study, const Checked& checked, std::span
   return text;
 }
 
-[[noreturn]] void fail(Rule rule, const StudyFile& study, const Checked& checked,
+[[noreturn]] void fail(Rule rule, const Study& study, const Checked& checked,
                        std::span<const double> parameters, const std::string& problem,
                        const std::string& must) {
   const Position position = checked.value ? checked.value->position : checked.parameter->position;
@@ -63,7 +57,7 @@ std::string place_name(const StudyFile& study, const Checked& checked, std::span
       fmt::format("{}: {}{}; {}", where, problem, place_name(study, checked, parameters), must));
 }
 
-void check_derived(const StudyFile& study, const Checked& checked, std::span<const double> parameters) {
+void check_derived(const Study& study, const Checked& checked, std::span<const double> parameters) {
   const double value = parameters[checked.reads.front()];
   if (std::isfinite(value)) return;
   if (const auto* table = std::get_if<TableOf>(&checked.parameter->definition)) {
@@ -76,7 +70,7 @@ void check_derived(const StudyFile& study, const Checked& checked, std::span<con
   fail(rules::out_of_range, study, checked, parameters, "has no value", "must be a finite number");
 }
 
-void check_value(const StudyFile& study, const Checked& checked, std::span<const double> parameters) {
+void check_value(const Study& study, const Checked& checked, std::span<const double> parameters) {
   const double value = checked.value->expression.evaluate(parameters);
   const bool pure = study.dimensionless || checked.value->quantity == Quantity::number;
   const auto is = [&] {
@@ -95,7 +89,7 @@ void check_value(const StudyFile& study, const Checked& checked, std::span<const
        is_rate ? "must be > 0; the direction follows from sweep_to" : "must be > 0");
 }
 
-void check(const StudyFile& study, const Checked& checked, std::span<double> parameters) {
+void check(const Study& study, const Checked& checked, std::span<double> parameters) {
   study.parameters.complete(parameters);
   if (checked.value) {
     check_value(study, checked, parameters);
@@ -107,22 +101,23 @@ void check(const StudyFile& study, const Checked& checked, std::span<double> par
 // Walks over the product of the dimensions along which `reads` change, all points or only the corners.
 // visit(): at each, with `parameters` placed there but not completed.
 template <class Visit>
-void walk(const StudyFile& study, std::span<const std::size_t> reads, std::vector<double>& parameters,
+void walk(const Study& study, std::span<const std::size_t> reads, std::vector<double>& parameters,
           const Visit& visit) {
   const auto moving = dimensions_moving(study, reads);
   std::size_t points = 1;
   for (const std::size_t d : moving) {
-    if (points <= most_points_tried) points *= study.dimensions[d].size;
+    if (points <= most_points_tried) points *= study.sweep()->dimensions[d].size;
   }
   const bool corners = points > most_points_tried;
   std::vector<std::size_t> index(moving.size(), 0);
   std::size_t turned = 0;
   do {
-    for (std::size_t i = 0; i < moving.size(); ++i) place(study, moving[i], index[i], parameters);
+    for (std::size_t i = 0; i < moving.size(); ++i)
+      set_along(*study.sweep(), moving[i], index[i], parameters);
     visit();
     // The next index, like the digits of a counter.
     for (turned = 0; turned < moving.size(); ++turned) {
-      const std::size_t last = study.dimensions[moving[turned]].size - 1;
+      const std::size_t last = study.sweep()->dimensions[moving[turned]].size - 1;
       if (index[turned] < last) {
         index[turned] = corners ? last : index[turned] + 1;
         break;
@@ -132,8 +127,19 @@ void walk(const StudyFile& study, std::span<const std::size_t> reads, std::vecto
   } while (turned < moving.size());
 }
 
+// The parameters (SI) of the orbits that a sweep keeps.
+std::vector<std::vector<double>> kept_orbits(const Study& study) {
+  std::vector<std::vector<double>> orbits;
+  if (!study.sweep()) return orbits;
+  for (const auto& orbit : study.sweep()->output.orbits) {
+    orbits.push_back(study.parameters.nominal());
+    for (const Assignment& assignment : orbit) orbits.back()[assignment.parameter] = assignment.value;
+  }
+  return orbits;
+}
+
 // The parameters that an excitation's crank and rod read.
-std::vector<std::size_t> reads_of_crank(const StudyFile& study, std::size_t excitation) {
+std::vector<std::size_t> reads_of_crank(const Study& study, std::size_t excitation) {
   std::vector<std::size_t> reads = study.values.amplitude[excitation].expression.reads();
   const auto& of_rod = study.values.rod[excitation].expression.reads();
   reads.insert(reads.end(), of_rod.begin(), of_rod.end());
@@ -141,7 +147,7 @@ std::vector<std::size_t> reads_of_crank(const StudyFile& study, std::size_t exci
 }
 
 // crank/rod of an excitation at a point (SI values of all parameters, completed).
-double crank_ratio(const StudyFile& study, std::size_t excitation, std::span<const double> parameters) {
+double crank_ratio(const Study& study, std::size_t excitation, std::span<const double> parameters) {
   const StudyValue &crank = study.values.amplitude[excitation], &rod = study.values.rod[excitation];
   const double ratio = crank.expression.evaluate(parameters) / rod.expression.evaluate(parameters);
   if (ratio <= mechanics::kLargestCrankRatio) return ratio;
@@ -151,12 +157,12 @@ double crank_ratio(const StudyFile& study, std::size_t excitation, std::span<con
                    mechanics::kLargestCrankRatio));
 }
 
-bool is_crank(const StudyFile& study, std::size_t excitation) {
+bool is_crank(const Study& study, std::size_t excitation) {
   return study.network.excitations[excitation].kind == mechanics::ExcitationKind::crank;
 }
 
 // The largest crank/rod of an excitation on the grid and at the orbits kept.
-double largest_crank_ratio(const StudyFile& study, std::size_t excitation) {
+double largest_crank_ratio(const Study& study, std::size_t excitation) {
   std::vector<double> parameters = study.parameters.nominal();
   double largest = 0.0;
   const auto visit = [&] {
@@ -164,9 +170,8 @@ double largest_crank_ratio(const StudyFile& study, std::size_t excitation) {
     largest = std::max(largest, crank_ratio(study, excitation, parameters));
   };
   walk(study, reads_of_crank(study, excitation), parameters, visit);
-  for (const auto& orbit : study.output.orbits) {
-    parameters = study.parameters.nominal();
-    for (const Assignment& assignment : orbit) parameters[assignment.parameter] = assignment.value;
+  for (const std::vector<double>& orbit : kept_orbits(study)) {
+    parameters = orbit;
     visit();
   }
   return largest;
@@ -179,13 +184,13 @@ void keep_orders(mechanics::Excitation& crank, double ratio) {
 
 }  // namespace
 
-void set_crank_orders(StudyFile& study) {
+void set_crank_orders(Study& study) {
   for (std::size_t i = 0; i < study.network.excitations.size(); ++i) {
     if (is_crank(study, i)) keep_orders(study.network.excitations[i], largest_crank_ratio(study, i));
   }
 }
 
-void add_crank_orders_at(StudyFile& study, std::span<const double> parameters) {
+void add_crank_orders_at(Study& study, std::span<const double> parameters) {
   for (std::size_t i = 0; i < study.network.excitations.size(); ++i) {
     if (!is_crank(study, i)) continue;
     mechanics::Excitation& crank = study.network.excitations[i];
@@ -195,28 +200,24 @@ void add_crank_orders_at(StudyFile& study, std::span<const double> parameters) {
   }
 }
 
-void set_crank_orders_at(StudyFile& study, std::span<double> parameters) {
+void set_crank_orders_at(Study& study, std::span<double> parameters) {
   study.parameters.complete(parameters);
   for (std::size_t i = 0; i < study.network.excitations.size(); ++i) {
     if (is_crank(study, i)) keep_orders(study.network.excitations[i], crank_ratio(study, i, parameters));
   }
 }
 
-void check_point(const StudyFile& study, std::span<double> parameters) {
+void check_point(const Study& study, std::span<double> parameters) {
   for (const Checked& checked : all_checked(study)) check(study, checked, parameters);
 }
 
-void check_grid(const StudyFile& study) {
+void check_grid(const Study& study) {
   const std::vector<double> nominal = study.parameters.nominal();
   for (const Checked& checked : all_checked(study)) {
     std::vector<double> parameters = nominal;
     walk(study, checked.reads, parameters, [&] { check(study, checked, parameters); });
   }
-  for (const auto& orbit : study.output.orbits) {
-    std::vector<double> parameters = nominal;
-    for (const Assignment& assignment : orbit) parameters[assignment.parameter] = assignment.value;
-    check_point(study, parameters);
-  }
+  for (std::vector<double> parameters : kept_orbits(study)) check_point(study, parameters);
 }
 
 }  // namespace frahm::studies

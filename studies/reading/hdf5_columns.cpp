@@ -61,7 +61,7 @@ void check_finite(const ColumnReading& reading) {
     for (std::size_t i = 0; i < column.values.size(); ++i) {
       if (std::isfinite(column.values[i])) continue;
       reading.fail(rules::wrong_row, fmt::format("{}: {} is not a finite number",
-                                                 reading.result.place(column, i), column.values[i]));
+                                                 reading.result.where(column, i), column.values[i]));
     }
   }
 }

@@ -61,22 +61,22 @@ std::vector<std::string> estimates_of(const IdentifyChoice& choice) {
   return names;
 }
 
-bool reads(const StudyFile& study, const StudyValue& value, std::size_t parameter) {
+bool reads(const Study& study, const StudyValue& value, std::size_t parameter) {
   const auto inputs = study.parameters.inputs_of(value.expression.reads());
   return std::find(inputs.begin(), inputs.end(), parameter) != inputs.end();
 }
 
 // Whether the network or its initial values depend on a parameter.
-bool system_depends_on(const StudyFile& study, std::size_t parameter) {
+bool system_depends_on(const Study& study, std::size_t parameter) {
   if (reads(study, study.values.omega, parameter)) return true;
   for (const auto* list : study.values.lists()) {
     for (const StudyValue& value : *list) {
       if (reads(study, value, parameter)) return true;
     }
   }
-  const auto initial = study.motion.values();
-  return std::any_of(initial.begin(), initial.end(),
-                     [&](const StudyValue* value) { return reads(study, *value, parameter); });
+  return std::ranges::any_of(study.initial(), [&](const InitialValues& of_mass) {
+    return reads(study, of_mass.displacement, parameter) || reads(study, of_mass.velocity, parameter);
+  });
 }
 
 std::size_t read_parameter(const IdentifyReading& reading, const TomlSection& section) {
@@ -122,7 +122,7 @@ UsualUnit read_usual_unit(const IdentifyReading& reading, const TomlSection& sec
 }
 
 // Some value of the network is this parameter, and may not be negative.
-bool cannot_be_negative(const StudyFile& study, std::size_t parameter) {
+bool cannot_be_negative(const Study& study, std::size_t parameter) {
   for (const auto* list : study.values.lists()) {
     for (const StudyValue& value : *list) {
       if (value.range != Range::finite && value.expression.sole_parameter() == parameter) return true;
@@ -131,7 +131,7 @@ bool cannot_be_negative(const StudyFile& study, std::size_t parameter) {
   return false;
 }
 
-void read_bounds(const StudyFile& study, const TomlSection& section, IdentifiedParameter& fitted) {
+void read_bounds(const Study& study, const TomlSection& section, IdentifiedParameter& fitted) {
   const double factor = fitted.unit.si_factor;
   if (cannot_be_negative(study, fitted.parameter)) fitted.lower = 0.0;
   if (section.find("lower")) fitted.lower = section.number("lower") * factor;

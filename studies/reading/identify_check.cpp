@@ -6,8 +6,8 @@ namespace frahm::studies {
 namespace {
 
 // What the cranks need wherever the bounds let a fit go.
-void add_crank_orders_within(StudyFile& study, const std::vector<double>& start) {
-  const auto& fitted = study.identify->parameters;
+void add_crank_orders_within(Study& study, const std::vector<double>& start) {
+  const auto& fitted = study.identify()->parameters;
   for (const std::vector<bool>& corner : corners(fitted.size())) {
     std::vector<double> parameters = start;
     for (std::size_t i = 0; i < corner.size(); ++i) {
@@ -21,9 +21,9 @@ void add_crank_orders_within(StudyFile& study, const std::vector<double>& start)
 
 }  // namespace
 
-void check_identification(StudyFile& study) {
+void check_identification(Study& study) {
   if (study.network.masses.empty()) return;
-  for (const RecordChoice& record : study.identify->records) {
+  for (const RecordChoice& record : study.identify()->records) {
     std::vector<double> parameters = study.parameters.nominal();
     for (const Assignment& assignment : record.set) parameters[assignment.parameter] = assignment.value;
     check_point(study, parameters);

@@ -8,6 +8,7 @@
 
 #include "solvers/algebra/no_value.hpp"
 #include "solvers/identification/measurement.hpp"
+#include "studies/reading/motion_choice.hpp"
 #include "studies/reading/parameters.hpp"
 #include "studies/reading/study_values.hpp"
 
@@ -97,7 +98,9 @@ struct IdentifyChoice {
   std::vector<std::filesystem::path> files;  // all that the study reads: of the records and of `fixed_from`
   std::vector<std::vector<double>> fixed_covariance;  // of `fixed`, in its order
 
-  // The values that are expressions of parameters.
+  std::vector<InitialValues> initial;  // of the free records of a grey box
+
+  // The values beside `initial` that are expressions of parameters.
   std::vector<const StudyValue*> values() const;
 };
 

@@ -101,7 +101,7 @@ RecordChoice read_record_heading(NetworkReading& reading, const TomlSection& sec
   return record;
 }
 
-void check_system(const TomlSection& section, const StudyFile& study, const IdentifyChoice& choice) {
+void check_system(const TomlSection& section, const Study& study, const IdentifyChoice& choice) {
   if (choice.method != Method::grey_box || !study.network.masses.empty()) return;
   section.fail(rules::missing_section, "method",
                "a grey box fits parameters of a system, and the study has none: [[mass]] and [[element]]");
@@ -109,8 +109,7 @@ void check_system(const TomlSection& section, const StudyFile& study, const Iden
 
 // A hysteretic element has its damping at one frequency, which nothing else tells where nothing is forced at
 // a known one.
-void check_reference_frequency(const TomlSection& section, const StudyFile& study,
-                               const IdentifyChoice& choice) {
+void check_reference_frequency(const TomlSection& section, const Study& study, const IdentifyChoice& choice) {
   if (choice.reference_frequency || !mechanics::frequency_dependent_element(study.network)) return;
   for (const RecordChoice& record : choice.records) {
     const bool free = record.motion == identification::MotionKind::free;
@@ -124,7 +123,7 @@ void check_reference_frequency(const TomlSection& section, const StudyFile& stud
 }
 
 // Liang and Feeny's method starts a fit of one mass whose free vibration was measured.
-void check_start(const TomlSection& section, const StudyFile& study, const IdentifyChoice& choice) {
+void check_start(const TomlSection& section, const Study& study, const IdentifyChoice& choice) {
   if (choice.start != IdentifyStart::free_decay) return;
   if (study.network.masses.size() != 1)
     section.fail(rules::unfit_for_method, "start",
@@ -219,9 +218,9 @@ std::vector<TomlSection> parameter_sections(const TomlSection& identify, const T
                      {"parameter", "lower", "upper", "unit", "each_record", "estimate"});
 }
 
-void read_identification(const StudyContext& context, const TomlValue& root, StudyFile& study) {
+void read_identification(const StudyContext& context, const TomlValue& root, Study& study) {
   const TomlSection section = identify_section(context.source, root);
-  IdentifyChoice choice;
+  IdentifyChoice& choice = *study.identify();
   read_method(section, choice);
   check_system(section, study, choice);
   NetworkReading reading(context, study.parameters);
@@ -231,13 +230,12 @@ void read_identification(const StudyContext& context, const TomlValue& root, Stu
     choice.records.push_back(read_record_heading(reading, record, choice));
   if (choice.records.empty())
     section.fail(rules::missing_section, "the study has no [[identify.record]]: nothing was measured");
-  study.identify = std::move(choice);
 }
 
 void read_measurements(const StudyContext& context, const TomlValue& root,
-                       const std::filesystem::path& folder, DataFiles data, StudyFile& study) {
+                       const std::filesystem::path& folder, DataFiles data, Study& study) {
   const TomlSection section = identify_section(context.source, root);
-  IdentifyChoice& choice = *study.identify;
+  IdentifyChoice& choice = *study.identify();
   IdentifyReading reading{context, folder, data, study, choice};
   const std::vector<TomlSection> records = record_sections(section, root);
   const auto read_all_records = [&] {

@@ -15,8 +15,8 @@ struct IdentifyReading {
   const StudyContext& context;
   std::filesystem::path folder;  // of the files that the study names
   DataFiles data = DataFiles::read;
-  StudyFile& study;
-  IdentifyChoice& choice;  // study.identify
+  Study& study;
+  IdentifyChoice& choice;  // study.identify()
 };
 
 TomlSection identify_section(const StudySource& source, const TomlValue& root);

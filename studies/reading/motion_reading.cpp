@@ -46,22 +46,24 @@ InitialValues read_initial_values(NetworkReading& reading, const TomlValue& tabl
           read_value(reading, section, "velocity", Quantity::speed, Range::finite, 0.0)};
 }
 
-void read_initial(NetworkReading& reading, const TomlValue& root, MotionChoice& motion) {
+std::vector<InitialValues> read_initial(NetworkReading& reading, const TomlValue& root) {
+  std::vector<InitialValues> initial;
   std::size_t number = 0;
   for (const TomlValue* table : read_tables(reading.context.source, root, "initial")) {
     InitialValues values = read_initial_values(reading, *table, ++number);
-    const bool twice = std::any_of(motion.initial.begin(), motion.initial.end(),
+    const bool twice = std::any_of(initial.begin(), initial.end(),
                                    [&](const InitialValues& other) { return other.mass == values.mass; });
     if (twice) {
       throw reading.context.source.error_at(rules::given_twice, table->position,
                                             fmt::format("initial values of \"{}\": are given twice",
                                                         reading.result.network.masses[values.mass]));
     }
-    motion.initial.push_back(std::move(values));
+    initial.push_back(std::move(values));
   }
+  return initial;
 }
 
-void read_decay(NetworkReading& reading, const TomlValue& root, MotionChoice& motion) {
+void read_decay(NetworkReading& reading, const TomlValue& root, DecayChoice& motion) {
   static const TomlValue nothing{{}, TomlTable{}};
   const TomlEntry* entry = find_entry(root, "decay");
   const TomlSection section(reading.context.source, entry ? entry->value : nothing, "[decay]",
@@ -108,7 +110,7 @@ void check_run_up(const NetworkReading& reading, const TomlSection& section) {
   }
 }
 
-void read_transient(NetworkReading& reading, const TomlValue& root, MotionChoice& motion) {
+void read_transient(NetworkReading& reading, const TomlValue& root, TransientChoice& motion) {
   const TomlEntry* entry = find_entry(root, "transient");
   if (!entry)
     throw reading.context.source.error_at(rules::missing_section, root.position,
@@ -132,19 +134,19 @@ void read_transient(NetworkReading& reading, const TomlValue& root, MotionChoice
 
 }  // namespace
 
-void refuse_smooth_friction(const StudyFile& study) {
+void refuse_smooth_friction(const Study& study) {
   for (std::size_t e = 0; e < study.network.elements.size(); ++e) {
     if (study.network.elements[e].law != mechanics::FrictionLaw::arctan) continue;
     const StudyValue& slope = study.values.second[e];
     throw study.source.error_at(rules::wrong_law, slope.position,
                                 fmt::format("{}: {} follows friction as it is; the law \"arctan\" is for a "
                                             "sweep",
-                                            slope.where, kind_noun(study.kind)));
+                                            slope.where, kind_noun(study.kind())));
   }
 }
 
 // The energies of a motion stand beside those of its elements, <element>_energy.
-void refuse_names_of_energies(const StudyContext& context, const StudyFile& study) {
+void refuse_names_of_energies(const StudyContext& context, const Study& study) {
   const auto& elements = study.network.elements;
   for (std::size_t e = 0; e < elements.size(); ++e) {
     const std::string& name = elements[e].name;
@@ -157,17 +159,17 @@ void refuse_names_of_energies(const StudyContext& context, const StudyFile& stud
   }
 }
 
-void read_motion(const StudyContext& context, const TomlValue& root, StudyFile& study) {
+void read_motion(const StudyContext& context, const TomlValue& root, Study& study) {
   refuse_smooth_friction(study);
-  if (study.kind != StudyKind::identify) refuse_names_of_energies(context, study);
+  if (!study.identify()) refuse_names_of_energies(context, study);
   NetworkReading reading(context, study.parameters);
   reading.result = {study.network, study.values};
-  read_initial(reading, root, study.motion);
-  if (study.kind == StudyKind::decay) {
-    read_decay(reading, root, study.motion);
-  } else if (study.kind == StudyKind::transient) {
-    read_transient(reading, root, study.motion);
-  }
+  std::vector<InitialValues> initial = read_initial(reading, root);
+  if (IdentifyChoice* identify = study.identify()) identify->initial = std::move(initial);
+  if (MotionChoice* motion = study.motion()) motion->initial = std::move(initial);
+  if (auto* decay = std::get_if<DecayChoice>(&study.choice)) read_decay(reading, root, *decay);
+  if (auto* transient = std::get_if<TransientChoice>(&study.choice))
+    read_transient(reading, root, *transient);
 }
 
 }  // namespace frahm::studies

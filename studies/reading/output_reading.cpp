@@ -28,7 +28,7 @@ void read_quantities(const TomlSection& section, OutputChoice& output) {
   output.names = read_quantity_names(section);
 }
 
-void read_orbits(const StudyContext& context, const TomlSection& section, StudyFile& study) {
+void read_orbits(const StudyContext& context, const TomlSection& section, Study& study) {
   const TomlValue* value = section.find("orbits");
   if (!value) return;
   const auto* points = value->as<TomlArray>();
@@ -47,13 +47,13 @@ void read_orbits(const StudyContext& context, const TomlSection& section, StudyF
     std::vector<Assignment> assignments;
     for (const TomlEntry& entry : *entries)
       assignments.push_back(read_assignment(context, study, "[output]: orbits", entry));
-    study.output.orbits.push_back(std::move(assignments));
+    study.sweep()->output.orbits.push_back(std::move(assignments));
   }
 }
 
-void read_borders(const TomlSection& section, StudyFile& study) {
-  study.output.borders = section.boolean_or("borders", false);
-  if (!study.output.borders) return;
+void read_borders(const TomlSection& section, Study& study) {
+  study.sweep()->output.borders = section.boolean_or("borders", false);
+  if (!study.sweep()->output.borders) return;
   std::size_t contacts = 0;
   for (const mechanics::Element& element : study.network.elements) {
     if (!mechanics::has_contact(element)) continue;
@@ -75,14 +75,14 @@ void read_borders(const TomlSection& section, StudyFile& study) {
 }
 
 // Whether each frequency along a dimension belongs to one place of it.
-bool frequencies_differ(const StudyFile& study, std::size_t dimension) {
+bool frequencies_differ(const Study& study, std::size_t dimension) {
   std::vector<double> parameters = study.parameters.nominal(), omega;
-  for (std::size_t i = 0; i < study.dimensions[dimension].size; ++i) {
-    place(study, dimension, i, parameters);
+  for (std::size_t i = 0; i < study.sweep()->dimensions[dimension].size; ++i) {
+    set_along(*study.sweep(), dimension, i, parameters);
     study.parameters.complete(std::span<double>(parameters));
     omega.push_back(study.values.omega.expression.evaluate(std::span<const double>(parameters)));
   }
-  const auto& places = study.axes[study.dimensions[dimension].axes.front()].si_values;
+  const auto& places = study.sweep()->axes[study.sweep()->dimensions[dimension].axes.front()].si_values;
   for (std::size_t i = 2; i < omega.size(); ++i) {
     const double before = (omega[i - 1] - omega[i - 2]) * (places[i - 1] - places[i - 2]);
     if (before * (omega[i] - omega[i - 1]) * (places[i] - places[i - 1]) <= 0.0) return false;
@@ -90,7 +90,7 @@ bool frequencies_differ(const StudyFile& study, std::size_t dimension) {
   return true;
 }
 
-void read_resonances(const StudyContext& context, const TomlSection& section, StudyFile& study) {
+void read_resonances(const StudyContext& context, const TomlSection& section, Study& study) {
   const TomlValue* value = section.find("resonances");
   if (!value) return;
   const auto* names = value->as<TomlArray>();
@@ -106,14 +106,15 @@ void read_resonances(const StudyContext& context, const TomlSection& section, St
           fmt::format("{}: no mass is called \"{}\"{}", where, name, suggestion(name, masses)));
     }
     const auto index = static_cast<std::size_t>(mass - masses.begin());
-    auto& chosen = study.output.resonances;
+    auto& chosen = study.sweep()->output.resonances;
     if (std::find(chosen.begin(), chosen.end(), index) != chosen.end())
       throw context.source.error_at(rules::given_twice, item.position,
                                     fmt::format("{}: \"{}\" appears twice", where, name));
     chosen.push_back(index);
   }
-  const auto dimension = study.frequency_dimension;
-  if (!dimension || study.dimensions[*dimension].axes.size() > 1 || study.dimensions[*dimension].size < 3) {
+  const auto dimension = study.sweep()->frequency_dimension;
+  if (!dimension || study.sweep()->dimensions[*dimension].axes.size() > 1 ||
+      study.sweep()->dimensions[*dimension].size < 3) {
     section.fail(
         rules::unfit_axis, "resonances",
         "a resonance is sought along an axis of the excitation frequency: one that is zipped with no "
@@ -149,23 +150,23 @@ std::vector<OutputChoice::Name> read_quantity_names(const TomlSection& section) 
   return names;
 }
 
-void read_output(const StudyContext& context, const TomlValue& root, StudyFile& study) {
+void read_output(const StudyContext& context, const TomlValue& root, Study& study) {
   const TomlEntry* entry = find_entry(root, "output");
   if (!entry) return;
   const TomlSection section(context.source, entry->value, "[output]",
                             {"quantities", "precision", "borders", "orbits", "resonances"});
-  read_quantities(section, study.output);
-  study.output.single_precision = section.choice_or("precision", {"double", "single"}) == "single";
+  read_quantities(section, study.sweep()->output);
+  study.sweep()->output.single_precision = section.choice_or("precision", {"double", "single"}) == "single";
   read_borders(section, study);
   read_orbits(context, section, study);
   read_resonances(context, section, study);
 }
 
-void read_report(const StudyContext& context, const TomlValue& root, StudyFile& study) {
+void read_report(const StudyContext& context, const TomlValue& root, Study& study) {
   const TomlEntry* entry = find_entry(root, "report");
   if (!entry) return;
   const TomlSection section(context.source, entry->value, "[report]", {"quantities"});
-  if (section.find("quantities")) study.report_quantities = read_quantity_names(section);
+  if (section.find("quantities")) study.sweep()->report_quantities = read_quantity_names(section);
 }
 
 }  // namespace frahm::studies

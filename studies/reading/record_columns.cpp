@@ -4,7 +4,7 @@
 
 namespace frahm::studies {
 
-std::string RawRecord::place(const RawColumn& column, std::size_t row) const {
+std::string RawRecord::where(const RawColumn& column, std::size_t row) const {
   return has_lines ? fmt::format("{}:{}: {}", file, rows[row], column.called)
                    : fmt::format("{}: {}: value {}", file, column.called, rows[row]);
 }

@@ -30,7 +30,7 @@ struct RawRecord {
   bool first_is_doubtful = false;   // the first row is one of them
 
   // `low.csv:12: column 2 "x [mm]"`, or `low.h5: "transient/time": value 12`.
-  std::string place(const RawColumn& column, std::size_t row) const;
+  std::string where(const RawColumn& column, std::size_t row) const;
 };
 
 // The error at the file that a record names.

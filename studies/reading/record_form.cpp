@@ -112,8 +112,8 @@ const Role* RecordForm::find(const std::string& name) const {
   return role == roles.end() ? nullptr : &*role;
 }
 
-std::vector<RecordForm> record_forms(const StudyFile& study) {
-  switch (study.identify->method) {
+std::vector<RecordForm> record_forms(const Study& study) {
+  switch (study.identify()->method) {
     case Method::half_power:
       return half_power_forms();
     case Method::resonance_magnification:
@@ -122,7 +122,7 @@ std::vector<RecordForm> record_forms(const StudyFile& study) {
     case Method::free_decay:
       return decay_forms();
     case Method::forced_resonance:
-      return resonance_forms(study.identify->curve);
+      return resonance_forms(study.identify()->curve);
     case Method::energy_balance:
       return energy_forms();
     case Method::hysteresis_loop:
@@ -166,7 +166,7 @@ std::string described(const RecordForm& form) {
   return text;
 }
 
-bool is_excitation(const StudyFile& study, const std::string& role) {
+bool is_excitation(const Study& study, const std::string& role) {
   const auto names = [&](const std::vector<std::string>& nodes, const char* ending) {
     return std::any_of(nodes.begin(), nodes.end(),
                        [&](const std::string& node) { return role == node + ending; });
@@ -174,7 +174,7 @@ bool is_excitation(const StudyFile& study, const std::string& role) {
   return names(study.network.masses, "_force") || names(study.network.prescribed, "_displacement");
 }
 
-bool is_motion(const StudyFile& study, const std::string& role) {
+bool is_motion(const Study& study, const std::string& role) {
   return role != "time" && !is_excitation(study, role);
 }
 

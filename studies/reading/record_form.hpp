@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/reading/study_file.hpp"
+#include "studies/reading/study.hpp"
 #include "studies/reading/units.hpp"
 
 // Which columns a record of measurements has, by the method that reads it.
@@ -34,7 +34,7 @@ inline constexpr const char* doubtful_role = "doubtful";  // 1: the row is left 
 
 // The forms that a record of the study may have, the first preferred. Of a grey box: time, and
 // <mass>_displacement, <mass>_velocity, <mass>_acceleration, <mass>_force and <support>_displacement.
-std::vector<RecordForm> record_forms(const StudyFile& study);
+std::vector<RecordForm> record_forms(const Study& study);
 
 // All names that a column may have in one form or another.
 std::vector<std::string> role_names(const std::vector<RecordForm>& forms);
@@ -47,7 +47,7 @@ const RecordForm& form_of(const std::vector<RecordForm>& forms, const std::vecto
 std::string described(const RecordForm& form);
 
 // Columns of a measured excitation or of a mass's motion.
-bool is_excitation(const StudyFile& study, const std::string& role);
-bool is_motion(const StudyFile& study, const std::string& role);
+bool is_excitation(const Study& study, const std::string& role);
+bool is_motion(const Study& study, const std::string& role);
 
 }  // namespace frahm::studies

@@ -98,7 +98,7 @@ double factor_of(const IdentifyReading& reading, const TomlSection& section, con
 void check_values(const TomlSection& section, const RawRecord& raw, const RawColumn& column) {
   const auto& values = column.values;
   const auto fail = [&](Rule rule, std::size_t row, const std::string& problem) {
-    throw data_error(rule, section, fmt::format("{}: {}", raw.place(column, row), problem));
+    throw data_error(rule, section, fmt::format("{}: {}", raw.where(column, row), problem));
   };
   const Range range = column.role->range;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -154,7 +154,7 @@ void refuse_other_excitation(const IdentifyReading& reading, const TomlSection& 
 
 // Of a grey box: how the motion came about, and what must be there for it.
 void read_motion_kind(const IdentifyReading& reading, const TomlSection& section, RecordChoice& record) {
-  const StudyFile& study = reading.study;
+  const Study& study = reading.study;
   const auto& columns = record.columns;
   const auto any = [&](auto is) {
     return std::any_of(columns.begin(), columns.end(),
@@ -182,7 +182,7 @@ void read_motion_kind(const IdentifyReading& reading, const TomlSection& section
                  "a measured excitation drives the motion at all times: none of its rows can be left out as "
                  "doubtful");
   if (measured) refuse_other_excitation(reading, section, record);
-  if (record.motion == MotionKind::free && study.motion.initial.empty())
+  if (record.motion == MotionKind::free && study.initial().empty())
     section.fail(
         rules::missing_section,
         "a free motion starts from [[initial]] values, and the study has none: nothing moves that is not "

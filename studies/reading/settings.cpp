@@ -7,15 +7,15 @@
 
 namespace frahm::studies {
 
-StudyFile read_study_with(const std::filesystem::path& path, const std::vector<std::string>& set) {
-  StudyFile study = read_study(path);
+Study read_study_with(const std::filesystem::path& path, const std::vector<std::string>& set) {
+  Study study = read_study(path);
   if (set.empty()) return study;
   const std::vector<Assignment> assignments =
       parse_assignments(study, "--set", fmt::format("{}", fmt::join(set, ",")));
   return with_parameters(std::move(study), assignments);
 }
 
-std::vector<double> parameters_at(const StudyFile& study, const std::vector<std::string>& at) {
+std::vector<double> parameters_at(const Study& study, const std::vector<std::string>& at) {
   std::vector<double> parameters = study.parameters.nominal();
   if (!at.empty()) {
     for (const Assignment& assignment :
@@ -27,7 +27,7 @@ std::vector<double> parameters_at(const StudyFile& study, const std::vector<std:
   return parameters;
 }
 
-SpokenValue spoken_value(const StudyFile& study, std::size_t parameter, double si) {
+SpokenValue spoken_value(const Study& study, std::size_t parameter, double si) {
   const UsualUnit usual = usual_unit(study, parameter);
   SpokenValue spoken{si / usual.si_factor, usual.text};
   const Parameter& definition = study.parameters.list[parameter];
@@ -36,7 +36,7 @@ SpokenValue spoken_value(const StudyFile& study, std::size_t parameter, double s
   return spoken;
 }
 
-std::string recorded_unit(const StudyFile& study, std::size_t parameter) {
+std::string recorded_unit(const Study& study, std::size_t parameter) {
   const Parameter& definition = study.parameters.list[parameter];
   if (study.dimensionless) return "1";
   if (definition.quantity) return std::string(si_unit(*definition.quantity));

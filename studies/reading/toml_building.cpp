@@ -14,7 +14,7 @@ TomlValue toml_string(const std::string& value) {
   return {{}, value};
 }
 
-TomlValue toml_parameter(const StudyFile& study, std::size_t parameter, double si) {
+TomlValue toml_parameter(const Study& study, std::size_t parameter, double si) {
   const SpokenValue spoken = spoken_value(study, parameter, si);
   if (spoken.unit.empty()) return toml_number(spoken.value);
   return {{}, TomlTable{{"value", {}, toml_number(spoken.value)}, {"unit", {}, toml_string(spoken.unit)}}};

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "studies/reading/study_file.hpp"
+#include "studies/reading/study.hpp"
 #include "studies/reading/toml_reading.hpp"
 
 // Values for a document that is written (toml_writing.hpp); they have no place in a text.
@@ -13,7 +13,7 @@ TomlValue toml_string(const std::string& value);
 
 // A number parameter's value [SI] in the unit in which the study speaks of it: 3, or { value = 3, unit = "mm"
 // }.
-TomlValue toml_parameter(const StudyFile& study, std::size_t parameter, double si);
+TomlValue toml_parameter(const Study& study, std::size_t parameter, double si);
 
 // The entry of a table that is being changed, nullptr if absent.
 TomlEntry* entry_of(TomlTable& table, const std::string& key);

@@ -11,11 +11,11 @@ constexpr std::size_t places_over_band = 9;
 constexpr std::size_t places_of_weight = 1001;
 
 // SI values of all parameters in each scenario, as the study states them.
-std::vector<std::vector<double>> scenarios_of(const StudyFile& study) {
+std::vector<std::vector<double>> scenarios_of(const Study& study) {
   const std::vector<double> nominal = study.parameters.nominal();
-  if (study.tune->scenarios.empty()) return {nominal};
+  if (study.tune()->scenarios.empty()) return {nominal};
   std::vector<std::vector<double>> scenarios;
-  for (const ScenarioChoice& scenario : study.tune->scenarios) {
+  for (const ScenarioChoice& scenario : study.tune()->scenarios) {
     scenarios.push_back(nominal);
     for (const Assignment& assignment : scenario.set)
       scenarios.back()[assignment.parameter] = assignment.value;
@@ -34,25 +34,25 @@ std::vector<double> places_of(const TuneChoice& tune, std::size_t count) {
 }
 
 // At each place of the band.
-void check_over_band(StudyFile& study, std::vector<double>& parameters) {
+void check_over_band(Study& study, std::vector<double>& parameters) {
   const auto check = [&] {
     check_point(study, parameters);
     add_crank_orders_at(study, parameters);
   };
-  std::vector<double> places = places_of(*study.tune, places_over_band);
-  for (const LimitChoice& limit : study.tune->limits) {
+  std::vector<double> places = places_of(*study.tune(), places_over_band);
+  for (const LimitChoice& limit : study.tune()->limits) {
     if (limit.band) places.insert(places.end(), {limit.band->from, limit.band->to});
   }
   if (places.empty()) check();
   for (const double place : places) {
-    parameters[study.tune->band->parameter] = place;
+    parameters[study.tune()->band->parameter] = place;
     check();
   }
 }
 
-[[noreturn]] void refuse(const StudyFile& study, const StudyValue& value, double found, double at,
+[[noreturn]] void refuse(const Study& study, const StudyValue& value, double found, double at,
                          const char* rule) {
-  const BandChoice& band = *study.tune->band;
+  const BandChoice& band = *study.tune()->band;
   const std::string& unit = band.unit.text;
   throw study.source.error_at(
       rules::out_of_range, value.position,
@@ -62,8 +62,8 @@ void check_over_band(StudyFile& study, std::vector<double>& parameters) {
                   unit.empty() || unit == "1" ? "" : " " + unit, rule));
 }
 
-void check_weight_and_rules(const StudyFile& study, std::vector<double> parameters) {
-  const TuneChoice& tune = *study.tune;
+void check_weight_and_rules(const Study& study, std::vector<double> parameters) {
+  const TuneChoice& tune = *study.tune();
   const auto at = [&](const StudyValue& value, double place) {
     parameters[tune.band->parameter] = place;
     study.parameters.complete(std::span<double>(parameters));
@@ -86,8 +86,8 @@ void check_weight_and_rules(const StudyFile& study, std::vector<double> paramete
 
 }  // namespace
 
-void check_tuning(StudyFile& study) {
-  const TuneChoice& tune = *study.tune;
+void check_tuning(Study& study) {
+  const TuneChoice& tune = *study.tune();
   for (const std::vector<double>& scenario : scenarios_of(study)) {
     for (const std::vector<bool>& corner : corners(tune.designs.size())) {
       std::vector<double> parameters = scenario;

@@ -94,7 +94,7 @@ void read_band(TuneReading& reading, const TomlSection& section) {
   BandChoice choice;
   choice.position = band.position();
   choice.parameter = read_number_parameter(reading, band, "parameter", "a band");
-  const StudyFile& study = reading.study;
+  const Study& study = reading.study;
   const auto inputs = study.parameters.inputs_of(study.values.omega.expression.reads());
   if (std::find(inputs.begin(), inputs.end(), choice.parameter) == inputs.end()) {
     band.fail(rules::wrong_dependence, "parameter",
@@ -300,7 +300,7 @@ StudyValue read_formula(const TuneReading& reading, const TomlSection& section, 
   return formula;
 }
 
-void read_tuning(const StudyContext& context, const TomlValue& root, StudyFile& study) {
+void read_tuning(const StudyContext& context, const TomlValue& root, Study& study) {
   refuse_smooth_friction(study);
   const TomlEntry* entry = find_entry(root, "tune");
   if (!entry)
@@ -330,7 +330,7 @@ void read_tuning(const StudyContext& context, const TomlValue& root, StudyFile& 
   check_weight(reading, section);
   check_dominate(reading, section);
   choice.dominate_constant = section.find("dominate") != nullptr;
-  study.tune = std::move(choice);
+  study.choice = std::move(choice);
 }
 
 bool TuneChoice::has_schedule() const {

@@ -12,7 +12,7 @@ namespace frahm::studies {
 struct TuneReading {
   const StudyContext& context;
   const TomlValue& root;
-  StudyFile& study;
+  Study& study;
   TuneChoice choice = {};
 };
 
@@ -41,7 +41,7 @@ tuning::Band read_range(const TomlSection& section, double si_factor);
 StudyValue read_formula(const TuneReading& reading, const TomlSection& section, const std::string& key);
 
 // Whether the numbers of the network depend on a parameter.
-bool network_depends_on(const StudyFile& study, std::size_t parameter);
+bool network_depends_on(const Study& study, std::size_t parameter);
 
 // The tables of a tuning, in this order, once its band is known.
 void read_designs(TuneReading& reading);

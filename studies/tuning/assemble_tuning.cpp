@@ -30,7 +30,7 @@ void write_file(const StudyPlan& plan, const RunRecord& run, const std::filesyst
   results::MapWriter writer(output, file_layout(plan, run));
   writer.write_columns(optimum_group, optimum_columns(plan.study, result));
   writer.write_texts(optimum_group, optimum_texts(plan.study, result));
-  if (plan.study.tune->trade_off) writer.write_columns(front_group, front_columns(plan.study, result));
+  if (plan.study.tune()->trade_off) writer.write_columns(front_group, front_columns(plan.study, result));
   writer.write_texts("provenance", provenance(plan, run, {}, missing));
   writer.finish();
 }

@@ -17,8 +17,8 @@ std::string squared(const std::string& unit) {
 }
 
 // A result with one number wherever there can be one: all names of the record.
-TuningResult example_of(const StudyFile& study) {
-  const TuneChoice& tune = *study.tune;
+TuningResult example_of(const Study& study) {
+  const TuneChoice& tune = *study.tune();
   tuning::Optimum optimum;
   for (const DesignChoice& design : tune.designs) {
     const std::vector<double> zeros(design.is_scheduled() ? design.knots.size() : 1, 0.0);
@@ -63,8 +63,8 @@ const char* objective_name(tuning::Objective objective) {
 
 }  // namespace
 
-TuningAbout::TuningAbout(const StudyFile& of_study, const TuningResult& of_result)
-    : study(of_study), tune(*of_study.tune), result(of_result), optimum(of_result.optimum()) {
+TuningAbout::TuningAbout(const Study& of_study, const TuningResult& of_result)
+    : study(of_study), tune(*of_study.tune()), result(of_result), optimum(of_result.optimum()) {
   for (const DesignChoice& design : tune.designs) {
     const std::string& unit = design.unit.text;
     designs.push_back({design, study.parameters.list[design.parameter].name, unit.empty() ? "1" : unit});
@@ -74,31 +74,31 @@ TuningAbout::TuningAbout(const StudyFile& of_study, const TuningResult& of_resul
   if (!tune.band->unit.text.empty()) band_unit = tune.band->unit.text;
 }
 
-std::vector<NamedLimit> named_limits(const StudyFile& study, double trade_off) {
+std::vector<NamedLimit> named_limits(const Study& study, double trade_off) {
   std::map<std::string, int> seen;
   const auto named = [&](const std::string& quantity) {
     const int number = ++seen[quantity];
     return number == 1 ? quantity : fmt::format("{}_{}", quantity, number);
   };
   std::vector<NamedLimit> limits;
-  for (const LimitChoice& limit : study.tune->limits)
+  for (const LimitChoice& limit : study.tune()->limits)
     limits.push_back({named(limit.name), limit.unit, limit.lower, limit.upper});
-  if (const auto& choice = study.tune->trade_off)
+  if (const auto& choice = study.tune()->trade_off)
     limits.push_back({named(choice->name), choice->unit, -kInfinity, trade_off});
   return limits;
 }
 
-std::string quantity_unit(const StudyFile& study) {
-  return periodic::describe(study.tune->quantity, study.network, study.dimensionless).unit;
+std::string quantity_unit(const Study& study) {
+  return periodic::describe(study.tune()->quantity, study.network, study.dimensionless).unit;
 }
 
-std::string objective_unit(const StudyFile& study) {
+std::string objective_unit(const Study& study) {
   const std::string unit = quantity_unit(study);
-  return study.tune->objective == tuning::Objective::minimax ? unit : squared(unit);
+  return study.tune()->objective == tuning::Objective::minimax ? unit : squared(unit);
 }
 
-std::string noise_words(const StudyFile& study) {
-  const tuning::Noise& noise = study.tune->noise;
+std::string noise_words(const Study& study) {
+  const tuning::Noise& noise = study.tune()->noise;
   const bool force = noise.kind == tuning::NoiseKind::force_on;
   const auto& nodes = force ? study.network.masses : study.network.prescribed;
   return fmt::format("{} {}", force ? "a force on" : "the acceleration of", nodes[noise.node]);
@@ -107,20 +107,20 @@ std::string noise_words(const StudyFile& study) {
 namespace {
 
 // White noise and what the motion is measured from, which a variance is of.
-void add_noise(const StudyFile& study, std::vector<results::Text>& texts) {
-  const tuning::Noise& noise = study.tune->noise;
+void add_noise(const Study& study, std::vector<results::Text>& texts) {
+  const tuning::Noise& noise = study.tune()->noise;
   const bool force = noise.kind == tuning::NoiseKind::force_on;
   const std::string unit = study.dimensionless ? "" : force ? " N2 per rad s-1" : " (m s-2)2 per rad s-1";
   texts.emplace_back("noise", noise_words(study));
   texts.emplace_back("noise_density", fmt::format("{}{}", noise.intensity, unit));
-  if (!force && study.tune->quantity.measure != periodic::Measure::stroke)
+  if (!force && study.tune()->quantity.measure != periodic::Measure::stroke)
     texts.emplace_back("relative_to", study.network.prescribed[noise.node]);
 }
 
 }  // namespace
 
-std::vector<results::Text> optimum_texts(const StudyFile& study, const TuningResult& result) {
-  const TuneChoice& tune = *study.tune;
+std::vector<results::Text> optimum_texts(const Study& study, const TuningResult& result) {
+  const TuneChoice& tune = *study.tune();
   const TuningAbout about(study, result);
   std::vector<std::string> designs, limits;
   for (const NamedDesign& design : about.designs) designs.push_back(design.name);
@@ -139,7 +139,7 @@ std::vector<results::Text> optimum_texts(const StudyFile& study, const TuningRes
   return texts;
 }
 
-void check_record_names(const StudyFile& study) {
+void check_record_names(const Study& study) {
   const TuningResult example = example_of(study);
   try {
     results::check(optimum_columns(study, example));

@@ -14,9 +14,9 @@ constexpr double rows_wanted = 200.0;
 constexpr double most_rows = 1e6;
 constexpr double same_place = 1e-9;  // of a step: a whole step so near to an end is the end
 
-bool is_frequency(const StudyFile& study) {
+bool is_frequency(const Study& study) {
   const auto sole = study.values.omega.expression.sole_parameter();
-  return !study.dimensionless && sole && *sole == study.tune->band->parameter;
+  return !study.dimensionless && sole && *sole == study.tune()->band->parameter;
 }
 
 // 1, 2 or 5 times a power of ten, not above `size`.
@@ -28,8 +28,8 @@ double round_step(double size) {
   return decade;
 }
 
-double step_of(const StudyFile& study, std::optional<double> asked) {
-  const BandChoice& band = *study.tune->band;
+double step_of(const Study& study, std::optional<double> asked) {
+  const BandChoice& band = *study.tune()->band;
   const double width = (band.range.to - band.range.from) / band.unit.si_factor;
   if (!asked) return is_frequency(study) ? rpm / band.unit.si_factor : round_step(width / rows_wanted);
   if (!(*asked > 0.0) || !std::isfinite(*asked) || width / *asked > most_rows)
@@ -62,8 +62,8 @@ const char* range_word(const ColumnChoice& column, double value) {
   return value < column.lower ? "below" : value > column.upper ? "above" : "within";
 }
 
-std::string header(const StudyFile& study, bool tells_rpm) {
-  const TuneChoice& tune = *study.tune;
+std::string header(const Study& study, bool tells_rpm) {
+  const TuneChoice& tune = *study.tune();
   const auto name = [&](std::size_t parameter) { return study.parameters.list[parameter].name; };
   std::string text = in_brackets(name(tune.band->parameter), tune.band->unit.text);
   if (tells_rpm) text += ",excitation [rpm]";
@@ -81,8 +81,8 @@ std::string header(const StudyFile& study, bool tells_rpm) {
 }  // namespace
 
 std::string schedule_table(const StoredTuning& stored, std::optional<double> step) {
-  const StudyFile& study = stored.study;
-  const TuneChoice& tune = *study.tune;
+  const Study& study = stored.study;
+  const TuneChoice& tune = *study.tune();
   if (!tune.has_schedule())
     throw StudyError(rules::missing_key, fmt::format("{}: nothing is scheduled: no [[design]] has a schedule",
                                                      study.source.name));

@@ -28,9 +28,9 @@ StoredTuning read_stored_tuning(const std::filesystem::path& file) {
   StoredStudy of_file = read_stored_study(result, file);
   stored.study = std::move(of_file.study);
   stored.overrides = std::move(of_file.overrides);
-  const StudyFile& study = stored.study;
+  const Study& study = stored.study;
   const auto columns = result.columns(optimum_group);
-  for (const DesignChoice& design : study.tune->designs) {
+  for (const DesignChoice& design : study.tune()->designs) {
     const std::string& name = study.parameters.list[design.parameter].name;
     std::vector<double> values = values_of(columns, name);
     const bool known = !values.empty() && std::none_of(values.begin(), values.end(),
@@ -41,8 +41,8 @@ StoredTuning read_stored_tuning(const std::filesystem::path& file) {
     for (double& value : values) value *= design.unit.si_factor;
     stored.design.push_back(std::move(values));
   }
-  if (study.tune->band)
-    stored.band = values_of(columns, study.parameters.list[study.tune->band->parameter].name);
+  if (study.tune()->band)
+    stored.band = values_of(columns, study.parameters.list[study.tune()->band->parameter].name);
   return stored;
 }
 

@@ -3,14 +3,14 @@
 #include <filesystem>
 #include <vector>
 
-#include "studies/reading/study_file.hpp"
+#include "studies/reading/study.hpp"
 #include "studies/tuning/tuned_design.hpp"
 
 namespace frahm::studies {
 
 // A tuning as its result file keeps it.
 struct StoredTuning {
-  StudyFile study;                    // with the overrides of its run
+  Study study;                        // with the overrides of its run
   std::vector<Assignment> overrides;  // these
   DesignValues design;                // of the optimum
   std::vector<double> band;           // where the responses are sampled, in the unit of the band

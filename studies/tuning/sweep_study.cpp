@@ -15,11 +15,11 @@ namespace frahm::studies {
 namespace {
 
 // The unit in which the sweep speaks of a parameter; empty for none.
-std::string unit_of(const StudyFile& study, std::size_t parameter) {
+std::string unit_of(const Study& study, std::size_t parameter) {
   return spoken_value(study, parameter, 0.0).unit;
 }
 
-TomlValue axis_of(const StudyFile& study, std::size_t parameter, const std::vector<double>& values,
+TomlValue axis_of(const Study& study, std::size_t parameter, const std::vector<double>& values,
                   const std::string& zip) {
   TomlArray list;
   for (const double value : values) list.push_back(toml_number(value));
@@ -32,8 +32,8 @@ TomlValue axis_of(const StudyFile& study, std::size_t parameter, const std::vect
 }
 
 // The parameters that scenarios set, each as an axis of one zip; none where there are no scenarios.
-void add_scenario_axes(const StudyFile& study, TomlArray& axes) {
-  const auto& scenarios = study.tune->scenarios;
+void add_scenario_axes(const Study& study, TomlArray& axes) {
+  const auto& scenarios = study.tune()->scenarios;
   std::vector<std::size_t> set;
   for (const ScenarioChoice& scenario : scenarios) {
     for (const Assignment& assignment : scenario.set) set.push_back(assignment.parameter);
@@ -52,10 +52,9 @@ void add_scenario_axes(const StudyFile& study, TomlArray& axes) {
 
 // A schedule in SI. Its ends reach a hair beyond the band, since a value turned from one unit into another
 // and back may lie a rounding outside.
-std::string schedule_csv(const StudyFile& study, const DesignChoice& design,
-                         const std::vector<double>& values) {
+std::string schedule_csv(const Study& study, const DesignChoice& design, const std::vector<double>& values) {
   constexpr double hair = 1e-9;
-  const std::string& of = study.parameters.list[study.tune->band->parameter].name;
+  const std::string& of = study.parameters.list[study.tune()->band->parameter].name;
   std::string csv = fmt::format("{},{}\n", of, study.parameters.list[design.parameter].name);
   const double reach = hair * (design.knots.back() - design.knots.front());
   csv += fmt::format("{},{}\n", design.knots.front() - reach, values.front());
@@ -65,14 +64,14 @@ std::string schedule_csv(const StudyFile& study, const DesignChoice& design,
 
 void set_parameters(const StoredTuning& stored, const std::string& stem, TomlTable& parameters,
                     SweepStudy& sweep) {
-  const StudyFile& study = stored.study;
+  const Study& study = stored.study;
   const auto put = [&](std::size_t parameter, TomlValue value) {
     entry_of(parameters, study.parameters.list[parameter].name)->value = std::move(value);
   };
   for (const Assignment& assignment : stored.overrides)
     put(assignment.parameter, toml_parameter(study, assignment.parameter, assignment.value));
   for (std::size_t i = 0; i < stored.design.size(); ++i) {
-    const DesignChoice& design = study.tune->designs[i];
+    const DesignChoice& design = study.tune()->designs[i];
     if (!design.is_scheduled()) {
       put(design.parameter, toml_parameter(study, design.parameter, stored.design[i].front()));
       continue;
@@ -80,15 +79,15 @@ void set_parameters(const StoredTuning& stored, const std::string& stem, TomlTab
     const std::string& name = study.parameters.list[design.parameter].name;
     const std::string file = fmt::format("{}_{}.csv", stem, name);
     sweep.tables.emplace_back(file, schedule_csv(study, design, stored.design[i]));
-    const std::string& of = study.parameters.list[study.tune->band->parameter].name;
+    const std::string& of = study.parameters.list[study.tune()->band->parameter].name;
     put(design.parameter, {{}, TomlTable{{"table", {}, toml_string(file)}, {"of", {}, toml_string(of)}}});
   }
 }
 
-TomlValue output_of(const StudyFile& study) {
-  std::vector<std::string> names{study.tune->quantity_name};
-  for (const LimitChoice& limit : study.tune->limits) names.push_back(limit.name);
-  if (study.tune->trade_off) names.push_back(study.tune->trade_off->name);
+TomlValue output_of(const Study& study) {
+  std::vector<std::string> names{study.tune()->quantity_name};
+  for (const LimitChoice& limit : study.tune()->limits) names.push_back(limit.name);
+  if (study.tune()->trade_off) names.push_back(study.tune()->trade_off->name);
   names.emplace_back("status");
   TomlArray list;
   for (auto name = names.begin(); name != names.end(); ++name) {
@@ -100,8 +99,8 @@ TomlValue output_of(const StudyFile& study) {
 }  // namespace
 
 SweepStudy sweep_study(const StoredTuning& stored, const std::string& stem) {
-  const StudyFile& study = stored.study;
-  if (!study.tune->band || stored.band.empty())
+  const Study& study = stored.study;
+  if (!study.tune()->band || stored.band.empty())
     throw StudyError(rules::missing_key,
                      fmt::format("{}: a tuning without a band has no response to sweep", study.source.name));
   TomlValue root = read_toml(study.source);
@@ -116,7 +115,7 @@ SweepStudy sweep_study(const StoredTuning& stored, const std::string& stem) {
   set_parameters(stored, stem, std::get<TomlTable>(entry_of(sections, "parameters")->value.content), sweep);
   TomlArray axes;
   add_scenario_axes(study, axes);
-  axes.push_back(axis_of(study, study.tune->band->parameter, stored.band, ""));
+  axes.push_back(axis_of(study, study.tune()->band->parameter, stored.band, ""));
   sections.push_back({"axis", {}, {{}, std::move(axes)}});
   sections.push_back({"output", {}, output_of(study)});
   sweep.text = fmt::format("{}\n{}", sweep_mark, toml_text(root));

@@ -20,18 +20,18 @@ double value_at(const DesignChoice& design, std::span<const double> values, doub
   return std::lerp(values[i - 1], values[i], part);
 }
 
-std::vector<double> parameters_in_scenario(const StudyFile& study, std::size_t scenario) {
+std::vector<double> parameters_in_scenario(const Study& study, std::size_t scenario) {
   std::vector<double> parameters = study.parameters.nominal();
-  const auto& scenarios = study.tune->scenarios;
+  const auto& scenarios = study.tune()->scenarios;
   if (scenarios.empty()) return parameters;
   for (const Assignment& assignment : scenarios[scenario].set)
     parameters[assignment.parameter] = assignment.value;
   return parameters;
 }
 
-std::vector<double> parameters_of(const StudyFile& study, const DesignValues& design, std::size_t scenario,
+std::vector<double> parameters_of(const Study& study, const DesignValues& design, std::size_t scenario,
                                   double band) {
-  const TuneChoice& tune = *study.tune;
+  const TuneChoice& tune = *study.tune();
   std::vector<double> parameters = parameters_in_scenario(study, scenario);
   if (tune.band) parameters[tune.band->parameter] = band;
   for (std::size_t i = 0; i < tune.designs.size(); ++i)
@@ -40,14 +40,14 @@ std::vector<double> parameters_of(const StudyFile& study, const DesignValues& de
   return parameters;
 }
 
-std::vector<tuning::Rule> rules_of(const StudyFile& study) {
+std::vector<tuning::Rule> rules_of(const Study& study) {
   std::vector<tuning::Rule> rules;
-  for (const DesignChoice& choice : study.tune->designs) {
+  for (const DesignChoice& choice : study.tune()->designs) {
     rules.emplace_back();
     if (!choice.rule) continue;
     rules.back() = [&study, &choice](double band) {
       std::vector<double> parameters = parameters_in_scenario(study, 0);
-      parameters[study.tune->band->parameter] = band;
+      parameters[study.tune()->band->parameter] = band;
       study.parameters.complete(std::span<double>(parameters));
       const double value = choice.rule->expression.evaluate(std::span<const double>(parameters));
       return std::clamp(value, choice.lower, choice.upper);
@@ -56,10 +56,10 @@ std::vector<tuning::Rule> rules_of(const StudyFile& study) {
   return rules;
 }
 
-std::vector<std::string> scenario_names(const StudyFile& study) {
-  if (study.tune->scenarios.empty()) return {"study"};
+std::vector<std::string> scenario_names(const Study& study) {
+  if (study.tune()->scenarios.empty()) return {"study"};
   std::vector<std::string> names;
-  for (const ScenarioChoice& scenario : study.tune->scenarios) names.push_back(scenario.name);
+  for (const ScenarioChoice& scenario : study.tune()->scenarios) names.push_back(scenario.name);
   return names;
 }
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "solvers/tuning/optimum.hpp"
-#include "studies/reading/study_file.hpp"
+#include "studies/reading/study.hpp"
 
 // What a tuning's design parameters are worth, and with them all parameters of its study.
 namespace frahm::studies {
@@ -18,17 +18,17 @@ DesignValues design_values(const tuning::Optimum& optimum);
 double value_at(const DesignChoice& design, std::span<const double> values, double band);
 
 // SI values of all parameters as a scenario of the study sets them; derived ones are not completed.
-std::vector<double> parameters_in_scenario(const StudyFile& study, std::size_t scenario);
+std::vector<double> parameters_in_scenario(const Study& study, std::size_t scenario);
 
 // The same of a design at a place of the band [SI], completed.
-std::vector<double> parameters_of(const StudyFile& study, const DesignValues& design, std::size_t scenario,
+std::vector<double> parameters_of(const Study& study, const DesignValues& design, std::size_t scenario,
                                   double band);
 
 // Of each design parameter the schedule that its rule gives for the study as it stands, before anything is
 // tuned, clipped to the bounds; an empty function where it has no rule. study: must outlive them.
-std::vector<tuning::Rule> rules_of(const StudyFile& study);
+std::vector<tuning::Rule> rules_of(const Study& study);
 
 // The names of the scenarios; "study" where there are none.
-std::vector<std::string> scenario_names(const StudyFile& study);
+std::vector<std::string> scenario_names(const Study& study);
 
 }  // namespace frahm::studies

@@ -17,11 +17,11 @@ struct NamedDesign {
 
 // A result and the words in which the study speaks of it. study and result: must outlive it.
 struct TuningAbout {
-  TuningAbout(const StudyFile& of_study, const TuningResult& of_result);
+  TuningAbout(const Study& of_study, const TuningResult& of_result);
 
   double spoken_band(double si) const { return tune.band ? si / tune.band->unit.si_factor : si; }
 
-  const StudyFile& study;
+  const Study& study;
   const TuneChoice& tune;
   const TuningResult& result;
   const tuning::Optimum& optimum;

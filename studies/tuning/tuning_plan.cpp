@@ -14,7 +14,7 @@
 namespace frahm::studies {
 namespace {
 
-std::vector<tuning::Optimum> tune(const StudyFile& study, const tuning::Task& task, std::size_t start,
+std::vector<tuning::Optimum> tune(const Study& study, const tuning::Task& task, std::size_t start,
                                   const engine::StopAsked& stop_asked) {
   try {
     return tuning::tune(task, start, stop_asked);
@@ -23,7 +23,7 @@ std::vector<tuning::Optimum> tune(const StudyFile& study, const tuning::Task& ta
   }
 }
 
-void compute_start(const StudyFile& study, const tuning::Task& task, std::uint64_t start,
+void compute_start(const Study& study, const tuning::Task& task, std::uint64_t start,
                    const engine::StopAsked& stop_asked, engine::Bytes& out) {
   const std::vector<tuning::Optimum> optima = tune(study, task, start, stop_asked);
   const bool stopped = std::any_of(optima.begin(), optima.end(), [](const tuning::Optimum& optimum) {
@@ -37,11 +37,11 @@ void compute_start(const StudyFile& study, const tuning::Task& task, std::uint64
 
 }  // namespace
 
-StudyPlan plan_tuning(StudyFile study, std::vector<std::string> set) {
+StudyPlan plan_tuning(Study study, std::vector<std::string> set) {
   refuse_overruled(study, set);
   check_record_names(study);
   StudyPlan plan{.study = std::move(study), .set = std::move(set)};
-  plan.tiles = plan.study.tune->starts;
+  plan.tiles = plan.study.tune()->starts;
   plan.fingerprint = fingerprint(plan.study, {}, {});
   return plan;
 }

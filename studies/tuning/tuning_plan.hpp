@@ -10,7 +10,7 @@ namespace frahm::studies {
 
 // A study of kind "tune" ready to be computed: a tile is one start, its record the optima found from it.
 // Throws StudyError for names that cannot stand in one record, and for --set of what the study overrules.
-StudyPlan plan_tuning(StudyFile study, std::vector<std::string> set);
+StudyPlan plan_tuning(Study study, std::vector<std::string> set);
 
 // The work of such a plan, which must outlive it. A start that is asked to stop is given up. Its kernels
 // throw StudyError for a task without meaning.

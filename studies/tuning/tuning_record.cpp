@@ -217,7 +217,7 @@ void add_designs(const TuningAbout& about, const std::string& prefix, const std:
   }
 }
 
-std::vector<results::Column> optimum_columns(const StudyFile& study, const TuningResult& result) {
+std::vector<results::Column> optimum_columns(const Study& study, const TuningResult& result) {
   const TuningAbout about(study, result);
   GroupColumns columns;
   add_numbers(about, columns);
@@ -231,10 +231,10 @@ std::vector<results::Column> optimum_columns(const StudyFile& study, const Tunin
   return columns.take();
 }
 
-std::vector<results::Column> front_columns(const StudyFile& study, const TuningResult& result) {
-  if (!study.tune->trade_off) return {};
+std::vector<results::Column> front_columns(const Study& study, const TuningResult& result) {
+  if (!study.tune()->trade_off) return {};
   const TuningAbout about(study, result);
-  const TradeOffChoice& trade_off = *study.tune->trade_off;
+  const TradeOffChoice& trade_off = *study.tune()->trade_off;
   GroupColumns columns;
   std::vector<double> limits, objectives, gaps, residuals, violations, starts;
   std::vector<tuning::Outcome> outcomes;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "results/layout.hpp"
-#include "studies/reading/study_file.hpp"
+#include "studies/reading/study.hpp"
 #include "studies/tuning/tuning_result.hpp"
 
 // What a result file says of a tuning: group /optimum, and /optimum/front along a trade-off
@@ -14,12 +14,12 @@ namespace frahm::studies {
 inline constexpr const char* optimum_group = "optimum";
 inline constexpr const char* front_group = "optimum/front";
 
-std::vector<results::Column> optimum_columns(const StudyFile& study, const TuningResult& result);
-std::vector<results::Column> front_columns(const StudyFile& study, const TuningResult& result);
-std::vector<results::Text> optimum_texts(const StudyFile& study, const TuningResult& result);
+std::vector<results::Column> optimum_columns(const Study& study, const TuningResult& result);
+std::vector<results::Column> front_columns(const Study& study, const TuningResult& result);
+std::vector<results::Text> optimum_texts(const Study& study, const TuningResult& result);
 
 // Throws StudyError where a name that the study chooses is that of something else in the record.
-void check_record_names(const StudyFile& study);
+void check_record_names(const Study& study);
 
 // The limits of a tuning with that of the trade-off behind them: names in the record, units.
 struct NamedLimit {
@@ -27,13 +27,13 @@ struct NamedLimit {
   UsualUnit unit;
   double lower = 0.0, upper = 0.0;  // SI; infinite: none
 };
-std::vector<NamedLimit> named_limits(const StudyFile& study, double trade_off);
+std::vector<NamedLimit> named_limits(const Study& study, double trade_off);
 
 // Unit of the quantity that is tuned, and of the objective: its square of a mean square or a variance.
-std::string quantity_unit(const StudyFile& study);
-std::string objective_unit(const StudyFile& study);
+std::string quantity_unit(const Study& study);
+std::string objective_unit(const Study& study);
 
 // The white noise of a variance: "a force on main", "the acceleration of base".
-std::string noise_words(const StudyFile& study);
+std::string noise_words(const Study& study);
 
 }  // namespace frahm::studies

@@ -26,7 +26,7 @@ std::tuple<int, double, double> rank(const Optimum& optimum) {
   return {static_cast<int>(optimum.outcome), violation, or_worst(optimum.objective)};
 }
 
-tuning::Assessment assess(const StudyFile& study, const Optimum& optimum) {
+tuning::Assessment assess(const Study& study, const Optimum& optimum) {
   if (!has_design(study, optimum)) return {};
   try {
     return tuning::assess(tuning_task(study), optimum, rules_of(study));
@@ -43,8 +43,8 @@ std::size_t best_of(const std::vector<const Optimum*>& optima) {
   return static_cast<std::size_t>(best - optima.begin());
 }
 
-bool has_design(const StudyFile& study, const Optimum& optimum) {
-  const auto& designs = study.tune->designs;
+bool has_design(const Study& study, const Optimum& optimum) {
+  const auto& designs = study.tune()->designs;
   if (optimum.parameters.size() != designs.size()) return false;
   for (std::size_t i = 0; i < designs.size(); ++i) {
     const std::size_t size = designs[i].is_scheduled() ? designs[i].knots.size() : 1;
@@ -53,7 +53,7 @@ bool has_design(const StudyFile& study, const Optimum& optimum) {
   return true;
 }
 
-TuningResult tuning_result(const StudyFile& study, std::vector<StartResult> starts) {
+TuningResult tuning_result(const Study& study, std::vector<StartResult> starts) {
   TuningResult result{.starts = std::move(starts), .best = {}, .assessment = {}};
   std::size_t limits = std::numeric_limits<std::size_t>::max();
   for (const StartResult& start : result.starts) limits = std::min(limits, start.optima.size());

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "solvers/tuning/optimum.hpp"
-#include "studies/reading/study_file.hpp"
+#include "studies/reading/study.hpp"
 
 namespace frahm::studies {
 
@@ -31,9 +31,9 @@ struct TuningResult {
 std::size_t best_of(const std::vector<const tuning::Optimum*>& optima);
 
 // Chooses among the starts and assesses the optimum. Throws StudyError for a task without meaning.
-TuningResult tuning_result(const StudyFile& study, std::vector<StartResult> starts);
+TuningResult tuning_result(const Study& study, std::vector<StartResult> starts);
 
 // Whether an optimum has a design, so that it has a response.
-bool has_design(const StudyFile& study, const tuning::Optimum& optimum);
+bool has_design(const Study& study, const tuning::Optimum& optimum);
 
 }  // namespace frahm::studies

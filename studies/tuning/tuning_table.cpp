@@ -172,8 +172,8 @@ void print_effort(const TuningAbout& about, std::ostream& out) {
 
 }  // namespace
 
-void print_task(const StudyFile& study, std::ostream& out) {
-  const TuneChoice& tune = *study.tune;
+void print_task(const Study& study, std::ostream& out) {
+  const TuneChoice& tune = *study.tune();
   const char* how = tune.objective == tuning::Objective::minimax       ? "least worst"
                     : tune.objective == tuning::Objective::mean_square ? "least mean square of"
                                                                        : "least variance of";
@@ -191,7 +191,7 @@ void print_task(const StudyFile& study, std::ostream& out) {
     fmt::print(out, "{:<22}{}\n", "scenarios", fmt::join(scenario_names(study), ", "));
 }
 
-void print_tuning(const StudyFile& study, const TuningResult& result, std::ostream& out) {
+void print_tuning(const Study& study, const TuningResult& result, std::ostream& out) {
   const TuningAbout about(study, result);
   if (!study.title.empty()) fmt::print(out, "{}\n", study.title);
   print_task(study, out);

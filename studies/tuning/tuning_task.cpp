@@ -10,10 +10,10 @@ namespace {
 
 constexpr std::size_t nothing = std::numeric_limits<std::size_t>::max();  // is no parameter
 
-std::vector<tuning::DesignParameter> design_parameters(const StudyFile& study) {
+std::vector<tuning::DesignParameter> design_parameters(const Study& study) {
   const std::vector<double> nominal = study.parameters.nominal();
   std::vector<tuning::DesignParameter> parameters;
-  for (const DesignChoice& design : study.tune->designs) {
+  for (const DesignChoice& design : study.tune()->designs) {
     tuning::DesignParameter parameter{.name = study.parameters.list[design.parameter].name,
                                       .lower = design.lower,
                                       .upper = design.upper,
@@ -26,8 +26,8 @@ std::vector<tuning::DesignParameter> design_parameters(const StudyFile& study) {
 }
 
 // The numbers of the network, and how they change with each design parameter and the band's.
-tuning::NetworkAt network_at(const StudyFile& study) {
-  const TuneChoice& tune = *study.tune;
+tuning::NetworkAt network_at(const Study& study) {
+  const TuneChoice& tune = *study.tune();
   std::vector<std::size_t> places;  // of the entries of `at` among the parameters
   for (const DesignChoice& design : tune.designs) places.push_back(design.parameter);
   places.push_back(tune.band ? tune.band->parameter : nothing);
@@ -50,22 +50,22 @@ tuning::NetworkAt network_at(const StudyFile& study) {
 }
 
 // A weight does not depend on what scenarios set.
-std::function<tuning::Weight(double)> weight_of(const StudyFile& study) {
-  if (!study.tune->weight) return {};
+std::function<tuning::Weight(double)> weight_of(const Study& study) {
+  if (!study.tune()->weight) return {};
   return [&study, parameters = study.parameters.nominal()](double band) {
-    const std::size_t place = study.tune->band->parameter;
+    const std::size_t place = study.tune()->band->parameter;
     std::vector<Dual> duals;
     for (const double parameter : parameters) duals.push_back({parameter, 0.0});
     duals[place] = {band, 1.0};
     study.parameters.complete(std::span<Dual>(duals));
-    const Dual weight = study.tune->weight->expression.evaluate(std::span<const Dual>(duals));
+    const Dual weight = study.tune()->weight->expression.evaluate(std::span<const Dual>(duals));
     return tuning::Weight{weight.value, weight.derivative};
   };
 }
 
 // A single frequency, which stands for nothing, where a variance has no band.
-tuning::Band band_of(const StudyFile& study) {
-  if (study.tune->band) return study.tune->band->range;
+tuning::Band band_of(const Study& study) {
+  if (study.tune()->band) return study.tune()->band->range;
   const std::vector<double> nominal = study.parameters.nominal();
   const double omega = study.values.omega.expression.evaluate(std::span<const double>(nominal));
   return {omega, omega};
@@ -73,8 +73,8 @@ tuning::Band band_of(const StudyFile& study) {
 
 }  // namespace
 
-tuning::Task tuning_task(const StudyFile& study) {
-  const TuneChoice& tune = *study.tune;
+tuning::Task tuning_task(const Study& study) {
+  const TuneChoice& tune = *study.tune();
   tuning::Task task;
   task.network = study.network;
   task.network_at = network_at(study);

@@ -1,12 +1,12 @@
 #pragma once
 
 #include "solvers/tuning/task.hpp"
-#include "studies/reading/study_file.hpp"
+#include "studies/reading/study.hpp"
 
 namespace frahm::studies {
 
 // What a study of kind "tune" asks of the solver. Its functions may be called from several threads at once.
 // study: must outlive the task.
-tuning::Task tuning_task(const StudyFile& study);
+tuning::Task tuning_task(const Study& study);
 
 }  // namespace frahm::studies

@@ -142,7 +142,7 @@ void assemble(const studies::MapPlan& plan, const std::filesystem::path& output,
   std::filesystem::remove(made);
 }
 
-void measure(const studies::StudyFile& study, const std::filesystem::path& folder) {
+void measure(const studies::Study& study, const std::filesystem::path& folder) {
   const studies::MapPlan plan = studies::plan_map(study, {});
   const std::filesystem::path output = folder / "map.h5";
   fmt::print("{}: {} points, {} variables, {:.0f} bytes a point in the file and {} in the log\n",
@@ -155,7 +155,7 @@ void measure(const studies::StudyFile& study, const std::filesystem::path& folde
 }
 
 // Den Hartog's map with so many points along the friction: 2886 points each.
-studies::StudyFile single_mass(int frictions) {
+studies::Study single_mass(int frictions) {
   std::ifstream file(study_path("den_hartog"));
   std::string text(std::istreambuf_iterator<char>(file), {});
   const std::string points = "points = 25\n";
@@ -172,8 +172,8 @@ int main(int argc, char** argv) {
                         "frahm-writing-XXXXXX")
                            .string();
   if (::mkdtemp(folder.data()) == nullptr) throw std::runtime_error("cannot make the folder " + folder);
-  studies::StudyFile rig = studies::read_study(study_path("rig_atlas"));
-  rig.output.borders = false;  // what they cost is no writing
+  studies::Study rig = studies::read_study(study_path("rig_atlas"));
+  rig.sweep()->output.borders = false;  // what they cost is no writing
   measure(rig, folder);
   measure(single_mass(350), folder);
   measure(single_mass(3500), folder);

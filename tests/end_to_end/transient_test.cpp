@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "solvers/response/periodic_response.hpp"
-#include "studies/reading/study_file.hpp"
+#include "studies/reading/study.hpp"
 #include "tests/end_to_end/motion_file.hpp"
 #include "tests/end_to_end/runs.hpp"
 #include "tests/study_path.hpp"
@@ -14,7 +14,7 @@
 namespace {
 
 // Peak of the periodic response of a transient study's system.
-double periodic_peak(const frahm::studies::StudyFile& study, const std::string& quantity) {
+double periodic_peak(const frahm::studies::Study& study, const std::string& quantity) {
   namespace periodic = frahm::periodic;
   auto parameters = study.parameters.nominal();
   frahm::mechanics::NetworkValues values;

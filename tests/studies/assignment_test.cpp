@@ -12,14 +12,14 @@ using namespace frahm::studies;
 
 constexpr double rounding = 1e-14;  // a few roundings of double arithmetic
 
-StudyFile rig() {
+Study rig() {
   return read_study(study_path("rig_atlas"));
 }
-StudyFile den_hartog() {
+Study den_hartog() {
   return read_study(study_path("den_hartog"));
 }
 
-std::string complaint_about(const StudyFile& study, const std::string& text) {
+std::string complaint_about(const Study& study, const std::string& text) {
   try {
     parse_assignments(study, "--at", text);
   } catch (const StudyError& error) {
@@ -29,7 +29,7 @@ std::string complaint_about(const StudyFile& study, const std::string& text) {
 }
 
 TEST_CASE("an assignment takes the unit of the axis, else that of the parameter, else its own") {
-  const StudyFile study = rig();
+  const Study study = rig();
   const auto read = parse_assignments(study, "--at", "omega=250, A = 30 ,I=6.36, FP=5 %");
   REQUIRE(read.size() == 4);
   CHECK_THAT(read[0].value, Catch::WithinRel(250.0 * std::numbers::pi / 30.0, rounding));
@@ -42,14 +42,14 @@ TEST_CASE("an assignment takes the unit of the axis, else that of the parameter,
 }
 
 TEST_CASE("the unit of a parameter is the one its axis has") {
-  const StudyFile study = rig();
+  const Study study = rig();
   CHECK(usual_unit(study, *study.parameters.find("omega")).text == "rpm");
   CHECK(usual_unit(study, *study.parameters.find("A")).text == "mm");
   CHECK(usual_unit(den_hartog(), 0).text == "1");
 }
 
 TEST_CASE("a wrong assignment is told what is wrong and what would be right") {
-  const StudyFile study = rig();
+  const Study study = rig();
   CHECK(complaint_about(study, "omga=250") ==
         "--at \"omga=250\": no parameter is called \"omga\"; did you mean \"omega\"?");
   CHECK_THAT(complaint_about(study, "omega"), Catch::Contains("write name=value"));
@@ -65,8 +65,8 @@ TEST_CASE("a wrong assignment is told what is wrong and what would be right") {
 }
 
 TEST_CASE("a study with other parameters is checked again") {
-  const StudyFile study = den_hartog();
-  const StudyFile changed = with_parameters(study, parse_assignments(study, "--set", "f=0.3"));
+  const Study study = den_hartog();
+  const Study changed = with_parameters(study, parse_assignments(study, "--set", "f=0.3"));
   CHECK(changed.parameters.nominal()[1] == 0.3);
   CHECK_THROWS_WITH(
       with_parameters(rig(), parse_assignments(rig(), "--set", "A=-1")),
@@ -75,7 +75,7 @@ TEST_CASE("a study with other parameters is checked again") {
 }
 
 TEST_CASE("a point out of range is told with the value's place in the study") {
-  const StudyFile study = den_hartog();
+  const Study study = den_hartog();
   std::vector<double> parameters{-0.1, 0.2, 0.9};
   CHECK_THROWS_WITH(check_point(study, parameters),
                     Catch::Contains("element \"damper\": damping: is -0.2 at zeta = -0.1; must be >= 0"));

@@ -12,7 +12,7 @@ using namespace frahm::studies;
 using small_studies::axis;
 using small_studies::oscillator;
 
-StudyFile study_of(const std::string& axes) {
+Study study_of(const std::string& axes) {
   return parse_study(oscillator() + axes, "small.toml");
 }
 
@@ -96,12 +96,12 @@ TEST_CASE("a row of frequencies longer than 4000 is cut") {
 }
 
 TEST_CASE("a point is told as the option --at takes it, with its units") {
-  const StudyFile rig = read_study(study_path("rig_atlas"));
+  const Study rig = read_study(study_path("rig_atlas"));
   CHECK(point_text(rig, std::vector<std::uint64_t>{41, 1, 400}) == "I=12.9 kg,FP=0.01,omega=350 rpm");
 }
 
 TEST_CASE("a map that meets the arctan law is cut into small tiles, as its points take long") {
-  const StudyFile study =
+  const Study study =
       parse_study(small_studies::oscillator() + small_studies::axis("f", 0, 1, 10) +
                       small_studies::axis("r", 0.5, 1.5, 41) + "[compare]\nlaw = \"arctan\"\nslope = 1e3\n",
                   "small.toml");

@@ -6,7 +6,7 @@
 
 #include "results/map_writer.hpp"
 #include "studies/map/study_plan.hpp"
-#include "studies/reading/study_file.hpp"
+#include "studies/reading/study.hpp"
 #include "tests/studies/temporary_folder.hpp"
 
 namespace {
@@ -44,7 +44,7 @@ std::string fitted(const std::string& parameter, const std::string& more = "") {
 
 const std::string free_trace = "time [ms],main_displacement [mm]\n0,20\n10,19\n20,17\n";
 
-StudyFile read(const TemporaryFolder& folder, const std::string& text) {
+Study read(const TemporaryFolder& folder, const std::string& text) {
   return parse_study(text, folder / "study.toml");
 }
 
@@ -73,11 +73,11 @@ TEST_CASE("a record is read by its header, in the units that stand there") {
   const TemporaryFolder folder;
   folder.write("free decay-1.csv",
                "\xEF\xBB\xBF# a test\r\nnote;displacement [mm];time [ms]\r\n1;20;0\r\n2;19.5;10\r\n");
-  const StudyFile study = read(folder, heading + identify("free_decay") + record("free decay-1.csv"));
-  CHECK(study.kind == StudyKind::identify);
-  REQUIRE(study.identify);
+  const Study study = read(folder, heading + identify("free_decay") + record("free decay-1.csv"));
+  CHECK(study.kind() == StudyKind::identify);
+  REQUIRE(study.identify());
   CHECK(study.network.masses.empty());
-  const RecordChoice& only = study.identify->records.at(0);
+  const RecordChoice& only = study.identify()->records.at(0);
   CHECK(only.name == "free_decay_1");
   CHECK(only.columns.size() == 2);
   check_all(column(only, "time"), {0.0, 0.01});
@@ -99,10 +99,10 @@ TEST_CASE("columns are named by number or by header, and units by the study or b
                "columns = { displacement = 2, time = \"t [ms]\" }\nunits = { displacement = "
                "\"mm\" }\n")}) {
     INFO(each);
-    const StudyFile study = read(folder, heading + identify("log_decrement", "cycles = 3\n") + each);
-    CHECK(study.identify->cycles == 3);
-    check_all(column(study.identify->records[0], "time"), {0.0, 0.01});
-    check_all(column(study.identify->records[0], "displacement"), {0.02, 0.0195});
+    const Study study = read(folder, heading + identify("log_decrement", "cycles = 3\n") + each);
+    CHECK(study.identify()->cycles == 3);
+    check_all(column(study.identify()->records[0], "time"), {0.0, 0.01});
+    check_all(column(study.identify()->records[0], "displacement"), {0.02, 0.0195});
   }
 }
 
@@ -111,10 +111,10 @@ TEST_CASE("doubtful rows are left out unread, and counted; labels stay") {
   folder.write("widths.csv",
                "label,natural_frequency [Hz],lower_frequency [Hz],upper_frequency [Hz],doubtful\n"
                "\"S, alone\",8.75,8.314,9.243,0\nS+C,8.75,8.2?,,1\nS+V,9.0,8.508,10.687,0\n");
-  const StudyFile study =
+  const Study study =
       read(folder, heading + identify("half_power", "curve = \"support\"\n") + record("widths.csv"));
-  CHECK(study.identify->curve == CurveOf::support);
-  const RecordChoice& rows = study.identify->records[0];
+  CHECK(study.identify()->curve == CurveOf::support);
+  const RecordChoice& rows = study.identify()->records[0];
   CHECK(rows.doubtful == 1);
   CHECK(rows.labels == std::vector<std::string>{"S, alone", "S+V"});
   const double cycle = 2.0 * std::numbers::pi;  // Hz count cycles
@@ -132,7 +132,7 @@ TEST_CASE("each method has the forms of its data") {
   folder.write("trace.csv", "time,displacement\n0,0.02\n0.01,0.018\n");
   folder.write("curve.csv", "frequency [Hz],amplitude [mm]\n8,1\n9,4\n");
   const auto columns_of = [&](const std::string& text) {
-    return read(folder, heading + text).identify->records[0].columns.size();
+    return read(folder, heading + text).identify()->records[0].columns.size();
   };
   CHECK(columns_of(identify("log_decrement") + record("extremes.csv")) == 1);
   CHECK(columns_of(identify("forced_resonance", "stiffness = 3022\n") + record("lines.csv")) == 2);
@@ -150,13 +150,13 @@ TEST_CASE("each method has the forms of its data") {
 TEST_CASE("what is known beside the data may be an expression, whose parameters then have a meaning") {
   const TemporaryFolder folder;
   folder.write("decay.csv", "time,displacement\n0,0.02\n0.01,0.018\n");
-  const StudyFile study = read(folder, heading + "[parameters]\nm = { value = 1500, unit = \"g\" }\n" +
-                                           identify("free_decay", "mass = \"2*m\"\nsensor_offset = true\n") +
-                                           record("decay.csv"));
+  const Study study = read(folder, heading + "[parameters]\nm = { value = 1500, unit = \"g\" }\n" +
+                                       identify("free_decay", "mass = \"2*m\"\nsensor_offset = true\n") +
+                                       record("decay.csv"));
   const std::vector<double> values = study.parameters.nominal();
-  REQUIRE(study.identify->mass);
-  CHECK(study.identify->sensor_offset);
-  CHECK_THAT(study.identify->mass->expression.evaluate(std::span<const double>(values)),
+  REQUIRE(study.identify()->mass);
+  CHECK(study.identify()->sensor_offset);
+  CHECK_THAT(study.identify()->mass->expression.evaluate(std::span<const double>(values)),
              Catch::WithinRel(3.0, rounding));
 }
 
@@ -171,8 +171,8 @@ TEST_CASE("a grey box reads sensors and excitation by the names of its nodes") {
       record("free.csv",
              "name = \"steady\"\nmotion = \"periodic\"\nset = { R = { value = 50, unit = \"mm\" } }\n") +
       fitted("k", "lower = 1\nupper = 5\neach_record = true\n") + fitted("x0");
-  const StudyFile study = read(folder, text);
-  const IdentifyChoice& choice = *study.identify;
+  const Study study = read(folder, text);
+  const IdentifyChoice& choice = *study.identify();
   REQUIRE(choice.records.size() == 3);
   CHECK(choice.records[0].motion == MotionKind::free);
   CHECK(choice.records[0].set.at(0).value == 0.5);
@@ -192,13 +192,13 @@ TEST_CASE("a record without excitation moves freely unless the study or the data
   const TemporaryFolder folder;
   folder.write("free.csv", free_trace);
   folder.write("pushed.csv", "time,main_displacement,main_force\n0,0,0\n1,1,1\n");
-  const StudyFile study = read(folder, heading + parameters + one_mass + initial + identify("grey_box") +
-                                           record("free.csv") + record("pushed.csv") + fitted("c"));
-  CHECK(study.identify->records[0].motion == MotionKind::free);
-  CHECK(study.identify->records[1].motion == MotionKind::forced);
-  const StudyFile driven = read(folder, heading + parameters + one_mass + support + identify("grey_box") +
-                                            record("free.csv") + fitted("c"));
-  CHECK(driven.identify->records[0].motion == MotionKind::forced);
+  const Study study = read(folder, heading + parameters + one_mass + initial + identify("grey_box") +
+                                       record("free.csv") + record("pushed.csv") + fitted("c"));
+  CHECK(study.identify()->records[0].motion == MotionKind::free);
+  CHECK(study.identify()->records[1].motion == MotionKind::forced);
+  const Study driven = read(folder, heading + parameters + one_mass + support + identify("grey_box") +
+                                        record("free.csv") + fitted("c"));
+  CHECK(driven.identify()->records[0].motion == MotionKind::forced);
 }
 
 TEST_CASE("a crank has the orders that the records and the bounds need") {
@@ -218,18 +218,17 @@ TEST_CASE("a crank has the orders that the records and the bounds need") {
 TEST_CASE("an estimate takes the place of a parameter of the system") {
   const TemporaryFolder folder;
   folder.write("decay.csv", "time,displacement\n0,0.02\n0.01,0.018\n");
-  const StudyFile study =
-      read(folder, heading + parameters + one_mass + identify("free_decay", "mass = 1\n") +
-                       record("decay.csv") + fitted("F", "estimate = \"friction_force\"\n"));
-  CHECK(study.identify->parameters[0].estimate == "friction_force");
-  CHECK(study.identify->parameters[0].parameter == study.parameters.find("F"));
+  const Study study = read(folder, heading + parameters + one_mass + identify("free_decay", "mass = 1\n") +
+                                       record("decay.csv") + fitted("F", "estimate = \"friction_force\"\n"));
+  CHECK(study.identify()->parameters[0].estimate == "friction_force");
+  CHECK(study.identify()->parameters[0].parameter == study.parameters.find("F"));
 }
 
 TEST_CASE("no value of the command line replaces what the measurements determine") {
   const TemporaryFolder folder;
   folder.write("free.csv", free_trace);
-  const StudyFile study = read(folder, heading + parameters + one_mass + initial + identify("grey_box") +
-                                           record("free.csv", "set = { I = 0.5 }\n") + fitted("c"));
+  const Study study = read(folder, heading + parameters + one_mass + initial + identify("grey_box") +
+                                       record("free.csv", "set = { I = 0.5 }\n") + fitted("c"));
   CHECK_THROWS_WITH(refuse_overruled(study, {"c=3"}), Catch::Contains("\"c\" is identified"));
   CHECK_THROWS_WITH(refuse_overruled(study, {"I=3"}), Catch::Contains("\"I\" is set by the record \"free\""));
   CHECK_NOTHROW(refuse_overruled(study, {"F=3"}));
@@ -255,14 +254,15 @@ TEST_CASE("columns of an HDF5 file are its datasets, whose padding and doubtful 
   };
   const std::string times = ", extremum_time = \"decay/main_extremum_time\"";
   const RecordChoice whole =
-      read(folder, text("extremum = \"decay/main_extremum\"" + times)).identify->records[0];
+      read(folder, text("extremum = \"decay/main_extremum\"" + times)).identify()->records[0];
   check_all(column(whole, "extremum"), {0.02, -0.018, 0.016});
   CHECK(column(whole, "extremum_time").size() == 3);
   const std::string energies = "amplitude = \"decay/x\", energy = \"decay/e\", frequency = \"decay/w\"";
   const RecordChoice part =
       read(folder, heading + identify("energy_balance") +
                        record("earlier.h5", "columns = { " + energies + ", doubtful = \"decay/mark\" }\n"))
-          .identify->records[0];
+          .identify()
+          ->records[0];
   check_all(column(part, "amplitude"), {0.02, 0.018});
   CHECK(part.doubtful == 1);
   CHECK_THAT(complaint_about(folder, text("extremum = \"decay/main_extremum\", doubtful = \"decay/mark\"")),
@@ -296,10 +296,10 @@ TEST_CASE("earlier estimates take the place of parameters, with what is known of
                   {{4.0, 0.1, 0.2}, {0.1, 9.0, 0.3}, {0.2, 0.3, 16.0}});
   write_estimates(folder / "second.h5", {"I"}, {"kg"}, {0.5}, {{25.0}});
   const std::string rest = record("free.csv") + fitted("c");
-  const StudyFile study =
+  const Study study =
       read(folder, heading + parameters + one_mass + initial +
                        identify("grey_box", "fixed_from = [\"first.h5\", \"second.h5\"]\n") + rest);
-  const IdentifyChoice& choice = *study.identify;
+  const IdentifyChoice& choice = *study.identify();
   REQUIRE(choice.fixed.size() == 3);
   CHECK(study.parameters.list[choice.fixed[0].parameter].name == "F");
   CHECK(study.parameters.list[choice.fixed[1].parameter].name == "k");
@@ -309,10 +309,10 @@ TEST_CASE("earlier estimates take the place of parameters, with what is known of
   const std::vector<std::vector<double>> expected{{4.0, 0.2, 0.0}, {0.2, 16.0, 0.0}, {0.0, 0.0, 25.0}};
   CHECK(choice.fixed_covariance == expected);
   CHECK_THROWS_WITH(refuse_overruled(study, {"F=3"}), Catch::Contains("\"F\" has its value from fixed_from"));
-  const StudyFile refitted =
+  const Study refitted =
       read(folder, heading + parameters + one_mass + initial +
                        identify("grey_box", "fixed_from = \"first.h5\"\n") + rest + fitted("k"));
-  CHECK(refitted.identify->fixed.size() == 1);  // what is fitted again is not fixed
+  CHECK(refitted.identify()->fixed.size() == 1);  // what is fitted again is not fixed
 }
 
 TEST_CASE("earlier estimates that fix nothing, or contradict the study, are refused") {
@@ -362,9 +362,9 @@ TEST_CASE("hysteretic elements need a frequency where no excitation tells one") 
 TEST_CASE("a dimensionless study has data without units, or with the unit 1") {
   const TemporaryFolder folder;
   folder.write("decay.csv", "time [1],displacement\n0,20\n1,19\n");
-  const StudyFile study =
+  const Study study =
       read(folder, heading + "units = \"dimensionless\"\n" + identify("free_decay") + record("decay.csv"));
-  check_all(column(study.identify->records[0], "displacement"), {20.0, 19.0});
+  check_all(column(study.identify()->records[0], "displacement"), {20.0, 19.0});
 }
 
 TEST_CASE("a record of 20,000 rows is read in a fraction of a second") {
@@ -374,10 +374,10 @@ TEST_CASE("a record of 20,000 rows is read in a fraction of a second") {
     text += std::to_string(i * 1e-3) + "," + std::to_string(20.0 * std::cos(i * 0.05)) + ",0.123456789\n";
   folder.write("long.csv", text);
   const auto start = std::chrono::steady_clock::now();
-  const StudyFile study = read(folder, heading + parameters + one_mass + initial + identify("grey_box") +
-                                           record("long.csv") + fitted("c"));
+  const Study study = read(folder, heading + parameters + one_mass + initial + identify("grey_box") +
+                                       record("long.csv") + fitted("c"));
   const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
-  CHECK(column(study.identify->records[0], "main_velocity").size() == 20'000);
+  CHECK(column(study.identify()->records[0], "main_velocity").size() == 20'000);
   CHECK(passed.count() < 1.0);  // loose: other programs run beside the tests; alone it is some 0.02 s
 }
 

@@ -35,13 +35,13 @@ between = ["ground", "cart"]
 force = 1.5
 )";
 
-StudyFile decay() {
+Study decay() {
   return parse_study("[study]\nschema = 1\nkind = \"decay\"\n" + system_text +
                          "[decay]\nduration = 1.5\n[[initial]]\nnode = \"cart\"\ndisplacement = 0.05\n",
                      "cart.toml");
 }
 
-StudyFile sweep() {
+Study sweep() {
   return parse_study("[study]\nschema = 1\nkind = \"sweep\"\n[parameters]\nomega = 18\n" + system_text +
                          "[excitation]\nfrequency = \"omega\"\n[[excitation.force]]\non = \"cart\"\n"
                          "amplitude = 8\n[[axis]]\nparameter = \"omega\"\nvalues = [18, 20]\n",
@@ -77,7 +77,7 @@ TEST_CASE("measured accelerations obey the equation of motion, in a decay up to 
 }
 
 TEST_CASE("a periodic response is measured at any rate, with its forces") {
-  const StudyFile study = sweep();
+  const Study study = sweep();
   const std::vector<double> at = study.parameters.nominal();
   const Measurements data = measure(study, at,
                                     {.rate = 317.0,

@@ -4,7 +4,7 @@
 
 #include "studies/map/map_plan.hpp"
 #include "studies/motion/motion_record.hpp"
-#include "studies/reading/study_file.hpp"
+#include "studies/reading/study.hpp"
 
 namespace {
 
@@ -24,15 +24,15 @@ const std::string excitation =
 const std::string initial =
     "[[initial]]\nnode = \"b\"\ndisplacement = \"x_0\"\nvelocity = { value = -5, unit = \"cm/s\" }\n";
 
-StudyFile parse(const std::string& text) {
+Study parse(const std::string& text) {
   return parse_study(text, "motion.toml");
 }
 
 TEST_CASE("a decay has its initial values in SI, masses that are not named at rest") {
-  const StudyFile study = parse(decay_heading + network + initial);
-  CHECK(study.kind == StudyKind::decay);
-  CHECK(study.motion.samples == 0);
-  CHECK_FALSE(study.motion.duration);
+  const Study study = parse(decay_heading + network + initial);
+  CHECK(study.kind() == StudyKind::decay);
+  CHECK(study.decay()->samples == 0);
+  CHECK_FALSE(study.decay()->duration);
   const auto state = initial_state(study);
   CHECK(state.displacement[0] == 0.0);
   CHECK_THAT(state.displacement[1], Catch::WithinRel(0.03, rounding));
@@ -44,21 +44,21 @@ TEST_CASE("the loss factors of a decay are taken at the lowest natural frequency
   // The lower root of det(K - omega^2 M) = 0: 2 w^2 - 1100 w + 80000 = 0, w = omega^2.
   CHECK_THAT(lowest * lowest,
              Catch::WithinRel((1100.0 - std::sqrt(1100.0 * 1100.0 - 8.0 * 80000.0)) / 4.0, 1e-12));
-  const StudyFile given = parse(decay_heading + network + initial +
-                                "[decay]\nreference_frequency = { value = 3, unit = \"Hz\" }\n");
+  const Study given = parse(decay_heading + network + initial +
+                            "[decay]\nreference_frequency = { value = 3, unit = \"Hz\" }\n");
   CHECK_THAT(motion_values(given).hysteretic_omega, Catch::WithinRel(6.0 * std::numbers::pi, rounding));
 }
 
 TEST_CASE("a transient has 1001 samples unless told otherwise, and a run-up lasts until it arrives") {
-  const StudyFile steady = parse(transient_heading + network + excitation +
-                                 "[transient]\nduration = { value = 2, unit = \"min\" }\n");
+  const Study steady = parse(transient_heading + network + excitation +
+                             "[transient]\nduration = { value = 2, unit = \"min\" }\n");
   CHECK(forced_options(steady).duration == 120.0);
   CHECK(forced_options(steady).samples == 1001);
   CHECK(forced_options(steady).sweep.rate == 0.0);
   CHECK_THAT(forced_options(steady).from, Catch::WithinRel(4.0 * std::numbers::pi, rounding));
-  const StudyFile run_down = parse(transient_heading + network + excitation +
-                                   "[transient]\nsweep_to = { value = 0.5, unit = \"Hz\" }\nsweep_rate = { "
-                                   "value = 30, unit = \"rpm/s\" }\n");
+  const Study run_down = parse(transient_heading + network + excitation +
+                               "[transient]\nsweep_to = { value = 0.5, unit = \"Hz\" }\nsweep_rate = { "
+                               "value = 30, unit = \"rpm/s\" }\n");
   CHECK_THAT(forced_options(run_down).duration, Catch::WithinRel(3.0, rounding));
   CHECK_THAT(forced_options(run_down).sweep.to, Catch::WithinRel(std::numbers::pi, rounding));
 }
@@ -87,7 +87,7 @@ TEST_CASE("initial values and sweeps are physics, duration and samples are not")
 TEST_CASE("a constant force alone is an excitation of a transient") {
   const std::string constant =
       "[excitation]\nfrequency = \"omega\"\n[[excitation.force]]\non = \"b\"\namplitude = 3\norder = 0\n";
-  const StudyFile study = parse(transient_heading + network + constant + "[transient]\nduration = 3\n");
+  const Study study = parse(transient_heading + network + constant + "[transient]\nduration = 3\n");
   REQUIRE(study.network.excitations.size() == 1);
   CHECK(study.network.reference_order == 1);
   CHECK(solve_transient(study).peaks[1].displacement > 0.0);

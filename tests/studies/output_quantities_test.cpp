@@ -22,7 +22,7 @@ TEST_CASE("quantities are recorded in the order in which the study lists them") 
 }
 
 std::vector<frahm::periodic::QuantityDescription> variables_of(const std::string& text) {
-  const StudyFile study = parse_study(text, "small.toml");
+  const Study study = parse_study(text, "small.toml");
   return output_variables(study, output_quantities(study));
 }
 

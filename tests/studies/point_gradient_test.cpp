@@ -19,12 +19,12 @@ using frahm::studies::gradient_at;
 using frahm::studies::point_command;
 using frahm::studies::PointGradient;
 using frahm::studies::PointOptions;
-using frahm::studies::StudyFile;
+using frahm::studies::Study;
 
 constexpr double kDifference = 1e-6;  // of exact derivatives and differences, relative
 constexpr double kClosedForm = 1e-9;
 
-PointGradient gradient_of(const StudyFile& study, const std::vector<std::string>& at) {
+PointGradient gradient_of(const Study& study, const std::vector<std::string>& at) {
   return gradient_at(study, frahm::studies::parameters_at(study, at));
 }
 
@@ -47,7 +47,7 @@ std::string tell(const PointOptions& options) {
 
 TEST_CASE(
     "A study's derivatives by its parameters go through its expressions and have the parameter's unit") {
-  const StudyFile study = frahm::studies::read_study(study_path("rig_atlas"));
+  const Study study = frahm::studies::read_study(study_path("rig_atlas"));
   const PointGradient gradient = gradient_of(study, {"omega=250 rpm", "I=6.36", "FP=0.05"});
   CHECK(gradient.reason.empty());
   std::vector<std::string> names;
@@ -62,7 +62,7 @@ TEST_CASE(
 }
 
 TEST_CASE("The one mass's derivative by its friction is that of Den Hartog's formula") {
-  const StudyFile study = frahm::studies::read_study(study_path("den_hartog"));
+  const Study study = frahm::studies::read_study(study_path("den_hartog"));
   const PointGradient gradient = gradient_of(study, {"r=0.9", "f=0.1"});
   const auto [V, G, H] = frahm::periodic::den_hartog_functions(0.9, 0.05);
   const double exact = -H * H * 0.1 / std::sqrt(V * V - H * H * 0.01) - G;
@@ -70,7 +70,7 @@ TEST_CASE("The one mass's derivative by its friction is that of Den Hartog's for
 }
 
 TEST_CASE("A frequency that no parameter sets has derivatives of its own") {
-  const StudyFile study = frahm::studies::parse_study(R"([study]
+  const Study study = frahm::studies::parse_study(R"([study]
 schema = 1
 kind = "sweep"
 units = "dimensionless"
@@ -98,7 +98,7 @@ amplitude = 1
 parameter = "c"
 values = [0.1, 0.2]
 )",
-                                                      "fixed.toml");
+                                                  "fixed.toml");
   const PointGradient gradient = gradient_of(study, {});
   // V^-2 = (1 - r^2)^2 + (c r)^2
   const double r = 0.8, c = 0.1, V = 1.0 / std::hypot(1.0 - r * r, c * r);

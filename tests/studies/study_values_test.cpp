@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/reading/study_file.hpp"
+#include "studies/reading/study.hpp"
 #include "tests/study_path.hpp"
 
 namespace {
@@ -14,7 +14,7 @@ using frahm::mechanics::NetworkValues;
 using frahm::studies::differentiate;
 using frahm::studies::evaluate;
 using frahm::studies::read_study;
-using frahm::studies::StudyFile;
+using frahm::studies::Study;
 
 constexpr double step = 1e-6;  // relative, of the central differences
 // Central differences: their truncation is of order step^2, their rounding of order 1e-16/step.
@@ -31,7 +31,7 @@ std::vector<double> flat(const NetworkValues& values) {
   return all;
 }
 
-std::vector<double> values_at(const StudyFile& study, std::vector<double> parameters) {
+std::vector<double> values_at(const Study& study, std::vector<double> parameters) {
   NetworkValues values;
   evaluate(study.values, study.parameters, parameters, values);
   return flat(values);
@@ -39,7 +39,7 @@ std::vector<double> values_at(const StudyFile& study, std::vector<double> parame
 
 TEST_CASE("the derivative of every value by every parameter agrees with differences") {
   for (const char* name : {"rig_atlas", "cheng_zu", "den_hartog"}) {
-    const StudyFile study = read_study(study_path(name));
+    const Study study = read_study(study_path(name));
     const auto nominal = study.parameters.nominal();
     for (std::size_t by = 0; by < nominal.size(); ++by) {
       INFO(name << ", by " << study.parameters.list[by].name);
@@ -60,7 +60,7 @@ TEST_CASE("the derivative of every value by every parameter agrees with differen
 }
 
 TEST_CASE("evaluation does not move the values it has once made room for") {
-  const StudyFile study = read_study(study_path("rig_atlas"));
+  const Study study = read_study(study_path("rig_atlas"));
   auto parameters = study.parameters.nominal();
   NetworkValues values;
   evaluate(study.values, study.parameters, parameters, values);

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "studies/reading/study_file.hpp"
+#include "studies/reading/study.hpp"
 #include "studies/tuning/tuned_design.hpp"
 #include "studies/tuning/tuning_task.hpp"
 #include "tests/studies/small_tunings.hpp"
@@ -15,7 +15,7 @@ using frahm::tuning::Objective;
 using frahm::tuning::Start;
 constexpr double rounding = 1e-14;  // a few roundings of double arithmetic
 
-StudyFile parse(const std::string& text) {
+Study parse(const std::string& text) {
   return parse_study(text, "tuning.toml");
 }
 
@@ -41,31 +41,30 @@ const std::string scheduled =
     "[[design]]\nparameter = \"k\"\nlower = 5\nupper = 20\n";
 
 TEST_CASE("a tuning has its defaults, and its choices where they are made") {
-  const StudyFile plain = parse(classical);
-  REQUIRE(plain.tune);
-  CHECK(plain.kind == StudyKind::tune);
-  CHECK(plain.tune->objective == Objective::minimax);
-  CHECK(plain.tune->solver == frahm::tuning::SolverKind::ipopt);
-  CHECK(plain.tune->start == Start::given);
-  CHECK(plain.tune->starts == 1);
-  CHECK(plain.tune->tolerance == 1e-6);
-  CHECK_FALSE(plain.tune->dominate_constant);
-  const StudyFile chosen =
+  const Study plain = parse(classical);
+  REQUIRE(plain.tune());
+  CHECK(plain.kind() == StudyKind::tune);
+  CHECK(plain.tune()->objective == Objective::minimax);
+  CHECK(plain.tune()->solver == frahm::tuning::SolverKind::ipopt);
+  CHECK(plain.tune()->start == Start::given);
+  CHECK(plain.tune()->starts == 1);
+  CHECK(plain.tune()->tolerance == 1e-6);
+  CHECK_FALSE(plain.tune()->dominate_constant);
+  const Study chosen =
       parse(heading + absorber + minimax + "solver = \"mma\"\nstart = 32\ntolerance = 1e-8\n" + of_f);
-  CHECK(chosen.tune->solver == frahm::tuning::SolverKind::mma);
-  CHECK(chosen.tune->start == Start::many);
-  CHECK(chosen.tune->starts == 32);
-  CHECK(chosen.tune->tolerance == 1e-8);
-  const StudyFile global =
-      parse(heading + absorber + minimax + "start = \"nlopt\"\nglobal = \"isres\"\n" + of_f);
-  CHECK(global.tune->start == Start::global);
-  CHECK(global.tune->global_solver == frahm::tuning::SolverKind::isres);
+  CHECK(chosen.tune()->solver == frahm::tuning::SolverKind::mma);
+  CHECK(chosen.tune()->start == Start::many);
+  CHECK(chosen.tune()->starts == 32);
+  CHECK(chosen.tune()->tolerance == 1e-8);
+  const Study global = parse(heading + absorber + minimax + "start = \"nlopt\"\nglobal = \"isres\"\n" + of_f);
+  CHECK(global.tune()->start == Start::global);
+  CHECK(global.tune()->global_solver == frahm::tuning::SolverKind::isres);
 }
 
 TEST_CASE("bands, bounds, knots and slopes are in the units the study gives, SI within") {
-  const StudyFile study = parse(rig + scheduled);
+  const Study study = parse(rig + scheduled);
   const double rpm = std::numbers::pi / 30.0;
-  const TuneChoice& tune = *study.tune;
+  const TuneChoice& tune = *study.tune();
   CHECK_THAT(tune.band->range.from, Catch::WithinRel(150.0 * rpm, rounding));
   CHECK_THAT(tune.band->range.to, Catch::WithinRel(350.0 * rpm, rounding));
   CHECK(tune.designs[0].lower == 4.72);
@@ -80,7 +79,7 @@ TEST_CASE("bands, bounds, knots and slopes are in the units the study gives, SI 
 }
 
 TEST_CASE("limits, a trade-off, scenarios and columns are read in their units") {
-  const StudyFile study = parse(
+  const Study study = parse(
       rig + "trade_off = { quantity = \"main_acceleration_peak\", values = [3, 2] }\n" + scheduled +
       "[[constraint]]\nquantity = \"tmd_spring_stroke\"\nupper = 80\nunit = \"mm\"\n"
       "band = { from = 200, to = 300 }\n"
@@ -88,7 +87,7 @@ TEST_CASE("limits, a trade-off, scenarios and columns are read in their units") 
       "[[scenario]]\nname = \"large\"\nset = { A = { value = 4, unit = \"cm\" } }\n"
       "[[column]]\nname = \"ratio\"\nvalue = \"sqrt((I*0.0009 - 0.0036)/0.0027)\"\nlower = 0.58\nupper = "
       "1.76\n");
-  const TuneChoice& tune = *study.tune;
+  const TuneChoice& tune = *study.tune();
   REQUIRE(tune.limits.size() == 1);
   CHECK_THAT(tune.limits[0].upper, Catch::WithinRel(0.08, rounding));
   CHECK_THAT(tune.limits[0].band->from, Catch::WithinRel(200.0 * std::numbers::pi / 30.0, rounding));
@@ -101,19 +100,17 @@ TEST_CASE("limits, a trade-off, scenarios and columns are read in their units") 
 }
 
 TEST_CASE("a crank has the orders that the largest one of the bounds and scenarios needs") {
-  const StudyFile small = parse(rig + scheduled);
-  const StudyFile designed =
-      parse(rig + scheduled + "[[design]]\nparameter = \"A\"\nlower = 10\nupper = 100\n");
-  const StudyFile in_scenario =
-      parse(rig + scheduled + "[[scenario]]\nname = \"large\"\nset = { A = 100 }\n");
+  const Study small = parse(rig + scheduled);
+  const Study designed = parse(rig + scheduled + "[[design]]\nparameter = \"A\"\nlower = 10\nupper = 100\n");
+  const Study in_scenario = parse(rig + scheduled + "[[scenario]]\nname = \"large\"\nset = { A = 100 }\n");
   CHECK(designed.network.excitations[0].even_orders > small.network.excitations[0].even_orders);
   CHECK(designed.network.excitations[0].even_orders == in_scenario.network.excitations[0].even_orders);
 }
 
 TEST_CASE("the task's network and its derivatives are those of the expressions, in every scenario") {
-  const StudyFile study = parse(rig + scheduled +
-                                "[[scenario]]\nname = \"small\"\nset = { A = 20 }\n"
-                                "[[scenario]]\nname = \"large\"\nset = { A = 40 }\n");
+  const Study study = parse(rig + scheduled +
+                            "[[scenario]]\nname = \"small\"\nset = { A = 20 }\n"
+                            "[[scenario]]\nname = \"large\"\nset = { A = 40 }\n");
   const frahm::tuning::Task task = tuning_task(study);
   CHECK(task.parameters[0].name == "I");
   CHECK(task.parameters[0].nominal == 6.0);
@@ -135,17 +132,17 @@ TEST_CASE("the task's network and its derivatives are those of the expressions, 
 }
 
 TEST_CASE("a weight has its slope over the band") {
-  const StudyFile study = parse(heading + absorber + minimax + "weight = \"P/r^2\"\n" + of_f);
+  const Study study = parse(heading + absorber + minimax + "weight = \"P/r^2\"\n" + of_f);
   const auto weight = tuning_task(study).weight(0.8);
   CHECK_THAT(weight.value, Catch::WithinRel(1.0 / 0.64, rounding));
   CHECK_THAT(weight.slope, Catch::WithinRel(-2.0 / 0.512, rounding));
 }
 
 TEST_CASE("a variance without limits needs no band, and its task no frequency") {
-  const StudyFile study = parse(
+  const Study study = parse(
       heading + absorber +
       "[tune]\nobjective = \"variance\"\nquantity = \"main_rms\"\nnoise = { force_on = \"main\" }\n" + of_f);
-  CHECK_FALSE(study.tune->band);
+  CHECK_FALSE(study.tune()->band);
   const auto task = tuning_task(study);
   std::vector<frahm::mechanics::NetworkValues> slopes;
   frahm::mechanics::NetworkValues values;
@@ -157,7 +154,7 @@ TEST_CASE("a variance without limits needs no band, and its task no frequency") 
 }
 
 TEST_CASE("a rule follows the study as it stands and keeps within the bounds") {
-  const StudyFile study = parse(rig + scheduled);
+  const Study study = parse(rig + scheduled);
   const auto rules = rules_of(study);
   REQUIRE(rules[0]);
   CHECK_FALSE(rules[1]);
@@ -167,8 +164,8 @@ TEST_CASE("a rule follows the study as it stands and keeps within the bounds") {
 }
 
 TEST_CASE("a schedule is linear between its knots and ends with them") {
-  const StudyFile study = parse(rig + scheduled);
-  const DesignChoice& design = study.tune->designs[0];
+  const Study study = parse(rig + scheduled);
+  const DesignChoice& design = study.tune()->designs[0];
   const std::vector<double> values{5, 6, 8, 8, 9};
   CHECK(value_at(design, values, design.knots[0]) == 5.0);
   CHECK(value_at(design, values, design.knots[4]) == 9.0);

@@ -81,16 +81,16 @@ TEST_CASE("every study written out is the study that was read", "[slow]") {
       if (entry.path().extension() != ".toml" || entry.path().filename().string().starts_with("toml_"))
         continue;
       INFO(entry.path().string());
-      StudyFile study;
+      Study study;
       try {
         study = read_study(entry.path());
       } catch (const StudyError&) {
         continue;
       }
-      const StudyFile again = parse_study(toml_text(read_toml(study.source)), entry.path());
-      if (study.kind == StudyKind::sweep) {
+      const Study again = parse_study(toml_text(read_toml(study.source)), entry.path());
+      if (study.kind() == StudyKind::sweep) {
         CHECK(plan_map(again, {}).fingerprint == plan_map(study, {}).fingerprint);
-      } else if (study.kind == StudyKind::tune) {
+      } else if (study.kind() == StudyKind::tune) {
         CHECK(plan_tuning(again, {}).fingerprint == plan_tuning(study, {}).fingerprint);
       } else {
         CHECK(plan_motion(again, {}).fingerprint == plan_motion(study, {}).fingerprint);
@@ -118,19 +118,19 @@ TEST_CASE("the sweep at an optimum has its design, its overrides, its scenarios 
   const SweepStudy sweep = sweep_study(stored, "optimum");
   CHECK(sweep.tables.empty());
   CHECK(sweep.text.starts_with(sweep_mark));
-  const StudyFile study = parse_study(sweep.text, "optimum.toml");
-  CHECK(study.kind == StudyKind::sweep);
+  const Study study = parse_study(sweep.text, "optimum.toml");
+  CHECK(study.kind() == StudyKind::sweep);
   const auto nominal = study.parameters.nominal();
   CHECK(nominal[*study.parameters.find("f")] == 0.95);
   CHECK(nominal[*study.parameters.find("zeta")] == 0.13);
   CHECK(nominal[*study.parameters.find("r")] == 1.25);
-  REQUIRE(study.dimensions.size() == 2);
-  CHECK(study.dimensions[0].name == "scenario");
-  REQUIRE(study.axes.size() == 3);
-  CHECK(study.axes[0].values == std::vector<double>{0.05, 0.06});
-  CHECK(study.axes[1].values == std::vector<double>{1.0, 2.0});
-  CHECK(study.axes[2].values == stored.band);
-  CHECK(study.output.names.size() == 2);
+  REQUIRE(study.sweep()->dimensions.size() == 2);
+  CHECK(study.sweep()->dimensions[0].name == "scenario");
+  REQUIRE(study.sweep()->axes.size() == 3);
+  CHECK(study.sweep()->axes[0].values == std::vector<double>{0.05, 0.06});
+  CHECK(study.sweep()->axes[1].values == std::vector<double>{1.0, 2.0});
+  CHECK(study.sweep()->axes[2].values == stored.band);
+  CHECK(study.sweep()->output.names.size() == 2);
 }
 
 TEST_CASE("a schedule is a table beside its sweep") {

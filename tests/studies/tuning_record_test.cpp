@@ -18,7 +18,7 @@ using namespace frahm::studies;
 using namespace small_tunings;
 constexpr double rounding = 1e-14;  // a few roundings of double arithmetic
 
-StudyFile parse(const std::string& text) {
+Study parse(const std::string& text) {
   return parse_study(text, "tuning.toml");
 }
 
@@ -49,12 +49,12 @@ tuning::Optimum optimum_of(double objective, tuning::Outcome outcome = tuning::O
 }
 
 // A result of the rig's shape, made up.
-TuningResult rig_result(const StudyFile& study) {
+TuningResult rig_result(const Study& study) {
   tuning::Optimum optimum = optimum_of(0.02);
   using enum tuning::AtBound;
   optimum.parameters = {{{5, 9, 6}, {no, upper, no}, {0, 0, 0}, {0, 1e-3, 0}},
                         {{12e3}, {upper}, {0}, {2e-6}}};
-  const tuning::Band& band = study.tune->band->range;
+  const tuning::Band& band = study.tune()->band->range;
   optimum.peaks = {{0, band.from, 0.02, 1.0, {1e-3, 3e-6}}};
   optimum.limits = {{0.07, band.to, 0, 0.125, 0.25}};
   optimum.constant = {8.0, 11e3};
@@ -72,7 +72,7 @@ const results::Column& named(const std::vector<results::Column>& columns, const 
 }
 
 TEST_CASE("the record of a tuning is in the units of its study") {
-  const StudyFile study = parse(rig);
+  const Study study = parse(rig);
   const auto columns = optimum_columns(study, rig_result(study));
   results::check(columns);
   const auto values = [&](const char* name) { return named(columns, name).values; };
@@ -107,7 +107,7 @@ TEST_CASE("the record of a tuning is in the units of its study") {
   CHECK(std::isnan(values("start_k")[0]));
 }
 
-std::string text_of(const std::string& name, const StudyFile& study, const TuningResult& result) {
+std::string text_of(const std::string& name, const Study& study, const TuningResult& result) {
   const auto texts = optimum_texts(study, result);
   const auto is_it = [&](const results::Text& text) { return text.first == name; };
   const auto found = std::find_if(texts.begin(), texts.end(), is_it);
@@ -115,7 +115,7 @@ std::string text_of(const std::string& name, const StudyFile& study, const Tunin
 }
 
 TEST_CASE("a record tells that its schedule was to dominate the constant, and only then") {
-  const auto dominate = [](const StudyFile& study) { return text_of("dominate", study, rig_result(study)); };
+  const auto dominate = [](const Study& study) { return text_of("dominate", study, rig_result(study)); };
   CHECK(dominate(parse(rig)).empty());
   std::string dominating = rig;
   dominating.replace(dominating.find("[[design]]"), 10, "dominate = \"constant\"\n[[design]]");
@@ -123,7 +123,7 @@ TEST_CASE("a record tells that its schedule was to dominate the constant, and on
 }
 
 TEST_CASE("a variance without a band has the objective of the design before beside that after") {
-  const StudyFile study = parse(
+  const Study study = parse(
       heading + absorber +
       "[tune]\nobjective = \"variance\"\nquantity = \"main_rms\"\nnoise = { force_on = \"main\" }\n" + of_f);
   tuning::Optimum optimum = optimum_of(2.0);
@@ -139,7 +139,7 @@ TEST_CASE("a variance without a band has the objective of the design before besi
 }
 
 TEST_CASE("a variance under support motion says that it is of the motion relative to the support") {
-  const StudyFile study = read_study(study_path("tune_h2_support"));
+  const Study study = read_study(study_path("tune_h2_support"));
   const TuningResult result{.starts = {{0, {optimum_of(2.0)}}}, .best = {0}, .assessment = {}};
   CHECK(text_of("noise", study, result) == "the acceleration of base");
   CHECK(text_of("noise_density", study, result) == "1");
@@ -147,7 +147,7 @@ TEST_CASE("a variance under support motion says that it is of the motion relativ
 }
 
 TEST_CASE("every unit of the record is one that UDUNITS reads") {
-  const StudyFile study = parse(rig);
+  const Study study = parse(rig);
   const UnitSystem units;
   for (const auto& column : optimum_columns(study, rig_result(study))) {
     INFO(column.variable.name << " [" << column.variable.unit << "]");
@@ -156,7 +156,7 @@ TEST_CASE("every unit of the record is one that UDUNITS reads") {
   std::string squared = rig;
   squared.replace(squared.find("minimax"), 7, "mean_square");
   squared.replace(squared.find("main_peak"), 9, "main_velocity_peak");
-  const StudyFile mean = parse(squared);
+  const Study mean = parse(squared);
   CHECK(objective_unit(mean) == "(m s-1)2");
   const Unit unit = units.parse(objective_unit(mean));
   CHECK(unit.exponents == std::array<int, 3>{2, 0, -2});

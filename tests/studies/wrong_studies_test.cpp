@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/reading/study_file.hpp"
+#include "studies/reading/study.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "studies/reading/study_file.hpp"
+#include "studies/reading/study.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -8,6 +8,7 @@
 #include <sstream>
 #include <string>
 
+#include "studies/map/grid.hpp"
 #include "tests/study_path.hpp"
 
 namespace {
@@ -53,7 +54,7 @@ TEST_CASE("every study of the project is read") {
 }
 
 TEST_CASE("the rig atlas is the network and the grid of its file") {
-  const StudyFile rig = read_study(study_path("rig_atlas"));
+  const Study rig = read_study(study_path("rig_atlas"));
   CHECK_FALSE(rig.dimensionless);
   CHECK(rig.network.masses == std::vector<std::string>{"main", "tmd"});
   CHECK(rig.network.prescribed == std::vector<std::string>{"exciter"});
@@ -66,22 +67,22 @@ TEST_CASE("the rig atlas is the network and the grid of its file") {
   CHECK(rig.network.excitations[0].kind == ExcitationKind::motion);
   CHECK(rig.network.reference_order == 1);
 
-  REQUIRE(rig.dimensions.size() == 3);
-  CHECK(rig.dimensions[0].name == "I");
-  CHECK(rig.dimensions[0].size == 42);
-  CHECK(rig.dimensions[1].size == 31);
-  CHECK(rig.dimensions[2].size == 401);
-  CHECK(rig.frequency_dimension == std::size_t{2});
-  CHECK_FALSE(rig.values_depend_on_frequency);
-  CHECK(rig.axes[0].unit == "kg");
-  CHECK(rig.axes[0].values.back() == 12.9);
-  CHECK(rig.axes[2].unit == "rpm");
-  CHECK(rig.axes[2].values[1] == 150.5);
-  CHECK_THAT(rig.axes[2].si_values[0], Catch::WithinRel(5.0 * std::numbers::pi, rounding));
+  REQUIRE(rig.sweep()->dimensions.size() == 3);
+  CHECK(rig.sweep()->dimensions[0].name == "I");
+  CHECK(rig.sweep()->dimensions[0].size == 42);
+  CHECK(rig.sweep()->dimensions[1].size == 31);
+  CHECK(rig.sweep()->dimensions[2].size == 401);
+  CHECK(rig.sweep()->frequency_dimension == std::size_t{2});
+  CHECK_FALSE(rig.sweep()->values_depend_on_frequency);
+  CHECK(rig.sweep()->axes[0].unit == "kg");
+  CHECK(rig.sweep()->axes[0].values.back() == 12.9);
+  CHECK(rig.sweep()->axes[2].unit == "rpm");
+  CHECK(rig.sweep()->axes[2].values[1] == 150.5);
+  CHECK_THAT(rig.sweep()->axes[2].si_values[0], Catch::WithinRel(5.0 * std::numbers::pi, rounding));
 }
 
 TEST_CASE("the rig atlas has the published values at 250 rpm and I = 6.36 kg") {
-  const StudyFile rig = read_study(study_path("rig_atlas"));
+  const Study rig = read_study(study_path("rig_atlas"));
   auto parameters = rig.parameters.nominal();
   frahm::mechanics::NetworkValues values;
   evaluate(rig.values, rig.parameters, parameters, values);
@@ -95,18 +96,19 @@ TEST_CASE("the rig atlas has the published values at 250 rpm and I = 6.36 kg") {
 }
 
 TEST_CASE("derived coordinates lie along their dimension") {
-  const StudyFile rig = read_study(study_path("rig_atlas"));
-  REQUIRE(rig.coordinates.size() == 2);
-  CHECK(rig.coordinates[0].dimension == 2);
-  const auto ratios = coordinate_values(rig, rig.coordinates[0]);
+  const Study rig = read_study(study_path("rig_atlas"));
+  REQUIRE(rig.sweep()->coordinates.size() == 2);
+  CHECK(rig.sweep()->coordinates[0].dimension == 2);
+  const auto ratios = coordinate_values(rig, rig.sweep()->coordinates[0]);
   REQUIRE(ratios.size() == 401);
   const double natural = std::sqrt(7.0 * 8181.0 / 102.66);
   CHECK_THAT(ratios[0], Catch::WithinRel(5.0 * std::numbers::pi / natural, rounding));
-  CHECK_THAT(coordinate_values(rig, rig.coordinates[1])[41], Catch::WithinRel(12.9 / 102.66, rounding));
+  CHECK_THAT(coordinate_values(rig, rig.sweep()->coordinates[1])[41],
+             Catch::WithinRel(12.9 / 102.66, rounding));
 }
 
 TEST_CASE("a study of two frequencies has its orders and the lowest as reference") {
-  const StudyFile study = read_study(study_path("cheng_zu"));
+  const Study study = read_study(study_path("cheng_zu"));
   REQUIRE(study.network.excitations.size() == 2);
   CHECK(study.network.excitations[0].order == 1);
   CHECK(study.network.excitations[1].order == 3);
@@ -115,33 +117,33 @@ TEST_CASE("a study of two frequencies has its orders and the lowest as reference
 }
 
 TEST_CASE("an axis runs linearly, by ratios or over given values, ends exact") {
-  const StudyFile study =
+  const Study study =
       parse_study(heading + "[parameters]\nomega = 1\na = 1\nb = 1\n" + oscillator +
                       "[[axis]]\nparameter = \"a\"\nfrom = 0.1\nto = 0.7\npoints = 4\n"
                       "[[axis]]\nparameter = \"b\"\nfrom = 1\nto = 1000\npoints = 4\nspacing = \"log\"\n"
                       "[[axis]]\nparameter = \"omega\"\nunit = \"Hz\"\nvalues = [3, 1, 2]\n",
                   "study.toml");
-  CHECK(study.axes[0].values.front() == 0.1);
-  CHECK(study.axes[0].values.back() == 0.7);
-  CHECK_THAT(study.axes[0].values[1], Catch::WithinRel(0.3, rounding));
-  CHECK_THAT(study.axes[1].values[2], Catch::WithinRel(100.0, rounding));
-  CHECK(study.axes[1].values[3] == 1000.0);
-  CHECK(study.axes[1].unit.empty());
-  CHECK(study.axes[2].values == std::vector<double>{3, 1, 2});
-  CHECK_THAT(study.axes[2].si_values[1], Catch::WithinRel(2.0 * std::numbers::pi, rounding));
+  CHECK(study.sweep()->axes[0].values.front() == 0.1);
+  CHECK(study.sweep()->axes[0].values.back() == 0.7);
+  CHECK_THAT(study.sweep()->axes[0].values[1], Catch::WithinRel(0.3, rounding));
+  CHECK_THAT(study.sweep()->axes[1].values[2], Catch::WithinRel(100.0, rounding));
+  CHECK(study.sweep()->axes[1].values[3] == 1000.0);
+  CHECK(study.sweep()->axes[1].unit.empty());
+  CHECK(study.sweep()->axes[2].values == std::vector<double>{3, 1, 2});
+  CHECK_THAT(study.sweep()->axes[2].si_values[1], Catch::WithinRel(2.0 * std::numbers::pi, rounding));
 }
 
 TEST_CASE("zipped axes share a dimension and are placed together") {
-  const StudyFile study = parse_study(heading + "[parameters]\nomega = 1\na = 1\nb = 1\n" + oscillator +
-                                          "[[axis]]\nparameter = \"a\"\nvalues = [1, 1, 3]\nzip = \"pair\"\n"
-                                          "[[axis]]\nparameter = \"omega\"\nvalues = [4, 5]\n"
-                                          "[[axis]]\nparameter = \"b\"\nvalues = [7, 8, 9]\nzip = \"pair\"\n",
-                                      "study.toml");
-  REQUIRE(study.dimensions.size() == 2);
-  CHECK(study.dimensions[0].name == "pair");
-  CHECK(study.dimensions[0].axes == std::vector<std::size_t>{0, 2});
+  const Study study = parse_study(heading + "[parameters]\nomega = 1\na = 1\nb = 1\n" + oscillator +
+                                      "[[axis]]\nparameter = \"a\"\nvalues = [1, 1, 3]\nzip = \"pair\"\n"
+                                      "[[axis]]\nparameter = \"omega\"\nvalues = [4, 5]\n"
+                                      "[[axis]]\nparameter = \"b\"\nvalues = [7, 8, 9]\nzip = \"pair\"\n",
+                                  "study.toml");
+  REQUIRE(study.sweep()->dimensions.size() == 2);
+  CHECK(study.sweep()->dimensions[0].name == "pair");
+  CHECK(study.sweep()->dimensions[0].axes == std::vector<std::size_t>{0, 2});
   auto parameters = study.parameters.nominal();
-  place(study, 0, 2, parameters);
+  set_along(*study.sweep(), 0, 2, parameters);
   CHECK(parameters == std::vector<double>{1, 3, 9});
 }
 
@@ -157,20 +159,20 @@ TEST_CASE("the frequency dimension is one along which the matrices stay the same
             "parameter = \"w\"\nvalues = [1, 2]\n",
         "study.toml");
   };
-  CHECK(study("r*w", "1").frequency_dimension == std::size_t{1});
-  CHECK(study("r*w", "w^2").frequency_dimension == std::size_t{0});
-  CHECK_FALSE(study("r*w", "w^2").values_depend_on_frequency);
-  CHECK(study("r*w", "r*w").frequency_dimension == std::size_t{1});
-  CHECK(study("r*w", "r*w").values_depend_on_frequency);
-  CHECK(study("w", "w").values_depend_on_frequency);
-  CHECK_FALSE(study("3", "w").frequency_dimension);
+  CHECK(study("r*w", "1").sweep()->frequency_dimension == std::size_t{1});
+  CHECK(study("r*w", "w^2").sweep()->frequency_dimension == std::size_t{0});
+  CHECK_FALSE(study("r*w", "w^2").sweep()->values_depend_on_frequency);
+  CHECK(study("r*w", "r*w").sweep()->frequency_dimension == std::size_t{1});
+  CHECK(study("r*w", "r*w").sweep()->values_depend_on_frequency);
+  CHECK(study("w", "w").sweep()->values_depend_on_frequency);
+  CHECK_FALSE(study("3", "w").sweep()->frequency_dimension);
 }
 
 TEST_CASE("Hz are cycles in everything the frequency depends on, and refused where they could be either") {
   const std::string axis = "[[axis]]\nparameter = \"r\"\nvalues = [1]\n";
   const std::string text =
       heading + "[parameters]\nr = 1\nf0 = { value = 2, unit = \"Hz\" }\nomega = \"r*f0\"\n";
-  const StudyFile study = parse_study(text + oscillator + axis, "study.toml");
+  const Study study = parse_study(text + oscillator + axis, "study.toml");
   CHECK_THAT(study.parameters.nominal()[2], Catch::WithinRel(4.0 * std::numbers::pi, rounding));
   CHECK_THAT(
       complaint_about(heading + "[parameters]\nr = 1\nomega = \"r\"\nf0 = { value = 2, unit = \"Hz\" }\n" +
@@ -192,30 +194,30 @@ TEST_CASE("a schedule is read from a table beside the study and refused outside 
                            to + "\npoints = 3\n",
                        folder / "study.toml");
   };
-  const StudyFile inside = study("35");
+  const Study inside = study("35");
   CHECK(inside.parameters.nominal() == std::vector<double>{20, 6});
-  CHECK(inside.values_depend_on_frequency);
+  CHECK(inside.sweep()->values_depend_on_frequency);
   CHECK_THROWS_WITH(study("40"), Catch::Contains("it covers omega from 15 to 35 (SI), here 40"));
   std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("quantities keep their places and orbits are in the units of their axes") {
-  const StudyFile study =
+  const Study study =
       parse_study(heading + "[parameters]\nomega = { value = 60, unit = \"rpm\" }\nI = 1\n" + oscillator +
                       "[[axis]]\nparameter = \"omega\"\nunit = \"Hz\"\nvalues = [1, 2]\n"
                       "[output]\nquantities = [\"main_peak\", \"status\"]\nprecision = \"single\"\n"
                       "orbits = [{ omega = 2, I = 6 }, { omega = { value = 60, unit = \"rpm\" } }]\n",
                   "study.toml");
-  CHECK(study.output.quantities == OutputChoice::Quantities::listed);
-  CHECK(study.output.single_precision);
-  REQUIRE(study.output.names.size() == 2);
-  const auto& name = study.output.names[1];
+  CHECK(study.sweep()->output.quantities == OutputChoice::Quantities::listed);
+  CHECK(study.sweep()->output.single_precision);
+  REQUIRE(study.sweep()->output.names.size() == 2);
+  const auto& name = study.sweep()->output.names[1];
   CHECK_THAT(study.source.error_at(frahm::studies::rules::not_text, name.position, name.text).what(),
              Catch::StartsWith("study.toml:25:28: status\n"));
-  REQUIRE(study.output.orbits.size() == 2);
-  CHECK_THAT(study.output.orbits[0][0].value, Catch::WithinRel(4.0 * std::numbers::pi, rounding));
-  CHECK(study.output.orbits[0][1].value == 6.0);
-  CHECK_THAT(study.output.orbits[1][0].value, Catch::WithinRel(2.0 * std::numbers::pi, rounding));
+  REQUIRE(study.sweep()->output.orbits.size() == 2);
+  CHECK_THAT(study.sweep()->output.orbits[0][0].value, Catch::WithinRel(4.0 * std::numbers::pi, rounding));
+  CHECK(study.sweep()->output.orbits[0][1].value == 6.0);
+  CHECK_THAT(study.sweep()->output.orbits[1][0].value, Catch::WithinRel(2.0 * std::numbers::pi, rounding));
 }
 
 TEST_CASE("a study begins with a byte order mark or has Windows line ends and is read all the same") {
@@ -233,7 +235,7 @@ TEST_CASE("a file that cannot be read is an error that names it") {
 }
 
 TEST_CASE("parts of a study cut off anywhere are read or refused, never a crash") {
-  const StudyFile rig = read_study(study_path("rig_atlas"));
+  const Study rig = read_study(study_path("rig_atlas"));
   const std::string& text = rig.source.text;
   std::size_t refused = 0;
   for (std::size_t length = 0; length < text.size(); length += 7) {

@@ -1,9 +1,10 @@
-#include "studies/reading/study_file.hpp"
+#include "studies/reading/study.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "studies/reading/readable_file.hpp"
 #include "studies/reading/spelling.hpp"
@@ -57,16 +58,16 @@ std::string_view why_without(StudyKind kind, const std::string& section) {
 }
 
 // What belongs to another kind of study would be silently without effect here.
-void check_sections_of_kind(const StudyFile& study, const TomlValue& root) {
+void check_sections_of_kind(const Study& study, const TomlValue& root) {
   for (const TomlEntry& entry : *root.as<TomlTable>()) {
-    if (contains(sections(study.kind), entry.key)) continue;
+    if (contains(sections(study.kind()), entry.key)) continue;
     throw study.source.error_at(rules::other_kind, entry.position,
                                 fmt::format("the section \"{}\" is not part of {}{}", entry.key,
-                                            kind_noun(study.kind), why_without(study.kind, entry.key)));
+                                            kind_noun(study.kind()), why_without(study.kind(), entry.key)));
   }
 }
 
-void read_heading(const TomlValue& root, StudyFile& study) {
+void read_heading(const TomlValue& root, Study& study) {
   const TomlEntry* heading = find_entry(root, "study");
   if (!heading)
     throw study.source.error_at(rules::missing_section, root.position,
@@ -79,16 +80,17 @@ void read_heading(const TomlValue& root, StudyFile& study) {
                  fmt::format("{} is unknown; this version reads schema = 1", schema));
   section.require("kind");
   const std::string kind = section.choice_or("kind", {"sweep", "tune", "identify", "decay", "transient"});
-  for (const StudyKind each :
-       {StudyKind::sweep, StudyKind::decay, StudyKind::transient, StudyKind::tune, StudyKind::identify}) {
-    if (kind == kind_name(each)) study.kind = each;
-  }
+  if (kind == kind_name(StudyKind::sweep)) study.choice = SweepChoice{};
+  if (kind == kind_name(StudyKind::decay)) study.choice = DecayChoice{};
+  if (kind == kind_name(StudyKind::transient)) study.choice = TransientChoice{};
+  if (kind == kind_name(StudyKind::tune)) study.choice = TuneChoice{};
+  if (kind == kind_name(StudyKind::identify)) study.choice = IdentifyChoice{};
   study.title = section.text_or("title", "");
   study.dimensionless = section.choice_or("units", {"SI", "dimensionless"}) == "dimensionless";
 }
 
 // What the masses and elements read.
-std::vector<std::size_t> read_by_matrices(const StudyFile& study) {
+std::vector<std::size_t> read_by_matrices(const Study& study) {
   std::vector<std::size_t> reads;
   const auto add = [&](const StudyValue& value) {
     reads.insert(reads.end(), value.expression.reads().begin(), value.expression.reads().end());
@@ -97,11 +99,11 @@ std::vector<std::size_t> read_by_matrices(const StudyFile& study) {
     for (const StudyValue& value : *values) add(value);
   }
   if (mechanics::frequency_dependent_element(study.network)) add(study.values.omega);
-  if (study.comparison) add(study.comparison->slope);
+  if (study.sweep()->comparison) add(study.sweep()->comparison->slope);
   return reads;
 }
 
-void find_frequency_dimension(StudyFile& study) {
+void find_frequency_dimension(Study& study) {
   const auto moving = dimensions_moving(study, study.values.omega.expression.reads());
   if (moving.empty()) return;
   const auto matrices = dimensions_moving(study, read_by_matrices(study));
@@ -109,8 +111,8 @@ void find_frequency_dimension(StudyFile& study) {
     return std::find(matrices.begin(), matrices.end(), d) != matrices.end();
   };
   const auto still = std::find_if_not(moving.rbegin(), moving.rend(), moves_matrices);
-  study.values_depend_on_frequency = still == moving.rend();
-  study.frequency_dimension = study.values_depend_on_frequency ? moving.back() : *still;
+  study.sweep()->values_depend_on_frequency = still == moving.rend();
+  study.sweep()->frequency_dimension = study.sweep()->values_depend_on_frequency ? moving.back() : *still;
 }
 
 // An identification by a formula needs no system.
@@ -120,21 +122,21 @@ bool has_system(const TomlValue& root) {
 }
 
 // That every value has a meaning wherever the study goes.
-void check_whole(StudyFile& study) {
+void check_whole(Study& study) {
   check_grid(study);
   set_crank_orders(study);
-  if (study.tune) check_tuning(study);
-  if (study.identify) check_identification(study);
+  if (study.tune()) check_tuning(study);
+  if (study.identify()) check_identification(study);
 }
 
 }  // namespace
 
-StudyFile read_study(const std::filesystem::path& path) {
+Study read_study(const std::filesystem::path& path) {
   return parse_study(read_file(path, path.string()), path);
 }
 
-StudyFile parse_study(std::string text, const std::filesystem::path& name, DataFiles data) {
-  StudyFile study;
+Study parse_study(std::string text, const std::filesystem::path& name, DataFiles data) {
+  Study study;
   if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
   study.source = {name.string(), std::move(text)};
   const TomlValue root = read_toml(study.source);
@@ -145,27 +147,27 @@ StudyFile parse_study(std::string text, const std::filesystem::path& name, DataF
   const UnitSystem units;
   const StudyContext context{study.source, units, study.dimensionless};
   study.parameters = read_parameters(context, root, name.parent_path());
-  if (study.kind != StudyKind::identify || has_system(root)) {
-    auto [network, values] = read_network(context, root, study.parameters, study.kind);
+  if (study.kind() != StudyKind::identify || has_system(root)) {
+    auto [network, values] = read_network(context, root, study.parameters, study.kind());
     study.network = std::move(network);
     study.values = std::move(values);
   }
-  if (study.kind == StudyKind::sweep) {
+  if (study.kind() == StudyKind::sweep) {
     read_comparison(context, root, study);
-  } else if (study.kind != StudyKind::tune) {
+  } else if (study.kind() != StudyKind::tune) {
     read_motion(context, root, study);
   }
-  if (study.kind == StudyKind::identify) read_identification(context, root, study);
+  if (study.kind() == StudyKind::identify) read_identification(context, root, study);
   convert_parameters(context, study.parameters);
-  if (study.kind == StudyKind::sweep) {
+  if (study.kind() == StudyKind::sweep) {
     read_axes(context, root, study);
     read_coordinates(context, root, study);
     find_frequency_dimension(study);
     read_output(context, root, study);
     read_report(context, root, study);
-  } else if (study.kind == StudyKind::tune) {
+  } else if (study.kind() == StudyKind::tune) {
     read_tuning(context, root, study);
-  } else if (study.kind == StudyKind::identify) {
+  } else if (study.kind() == StudyKind::identify) {
     read_measurements(context, root, name.parent_path(), data, study);
   }
   check_whole(study);
@@ -204,19 +206,49 @@ std::string_view kind_noun(StudyKind kind) {
   return "a study";
 }
 
-std::vector<const StudyValue*> MotionChoice::values() const {
+const MotionChoice* Study::motion() const {
+  if (decay()) return decay();
+  return transient();
+}
+
+MotionChoice* Study::motion() {
+  return const_cast<MotionChoice*>(std::as_const(*this).motion());
+}
+
+std::span<const InitialValues> Study::initial() const {
+  if (identify()) return identify()->initial;
+  return motion() ? std::span(motion()->initial) : std::span<const InitialValues>();
+}
+
+std::vector<const StudyValue*> Study::values_of_its_kind() const {
   std::vector<const StudyValue*> all;
-  for (const auto* value : {&duration, &reference_frequency, &sweep_to, &sweep_rate}) {
-    if (*value) all.push_back(&**value);
+  if (sweep()) all = sweep()->values();
+  const auto add = [&](const std::optional<StudyValue>& value) {
+    if (value) all.push_back(&*value);
+  };
+  if (motion()) add(motion()->duration);
+  if (decay()) add(decay()->reference_frequency);
+  if (transient()) {
+    add(transient()->sweep_to);
+    add(transient()->sweep_rate);
   }
-  for (const InitialValues& of_mass : initial) {
-    all.push_back(&of_mass.displacement);
-    all.push_back(&of_mass.velocity);
+  for (const InitialValues& of_mass : initial())
+    all.insert(all.end(), {&of_mass.displacement, &of_mass.velocity});
+  if (identify()) {
+    const auto more = identify()->values();
+    all.insert(all.end(), more.begin(), more.end());
   }
   return all;
 }
 
-StudyFile with_parameters(StudyFile study, std::span<const Assignment> assignments) {
+std::vector<const StudyValue*> SweepChoice::values() const {
+  std::vector<const StudyValue*> all;
+  if (comparison && comparison->law == mechanics::FrictionLaw::arctan) all.push_back(&comparison->slope);
+  for (const DerivedCoordinate& coordinate : coordinates) all.push_back(&coordinate.value);
+  return all;
+}
+
+Study with_parameters(Study study, std::span<const Assignment> assignments) {
   for (const Assignment& assignment : assignments) {
     study.parameters.list[assignment.parameter].definition = assignment.value;
   }
@@ -224,48 +256,42 @@ StudyFile with_parameters(StudyFile study, std::span<const Assignment> assignmen
   return study;
 }
 
-void place(const StudyFile& study, std::size_t dimension, std::size_t index, std::span<double> parameters) {
-  for (const std::size_t axis : study.dimensions[dimension].axes) {
-    parameters[study.axes[axis].parameter] = study.axes[axis].si_values[index];
+void set_along(const SweepChoice& sweep, std::size_t dimension, std::size_t index,
+               std::span<double> parameters) {
+  for (const std::size_t axis : sweep.dimensions[dimension].axes) {
+    parameters[sweep.axes[axis].parameter] = sweep.axes[axis].si_values[index];
   }
 }
 
-std::vector<double> coordinate_values(const StudyFile& study, const DerivedCoordinate& coordinate) {
-  std::vector<double> parameters = study.parameters.nominal();
-  std::vector<double> values(study.dimensions[coordinate.dimension].size);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    place(study, coordinate.dimension, i, parameters);
-    study.parameters.complete(std::span<double>(parameters));
-    values[i] = coordinate.value.expression.evaluate(std::span<const double>(parameters));
-  }
-  return values;
-}
-
-std::vector<std::size_t> dimensions_moving(const StudyFile& study, std::span<const std::size_t> reads) {
+std::vector<std::size_t> dimensions_moving(const Study& study, std::span<const std::size_t> reads) {
+  std::vector<std::size_t> moving;
+  const SweepChoice* sweep = study.sweep();
+  if (!sweep) return moving;
   const auto inputs = study.parameters.inputs_of(reads);
   const auto is_input = [&](std::size_t axis) {
-    return std::find(inputs.begin(), inputs.end(), study.axes[axis].parameter) != inputs.end();
+    return std::find(inputs.begin(), inputs.end(), sweep->axes[axis].parameter) != inputs.end();
   };
-  std::vector<std::size_t> moving;
-  for (std::size_t d = 0; d < study.dimensions.size(); ++d) {
-    const auto& axes = study.dimensions[d].axes;
+  for (std::size_t d = 0; d < sweep->dimensions.size(); ++d) {
+    const auto& axes = sweep->dimensions[d].axes;
     if (std::any_of(axes.begin(), axes.end(), is_input)) moving.push_back(d);
   }
   return moving;
 }
 
-UsualUnit usual_unit(const StudyFile& study, std::size_t parameter) {
-  for (const ParameterAxis& axis : study.axes) {
-    if (axis.parameter == parameter) return {axis.unit, axis.si_factor};
+UsualUnit usual_unit(const Study& study, std::size_t parameter) {
+  if (study.sweep()) {
+    for (const ParameterAxis& axis : study.sweep()->axes) {
+      if (axis.parameter == parameter) return {axis.unit, axis.si_factor};
+    }
   }
-  if (study.tune) {
-    if (study.tune->band && study.tune->band->parameter == parameter) return study.tune->band->unit;
-    for (const DesignChoice& design : study.tune->designs) {
+  if (study.tune()) {
+    if (study.tune()->band && study.tune()->band->parameter == parameter) return study.tune()->band->unit;
+    for (const DesignChoice& design : study.tune()->designs) {
       if (design.parameter == parameter) return design.unit;
     }
   }
-  if (study.identify) {
-    for (const IdentifiedParameter& fitted : study.identify->parameters) {
+  if (study.identify()) {
+    for (const IdentifiedParameter& fitted : study.identify()->parameters) {
       if (fitted.parameter == parameter) return fitted.unit;
     }
   }

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "studies/reading/study_values.hpp"
+
+// What a study of kind "decay" or "transient" asks for.
+namespace frahm::studies {
+
+// A mass's initial values [m], [m/s].
+struct InitialValues {
+  std::size_t mass = 0;  // index in Network::masses
+  StudyValue displacement, velocity;
+};
+
+// One motion from initial values.
+struct MotionChoice {
+  std::optional<StudyValue> duration;  // [s]
+  int samples = 0;                     // of the history; 0: none
+  std::vector<InitialValues> initial;
+};
+
+// [decay]
+struct DecayChoice : MotionChoice {
+  std::optional<StudyValue> reference_frequency;  // omega_h [rad/s]
+};
+
+// [transient]
+struct TransientChoice : MotionChoice {
+  std::optional<StudyValue> sweep_to;    // of a run-up or run-down: the last frequency [rad/s]
+  std::optional<StudyValue> sweep_rate;  // its angular acceleration, without sign [rad/s2]
+};
+
+}  // namespace frahm::studies

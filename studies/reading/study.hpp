@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "solvers/mechanics/network.hpp"
+#include "studies/reading/identify_choice.hpp"
+#include "studies/reading/motion_choice.hpp"
+#include "studies/reading/parameters.hpp"
+#include "studies/reading/study_source.hpp"
+#include "studies/reading/study_values.hpp"
+#include "studies/reading/sweep_choice.hpp"
+#include "studies/reading/tune_choice.hpp"
+
+namespace frahm::studies {
+
+enum class StudyKind { sweep, decay, transient, tune, identify };
+
+// A study, complete and checked: whatever stands here has a meaning for the solvers.
+struct Study {
+  StudySource source;
+  std::string title;  // "" if the study has none
+  bool dimensionless = false;
+
+  Parameters parameters;
+  mechanics::Network network;  // of an identification by a formula: none
+  StudyValues values;          // of a decay: its frequency and excitation mean nothing
+
+  // What its kind asks for, in the order of StudyKind.
+  std::variant<SweepChoice, DecayChoice, TransientChoice, TuneChoice, IdentifyChoice> choice;
+
+  StudyKind kind() const { return static_cast<StudyKind>(choice.index()); }
+
+  // Its choice, where the study is of this kind; else null.
+  const SweepChoice* sweep() const { return std::get_if<SweepChoice>(&choice); }
+  const DecayChoice* decay() const { return std::get_if<DecayChoice>(&choice); }
+  const TransientChoice* transient() const { return std::get_if<TransientChoice>(&choice); }
+  const TuneChoice* tune() const { return std::get_if<TuneChoice>(&choice); }
+  const IdentifyChoice* identify() const { return std::get_if<IdentifyChoice>(&choice); }
+  SweepChoice* sweep() { return std::get_if<SweepChoice>(&choice); }
+  TuneChoice* tune() { return std::get_if<TuneChoice>(&choice); }
+  IdentifyChoice* identify() { return std::get_if<IdentifyChoice>(&choice); }
+  // Of a decay or a transient.
+  const MotionChoice* motion() const;
+  MotionChoice* motion();
+
+  // The initial values of its masses: of a decay, a transient or an identification.
+  std::span<const InitialValues> initial() const;
+
+  // The values beside those of the network that are expressions of parameters.
+  std::vector<const StudyValue*> values_of_its_kind() const;
+};
+
+// Reads and checks a study. Tables and measurements it names are read too, from paths relative to its own.
+// Throws StudyError for anything wrong in it (`file:line:column: key: what was found, the rule, the nearest
+// key`) and for a file that cannot be read.
+Study read_study(const std::filesystem::path& path);
+
+// Whether the measurements of an identification, and earlier results that it takes, are read with it. Where
+// they are left its records have no columns and nothing is fixed.
+enum class DataFiles { read, leave };
+
+// The same for a text at hand; name: stands for the file in messages, and its folder for that of the tables.
+Study parse_study(std::string text, const std::filesystem::path& name, DataFiles data = DataFiles::read);
+
+std::string_view kind_name(StudyKind kind);  // as the study writes it
+std::string_view kind_noun(StudyKind kind);  // as sentences say it: "a tuning"
+
+// The study with some number parameters replaced, and checked again.
+Study with_parameters(Study study, std::span<const Assignment> assignments);
+
+// Gives the parameters of a dimension of the map their SI values at one index (Parameters::list order).
+void set_along(const SweepChoice& sweep, std::size_t dimension, std::size_t index,
+               std::span<double> parameters);
+
+// The dimensions of the map along which what reads these parameters changes, ascending; none where the study
+// is no sweep.
+std::vector<std::size_t> dimensions_moving(const Study& study, std::span<const std::size_t> reads);
+
+// The unit in which a number parameter is spoken of (a bare number in an orbit, --at and --set; messages):
+// that of its axis, band or bounds, else that of its definition, else "" for SI; and its factor to SI.
+UsualUnit usual_unit(const Study& study, std::size_t parameter);
+
+// Refuses a point (SI values of all parameters; derived ones are recomputed) at which some value is not
+// finite or out of its range. Throws StudyError: the value's place in the study, what it is and for which
+// parameters, the rule.
+void check_point(const Study& study, std::span<double> parameters);
+
+// Gives each crank the even orders that its crank/rod at a point needs, which may be more than on the grid.
+void set_crank_orders_at(Study& study, std::span<double> parameters);
+
+}  // namespace frahm::studies

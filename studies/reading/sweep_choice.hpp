@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "solvers/mechanics/network.hpp"
+#include "solvers/quantities/quantity.hpp"
+#include "studies/reading/parameters.hpp"
+#include "studies/reading/study_source.hpp"
+#include "studies/reading/study_values.hpp"
+
+// What a study of kind "sweep" asks for.
+namespace frahm::studies {
+
+// A parameter that runs over values.
+struct ParameterAxis {
+  std::size_t parameter = 0;   // index in Parameters::list, of a number
+  std::string unit;            // as the user wrote it, in a form UDUNITS reads; "" where none is known (SI)
+  double si_factor = 1.0;      // SI value = si_factor x value
+  std::vector<double> values;  // in `unit`
+  std::vector<double> si_values;  // the same in SI
+  std::string zip;                // axes of the same name advance together; "" alone
+  Position position;              // of the [[axis]]
+};
+
+// One dimension of the map: an axis, or several that advance together.
+struct GridDimension {
+  std::string name;               // of the parameter, or of the zip
+  std::vector<std::size_t> axes;  // indices in SweepChoice::axes
+  std::size_t size = 0;
+};
+
+// A number computed from the parameters of one dimension and kept beside them (the frequency ratio beside
+// rpm).
+struct DerivedCoordinate {
+  std::string name, long_name;
+  std::string unit = "1";  // of the number the expression gives; not converted
+  StudyValue value;
+  std::size_t dimension = 0;  // index in SweepChoice::dimensions
+};
+
+struct OutputChoice {
+  enum class Quantities { standard, all, listed };
+  struct Name {
+    std::string text;
+    Position position;
+  };
+
+  Quantities quantities = Quantities::standard;
+  std::vector<Name> names;  // of Quantities::listed, not empty then; the program knows which names exist
+  bool single_precision = false;
+  bool borders = false;                         // whether those between regimes are solved; exact law only
+  std::vector<std::vector<Assignment>> orbits;  // points whose time histories are kept
+  std::vector<std::size_t> resonances;          // masses whose resonance is sought along the frequency axis
+};
+
+// The same points again under another friction law, or with the cranks' motion cut at another order; beside
+// the study's own.
+struct Comparison {
+  int taylor_order = 0;  // of every crank: 1, 2 or 4; 0: the law is what differs
+  mechanics::FrictionLaw law = mechanics::FrictionLaw::exact;  // of every coulomb element
+  StudyValue slope;                                            // of the arctan law
+  std::vector<periodic::Quantity> quantities;                  // real-valued, at least one
+};
+
+// The axes of a map and what is kept of its points.
+struct SweepChoice {
+  std::vector<ParameterAxis> axes;
+  std::vector<GridDimension> dimensions;  // the first varies slowest; at least one
+  std::vector<DerivedCoordinate> coordinates;
+  OutputChoice output;
+  std::vector<OutputChoice::Name> report_quantities;  // of the report's page; empty: its own choice
+  std::optional<Comparison> comparison;
+
+  // The dimension along which the excitation frequency changes, which runs innermost in the computation; if
+  // there are several, the last one along which the masses and elements stay the same, else the last.
+  std::optional<std::size_t> frequency_dimension;
+
+  // Whether some mass or element changes along that dimension: its matrices are then rebuilt at each
+  // frequency.
+  bool values_depend_on_frequency = false;
+
+  // The values that are expressions of parameters.
+  std::vector<const StudyValue*> values() const;
+};
+
+}  // namespace frahm::studies
