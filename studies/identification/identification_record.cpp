@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "studies/map/group_columns.hpp"
+#include "studies/record/group_columns.hpp"
 
 namespace frahm::studies {
 namespace {

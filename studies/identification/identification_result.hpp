@@ -6,7 +6,7 @@
 
 #include "solvers/identification/identification.hpp"
 #include "solvers/transient/motion.hpp"
-#include "studies/map/study_plan.hpp"
+#include "studies/reading/study.hpp"
 
 // A study of kind "identify": the solver's answer to it.
 namespace frahm::studies {
@@ -15,9 +15,6 @@ struct IdentificationResult {
   std::optional<identification::Identification> first;  // the stage that the fit started from, if any
   identification::Identification fit;
 };
-
-// Throws StudyError for a value of --set that the study overrules.
-StudyPlan plan_identification(Study study, std::vector<std::string> set);
 
 // What `watch` throws is passed on. Throws StudyError for data from which nothing can be found, with the
 // reason, and for a parameter that cannot take the estimate it names.

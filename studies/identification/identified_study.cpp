@@ -10,11 +10,11 @@
 #include "solvers/mechanics/linear_system.hpp"
 #include "solvers/mechanics/modes.hpp"
 #include "studies/identification/identification_record.hpp"
-#include "studies/map/stored_study.hpp"
 #include "studies/motion/motion_record.hpp"
 #include "studies/reading/settings.hpp"
 #include "studies/reading/toml_building.hpp"
 #include "studies/reading/toml_writing.hpp"
+#include "studies/record/stored_study.hpp"
 
 namespace frahm::studies {
 namespace {

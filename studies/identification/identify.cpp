@@ -9,7 +9,6 @@
 #include "studies/identification/free_decay_start.hpp"
 #include "studies/identification/grey_box_task.hpp"
 #include "studies/identification/identification_result.hpp"
-#include "studies/map/fingerprint.hpp"
 #include "studies/reading/settings.hpp"
 
 namespace frahm::studies {
@@ -59,13 +58,6 @@ void name_parameters(const Study& study, Identification& fit) {
 }
 
 }  // namespace
-
-StudyPlan plan_identification(Study study, std::vector<std::string> set) {
-  refuse_overruled(study, set);
-  StudyPlan plan{.study = std::move(study), .set = std::move(set)};
-  plan.fingerprint = fingerprint(plan.study, {}, {});
-  return plan;
-}
 
 IdentificationResult identify(const Study& study, const transient::Watch& watch) {
   try {

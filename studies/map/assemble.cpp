@@ -9,9 +9,9 @@
 #include "engine/io_error.hpp"
 #include "engine/tile_index.hpp"
 #include "results/map_writer.hpp"
-#include "studies/map/array_tasks.hpp"
-#include "studies/map/assembly_stage.hpp"
 #include "studies/map/tile_record.hpp"
+#include "studies/record/array_tasks.hpp"
+#include "studies/record/assembly_stage.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -3,9 +3,9 @@
 #include <cstdint>
 
 #include "engine/output_lock.hpp"
-#include "studies/map/assembly_options.hpp"
 #include "studies/map/map_plan.hpp"
 #include "studies/map/map_record.hpp"
+#include "studies/record/assembly_options.hpp"
 
 namespace frahm::studies {
 

@@ -13,8 +13,8 @@
 #include "results/store_error.hpp"
 #include "solvers/orbits/orbit.hpp"
 #include "studies/map/earlier_file.hpp"
-#include "studies/map/fingerprint.hpp"
-#include "studies/map/finished_file.hpp"
+#include "studies/record/fingerprint.hpp"
+#include "studies/record/finished_file.hpp"
 
 namespace frahm::studies {
 namespace {

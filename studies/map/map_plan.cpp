@@ -5,11 +5,11 @@
 #include <memory>
 #include <utility>
 
-#include "studies/map/fingerprint.hpp"
 #include "studies/map/known_points.hpp"
 #include "studies/map/map_kernel.hpp"
 #include "studies/map/output_quantities.hpp"
 #include "studies/map/tile_record.hpp"
+#include "studies/record/fingerprint.hpp"
 
 namespace frahm::studies {
 MapPlan plan_map(Study study, std::vector<std::string> set) {
@@ -24,13 +24,7 @@ MapPlan plan_map(Study study, std::vector<std::string> set) {
   plan.tiles = plan.grid.tiles();
   plan.quantities = output_quantities(plan.study);
   plan.variables = output_variables(plan.study, plan.quantities);
-  plan.fingerprint = fingerprint(plan.study, plan.grid, plan.quantities);
-  return plan;
-}
-
-StudyPlan plan_motion(Study study, std::vector<std::string> set) {
-  StudyPlan plan{.study = std::move(study), .set = std::move(set)};
-  plan.fingerprint = fingerprint(plan.study, {}, {});
+  plan.fingerprint = fingerprint(plan.study, {plan.grid.order, plan.grid.tile}, plan.quantities);
   return plan;
 }
 

@@ -6,7 +6,7 @@
 #include "engine/run.hpp"
 #include "solvers/quantities/quantity.hpp"
 #include "studies/map/grid.hpp"
-#include "studies/map/study_plan.hpp"
+#include "studies/record/study_plan.hpp"
 
 namespace frahm::studies {
 
@@ -19,9 +19,6 @@ struct MapPlan : StudyPlan {
 
 // Throws StudyError for what stands wrong in the study, and for one that is no sweep.
 MapPlan plan_map(Study study, std::vector<std::string> set);
-
-// The same of a decay or transient.
-StudyPlan plan_motion(Study study, std::vector<std::string> set);
 
 class KnownPoints;
 

@@ -7,8 +7,8 @@
 #include "solvers/mechanics/linear_system.hpp"
 #include "solvers/orbits/orbit.hpp"
 #include "solvers/response/periodic_response.hpp"
-#include "studies/map/assembly_stage.hpp"
 #include "studies/map/map_record.hpp"
+#include "studies/record/assembly_stage.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -10,8 +10,8 @@
 #include "solvers/orbits/orbit.hpp"
 #include "solvers/response/periodic_response.hpp"
 #include "solvers/response/resonance_peak.hpp"
-#include "studies/map/assembly_stage.hpp"
 #include "studies/map/map_record.hpp"
+#include "studies/record/assembly_stage.hpp"
 
 namespace frahm::studies {
 namespace {

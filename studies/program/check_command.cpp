@@ -177,7 +177,7 @@ int check_tune(const CheckOptions& options, Study read, std::ostream& out) {
 
 // Of an identification.
 int check_identification(const CheckOptions& options, Study read, std::ostream& out) {
-  const StudyPlan plan = plan_identification(std::move(read), options.set);
+  const StudyPlan plan = plan_without_map(std::move(read), options.set);
   const Study& study = plan.study;
   fmt::print(out, "{} is a valid study{}{}\n\n", study.source.name, study.title.empty() ? "" : ": ",
              study.title);

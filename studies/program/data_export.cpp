@@ -12,10 +12,10 @@
 #include <string_view>
 
 #include "results/map_reader.hpp"
-#include "studies/map/stored_study.hpp"
 #include "studies/motion/measurements.hpp"
 #include "studies/program/whole_file.hpp"
 #include "studies/reading/settings.hpp"
+#include "studies/record/stored_study.hpp"
 
 namespace frahm::studies {
 namespace {

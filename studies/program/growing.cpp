@@ -5,8 +5,8 @@
 #include <optional>
 #include <system_error>
 
-#include "studies/map/finished_file.hpp"
 #include "studies/program/study_note.hpp"
+#include "studies/record/finished_file.hpp"
 
 namespace frahm::studies {
 

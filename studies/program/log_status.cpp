@@ -10,9 +10,9 @@
 
 #include "engine/io_error.hpp"
 #include "engine/survey.hpp"
-#include "studies/map/array_tasks.hpp"
 #include "studies/map/map_plan.hpp"
 #include "studies/program/study_note.hpp"
+#include "studies/record/array_tasks.hpp"
 #include "studies/tuning/tuning_plan.hpp"
 
 namespace frahm::studies {

@@ -3,15 +3,19 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
+#include <chrono>
+#include <ctime>
 #include <iostream>
+#include <optional>
 #include <vector>
 
 #include "engine/io_error.hpp"
+#include "engine/stop_request.hpp"
 #include "engine/tile_index.hpp"
-#include "studies/map/finished_file.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/growing.hpp"
 #include "studies/program/study_note.hpp"
+#include "studies/record/finished_file.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -48,8 +52,9 @@ bool is_finished(const StudyPlan& plan, const std::filesystem::path& output) {
           : "");
 }
 
-}  // namespace
-
+// Whether there is anything to compute: false when the file is there already and is that of this study; what
+// a run killed between writing it and removing its logs has left is removed then. from: the result from which
+// a map grows; empty: none. lock: takes the lock of the output, unless the run is one shard of several.
 bool begin(const StudyPlan& plan, const engine::RunOptions& run, const std::filesystem::path& from,
            std::optional<engine::OutputLock>& lock) {
   const auto is_done = [&] {
@@ -68,6 +73,7 @@ bool begin(const StudyPlan& plan, const engine::RunOptions& run, const std::file
   return false;
 }
 
+// Computes what is left of a plan's job, with the note of its study beside the logs.
 engine::Summary compute(const StudyPlan& plan, const engine::Job& job, const engine::RunOptions& run) {
   const bool is_new = write_study_note(run.output, plan);
   try {
@@ -81,6 +87,7 @@ engine::Summary compute(const StudyPlan& plan, const engine::Job& job, const eng
   }
 }
 
+// Notes, on stderr, what could not be used of earlier logs.
 void tell_unused(const engine::Summary& summary) {
   for (const engine::UnusedBytes& unused : summary.unused) {
     fmt::print(std::cerr, "note: {}: {} bytes from byte {} on are no whole tile and are computed again\n",
@@ -88,12 +95,8 @@ void tell_unused(const engine::Summary& summary) {
   }
 }
 
-std::string team_text(int threads, int ranks) {
-  std::string text = fmt::format("{} thread{}", threads, threads == 1 ? "" : "s");
-  if (ranks > 1) text += fmt::format(" of {} ranks", ranks);
-  return text;
-}
-
+// The ends of a run that makes no file: stopped while it computed, or while the file was made; one shard of
+// several. They return the exit code.
 int tell_stopped(const engine::Summary& summary, const std::filesystem::path& output) {
   const double percent =
       100.0 * static_cast<double>(summary.points.done) / static_cast<double>(summary.points.points);
@@ -114,6 +117,51 @@ int tell_shard(const engine::RunOptions& run, const engine::Summary& summary, st
   if (summary.points.failed == 0) return exit_code::done;
   fmt::print(std::cerr, "{} points failed; the merged file lists them\n", summary.points.failed);
   return exit_code::some_failed;
+}
+
+}  // namespace
+
+std::string team_text(int threads, int ranks) {
+  std::string text = fmt::format("{} thread{}", threads, threads == 1 ? "" : "s");
+  if (ranks > 1) text += fmt::format(" of {} ranks", ranks);
+  return text;
+}
+
+int run_in_logs(const RunCommandOptions& options, const engine::RunOptions& run, const StudyPlan& plan,
+                const LoggedWork& work, std::ostream& out) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  const std::clock_t cpu_start = std::clock();
+  RunRecord record{.command = options.command, .threads = 0, .started = utc_now()};
+  check_result_place(run.output, options.study);
+  std::optional<engine::OutputLock> lock;
+  if (!begin(plan, run, options.from, lock)) {
+    fmt::print(out, "everything is computed already; --fresh computes it anew\n");
+    return work.tell_what_stands();
+  }
+  const engine::Summary summary = compute(plan, work.job(), run);
+  tell_unused(summary);
+  if (summary.outcome == engine::Outcome::stopped) return tell_stopped(summary, run.output);
+  if (run.shard.count > 1) return tell_shard(run, summary, out);
+
+  record.threads = summary.threads;
+  record.ranks = summary.ranks;
+  const engine::StopRequest stop(run.time_budget, engine::StopRequest::Seconds(summary.seconds));
+  const AssemblyOptions assembly{.output = run.output,
+                                 .logs = engine::find_logs(run.output),
+                                 .threads = summary.threads_here,
+                                 .progress = run.progress,
+                                 .stop_asked = [&] { return stop.asked(); }};
+  check_result_place(run.output, options.study);  // as it was before, still
+  if (!work.assemble(record, assembly, *lock)) return tell_unwritten(stop, run.output);
+  remove_study_notes(run.output);
+  return work.tell_made({.points = summary.points.done - summary.points.resumed - summary.points.reused,
+                         .reused = summary.points.reused,
+                         .seconds = std::chrono::duration<double>(Clock::now() - start).count(),
+                         .cpu_seconds = static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC +
+                                        summary.cpu_seconds_elsewhere,
+                         .threads = summary.threads,
+                         .ranks = summary.ranks});
 }
 
 }  // namespace frahm::studies

@@ -1,39 +1,45 @@
 #pragma once
 
-#include <filesystem>
+#include <cstdint>
+#include <functional>
 #include <iosfwd>
-#include <optional>
 #include <string>
 
 #include "engine/output_lock.hpp"
 #include "engine/run.hpp"
-#include "engine/stop_request.hpp"
-#include "studies/map/study_plan.hpp"
+#include "studies/program/run_command.hpp"
+#include "studies/record/assembly_options.hpp"
+#include "studies/record/provenance.hpp"
+#include "studies/record/study_plan.hpp"
 
 // What runs have in common whose tiles are kept in shard logs beside the output.
 namespace frahm::studies {
 
-// Whether there is anything to compute: false when the file is there already and is that of this study; what
-// a run killed between writing it and removing its logs has left is removed then. from: the result from which
-// a map grows; empty: none. lock: takes the lock of the output, unless the run is one shard of several.
-// Throws engine::ResumeRefused for the file of another study, engine::Locked when another process makes the
-// output, engine::IoError.
-bool begin(const StudyPlan& plan, const engine::RunOptions& run, const std::filesystem::path& from,
-           std::optional<engine::OutputLock>& lock);
+// What a run took.
+struct Effort {
+  std::uint64_t points = 0;  // computed by it
+  std::uint64_t reused = 0;  // taken over by it from an earlier result
+  double seconds = 0.0;      // wall time of the whole program
+  double cpu_seconds = 0.0;  // of all threads
+  int threads = 0;           // of all ranks
+  int ranks = 1;
+};
 
-// Computes what is left of a plan's job, with the note of its study beside the logs. Throws as engine::run().
-engine::Summary compute(const StudyPlan& plan, const engine::Job& job, const engine::RunOptions& run);
+// What the kinds of study do in their own ways.
+struct LoggedWork {
+  std::function<engine::Job()> job;  // what is to be computed; called once, with the lock of the output held
+  // Makes the file; false if it was stopped.
+  std::function<bool(const RunRecord&, const AssemblyOptions&, const engine::OutputLock&)> assemble;
+  std::function<int()> tell_what_stands;        // of a file that is there already; returns the exit code
+  std::function<int(const Effort&)> tell_made;  // of one just made
+};
 
-// Notes, on stderr, what could not be used of earlier logs.
-void tell_unused(const engine::Summary& summary);
+// Computes what is left of a plan, keeps it in shard logs beside the output, and makes the file when all is
+// there. Returns the exit code. Throws engine::ResumeRefused, engine::Locked, engine::IoError, StudyError.
+int run_in_logs(const RunCommandOptions& options, const engine::RunOptions& run, const StudyPlan& plan,
+                const LoggedWork& work, std::ostream& out);
 
 // "2 threads", "8 threads of 4 ranks".
 std::string team_text(int threads, int ranks);
-
-// The ends of a run that makes no file: stopped while it computed, or while the file was made; one shard of
-// several. They return the exit code.
-int tell_stopped(const engine::Summary& summary, const std::filesystem::path& output);
-int tell_unwritten(const engine::StopRequest& stop, const std::filesystem::path& output);
-int tell_shard(const engine::RunOptions& run, const engine::Summary& summary, std::ostream& out);
 
 }  // namespace frahm::studies

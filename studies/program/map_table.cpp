@@ -8,10 +8,10 @@
 #include <sstream>
 
 #include "engine/progress.hpp"
-#include "studies/map/finished_file.hpp"
 #include "studies/map/map_summary.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/logged_run.hpp"
+#include "studies/record/finished_file.hpp"
 
 namespace frahm::studies {
 namespace {

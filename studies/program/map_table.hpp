@@ -6,18 +6,9 @@
 #include <optional>
 
 #include "studies/map/map_plan.hpp"
+#include "studies/program/logged_run.hpp"
 
 namespace frahm::studies {
-
-// What a run took.
-struct Effort {
-  std::uint64_t points = 0;  // computed by it
-  std::uint64_t reused = 0;  // taken over by it from an earlier result
-  double seconds = 0.0;      // wall time of the whole program
-  double cpu_seconds = 0.0;  // of all threads
-  int threads = 0;           // of all ranks
-  int ranks = 1;
-};
 
 // The short table that ends a run: worst peak of the first mass along the slowest axis, shares of the
 // regimes, statuses, effort, and for the first failed points the command that reproduces each. study: as the

@@ -6,11 +6,11 @@
 #include "results/map_reader.hpp"
 #include "results/report/page_data.hpp"
 #include "results/report/report_page.hpp"
-#include "studies/map/finished_file.hpp"
 #include "studies/program/paper_figures.hpp"
 #include "studies/program/report_content.hpp"
 #include "studies/program/whole_file.hpp"
 #include "studies/reading/study_source.hpp"
+#include "studies/record/finished_file.hpp"
 
 namespace frahm::studies {
 namespace {

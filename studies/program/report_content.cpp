@@ -6,8 +6,8 @@
 #include <iostream>
 #include <optional>
 
-#include "studies/map/stored_study.hpp"
 #include "studies/program/report_facts.hpp"
+#include "studies/record/stored_study.hpp"
 
 namespace frahm::studies {
 namespace {

@@ -12,11 +12,10 @@
 #include "results/map_reader.hpp"
 #include "results/map_writer.hpp"
 #include "studies/identification/identification_record.hpp"
-#include "studies/map/finished_file.hpp"
-#include "studies/map/map_plan.hpp"
-#include "studies/map/map_record.hpp"
 #include "studies/motion/motion_record.hpp"
 #include "studies/program/exit_code.hpp"
+#include "studies/record/finished_file.hpp"
+#include "studies/record/provenance.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -105,8 +104,7 @@ int compute(const StudyPlan& plan, const RunRecord& record, const std::filesyste
 int run_at_once(const RunCommandOptions& options, Study study, std::ostream& out) {
   refuse_sharing(options, study);
   const RunRecord record{.command = options.command, .threads = 1, .started = utc_now()};
-  const StudyPlan plan = study.identify() ? plan_identification(std::move(study), options.set)
-                                          : plan_motion(std::move(study), options.set);
+  const StudyPlan plan = plan_without_map(std::move(study), options.set);
   const std::filesystem::path output =
       options.run.output.empty() ? default_output(options.study) : options.run.output;
   refuse_own_data(plan.study, output);

@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <iosfwd>
 
-#include "studies/map/study_plan.hpp"
 #include "studies/program/run_command.hpp"
 #include "studies/reading/study.hpp"
+#include "studies/record/study_plan.hpp"
 #include "studies/tuning/tuning_result.hpp"
 
 namespace frahm::studies {

@@ -10,11 +10,11 @@
 #include "engine/io_error.hpp"
 #include "engine/tile_index.hpp"
 #include "studies/identification/identification_record.hpp"
-#include "studies/map/fingerprint.hpp"
-#include "studies/map/finished_file.hpp"
 #include "studies/map/map_summary.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/log_status.hpp"
+#include "studies/record/fingerprint.hpp"
+#include "studies/record/finished_file.hpp"
 #include "studies/tuning/tuning_record.hpp"
 
 namespace frahm::studies {

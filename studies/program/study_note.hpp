@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/fingerprint.hpp"
-#include "studies/map/study_plan.hpp"
+#include "studies/record/study_plan.hpp"
 
 // The note beside an unfinished output that keeps the study its shard logs belong to, so that they can be
 // merged without it: `<output>.<fingerprint>.frahm-study`. Its lines: the path of the study, the number of

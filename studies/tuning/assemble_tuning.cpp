@@ -5,9 +5,9 @@
 #include "engine/io_error.hpp"
 #include "engine/tile_index.hpp"
 #include "results/map_writer.hpp"
-#include "studies/map/array_tasks.hpp"
-#include "studies/map/assembly_stage.hpp"
-#include "studies/map/map_record.hpp"
+#include "studies/record/array_tasks.hpp"
+#include "studies/record/assembly_stage.hpp"
+#include "studies/record/provenance.hpp"
 #include "studies/tuning/optimum_record.hpp"
 #include "studies/tuning/tuning_record.hpp"
 

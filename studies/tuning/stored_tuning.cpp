@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "results/map_reader.hpp"
-#include "studies/map/stored_study.hpp"
+#include "studies/record/stored_study.hpp"
 #include "studies/tuning/tuning_record.hpp"
 
 namespace frahm::studies {

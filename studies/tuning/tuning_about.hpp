@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/map/group_columns.hpp"
+#include "studies/record/group_columns.hpp"
 #include "studies/tuning/tuning_record.hpp"
 
 // Inside the record of a tuning: what its parts are made from.

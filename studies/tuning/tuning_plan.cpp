@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "solvers/mechanics/linear_system.hpp"
-#include "studies/map/fingerprint.hpp"
 #include "studies/tuning/optimum_record.hpp"
 #include "studies/tuning/tuning_record.hpp"
 #include "studies/tuning/tuning_task.hpp"
@@ -38,11 +37,9 @@ void compute_start(const Study& study, const tuning::Task& task, std::uint64_t s
 }  // namespace
 
 StudyPlan plan_tuning(Study study, std::vector<std::string> set) {
-  refuse_overruled(study, set);
   check_record_names(study);
-  StudyPlan plan{.study = std::move(study), .set = std::move(set)};
+  StudyPlan plan = plan_without_map(std::move(study), std::move(set));
   plan.tiles = plan.study.tune()->starts;
-  plan.fingerprint = fingerprint(plan.study, {}, {});
   return plan;
 }
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/run.hpp"
-#include "studies/map/study_plan.hpp"
+#include "studies/record/study_plan.hpp"
 
 namespace frahm::studies {
 

@@ -122,7 +122,7 @@ TEST_CASE("each foreign library is known to one file, and to no header") {
       {"boost/random", {"solvers/tuning/stages/starts.cpp", "studies/motion/measurements.cpp"}},
       {"Ip.*", {"solvers/tuning/problem/ipopt.cpp"}},
       {"nlopt", {"solvers/tuning/problem/nlopt.cpp"}},
-      {"xxhash", {"studies/map/fingerprint.cpp"}},
+      {"xxhash", {"studies/record/fingerprint.cpp"}},
       {"nlohmann", {"studies/program/point_json.cpp", "results/report/page_data.cpp"}},
       {"boost/archive", {"results/report/page_numbers.cpp"}}};
   std::map<std::string, std::set<std::string>> found;

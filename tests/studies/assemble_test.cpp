@@ -13,8 +13,8 @@
 #include "engine/shard_log.hpp"
 #include "engine/tile_index.hpp"
 #include "results/map_reader.hpp"
-#include "studies/map/assembly_stage.hpp"
 #include "studies/map/tile_record.hpp"
+#include "studies/record/assembly_stage.hpp"
 #include "tests/studies/small_studies.hpp"
 #include "tests/studies/temporary_folder.hpp"
 

@@ -1,4 +1,4 @@
-#include "studies/map/fingerprint.hpp"
+#include "studies/record/fingerprint.hpp"
 
 #include <catch2/catch.hpp>
 #include <filesystem>

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "results/map_writer.hpp"
-#include "studies/map/study_plan.hpp"
 #include "studies/reading/study.hpp"
+#include "studies/record/study_plan.hpp"
 #include "tests/studies/temporary_folder.hpp"
 
 namespace {

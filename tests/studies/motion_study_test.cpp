@@ -5,6 +5,7 @@
 #include "studies/map/map_plan.hpp"
 #include "studies/motion/motion_record.hpp"
 #include "studies/reading/study.hpp"
+#include "studies/record/study_plan.hpp"
 
 namespace {
 
@@ -64,7 +65,7 @@ TEST_CASE("a transient has 1001 samples unless told otherwise, and a run-up last
 }
 
 frahm::engine::Fingerprint fingerprint_of(const std::string& text) {
-  return plan_motion(parse(text), {}).fingerprint;
+  return plan_without_map(parse(text), {}).fingerprint;
 }
 
 TEST_CASE("initial values and sweeps are physics, duration and samples are not") {

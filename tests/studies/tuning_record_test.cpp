@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "studies/map/study_plan.hpp"
 #include "studies/reading/units.hpp"
+#include "studies/record/study_plan.hpp"
 #include "studies/tuning/tuning_plan.hpp"
 #include "tests/studies/small_tunings.hpp"
 #include "tests/study_path.hpp"

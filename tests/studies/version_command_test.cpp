@@ -4,7 +4,7 @@
 #include <regex>
 #include <sstream>
 
-#include "studies/map/build_facts.hpp"
+#include "studies/record/build_facts.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "studies/map/fingerprint.hpp"
+#include "studies/record/fingerprint.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -225,7 +225,7 @@ void add_map(const Study& study, const SweepChoice& sweep, CanonicalText& text) 
   text.line("resonances {}", fmt::join(sweep.output.resonances, " "));
 }
 
-std::string grid_hash(const Study& study, const Grid& grid) {
+std::string grid_hash(const Study& study, Tiling tiling) {
   CanonicalText text;
   if (study.sweep()) add_map(study, *study.sweep(), text);
   if (const MotionChoice* motion = study.motion()) {
@@ -234,16 +234,16 @@ std::string grid_hash(const Study& study, const Grid& grid) {
       text.line("duration {}", motion->duration->expression.canonical_text(study.parameters.names()));
   }
   add_assessment(study, text);
-  text.line("order {}", fmt::join(grid.order, " "));
-  text.line("tile {}", fmt::join(grid.tile, " "));
+  text.line("order {}", fmt::join(tiling.order, " "));
+  text.line("tile {}", fmt::join(tiling.tile, " "));
   return text.hash();
 }
 
 }  // namespace
 
-engine::Fingerprint fingerprint(const Study& study, const Grid& grid,
+engine::Fingerprint fingerprint(const Study& study, Tiling tiling,
                                 std::span<const periodic::Quantity> quantities) {
-  return {.physics = physics_hash(study, quantities), .grid = grid_hash(study, grid)};
+  return {.physics = physics_hash(study, quantities), .grid = grid_hash(study, tiling)};
 }
 
 engine::Fingerprint grown_fingerprint(const engine::Fingerprint& study, const std::string& identity) {

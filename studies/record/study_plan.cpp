@@ -1,11 +1,11 @@
-#include "studies/map/study_plan.hpp"
+#include "studies/record/study_plan.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "studies/map/fingerprint.hpp"
 #include "studies/reading/assignment.hpp"
+#include "studies/record/fingerprint.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -65,6 +65,13 @@ void refuse_overruled(const Study& study, const std::vector<std::string>& set) {
                                    study.parameters.list[assignment.parameter].name, why));
     }
   }
+}
+
+StudyPlan plan_without_map(Study study, std::vector<std::string> set) {
+  refuse_overruled(study, set);
+  StudyPlan plan{.study = std::move(study), .set = std::move(set)};
+  plan.fingerprint = fingerprint(plan.study);
+  return plan;
 }
 
 }  // namespace frahm::studies

@@ -1,4 +1,4 @@
-#include "studies/map/assembly_stage.hpp"
+#include "studies/record/assembly_stage.hpp"
 
 #include <fmt/ostream.h>
 

@@ -1,4 +1,4 @@
-#include "studies/map/group_columns.hpp"
+#include "studies/record/group_columns.hpp"
 
 namespace frahm::studies {
 

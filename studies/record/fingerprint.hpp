@@ -6,18 +6,23 @@
 #include "engine/fingerprint.hpp"
 #include "results/layout.hpp"
 #include "solvers/quantities/quantity.hpp"
-#include "studies/map/grid.hpp"
 #include "studies/reading/study.hpp"
 
 namespace frahm::studies {
+
+// How the points of a map are cut into tiles: order of its dimensions, points of a tile along each.
+struct Tiling {
+  std::span<const std::size_t> order;
+  std::span<const std::uint64_t> tile;
+};
 
 // What the results of a study depend on, hashed (XXH3, 128 bits, as hex).
 // physics: network, definitions and values of the parameters (of those on an axis only that they are),
 // contents of tables, quantities, precision, version of the solver. grid: the axes' SI values and the tiles,
 // a motion's duration and samples, or a tuning's starts, rules and columns. Titles, comments, names of files,
 // units and coordinates beside the axes change neither.
-engine::Fingerprint fingerprint(const Study& study, const Grid& grid,
-                                std::span<const periodic::Quantity> quantities);
+engine::Fingerprint fingerprint(const Study& study, Tiling tiling = {},
+                                std::span<const periodic::Quantity> quantities = {});
 
 // Of the shard logs of such a study if its map grows from the result of this identity.
 engine::Fingerprint grown_fingerprint(const engine::Fingerprint& study, const std::string& identity);

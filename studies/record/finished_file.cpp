@@ -1,4 +1,4 @@
-#include "studies/map/finished_file.hpp"
+#include "studies/record/finished_file.hpp"
 
 #include <fmt/format.h>
 

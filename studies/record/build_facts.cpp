@@ -1,4 +1,4 @@
-#include "studies/map/build_facts.hpp"
+#include "studies/record/build_facts.hpp"
 
 #include <string_view>
 

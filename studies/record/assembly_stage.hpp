@@ -9,7 +9,7 @@
 #include "engine/in_order.hpp"
 #include "engine/progress.hpp"
 #include "engine/watch.hpp"
-#include "studies/map/assembly_options.hpp"
+#include "studies/record/assembly_options.hpp"
 
 namespace frahm::studies {
 

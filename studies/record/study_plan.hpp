@@ -35,4 +35,7 @@ struct StudyPlan {
 // silently without effect: throws StudyError.
 void refuse_overruled(const Study& study, const std::vector<std::string>& set);
 
+// Of a study without a map; its tiles are for the caller to say. Throws as refuse_overruled().
+StudyPlan plan_without_map(Study study, std::vector<std::string> set);
+
 }  // namespace frahm::studies

@@ -1,4 +1,4 @@
-#include "studies/map/array_tasks.hpp"
+#include "studies/record/array_tasks.hpp"
 
 #include <fmt/format.h>
 

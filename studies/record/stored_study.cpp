@@ -1,7 +1,7 @@
-#include "studies/map/stored_study.hpp"
+#include "studies/record/stored_study.hpp"
 
-#include "studies/map/finished_file.hpp"
 #include "studies/reading/assignment.hpp"
+#include "studies/record/finished_file.hpp"
 
 namespace frahm::studies {
 

@@ -1,0 +1,56 @@
+#include "studies/record/provenance.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <chrono>
+#include <filesystem>
+
+#include "studies/record/build_facts.hpp"
+#include "studies/record/finished_file.hpp"
+
+namespace frahm::studies {
+
+std::string utc_now() {
+  const auto now = std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::system_clock::now());
+  return fmt::format("{:%Y-%m-%dT%H:%M:%S}Z", now);
+}
+
+results::MapLayout file_layout(const StudyPlan& plan, const RunRecord& run) {
+  const Study& study = plan.study;
+  results::MapLayout layout{.title = study.title,
+                            .source = fmt::format("frahm {}", build_facts().version),
+                            .history = fmt::format("{} {}", run.started, run.command)};
+  if (layout.title.empty()) layout.title = std::filesystem::path(study.source.name).stem().string();
+  return layout;
+}
+
+std::vector<results::Text> provenance(const StudyPlan& plan, const RunRecord& run,
+                                      const std::vector<std::string>& failed, std::uint64_t missing) {
+  const BuildFacts facts = build_facts();
+  std::vector<results::Text> texts{
+      {"study", plan.study.source.text},
+      {"study_file", std::filesystem::path(plan.study.source.name).filename().string()},
+      {"overrides", fmt::format("{}", fmt::join(plan.set, ", "))},
+      {"fingerprint_physics", plan.fingerprint.physics},
+      {"fingerprint_grid", plan.fingerprint.grid},
+      {"program", "frahm " + facts.version},
+      {"commit", facts.commit},
+      {"compiler", facts.compiler},
+      {"flags", facts.flags},
+      {"libraries", fmt::format("{}", fmt::join(facts.libraries, ", "))},
+      {"threads", fmt::format("{}", run.threads)},
+      {"ranks", fmt::format("{}", run.ranks)},
+      {"started", run.started},
+      {"finished", utc_now()}};
+  if (plan.grown_from) {
+    texts.emplace_back("grown_from", plan.grown_from->file);
+    texts.emplace_back(grown_from_identity, plan.grown_from->identity);
+  }
+  if (missing > 0) texts.emplace_back(missing_tiles_text, fmt::format("{}", missing));
+  if (!failed.empty()) texts.emplace_back("failed_points", fmt::format("{}", fmt::join(failed, "\n")));
+  return texts;
+}
+
+}  // namespace frahm::studies
