@@ -13,7 +13,7 @@ namespace {
 using frahm::studies::read_study;
 using frahm::studies::StudyError;
 
-const std::filesystem::path folder = FRAHM_SOURCE_DIR "/tests/studies/wrong";
+const std::filesystem::path folder = FRAHM_SOURCE_DIR "/tests/studies/reading/wrong";
 constexpr std::size_t least_studies = 45;  // so that an empty folder does not pass
 
 std::vector<std::filesystem::path> wrong_studies() {

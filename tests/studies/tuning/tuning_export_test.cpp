@@ -76,7 +76,7 @@ TEST_CASE("a tuning without a schedule has no table of one") {
 }
 
 TEST_CASE("every study written out is the study that was read", "[slow]") {
-  for (const char* folder : {"/studies", "/tests/studies/wrong"}) {
+  for (const char* folder : {"/studies", "/tests/studies/reading/wrong"}) {
     for (const auto& entry :
          std::filesystem::recursive_directory_iterator(FRAHM_SOURCE_DIR + std::string(folder))) {
       if (entry.path().extension() != ".toml" || entry.path().filename().string().starts_with("toml_"))
