@@ -84,7 +84,8 @@ void print_objective(const TuningAbout& about, std::ostream& out) {
     fmt::print(out, "  the best constant     {}\n", eight_digits(optimum.constant_objective, unit));
   if (!std::isnan(optimum.certificate_gap))
     fmt::print(out, "{:<24}{:.3g} (relative)\n", "certificate gap", optimum.certificate_gap);
-  fmt::print(out, "{:<24}{:.3g}\n", "KKT residual", optimum.kkt_residual);
+  if (!std::isnan(optimum.kkt_residual))
+    fmt::print(out, "{:<24}{:.3g}\n", "KKT residual", optimum.kkt_residual);
   if (optimum.violation > 0.0) fmt::print(out, "{:<24}{:.3g}\n", "violation", optimum.violation);
 }
 

@@ -6,9 +6,9 @@ const roundingGap = 1e-12; // relative
 
 // How near the worst peak is to the bound that the tuning found. Where no design keeps the limits nothing was pressed
 // towards that bound.
-function gapSentences({ kind, band, group, converged, infeasible }) {
+function gapSentences({ kind, band, group, converged }) {
   const gap = Math.abs(group.number("certificate_gap"));
-  if (kind !== "minimax" || !band || infeasible || Number.isNaN(gap)) return [];
+  if (kind !== "minimax" || !band || Number.isNaN(gap)) return [];
   const near = gap < roundingGap ? "rounding" : `${numberText(gap, 2)} (relative)`;
   return converged
     ? [
@@ -17,9 +17,9 @@ function gapSentences({ kind, band, group, converged, infeasible }) {
     : [`There is no certificate; the worst peak and the bound of the tuning differ by ${near}.`];
 }
 
-function conditionSentences({ group, converged, infeasible }) {
+function conditionSentences({ group, converged }) {
   const residual = group.number("kkt_residual");
-  if (infeasible || Number.isNaN(residual)) return [];
+  if (Number.isNaN(residual)) return [];
   const text = `${numberText(residual, 2)} (relative)`;
   if (converged) return [`The conditions of a local optimum hold to ${text}.`];
   return residual <= group.number("tolerance")

@@ -203,7 +203,7 @@ export function tuningOf(record) {
     : [{ scenario: "", suffix: "" }];
   const unit = group.column("objective")?.unit ?? "1";
   const outcome = group.word("outcome"),
-    state = { converged: outcome === "converged", infeasible: outcome === "infeasible", objective };
+    state = { converged: outcome === "converged", objective };
   return {
     group,
     texts,

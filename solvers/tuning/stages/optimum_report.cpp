@@ -71,10 +71,12 @@ class Report {
     scan_ = tuning_.full_scan(x_);
     optimum.violation = std::max(0.0, scan_.violation);
     judge_limits(optimum);
-    optimum.kkt_residual = stages_.decisive.solution.kkt_residual;
+    if (optimum.outcome != Outcome::infeasible) optimum.kkt_residual = stages_.decisive.solution.kkt_residual;
     if (task_.objective == Objective::minimax) {
       optimum.objective = scan_.worst;
-      optimum.certificate_gap = scan_.worst > 0.0 ? (scan_.worst - stages_.bound) / scan_.worst : kNone;
+      // Where no design meets the limits nothing was pressed towards the bound.
+      if (optimum.outcome != Outcome::infeasible && scan_.worst > 0.0)
+        optimum.certificate_gap = (scan_.worst - stages_.bound) / scan_.worst;
       judge_certificate(optimum);
     } else {
       optimum.objective = stages_.decisive.objective_again;

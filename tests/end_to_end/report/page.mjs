@@ -18,7 +18,9 @@ export const sources = join(dirname(fileURLToPath(import.meta.url)), "..", "..",
 
 // The file of one of the project's studies by its name; the folders under studies/ are by topic.
 export function study(name) {
-  const found = readdirSync(join(sources, "studies"), { recursive: true }).find((path) => basename(path) === `${name}.toml`);
+  const found = readdirSync(join(sources, "studies"), { recursive: true }).find(
+    (path) => basename(path) === `${name}.toml`,
+  );
   assert.ok(found, `there is a study ${name}`);
   return join(sources, "studies", found);
 }
@@ -56,6 +58,38 @@ export function stored(file, dataset, index = []) {
     execFileSync("/usr/bin/python3", ["-c", code, file, dataset, JSON.stringify(index)], {
       encoding: "utf8",
     }),
+  );
+}
+
+// The numbers, flags (as their words) and texts of a group of a result, by name, read by an HDF5 library that is not
+// ours. A number alone, or an array.
+export function recordOf(file, group) {
+  const code = `
+import sys, json, h5py
+found = {}
+where = h5py.File(sys.argv[1])[sys.argv[2]]
+for name, text in where.attrs.items():
+    if isinstance(text, (str, bytes)):
+        found[name] = text.decode() if isinstance(text, bytes) else text
+for name, data in where.items():
+    if not isinstance(data, h5py.Dataset) or data.dtype.kind not in "fiu":
+        continue
+    values = data[()]
+    if "flag_meanings" in data.attrs:
+        meanings = data.attrs["flag_meanings"]
+        meanings = (meanings.decode() if isinstance(meanings, bytes) else meanings).split()
+        words = dict(zip([int(value) for value in data.attrs["flag_values"]], meanings))
+        values = [words[int(value)] for value in values.flat]
+    else:
+        values = [float(value) for value in values.flat]
+    found[name] = values[0] if data.shape in ((), (1,)) else values
+print(json.dumps(found))`;
+  const text = execFileSync("/usr/bin/python3", ["-c", code, file, group], {
+    encoding: "utf8",
+    maxBuffer: 1 << 28,
+  });
+  return JSON.parse(text.replace(/\bNaN\b/g, '"NaN"').replace(/-?\bInfinity\b/g, '"$&"'), (key, value) =>
+    ["NaN", "Infinity", "-Infinity"].includes(value) ? Number(value) : value,
   );
 }
 

@@ -214,9 +214,9 @@ function startsText({ group, texts }) {
 }
 
 function factsTable(tuning) {
-  const { group, texts, kind, infeasible } = tuning;
+  const { group, texts, kind } = tuning;
   const count = (name) => (group.number(name) > 0 ? numberText(group.number(name), 12) : "");
-  const proof = (name) => numberText(infeasible ? NaN : group.number(name), 3);
+  const proof = (name) => numberText(group.number(name), 3);
   const rows = [
     [objectiveLabel(tuning), quantityText(tuning.objective, tuning.unit, 8)],
     ...(kind === "minimax"
@@ -295,7 +295,7 @@ function frontTable({ front, parameters, limits, unit }) {
     numberText(value),
     quantityText(of("objective", i), unit),
     ...constants.map(({ name }) => numberText(of(name, i))),
-    numberText(front.word("outcome", i) === "infeasible" ? NaN : of("certificate_gap", i), 2),
+    numberText(of("certificate_gap", i), 2),
     numberText(of("violation", i), 2),
     words(front.word("outcome", i)),
   ]);
