@@ -34,9 +34,9 @@ class File {
   // Returns when the data are on the disk (fdatasync).
   void sync();
 
-  // Takes the exclusive lock of the file, which is held until the file is closed; false: someone has it.
+  // Takes the exclusive lock of the file, which is held until the file is closed; false: it is taken.
   bool try_lock();
-  // Whether someone has the lock at this moment. Keeps no lock; one who waits for it as open_locked() does,
+  // Whether the lock is taken at this moment. Holds no lock afterwards; a process waiting in open_locked()
   // still gets it.
   bool is_locked() const;
   // Whether path() still leads to this file: false when it was removed or replaced since it was opened.
@@ -51,11 +51,11 @@ class File {
 
 // Opens `path` for writing (created if absent) and takes its lock; waits up to a second, as a process that
 // removes a file holds its lock for a moment.
-// owner_at: where in the file its holder leaves `this_process()`, to be named in the message.
+// owner_at: offset at which the holder writes `this_process()`, for the message.
 // Throws Locked, IoError.
 File open_locked(const std::filesystem::path& path, std::uint64_t owner_at);
 
-constexpr std::size_t owner_size = 84;  // bytes kept for the owner's text
+constexpr std::size_t owner_size = 84;  // bytes reserved for the owner's text
 
 // "process 4711 on node17", at most owner_size bytes.
 std::string this_process();

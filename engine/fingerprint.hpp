@@ -23,21 +23,21 @@ struct LogHeader {
   friend bool operator==(const LogHeader&, const LogHeader&) = default;
 };
 
-// Tiles of another study are kept beside the output, or its result stands there; they are neither mixed with
-// this one's nor discarded unasked.
+// Tiles or a result of another study are already at the output. They are neither mixed with those of this
+// study nor deleted unasked.
 class ResumeRefused : public std::runtime_error {
  public:
   ResumeRefused(const std::filesystem::path& log, const LogHeader& kept, const LogHeader& wanted);
   // Of a finished result.
   ResumeRefused(const std::filesystem::path& result, const Fingerprint& kept, const Fingerprint& wanted,
                 std::string advice = "");
-  // The same refusal with advice for whoever meets it.
+  // The same refusal with advice for the user.
   ResumeRefused(const ResumeRefused& refused, std::string advice);
 
   const std::filesystem::path& log() const { return log_; }
   const LogHeader& kept() const { return kept_; }      // in the log
   const LogHeader& wanted() const { return wanted_; }  // of the run that was refused
-  // What to do about it; empty: no more than is plain from what().
+  // Advice for the user; empty: what() says enough.
   const std::string& advice() const { return advice_; }
   // false: the same physics on another grid, so that points could be reused by content.
   bool physics_differs() const { return kept_.fingerprint.physics != wanted_.fingerprint.physics; }

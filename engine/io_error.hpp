@@ -24,7 +24,7 @@ class IoError : public std::runtime_error {
 // Another process (or another run in this one) holds the lock of a file.
 class Locked : public IoError {
  public:
-  // owner: who said last that it held the lock ("process 4711 on node17"), or empty.
+  // owner: the holder named in the file ("process 4711 on node17"), or empty.
   Locked(const std::filesystem::path& path, const std::string& owner);
 };
 

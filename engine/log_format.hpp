@@ -24,10 +24,10 @@
 //          252  CRC-32C of 152-251     u32
 //          256  first record
 //
-// From 152 on stands who last held the lock of the log, when that writer began by its clock, and how many
-// good bytes it found: for messages, and for the rate at which it works. It changes when a run resumes, so
-// the study's CRC leaves it out, and where it is damaged, or of an older program, nothing else is lost. Every
-// record names its study, so that pieces of two logs can never pass for one.
+// Bytes 152 to 255 describe the last writer that held the lock: its name, when it began by its clock, and how
+// many good bytes it found. They serve messages and the writer's rate. They change when a run resumes, so the
+// study's CRC excludes them; if they are damaged, or of an older program, nothing else is lost. Every record
+// holds the CRC of its study, so that pieces of two logs can never pass for one.
 namespace frahm::engine {
 
 constexpr std::uint32_t log_version = 1;
@@ -36,7 +36,7 @@ constexpr std::uint64_t owner_offset = 152;
 constexpr std::size_t record_head_size = 32;
 constexpr std::size_t record_overhead = record_head_size + sizeof(std::uint32_t);
 
-// The header of a log without the part of its writer, which is zero.
+// The header of a log with zeros in the part of its writer.
 // Throws std::invalid_argument for a hash of the fingerprint that is empty or longer than 64 characters.
 Bytes encode_header(const LogHeader& header);
 
@@ -46,24 +46,24 @@ struct WriterStart {
   std::uint64_t good_bytes = header_size;      // what the log held then
 };
 
-// The part of a header from owner_offset on, in the name of this process.
+// The part of a header from owner_offset on, with this process as the owner.
 Bytes encode_writer(const WriterStart& start);
 
-// Nothing if a log does not say it: its header is cut off or damaged there, or of an older program.
+// Nothing if the header of the log is cut off or damaged there, or of an older program.
 std::optional<WriterStart> read_writer(const File& log);
 
-// The mark by which the records of a study are known.
+// The CRC-64 that identifies the records of a study.
 std::uint64_t study_mark(const LogHeader& header);
 
 // Makes `record` the record of one tile.
 void encode_record(std::uint64_t mark, std::uint64_t tile, std::span<const std::byte> payload, Bytes& record);
 
-// The header of a log; nothing if the file is shorter than a header (its writer was stopped at birth).
+// The header of a log; nothing if the file is shorter than a header (its writer was killed at its start).
 // Throws IoError for a file that is no shard log, is one of another version, or has a damaged header.
 std::optional<LogHeader> read_header(const File& log);
 
 // Reads the record at `offset` into `record` (the whole of it, checked); false if no good record is there.
-// file_size: bytes of the log that may be read.  tiles: numbers of tiles are below it.
+// file_size: bytes of the log that may be read.  tiles: their number in the study.
 bool read_record(const File& log, std::uint64_t offset, std::uint64_t file_size, std::uint64_t mark,
                  std::uint64_t tiles, Bytes& record);
 

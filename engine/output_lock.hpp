@@ -6,10 +6,10 @@
 
 namespace frahm::engine {
 
-// Held by the one process that makes `output`: a run that is not one shard of several, from its first look at
-// what is there to its last, or a merge. A shard of several holds the lock of its own log only.
-// The lock is that of the file <output>.frahm-lock, which tells its holder and goes with it; one that a
-// killed process has left is harmless.
+// Held by the one process that makes `output`: a run that is not one shard of several, from its first to its
+// last access, or a merge. A shard of several holds the lock of its own log only.
+// The lock is on the file <output>.frahm-lock, which names its holder and is removed with the lock; a file
+// left by a killed process is harmless.
 class OutputLock {
  public:
   // Throws Locked if another process makes the output, IoError.
@@ -22,7 +22,7 @@ class OutputLock {
   File file_;
 };
 
-// The file of the lock, which is there while a process holds it, or when one was killed.
+// The file of the lock: it exists while a process holds the lock, or after one was killed.
 std::filesystem::path lock_path(const std::filesystem::path& output);
 
 }  // namespace frahm::engine

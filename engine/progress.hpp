@@ -53,8 +53,7 @@ class Progress {
   Clock::time_point next_;  // time of the next report
 };
 
-// A span of time to two figures a person reads at a glance: "12 s", "4 min 10 s", "3 h 20 min", "2 d 5 h".
-// seconds: >= 0.
+// A span of time in its two largest units: "12 s", "4 min 10 s", "3 h 20 min", "2 d 5 h". seconds: >= 0.
 std::string readable_time(double seconds);
 
 }  // namespace frahm::engine

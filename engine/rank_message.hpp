@@ -19,7 +19,7 @@ struct Finished {
   Finished& operator+=(const Finished& other);
 };
 
-// What rank 0, which deals out the tiles, and the others tell each other.
+// The messages between rank 0, which deals out the tiles, and the other ranks.
 struct RankMessage {
   enum class Kind : std::uint64_t {
     ready,  // to rank 0: may I begin?  threads, study; text: the process
@@ -44,7 +44,7 @@ struct RankMessage {
 };
 
 Bytes encode(const RankMessage& message);
-// bytes: what encode() gave.
+// bytes: from encode().
 RankMessage decode(std::span<const std::byte> bytes);
 
 }  // namespace frahm::engine

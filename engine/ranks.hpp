@@ -6,7 +6,7 @@
 
 namespace frahm::engine {
 
-// The processes of one parallel program, told apart by their rank, and messages between them.
+// The processes of one parallel program, numbered by rank, and the messages between them.
 //
 // Used by one thread at a time.
 class Ranks {
@@ -29,7 +29,7 @@ class Ranks {
   // do. Returns the number of these ranks, itself among them.
   virtual int take_machine() = 0;
 
-  // Neither waits. What one rank sends another comes whole and in the order in which it was sent.
+  // Neither function waits. Messages from one rank to another arrive whole and in the order of sending.
   virtual void send(int to, const Bytes& message) = 0;
   virtual std::optional<Message> receive() = 0;
 };

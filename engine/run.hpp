@@ -15,18 +15,18 @@
 #include "engine/ranks.hpp"
 #include "engine/tile_index.hpp"
 
-// Many answers: the tiles of a job computed by a team of threads and kept in a shard log as each is finished.
+// Computes the tiles of a job with a team of threads and saves each finished tile in a shard log.
 //
-// A thread team, a rank, an array task and a resumed run are the same thing, writers of shards: what they
-// leave together does not depend on who computed which tile, in what order, or how often they were stopped.
+// Thread teams, ranks, array tasks and resumed runs are all writers of shards: their joint result does not
+// depend on who computed which tile, in what order, or how often they were stopped.
 namespace frahm::engine {
 
 // Computes one tile and writes its record to `out`, which is empty before the call. The record must depend on
-// the tile alone. A kernel is used by one thread and may keep its workspace.
+// the tile alone. A kernel is used by one thread and may reuse its workspace.
 using Kernel = std::function<void(std::uint64_t tile, Bytes& out)>;
 
 // Whether the run has been asked to stop: by a signal, the time budget, or an error in another thread. A
-// kernel whose tiles take long looks at it and gives its tile up by throwing GivenUp: nothing is kept of it.
+// kernel with long tiles checks this and gives up its tile by throwing GivenUp: nothing of the tile is saved.
 using StopAsked = std::function<bool()>;
 struct GivenUp {};
 
@@ -34,12 +34,12 @@ struct Job {
   std::uint64_t tiles = 0;
   Fingerprint fingerprint;
   // The functions below are called from several threads at once.
-  // Once in each thread; what it is given may be kept by the kernel.
+  // Called once in each thread; the kernel may store its argument.
   std::function<Kernel(const StopAsked& stop_asked)> make_kernel;
   std::function<std::uint64_t(std::uint64_t tile)> points;  // points of a tile
-  // Points of a finished tile that failed; may be empty: none ever do.
+  // Points of a finished tile that failed; may be empty: none fail.
   std::function<std::uint64_t(std::uint64_t tile, std::span<const std::byte> record)> failed;
-  // Points that the kernels of this process have not computed but found in an earlier result; may be empty.
+  // Points that the kernels of this process took from an earlier result; may be empty.
   std::function<std::uint64_t()> reused = {};
 };
 
@@ -50,7 +50,7 @@ struct Shard {
 };
 
 struct RunOptions {
-  std::filesystem::path output;  // the file to be assembled later; the logs stand beside it
+  std::filesystem::path output;  // the file to be assembled later; the logs lie beside it
   int threads = 0;               // of each process, >= 0; 0: default_threads()
   Shard shard;
   // Discard what earlier runs left: all logs; for one shard of several its own log and those of other
@@ -58,12 +58,12 @@ struct RunOptions {
   bool fresh = false;
   std::optional<std::chrono::duration<double>> time_budget;  // > 0, from the start of the run; absent: none
   ProgressStyle progress = ProgressStyle::automatic;
-  Ranks* ranks = nullptr;  // among which this process is; null: it works alone
+  Ranks* ranks = nullptr;  // the ranks of the program; null: this process works alone
 };
 
 enum class Outcome {
   complete,  // every tile of the shard is in a log
-  stopped,   // a signal or the time budget came first; the same run again goes on from there
+  stopped,   // by a signal or the time budget; the same run again resumes from there
 };
 
 // Tiles and points are those of the shard.
@@ -76,7 +76,7 @@ struct Summary {
   Tally points;
   int threads = 0;  // of all ranks
   int ranks = 1;
-  int threads_here = 0;  // which this machine has for what is left to do when all ranks are done
+  int threads_here = 0;  // of this machine, for the work left when all ranks are done
   double seconds = 0.0;  // wall time
   double cpu_seconds_elsewhere = 0.0;  // of the other ranks
   std::vector<UnusedBytes> unused;     // ends of logs that could not be used when the run began
@@ -85,11 +85,11 @@ struct Summary {
 // Computes the tiles of the shard that are in no log beside the output yet; among ranks it is called by rank
 // 0, deals the tiles out to all, and returns when the others have closed their logs (engine/assist). On
 // SIGTERM, SIGINT, SIGUSR1 or at the end of the time budget the tiles in hand are finished or given up by
-// their kernels; at the end, however it comes, what is finished is on the disk. One run at a time in a
-// process. Throws std::invalid_argument for options outside their range, ResumeRefused when tiles of another
-// study are kept beside the output (unless fresh), Locked when another process computes this shard, IoError,
-// and, when the tiles in hand are kept, the first exception of a kernel; RankFailed (engine/dealer) when
-// another rank could not go on.
+// their kernels; finished tiles are on the disk at the end in every case. One run at a time in a process.
+// Throws std::invalid_argument for options outside their range, ResumeRefused when tiles of another study lie
+// beside the output (unless fresh), Locked when another process computes this shard, IoError, and, once the
+// tiles in hand are saved, the first exception of a kernel; RankFailed (engine/dealer) when another rank
+// could not go on.
 Summary run(const Job& job, const RunOptions& options);
 
 // The log of this process: <output>.shard-i-of-n[-rank-k].frahm-log, without a rank's number for rank 0.

@@ -17,8 +17,8 @@ namespace frahm::engine {
 // append() and sync() may be called from several threads at once.
 class ShardLog {
  public:
-  // Opens the log of a study, or begins it. What follows its last good record is cut off.
-  // Throws Locked if another process has it, ResumeRefused if it keeps tiles of another study, IoError.
+  // Opens or creates the log of a study. Bytes after its last good record are cut off.
+  // Throws Locked if another process has it, ResumeRefused if it holds tiles of another study, IoError.
   ShardLog(const std::filesystem::path& path, const LogHeader& header);
   // A log without a record is removed.
   ~ShardLog();
@@ -28,7 +28,7 @@ class ShardLog {
   // What the log held when it was opened; bytes behind the good ones have been cut off.
   const LogExtent& found() const { return found_; }
 
-  // Keeps one finished tile. Throws IoError (disk full, ...), after which the tiles kept before are still
+  // Saves one finished tile. Throws IoError (disk full, ...), after which the tiles saved before are still
   // good and further ones may be appended.
   void append(std::uint64_t tile, std::span<const std::byte> payload);
 

@@ -8,8 +8,8 @@
 
 namespace frahm::engine {
 
-// What may end a piece of work before it is done: a signal (engine/stop_signals), or the end of a time budget
-// of which a part may be used already. Only one may live at a time, as of the signals.
+// A request to end a piece of work early: a signal (engine/stop_signals) or the end of a time budget, of
+// which a part may be used already. Only one may exist at a time, as with StopSignals.
 class StopRequest {
  public:
   using Seconds = std::chrono::duration<double>;

@@ -6,7 +6,7 @@
 namespace frahm::engine {
 
 // As long as it lives, SIGTERM, SIGINT and SIGUSR1 ask the run to stop instead of ending the process; a
-// second SIGINT ends it at once. The handlers found are put back afterwards. Only one may live at a time
+// second SIGINT ends it at once. The previous handlers are restored afterwards. Only one may exist at a time
 // (std::logic_error): signals belong to the process.
 class StopSignals {
  public:
@@ -24,8 +24,8 @@ class StopSignals {
   struct sigaction user_before_ {};
 };
 
-// From now on a write to a pipe whose reader has gone, or beyond the size a file may have (ulimit -f), fails,
-// and does not end the process.
+// From now on a write to a pipe whose reader has gone, or beyond the size a file may have (ulimit -f), fails
+// instead of ending the process.
 void let_failed_writes_return();
 
 // "SIGTERM", "SIGINT", "SIGUSR1".

@@ -9,7 +9,7 @@
 #include "engine/log_format.hpp"
 #include "engine/run.hpp"
 
-// How far a job is, seen from outside: by the logs its writers have left, whether they are at work or gone.
+// The progress of a job, read from the logs of its writers, whether these are at work or gone.
 namespace frahm::engine {
 
 // The shard a log belongs to by its name, <output>.shard-<i>-of-<n>.frahm-log; each rank of a shard has a log
@@ -19,8 +19,8 @@ std::optional<Shard> shard_of_log(const std::filesystem::path& log);
 struct WriterState {
   std::filesystem::path log;
   std::optional<Shard> shard;        // by the name of the log
-  bool at_work = false;              // it held the lock of the log when this was asked
-  std::optional<WriterStart> start;  // nothing if the log does not say
+  bool at_work = false;              // it held the lock of the log at the time of the survey
+  std::optional<WriterStart> start;  // nothing if not in the log
 };
 
 struct Survey {
@@ -32,10 +32,10 @@ struct Survey {
   std::optional<double> seconds_left;  // at this rate
 };
 
-// Reads every record of the logs of a job and looks at the locks, and keeps none. The rate of a writer is
-// what it has finished since it began, by the wall clock; a clock that stands before that beginning makes it
-// unknown. logs: of this job alone.  job: its kernel is not used.  now: the time of the survey.  Throws
-// ResumeRefused for a log that keeps tiles of another study, IoError.
+// Reads every record of the logs of a job and checks the locks without keeping any. The rate of a writer is
+// its points finished since it began over the wall time; it is unknown if the clock is before that start.
+// logs: of this job alone.  job: its kernel is not used.  now: the time of the survey.  Throws ResumeRefused
+// for a log with tiles of another study, IoError.
 Survey survey(const Job& job, const std::vector<std::filesystem::path>& logs,
               std::chrono::system_clock::time_point now);
 

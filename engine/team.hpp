@@ -9,13 +9,12 @@
 
 namespace frahm::engine {
 
-// Threads of this process where the user names no number: OMP_NUM_THREADS, else the processors a Slurm task
-// was given (SLURM_CPUS_PER_TASK), else those that this process may use. ranks: among which it is; null if
-// alone.
+// The default number of threads of this process: OMP_NUM_THREADS, else the processors a Slurm task was given
+// (SLURM_CPUS_PER_TASK), else those that this process may use. ranks: among which it is; null if alone.
 int default_threads(const Ranks* ranks = nullptr);
 
-// Threads for so many pieces of work: `wanted` (0: default_threads()), but no more than pieces, and at least
-// one.
+// The number of threads for these pieces of work: `wanted` (0: default_threads()), but no more than pieces,
+// and at least one.
 int team_size(int wanted, std::uint64_t pieces);
 
 // Calls work(failed) once in each of `threads` (> 0) OpenMP threads and returns when all calls have.

@@ -12,8 +12,8 @@
 
 namespace frahm::engine {
 
-// What the threads of one process share while they compute tiles: where these come from, where the finished
-// ones go, and how many there are.
+// Shared by the threads of one process while they compute tiles: the queue of tiles, the log of finished ones
+// and their counts.
 class TeamWork {
  public:
   // job, log: must outlive it.
@@ -21,11 +21,11 @@ class TeamWork {
 
   TileQueue& queue() { return queue_; }
 
-  // Computes the tiles of the queue in `threads` threads and keeps each as it is finished, until the queue is
+  // Computes the tiles of the queue in `threads` threads and saves each finished tile, until the queue is
   // closed and empty, stop_asked(), or an error.
   void compute(int threads, const StopAsked& stop_asked);
 
-  // Brings what is finished to the disk; failing that is an error of the work.
+  // Syncs the finished tiles to the disk; a failure is an error of the work.
   void keep_on_disk();
 
   // Whether there was an error: the work ends after the tiles in hand.

@@ -15,7 +15,7 @@
 #include "engine/file.hpp"
 #include "engine/fingerprint.hpp"
 
-// Reading back what the writers of shards have finished, whoever they were.
+// Reads the finished tiles of all writers of shards.
 namespace frahm::engine {
 
 // The log of a writer, beside the output: <output>.<writer>.frahm-log; a writer's name has no dot.
@@ -24,8 +24,8 @@ std::filesystem::path log_path(const std::filesystem::path& output, const std::s
 // All logs beside `output`, by name. Throws IoError.
 std::vector<std::filesystem::path> find_logs(const std::filesystem::path& output);
 
-// The study a log belongs to, without reading its tiles; nothing if the log is gone or was cut off at birth.
-// Throws IoError for a file that is no shard log, is one of another version, or has a damaged header.
+// The study a log belongs to, without reading its tiles; nothing if the log is gone or was cut off in its
+// header. Throws IoError for a file that is no shard log, is one of another version, or has a damaged header.
 std::optional<LogHeader> study_of_log(const std::filesystem::path& log);
 
 // Bytes of a log behind its last good record, which are not used: a record cut off by a kill or still being
@@ -52,13 +52,12 @@ struct TileIndex {
   bool has(std::uint64_t tile) const { return places[tile].log != nowhere; }
 };
 
-// Called with a tile and the bytes its kernel wrote, which are gone when the call returns.
+// Called with a tile and the bytes its kernel wrote, which are valid only during the call.
 using TileVisitor = std::function<void(std::uint64_t tile, std::span<const std::byte> bytes)>;
 
 // Reads `logs` once, checking every record; of a tile recorded twice the first one counts.
-// Logs that have vanished since they were listed are passed over: their writer removed them, empty or
-// assembled. visit: called for each finished tile, in the order of the logs. Throws ResumeRefused for a log
-// that keeps tiles of another study, IoError.
+// Logs removed since they were listed, empty or assembled, are skipped. visit: called for each finished tile,
+// in the order of the logs. Throws ResumeRefused for a log with tiles of another study, IoError.
 TileIndex index_tiles(const std::vector<std::filesystem::path>& logs, const LogHeader& study,
                       const TileVisitor& visit);
 
@@ -82,8 +81,8 @@ class TileReader {
 
   const TileIndex& index_;
   std::uint64_t mark_;                              // of the study, in each record
-  int most_open_;                                   // logs at a time
-  std::mutex turn_;                                 // guards what follows
+  int most_open_;                                   // logs open at a time
+  std::mutex turn_;                                 // guards files_, open_
   std::vector<std::shared_ptr<const File>> files_;  // of TileIndex::logs; null: closed
   int open_ = 0;
 };
@@ -95,7 +94,7 @@ void for_each_tile(const TileIndex& index, const TileVisitor& visit);
 // Removes logs that no process is writing. Throws Locked at the first that is in use, IoError.
 void remove_logs(const std::vector<std::filesystem::path>& logs);
 
-// The same, but leaves those in use; returns what is said of each (Locked::what()).
+// The same, but leaves logs in use; returns the message for each (Locked::what()).
 std::vector<std::string> remove_free_logs(const std::vector<std::filesystem::path>& logs);
 
 }  // namespace frahm::engine

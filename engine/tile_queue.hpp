@@ -13,18 +13,18 @@ namespace frahm::engine {
 class TileQueue {
  public:
   void add(std::span<const std::uint64_t> tiles);
-  // No more will be added.
+  // No more tiles will be added.
   void close();
-  // Forgets what is left, and closes: the threads end with the tiles they have in hand.
+  // Drops the remaining tiles and closes: the threads end with the tiles they have in hand.
   void drop();
 
-  // The next tile; waits for one as long as the queue is open. Nothing: it is closed and empty.
+  // The next tile; waits for one while the queue is open. Nothing: the queue is closed and empty.
   std::optional<std::uint64_t> take();
 
   bool is_empty() const;
 
  private:
-  mutable std::mutex turn_;  // guards what follows
+  mutable std::mutex turn_;  // guards the members below
   std::condition_variable changed_;
   std::deque<std::uint64_t> tiles_;
   bool open_ = true;

@@ -8,8 +8,8 @@
 
 namespace frahm::engine {
 
-// Calls `look` again and again in a thread of its own, with a pause of `period` between: slow work on disk,
-// terminal and network that no worker shall wait for. `look` must not throw.
+// Calls `look` again and again in a thread of its own, with a pause of `period` between: for slow work on
+// disk, terminal and network. `look` must not throw.
 class Watch {
  public:
   Watch(std::chrono::milliseconds period, std::function<void()> look);

@@ -31,8 +31,8 @@ Box common(const Box& a, const Box& b);  // of boxes that overlap
 // point.
 bool next_index(Shape& index, const Shape& first, const Shape& last);
 
-// Copies the elements of `part`, rank >= 1, from an array that holds the points of one box to that of
-// another. Both boxes contain `part`.
+// Copies the elements of `part`, rank >= 1, from the array of one box to the array of another. Both
+// boxes contain `part`.
 void copy_box(const Box& part, std::span<const std::byte> from, const Box& from_box, std::span<std::byte> to,
               const Box& to_box, std::size_t element_size);
 

@@ -21,7 +21,7 @@ class GrowingColumn {
   GrowingColumn(hdf5::Group& group, const Variable& variable, const std::string& scale);
 
   void append(std::span<const double> values);
-  void flush();  // writes what is left; nothing is appended after
+  void flush();  // writes the values still waiting; append nothing after it
 
  private:
   void write(std::uint64_t count);
@@ -32,13 +32,13 @@ class GrowingColumn {
   std::uint64_t written_ = 0;  // values in the dataset
 };
 
-// Writes checked columns into a group; a dimension that no column is named after gets an index of its name.
+// Writes checked columns into a group; a dimension without a column of its name gets an index.
 void write_columns(hdf5::Group& group, const std::vector<Column>& columns);
 
-// All columns of a group, indices left out: dimension scales first, then the rest in order of creation.
+// All columns of a group except indices: dimension scales first, then the rest in order of creation.
 std::vector<Column> read_columns(const hdf5::Group& group);
 
-// The rows of a RaggedLayout, as they come.
+// Writes the rows of a RaggedLayout one by one.
 class RaggedTable {
  public:
   RaggedTable(hdf5::Group group, const RaggedLayout& layout);

@@ -15,15 +15,15 @@ struct DataColumn {
   std::optional<std::string> unit;  // the attribute "units"
 };
 
-// Reads columns of numbers from an HDF5 or netCDF-4 file, of ours or of anybody's.
+// Reads columns of numbers from any HDF5 or netCDF-4 file, written by frahm or by another program.
 class DataReader {
  public:
   // Throws StoreError if it cannot be opened.
   explicit DataReader(const std::filesystem::path& path);
 
-  // The dataset of a path, such as "transient/time": one dimension, numbers of any type; what its _FillValue
-  // marks as missing is NaN. Throws StoreError if there is none (saying what else there is), if it has
-  // another shape or type, is packed by scale_factor or add_offset, or where its data are damaged.
+  // The dataset at a path, such as "transient/time": one dimension, numbers of any type; values equal to its
+  // _FillValue become NaN. Throws StoreError if it does not exist (the message lists what does), has another
+  // shape or type, is packed by scale_factor or add_offset, or is damaged.
   DataColumn read(const std::string& dataset) const;
 
  private:

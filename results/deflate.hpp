@@ -8,11 +8,11 @@
 namespace frahm::results {
 
 // `data` in zlib's format, with `spare` bytes left free at the end.  level: 1 (fast) to 12 (small).
-// Re-entrant, and the same bytes for the same data.
+// Re-entrant; equal data give equal bytes.
 //
-// Deflate is libdeflate's: its bytes depend on its input alone, which those of the faster ISA-L do not quite
-// (2.30: of some thousand runs under load a few chose another match of the same length), and it is several
-// times faster than zlib through HDF5.
+// Uses libdeflate: its bytes depend on the input alone, and it is several times faster than zlib in HDF5.
+// ISA-L is faster still, but its bytes may differ between runs (2.30: of some thousand runs under load a few
+// chose another match of the same length).
 Bytes deflated(std::span<const std::byte> data, int level, std::size_t spare = 0);
 
 // Byte 0 of every element, then byte 1 of every element, ...: the slowly changing sign and exponent bytes of

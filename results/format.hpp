@@ -1,6 +1,6 @@
 #pragma once
 
-// How a result file says what it is: attributes of its root. See FORMAT.md.
+// The root attributes that identify a result file. See FORMAT.md.
 namespace frahm::results {
 
 inline constexpr const char* format_attribute = "format";

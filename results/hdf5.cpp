@@ -16,7 +16,7 @@ namespace {
 
 static_assert(std::is_same_v<hid_t, std::int64_t>);
 
-// The deepest entry of HDF5's error stack says what really happened ("No such file or directory").
+// The deepest entry of HDF5's error stack states the cause ("No such file or directory").
 std::string deepest_error() {
   std::string cause;
   const auto visit = [](unsigned depth, const H5E_error2_t* error, void* text) -> herr_t {
@@ -24,7 +24,7 @@ std::string deepest_error() {
     return 0;
   };
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, visit, &cause);
-  return cause.substr(0, cause.find(", buf = "));  // addresses in memory tell nobody anything
+  return cause.substr(0, cause.find(", buf = "));  // without memory addresses
 }
 
 // netCDF-4 orders its dimensions, variables and attributes by creation.
@@ -35,14 +35,14 @@ void order_by_creation(hid_t properties, const std::string& where) {
           "cannot track the order of links");
   checked(H5Pset_attr_creation_order(properties, in_creation_order), where,
           "cannot track the order of attributes");
-  // The same data give the same bytes: no times of modification.
+  // No modification times: the same data give the same bytes.
   checked(H5Pset_obj_track_times(properties, false), where, "cannot leave out times");
 }
 
 Handle file_access(const std::string& path) {
-  // First of all calls: HDF5 must not tidy up at the program's exit. Our handles have closed everything by
-  // then, and after a full disk HDF5's own attempt ends in a segmentation fault. (Called again, it does
-  // nothing.)
+  // This must be the first HDF5 call: HDF5 must not clean up at the program's exit. Our handles have closed
+  // everything by then, and after a full disk HDF5's own attempt ends in a segmentation fault. (Further calls
+  // do nothing.)
   H5dont_atexit();
   print_no_errors();
   Handle access(checked(H5Pcreate(H5P_FILE_ACCESS), path, "cannot open"));
@@ -67,7 +67,7 @@ Handle open_attribute(hid_t object, const std::string& name, const std::string& 
   return Handle(checked(H5Aopen(object, name.c_str(), H5P_DEFAULT), where, "cannot read attribute " + name));
 }
 
-// The text of an attribute whose strings have each their own length, as h5py and others write them.
+// The text of an attribute of variable-length strings, as h5py and others write them.
 std::string variable_text_of(hid_t attribute, hid_t type, const std::string& where) {
   char* text = nullptr;
   checked(H5Aread(attribute, type, static_cast<void*>(&text)), where, "cannot read an attribute");
@@ -121,7 +121,7 @@ Handle& Handle::operator=(Handle&& other) noexcept {
   return *this;
 }
 
-// A failure is told by File::close(); here there is nobody to tell.
+// A destructor cannot throw: File::close() reports the failure.
 Handle::~Handle() {
   if (id_ < 0 || H5Idec_ref(id_) >= 0 || !failure_ || !failure_->empty()) return;
   *failure_ = deepest_error();
@@ -206,8 +206,7 @@ bool Group::has_dataset(const std::string& name) const {
   return info.type == H5O_TYPE_DATASET;
 }
 
-// One link after the other: where the list is damaged, H5Literate of HDF5 1.10 frees names that it has not
-// read.
+// Reads the links one by one: on a damaged list H5Literate of HDF5 1.10 frees names that it has not read.
 std::vector<std::string> Group::names_in_order() const {
   const std::string what = "cannot list the group";
   H5G_info_t info;

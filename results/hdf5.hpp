@@ -13,13 +13,13 @@
 #include "results/box.hpp"
 #include "results/layout.hpp"
 
-// HDF5 by its own nouns: file, group, dataset, attribute, dimension scale. Only hdf5.cpp and hdf5_dataset.cpp
-// know the library. Every failure of it is thrown as StoreError with the object concerned and HDF5's own
-// reason.
+// Classes for HDF5's objects: file, group, dataset, attribute, dimension scale. Only hdf5.cpp and
+// hdf5_dataset.cpp call the library. Every HDF5 failure is thrown as StoreError with the object concerned and
+// HDF5's own reason.
 namespace frahm::results::hdf5 {
 
-// Why the first object of a file that failed to close did so; empty: none has. HDF5 writes what it holds back
-// of a dataset when that is closed, and forgets it if the write fails.
+// The reason of the first failure to close an object of a file; empty if there was none. HDF5 writes a
+// dataset's buffered data when the dataset is closed, and drops them if the write fails.
 using CloseFailure = std::shared_ptr<std::string>;
 
 // The owner of one HDF5 identifier (hid_t).
@@ -32,7 +32,7 @@ class Handle {
   ~Handle();
 
   std::int64_t get() const { return id_; }
-  std::int64_t release() noexcept;  // gives the identifier away
+  std::int64_t release() noexcept;  // gives up ownership
   const CloseFailure& failure() const { return failure_; }
 
  private:
@@ -40,7 +40,7 @@ class Handle {
   CloseFailure failure_;
 };
 
-// What carries attributes: a group or a dataset.
+// An object with attributes: a group or a dataset.
 class Object {
  public:
   const std::string& where() const { return where_; }  // "atlas.h5:/orbits/time", for messages
@@ -52,7 +52,7 @@ class Object {
   void write_numbers(const std::string& name, const Variable& as,
                      std::span<const double> values);  // shape [n]
 
-  // If there is such an attribute: a single string, of fixed or variable length.
+  // The attribute, if it exists: a single string, of fixed or variable length.
   std::optional<std::string> text(const std::string& name) const;
   std::optional<std::vector<double>> numbers(const std::string& name) const;  // if there is such an attribute
   std::vector<Text> texts() const;  // every single string among the attributes, in order of creation
@@ -65,7 +65,7 @@ class Object {
   std::string where_;
 };
 
-// How a dataset is kept.
+// How a dataset is stored.
 struct Storage {
   Type type = Type::float64;
   Shape shape = {};      // empty: a single number
@@ -89,7 +89,7 @@ class Dataset : public Object {
                    std::span<const std::byte> encoded);  // see encode_chunk
   void grow(std::uint64_t size);                         // sets the size of the unlimited dimension
 
-  void make_scale();  // this becomes the dimension scale of its own name
+  void make_scale();  // makes this the dimension scale of its own name
   bool is_scale() const;
   void attach_scale(unsigned axis, const Dataset& scale);
   std::string scale_name(unsigned axis) const;  // empty if none is attached
@@ -105,7 +105,7 @@ class Group : public Object {
   bool has_dataset(const std::string& name) const;
   std::vector<std::string> dataset_names() const;  // in order of creation
   std::vector<std::string> group_names() const;    // in order of creation
-  std::vector<std::string> link_names() const;     // of all it holds, by name; of any file
+  std::vector<std::string> link_names() const;     // of all links, by name; for any file
 
   Group create_group(const std::string& name);
   Group group(const std::string& name) const;
@@ -121,11 +121,11 @@ class Group : public Object {
 
 class File {
  public:
-  static File create(const std::filesystem::path& path);  // replaces what is there
+  static File create(const std::filesystem::path& path);  // replaces a file there
   static File open(const std::filesystem::path& path);    // to read
 
   Group root() const;
-  // Everything written is with the operating system, or StoreError. Its groups and datasets must be closed.
+  // Hands everything written to the operating system, or throws StoreError. Close groups and datasets before.
   void close();
 
  private:

@@ -13,7 +13,7 @@ namespace frahm::results {
 namespace {
 
 // A chunk is compressed in one piece whose size must fit 32 bits (HDF5 and deflate); 2^28 points of 8 bytes
-// do.
+// fit.
 constexpr std::uint64_t max_chunk_points = std::uint64_t{1} << 28;
 
 template <typename... Args>
@@ -141,7 +141,7 @@ void check(const std::vector<Column>& columns) {
              size, column.dimension);
     }
   }
-  // A dimension is named by a column along itself, or gets an index of that name.
+  // A dimension has a column of its own name along it, or gets an index of that name.
   for (const auto& [dimension, size] : sizes) {
     const auto clash = [&](const Column& c) {
       return c.variable.name == dimension && c.dimension != dimension;

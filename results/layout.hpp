@@ -8,7 +8,7 @@
 // What a result file holds, in the words of its readers: axes, coordinates, variables. See FORMAT.md.
 namespace frahm::results {
 
-// How a variable is stored, and what stands where nothing was computed.
+// How a variable is stored, and its value where nothing was computed.
 enum class Type {
   float64,  // NaN
   float32,  // NaN
@@ -60,11 +60,11 @@ std::vector<std::uint64_t> shape_of(const MapLayout& layout);  // the sizes of i
 struct Column {
   Variable variable;
   std::string dimension = {};       // of the group; empty for a single number
-  std::vector<double> values = {};  // in the type's own missing value where not computed (see Type)
+  std::vector<double> values = {};  // the missing value of the type where not computed (see Type)
 };
 
-// A group of rows that arrive one by one, each with a stretch of samples of its own length: the orbits kept
-// (row = "orbit", sample = "sample") or, without samples, the regime borders (row = "border").
+// A group of rows that arrive one by one, each with its own number of samples: the recorded orbits (row =
+// "orbit", sample = "sample") or, without samples, the regime borders (row = "border").
 struct RaggedLayout {
   std::string group;
   std::string row;                           // dimension of the rows
@@ -75,8 +75,8 @@ struct RaggedLayout {
 
 using Text = std::pair<std::string, std::string>;  // name, value in UTF-8
 
-// Refuse, by std::invalid_argument naming the thing, its value and the rule, what would not make a file that
-// opens everywhere.
+// These throw std::invalid_argument, naming the item, its value and the rule, for contents that some reader
+// could not open.
 void check(const MapLayout&);
 void check(const RaggedLayout&);
 void check(const std::vector<Column>&);

@@ -19,13 +19,13 @@ struct EncodedChunk {
 // The shape of the chunks of a map as the file has them: no longer than its axes.
 Shape chunk_shape(const MapLayout& layout);
 
-// One chunk of a map after the other, put together from blocks of values and encoded. It knows nothing of the
-// file: threads make chunks at once, each with a MapChunk of its own.
+// Assembles the chunks of a map one after another from blocks of values, and encodes them. It does not touch
+// the file: threads make chunks at the same time, each with its own MapChunk.
 //
-// Errors: std::invalid_argument, naming the thing, its value and the rule.
+// Errors: std::invalid_argument, naming the item, its value and the rule.
 class MapChunk {
  public:
-  explicit MapChunk(const MapLayout& layout);  // which must outlive it, and has been checked
+  explicit MapChunk(const MapLayout& layout);  // the layout must outlive it, and be checked
 
   // Begins the chunk whose first point is `start`, a multiple of the chunk's shape; every point is missing.
   void begin(const Shape& start);

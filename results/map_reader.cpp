@@ -73,7 +73,7 @@ MapLayout read_layout(const hdf5::Group& root) {
   return layout;
 }
 
-// Appends the paths of all groups within `group`, whose own path is `path` (with a slash, empty of the root).
+// Appends the paths of all groups within `group`, whose path is `path` (ends in a slash; root: empty).
 void add_groups(const hdf5::Group& group, const std::string& path, std::vector<std::string>& paths) {
   for (const std::string& name : group.group_names()) {
     paths.push_back(path + name);

@@ -12,13 +12,13 @@
 
 namespace frahm::results {
 
-// Reads a result file (FORMAT.md). Throws StoreError if it cannot be opened, is not one of ours, is of a
-// newer format, or where its data are damaged (each chunk carries a checksum).
+// Reads a result file (FORMAT.md). Throws StoreError if the file cannot be opened, is not frahm's, is of a
+// newer format, or has damaged data (each chunk carries a checksum).
 class MapReader {
  public:
   explicit MapReader(const std::filesystem::path& path);
 
-  // What the file holds; the chunk is that of its variables, and empty if there are none.
+  // The layout of the file; its chunk is that of the variables, empty if there are none.
   const MapLayout& layout() const { return layout_; }
 
   // A box of a variable (index into layout().variables), row-major, in its unit; missing values as stored:
@@ -32,7 +32,7 @@ class MapReader {
   // The texts of a group ("provenance"), in order of writing. StoreError if there is no such group.
   std::vector<Text> texts(const std::string& group) const;
 
-  // All numbers and columns of a group, its indices left out: dimension scales first, then in order of
+  // All numbers and columns of a group except its indices: dimension scales first, then in order of
   // writing. In ragged groups row i has the samples row_start[i] <= s < row_start[i + 1], the last row those
   // up to the end. StoreError if there is no such group.
   std::vector<Column> columns(const std::string& group) const;

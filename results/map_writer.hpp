@@ -15,14 +15,14 @@
 
 namespace frahm::results {
 
-// Writes one result file (FORMAT.md): as <path>.part beside its place until finish() puts it there in one
-// step. A writer destroyed before leaves nothing behind. Two writers of one path are the caller's to prevent.
+// Writes one result file (FORMAT.md) as <path>.part; finish() renames it to <path> in one step. A writer
+// destroyed before that leaves no file. The caller must prevent two writers of one path.
 //
-// The map comes in chunks that have been encoded before, in any order; where they lie in the file depends on
-// that order only. Nothing of them is kept in memory.
+// The chunks of the map arrive encoded, in any order; their offsets in the file depend on that order only. No
+// chunk stays in memory.
 //
-// Errors: StoreError where the file cannot be written; std::invalid_argument, naming the thing, its value and
-// the rule, for what must not be in it. Not thread-safe, but write_chunk() and append_ragged() may be called
+// Errors: StoreError where the file cannot be written; std::invalid_argument, naming the item, its value and
+// the rule, for wrong contents. Not thread-safe, but write_chunk() and append_ragged() may be called
 // from one thread after the other.
 class MapWriter {
  public:
@@ -31,10 +31,10 @@ class MapWriter {
   // Writes one chunk of every variable (MapChunk::encoded). A chunk never written is missing.
   void write_chunk(const EncodedChunk& chunk);
 
-  // Texts, UTF-8 of any length, as attributes of a group, which is made if need be: /provenance.
+  // Texts, UTF-8 of any length, as attributes of a group, created if missing: /provenance.
   void write_texts(const std::string& group, const std::vector<Text>& texts);
 
-  // Numbers and columns of a group, which is made if need be, once a group: /optimum, /identification,
+  // Numbers and columns of a group, created if missing, once for each group: /optimum, /identification,
   // /decay, /transient.
   void write_columns(const std::string& group, const std::vector<Column>& columns);
 

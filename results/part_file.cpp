@@ -17,7 +17,7 @@ namespace {
   throw StoreError(path.string(), what, std::strerror(error));
 }
 
-// named: the path that a message names.
+// named: the path given in messages.
 void sync(const std::filesystem::path& path, int flags, const std::filesystem::path& named) {
   const bool is_directory = (flags & O_DIRECTORY) != 0;
   const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC);
@@ -25,7 +25,7 @@ void sync(const std::filesystem::path& path, int flags, const std::filesystem::p
     fail(named, is_directory ? "cannot open its directory to sync" : "cannot open to sync", errno);
   const int error = ::fsync(descriptor) == 0 ? 0 : errno;
   ::close(descriptor);
-  // Some file systems cannot sync a directory and say EINVAL: there is nothing more to do then.
+  // Some file systems cannot sync a directory and return EINVAL: nothing more can be done then.
   if (error == 0 || (error == EINVAL && is_directory)) return;
   fail(named, is_directory ? "cannot sync its directory" : "cannot sync", error);
 }
@@ -34,7 +34,7 @@ void sync(const std::filesystem::path& path, int flags, const std::filesystem::p
 
 PartFile::~PartFile() {
   if (published_) return;
-  std::error_code none;  // a part that could not be made need not be removed
+  std::error_code none;  // ignored: the part may never have been created
   std::filesystem::remove(part_, none);
 }
 

@@ -4,7 +4,7 @@
 
 namespace frahm::results {
 
-// A file in the making: written as <path>.part beside its place, put there whole in one step or not at all.
+// A file being written as <path>.part; publish() renames the complete file to <path> in one step.
 class PartFile {
  public:
   explicit PartFile(std::filesystem::path path) : path_(std::move(path)), part_(path_.string() + ".part") {}
@@ -19,7 +19,7 @@ class PartFile {
 
  private:
   std::filesystem::path path_, part_;
-  bool published_ = false;  // from then on another process may be making the next part
+  bool published_ = false;  // if so, another process may be writing the next part
 };
 
 }  // namespace frahm::results

@@ -18,7 +18,7 @@ static_assert(std::endian::native == std::endian::little, "the file's numbers ar
   throw std::invalid_argument(fmt::format("variable '{}': value {}: must be {}", variable.name, value, rule));
 }
 
-// `to_number` turns one value into the number stored, or refuses it.
+// `to_number` turns one value into the stored number, or throws.
 template <typename Number, typename Convert>
 Bytes convert(std::span<const double> values, Convert to_number) {
   Bytes bytes(values.size() * sizeof(Number));

@@ -13,12 +13,12 @@ using Bytes = std::vector<std::byte>;
 
 std::size_t element_size(Type type);  // [bytes]
 bool is_float(Type type);
-double missing_value(Type type);  // what stands where nothing was computed
+double missing_value(Type type);  // the value where nothing was computed
 
 // `values` in the storage type of `variable`.
-// Throws std::invalid_argument for a value the type cannot hold: a whole number of its range for integers
-// (NaN is none), one of the named values for flags, a finite number within range for a finite number as
-// float32.
+// Throws std::invalid_argument for a value the type cannot hold. Integers hold whole numbers within their
+// range (NaN is none), flags one of the named values; a finite number stored as float32 must be within its
+// range.
 Bytes to_storage(const Variable& variable, std::span<const double> values);
 
 // `count` elements, all missing.

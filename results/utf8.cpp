@@ -17,8 +17,8 @@ std::size_t sequence_length(unsigned char lead) {
   return 0;
 }
 
-// Whether text[at, at + length) is one character: each further byte is 10xxxxxx, and the code is neither
-// written longer than need be, nor a surrogate, nor above U+10FFFF.
+// Whether text[at, at + length) is one character: each further byte is 10xxxxxx, and the code has
+// its shortest form, is no surrogate and is at most U+10FFFF.
 bool is_character(const std::string& text, std::size_t at, std::size_t length) {
   if (length == 0 || at + length > text.size()) return false;
   std::uint32_t code = static_cast<unsigned char>(text[at]) & (length == 1 ? 0x7Fu : 0xFFu >> (length + 1));

@@ -3,14 +3,14 @@
 #include "results/hdf5.hpp"
 #include "results/layout.hpp"
 
-// The CF attributes by which a dataset says what it is.
+// The CF attributes that describe a dataset.
 namespace frahm::results {
 
-// units, long_name, and for a flag flag_values and flag_meanings.  `missing`: also _FillValue, if a float.
-// Coordinates have none. Integers and flags have none either: xarray would turn them into floats.
+// Writes units, long_name, and of a flag flag_values and flag_meanings.  `missing`: also _FillValue, of
+// floats only: xarray would turn integers and flags with one into floats. Coordinates have none.
 void describe(hdf5::Dataset& dataset, const Variable& variable, bool missing);
 
-// The variable a dataset says it is. Throws StoreError if it does not say so.
+// The variable that a dataset's attributes describe. Throws StoreError if they do not.
 Variable described(const hdf5::Dataset& dataset);
 
 // A dimension without a coordinate of its own: the scale 0, 1, 2, ..., to be filled.

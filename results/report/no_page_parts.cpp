@@ -1,4 +1,4 @@
-// Instead of what bundle.mjs makes, where there is no Node.js.
+// Replaces the source that bundle.mjs makes, if there is no Node.js.
 #include "results/report/page_parts.hpp"
 
 namespace frahm::results {

@@ -64,8 +64,8 @@ LineShape lines_along(const Shape& shape, std::size_t axis) {
 
 using Carried = std::map<std::string, std::string>;  // levels -> the variable that has them in the page
 
-// To six digits; levels that an earlier variable has too are named, not repeated: suspension and main mass,
-// say, may move alike.
+// Writes values to six digits. Levels equal to those of an earlier variable are replaced by its name:
+// suspension and main mass, say, may move alike.
 void put_levels(Json& json, const Variable& variable, std::span<const double> values, const Shape& shape,
                 Carried& carried) {
   const bool whole = variable.type == Type::flag || variable.type == Type::int32;
@@ -138,7 +138,7 @@ Json group_json(const std::vector<Text>& texts, const std::vector<Column>& colum
   return json;
 }
 
-// Every group of the file but the provenance, by its path.
+// Every group of the file except the provenance, by its path.
 Json groups_json(const MapReader& result, const PageContent& content) {
   Json json = Json::object();
   for (const std::string& name : result.groups()) {

@@ -47,7 +47,7 @@ Range range_of(std::span<const double> values) {
   return range;
 }
 
-// A step of a power of ten, so that what is written to it has no digit that the page does not know.
+// The step is a power of ten, so that a value printed to it has no digit that the levels lack.
 PackedLevels decimal_scale(const Range& range) {
   const double step = std::pow(10.0, std::floor(std::log10((range.high - range.low) * millionth)));
   return {.low = std::floor(range.low / step) * step, .step = step};

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-// Numbers as the page of a report carries them: text, compressed. Its script unpacks them (page/numbers.js).
+// Numbers in the page of a report: compressed, as text. The page's script unpacks them (page/numbers.js).
 namespace frahm::results {
 
 // Base64 of zlib of the float64s' bytes, little-endian, all first bytes first, then all second ones ...
@@ -26,14 +26,14 @@ enum class Spacing {
   six_digits,  // of each value where none is negative, else at least six of their range
 };
 
-// Lines of numbers: those i, i + stride, i + 2 stride, ... (`size` of them) follow each other along one axis.
+// Lines of numbers along one axis: numbers i, i + stride, i + 2 stride, ... (`size` of them) are one line.
 struct LineShape {
   std::uint64_t size = 1, stride = 1;
 };
 
-// Along each line a smooth response is nearly straight, so of its levels the second differences are kept
-// (what stands before the first one counts as level 0), with the sign in the lowest bit, as 32-bit numbers
-// whose bytes are shuffled and deflated as above.
+// A smooth response is nearly straight along each line, so the second differences of its levels are stored
+// (levels before the first count as 0): 32-bit numbers with the sign in the lowest bit, whose bytes are
+// shuffled and deflated as above.
 PackedLevels pack_levels(std::span<const double> values, const LineShape& line, Spacing spacing);
 
 }  // namespace frahm::results

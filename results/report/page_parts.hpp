@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-// What bundle.mjs makes of page/, as text in the program; all empty where it was built without Node.js.
+// The text that bundle.mjs makes of page/, as part of the program; all empty if built without Node.js.
 namespace frahm::results {
 
 extern const std::string_view page_before_title, page_before_data, page_after_data;

@@ -11,9 +11,8 @@ bool has_report_page();
 // page_data.  Throws std::logic_error without the page's parts.
 std::string report_page(const std::string& title, const std::string& data);
 
-// A script for Node.js that reads the same data on its standard input and writes every figure of the page, as
-// SVG, and its numbers, as CSV, into the folder it is given as its argument; it prints their names.  Throws
-// as above.
+// A script for Node.js: it reads the same data from standard input, writes every figure of the page as SVG
+// and its numbers as CSV into the folder given as argument, and prints their names.  Throws as above.
 std::string figure_script();
 
 }  // namespace frahm::results

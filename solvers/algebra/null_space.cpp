@@ -7,7 +7,7 @@ namespace frahm::algebra {
 Eigen::MatrixXd null_space(const Eigen::MatrixXd& A) {
   if (A.rows() == 0) return Eigen::MatrixXd::Identity(A.cols(), A.cols());
   const Eigen::FullPivLU<Eigen::MatrixXd> factor(A);
-  if (factor.dimensionOfKernel() == 0) return Eigen::MatrixXd(A.cols(), 0);  // Eigen gives one zero column
+  if (factor.dimensionOfKernel() == 0) return Eigen::MatrixXd(A.cols(), 0);  // Eigen returns one zero column
   return factor.kernel();
 }
 

@@ -7,7 +7,7 @@ namespace frahm::algebra {
 // The shortest x, n, of all that minimise |A x - b|; A is m x n, of any rank.
 Eigen::VectorXd shortest_solution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 
-// The same of every column of B, m x k: n x k.
+// The same for every column of B, m x k; the result is n x k.
 Eigen::MatrixXd shortest_solutions(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
 
 // The matrix, n x m, that maps b to that x.

@@ -73,7 +73,7 @@ BoxMinimum box_minimum(const MatrixXd& G, const VectorXd& c, const VectorXd& low
         continue;
       }
     }
-    // All free components are at their minimum: does a bound hold one back that should move?
+    // All free components are at their minimum: does a bound hold a component that should move?
     const VectorXd slope = G * lambda - c;
     const double rounding = 1e-12 * (c.cwiseAbs() + G.cwiseAbs() * lambda.cwiseAbs()).maxCoeff();
     Index worst = -1;

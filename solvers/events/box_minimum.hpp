@@ -6,7 +6,7 @@ namespace frahm::periodic {
 
 struct BoxMinimum {
   Eigen::VectorXd lambda;
-  bool found = false;  // false: not within the changes of the active set allowed; lambda is the last of them
+  bool found = false;  // false: too many changes of the active set; lambda is the last iterate
 };
 
 // The lambda with lower <= lambda <= upper that minimises  1/2 lambda^T G lambda - c^T lambda,

@@ -3,17 +3,17 @@
 #include "solvers/events/passage.hpp"
 #include "solvers/events/workspace.hpp"
 
-// Contacts in loops: where the stuck contacts alone keep another one at rest, its force is a matter of
-// convention. It shares by least sum (lambda_j / F_j)^2 as long as every force so found is within its limit.
-// One that would exceed it carries its limit, as if it slid, while the others hold it: it is idle
+// Contacts in loops: where stuck contacts alone hold a further contact at rest, a convention fixes its force:
+// the forces are those of least sum (lambda_j / F_j)^2, as long as each is within its limit. A contact whose
+// force would exceed its limit carries the limit, as if it slid, while the others hold it: it is idle
 // (Configuration::idle). So no force ever exceeds its limit, and motion begins only when no distribution of
-// the forces can hold it.
+// the forces can hold the contacts.
 namespace frahm::periodic {
 
-// Idle contacts share again as soon as all forces would be within their limits with them.
+// Idle contacts share the forces again as soon as all forces would then be within their limits.
 template <int N, int H>
 bool share_again(Flow<N, H>& flow, Workspace<N, H>& w) {
-  constexpr double kWithin = 1.0 - 1e-9;  // so that it does not go back and forth
+  constexpr double kWithin = 1.0 - 1e-9;  // so that a contact does not switch back and forth
   const ContactMask idle = flow.configuration(flow.mode(w.mode)).idle & flow.equations().holding;
   for (Eigen::Index j = 0; idle != 0 && j < flow.equations().contacts(); ++j) {
     if (!contains(idle, j)) continue;
@@ -33,8 +33,8 @@ bool share_again(Flow<N, H>& flow, Workspace<N, H>& w) {
   return false;
 }
 
-// The first coefficient of contact j's sliding speed that is not zero, where it starts from rest at w.left:
-// its power of time, and its sign.
+// Contact j starts from rest at w.left: the first nonzero coefficient of its sliding speed, by its power of
+// time and its sign.
 struct FirstMotion {
   int power = 1;
   double sign = 1.0;
@@ -53,14 +53,14 @@ FirstMotion first_motion(const Flow<N, H>& flow, Eigen::Index j, Workspace<N, H>
   return first;
 }
 
-// Contact j slides from rest, from here on.
+// Contact j starts to slide from rest.
 template <int N, int H>
 void start_sliding(Eigen::Index j, FirstMotion first, Workspace<N, H>& w) {
   w.fresh |= bit(j);
   if (first.power > 1) w.just_released |= bit(j);
 }
 
-// Contacts that were idle before a release and are free to move after it: one that would move against its own
+// Contacts that were idle before a release and can move after it. A contact that would move against its own
 // friction sticks.
 template <int N, int H>
 void wake(Flow<N, H>& flow, ContactMask idle_before, Workspace<N, H>& w) {
@@ -76,8 +76,8 @@ void wake(Flow<N, H>& flow, ContactMask idle_before, Workspace<N, H>& w) {
   }
 }
 
-// A contact that was held at rest lets go, and those whose internal force stood at its limit beside it slide
-// on with it where they move that way.
+// A contact that was held at rest lets go. Contacts beside it whose internal force is at its limit continue
+// to slide with it if they move in that direction.
 template <int N, int H>
 void slide_on(Flow<N, H>& flow, Workspace<N, H>& w) {
   if constexpr (Sizes<N, H>::kInternal != 0) {

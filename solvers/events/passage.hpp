@@ -6,15 +6,15 @@
 
 namespace frahm::periodic {
 
-// A change of mode: what ended the segment before it, and what followed. Sensitivities, histories and the
-// certificate read it from here; nothing guesses it again from the modes on both sides.
+// A change of mode: the event that ended the segment before it, and its outcome. Sensitivities, histories and
+// the certificate read these data instead of deducing them from the modes on both sides.
 struct Event {
-  std::size_t segment = 0;  // that it ends; the next one begins with it
-  ContactMask arrived = 0;  // contacts whose velocity reached zero there and that stick, or slide back, since
-  ContactMask released = 0;  // contacts that stuck and slide since
-  // Of the contact that ended the segment, an arrival before a release (-1: none changed): the slope of what
-  // its guard watches [m a step^2 or N a step], seen from inside the segment, and the side of a force's
-  // limit.
+  std::size_t segment = 0;  // the segment that it ends; the next one begins with it
+  ContactMask arrived = 0;  // contacts whose velocity reached zero here and that now stick or slide back
+  ContactMask released = 0;  // contacts that stuck before and now slide
+  // The contact that ended the segment; an arrival counts before a release (-1: none changed). Then the slope
+  // of its guard function [m a step^2 or N a step], seen from inside the segment, and the side of the limit
+  // that a force reached.
   Eigen::Index contact = -1;
   double slope = 0.0;
   double side = 1.0;
@@ -26,15 +26,15 @@ struct Passage {
   typename Sizes<N, H>::State end;
   typename Sizes<N, H>::StateSquare tangent;  // d end / d start, product of flow and saltation matrices
   std::vector<Segment<N, H>> segments;
-  std::vector<Event> changes;  // between the segments, one less than they are
-  int events = 0;              // stops, releases and reversals, those without a change of mode among them
-  double margin = 1.0;         // how far the nearest event is from happening otherwise, relative; 0 = grazing
-  bool starts_at_event = false;   // a contact comes through rest at the very start, outside the tangent
+  std::vector<Event> changes;  // between the segments, one fewer than segments
+  int events = 0;              // stops, releases and reversals, also those without a change of mode
+  double margin = 1.0;         // relative distance of the nearest event from a different outcome; 0 = grazing
+  bool starts_at_event = false;   // a contact passes through rest at the very start, outside the tangent
   const char* failure = nullptr;  // why the passage could not be completed
 };
 
-// Contacts that slide in the mode `before` and stick, or slide back, in `after`. One without friction does
-// not count: nothing changes for it.
+// Contacts that slide in the mode `before` and stick, or slide back, in `after`. Contacts without friction do
+// not count: nothing changes for them.
 template <int N, int H>
 ContactMask arrived_between(const StepEquations<N, H>& eq, const Mode<N, H>& before,
                             const Mode<N, H>& after) {
@@ -46,7 +46,7 @@ ContactMask arrived_between(const StepEquations<N, H>& eq, const Mode<N, H>& bef
   return arrived;
 }
 
-// Contacts that stick all along.
+// Contacts that stick throughout.
 template <int N, int H>
 ContactMask stuck_throughout(const Flow<N, H>& flow, const Passage<N, H>& passage) {
   ContactMask stuck = ~ContactMask{0};

@@ -7,13 +7,12 @@ namespace frahm::periodic {
 // The tangent across an event at which a guard g(z, t) reaches zero with the slope g', the fields f before
 // and after (Leine and Nijmeijer, Dynamics and Bifurcations of Non-Smooth Mechanical Systems, 2004, ch. 7):
 //   dz+ = dz- + (f+ - f-) (grad g dz-) / g'
-// - a velocity that reaches zero:  dv+ = dv- + (a+ - a-)(w^T dv-)/(w^T a- + p^T y''); exact for a reversal,
-// and for
-//   a stop, where it is the M-orthogonal projection onto the stuck velocities. Of contacts that arrive
-//   together each brings its own share, the first also that of stuck contacts which they release: only what
-//   moves as one with them lets go at once. A contact whose force is a state leaves a as it is: nothing
-//   jumps.
-// - a force lambda that reaches its limit leaves a as it is: nothing jumps.
+// - a velocity that reaches zero:  dv+ = dv- + (a+ - a-)(w^T dv-)/(w^T a- + p^T y''); exact for a reversal
+//   and for a stop, where it is the M-orthogonal projection onto the stuck velocities. If contacts arrive
+//   together, each adds its own share; the first also adds the share of stuck contacts that they release:
+//   only contacts that move as one with them let go at once. A contact whose force is a state leaves a
+//   unchanged: nothing jumps.
+// - a force lambda that reaches its limit leaves a unchanged: nothing jumps.
 // - an internal force s that does: s' falls from g' to 0, so that ds+ = ds- + (0 - g') ds-/g' = 0.
 // before: the event's instant seen from inside the mode before it; w.left: from inside the mode after.
 template <int N, int H>
@@ -26,7 +25,7 @@ void saltate(const Flow<N, H>& flow, ContactMask arrived, ContactMask released, 
   const bool alone = count(arrived & eq.holding) == 1;
   Eigen::Matrix<double, N, S::kState> correction;
   correction.setZero(n, eq.states());
-  typename S::Vector left = w.left.a - before.a;        // of the jump, what no contact has brought yet
+  typename S::Vector left = w.left.a - before.a;        // the part of the jump that no contact has added yet
   using Earlier = Eigen::Matrix<double, 1, S::kState>;  // by which a contact arrives, a unit of the state
   Earlier earlier = Earlier::Zero(eq.states());
   bool is_first = true;

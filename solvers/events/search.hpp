@@ -5,8 +5,8 @@
 // The first event within a step: the first root of a guard, of any contact.
 //   a contact that slides:  its velocity reaches zero
 //   a contact that sticks:  its force reaches the limit
-// No root is missed, double roots at grazing among them: the ends of the step decide where they can, by
-// bounds of the fourth derivative, and the Bernstein coefficients of the Taylor polynomial where they cannot.
+// No root is missed, not even a double root at grazing. Bounds of the fourth derivative decide from the ends
+// of the step where they can; elsewhere the Bernstein coefficients of the Taylor polynomial decide.
 namespace frahm::periodic {
 
 struct GuardEvent {
@@ -30,8 +30,8 @@ double first_crossing(const Polynomial& p, double scale, Workspace<N, H>& w) {
   return kNoEvent;
 }
 
-// Where the room p that a stuck force has left to its limit turns negative by more than a tie: a force that
-// only touches its limit lets nothing go.
+// Where the room p between a stuck force and its limit becomes negative by more than a tie. A force that only
+// touches its limit releases nothing.
 template <int N, int H>
 double first_lasting_fall(const Polynomial& p, double limit, Workspace<N, H>& w) {
   const double first = first_crossing(p, limit, w);
@@ -88,18 +88,18 @@ Polynomial stuck_force_polynomial(const Flow<N, H>& flow, Eigen::Index j, Worksp
   return force;
 }
 
-// The room to the limit where it starts at none: how it goes on is up to the first coefficient that is not
-// rounding. Negative: the contact lets go at once. Otherwise its root at the start is divided out.
-// is_state: the force is an internal one, which stays at its limit while others hold the contact.
+// The room of a force that starts at its limit: the first coefficient that is not rounding decides. Negative:
+// the contact lets go at once. Otherwise the root at the start is divided out. is_state: the force is an
+// internal one, which stays at its limit while others hold the contact.
 template <int N, int H>
 double fall_from_limit(const Polynomial& room, double limit, bool is_state, Workspace<N, H>& w) {
   if (is_state && room.cwiseAbs().sum() <= kTerms * kTie * limit) return kNoEvent;
-  if (room[0] < -4.0 * kTie * limit) return 0.0;  // beyond it, as in a loop of contacts
+  if (room[0] < -4.0 * kTie * limit) return 0.0;  // beyond the limit, as in a loop of contacts
   int multiplicity = 1;
   while (multiplicity < 4 && std::abs(room[multiplicity]) <= kTie * limit) ++multiplicity;
   const Polynomial rest = deflate(room, multiplicity);
   if (rest[0] >= 0.0) return first_lasting_fall(rest, limit, w);
-  // What falls by less than a tie over the step, and rises again, only touches.
+  // A force whose room falls by less than a tie over the step, and rises again, only touches its limit.
   return rest[0] < -kTie * limit ? 0.0 : first_lasting_fall(room, limit, w);
 }
 

@@ -2,7 +2,7 @@
 
 namespace frahm::periodic {
 
-// Relative tolerances of switching, all of them.
+// All relative tolerances of switching.
 //   kRest  a contact is at rest below this part of its velocity scale (workspace.hpp), of which the rounding
 //          of a passage is 1e-13
 //   kTie   between sticking and sliding: ties go to sticking, else zero-length slips would chatter for ever

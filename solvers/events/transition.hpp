@@ -17,13 +17,13 @@
 //                                                                problem: inside its limit a contact sticks,
 //                                                                at its limit it slides that way
 //                                        its force is a state    it sticks
-//   a stuck force stands at its limit    -                       it lets go at once (two contacts released
+//   a stuck force is at its limit        -                       it lets go at once (two contacts released
 //   and grows after all this                                     together, or one that came to rest in a tie)
 //   in a loop of contacts the others     -                       it carries its limit and is idle (loops.hpp)
 //   hold one that let go
 namespace frahm::periodic {
 
-// Sliding contacts that come to rest at this event: its own, and others that do at the same instant.
+// Sliding contacts that come to rest at this event: its own contact, and others at the same instant.
 template <int N, int H>
 ContactMask arrivals(const Flow<N, H>& flow, Eigen::Index own, const Workspace<N, H>& w) {
   const Mode<N, H>& mode = flow.mode(w.mode);
@@ -66,12 +66,12 @@ class FreeAccelerations {
   typename Sizes<N, H>::Vector acceleration_;
 };
 
-// What was chosen for contacts at rest.
+// The choice for contacts at rest.
 struct Choice {
   ContactMask stuck = 0, forward = 0;
 };
 
-// One contact alone: it sticks where the force that this takes, c/G, is within the limit.
+// A single contact: it sticks if the force needed for this, c/G, is within the limit.
 template <int N, int H>
 Choice choose_alone(const StepEquations<N, H>& eq, Eigen::Index j, double c, Workspace<N, H>& w) {
   const double force = c / eq.compliance[j], limit = eq.limit[j];
@@ -123,7 +123,7 @@ Choice choose_together(const StepEquations<N, H>& eq, ContactMask at_rest,
   return choice;
 }
 
-// The mode in which all contacts at rest that ask for it are chosen together.
+// The mode in which all contacts at rest whose velocity is held are chosen together.
 template <int N, int H>
 void choose_modes(Flow<N, H>& flow, ContactMask at_rest, Workspace<N, H>& w) {
   const Mode<N, H>& before = flow.mode(w.mode);
@@ -138,8 +138,8 @@ void choose_modes(Flow<N, H>& flow, ContactMask at_rest, Workspace<N, H>& w) {
   w.mode = flow.mode_index(choice.stuck | states, (before.positive & ~at_rest) | choice.forward);
 }
 
-// A stuck contact lets go. One that was held starts from rest with no relative acceleration; an internal
-// force stays at its limit while the velocity is what it is.
+// A stuck contact lets go. A held contact starts from rest without relative acceleration; an internal force
+// stays at its limit and the velocity does not change.
 template <int N, int H>
 void release(Flow<N, H>& flow, Eigen::Index j, bool forward, Workspace<N, H>& w) {
   const Mode<N, H>& before = flow.mode(w.mode);
@@ -154,8 +154,8 @@ void release(Flow<N, H>& flow, Eigen::Index j, bool forward, Workspace<N, H>& w)
   w.mode = flow.mode_index(before.stuck & ~bit(j), before.positive | (forward ? bit(j) : 0));
 }
 
-// Stuck contacts whose force stands at its limit and grows let go at once; in a loop, one whose share is
-// beyond its limit does too.
+// Stuck contacts whose force is at its limit and grows let go at once; so does a contact in a loop whose
+// share exceeds its limit.
 template <int N, int H>
 void release_at_limits(Flow<N, H>& flow, Workspace<N, H>& w) {
   for (bool again = true; again;) {
@@ -174,7 +174,7 @@ void release_at_limits(Flow<N, H>& flow, Workspace<N, H>& w) {
   }
 }
 
-// Takes the last rounding out of the velocities of what sticks now, and lets go what does not.
+// Removes rounding from the velocities of contacts that now stick, and releases those at their limits.
 template <int N, int H>
 void settle_mode(Flow<N, H>& flow, Workspace<N, H>& w) {
   flow.configuration(flow.mode(w.mode)).hold(flow.equations(), w.left.u, w.left.z);

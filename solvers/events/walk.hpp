@@ -15,8 +15,8 @@ class Walk {
 
   explicit Walk(Flow<N, H>& flow) : flow_(flow) {}
 
-  // The flow from state z at `phase` (omega t) [rad] over `length` steps. held: contacts that stick whatever
-  // their force, to try whether they stick throughout.
+  // The flow from state z at `phase` (omega t) [rad] over `length` steps. held: contacts that stick
+  // regardless of their force, to test whether they stick throughout.
   void pass(const typename S::State& z, double phase, double length, Passage<N, H>& passage,
             ContactMask held = 0);
 

@@ -43,7 +43,7 @@ void Walk<N, H>::pass(const typename S::State& z, double phase, double length, P
   if (!passage.end.allFinite()) passage.failure = "the state is not finite";
 }
 
-// The motion goes on as it is with other shares of the forces: a segment of its own.
+// The motion continues unchanged with other shares of the forces, in a new segment.
 template <int N, int H>
 void Walk<N, H>::begin_segment(Passage<N, H>& passage) {
   passage.segments.back().length = w_.clock - passage.segments.back().start;
@@ -112,8 +112,8 @@ void Walk<N, H>::enter(const typename S::State& z, double phase, Passage<N, H>& 
   open_segment(passage);
 }
 
-// Whether contact j, whose force is a state, starts sliding: its force at the limit, in the velocity's
-// direction. A force beyond the limit, as a search may ask for, starts there.
+// Whether contact j, whose force is a state, starts sliding: its force is at the limit, in the direction of
+// the velocity. A force beyond the limit, which a search may try, starts at the limit.
 template <int N, int H>
 bool Walk<N, H>::starts_at_limit(Eigen::Index j, double speed) {
   const StepEquations<N, H>& eq = flow_.equations();
@@ -173,7 +173,7 @@ void Walk<N, H>::pass_event(const GuardEvent& event, double phase, Passage<N, H>
   const ContactMask released = flow_.mode(mode_before).stuck & ~flow_.mode(w_.mode).stuck;
   saltate(flow_, arrived, released, before, flow_.mode(mode_before), w_, passage.tangent);
 
-  // 4. Keep it, and begin the next segment. Events at one instant are one change.
+  // 4. Record the change and begin the next segment. Events at one instant are one change.
   note_change(event, before, flow_.mode(mode_before), passage);
   open_segment(passage);
 }
@@ -191,9 +191,9 @@ void Walk<N, H>::note_change(const GuardEvent& event, const Instant<N, H>& befor
   const ContactMask arrived = arrived_between(flow_.equations(), mode_before, after);
   change.arrived |= arrived;
   change.released |= mode_before.stuck & ~after.stuck;
-  if (change.contact >= 0) return;  // of the first that happened at this instant
+  if (change.contact >= 0) return;  // the first event of this instant is recorded
   if (arrived != 0) {
-    // Of several that whose velocity the flow takes away, which the acceleration jumps for.
+    // Of several arrivals the first whose velocity is held: the acceleration jumps for it.
     const ContactMask held = arrived & flow_.equations().holding;
     change.contact = first(held != 0 ? held : arrived);
     change.slope = flow_.sliding_speed(before, change.contact).slope;

@@ -9,28 +9,28 @@ namespace frahm::periodic {
 // scale.
 inline constexpr double kFourthDerivative = 2.0 * kStepRate * kStepRate * kStepRate * kStepRate;
 
-// Where the motion in hand stands within its passage.
+// The current state of the motion within its passage.
 template <int N, int H>
 struct Workspace {
   using S = Sizes<N, H>;
 
-  ContactMask held = 0;  // contacts that stick whatever their force, to try whether they stick throughout
+  ContactMask held = 0;  // contacts that stick regardless of their force, to test if they stick throughout
 
-  Instant<N, H> left, right;  // the step in hand
-  Expansion<N, H> expansion;  // over it, if `expanded`
+  Instant<N, H> left, right;  // both ends of the current step
+  Expansion<N, H> expansion;  // over the current step, if `expanded`
   bool expanded = false;
   std::size_t mode = 0;
   double clock = 0.0;             // steps since the passage began
   ContactMask fresh = 0;          // sliding contacts whose velocity is zero at `left`
-  ContactMask just_released = 0;  // those of them whose relative acceleration is zero there too
-  double margin = 1.0;            // as of the passage
+  ContactMask just_released = 0;  // fresh contacts whose relative acceleration is zero too
+  double margin = 1.0;            // see Passage::margin
   bool undecided = false;         // a joint choice found no answer
 
-  // What velocities [m a step] and forces [N] of contacts are small against: those of the larger of the
-  // state's and the static response's energy, plus a support's own motion.
+  // Scales of the contacts' velocities [m a step] and forces [N]: those of the larger of the state's and the
+  // static response's energy, plus a support's own motion.
   typename S::Contacts speed_scale, force_scale;
-  // Below which a contact's velocity counts as zero [m a step]: kRest of its scale, or what its own friction
-  // stops within kRest of a step, as the velocities of what a strong contact holds round by its force.
+  // A contact's velocity below this counts as zero [m a step]: kRest of its scale, or what its own friction
+  // stops within kRest of a step: the force of a strong contact rounds the velocities that it holds.
   typename S::Contacts rest_speed;
 
   void note_margin(double relative) { margin = std::min(margin, relative); }

@@ -8,8 +8,8 @@
 
 namespace frahm::periodic {
 
-// A solver of the exact friction law, whatever law the elements name, of sizes known at compile time where
-// there is one for this network. Throws mechanics::MechanicsError for a network that cannot move.
+// A solver of the exact friction law, regardless of the elements' law; with sizes known at compile time where
+// one is compiled for this network. Throws mechanics::MechanicsError for a network that cannot move.
 std::unique_ptr<ResponseSolver> make_exact_solver(const mechanics::Network& network,
                                                   std::vector<Quantity> quantities);
 

@@ -18,8 +18,8 @@
 
 namespace frahm::periodic {
 
-// From a system to its periodic orbit, with what is certain of it: continuation and shooting, the rest
-// position of contacts that stick throughout, the certificate.
+// Finds the periodic orbit of a system: continuation and shooting, the rest position of contacts that stick
+// throughout, and the certificate.
 template <int N, int H>
 class OrbitSearch {
  public:
@@ -30,20 +30,20 @@ class OrbitSearch {
   void forget() { continuation_.forget(); }
   void begin_row() { continuation_.begin_row(); }
 
-  // The orbit of the flow, which is set to `system`. certify: with multipliers and error bound.
+  // Finds the orbit of the flow, which is set to `system`. certify: also multipliers and error bound.
   void find(const mechanics::LinearSystem& system, const std::vector<UndampedMode>& undamped, bool certify,
             Orbit<N, H>& orbit);
 
-  // The same by another way, of kOtherWays; `orbit` is one that was found wanting. False, and `orbit` as it
-  // was, where this way leads to none.
+  // The same in another of kOtherWays, after `orbit` has failed a check. False, with `orbit` unchanged, if
+  // this way finds none.
   static constexpr int kOtherWays = 2;
   bool find_otherwise(int way, const mechanics::LinearSystem& system, bool certify, Orbit<N, H>& orbit);
 
  private:
   void fail_unbounded(Orbit<N, H>& orbit);
   void settle(Orbit<N, H>& orbit);
-  // How far an orbit was from its rest position. From far away, as Newton's method may leave what it does not
-  // matter for, the orbit has lost digits: it is to be found again from there.
+  // How far an orbit was from its rest position. Newton's method may leave a rest position far off; the orbit
+  // has then lost digits and is searched again from the corrected position.
   enum class Shift { none, near, far };
   static constexpr double kFar = 10.0;  // of the orbit's own size: a digit
   std::vector<StuckForce> stuck_forces(ContactMask contacts, const Orbit<N, H>& orbit);
@@ -70,8 +70,8 @@ void OrbitSearch<N, H>::find(const mechanics::LinearSystem& system, const std::v
   if (certify && orbit.is_found()) judge_stability(flow_, orbit);
 }
 
-// Way 0: with those contacts held that stick for most of the period. Way 1: from the response without
-// friction, as if no orbit were known, from a section a quarter of a period on.
+// Way 0: contacts that stick for most of the period are held. Way 1: the search starts from the response
+// without friction, as if no orbit were known, at a section a quarter of a period later.
 template <int N, int H>
 bool OrbitSearch<N, H>::find_otherwise(int way, const mechanics::LinearSystem& system, bool certify,
                                        Orbit<N, H>& orbit) {
@@ -99,7 +99,7 @@ void OrbitSearch<N, H>::fail_unbounded(Orbit<N, H>& orbit) {
   continuation_.forget();
 }
 
-// How far a contact slides in a passage [m]; infinite on a support that moves, where it is not asked for.
+// How far a contact slides in a passage [m]; infinite on a moving support, where it is not needed.
 template <int N, int H>
 double OrbitSearch<N, H>::distance_slid(Eigen::Index j, const Orbit<N, H>& orbit) const {
   const StepEquations<N, H>& eq = flow_.equations();
@@ -114,10 +114,10 @@ double OrbitSearch<N, H>::distance_slid(Eigen::Index j, const Orbit<N, H>& orbit
   return distance;
 }
 
-// Contacts that slide for less than this share of the passage, or by nothing to speak of, however often.
+// Contacts that slide for less than this share of the passage, or by a negligible distance.
 template <int N, int H>
 ContactMask OrbitSearch<N, H>::sliding_less_than(double share, const Orbit<N, H>& orbit) const {
-  constexpr double kNothing = 1e-6;  // of the displacement that the orbit's energy is good for
+  constexpr double kNothing = 1e-6;  // of the displacement that the orbit's energy can reach
   const StepEquations<N, H>& eq = flow_.equations();
   const double energy = std::max(eq.energy_norm(orbit.z), flow_.static_norm());
   ContactMask result = 0;
@@ -134,9 +134,9 @@ ContactMask OrbitSearch<N, H>::sliding_less_than(double share, const Orbit<N, H>
 }
 
 // Contacts that stick throughout rest where the energy is least. The search may end on the edge of the set of
-// such orbits, where it takes ever smaller slips for the answer (the residual falls like slip^1.5): contacts
-// that barely slide are held, and if their forces then keep within their limits that is the orbit, as there
-// is only one. So are those that slide rarely in an orbit without an error bound.
+// such orbits and accept ever smaller slips as the answer (the residual falls like slip^1.5). So contacts
+// that barely slide are held; if their forces then stay within their limits, this is the orbit, as there is
+// only one. In an orbit without an error bound, contacts that slide rarely are held too.
 template <int N, int H>
 void OrbitSearch<N, H>::settle(Orbit<N, H>& orbit) {
   if (orbit.half_period) {
@@ -156,7 +156,7 @@ void OrbitSearch<N, H>::settle(Orbit<N, H>& orbit) {
   if (std::isnan(orbit.error_bound)) try_held(rarely, orbit);
 }
 
-// Whether there is an orbit with these contacts held by forces within their limits; `orbit` is it then.
+// Whether an orbit exists with these contacts held by forces within their limits; sets `orbit` to it.
 template <int N, int H>
 bool OrbitSearch<N, H>::try_held(ContactMask held, Orbit<N, H>& orbit) {
   trial_ = orbit;
@@ -171,7 +171,7 @@ bool OrbitSearch<N, H>::try_held(ContactMask held, Orbit<N, H>& orbit) {
   return true;
 }
 
-// Of these contacts over the orbit, while they stick.
+// The forces of these contacts over the orbit, while they stick.
 template <int N, int H>
 std::vector<StuckForce> OrbitSearch<N, H>::stuck_forces(ContactMask contacts, const Orbit<N, H>& orbit) {
   steps_.lay_out(orbit);
@@ -187,8 +187,8 @@ std::vector<StuckForce> OrbitSearch<N, H>::stuck_forces(ContactMask contacts, co
   return forces;
 }
 
-// Moves `orbit` to the rest position of least energy; one whose limit is reached is grazing. The orbit stays
-// as it was where no rest position keeps the forces within their limits.
+// Moves `orbit` to the rest position of least energy; if a force reaches its limit there, the orbit is
+// grazing. `orbit` is unchanged if no rest position keeps the forces within their limits.
 template <int N, int H>
 typename OrbitSearch<N, H>::Shift OrbitSearch<N, H>::settle_rest_position(Orbit<N, H>& orbit) {
   const StepEquations<N, H>& eq = flow_.equations();
@@ -201,9 +201,9 @@ typename OrbitSearch<N, H>::Shift OrbitSearch<N, H>::settle_rest_position(Orbit<
   if (shift.verdict == RestShift::Verdict::none) return Shift::none;
   const typename Sizes<N, H>::State by = rest.E * shift.delta;
   shift_orbit<N, H>(by, orbit);
-  // Part of the shift's forces may strain a loop alone, and no state has it. Where the shares that are quoted
-  // then break a limit, or a force stood at its limit before the shift, the motion is followed once more from
-  // there.
+  // Part of the shift's forces may strain a loop alone; no state contains this part. If the reported shares
+  // then break a limit, or a force was at its limit before the shift, the motion is followed once more from
+  // the shifted state.
   const bool stood_at_limit = orbit.status == Status::grazing && shift.verdict == RestShift::Verdict::inside;
   const bool breaks_limit =
       flow_.has_loops() && std::ranges::any_of(stuck_forces(eq.holding, orbit), &StuckForce::breaks_limit);

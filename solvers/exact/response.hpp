@@ -13,7 +13,7 @@ namespace frahm::periodic {
 
 enum class Status;
 
-// Of every response, whatever quantities were asked for.
+// Data of every response, independent of the quantities requested.
 struct ResponseSummary {
   Status status;
   std::string reason;     // why it failed; empty otherwise
@@ -24,7 +24,7 @@ struct ResponseSummary {
                              // period of the orders divided by their common divisor
 };
 
-// One stretch of the response in one mode, for telling an orbit in full.
+// One stretch of the response in one mode, for a full description of an orbit.
 struct Stretch {
   double start = 0.0, length = 0.0;   // omega t [rad], from 0 to 2 pi
   std::vector<std::string> contacts;  // per element with a contact: "sticks", "slides +", "slides -"
@@ -64,7 +64,7 @@ inline std::vector<double> phases_of_a_period(std::size_t samples) {
   return phases;
 }
 
-// What PeriodicResponse (solvers/response/) does, for one kind of network; its comments say what is promised.
+// PeriodicResponse (solvers/response/) for one kind of network; its comments state the contract.
 class ResponseSolver {
  public:
   virtual ~ResponseSolver() = default;

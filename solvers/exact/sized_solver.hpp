@@ -93,14 +93,14 @@ const ResponseSummary& SizedSolver<N, H>::solve() {
   return summary_;
 }
 
-// The energy balance is checked where it is asked for, and wherever an event nearly happens otherwise.
+// The energy balance is checked where it is requested, and wherever an event is close to another outcome.
 template <int N, int H>
 bool SizedSolver<N, H>::is_to_be_weighed() const {
   constexpr double kNear = 1e-6;
   return observables_.asks_energy_balance() || orbit_.passage.margin < kNear;
 }
 
-// Work in = energy lost holds for every periodic orbit. One that breaks it is found another way, or is none.
+// Work in = energy lost holds for every periodic orbit. One that breaks it is searched again, or refused.
 template <int N, int H>
 void SizedSolver<N, H>::weigh() {
   constexpr double kBalanced = 1e-9;

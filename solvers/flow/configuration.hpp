@@ -20,7 +20,7 @@ struct Configuration {
   using S = Sizes<N, H>;
 
   ContactMask stuck = 0;
-  // Contacts without events: that slide by name, but that the stuck ones alone keep at rest, or that have no
+  // Contacts without events: they count as sliding, but the stuck contacts hold them at rest, or they have no
   // force.
   ContactMask idle = 0;
   bool has_forcing = false;  // set_forcing was called since the forcing changed
@@ -46,7 +46,7 @@ struct Configuration {
   typename S::StateByOscillators Eu;
   typename S::StateByContacts Ef;
 
-  // Takes the last rounding out of the velocities of the contacts that are held, M-orthogonally.
+  // Removes rounding from the velocities of the held contacts, M-orthogonally.
   void hold(const StepEquations<N, H>& equations, const typename S::Oscillators& u,
             typename S::State& z) const {
     if ((stuck & equations.holding) == 0) return;
@@ -56,7 +56,7 @@ struct Configuration {
     z.segment(n, n).noalias() -= reaction_ * slip;
   }
 
-  // What meets the constraint w_j^T q'' = -p_j^T y'' of the contacts that are held, G = W^T M^-1 W over them:
+  // These meet the constraint w_j^T q'' = -p_j^T y'' of the held contacts, with G = W^T M^-1 W over them:
   const typename S::ContactSquare& constraint() const { return constraint_; }  // G^+
   const typename S::VectorByContacts& reaction() const { return reaction_; }   // M^-1 W G^+
 
@@ -68,12 +68,12 @@ struct Configuration {
 
   // Matrices that do not depend on the forcing.
   void set_system(const StepEquations<N, H>& equations, ContactMask stuck_contacts);
-  // Those that do; after set_system.
+  // Matrices that depend on the forcing; to be called after set_system.
   void set_forcing(const StepEquations<N, H>& equations);
 
  private:
-  ContactMask frictionless_ = 0;           // internal forces without a limit, which are always zero
-  ContactMask immobile_ = 0;               // contacts that slide by name while the stuck ones hold the masses
+  ContactMask frictionless_ = 0;           // internal forces with limit zero, which are always zero
+  ContactMask immobile_ = 0;               // contacts that count as sliding but are held by the stuck ones
   typename S::ContactSquare constraint_;   // zero rows and columns for sliding contacts
   typename S::VectorByContacts reaction_;  // accelerations per unit of relative acceleration
   void propagate_homogeneous(const StepEquations<N, H>& equations);
@@ -142,8 +142,8 @@ void Configuration<N, H>::set_system(const StepEquations<N, H>& equations, Conta
   const Eigen::Index n = equations.masses(), m = equations.contacts();
   const typename S::VectorByContacts MW = equations.M_inverse * equations.W;
 
-  // G_S^+ with G = W^T M^-1 W over the contacts that are held. Their directions may depend on one another; of
-  // the forces that then serve equally, those of least sum (lambda_j / F_j)^2 are meant.
+  // G_S^+ with G = W^T M^-1 W over the held contacts. Their directions may be linearly dependent; of the
+  // forces that then serve equally, those of least sum (lambda_j / F_j)^2 are taken.
   const ContactMask held = stuck & equations.holding;
   constraint_.setZero(m, m);
   if (count(held) == 1) {
@@ -166,8 +166,8 @@ void Configuration<N, H>::set_system(const StepEquations<N, H>& equations, Conta
     const bool slides = contains(equations.holding & ~stuck, j);
     if (slides && mobility <= kImmobile * equations.compliance[j]) immobile_ |= bit(j);
   }
-  // Of a force on the masses: the acceleration that is left, and what the stuck contacts take, with the sign
-  // of what the springs and dampers pull with.
+  // For a force on the masses: the acceleration that remains, and the force that the stuck contacts take; the
+  // sign is that of the pull of the springs and dampers.
   const typename S::Square left = -(P * equations.M_inverse);
   const typename S::ContactsByVector taken = -reaction_.transpose();
   Aq.noalias() = left * equations.K;

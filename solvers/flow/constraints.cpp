@@ -8,8 +8,8 @@
 namespace frahm::periodic {
 namespace {
 
-// Where every weight counts. In coordinates in which G has a diagonal of ones: what serves is found without
-// the weights, which may be of very different size, and only what is free of it, G Z = 0, is shared by them:
+// The case in which all weights are positive. In coordinates in which G has a diagonal of ones, a solution
+// is found without the weights, which may differ much in size; these share only the free part, G Z = 0:
 //   G^+ = Q G0^+ Q^T,  Q = 1 - Z H,  H x the least squares solution c of (Z c) / weight = x / weight.
 Eigen::MatrixXd pseudo_inverse_of(const Eigen::MatrixXd& G, const Eigen::VectorXd& weight) {
   constexpr double kDependent = 1e-11;  // of the largest: below, a direction depends on the others

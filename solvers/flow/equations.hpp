@@ -50,13 +50,13 @@ struct StepEquations {
   Eigen::VectorXd internal_stiffness, internal_rate;  // k [N/m]; k/c times h, 0 without a damper
   Eigen::MatrixXd internal_drive;                     // k p^T y'(t) [N a step]
   Eigen::VectorXd phase_rate;                         // order_k omega h [rad a step], size H
-  // Of each harmonic cos + i sin at phase 0; empty: 1, as in every motion but one whose excitation was
-  // measured.
+  // cos + i sin of each harmonic at phase 0. Empty: 1, as in every motion except one with a measured
+  // excitation.
   std::vector<std::complex<double>> oscillators_at_zero;
 
   Eigen::Index masses() const { return M.rows(); }
   Eigen::Index contacts() const { return limit.size(); }
-  // Whether contact j has a stuck state that takes its velocity away; otherwise its force is a state.
+  // Whether contact j holds its velocity at zero while it sticks; otherwise its force is a state.
   bool holds(Eigen::Index j) const { return contains(holding, j); }
   Eigen::Index internal_forces() const { return internal_stiffness.size(); }
   Eigen::Index states() const { return 2 * masses() + internal_forces(); }

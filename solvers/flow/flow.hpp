@@ -12,8 +12,8 @@
 // The exact flow of a network whose contacts follow laws that are linear state by state (laws/law.hpp):
 // between events the system is linear and its flow an exponential. Time is counted in steps (StepEquations).
 //
-// A Flow is the system at one set of values and one frequency, with a table of the modes met so far; it holds
-// nothing of any motion. What follows a motion has a workspace of its own (events/passage.hpp).
+// A Flow is the system at one set of values and one frequency, with a table of the modes met so far. It
+// stores no motion: code that follows a motion has its own workspace (events/passage.hpp).
 namespace frahm::periodic {
 
 // Which contacts stick and in which direction the others slide, with the friction forces that follow.
@@ -89,7 +89,7 @@ class Flow {
   bool has_loops() const { return has_loops_; }  // the directions of contacts depend on one another
   // The energy norm of the static response to the excitation's amplitudes [sqrt(J)].
   double static_norm() const { return static_norm_; }
-  // Of what residuals and errors of a state z are relative to [sqrt(J)].
+  // The scale of residuals and errors of a state z [sqrt(J)].
   double energy_scale(const typename Sizes<N, H>::State& z) const {
     return std::max(equations_.energy_norm(z), static_norm_);
   }
@@ -100,16 +100,16 @@ class Flow {
   const Configuration<N, H>& configuration(const Mode<N, H>& mode) const {
     return configurations_[mode.configuration];
   }
-  // Whether a contact does not move: it sticks, or others that do keep it at rest while it carries its limit.
+  // Whether a contact is at rest: it sticks, or stuck contacts hold it while it carries its limit.
   bool rests(const Mode<N, H>& mode, Eigen::Index contact) const {
     const bool is_idle = contains(configuration(mode).idle, contact) && equations_.limit[contact] > 0.0;
     return contains(mode.stuck, contact) || is_idle;
   }
-  // What takes velocities to those that keep these contacts stuck, orthogonally in the norm of M.
+  // Maps velocities to those that keep these contacts stuck, orthogonally in the norm of M.
   const typename S::Square& keeping_stuck(ContactMask contacts) {
     return configurations_[configuration_index(contacts)].P;
   }
-  // z with the velocities of these contacts' rest at `phase`.
+  // z with velocities at which these contacts are at rest at `phase`.
   typename S::State brought_to_rest(const typename S::State& z, double phase, ContactMask contacts);
 
   void instant_at(const typename S::State& z, double phase, const Mode<N, H>& mode, Instant<N, H>& at) const;
@@ -125,7 +125,7 @@ class Flow {
 
   // w_j^T q' + p_j^T y' of a contact [m a step], and its slope.
   ValueAndSlope sliding_speed(const Instant<N, H>& at, Eigen::Index contact) const;
-  // Of a stuck contact lambda_j, of one with an internal force that [N], and its slope a step.
+  // The force of a stuck contact [N]: lambda_j, or its internal force if it has one; and its slope a step.
   ValueAndSlope stuck_force(const Instant<N, H>& at, const Mode<N, H>& mode, Eigen::Index contact) const;
 
  private:

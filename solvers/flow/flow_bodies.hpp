@@ -19,7 +19,7 @@ void set_laws(const mechanics::LinearSystem& system, StepEquations<N, H>& eq) {
   }
 }
 
-// Whether stuck contacts can keep another one at rest: their directions depend on one another.
+// Whether stuck contacts can hold a further contact at rest: their directions are linearly dependent.
 template <int N, int H>
 bool holds_in_loops(const StepEquations<N, H>& eq) {
   Eigen::MatrixXd held(eq.masses(), count(eq.holding));

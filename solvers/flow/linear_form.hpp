@@ -51,7 +51,7 @@ class Forms {
   // lambda_j [N] of a contact that sticks in this mode.
   Form stuck_contact_force(Eigen::Index contact, const Mode<N, H>& mode) const;
 
-  // Sum of the forces [N] that all elements at `node` (ground or prescribed) need there: what drives it.
+  // The force [N] that drives `node` (ground or prescribed): the sum that all elements need there.
   Form node_force(const mechanics::Node& node,
                   const std::vector<mechanics::ElementCoefficients>& coefficients,
                   const Mode<N, H>& mode) const;

@@ -55,7 +55,7 @@ inline Polynomial deflate(const Polynomial& p, int multiplicity) {
   return q;
 }
 
-// The root of p between lo and hi, where p changes sign: Halley's method kept inside the bracket.
+// The root of p between lo and hi, where p changes sign: Halley's method, confined to the bracket.
 double root_between(const Polynomial& p, double lo, double hi);
 
 // The roots in [0, 1] at which p changes sign, ascending, from at most kMaxRoots brackets.
@@ -71,10 +71,10 @@ struct Roots {
 };
 Roots sign_changes(const Polynomial& p);
 
-// False where the values and slopes at the ends already say that p keeps its sign, and not by little.
+// False if the values and slopes at the ends show that p keeps its sign by a clear margin.
 bool may_change_sign(const Polynomial& p);
 
-// What the values and slopes at both ends say of a function's sign in between, when its fourth derivative is
+// What values and slopes at both ends show of a function's sign in between, if its fourth derivative is
 // bounded by 384 `margin`: the Bernstein coefficients of the cubic Hermite interpolant, within `margin`.
 enum class SignVerdict { no_change, one_change, unclear };
 inline SignVerdict hermite_verdict(ValueAndSlope left, ValueAndSlope right, double margin) {

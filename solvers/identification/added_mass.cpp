@@ -35,7 +35,7 @@ std::string wrong(const AddedMassRows& rows) {
   return "";
 }
 
-// Of what changes by u_i with the standard error of datum i: nu = (sum u_i^2)^2 / sum u_i^4 / nu_i
+// For a value that changes by u_i with the standard error of datum i: nu = (sum u_i^2)^2 / sum u_i^4 / nu_i
 double welch_satterthwaite(const Eigen::RowVectorXd& u, const std::vector<double>& degrees_of_freedom) {
   double fourth = 0.0;
   for (Eigen::Index i = 0; i < u.size(); ++i)

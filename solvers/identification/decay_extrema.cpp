@@ -30,8 +30,8 @@ std::string wrong(Samples time, Samples displacement) {
   return "";
 }
 
-// How far sample i is from the polynomial through its three neighbours on either side, over what noise of 1
-// in each of the seven would make of it.
+// The distance of sample i from the polynomial through its three neighbours on either side, over the distance
+// that noise of 1 in each of the seven would give.
 double off_neighbours(Samples time, Samples x, std::size_t i) {
   double passes = 0.0, squares = 1.0;
   for (std::size_t j = i - 3; j <= i + 3; ++j) {
@@ -46,7 +46,7 @@ double off_neighbours(Samples time, Samples x, std::size_t i) {
   return std::abs(x[i] - passes) / std::sqrt(squares);
 }
 
-// Standard deviation of white noise: of the median, which the few samples about a stop do not disturb.
+// Standard deviation of white noise, by the median, which the few samples about a stop do not disturb.
 double noise_of(Samples time, Samples x) {
   constexpr double kMedian = 0.6744897501960817;  // of |noise| / sigma of a normal distribution
   std::vector<double> off;
@@ -77,7 +77,7 @@ std::vector<std::size_t> turns(Samples x, double swing) {
   return found;
 }
 
-// Of the free vibration: its half period [s], and delta of exp(-delta s) cos s, s = pi t / half period.
+// The free vibration: its half period [s], and delta of exp(-delta s) cos s, s = pi t / half period.
 struct Shape {
   double half_period = 0.0, decrease = 0.0;
 };
@@ -106,7 +106,7 @@ FoundExtrema none(std::string why) {
   return found;
 }
 
-// The turning points in turn, of one half period.
+// The turning points in order, for one half period.
 struct Turns {
   std::vector<Quarters> quarters;
   std::vector<TurningPoint> fits;
@@ -165,8 +165,8 @@ FoundExtrema found_of(const Turns& turns) {
 
 FoundExtrema find_extrema(Samples time, Samples displacement) {
   if (const std::string why = wrong(time, displacement); !why.empty()) return none(why);
-  // A swing of ten standard deviations is no accident in a million samples, and twice that turns at a place
-  // that the samples show; a billionth of the whole is rounding.
+  // Noise makes no swing of ten standard deviations in a million samples; twice that swing turns at samples
+  // that show the turn. A billionth of the whole is rounding.
   constexpr double kAboveNoise = 20.0, kAboveRounding = 1e-9;
   const auto [least, most] = std::minmax_element(displacement.begin(), displacement.end());
   const double noise = noise_of(time, displacement);
@@ -178,7 +178,7 @@ FoundExtrema find_extrema(Samples time, Samples displacement) {
                 " m, the threshold of " + number(kAboveNoise) + " standard deviations of its noise, " +
                 number(noise) + " m: it takes two turning points at least");
   if (const std::string fault = unless_whole(time, displacement, turned); !fault.empty()) return none(fault);
-  // What the turning samples tell of the shape serves for fits that tell it better.
+  // The turning samples give a first shape for the fits, which then give a better one.
   const double half_period =
       (time[turned.back()] - time[turned.front()]) / static_cast<double>(turned.size() - 1);
   Turns fitted = fit_turns(time, displacement, turned, {.half_period = half_period});

@@ -11,8 +11,8 @@ namespace {
 
 using Index = Eigen::Index;
 
-// The half swings |x_i - x_{i+1}| / 2, in which a sensor's offset has no part, as a line over i: whether it
-// rises by more than its error.
+// Whether the vibration grows: a line through the half swings |x_i - x_{i+1}| / 2 over i rises by more than
+// its error. A sensor's offset has no part in half swings.
 bool grows(const DecayExtrema& extrema) {
   constexpr double kErrors = 3.0, kRounding = 1e-9;
   const auto n = static_cast<Index>(extrema.displacement.size()) - 1;
@@ -43,7 +43,7 @@ std::string wrong_sizes(const DecayExtrema& extrema) {
        unless_positive("standard error", extrema.time_sigma)});
 }
 
-// Extremes are half a period apart, all of them, if none is missing: of two that are not the sentence.
+// All extremes are half a period apart, if none is missing: a sentence that names two that are not.
 std::string uneven(const DecayExtrema& extrema) {
   constexpr double kShort = 0.5, kLong = 1.5;  // half periods
   std::vector<double> apart;

@@ -21,7 +21,7 @@ Eigen::VectorXd displacement_sigma(const DecayExtrema& extrema);
 // omega_d / sqrt(1 - zeta^2) to a result whose damping_ratio is zeta; nothing where no times are known.
 void add_frequencies(const DecayExtrema& extrema, double zeta, Identification& result);
 
-// The extremes beside what the fit says of them.
+// The measured extremes beside their fitted values.
 FittedRecord extrema_record(const DecayExtrema& extrema, const Eigen::VectorXd& fitted);
 
 }  // namespace frahm::identification

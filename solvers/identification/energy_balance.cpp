@@ -32,7 +32,7 @@ std::string wrong(const EnergyRows& rows) {
   return "";
 }
 
-// What a damper of 1 N s/m and a friction of 1 N take in a cycle of each row [J].
+// The energy that a damper of 1 N s/m and a friction of 1 N take in a cycle of each row [J].
 Eigen::MatrixXd losses(const EnergyRows& rows) {
   using std::numbers::pi;
   Eigen::MatrixXd A(static_cast<Eigen::Index>(rows.amplitude.size()), 2);

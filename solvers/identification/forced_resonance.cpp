@@ -96,7 +96,7 @@ std::string unless_underdamped(double slope, ResponseTo shaken_by) {
          ", it must be below 1";
 }
 
-// By more than rounding.
+// "" if the line rises by more than rounding, else a sentence.
 std::string unless_rising(const Eigen::VectorXd& X, const Eigen::VectorXd& Y, double slope,
                           ResponseTo shaken_by) {
   constexpr double kRounding = 1e-9;
@@ -199,8 +199,7 @@ LeastSquaresFit fit_hyperbola(const Eigen::VectorXd& X, const Eigen::VectorXd& Y
       });
 }
 
-// Where the friction is too large beside the excitation the mass stops in each half cycle, and neither form
-// holds.
+// If the friction is too large for the excitation, the mass stops in each half cycle, and neither form holds.
 void note_stops(const Eigen::VectorXd& Y, double zeta, double x_f, ResponseTo shaken_by,
                 Identification& result) {
   const double critical = periodic::critical_friction(1.0, zeta);

@@ -12,7 +12,7 @@
 //   Y = slope sqrt((X + G x_f)^2 + (H x_f)^2),    slope = 2 zeta / sqrt(1 + 4 zeta^2),   to a force 2 zeta,
 // a hyperbola whose asymptote is, but for terms of zeta^2, the paper's line  Y = slope X + intercept:
 //   slope = 2 zeta,  intercept = 2 zeta G x_f,  G = sinh(pi zeta) / (cosh(pi zeta) - 1).
-// A support that only the spring stands on, the damper on the ground, acts as the force k Y.
+// A support under the spring alone, with the damper on the ground, acts as the force k Y.
 namespace frahm::identification {
 
 // Pairs of amplitudes [m].
@@ -31,7 +31,7 @@ struct ResonancePairs {
 // that the damping ratio is not below 1.
 Identification forced_resonance(const ResonancePairs& pairs, ResponseTo shaken_by, const OneMass& known = {});
 
-// Lines that others have drawn.
+// Lines that were fitted elsewhere.
 struct ResonanceLines {
   std::vector<double> slope;      // [1], > 0; to a support < 1
   std::vector<double> intercept;  // [m]

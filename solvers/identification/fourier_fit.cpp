@@ -59,7 +59,7 @@ double criterion(const FourierFit& fit, const Eigen::VectorXd& y) {
                           kEpsilon * y.cwiseAbs().maxCoeff());
 }
 
-// Of Gauss and Newton: the part of dy/domega that no change of the coefficients makes.
+// Gauss-Newton step: uses the part of dy/domega that no change of the coefficients can produce.
 double step(const FourierFit& fit, const Eigen::VectorXd& time, const Eigen::VectorXd& y) {
   const Eigen::MatrixXd A = basis(time, fit.omega, fit.harmonics);
   const Eigen::VectorXd own = by_omega(time, A, fit.coefficients) + A * fit.by_omega;
@@ -105,7 +105,7 @@ FourierFit fourier_fit_from(const Eigen::VectorXd& time, const Eigen::VectorXd& 
 }
 
 double crossing_frequency(const Eigen::VectorXd& time, const Eigen::VectorXd& y) {
-  constexpr double kBand = 0.3;  // of the amplitude, which noise does not cross twice
+  constexpr double kBand = 0.3;  // of the amplitude: noise does not cross such a band twice
   const double mean = 0.5 * (y.maxCoeff() + y.minCoeff()), band = 0.5 * kBand * (y.maxCoeff() - y.minCoeff());
   double first = 0.0, last = 0.0;
   int crossings = 0;

@@ -14,16 +14,16 @@ struct FourierFit {
   Eigen::MatrixXd covariance;    // of them, at this omega
   Eigen::VectorXd by_omega;      // how they change with omega
   Eigen::VectorXd fitted;        // at the samples
-  double variance = 0.0;         // of the residuals; NaN without any to spare
+  double variance = 0.0;         // of the residuals; NaN without degrees of freedom
   double degrees_of_freedom = 0.0;
-  double omega_variance = 0.0;  // that these samples alone would leave of omega
+  double omega_variance = 0.0;  // of omega, from these samples alone
 
   double a(int n) const { return coefficients[n == 0 ? 0 : 2 * n - 1]; }
   double b(int n) const { return coefficients[2 * n]; }
 };
 
-// Least squares at a given omega, with as many harmonics as Akaike's corrected criterion prefers: of odd
-// numbers, as a symmetric motion has odd ones only.
+// Least squares at a given omega, with as many harmonics as Akaike's corrected criterion prefers: an odd
+// number, as a symmetric motion has odd harmonics only.
 // time [s] from an origin near its middle.
 FourierFit fourier_fit(const Eigen::VectorXd& time, const Eigen::VectorXd& y, double omega);
 

@@ -154,7 +154,7 @@ std::string wrong(const OneMass& known, bool has_times) {
   return "";
 }
 
-// Values and covariance of what the extremes tell, before anything is derived from it.
+// Values and covariance of the parameters of the extremes, before derived quantities.
 void set_estimates(const LeastSquaresFit& fit, const Recursion& first, const Eigen::MatrixXd& by_x,
                    Identification& result) {
   result.estimates = {
@@ -180,7 +180,7 @@ void set_estimates(const LeastSquaresFit& fit, const Recursion& first, const Eig
   result.covariance = by_x * by_x.transpose();
 }
 
-// Extremes of one size are those of any damping with the negative friction that makes up for it.
+// Extremes of equal size fit any damping with the negative friction that compensates it.
 void mark_undetermined(const LeastSquaresFit& fit, double size, Identification& result) {
   Eigen::VectorXd scales = Eigen::VectorXd::Constant(fit.p.size(), size);
   scales[1] = 1.0;

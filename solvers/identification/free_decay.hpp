@@ -19,7 +19,7 @@ struct FreeDecayOptions {
 // [m] if fitted; with a mass or a stiffness damping [N s m-1], friction_force [N] and the other of the two
 // (stiffness [N m-1] or mass [kg]). damping_ratio_first, friction_displacement_first: of the linear
 // regression of each extreme on the one before, from which the least squares of the whole sequence start.
-// Ratios and forces within noise of zero may be negative: their intervals are honest then.
+// Ratios and forces within noise of zero may be negative: their intervals are then still correct.
 // failure: fewer than three extremes (four with an offset), an oscillation that grows.
 Identification free_decay(const DecayExtrema& extrema, const FreeDecayOptions& options);
 // The same from a trace [s], [m].

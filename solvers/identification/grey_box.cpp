@@ -14,7 +14,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd, Eigen::VectorXd;
 
-// Of the unknowns and the fixed ones together, S = -(J^T J)^-1 J^T J_f being how the fit follows the latter:
+// Covariance of the unknowns and the fixed ones; S = -(J^T J)^-1 J^T J_f is the fit's change with the latter:
 //   [ s^2 (J^T J)^-1 + S cov_f S^T,  S cov_f ]
 //   [ cov_f S^T,                       cov_f ]
 // What is not determined stays so.
@@ -37,7 +37,7 @@ MatrixXd with_fixed(const MatrixXd& own, const MatrixXd& J, const MatrixXd& J_fi
   return joint;
 }
 
-// How much of the residuals' own size they repeat from one sample to the next: sum r_i r_{i+1} / sum r_i^2.
+// Autocorrelation of the residuals from one sample to the next: sum r_i r_{i+1} / sum r_i^2.
 double lag_one(const FittedSeries& series) {
   double beside = 0.0, all = 0.0, last = 0.0;
   for (std::size_t i = 0; i < series.measured.size(); ++i) {
@@ -54,14 +54,14 @@ std::string percent(double share) {
   return digits.substr(0, digits.find('.') + 2) + " %";
 }
 
-// Where the data are followed to rounding there is nothing to be noted; what a bound holds has a note
-// already, and its residuals follow one another.
+// No note is needed if the data are followed to rounding. A parameter held at a bound already has a note, and
+// its residuals are autocorrelated.
 void note_quality(const GreyBoxTask& task, bool held, Identification& result) {
   constexpr double kGood = 90.0, kExact = 100.0 - 1e-6, kRepeats = 0.5, kWhite = 0.2;
   for (std::size_t i = 0; i < result.records.size(); ++i) {
     const FittedRecord& record = result.records[i];
     const bool free = task.records[i].motion == MotionKind::free;
-    // What is missed may be noise alone, whose values do not follow one another.
+    // The residual may be noise alone, which is not autocorrelated.
     const bool white = std::ranges::all_of(
         record.series, [](const FittedSeries& series) { return lag_one(series) <= kWhite; });
     if (record.nrmse < kGood && !white)
@@ -77,7 +77,7 @@ void note_quality(const GreyBoxTask& task, bool held, Identification& result) {
   }
 }
 
-// What is held where the model follows the data to rounding would not be better elsewhere.
+// If the model follows the data to rounding, a parameter at a bound would not be better elsewhere.
 void note_bounds(const LeastSquaresFit& fit, const std::vector<Unknown>& unknowns, bool exact,
                  Identification& result) {
   for (std::size_t i = 0; i < unknowns.size() && !exact; ++i) {
@@ -108,8 +108,8 @@ double degrees_of_sum(double V_1, double nu_1, double V_2, double nu_2) {
   return (V_1 + V_2) * (V_1 + V_2) / (V_1 * V_1 / nu_1 + V_2 * V_2 / nu_2);
 }
 
-// The fixed ones keep theirs; what the fitted ones have from them counts as one variance, that of the fixed
-// one known least.
+// The fixed ones keep their own; the part of the fitted ones' variance that comes from the fixed ones counts
+// as one variance, with the fewest degrees of freedom among these.
 void set_degrees_of_freedom(const GreyBoxTask& task, const MatrixXd& own, Identification& result) {
   double fixed = kInfinity;
   for (const FixedParameter& each : task.fixed) fixed = std::min(fixed, each.degrees_of_freedom);
@@ -153,8 +153,8 @@ void estimate(const GreyBoxTask& task, Misfit& misfit, const LeastSquaresFit& fi
   set_intervals(result);
 }
 
-// Where another minimum is as low to within noise the parabola about this one tells too little: intervals
-// reach as far about the other as about this one.
+// If another minimum is as low to within noise, the parabola about this one is not enough: the intervals
+// reach as far about the other minimum as about this one.
 void span_rivals(const std::vector<VectorXd>& rivals, Identification& result) {
   if (rivals.empty()) return;
   for (Index i = 0; i < rivals.front().size(); ++i) {
@@ -191,7 +191,7 @@ LeastSquaresFit least_misfit(Misfit& misfit, Minima& minima) {
   return fit.sum_of_squares() < sum ? weigh(misfit, minima, std::move(fit)) : fit;
 }
 
-// Why the residuals tell nothing of the unknowns; "": they may.
+// Why the residuals cannot determine the unknowns; "": they may.
 std::string too_few(const Misfit& misfit) {
   const std::size_t unknowns = misfit.unknowns().size();
   if (misfit.residuals() >= static_cast<Index>(unknowns)) return "";

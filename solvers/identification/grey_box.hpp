@@ -46,9 +46,9 @@ struct GreyBoxTask {
   std::vector<FixedParameter> fixed;
   Eigen::MatrixXd fixed_covariance;  // of `fixed`, in its order
   std::vector<TimeRecord> records;   // at least one
-  // Fit the beginning of each record first, two periods of the model, then twice as much each time: a
-  // frequency that is off slips whole periods along a record, and finds its way only while that is short.
-  // Where that ends nowhere near the data, once more from a quarter of a period on.
+  // Fit the beginning of each record first, two periods of the model, then twice as much each time: a wrong
+  // frequency slips whole periods along a record, and is corrected only while that is short. If the fit ends
+  // far from the data, it is repeated from a quarter of a period on.
   bool grow = true;
   transient::Watch watch;  // called while it works; what it throws is passed on
 };
@@ -58,12 +58,11 @@ struct GreyBoxTask {
 // noise. A motion that comes to rest has a minimum for each number of half swings: from the one that is
 // found, others are looked for (minima.hpp). A fit at which nothing moves that should has not converged.
 // Estimates: the fitted parameters in order, one of each record for those with each_record, named
-// `<parameter>_<record>`; then the fixed ones, so that their covariances with the fitted ones are known to
-// whoever takes these: cov = s^2 (J^T J)^-1 + S cov_f S^T, S = -(J^T J)^-1 J^T J_f. Each has the degrees of
-// freedom of that sum. A fit that has not converged has a note that says so; others tell of a record missed
-// by more than 10 %, and of residuals that follow one another. Throws mechanics::MechanicsError where the
-// start has no meaning, and for friction of the arctan law. A bound (0 of a friction) is better than none:
-// beyond what the mechanics allows there is no model to tell the way.
+// `<parameter>_<record>`; then the fixed ones, so that their covariances with the fitted ones are available:
+// cov = s^2 (J^T J)^-1 + S cov_f S^T, S = -(J^T J)^-1 J^T J_f. Each has the degrees of freedom of that sum.
+// Notes report a fit that has not converged, a record missed by more than 10 %, and autocorrelated residuals.
+// Throws mechanics::MechanicsError where the start has no meaning, and for friction of the arctan law. Give
+// bounds where possible (0 for a friction): beyond what the mechanics allows no model shows the way.
 Identification grey_box(const GreyBoxTask& task);
 
 }  // namespace frahm::identification

@@ -29,8 +29,8 @@ Identification half_power(const HalfPowerRows& rows, ResponseTo shaken_by);
 // Estimates: damping_ratio (exact), damping_ratio_first_order, peak_frequency, natural_frequency (of the
 // undamped mass: the peak of a force's response lies at omega_n sqrt(1 - 2 zeta^2)), lower_frequency,
 // upper_frequency [rad/s].  failure: no peak inside the curve, or half-power points beyond its ends.
-// The errors of all amplitudes of the curve are taken as equally large; where they are parts of the amplitude
-// the intervals are not those of 95 %.
+// The errors of all amplitudes of the curve are taken as equally large; if they are proportional to the
+// amplitude, the intervals are not those of 95 %.
 Identification half_power(const ResponseCurve& curve, ResponseTo shaken_by);
 
 }  // namespace frahm::identification

@@ -33,7 +33,7 @@ std::string wrong(const LoopTraces& traces, const std::optional<double>& omega) 
   return "";
 }
 
-// Places of the coefficients of displacement, then force, then omega.
+// Indices of the coefficients of displacement, then force, then omega.
 struct Unknowns {
   const FourierFit &x, &F;
   Index size() const { return x.coefficients.size() + F.coefficients.size() + 1; }
@@ -178,7 +178,7 @@ void set_estimates(const Unknowns& u, double omega_variance, Identification& res
            {{"energy_loss", 0.25 / X.value}, {"amplitude", -friction / X.value}});
 }
 
-// Over a stiffness that may be zero nothing can be divided. Intervals must be there.
+// A stiffness that may be zero cannot be a divisor. Intervals must be there.
 void check_loss(double force, Identification& result) {
   constexpr double kRounding = 1e-9;
   const auto find = [&](const char* name) {

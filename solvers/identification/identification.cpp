@@ -23,7 +23,7 @@ double nrmse(std::span<const FittedSeries> series) {
     const auto size = static_cast<Eigen::Index>(each.measured.size());
     const Eigen::Map<const Eigen::VectorXd> y(each.measured.data(), size), fit(each.fitted.data(), size);
     const double spread = (y.array() - y.mean()).matrix().squaredNorm();
-    // Series of different sensors count by what share of their own variation is missed.
+    // Series of different sensors count by the share of their own variation that is missed.
     if (!(spread > kConstant * kConstant * y.squaredNorm())) continue;
     missed += (y - fit).squaredNorm() / spread;
     varies += 1.0;

@@ -7,7 +7,7 @@
 
 #include "solvers/algebra/no_value.hpp"
 
-// What measurements tell of a system: estimates, how sure they are, and how well the model follows the data.
+// Results from measurements: estimates, their uncertainty, and how well the model follows the data.
 namespace frahm::identification {
 
 // A number found from measurements.
@@ -16,7 +16,7 @@ struct Estimate {
   std::string unit;       // SI, in the form of CF: "N s m-1"; "1" without
   std::string long_name;  // what it is, in words
   double value = 0.0;     // NaN: the data do not determine it
-  // One standard deviation. Infinite: not determined; NaN: nothing tells (no more data than unknowns).
+  // One standard deviation. Infinite: not determined; NaN: unknown (no more data than unknowns).
   double standard_error = 0.0;
   double low = 0.0, high = 0.0;  // interval of kConfidence, by Student's t; -inf, inf or NaN likewise
   // Of the variance behind the interval, may be infinite. NaN: those of the whole Identification.
@@ -24,7 +24,7 @@ struct Estimate {
 };
 inline constexpr double kConfidence = 0.95;
 
-// What was measured beside what the model says in its place: the data of a residual plot.
+// Measured values beside those of the model: the data of a residual plot.
 struct FittedSeries {
   std::string name, unit;  // of what was measured: "main_displacement", "m"
   std::vector<double> measured, fitted;
@@ -39,15 +39,15 @@ struct FittedRecord {
   double nrmse = 0.0;  // of all its series together [%]
 };
 
-// A column of answers that each row of the data has for itself, such as a table of half-power frequencies.
+// A column of results with one value for each row of the data, such as a table of half-power frequencies.
 struct RowColumn {
   std::string name, unit, long_name;
   std::vector<double> values;
 };
 
 struct Identification {
-  std::string failure;    // why nothing was identified, a sentence; empty: it was
-  bool converged = true;  // false: a fit ended before its best, a note says why
+  std::string failure;    // why nothing was identified, a sentence; empty: success
+  bool converged = true;  // false: a fit ended before its minimum, a note says why
   std::vector<Estimate> estimates;
   // Of the estimates, in their order. Infinite on the diagonal, NaN beside it: not determined.
   Eigen::MatrixXd covariance;
@@ -58,7 +58,7 @@ struct Identification {
   std::vector<std::string> notes;  // sentences: what was left out, what is held by a bound
 };
 
-// A series whose |y - mean y| is less than this of |y| is constant: what it varies by is rounding.
+// A series whose |y - mean y| is less than this part of |y| is constant: it varies by rounding only.
 inline constexpr double kConstant = 1e-12;
 
 // Fit quality, 100 (1 - |y - yhat| / |y - mean y|) [%]; the mean is each series' own. 100: exact, 0: no
@@ -68,12 +68,12 @@ double nrmse(std::span<const FittedSeries> series);
 // Correlation coefficients of a covariance: NaN where one is not determined.
 Eigen::MatrixXd correlation(const Eigen::MatrixXd& covariance);
 
-// Standard errors and intervals of result.estimates from result.covariance and the degrees of freedom of
-// each, which are those of the whole where it has none; an estimate with an infinite variance loses its
-// value.
+// Sets standard errors and intervals of result.estimates from result.covariance and each estimate's degrees
+// of freedom; an estimate without its own takes those of the whole result. An estimate with an infinite
+// variance gets the value NaN.
 void set_intervals(Identification& result);
 
-// Adds an estimate computed from the ones there: value and gradient by each of them.
+// Adds an estimate computed from the existing ones: value and gradient by each of them.
 void add_derived(Identification& result, Estimate estimate, const Eigen::VectorXd& gradient);
 
 }  // namespace frahm::identification

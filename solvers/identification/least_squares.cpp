@@ -11,7 +11,7 @@
 namespace frahm::identification {
 namespace {
 
-// p(q) that stays within the bounds whatever q is, and its derivative. Source: [25].
+// p(q) that stays within the bounds for every q, and its derivative. Source: [25].
 //   both bounds  p = a + (b - a) (sin q + 1) / 2
 //   one          p = a + s (sqrt(q^2 + 1) - 1),  s the unknown's scale; below an upper bound alike
 class Bounded {
@@ -30,7 +30,7 @@ class Bounded {
     if (a_ > -kInfinity) return away;
     return b_ < kInfinity ? -away : scale_;
   }
-  // q of a p, which is moved off a bound, where the slope is zero.
+  // q of a value p; a p at a bound, where the slope is zero, is moved off it.
   double outside(double p) const {
     constexpr double kOff = 1e-3;  // of the range
     if (two_sided()) return std::asin(std::clamp(2.0 * (p - a_) / (b_ - a_) - 1.0, -1.0 + kOff, 1.0 - kOff));
@@ -39,7 +39,7 @@ class Bounded {
     const double root = std::max(away / scale_, kOff) + 1.0;
     return std::sqrt(root * root - 1.0);
   }
-  // -1 or 1 where p is as good as at a bound.
+  // -1 or 1 if p is practically at a bound.
   int at_bound(double p) const {
     constexpr double kAt = 1e-6;  // of the range
     const double range = two_sided() ? b_ - a_ : scale_;
@@ -120,7 +120,7 @@ std::string reason_of(Eigen::LevenbergMarquardtSpace::Status status) {
   }
 }
 
-// Unknowns that end at a bound against which the sum of squares pushes them.
+// Unknowns that end at a bound towards which the sum of squares pushes them.
 std::vector<int> held(const std::vector<Bounded>& bounded, const LeastSquaresFit& fit) {
   const Eigen::VectorXd gradient = fit.jacobian.transpose() * fit.residuals;
   std::vector<int> sides(bounded.size(), 0);
@@ -168,8 +168,8 @@ Eigen::VectorXd gauss_newton_step(const std::vector<Unknown>& unknowns, const Le
 }
 
 // A model that is solved to its own tolerance, such as a periodic orbit, is rough in its last digits, and the
-// search for the least of them does not end by itself. It has arrived where the next step is a thousandth of
-// a standard error, or in the ninth digit.
+// search for their least does not end by itself. It ends when the next step is a thousandth of a standard
+// error, or in the ninth digit.
 bool has_arrived(const std::vector<Unknown>& unknowns, const LeastSquaresFit& fit) {
   constexpr double kErrors = 1e-3, kDigits = 1e-9;
   if (fit.jacobian.size() == 0) return false;
@@ -180,11 +180,11 @@ bool has_arrived(const std::vector<Unknown>& unknowns, const LeastSquaresFit& fi
   return (fit.jacobian * d).norm() <= kErrors * fit.residuals.norm() / std::sqrt(free);
 }
 
-// The sum of squares is flat at its minimum, so that it tells the unknowns to half the digits only.
-// Gauss-Newton steps find the rest: as long as each is at most half as long as the one before.
+// The sum of squares is flat at its minimum, so it determines the unknowns to half the digits only.
+// Gauss-Newton steps find the rest, as long as each is at most half as long as the one before.
 void polish(const std::vector<Unknown>& unknowns, const Residuals& residuals, LeastSquaresFit& fit) {
   constexpr int kMostSteps = 12;
-  constexpr double kSmall = 1e-3;  // of the scale: more than that is no polishing
+  constexpr double kSmall = 1e-3;  // of the scale: a larger step is no polishing
   double last = kSmall;
   LeastSquaresFit next = fit;
   for (int step = 0; step < kMostSteps; ++step) {
@@ -219,7 +219,7 @@ LeastSquaresFit least_squares(const std::vector<Unknown>& unknowns, const Residu
   const std::vector<int> sides = held(bounded, fit);
   if (fit.jacobian.size() > 0 &&
       std::any_of(sides.begin(), sides.end(), [](int side) { return side != 0; })) {
-    // Once more without them, set exactly to their bounds.
+    // Once more without the held unknowns, set exactly to their bounds.
     fit.at_bound = sides;
     for (std::size_t i = 0; i < sides.size(); ++i) {
       if (sides[i] != 0) fit.p[static_cast<Eigen::Index>(i)] = bounded[i].bound(sides[i]);

@@ -7,9 +7,9 @@
 
 #include "solvers/algebra/no_value.hpp"
 
-// Nonlinear least squares within bounds:  minimise sum_i r_i(p)^2,  lower <= p <= upper.
-// Levenberg-Marquardt (Eigen's port of MINPACK's lmder), in variables whose bounds are taken away by MINUIT's
-// transformation p = a + (b - a) (sin q + 1) / 2.  Source: [21].
+// Nonlinear least squares within bounds:  minimise sum_i r_i(p)^2,  lower <= p <= upper. Levenberg-Marquardt
+// (Eigen's port of MINPACK's lmder), in variables without bounds by MINUIT's transformation p = a + (b - a)
+// (sin q + 1) / 2.  Source: [21].
 namespace frahm::identification {
 
 struct Unknown {

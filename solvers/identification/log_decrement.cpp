@@ -13,7 +13,7 @@ namespace {
 using Index = Eigen::Index;
 using std::numbers::pi;
 
-// Those of the first so many cycles that stand out of the noise: its logarithm is skewed otherwise.
+// The extremes of the first cycles that are well above the noise: otherwise their logarithm is skewed.
 DecayExtrema used(const DecayExtrema& all, std::size_t most) {
   constexpr double kAboveNoise = 5.0;  // standard errors
   std::size_t n = std::min(most, all.displacement.size());
@@ -45,7 +45,7 @@ Decrements decrements(const DecayExtrema& extrema) {
   const auto n = static_cast<Index>(extrema.displacement.size());
   const Eigen::Map<const Eigen::VectorXd> x(extrema.displacement.data(), n);
   const Eigen::VectorXd size = x.cwiseAbs(), logarithm = size.array().log();
-  // Of ln|x|: sigma / |x|; where no sigmas are known all extremes have the same.
+  // The sigma of ln|x| is sigma / |x|; without known sigmas all extremes have the same.
   const Eigen::VectorXd sigma = displacement_sigma(extrema).cwiseQuotient(size);
   Eigen::MatrixXd A(n, 2);  // ln|x_i| = ln|x_0| - delta i / 2
   A << Eigen::VectorXd::Ones(n), -0.5 * Eigen::VectorXd::LinSpaced(n, 0.0, static_cast<double>(n - 1));

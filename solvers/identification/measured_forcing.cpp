@@ -38,7 +38,7 @@ std::vector<double> spline_slopes(const std::vector<double>& t, const std::vecto
   return slope;
 }
 
-// Orders whose doubles are none of them: those with an even power of two, 1, 3, 4, 5, 7, 9, 11, 12 ...
+// Orders of which none is twice another: those with an even power of two, 1, 3, 4, 5, 7, 9, 11, 12 ...
 int next_order(int order) {
   for (++order;; ++order) {
     int twos = 0;
@@ -66,7 +66,7 @@ Wave spline_wave(double y0, double y1, double d0, double d1, double H) {
           .b = (sin * d - cos * e) / odd};
 }
 
-// Linear in as much as the even part is constant and the odd part sin psi.
+// Linear, as far as the even part is constant and the odd part sin psi.
 Wave linear_wave(double y0, double y1, double H) {
   const double cos = std::cos(H), mean = 0.5 * (y0 + y1), even = 2.0 * cos * cos + 1.0;
   return {.a = 4.0 * cos * mean / even, .c = -mean / even, .p = 0.5 * (y1 - y0) / std::sin(H), .b = 0.0};

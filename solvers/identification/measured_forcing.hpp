@@ -8,9 +8,9 @@
 
 namespace frahm::identification {
 
-// A measured excitation in the place of a network's own, from one of its times to the next. The exact flow
-// knows constants and harmonics, so the interpolation is made of those, the record's mean and two harmonics
-// of a fundamental so slow (kTurned of a radian an interval at most) that it is, as good as exactly,
+// A measured excitation that replaces a network's own, from one of its times to the next. The exact flow
+// takes constants and harmonics, so the interpolation consists of the record's mean and two harmonics of a
+// fundamental so slow (kTurned of a radian an interval at most) that it is, as good as exactly,
 //   linear between the values of a force,
 //   the cubic spline through those of a displacement, whose velocity is continuous:
 //   mean + a cos psi + c cos 2 psi + p sin psi + b sin 2 psi,  psi = order omega (t - middle of the

@@ -10,7 +10,7 @@ namespace frahm::identification {
 
 enum class Signal { displacement, velocity, acceleration };
 
-// What a sensor on a mass gave, relative to where no spring is strained.
+// Readings of a sensor on a mass, relative to the position where no spring is strained.
 struct Channel {
   std::string name;      // "main_displacement"
   std::size_t mass = 0;  // index in Network::masses
@@ -36,7 +36,7 @@ struct TimeRecord {
   MotionKind motion = MotionKind::free;
   std::vector<double> time;  // [s], increasing, at least two; the motion begins at the first
   std::vector<Channel> channels;
-  std::vector<MeasuredExcitation> excitation;  // of a forced record: in the place of the network's; else none
+  std::vector<MeasuredExcitation> excitation;  // of a forced record: replaces the network's own; else none
 };
 
 }  // namespace frahm::identification

@@ -13,16 +13,16 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd, Eigen::VectorXd;
 
-// Each record is followed so far in a first fit [periods]: long enough to tell a frequency, and short enough
-// that one that is a quarter off slips no more than half a period. Where that leads nowhere, as from friction
-// that stops the model long before the measured motion, only so far as it still moves.
+// Length of each record in a first fit [periods]: long enough to determine a frequency, and short enough that
+// a frequency a quarter off slips no more than half a period. If that fails, as with friction that stops the
+// model long before the measured motion, only the length in which the model still moves.
 constexpr double kFirstPeriods[] = {2.0, 0.25};
-// A fit that misses more than this of the measured variation has led nowhere.
+// A fit that misses more than this part of the measured variation has failed.
 constexpr double kNowhere = 0.5;
-// One that misses less has nothing beside it that is better.
+// A fit that misses less than this has no better fit beside it.
 constexpr double kExactly = 1e-9;
 constexpr LeastSquaresOptions kOnTheWay = {.tolerance = 1e-6, .most_evaluations = 50};
-constexpr double kLower = 1e-6;  // by this share another minimum's sum of squares is less
+constexpr double kLower = 1e-6;  // another minimum counts as lower if its sum of squares is this share less
 
 std::vector<Unknown> started_at(const VectorXd& p, std::vector<Unknown> unknowns) {
   for (std::size_t i = 0; i < unknowns.size(); ++i) unknowns[i].start = p[static_cast<Index>(i)];
@@ -55,12 +55,12 @@ LeastSquaresFit Minima::from(const VectorXd& p) {
   return descend(p, {});
 }
 
-// More than this share of the measured variation, with the weights of a first fit.
+// Whether a fit misses more than this share of the measured variation, with the weights of a first fit.
 bool Minima::misses(const LeastSquaresFit& fit, double share) const {
   return !(fit.sum_of_squares() <= share * share * static_cast<double>(misfit_.series()));
 }
 
-// Keeps the lower of both, of the same sum of squares one that has converged.
+// Keeps the fit with the lower sum of squares; if they are equal, the converged one.
 void Minima::take(LeastSquaresFit fit, LeastSquaresFit& best) {
   if (fit.p.size() == 0 || !fit.p.allFinite() || fit.jacobian.size() == 0) return;
   const double sum = fit.sum_of_squares(), least = best.sum_of_squares();
@@ -69,8 +69,8 @@ void Minima::take(LeastSquaresFit fit, LeastSquaresFit& best) {
   if (best.jacobian.size() == 0 || lower || alike) best = std::move(fit);
 }
 
-// The records' beginnings first, twice as much of them each time, then all. From the start itself where that
-// is nearer than what growing has come to.
+// First the records' beginnings, twice as much of them each time, then all. Starts from the start itself if
+// that is nearer than the result of growing.
 LeastSquaresFit Minima::grown(const VectorXd& start, double periods) {
   VectorXd p = start, r, grown_r;
   for (double seconds = periods * misfit_.longest_period(start); misfit_.follow(seconds); seconds *= 2.0) {
@@ -96,7 +96,7 @@ void Minima::search(const VectorXd& start, LeastSquaresFit& best) {
   }
 }
 
-// Half the friction each time, until the model moves as the data do: from the start's other values.
+// Halves the friction until the model moves as the data do; the other values are those of the start.
 void Minima::loosen(LeastSquaresFit& best) {
   constexpr int kMostHalvings = 8;
   VectorXd p = misfit_.start();
@@ -120,9 +120,9 @@ LeastSquaresFit Minima::from_start() {
   return beside(std::move(fit));
 }
 
-// A half swing more or fewer before rest, one half of that, and two: friction moved by so much, alone and
-// with the others as they follow it; and both ways along the least determined direction, which is all there
-// is for motions that are driven.
+// Starts for a half swing more or fewer before rest, for one half of that, and for two: the friction is
+// changed accordingly, alone and together with the other unknowns as they follow it. Then both ways along the
+// least determined direction, the only starts for motions that are driven.
 std::vector<VectorXd> Minima::starts_beside(const LeastSquaresFit& fit) {
   constexpr double kSwings[] = {-2.0, -1.0, -0.5, 0.5, 1.0, 2.0};
   constexpr double kLengths[] = {-0.6, 0.6, -0.2, 0.2};
@@ -154,8 +154,8 @@ std::vector<VectorXd> Minima::starts_beside(const LeastSquaresFit& fit) {
   return starts;
 }
 
-// Another is one that the parabola about this one does not explain: by |J d|^2 it would be far above it, and
-// it is not. s^2: the variance of a residual.
+// A separate minimum is one that the parabola about this fit does not explain: by |J d|^2 it would be far
+// above the fit, and is not. s^2: the variance of a residual.
 void Minima::keep_rival(const LeastSquaresFit& other, const LeastSquaresFit& fit) {
   constexpr double kAlike = 25.0,
                    kApart = 100.0;  // s^2: noise makes one of many minima so much lower by chance

@@ -6,19 +6,19 @@
 // before that, and where friction holds the model nothing changes the sum of squares at all.
 namespace frahm::identification {
 
-// With the weights the misfit has. iterations: added to.
+// Uses the current weights of the misfit. iterations: counted up.
 class Minima {
  public:
   Minima(const GreyBoxTask& task, Misfit& misfit, int& iterations);  // which must all outlive it
 
-  // From the task's start: grown along the records and of all of them at once, and from less friction where
-  // that ends with nothing moving.
+  // From the task's start: both by growing along the records and with all of them at once; if nothing moves
+  // at the end, also from less friction.
   LeastSquaresFit from_start();
   // The nearest minimum.
   LeastSquaresFit from(const Eigen::VectorXd& p);
   // Of a model with contacts also minima beside `fit`, as long as one is lower.
   LeastSquaresFit beside(LeastSquaresFit fit);
-  // Minima of their own beside the last one returned that are as low to within noise: the unknowns there.
+  // The unknowns at separate minima beside the last one returned that are as low to within noise.
   const std::vector<Eigen::VectorXd>& rivals() const { return rivals_; }
 
  private:

@@ -20,9 +20,9 @@ Eigen::Map<const VectorXd> measured(const Channel& channel, std::size_t samples)
 }
 
 constexpr std::size_t kSamplesAnUnknown = 4;  // of a record's beginning, at least
-// Sensors without noise have the variance of this, of their variation: rounding, and no more weight.
+// Sensors without noise count this part of their variation as noise: rounding, and no more weight.
 constexpr double kExact = 1e-10;
-// What moves by less than this share of the measured variation does not move.
+// A channel that moves by less than this share of the measured variation does not move.
 constexpr double kStill = 1e-9;
 
 // |y - mean y|
@@ -209,8 +209,8 @@ std::vector<Index> Misfit::frictions(const VectorXd& p) const {
   return list;
 }
 
-// A channel's residuals have as many degrees of freedom as it has samples, less what the fit takes up with
-// them: the trace of its part of the projection J (J^T J)^-1 J^T = Q Q^T.
+// A channel's residuals have as many degrees of freedom as samples, less those that the fit uses: the trace
+// of the channel's part of the projection J (J^T J)^-1 J^T = Q Q^T.
 double Misfit::weigh_by_residuals(const VectorXd& p) {
   VectorXd r;
   MatrixXd J;

@@ -35,19 +35,19 @@ class Misfit {
     return static_cast<Eigen::Index>(count);
   }
 
-  // As `Residuals` (least_squares.hpp). What the mechanics refuses has none.
+  // As `Residuals` (least_squares.hpp). Unknowns that the mechanics refuses have no residuals.
   bool operator()(const Eigen::VectorXd& p, Eigen::VectorXd& r, Eigen::MatrixXd* by);
   // Throws what the mechanics refuses. by, by_fixed: unless null, derivatives by unknowns and fixed ones.
   bool evaluate(const Eigen::VectorXd& p, Eigen::VectorXd& r, Eigen::MatrixXd* by, Eigen::MatrixXd* by_fixed);
   const std::string& reason() const { return reason_; }  // why there were none
 
-  // Follows the first `seconds` of each record from now on, and enough to tell every unknown. False: all of
-  // each already.
+  // From now on follows the first `seconds` of each record, and enough to determine every unknown. False: all
+  // records are already followed in full.
   bool follow(double seconds);
   void follow_all();
   double longest_period(const Eigen::VectorXd& p);  // of all records [s]
 
-  // Some of what is followed moves at p as measurements do that vary. True where none varies.
+  // At p some channel that varies in the measurement moves in the model too. True if no channel varies.
   bool moves(const Eigen::VectorXd& p);
   // Extremes of the computed motion at p, of the channel that has most.
   int turns(const Eigen::VectorXd& p);

@@ -26,14 +26,14 @@ double median_step(Samples time) {
   return median(steps);
 }
 
-// Of most swings: a gap makes one longer.
+// The half period of most swings: a gap makes a swing longer.
 double half_period_of(Samples time, Turned turned) {
   std::vector<double> swings;
   for (std::size_t k = 1; k < turned.size(); ++k) swings.push_back(time[turned[k]] - time[turned[k - 1]]);
   return median(swings);
 }
 
-// Samples in a cycle. Each swing counts whole samples, all together tell the parts of one; a gap is left out.
+// Samples in a cycle. Each swing counts whole samples, the mean of all gives the fraction; a gap is left out.
 double samples_of_cycle(Samples time, Turned turned, double half_period, double step) {
   double together = 0.0, swings = 0.0;
   for (std::size_t k = 1; k < turned.size(); ++k) {
@@ -45,7 +45,7 @@ double samples_of_cycle(Samples time, Turned turned, double half_period, double 
   return 2.0 * together / (swings * step);
 }
 
-// From half a swing before the first turn to half a swing behind the last: a gap beyond does no harm.
+// From half a swing before the first turn to half a swing after the last: a gap beyond that has no effect.
 std::string gap(Samples time, Turned turned, double half_period, double step) {
   const double from = time[turned.front()] - 0.5 * half_period, to = time[turned.back()] + 0.5 * half_period;
   for (std::size_t i = 1; i < time.size(); ++i) {
@@ -59,7 +59,7 @@ std::string gap(Samples time, Turned turned, double half_period, double step) {
   return "";
 }
 
-// How many samples about one have its value, and the larger of the steps that lead out of them.
+// The number of samples about one that have its value, and the larger of the steps at both ends.
 struct Level {
   std::size_t samples = 1;
   double step = 0.0;
@@ -82,7 +82,7 @@ double least_step(Samples x) {
   return least;
 }
 
-// A coarse resolution makes levels, too, but what leads out of them is a step of it.
+// A coarse resolution makes levels too, but the steps at their ends are then steps of the resolution.
 std::string clipped_at(Samples x, Turned turned, double value, const char* which) {
   constexpr std::size_t kLevel = 3, kTurns = 2;
   constexpr double kSteps = 3.0;
@@ -118,12 +118,12 @@ std::string unless_wild(Samples time, Samples x, double noise) {
   constexpr double kErrors = 20.0, kPart = 0.01;  // standard deviations; of the range
   const auto [least, most] = std::minmax_element(x.begin(), x.end());
   const double far = std::max(kErrors * noise, kPart * (*most - *least));
-  // How far sample i is from the line through its neighbours.
+  // Distance of sample i from the line through its neighbours.
   const auto off = [&](std::size_t i) {
     const double part = (time[i] - time[i - 1]) / (time[i + 1] - time[i - 1]);
     return x[i] - x[i - 1] - part * (x[i + 1] - x[i - 1]);
   };
-  // A line over a gap is off by itself.
+  // The line over a gap is inaccurate by itself.
   const double longest = kLongStep * median_step(time);
   for (std::size_t i = 2; i + 2 < x.size(); ++i) {
     bool even = true;

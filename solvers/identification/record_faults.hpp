@@ -4,10 +4,10 @@
 #include <span>
 #include <string>
 
-// What is wrong with a sampled free vibration that its samples tell.
+// Faults of a sampled free vibration that its samples show.
 namespace frahm::identification {
 
-// Fewer samples a cycle do not tell the shape about a turning point: its error is then biased, and its
+// Fewer samples a cycle do not resolve the shape about a turning point: the point is then biased, and its
 // standard error too small.
 inline constexpr double kLeastSamplesOfCycle = 12.0;
 

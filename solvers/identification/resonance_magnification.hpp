@@ -25,8 +25,8 @@ struct MagnificationRows {
 Identification resonance_magnification(const MagnificationRows& rows, ResponseTo shaken_by);
 
 // The same from the peak of a curve, and peak_frequency [rad/s], peak_amplitude [m].
-// The errors of all amplitudes of the curve are taken as equally large; where they are parts of the amplitude
-// the interval is not that of 95 %.
+// The errors of all amplitudes of the curve are taken as equally large; if they are proportional to the
+// amplitude, the interval is not that of 95 %.
 // static_displacement [m]: P/k, or the amplitude of the support; taken as exact.
 Identification resonance_magnification(const ResponseCurve& curve, double static_displacement,
                                        ResponseTo shaken_by);

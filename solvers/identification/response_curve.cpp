@@ -16,9 +16,8 @@ using Index = Eigen::Index;
 constexpr Index kHighestDegree = 12;
 constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
 
-// The places about the highest one, contiguous, with X > kPeakPart X_max and the next on either side, in the
-// terms of the fit:
-// z = (omega^2 - middle) / half in [-1, 1], X over X_max.
+// The points about the highest one, contiguous, with X > kPeakPart X_max and the next on either side, in the
+// terms of the fit: z = (omega^2 - middle) / half in [-1, 1], X over X_max.
 struct Window {
   std::size_t first = 0, size = 0;
   double middle = 0.0, half = 1.0, most = 0.0;
@@ -33,7 +32,7 @@ Window window_of(const ResponseCurve& curve) {
   std::size_t first = top, last = top;
   while (first > 0 && X[first - 1] > kPeakPart * X[top]) --first;
   while (last + 1 < X.size() && X[last + 1] > kPeakPart * X[top]) ++last;
-  if (first > 0) --first;  // so that the half-power points lie within, however few places there are
+  if (first > 0) --first;  // so that the half-power points lie within, however few points there are
   if (last + 1 < X.size()) ++last;
   window.first = first;
   window.size = last - first + 1;
@@ -100,9 +99,9 @@ Parabola fit_of_degree(const Window& window, Index degree) {
   return fit;
 }
 
-// The degree goes up by two until one does not predict better: of many degrees one would fit the noise.
+// The degree goes up by two until a degree does not predict better: one of many degrees would fit the noise.
 Parabola best_fit(const Window& window, ResponseTo shaken_by) {
-  // To a support 1/X^2 is a parabola over 1 + 4 zeta^2 u: another two degrees leave nothing of that.
+  // To a support 1/X^2 is a parabola over 1 + 4 zeta^2 u: two degrees more cover the difference.
   const Index wanted = shaken_by == ResponseTo::force ? 2 : 4, most = window.z.size() - 3;
   Parabola best = fit_of_degree(window, std::clamp(most, Index{2}, wanted));
   for (Index degree = wanted + 2; degree <= std::min(kHighestDegree, most); degree += 2) {
@@ -113,7 +112,7 @@ Parabola best_fit(const Window& window, ResponseTo shaken_by) {
   return best;
 }
 
-constexpr int kScan = 512;  // places of the window that are looked at; the fit has 12 extremes at most
+constexpr int kScan = 512;  // points of the window that are scanned; the fit has 12 extremes at most
 
 double place(int i) {
   return -1.0 + 2.0 * i / kScan;

@@ -25,8 +25,8 @@ using transient::MotionSensitivity;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kUnlimited = kInfinity;
 
-// Passages of a free motion are short, so that what counts as rest shrinks with it, and not in step with its
-// half periods, so that stops do not fall between two passages.
+// Passages of a free motion are short, so that the limit of rest shrinks with the motion. Their length is no
+// fraction of its half period, so that stops do not fall between two passages.
 constexpr double kPassagePeriods = 0.37;
 
 std::vector<periodic::Observed> observed_of(const TimeRecord& record) {
@@ -106,7 +106,7 @@ std::vector<InitialState> initial_of(std::span<const Model> models) {
   return initial;
 }
 
-// Takes over what the motion has become.
+// Takes over the state and samples of the motion.
 std::string hand_over(const MotionSensitivity& motion, bool derivatives_wanted,
                       periodic::ObservedMotion& out) {
   if (motion.failure() != nullptr) return motion.failure();
@@ -158,13 +158,13 @@ struct ForcedMotion final : Simulation::Kind {
     return hand_over(motion, !by.empty(), out);
   }
 
-  // From one multiple of the period to the next, so that the phase is exact however long the motion is.
+  // Passages of one period each, so that the phase stays exact in a long motion.
   static void follow(double omega, double end, MotionSensitivity& motion) {
     const double period = kTurn / omega;
     double next = std::floor(motion.time() / period) + 1.0, phase = omega * motion.time();
     while (motion.time() < end) {
       const double to = std::min(next * period, end);
-      // What rounding leaves of a period is no stretch of its own.
+      // A rounding error of a period is not a passage of its own.
       if (to - motion.time() > 1e-12 * period && !motion.advance(to, phase, kUnlimited)) return;
       if (to == end) return;
       next += 1.0;

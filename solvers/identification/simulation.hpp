@@ -9,7 +9,7 @@
 
 namespace frahm::identification {
 
-// What the model says of a record: the values of each channel at the record's times, and their derivatives.
+// The model's prediction of a record: values of each channel at the record's times, and their derivatives.
 class Simulation {
  public:
   // Throws mechanics::MechanicsError for a network that cannot move, or with the arctan law.

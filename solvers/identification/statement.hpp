@@ -11,10 +11,10 @@ namespace frahm::identification {
 
 std::string number(double value);  // to six digits
 
-// A result that is none.
+// A result that holds only its failure.
 Identification no_result(std::string why);
 
-// "" if all values are finite (and > 0), else the sentence that says which is not. what: "response".
+// "" if all values are finite (and > 0), else a sentence that names the fault. what: "response".
 std::string unless_finite(const std::string& what, std::span<const double> values);
 std::string unless_positive(const std::string& what, std::span<const double> values);
 // "" if all sizes are those of the first, else the sentence.

@@ -43,28 +43,28 @@ double slope_at(const TurningPoint& fit, double s, const Shapes& phi) {
   return a.dot(phi.segment(1, a.size()));
 }
 
-// Where and how the parabola of all samples turns.
+// The turning point of the parabola through all samples.
 TurningPoint parabola(const Quarters& quarters) {
   Eigen::MatrixXd A(quarters.phase.size(), 3);
   A << Eigen::VectorXd::Ones(quarters.phase.size()), quarters.phase, quarters.phase.cwiseAbs2();
   const Eigen::Vector3d p = A.colPivHouseholderQr().solve(quarters.x);
   constexpr double kNear =
-      0.5 * kQuarter;  // the turning sample is no further off, whatever the parabola says
+      0.5 * kQuarter;  // the turning sample is no further off, regardless of the parabola
   TurningPoint fit;
   fit.phase = p[2] != 0.0 ? std::clamp(-0.5 * p[1] / p[2], -kNear, kNear) : 0.0;
   fit.before = fit.after = Eigen::VectorXd::Constant(1, 2.0 * p[2]);
   return fit;
 }
 
-// What the two sides have in common, a_2 ... a_common, and what comes to it behind the turn, b_2 ... b_jump.
+// The terms of both sides, a_2 ... a_common, and those added behind the turn, b_2 ... b_jump.
 struct Degrees {
   Index common, jump;
-  Index unknowns() const { return common + jump; }  // X and the turn's place among them
+  Index unknowns() const { return common + jump; }  // X and the phase of the turn among them
 
   friend bool operator==(const Degrees&, const Degrees&) = default;
 };
 
-// Columns: X, the turn's place, the shapes of both sides, those behind the turn.
+// Columns: X, the phase of the turn, the shapes of both sides, those behind the turn.
 Eigen::MatrixXd columns(const Quarters& quarters, const TurningPoint& fit, Degrees degrees) {
   const Index common = degrees.common - 1, jump = degrees.jump - 1;
   Eigen::VectorXd size(common);
@@ -81,7 +81,7 @@ Eigen::MatrixXd columns(const Quarters& quarters, const TurningPoint& fit, Degre
   return A;
 }
 
-// X, step of the turn's place, a_k, b_k, of scaled columns.
+// X, step of the turn's phase, a_k, b_k, of scaled columns.
 void take_step(const Eigen::VectorXd& p, Degrees degrees, TurningPoint& fit) {
   const Index common = degrees.common - 1, jump = degrees.jump - 1;
   fit.x = p[0];
@@ -94,7 +94,7 @@ void take_step(const Eigen::VectorXd& p, Degrees degrees, TurningPoint& fit) {
   fit.phase += p[1];
 }
 
-// Covariance of X and the turn's place, and Akaike's criterion.
+// Covariance of X and the turn's phase, and Akaike's criterion.
 template <class Decomposition>
 void set_errors(const Decomposition& qr, Index data, TurningPoint& fit) {
   const Index n = qr.cols();
@@ -103,7 +103,7 @@ void set_errors(const Decomposition& qr, Index data, TurningPoint& fit) {
           Eigen::MatrixXd::Identity(n, n));
   const Eigen::MatrixXd rows = (qr.colsPermutation() * inverse).topRows(2);
   fit.cofactor = rows * rows.transpose();
-  // A jump that may choose its place fits noise as three unknowns do, source [28].
+  // A jump whose position is fitted counts for noise as three unknowns do, source [28].
   constexpr Index kChosen = 2;
   fit.criterion = corrected_akaike(fit.rss, data, n + kChosen, fit.rounding);
 }
@@ -147,13 +147,13 @@ TurningPoint turning_point(const Quarters& quarters) {
   constexpr Degrees kOfFew{3, 2}, kLeast{4, 2};
   const Degrees first = n > kLeast.unknowns() + 1 ? kLeast : kOfFew;
   TurningPoint best = fit_of(quarters, start, first);
-  // The degree goes up by two: what an even power misses an odd one does not find. The first that does not
-  // predict better ends it: one of many would fit the noise by chance.
+  // The degree goes up by two: an odd power does not find what an even one misses. The first degree that does
+  // not predict better ends the search: one of many would fit the noise by chance.
   for (Index degree = 4; best.converged && degree <= kHighestDegree; degree += 2) {
     const TurningPoint last = best;
     for (const Index jump : std::set<Index>{2, 4, degree}) {
       const Degrees degrees{degree, jump};
-      // The first fit again would be better or not by its rounding alone.
+      // Repeating the first fit would be better or worse by rounding alone.
       if (degrees == first || n <= degrees.unknowns()) continue;
       const TurningPoint fit = fit_of(quarters, last, degrees);
       if (fit.converged && fit.criterion < best.criterion) best = fit;

@@ -24,13 +24,12 @@ struct TurningPoint {
   Eigen::Index unknowns = 0;
 };
 
-// x = X + a_2 phi_2(s) + a_3 phi_3(s) + ..., s = phase - turn, and behind the turn b_2 phi_2 + ... comes to
-// it: friction makes the acceleration and what follows from it jump there. The shapes are those of a mass on
-// a spring with a damper: phi_2 = 1 - exp(-delta s) (cos s + delta sin s), and on with phi_k' = phi_{k-1}. So
-// a_2 and b_2 are all there is of a mass that rubs on a known damper; a_3 makes up for an error of delta, a_4
-// for one of the frequency. These are always fitted, as what is left out moves the turn by as much as
-// noise that hides it; a_4 only where there are eight samples.
-// Akaike's corrected criterion chooses how many more there are.
+// x = X + a_2 phi_2(s) + a_3 phi_3(s) + ..., s = phase - turn; behind the turn b_2 phi_2 + ... is added:
+// friction makes the acceleration and its derivatives jump there. The shapes are those of a mass on a spring
+// with a damper: phi_2 = 1 - exp(-delta s) (cos s + delta sin s), then phi_k' = phi_{k-1}. So a_2 and b_2
+// suffice for a mass with friction on a known damper; a_3 corrects an error of delta, a_4 one of the
+// frequency. These are always fitted: a term left out moves the turn by as much as noise that hides the term;
+// a_4 only with eight samples or more. Akaike's corrected criterion chooses how many more there are.
 // Not converged: samples too few, fewer than two on a side or six in all, or that do not turn.
 TurningPoint turning_point(const Quarters& quarters);
 

@@ -5,8 +5,8 @@
 namespace frahm::laws {
 
 // Dry friction, lambda in F Sgn(u'), Sgn(0) = [-1, 1]: static limit and kinetic force are equal.
-// While it sticks u' = 0 and lambda is what that needs, |lambda| <= F. At rest lambda of all such contacts
-// together follows from one convex problem (events/transition.hpp).
+// While the contact sticks, u' = 0 and lambda is the force needed for this, |lambda| <= F. The forces of all
+// such contacts at rest follow together from one convex problem (events/transition.hpp).
 inline constexpr Law coulomb{.name = "coulomb", .holds_velocity = true, .merges = true};
 
 }  // namespace frahm::laws

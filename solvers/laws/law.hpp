@@ -1,9 +1,9 @@
 #pragma once
 
-// What a law of contact is to the exact flow. A contact acts along one direction w of the network, on the
-// relative displacement u = w^T q + p^T y [m] and velocity u'. At any time it is in one of three states: it
-// sticks, or it slides forward (u' > 0) or backward. Within a state it is linear, so that the flow is exact;
-// a guard, a polynomial over a step, ends the state.
+// The properties of a contact law that the exact flow uses. A contact acts along one direction w of the
+// network, on the relative displacement u = w^T q + p^T y [m] and velocity u'. At any time it is in one of
+// three states: it sticks, or it slides forward (u' > 0) or backward. Within a state it is linear, so that
+// the flow is exact; a guard, a polynomial over a step, ends the state.
 //
 // A law is one file that fills in this struct; one line of the element table (mechanics/element_table.cpp)
 // gives it to an element. The flow, the events and the sensitivities read the struct and never ask which law

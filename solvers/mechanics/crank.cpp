@@ -43,8 +43,8 @@ double rod_part_derivative(double radius, double rod, double radius_by, double r
   }
 }
 
-// The first even cosine coefficients of an even function of period pi, by the trapezoidal rule: samples over
-// half a turn, enough that what folds back onto the orders kept is as small as what is cut.
+// The first even cosine coefficients of an even function of period pi, by the trapezoidal rule: so many
+// samples over half a turn that aliasing onto the orders included is as small as the orders left out.
 template <class Function>
 std::vector<double> even_cosines(int count, const Function& f) {
   const int samples = 2 * count + 2 * kMostEvenOrders;

@@ -7,10 +7,10 @@
 #include "solvers/mechanics/dual.hpp"
 #include "solvers/mechanics/network.hpp"
 
-// The kinds of element, a row each: all that anything else knows of them. A new kind is a row of the table in
-// element_table.cpp, and an enumerator of ElementType at its end; beside it the README's table of elements
-// and the switches of tests/invariants. An element has at most two values: a third is a new list of
-// NetworkValues, and of all that goes through its lists.
+// The kinds of element, one row each: all other code reads its knowledge of them here. A new kind is a row of
+// the table in element_table.cpp, and an enumerator of ElementType at its end; also the README's table of
+// elements and the switches of tests/invariants. An element has at most two values: a third one needs a new
+// list in NetworkValues, and in all code that goes through its lists.
 namespace frahm::mechanics {
 
 // What a value of an element measures, with its SI unit.
@@ -23,7 +23,7 @@ enum class Dimension {
   inverse_speed,  // s/m
 };
 
-// Where a value must lie; every one must be finite.
+// The range in which a value must lie; every value must be finite.
 enum class Range { finite, not_negative, positive };
 
 struct ValueKey {
@@ -78,7 +78,7 @@ struct ElementKind {
   bool has_internal_force = false;
   bool dissipates = false;
   bool depends_on_frequency = false;  // what it adds depends on omega_h
-  bool holds = false;                 // holds a mass in its place, if its other end is held
+  bool holds = false;                 // holds a mass in position, if its other end is held
   // The second value under the arctan law, which smooths its contact; none: nothing smooths it.
   ValueKey smoothed{};
   bool stroke_is_standard = false;  // its stroke is among what an atlas shows
@@ -93,7 +93,7 @@ const ElementKind& kind_of(ElementType type);
 inline const ElementKind& kind_of(const Element& element) {
   return kind_of(element.type);
 }
-// Whether it has a contact, of whatever law.
+// Whether the element has a contact, of any law.
 inline bool has_contact(const Element& element) {
   return kind_of(element).law != nullptr;
 }
@@ -101,13 +101,13 @@ inline bool has_contact(const Element& element) {
 // The first element whose values depend on the frequency (hysteretic), or null.
 const Element* frequency_dependent_element(const Network& network);
 
-// The first that is not a linear element with constant values, or null.
+// The first element that is not linear with constant values, or null.
 const Element* element_unfit_for_noise(const Network& network);
 
 // The second value that this element has, if any: of its kind, or of the law that smooths it.
 const ValueKey& second_key(const Element& element);
 
-// 0 where it has none.
+// The second value of the element; 0 if it has none.
 double second_value(const NetworkValues& values, std::size_t element);
 
 }  // namespace frahm::mechanics

@@ -23,7 +23,7 @@ struct Incidence {
 };
 Incidence incidence(const Network& network, const Element& element);
 
-// The place of an element with a law in a contact. Elements of a law that merges between the same two nodes
+// The part of an element with a law in a contact. Elements of a law that merges, between the same two nodes,
 // act as one contact, whose limit is the sum of theirs; each carries the share F_j / sum F of its force.
 struct ContactShare {
   std::size_t contact = 0;  // index of the contact
@@ -36,7 +36,7 @@ struct ElementCoefficients {
   double damping = 0.0;           // c [N s/m]; of a hysteretic element eta k / omega_h
   double inertance = 0.0;         // b [kg]
   double friction = 0.0;          // limit of the contact's force [N]
-  Eigen::Index internal = -1;     // place of the internal force s among the system's, -1: none
+  Eigen::Index internal = -1;     // index of the internal force s among the system's, -1: none
   double internal_damping = 0.0;  // of the damper that s runs through [N s/m], 0: none
 };
 
@@ -61,7 +61,7 @@ struct LinearSystem {
   Eigen::MatrixXd W, W_support;                     // directions of the contacts
   Eigen::VectorXd limit;                            // F_j [N] of each contact
   std::vector<const laws::Law*> law;                // of each contact
-  std::vector<Eigen::Index> contact_internal;       // place of each contact's internal force, -1: none
+  std::vector<Eigen::Index> contact_internal;       // index of each contact's internal force, -1: none
   Eigen::MatrixXd D, D_support;                     // directions d_e, p_e of the internal forces
   Eigen::VectorXd internal_stiffness;               // k_e [N/m]
   Eigen::VectorXd internal_rate;                  // k_e / c_e of a Maxwell element, 0 without a damper [1/s]
@@ -112,7 +112,7 @@ class Assembly {
   Network network_;
   std::vector<Incidence> incidences_;
   std::vector<ContactShare> shares_;
-  std::vector<Eigen::Index> internal_;  // of each element: place of its internal force, -1: none
+  std::vector<Eigen::Index> internal_;  // of each element: index of its internal force, -1: none
   std::vector<const laws::Law*> contact_laws_;
   std::vector<Eigen::Index> contact_internal_;
   std::vector<int> orders_;

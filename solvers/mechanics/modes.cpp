@@ -40,7 +40,7 @@ void modes_of(const mechanics::LinearSystem& system, std::vector<double>& freque
 // (R. L. Fox and M. P. Kapoor, AIAA J. 6 (1968) 2426), and the damping ratio is loss / (2 omega).
 void modes_derivative(const mechanics::LinearSystem& system, const mechanics::LinearSystem& by,
                       std::vector<double>& frequency, std::vector<double>& damping) {
-  constexpr double kSame = 1e-9;  // of lambda: below, which mode is which is rounding
+  constexpr double kSame = 1e-9;  // of lambda: if closer, rounding decides which mode is which
   const algebra::SymmetricModes modes = algebra::symmetric_modes(system.K, system.M);
   const Eigen::VectorXd& lambda = modes.values;
   const Eigen::ArrayXd k = system.internal_stiffness.array(), rate = system.internal_rate.array();
@@ -80,8 +80,8 @@ LinearModes linear_modes(const mechanics::Network& network, const mechanics::Net
   mechanics::LinearSystem system;
   assembly.set_values(values, system);
   const Eigen::Index n = system.masses();
-  // What still moves when every contact sticks: displacements B eta with W^T B = 0 of those that are held.
-  // The springs behind the others pull.
+  // Motions while every contact sticks: displacements B eta with W^T B = 0 of the held contacts. The springs
+  // behind the other contacts act.
   Eigen::MatrixXd K = system.K;
   std::vector<Eigen::Index> held;
   for (Eigen::Index j = 0; all_stuck && j < system.contacts(); ++j) {

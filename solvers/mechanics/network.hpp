@@ -52,7 +52,7 @@ struct Excitation {
   ExcitationKind kind = ExcitationKind::force;
   std::size_t node = 0;  // index into Network::masses (force) or Network::prescribed (motion, crank)
   int order = 1;         // of a crank: 1
-  int even_orders = 0;   // of a crank: how many of its orders 2, 4, 6 ... are kept
+  int even_orders = 0;   // of a crank: how many of its orders 2, 4, 6 ... are included
   int taylor_order = 0;  // of a crank: 1, 2 or 4 cuts its Taylor series in crank/rod there; 0: exact
 };
 

@@ -8,8 +8,8 @@ namespace frahm::mechanics {
 // the derivative of that of `system`, laid out alike (its orders are copied; its W, D and laws, which no
 // value changes, are left empty).
 // values: those of which `assembly` made `system`.  direction: their derivative, .omega and .hysteretic_omega
-// included, in the layout of NetworkValues; an empty `second` stands for zeros.
-// The even orders of a crank are differentiated as they are kept, cut where the displacement's are.
+// included, in the layout of NetworkValues; an empty `second` means zeros. The series of a crank's even
+// orders is cut at the same order as that of the displacement.
 void differentiate(const Assembly& assembly, const NetworkValues& values, const NetworkValues& direction,
                    const LinearSystem& system, LinearSystem& derivative);
 

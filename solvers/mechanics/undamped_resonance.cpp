@@ -9,7 +9,7 @@
 namespace frahm::periodic {
 namespace {
 
-// Does the mode shape (phi^T M phi = 1) at this order outgrow what friction takes out?
+// Whether the excitation of this mode shape (phi^T M phi = 1) at this order exceeds what friction can take.
 bool outgrows_friction(const mechanics::LinearSystem& system, const Eigen::VectorXd& shape,
                        Eigen::Index order) {
   const double drive = std::abs(std::complex<double>((shape.transpose() * system.force.col(order))(0)));
@@ -24,8 +24,8 @@ bool outgrows_friction(const mechanics::LinearSystem& system, const Eigen::Vecto
 std::vector<UndampedMode> undamped_modes(const mechanics::LinearSystem& system) {
   std::vector<UndampedMode> result;
   const Eigen::Index n = system.masses();
-  // A Maxwell element takes energy out wherever it is strained, as its damper would. A slider behind a spring
-  // takes out what its friction does.
+  // A strained Maxwell element dissipates, as its damper would. A slider behind a spring dissipates by its
+  // friction.
   const Eigen::VectorXd dampers =
       (system.internal_rate.array() > 0.0)
           .select(system.internal_stiffness.cwiseQuotient(system.internal_rate), 0.0);
@@ -59,7 +59,7 @@ bool is_unbounded(const mechanics::LinearSystem& system, const std::vector<Undam
   for (std::size_t order = 0; order < system.orders.size(); ++order) {
     const auto column = static_cast<Eigen::Index>(order);
     const double frequency = system.orders[order] * system.omega;
-    // Of several undamped modes at this frequency the forcing picks the combinations it drives.
+    // If several modes at this frequency are undamped, the forcing selects the combinations that it drives.
     Eigen::VectorXd in_phase = Eigen::VectorXd::Zero(system.masses()), in_quadrature = in_phase;
     for (const UndampedMode& mode : modes) {
       if (std::abs(frequency - mode.frequency) > 1e-12 * mode.frequency) continue;

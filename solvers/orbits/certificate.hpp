@@ -9,12 +9,12 @@
 #include "solvers/orbits/rest_directions.hpp"
 #include "solvers/orbits/spectral_radius.hpp"
 
-// What is certain of an orbit that was found: Floquet multipliers, contraction in the energy norm, and from
-// them a bound of its error.
+// The certificate of an orbit: Floquet multipliers, contraction in the energy norm, and the error bound that
+// follows from them.
 namespace frahm::periodic {
 
-// The part of a tangent matrix that can contract: the rest positions of permanently stuck contacts, which
-// keep any value for ever (multiplier +1), are projected out orthogonally in the energy norm.
+// The part of a tangent matrix that can contract. The rest positions of contacts that stick throughout never
+// change (multiplier +1); they are projected out orthogonally in the energy norm.
 template <int N, int H>
 typename Sizes<N, H>::StateSquare moving_part(Flow<N, H>& flow,
                                               const typename Sizes<N, H>::StateSquare& tangent,
@@ -49,9 +49,9 @@ double energy_operator_norm(const StepEquations<N, H>& eq, const typename Sizes<
   return std::sqrt(spectral_radius(gram, kSquarings));
 }
 
-// The energy norm of the static responses to the contacts' forces, sqrt(w^T K^-1 w / 2) F: each force rounds,
-// and moves the state by so much of itself. Of a contact that slides it is its limit; of one that sticks
-// throughout no more than what holds it, which the state's own scale has.
+// The energy norm of the static responses to the contacts' forces, sqrt(w^T K^-1 w / 2) F: rounding of a
+// force moves the state by that part of it. The force of a sliding contact is its limit. The force of a
+// contact that sticks throughout is covered by the state's own scale.
 template <int N, int H>
 double static_forces(const Flow<N, H>& flow, const Orbit<N, H>& orbit) {
   const StepEquations<N, H>& eq = flow.equations();

@@ -32,7 +32,7 @@ Complex exponential_difference(Complex a, Complex b, double tau) {
 }
 
 int samples_over(double length, double rate) {
-  constexpr double kPerRadian = 24.0;  // a local extremum cannot hide between samples this close
+  constexpr double kPerRadian = 24.0;  // a local extremum cannot lie unseen between samples this close
   return 64 + static_cast<int>(kPerRadian * length * rate);
 }
 
@@ -54,8 +54,8 @@ double maximum_between(const std::function<double(double)>& function, double a, 
   return std::max(at_c, at_d);
 }
 
-// The same between an end and the sample next to it: a maximum there, which no sample shows, is looked for
-// ever nearer to the end. What is narrower than the last step is below rounding.
+// The same between an end and the sample next to it. A maximum there lies between samples, so the search
+// moves ever nearer to the end. What is narrower than the last step is below rounding.
 double maximum_beside(const std::function<double(double)>& function, double end, double step) {
   constexpr int kHalvings = 8;
   const double at_end = function(end);
@@ -192,7 +192,7 @@ Slide slide_of_length(double r, double zeta, double Ts) {
   return {psi, -0.5 * (std::cos(psi) * (1.0 + e11) + (std::polar(1.0, psi) * y).real())};
 }
 
-// Does the mass keep moving one way during the slide, and does friction hold it during the rest that follows?
+// Whether the mass keeps moving one way during the slide, and friction holds it during the rest that follows.
 bool is_one_stop(double r, double zeta, double f, double X, double Ts, double psi) {
   constexpr double kRounding = 1e-11;
   const double stop_phase = psi + r * Ts, release_phase = psi + pi;

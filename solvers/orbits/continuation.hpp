@@ -8,8 +8,8 @@
 #include "solvers/mechanics/steady_response.hpp"
 #include "solvers/orbits/shooting.hpp"
 
-// Orbits one after the other along the frequency: each starts from an extrapolation of those before it, and
-// the section is kept away from events.
+// Continuation of orbits along the frequency: each search starts from an extrapolation of the orbits before
+// it. The section stays away from events.
 namespace frahm::periodic {
 
 template <int N, int H>
@@ -19,19 +19,19 @@ class Continuation {
 
   explicit Continuation(Flow<N, H>& flow) : flow_(flow), shooting_(flow) {}
 
-  // Nothing is known: the next orbit starts from the linear response without friction.
+  // Discards all known orbits: the next search starts from the linear response without friction.
   void forget() {
     begin_row();
     has_row_start_ = false;
     section_ = 0.0;
   }
-  // A new row of frequencies: the next orbit starts from that which started the row before.
+  // Starts a new row of frequencies: the next search starts from the orbit that began the row before.
   void begin_row() {
     known_ = 0;
     at_row_start_ = true;
   }
 
-  // The orbit of the flow, which is set to this system.
+  // Finds the orbit of the flow, which is set to this system.
   void find(const mechanics::LinearSystem& system, Orbit<N, H>& orbit);
   // The same from the response without friction, at this section.
   void find_from(double section, const mechanics::LinearSystem& system, Orbit<N, H>& orbit) {
@@ -68,7 +68,7 @@ template <int N, int H>
 void Continuation<N, H>::find(const mechanics::LinearSystem& system, Orbit<N, H>& orbit) {
   predict(system, orbit);
   shooting_.find(orbit);
-  if (orbit.status == Status::failed && known_ > 0) {  // from further back, without the orbits before
+  if (orbit.status == Status::failed && known_ > 0) {  // once more, without the known orbits
     forget();
     predict(system, orbit);
     shooting_.find(orbit);
@@ -98,7 +98,7 @@ void Continuation<N, H>::predict(const mechanics::LinearSystem& system, Orbit<N,
     known_ = 1;
   }
   orbit.section = section_;
-  // Without friction the linear response is the orbit, and of several (no damping either) the one meant.
+  // Without friction the linear response is the orbit (the one wanted, if no damping allows several).
   const bool has_friction = (flow_.equations().limit.array() > 0.0).any();
   if (known_ == 0 || !has_friction) {
     orbit.z = response_without_friction(system, orbit.section);
@@ -120,8 +120,8 @@ void Continuation<N, H>::predict(const mechanics::LinearSystem& system, Orbit<N,
   orbit.z.segment(n, n) *= flow_.equations().step;
 }
 
-// The steady state without friction, at rest where that is not finite. It is only a start where there is friction,
-// and then not one far beyond any that is meant.
+// The steady state without friction; the state at rest if it is not finite. With friction the steady state
+// only starts the search, so a very large one is replaced by the state at rest too.
 template <int N, int H>
 typename Sizes<N, H>::State Continuation<N, H>::response_without_friction(
     const mechanics::LinearSystem& system, double phase) const {
@@ -159,7 +159,7 @@ bool Continuation<N, H>::move_section(Orbit<N, H>& orbit) const {
     middle = segments[i].start + 0.5 * longest;
     in = &segments[i];
   }
-  if (longest < 0.05 * length) return false;  // events everywhere: no better place
+  if (longest < 0.05 * length) return false;  // events everywhere: no better section
   const double place = middle >= 0.0 ? middle : middle + length;
   orbit.z = flow_.state_within(*in, orbit.section, place - in->start);
   orbit.section = std::fmod(orbit.section + place * flow_.fundamental_rate(), 2.0 * std::numbers::pi);
@@ -169,7 +169,7 @@ bool Continuation<N, H>::move_section(Orbit<N, H>& orbit) const {
 template <int N, int H>
 void Continuation<N, H>::remember(double omega, const Orbit<N, H>& orbit) {
   const Eigen::Index n = flow_.equations().masses();
-  // A frequency that returns ends what is known: no polynomial goes through one place twice.
+  // A repeated frequency discards the older orbits: a polynomial goes through each frequency only once.
   for (std::size_t i = 0; i < known_; ++i) {
     if (history_[i].omega == omega) known_ = i;
   }
@@ -180,7 +180,7 @@ void Continuation<N, H>::remember(double omega, const Orbit<N, H>& orbit) {
   latest.z = orbit.z;
   latest.z.segment(n, n) /= flow_.equations().step;
   latest.sequence = mode_sequence(flow_, orbit);
-  if (at_row_start_) {  // it replaces the guess it began with, which was of another row
+  if (at_row_start_) {  // replaces the start of this row, an orbit of another row
     known_ = 1;
     row_start_ = latest;
     row_section_ = section_;

@@ -7,7 +7,7 @@
 
 namespace frahm::periodic {
 
-// How the search for a periodic response ended. The numbers stand in result files.
+// How the search for a periodic response ended. Result files store the numbers.
 enum class Status {
   not_computed = 0,
   ok = 1,

@@ -12,10 +12,10 @@ inline double whole_turns_removed(double phase) {
   return angle > kTurn - 1e-9 ? 0.0 : angle;
 }
 
-// Where a phase lies on an orbit that is known from its section over a period, or over the half of it after
-// which it repeats with the opposite sign.
+// The position of a phase on an orbit that is known from its section over one period, or over half a period
+// after which it repeats with the opposite sign.
 struct PlaceOnOrbit {
-  double from_section;  // [rad], from 0 to what is known
+  double from_section;  // [rad], from 0 to the end of the known part
   double sign;          // of the motion there
 };
 inline PlaceOnOrbit place_on_orbit(double phase, double section, bool half_period) {

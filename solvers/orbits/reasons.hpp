@@ -2,7 +2,7 @@
 
 #include <string>
 
-// Why there is no periodic orbit: sentences of plain text, which rows of a map and points quote.
+// Why there is no periodic orbit: plain sentences for rows of a map and for points.
 namespace frahm::periodic {
 
 inline constexpr const char* kTooManySteps =
@@ -12,9 +12,9 @@ inline constexpr const char* kUnresolved =
 inline constexpr const char* kUnbounded =
     "an undamped mode is driven at its resonance, and no friction holds it";
 
-// The search went on for so many passages and came to this residual.
+// The search ended after this many passages with this residual.
 std::string no_convergence(int passages, double residual);
-// The energy put in and dissipated in a period differ by this part.
+// The energies put in and dissipated in a period differ by this fraction.
 std::string unbalanced(double balance);
 
 }  // namespace frahm::periodic

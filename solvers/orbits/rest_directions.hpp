@@ -6,13 +6,12 @@
 
 namespace frahm::periodic {
 
-// Contacts that stick throughout may rest anywhere in an interval: a shift of their mean forces by delta
-// moves the whole orbit by E delta and leaves every velocity as it is, so that all of these orbits are
-// periodic, with multiplier +1. What the flow keeps for ever is L^T z. Column j, of a contact with direction
-// w:
+// Contacts that stick throughout may rest anywhere in an interval: a shift delta of their mean forces moves
+// the whole orbit by E delta and leaves every velocity unchanged. All of these orbits are periodic, with
+// multiplier +1. The flow does not change L^T z. Column j, for a contact with direction w:
 //   held by friction           E = (-K^-1 w, 0, 0)     L = (-w, 0, 0)        L^T z = -w^T q
 //   with an internal force s   E = (-K^-1 w, 0, e_s)   L = (-w, 0, e_s / k)  L^T z = s/k - w^T q
-// L^T x is 2 (E, x) of the energy norm, so that 1 - E (L^T E)^+ L^T takes them out orthogonally in it.
+// L^T x = 2 (E, x) in the energy norm, so 1 - E (L^T E)^+ L^T removes these directions orthogonally.
 struct RestDirections {
   Eigen::MatrixXd E, L;  // states x contacts
 };
@@ -38,8 +37,8 @@ RestDirections rest_directions(const StepEquations<N, H>& eq, ContactMask contac
   return rest;
 }
 
-// E (L^T E)^+ (states x contacts), the shift for a change of what is kept, L^T z; with L^T behind it the
-// projector onto the shifts (states x states).
+// E (L^T E)^+ (states x contacts): the shift of the state per change of the constants L^T z. Times L^T from
+// the right it is the projector onto the shifts (states x states).
 Eigen::MatrixXd shift_per_kept(const RestDirections& rest);
 Eigen::MatrixXd shift_projector(const RestDirections& rest);
 

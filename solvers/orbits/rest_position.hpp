@@ -18,7 +18,7 @@ struct StuckForce {
 // The shift of the mean forces of contacts that stick throughout [N].
 struct RestShift {
   enum class Verdict {
-    inside,    // every force keeps off its limit
+    inside,    // every force stays below its limit
     at_limit,  // some force reaches its limit
     none,      // no shift keeps the forces within their limits
   };
@@ -42,7 +42,7 @@ void shift_orbit(const Eigen::VectorXd& by, Orbit<N, H>& orbit) {
 }
 
 // Under symmetric forcing the rest positions have zero mean, so contacts to a fixed support that never slide
-// rest at zero: takes the rounding out of them, orthogonally in the energy norm.
+// rest at zero: removes the rounding of these positions, orthogonally in the energy norm.
 template <int N, int H>
 void centre_rest_position(const Flow<N, H>& flow, Orbit<N, H>& orbit) {
   const StepEquations<N, H>& eq = flow.equations();

@@ -6,21 +6,21 @@
 #include "solvers/orbits/orbit.hpp"
 
 // The periodic orbit as a fixed point of the period map g, by Newton's method on g(z) - z = 0 with the exact
-// derivative of g. Where a Newton step does not pay, the map itself is applied: under monotone laws it
-// expands no distance in the energy norm, so the search converges whenever the map contracts.
+// derivative of g. If a Newton step reduces the residual too little, the map itself is applied: under
+// monotone laws it expands no distance in the energy norm, so the search converges if the map contracts.
 namespace frahm::periodic {
 
 struct ShootingOptions {
   double tolerance = 1e-13;    // of the relative residual: a few units of rounding of one passage
   double good_enough = 1e-12;  // accepted when rounding keeps the residual from falling further
-  double pays = 0.9;           // a Newton step that leaves more of the residual is refused
+  double pays = 0.9;           // a Newton step that leaves more than this part of the residual is refused
   int most_passages = 20000;   // enough for the map alone at damping ratios of 1e-3
   double most_steps = 2e7;     // of all passages together: about a second of work
   double most_steps_a_period = 2e5;
   double most_magnification = 1e13;  // of the static response: beyond, rounding of the orbit hides the forces
 };
 
-// A state at the section with what the map makes of it.
+// A state at the section, the passage that starts from it, and the residual of the map.
 template <int N, int H>
 struct Trial {
   typename Sizes<N, H>::State z;
@@ -39,8 +39,8 @@ class Shooting {
   explicit Shooting(Flow<N, H>& flow, const ShootingOptions& options = {})
       : flow_(flow), walk_(flow), options_(options) {}
 
-  // From the state in orbit.z at orbit.section; orbit.half_period says which map. Fills the rest of `orbit`.
-  // held: contacts that stick whatever their force.
+  // Starts from the state orbit.z at orbit.section; orbit.half_period selects the map. Fills the rest of
+  // `orbit`. held: contacts that stick regardless of their force.
   void find(Orbit<N, H>& orbit, ContactMask held = 0);
 
  private:
@@ -59,7 +59,7 @@ class Shooting {
   Walk<N, H> walk_;
   ShootingOptions options_;
 
-  // Of the search in hand.
+  // The current search.
   double section_ = 0.0, sign_ = 1.0, length_ = 0.0;
   ContactMask held_ = 0;
   int newton_iterations_ = 0, passages_ = 0;

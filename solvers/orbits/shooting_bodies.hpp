@@ -46,7 +46,7 @@ void Shooting<N, H>::apply_map(Trial<N, H>& trial) {
   ++passages_;
   trial.stuck_throughout = stuck_throughout(flow_, trial.passage);
   trial.residual = sign_ * trial.passage.end - trial.z;
-  // What a contact that sticks throughout keeps, L^T z, drifts by rounding alone.
+  // L^T z of a contact that sticks throughout is constant: it drifts by rounding alone.
   if (sign_ > 0.0 && trial.stuck_throughout != 0)
     trial.residual -= shift_projector(rest_directions(eq, trial.stuck_throughout)) * trial.residual;
   trial.norm = eq.energy_norm(trial.residual);
@@ -58,14 +58,14 @@ template <int N, int H>
 typename Shooting<N, H>::Verdict Shooting<N, H>::judge() {
   if (current_.passage.failure != nullptr) return Verdict::gave_up;
   if (!(current_.relative > options_.tolerance)) return Verdict::converged;
-  // A step of many states takes as many times longer.
+  // The time of a step is proportional to the number of states.
   const double size = std::max(1.0, static_cast<double>(flow_.equations().states()) / 4.0);
   const bool too_long = passages_ * flow_.equations().period * size > options_.most_steps;
   return passages_ > options_.most_passages || too_long ? Verdict::gave_up : Verdict::go_on;
 }
 
 // The candidate is one Newton step on:  (1 - dg/dz) step = g(z) - z. A contact that sticks throughout keeps
-// its rest position (multiplier +1): L^T step = 0 in its place.
+// its rest position (multiplier +1); its equation is replaced by L^T step = 0.
 template <int N, int H>
 bool Shooting<N, H>::propose_newton_step() {
   const StepEquations<N, H>& eq = flow_.equations();
@@ -82,7 +82,7 @@ bool Shooting<N, H>::propose_newton_step() {
   return candidate_.z.allFinite() && is_resolved(candidate_.z);
 }
 
-// Whether the candidate pays; it is then the current trial.
+// Whether the candidate reduces the residual enough; if so, it becomes the current trial.
 template <int N, int H>
 bool Shooting<N, H>::try_candidate() {
   ++newton_iterations_;
@@ -101,8 +101,8 @@ void Shooting<N, H>::march(int maps) {
   }
 }
 
-// Newton's step may leave a contact with a velocity just above rest, for a slip of no length at the start.
-// The end of the passage is the same orbit and has none.
+// Newton's step may leave a contact just above rest, with a slip of zero length at the start. The end of the
+// passage is on the same orbit and has no such slip.
 template <int N, int H>
 void Shooting<N, H>::start_at_rest() {
   constexpr double kNoLength = 1e-9;  // of the passage

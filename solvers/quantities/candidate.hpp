@@ -11,8 +11,8 @@ struct Candidate {
   double value = 0.0;
   double slope = 0.0;  // a step; of a stationary value 0
   std::size_t step = 0;
-  double s = 0.0;              // steps since that step's start
-  std::ptrdiff_t change = -1;  // of mode, whose limit it is; -1: none
+  double s = 0.0;              // steps since the start of that step
+  std::ptrdiff_t change = -1;  // the change of mode whose limit it is; -1: none
   bool stationary = true;      // within a segment
   bool reached = true;         // arrived at here, not held from before
   bool can_be_most = true;     // a local maximum of the trace; so is every stationary value that counts

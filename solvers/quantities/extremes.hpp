@@ -67,7 +67,7 @@ void TracedOrbit<N, H>::look(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow, co
   }
 }
 
-// The extremes of what `form_of(mode)` is the form of, over an orbit that begins at omega t = section [rad].
+// The extremes of the quantity with the form `form_of(mode)`, over an orbit from omega t = section [rad].
 template <int N, int H>
 Extremes find_extremes(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow, double section,
                        const std::type_identity_t<typename TracedOrbit<N, H>::FormOf>& form_of) {

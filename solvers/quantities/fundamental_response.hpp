@@ -5,14 +5,14 @@
 
 #include "solvers/mechanics/linear_system.hpp"
 
-// What the harmonics of the reference order are measured by.
+// Reference values for the harmonics of the reference order.
 namespace frahm::periodic {
 
-// Where the reference order stands among LinearSystem::orders.
+// Index of the reference order in LinearSystem::orders.
 Eigen::Index reference_place(const mechanics::LinearSystem& system);
 
 // |K^-1 (f - K_support Y)|: the displacements [m] of the masses under the reference order's amplitudes of
-// force and motion, applied without haste.
+// force and motion, applied quasi-statically.
 Eigen::VectorXd static_displacement(const mechanics::LinearSystem& system);
 
 // Amplitude [m] at the reference order of the one support that moves at it; 0 where none or several do.
@@ -34,7 +34,7 @@ double force_transmissibility_derivative(const mechanics::LinearSystem& system,
 // The derivative of |z| where z changes by z_by; NaN at zero.
 double modulus_derivative(std::complex<double> z, std::complex<double> z_by);
 
-// a / b, NaN where there is no b.
+// a / b, NaN unless b > 0.
 double ratio(double a, double b);
 
 }  // namespace frahm::periodic

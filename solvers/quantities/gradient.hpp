@@ -33,8 +33,8 @@ class Gradient {
         sensitivity_(flow),
         measurement_(assembly, flow) {}
 
-  // values: of which the system was made.  directions, out: as in PeriodicResponse::gradient. Returns "" or
-  // why there is none, and then leaves `out` to NaN.
+  // values: those of which the system was made.  directions, out: as in PeriodicResponse::gradient. Returns
+  // "", or why there is no gradient; `out` is then NaN.
   const char* evaluate(const Orbit<N, H>& orbit, const mechanics::LinearSystem& system,
                        const mechanics::NetworkValues& values,
                        std::span<const mechanics::NetworkValues> directions, std::span<double> out);
@@ -58,7 +58,7 @@ class Gradient {
   Request request_;
   std::vector<const char*> why_none_;  // of each quantity
 
-  // Of the orbit in hand.
+  // The current orbit.
   OrbitSteps<N, H> steps_;
   OrbitSensitivity<N, H> sensitivity_;
   OrbitMeasurement<N, H> measurement_;
@@ -66,11 +66,11 @@ class Gradient {
   Measured measured_;                                 // extremes: over the passage
   std::vector<std::vector<Instant<N, H>>> instants_;  // of each trace's candidates
 
-  // Of the direction in hand.
+  // The current direction.
   mechanics::LinearSystem system_by_;
   StepDerivative<N, H> by_;
   MeasuredDerivative measured_by_;
-  InstantMotion motion_;  // at the candidate in hand
+  InstantMotion motion_;  // at the current candidate
 };
 
 template <int N, int H>
@@ -178,9 +178,9 @@ void Gradient<N, H>::integrate() {
   measured_by_.motion_velocity -= by_.log_step * measured_.motion_velocity;
 }
 
-// Distance slid: the sum of sigma (u(end) - u(start)) over the steps in which the contact slides. At the end
-// of a slide its velocity is zero, so that it may shift; at its start it is of a contact that was held, and
-// of an internal force v, so that a later start takes sigma v dt away. Time stuck: by the shifts of its ends.
+// Distance slid: the sum of sigma (u(end) - u(start)) over the steps in which the contact slides. A shift of
+// a slide's end adds nothing: the velocity there is zero. At its start the velocity is zero if it was held,
+// but v for an internal force: a later start takes sigma v dt away. Time stuck: by the shifts of its ends.
 template <int N, int H>
 void Gradient<N, H>::follow_contacts(const Orbit<N, H>& orbit) {
   const Eigen::Index n = flow_.equations().masses();

@@ -40,7 +40,7 @@ class Forces {
     double force = product(law.stiffness, law_by.stiffness, displacement(at, motion_)) +
                    product(law.damping, law_by.damping, velocity(at, motion_)) +
                    product(law.inertance, law_by.inertance, acceleration(at, motion_));
-    // The friction of one with an internal force is that force's limit.
+    // The friction of an element with an internal force is the limit of that force.
     if (law.internal >= 0) return force + motion_.internal_by[law.internal];
     if (law.friction != 0.0 || law_by.friction != 0.0) force += friction(e);
     return force;

@@ -58,7 +58,7 @@ class Integrals {
   static Eigen::Index padded(Eigen::Index size) { return S::is_fixed ? kPaddedSize : size; }
 
   Gram gram_;
-  std::vector<Power> powers_;  // of the mode in hand
+  std::vector<Power> powers_;  // of the current mode
   std::vector<std::pair<Joined, Joined>> joined_powers_;
   double input_ = 0.0, input_size_ = 0.0;
 };

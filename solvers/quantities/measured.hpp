@@ -10,11 +10,11 @@
 #include "solvers/quantities/extreme_values.hpp"
 #include "solvers/quantities/trace.hpp"
 
-// What was measured of a periodic response, of whatever sizes, law and units of time its solver works in.
-// From it all quantities follow (quantity_values.hpp, quantity_derivatives.hpp).
+// The measurements of a periodic response, regardless of its solver's sizes, law and units of time. All
+// quantities follow from them (quantity_values.hpp, quantity_derivatives.hpp).
 namespace frahm::periodic {
 
-// A quantity asked for, and the place of its trace among those measured.
+// A requested quantity, and the index of its trace among those measured.
 struct Asked {
   Quantity quantity;
   std::size_t trace = 0;
@@ -60,11 +60,11 @@ struct Measured {
   const Trace& trace(const Asked& asked) const { return (*traces)[asked.trace]; }
 };
 
-// Velocities counted in displacements a step of so many seconds, to those a second.
+// Converts velocities from displacement per step, of `step` seconds, to displacement per second.
 void in_seconds(Eigen::Index masses, double step, Eigen::MatrixXd& gram);
 
-// Of a candidate's value [its unit], of its instant as an angle omega t [rad], and how far the state there
-// changes, relative; each a unit of the parameter.
+// Derivatives a unit of the parameter: of a candidate's value [its unit] and of its instant as an angle omega
+// t [rad]; and the relative change of the state there.
 struct CandidateDerivative {
   double value = 0.0, angle = 0.0, state = 0.0;
 };

@@ -9,7 +9,7 @@
 #include "solvers/quantities/quantity_values.hpp"
 #include "solvers/quantities/request.hpp"
 
-// From an exact orbit to the quantities asked for, and to no others.
+// Computes the requested quantities of an exact orbit, and no others.
 namespace frahm::periodic {
 
 template <int N, int H>
@@ -32,7 +32,7 @@ class Observables {
     if (request_.needs.modes) modes_of(system, measured_.natural_frequency, measured_.modal_damping);
   }
 
-  // |work in - energy dissipated| in a period, relative. What is measured for it serves evaluate() too.
+  // |work in - energy dissipated| in a period, relative. evaluate() uses the same measurements.
   double energy_balance(const Orbit<N, H>& orbit, const mechanics::LinearSystem& system) {
     Needs needs = request_.needs;
     needs |= {.integrals = true, .energies = true, .input = true};
@@ -41,7 +41,7 @@ class Observables {
     return value::energy_balance(measured_, {});
   }
 
-  // Another orbit is to be measured.
+  // The next call measures another orbit.
   void forget() { is_measured_ = false; }
 
   // out[i] is quantity i.

@@ -8,7 +8,7 @@
 
 namespace frahm::periodic {
 
-// Measures of an exact orbit what quantities and derivatives both need, in SI units.
+// Measures what both quantities and derivatives of an exact orbit need, in SI units.
 template <int N, int H>
 class OrbitMeasurement {
  public:
@@ -131,7 +131,7 @@ double OrbitMeasurement<N, H>::relative_displacement(Eigen::Index contact, const
                                                      const mechanics::LinearSystem& system) const {
   const StepEquations<N, H>& eq = flow_.equations();
   double u = system.W.col(contact).dot(z.head(eq.masses()));
-  if (eq.support_velocity.row(contact).isZero(0.0)) return u;  // no support of its that moves
+  if (eq.support_velocity.row(contact).isZero(0.0)) return u;  // none of its supports moves
   typename S::Oscillators oscillators(eq.oscillators());
   eq.oscillators_at(phase, flow_.orders(), oscillators);
   for (Eigen::Index s = 0; s < eq.motion.rows(); ++s)

@@ -63,7 +63,7 @@ class OrbitObservation {
     for (OrbitStep<N, H>& step : steps_.steps()) steps_.expand(step);
   }
 
-  // Where each time lies on the orbit, step by step.
+  // Locates each time on the orbit, step by step.
   void place(const Orbit<N, H>& orbit, double omega, std::span<const double> times) {
     const double rate = flow_.fundamental_rate();
     const auto steps = steps_.steps();
@@ -96,7 +96,7 @@ class OrbitObservation {
     }
   }
 
-  // Derivatives along the direction in hand.
+  // Derivatives along the current direction.
   void fill(Eigen::MatrixXd& rows) {
     for_each_sample([&](std::size_t step) { samples_.set_direction(flow_, sensitivity_.passage(), step); },
                     [&](const Sample& sample, const Polynomial& power) {

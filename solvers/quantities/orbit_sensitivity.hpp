@@ -8,11 +8,11 @@
 
 // The derivative of a periodic orbit: delta (passage_sensitivity.hpp) repeats with the orbit,
 //   (1 - s Phi) delta(0) = s g_p,
-// g_p what delta has become at the passage's end from nothing at the section, Phi the passage's tangent,
-// s = -1 where it is of half a period.
+// with g_p = delta at the passage's end if it starts from zero at the section, Phi the passage's tangent, and
+// s = -1 for a passage of half a period.
 namespace frahm::periodic {
 
-// "" where its search has ended well enough.
+// "" if the orbit's search succeeded; else why there is no derivative.
 template <int N, int H>
 const char* why_no_orbit_derivative(const Orbit<N, H>& orbit) {
   switch (orbit.status) {
@@ -34,7 +34,7 @@ class OrbitSensitivity {
 
   explicit OrbitSensitivity(const Flow<N, H>& flow) : flow_(flow), passage_(flow) {}
 
-  // Makes ready for derivatives of this orbit, laid out in `steps`; both must outlive them.
+  // Prepares derivatives of this orbit, laid out in `steps`; both must outlive them.
   // Returns "" or why the orbit has none.
   const char* prepare(const Orbit<N, H>& orbit, OrbitSteps<N, H>& steps);
 
@@ -72,7 +72,7 @@ const char* OrbitSensitivity<N, H>::prepare(const Orbit<N, H>& orbit, OrbitSteps
   typename S::StateSquare A = -orbit.sign() * orbit.passage.tangent;
   A.diagonal().array() += 1.0;
   if (has_rest_positions()) {
-    // A rest position may be anywhere: L^T dz(0), which is known, stands in its place.
+    // A rest position may be anywhere: the known L^T dz(0) replaces its equation.
     rest_ = rest_directions(eq, orbit.stuck_throughout);
     shift_per_keep_ = shift_per_kept(rest_);
     A += shift_per_keep_ * rest_.L.transpose();

@@ -45,8 +45,8 @@ class PassageSensitivity {
   // system or forcing has changed.
   void set_direction(const StepDerivative<N, H>& by);
 
-  // delta over a passage from `start`, that of the state at its beginning; returns that at its end. The
-  // steps, laid out and expanded, and the changes found in them must outlive what is asked below.
+  // delta over a passage that begins with delta = `start`; returns delta at its end. The steps, laid out and
+  // expanded, and the changes found in them must outlive what is asked below.
   typename S::State sweep(Steps steps, std::span<const Event> changes, const typename S::State& start);
 
   // delta over the arrival of contact j, whose velocity has the slope `slope` there, between the instants
@@ -58,7 +58,7 @@ class PassageSensitivity {
   const typename S::StatePolynomials& polynomials(std::size_t step) const { return polynomials_[step]; }
   // At fraction `s` of a step, where the state is `at`.
   InstantDerivative<N, H> at(std::size_t step, double s, const Instant<N, H>& at) const;
-  // Of lambda_j [N] of a contact that sticks in the mode, at instant x whose state changes by `delta`.
+  // Derivative of lambda_j [N] of a contact stuck in the mode, at instant x whose state changes by `delta`.
   double stuck_force(std::size_t mode, const Instant<N, H>& x, const typename S::State& delta,
                      Eigen::Index contact) const;
   const StepDerivative<N, H>& equations() const { return *by_; }
@@ -184,8 +184,7 @@ void PassageSensitivity<N, H>::keep_at_limit(ContactMask contacts, const Mode<N,
   }
 }
 
-// What reaches its end at the change, g(z, p) = 0, does so later by dt = -dg / g'. Then with the fields
-// before and after
+// The guard g(z, p) = 0 of a change is reached later by dt = -dg / g'. Then with the fields before and after
 //   dz+ = dz- + (f- - f+) dt:
 // an arrival changes the acceleration, a release an internal force's rate, nothing else jumps.
 template <int N, int H>

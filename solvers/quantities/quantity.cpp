@@ -68,7 +68,7 @@ std::string name_of(const QuantityRow& row, std::size_t index, const Network& ne
   return joined(owner_name(row.owner, index, network), row.suffix);
 }
 
-// The places of those of whom the standard record has something.
+// The indices of the owners that have a quantity in the standard record.
 std::vector<std::size_t> owners(StandardOf of, const Network& network) {
   std::vector<std::size_t> result;
   const std::size_t count = of == StandardOf::point    ? 1
@@ -82,7 +82,7 @@ std::vector<std::size_t> owners(StandardOf of, const Network& network) {
   return result;
 }
 
-// The row of a quantity by the end of its name; of several, the longest, as in main_velocity_peak.
+// The row of a quantity by the end of its name; of several matches the longest, as in main_velocity_peak.
 const QuantityRow* row_named(const std::string& name) {
   const QuantityRow* best = nullptr;
   for (const QuantityRow& row : quantity_table()) {

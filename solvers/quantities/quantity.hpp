@@ -85,7 +85,7 @@ struct QuantityDescription {
   std::vector<std::pair<std::string, int>> flags;  // of a flag: meaning and value
 };
 
-// All that follows is read from one table (quantity_table.hpp).
+// Everything below is read from one table (quantity_table.hpp).
 
 QuantityDescription describe(const Quantity& quantity, const mechanics::Network& network, bool dimensionless);
 
@@ -107,10 +107,10 @@ bool is_shown(const std::string& name);
 
 std::optional<Quantity> find_quantity(const std::string& name, const mechanics::Network& network);
 
-// What stands in the place of a quantity that is not computed: NaN of a real, -1 of a count, 0 of a flag.
+// The value of a quantity that is not computed: NaN for a real, -1 for a count, 0 for a flag.
 double missing_value(QuantityKind kind);
 bool is_missing(QuantityKind kind, double value);
-// The same of a response that ended in this status, which is the one quantity that it has.
+// The same for a response that ended in this status, the one quantity that has a value then.
 double missing_value(Measure measure, Status status);
 
 // Why PeriodicResponse::gradient() does not differentiate a quantity: it is a count, a flag or a figure of
@@ -123,7 +123,7 @@ inline bool is_differentiable(Measure measure) {
 bool is_angle(Measure measure);  // [rad], the same after a turn
 // Whether the quantity is the larger of two sides, and so has a kink where they are equal (Side).
 bool has_sides(Measure measure);
-// Whether the quantity is of one period, so that over several it is so many times as large.
+// Whether the quantity is counted per period: over n periods it is n times as large.
 bool is_of_a_period(Measure measure);
 
 }  // namespace frahm::periodic

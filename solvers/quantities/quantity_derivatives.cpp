@@ -68,7 +68,7 @@ Component component(const Measured& m, D d, const mechanics::Incidence& at) {
   return X;
 }
 
-// Below this part of what moves at its nodes, a component is rounding.
+// A component below this part of the motion at its nodes is rounding.
 bool is_rounding(const Measured& m, const Asked& asked, std::complex<double> X) {
   constexpr double kRounding = 1e-12;
   const Eigen::VectorXd& w = m.trace(asked).at.w;

@@ -340,7 +340,7 @@ constexpr QuantityRow kTable[] = {
      .derivative = derivative_of::modal_damping},
 };
 
-// A row of each measure stands at the measure's own place, and has a derivative or says why not.
+// The row of each measure is at the measure's own index, and has a derivative or a reason for none.
 consteval bool is_complete() {
   int place = 0;
   for (const QuantityRow& row : kTable) {

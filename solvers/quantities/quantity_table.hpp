@@ -8,17 +8,17 @@
 // their derivatives follow from that.
 namespace frahm::periodic {
 
-// Whose a quantity is; `support` is the ground or a prescribed node.
+// The owner of a quantity; `support` is the ground or a prescribed node.
 enum class Owner { mass, element, contact, point, mode, support };
 
-// What stands in the standard record of an atlas, and of which of its owners.
+// Whether the standard record of an atlas has the quantity, and for which of its owners.
 enum class StandardOf { none, masses, springs, contacts, point };
 struct Standard {
   StandardOf of = StandardOf::none;
-  int place = 0;  // among those of one owner, from 1
+  int place = 0;  // position among those of one owner, from 1
 };
 
-// Whose quantity a page shows unasked.
+// For which owners a page shows the quantity by default.
 enum class Shown { no, of_all, of_springs, of_dissipating };
 
 struct FlagMeaning {
@@ -26,20 +26,20 @@ struct FlagMeaning {
   int value;
 };
 
-// What a trace (trace.hpp) is asked for.
+// What is requested of a trace (trace.hpp).
 enum class OfTrace {
   nothing,
   side,                // its largest value on one side, or on either
   range,               // both sides
   instant,             // when its largest value is first reached
-  size,                // its magnitude, beside which a component of it is rounding
+  size,                // its magnitude: a component far below it is rounding
   size_in_derivative,  // the same, for the derivative alone
 };
 
-// What has to be measured beside traces.
+// What has to be measured in addition to traces.
 struct Needs {
   bool integrals = false;  // the Gram matrix of state and oscillators
-  bool energies = false;   // what friction takes out, for what each element dissipates
+  bool energies = false;   // energy that friction takes, for the dissipation of each element
   bool input = false;      // the work of the excitation; derivatives do without: work in = energy lost
   bool histories = false;  // of the contacts: a law that never sticks has none
   bool stability = false;  // of the orbit: the spectrum of its period map
@@ -64,7 +64,7 @@ struct QuantityRow {
   const char* meaning;  // {} stands for the owner's name
   QuantityKind kind = QuantityKind::real;
   std::span<const FlagMeaning> flags = {};
-  bool of_a_period = false;  // over several periods so many times as large
+  bool of_a_period = false;  // over n periods n times as large
   Standard standard = {};
   Shown shown = Shown::no;
   TraceKind trace = TraceKind::displacement;  // of what `of_trace` is asked

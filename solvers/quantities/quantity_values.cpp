@@ -166,8 +166,8 @@ double energy_input(const Measured& m, const Asked&) {
   return m.input;
 }
 
-// Where nothing moves both are rounding of the forcing's energy; where nothing that moves is strained they
-// are what the orbit's own energy fails to close by.
+// If nothing moves, both are rounding of the forcing's energy; if nothing that moves is strained, both are
+// the closure error of the orbit's own energy.
 double energy_balance(const Measured& m, const Asked&) {
   const double size = std::max(m.input_size, m.dissipated);
   const double closing = 1e-13 + 100.0 * m.residual;

@@ -4,8 +4,8 @@
 
 #include "solvers/quantities/measured.hpp"
 
-// The quantities as functions of what was measured, and what their derivatives need of them. The meaning of
-// each stands in the table (quantity_table.cpp).
+// The quantities as functions of what was measured, and what their derivatives need of them. The table
+// (quantity_table.cpp) gives the meaning of each.
 namespace frahm::periodic::value {
 
 double amplitude(const Measured&, const Asked&);
@@ -45,8 +45,8 @@ std::complex<double> reference_component(const Measured& measured, const mechani
 double square_of_velocity(const Measured& measured, const mechanics::Incidence& at);
 // Fills in what each element dissipates, and all together; from integrals and what friction takes out.
 void add_up_losses(Measured& measured);
-// What is dissipated below this nobody has a share of: where nothing moves dampers lose the square of a
-// rounding [J].
+// If less than this is dissipated no element has a share [J]: where nothing moves, dampers dissipate the
+// square of a rounding.
 double least_dissipation(const Measured& measured);
 
 }  // namespace frahm::periodic::value

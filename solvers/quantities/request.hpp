@@ -5,10 +5,10 @@
 
 #include "solvers/quantities/quantity_table.hpp"
 
-// From the quantities asked for to what must be measured, and from what was measured back to them.
+// From the requested quantities to the measurements they need, and from these back to the quantities.
 namespace frahm::periodic {
 
-// What is asked of a trace.
+// What is requested of a trace.
 struct TraceUse {
   bool either = false, most = false, least = false;  // its largest value on these sides
   bool instant = false;                              // when it is first reached
@@ -22,12 +22,12 @@ struct Request {
 };
 
 Request values_of(const std::vector<Quantity>& quantities, const mechanics::Assembly& assembly);
-// Of the derivatives of those that have one.
+// The request for the derivatives of those quantities that have one.
 Request derivatives_of(const std::vector<Quantity>& quantities, const mechanics::Assembly& assembly);
 
-// out[i] is quantity i. What only a law that sticks has is missing of one that does not.
+// out[i] is quantity i. Quantities that only a law with sticking has are missing for a law without.
 void tell_values(const Request& request, const Measured& measured, std::span<double> out);
-// Of a point without a response.
+// For a point without a response.
 void tell_missing(const Request& request, Status status, std::span<double> out);
 // out[i] is the derivative of quantity i; where there is none, NaN, and why_none[i] says why.
 void tell_derivatives(const Request& request, const Measured& measured, MeasuredDerivative& by,

@@ -26,7 +26,7 @@ struct StepDerivative {
            const mechanics::LinearSystem& by);
 };
 
-// The derivative of what moves in one mode: at state z and oscillators u
+// The derivative of the motion in one mode: at state z and oscillators u
 //   q'' changes by  acceleration_z z + acceleration_u u,   lambda_j by  (force_z z + force_u u)_j.
 template <int N, int H>
 struct ModeDerivative {
@@ -107,8 +107,8 @@ void ModeDerivative<N, H>::set(const Flow<N, H>& flow, const Mode<N, H>& mode,
   force_u += c.constraint() * by.support_acceleration;
   if (count(held) == 1) return;
 
-  // Of stuck directions that depend on one another lambda is that of least sum (lambda_j / F_j)^2, which
-  // turns with the F_j: (1 - G^+ G) 2 (dF/F) lambda, in the kernel of G.
+  // If stuck directions are linearly dependent, lambda is that of least sum (lambda_j / F_j)^2, which changes
+  // with the F_j: (1 - G^+ G) 2 (dF/F) lambda, in the kernel of G.
   typename S::Contacts turn = S::Contacts::Zero(m);
   for (Eigen::Index j = 0; j < m; ++j) {
     if (contains(held, j) && eq.limit[j] > 0.0) turn[j] = 2.0 * by.limit[j] / eq.limit[j];

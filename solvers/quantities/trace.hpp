@@ -4,7 +4,7 @@
 
 #include "solvers/mechanics/linear_system.hpp"
 
-// What varies over a period, and is asked for its extremes.
+// A quantity that varies over a period, and whose extremes are requested.
 namespace frahm::periodic {
 
 enum class TraceKind { displacement, velocity, acceleration, element_force, support_force };
@@ -21,7 +21,7 @@ bool operator==(const Trace& a, const Trace& b);
 // Of a mass's own displacement.
 mechanics::Incidence mass_incidence(const mechanics::Network& network, std::size_t mass);
 
-// The trace's place in `traces`, to which it is added where it is new.
+// Index of the trace in `traces`; a new trace is added.
 std::size_t place_of(Trace trace, std::vector<Trace>& traces);
 
 // The linear form of a trace by the forms of a law (flow/linear_form.hpp, smooth/forms.hpp). mode...: what

@@ -49,9 +49,9 @@ bool is_held(double value, double at_segment_start) {
   return std::abs(value - at_segment_start) <= 1e-13 * std::abs(value);
 }
 
-// The limits on either side of a change of mode, or of the section, which of them can be extremes: where the
-// trace is continuous there, both or neither; where it jumps, that which it rises to, and that which it falls
-// from. sign: of the trace beyond the section of half a period.
+// The limits on either side of a change of mode, or of the section, and which of them can be extremes: if the
+// trace is continuous there, both or neither; if it jumps, the limit to which it rises and the limit from
+// which it falls. sign: of the trace beyond the section of half a period.
 void judge_limits(Candidate& end, Candidate& start, double sign, double magnitude) {
   constexpr double kFlat = 1e-10, kContinuous = 1e-12;
   const double flat = kFlat * magnitude;
@@ -65,12 +65,12 @@ void judge_limits(Candidate& end, Candidate& start, double sign, double magnitud
   start.can_be_least = sign > 0.0 ? least : most;
 }
 
-// The candidates of one trace, with what an extreme needs to be told from others.
+// The candidates of one trace, with the data that identify an extreme.
 class CandidateCollector {
  public:
   explicit CandidateCollector(std::vector<Candidate>& list) : list_(list) { list_.clear(); }
 
-  // Returns its place in the list.
+  // Returns its index in the list.
   std::size_t add(const Candidate& candidate) {
     extremes_.most = std::max(extremes_.most, candidate.value);
     extremes_.least = std::min(extremes_.least, candidate.value);
@@ -114,7 +114,7 @@ Extremes scan_candidates(std::span<const TraceStep> trace, double section_sign,
   CandidateCollector collector(candidates);
   double at_segment_start = 0.0;
   std::ptrdiff_t change = -1;
-  std::vector<std::size_t> limits;  // places in the list of each segment's start and end
+  std::vector<std::size_t> limits;  // indices in the list of each segment's start and end
   for (std::size_t i = 0; i < trace.size(); ++i) {
     const TraceStep& step = trace[i];
     if (step.starts_segment) {

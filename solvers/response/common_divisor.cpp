@@ -15,7 +15,7 @@ using mechanics::Excitation;
 using mechanics::Network;
 using mechanics::NetworkValues;
 
-// Of quantities at the reference order: they need a component there that is not zero.
+// Whether the quantity is taken at the reference order and needs a component there that is not zero.
 bool needs_reference_component(Measure measure) {
   switch (measure) {
     case Measure::phase:
@@ -29,13 +29,13 @@ bool needs_reference_component(Measure measure) {
   }
 }
 
-// Counts are -1 where there is none.
+// Whether the quantity is a count, -1 where there is none.
 bool is_count(Measure measure) {
   return measure == Measure::stops || measure == Measure::reversals || measure == Measure::events;
 }
 
-// Where g does not divide the reference order, any order of the excitation is: what is told at the reference
-// order is not taken from it.
+// If g does not divide the reference order, any order of the excitation serves as reference order: no
+// quantity is then taken from it.
 Network divided(Network network, int g) {
   const bool divides = network.reference_order % g == 0;
   int lowest = std::numeric_limits<int>::max();

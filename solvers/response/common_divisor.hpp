@@ -7,10 +7,10 @@
 #include "solvers/exact/response.hpp"
 #include "solvers/quantities/quantity.hpp"
 
-// Excitations whose orders have a common divisor g > 1: order 30 alone, or 4 and 6. All that happens repeats
-// g times in a period of the fundamental omega, so it is solved as what it is, the orders divided by g at g
-// omega, where a search covers a g-th of the time and each of its steps resolves the motion g times as well;
-// and what is found is converted to the period that was asked for.
+// Excitations whose orders have a common divisor g > 1: order 30 alone, or 4 and 6. The motion repeats g
+// times in a period of the fundamental omega. So it is solved with the orders divided by g, at g omega: a
+// search covers a g-th of the time, and each of its steps resolves the motion g times as well. The result is
+// converted to the period of omega.
 namespace frahm::periodic {
 
 // Of the orders above zero, a crank counting as its first; 1 where there is none.

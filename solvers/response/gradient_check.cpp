@@ -10,10 +10,10 @@
 namespace frahm::periodic {
 namespace {
 
-constexpr double kFirstStep = 0.02;  // of the parameter: events of most orbits stay as they are
+constexpr double kFirstStep = 0.02;  // of the parameter: at most orbits the events do not change
 constexpr int kSteps = 13;           // each half of the one before; the last 5e-6: rounding weighs 1e-7
 
-// What the contacts do one after the other over a period, wherever the period is taken to begin.
+// The states of the contacts, one after the other over a period, from any start of the period.
 using Sequence = std::vector<std::vector<std::string>>;
 Sequence sequence_of(const PeriodicResponse& response) {
   Sequence sequence;
@@ -29,8 +29,8 @@ Sequence sequence_of(const PeriodicResponse& response) {
   return least;
 }
 
-// The quantities of the response; all NaN where the values are out of range, or other events occur than
-// `events`. Its search starts from nothing known where `anew`.
+// The quantities of the response; all NaN if the values are out of range, or the events are not `events`.
+// anew: the search starts without known orbits.
 std::vector<double> solve(PeriodicResponse& response, const mechanics::NetworkValues& values, bool anew,
                           const Sequence& events, std::size_t count) {
   std::vector<double> result(count, kNone);
@@ -46,7 +46,7 @@ std::vector<double> solve(PeriodicResponse& response, const mechanics::NetworkVa
   return result;
 }
 
-// A difference that passes a turn, of a phase, is of the angle and not of its cut.
+// The difference of a phase across a full turn is that of the angle.
 double without_turns(double difference, Measure measure) {
   return is_angle(measure) ? std::remainder(difference, 2.0 * M_PI) : difference;
 }
@@ -54,10 +54,10 @@ double without_turns(double difference, Measure measure) {
 struct Difference {
   double step, value;
 };
-// Of one quantity, at steps that halve.
+// The differences of one quantity, at steps that halve.
 struct Differences {
   std::vector<Difference> list;
-  double noise = 0.0;  // how far the quantity is from itself when its search starts elsewhere
+  double noise = 0.0;  // change of the quantity when its search starts elsewhere
 };
 
 // Of each quantity. own: the events at the parameter's own value.
@@ -83,7 +83,7 @@ std::vector<Differences> central_differences(PeriodicResponse& response,
   return result;
 }
 
-// Neville's scheme in the square of the step; of all entries that which differs least from its parents.
+// Neville's scheme in the square of the step; the result is the entry that differs least from its parents.
 // noise: of the quantity itself, which a difference over a short step magnifies.
 void extrapolate(std::span<const Difference> differences, double noise, DerivativeCheck& check) {
   check.difference = check.uncertainty = kNone;
@@ -104,7 +104,7 @@ void extrapolate(std::span<const Difference> differences, double noise, Derivati
   }
 }
 
-// What the differences over the shortest steps are off by is the noise of the quantity over the step.
+// The error of the differences over the shortest steps is the noise of the quantity over the step.
 double noise_of(std::span<const Difference> differences, double derivative) {
   constexpr std::size_t kShortest = 4;
   double noise = 0.0;

@@ -32,11 +32,11 @@ struct GradientCheck {
   std::vector<std::vector<DerivativeCheck>> columns;  // of each parameter, of each quantity; empty then
 };
 
-// The exact derivatives of the quantities at the periodic response of `values`, and beside them central
-// differences of responses that are solved anew from nothing known on both sides, at steps from 2 % of the
-// parameter (of 1 where it is zero) down to 5e-6 of it, extrapolated to none (C. Ridders, Adv. Eng.
-// Software 4 (1982) 75); steps at which other events occur are left out. Differences
-// are refused where the exact derivative is: at grazing a central difference is the mean of two derivatives.
+// The exact derivatives of the quantities at the periodic response of `values`, and central differences
+// beside them. The responses on both sides are solved without known orbits, at steps from 2 % of the
+// parameter (of 1 where it is zero) down to 5e-6 of it, extrapolated to zero (C. Ridders, Adv. Eng. Software
+// 4 (1982) 75); steps at which other events occur are left out. Differences are refused where the exact
+// derivative is: at grazing a central difference is the mean of two derivatives.
 // Throws mechanics::MechanicsError where `values` are out of range; on either side such a step is left out.
 GradientCheck check_gradient(const mechanics::Network& network, const std::vector<Quantity>& quantities,
                              const mechanics::NetworkValues& values,

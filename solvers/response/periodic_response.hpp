@@ -16,9 +16,8 @@ namespace frahm::periodic {
 // with both is refused. Orders with a common divisor are divided by it first (response/common_divisor.hpp).
 //
 //   PeriodicResponse response(network, quantities);
-//   response.set_values(values);                  // matrices and forcing, e.g. at the first frequency of a
-//   row response.solve();  response.quantities(out); response.set_forcing(values);                 // another
-//   frequency, the element values unchanged response.solve();  response.quantities(out);  // starts from the
+//   response.set_values(values);   response.solve();  response.quantities(out);  // first frequency of a row
+//   response.set_forcing(values);  response.solve();  response.quantities(out);  // next: from known orbits
 //   orbits before it
 class PeriodicResponse {
  public:
@@ -43,7 +42,7 @@ class PeriodicResponse {
   const ResponseSummary& solve();
 
   // The quantities given to the constructor, in their order; NaN (counts -1, flags 0) where the response is
-  // unbounded or failed. `out` has their number of places.
+  // unbounded or failed. `out` has one entry for each.
   void quantities(std::span<double> out);
 
   // The exact derivatives of the quantities along changes of the network's values, at the response last
@@ -51,9 +50,9 @@ class PeriodicResponse {
   // directions[d]: the derivative of the values (layout of NetworkValues, .omega and .hysteretic_omega
   // included) by parameter d.  out: directions x quantities, row d from out[d * quantities]; in the unit of
   // the quantity per that of the parameter, NaN where a quantity has no derivative.
-  // Returns "", or why the response has none at all, and then every place is NaN: it is grazing (an event
-  // only just happens, and the derivative differs on both sides), unbounded or failed, of the arctan law, or
-  // several contacts come to rest at one instant.
+  // Returns "", or why the response has no derivatives, and then every entry of `out` is NaN: it is grazing
+  // (an event only just happens, and the derivative differs on both sides), unbounded or failed, of the
+  // arctan law, or several contacts come to rest at one instant.
   std::string gradient(std::span<const mechanics::NetworkValues> directions, std::span<double> out);
   // Why a quantity of the last gradient() has none; "" where it has.
   std::string why_no_derivative(std::size_t quantity) const;

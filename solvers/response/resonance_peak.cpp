@@ -33,7 +33,7 @@ double root(const AnyFunction& f, double a, double b) {
   const double lo = std::min(a, b), hi = std::max(a, b);
   const double at_lo = f(lo), at_hi = f(hi);
   if (!(at_lo * at_hi <= 0.0)) return kNone;
-  if (lo == hi) return lo;  // a narrow interval about a place that rounding has closed
+  if (lo == hi) return lo;  // a narrow interval about x that rounding has closed
   std::uintmax_t evaluations = kMostEvaluations;
   const auto [left, right] = boost::math::tools::toms748_solve(
       f, lo, hi, at_lo, at_hi, boost::math::tools::eps_tolerance<double>(52), evaluations);
@@ -45,7 +45,7 @@ double inverse_square(double response) {
   return std::isnan(response) ? kInfinite : 1.0 / (response * response);
 }
 
-// A response curve on its places, ascending; its inverse square is smooth through the sharpest peak (of one
+// A response curve at points x, ascending; its inverse square is smooth through the sharpest peak (for one
 // mass it is a polynomial of x^2), zero where the response is infinite.
 class Curve {
  public:
@@ -71,7 +71,7 @@ class Curve {
   // Whether an end of the grid is higher than `value` [1/response^2].
   bool ends_above(double value) const { return std::min(values_.front(), values_.back()) < value; }
 
-  // The least inverse square next to place i, and where; is_whole: there is a response all about it.
+  // The least inverse square next to point i, and its x; is_whole: there is a response all about it.
   struct Minimum {
     double at, value;
     bool is_whole;

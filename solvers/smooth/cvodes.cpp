@@ -29,7 +29,7 @@ void require(int result, const char* call) {
 
 void keep_quiet(int, const char*, const char*, char*, void*) {}
 
-// In the words of a reason.
+// The flag's meaning for a reason.
 const char* failure_text(int flag) {
   switch (flag) {
     case CV_TOO_MUCH_WORK:

@@ -8,7 +8,7 @@
 
 namespace frahm::smooth {
 
-// Everything the equation knows of one instant of a motion.
+// All values of the equation at one instant of a motion.
 struct Instant {
   Eigen::VectorXd z, dz;           // state and its rate
   Eigen::VectorXd u, du;           // oscillators and their rate
@@ -58,7 +58,7 @@ class Equation {
   double energy_norm(const Eigen::VectorXd& z) const;
   double energy_norm_of_map(const Eigen::MatrixXd& map) const;
   double static_norm() const { return static_norm_; }
-  // Of what residuals and errors of a state z are relative to [sqrt(J)].
+  // The scale of residuals and errors of a state z [sqrt(J)].
   double energy_scale(const Eigen::VectorXd& z) const { return std::max(energy_norm(z), static_norm_); }
   // Largest static displacement under the amplitudes of the forcing [m].
   double static_displacement() const { return static_displacement_; }

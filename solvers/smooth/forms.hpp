@@ -35,7 +35,7 @@ class Forms {
   Form acceleration(const mechanics::Incidence& at) const;
   // Force [N] of an element.
   Form element_force(std::size_t element, const mechanics::ElementCoefficients& law) const;
-  // Sum of the forces [N] that all elements at `node` (ground or prescribed) need there: what drives it.
+  // The force [N] that drives `node` (ground or prescribed): the sum that all elements need there.
   Form node_force(const mechanics::Node& node,
                   const std::vector<mechanics::ElementCoefficients>& coefficients) const;
   // Outside force [N] on a mass.

@@ -10,15 +10,15 @@ namespace frahm::smooth {
 
 struct IntegratorOptions {
   // Local error of a step, relative to the state and to its scale: near what rounding allows, as the errors
-  // of some thousand steps a period add up, and a weakly damped orbit has them many times over.
+  // of some thousand steps a period add up, and a weakly damped orbit multiplies them.
   double tolerance = 1e-13;
-  // Of the sensitivities, whose columns are scaled to order 1: Newton's method forgives, and the Floquet
-  // multipliers are wanted to 1e-6 or so.
+  // Of the sensitivities, whose columns are scaled to order 1: Newton's method tolerates such errors, and the
+  // Floquet multipliers are wanted to 1e-6 or so.
   double sensitivity_tolerance = 1e-8;
   long most_steps = 200000;  // of one passage: some ten times what two stops a period take at a slope of 1e6
 };
 
-// What a passage came to.
+// The result of a passage.
 struct Passage {
   Eigen::VectorXd end;
   Eigen::MatrixXd tangent;  // d end / d start
@@ -39,8 +39,8 @@ class Integrator {
   Integrator(const Integrator&) = delete;
   Integrator& operator=(const Integrator&) = delete;
 
-  // From the state `start` at time t [s] over `duration` [s].  scale: size N, > 0, what the components count
-  // as small against.
+  // From the state `start` at time t [s] over `duration` [s].  scale: size N, > 0, the scale of each
+  // component for its errors.
   void pass(const Eigen::VectorXd& start, double t, double duration, const Eigen::VectorXd& scale,
             Passage& passage);
 

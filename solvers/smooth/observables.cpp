@@ -61,8 +61,8 @@ void Observables::look_along(const Orbit& orbit) {
   }
 }
 
-// Where the form's slope is zero within a step at whose ends it has different signs: the secant method kept
-// within the bracket (Illinois).
+// The time at which the form's slope is zero within a step at whose ends it has different signs: the secant
+// method, confined to the bracket (Illinois).
 double Observables::stationary_time(const Form& form, const Orbit& orbit, std::size_t step) {
   const Trajectory& trajectory = orbit.passage.trajectory;
   double a = trajectory.steps()[step].start, b = trajectory.steps()[step].end;
@@ -86,7 +86,7 @@ double Observables::stationary_time(const Form& form, const Orbit& orbit, std::s
   return b;
 }
 
-// Stationary points, solved; and the section, where the orbit could have one too.
+// The stationary points, solved; and the section, which could be one too.
 Extremes Observables::extremes_of(const Form& form, const Orbit& orbit) {
   const Trajectory& trajectory = orbit.passage.trajectory;
   periodic::ExtremeCollector collector(0.0, equation_.omega());

@@ -43,7 +43,7 @@ class Observables {
   periodic::Request request_;
   periodic::Measured measured_;
 
-  std::vector<Instant> joints_;  // of the orbit in hand: the instants between which the steps lie
+  std::vector<Instant> joints_;  // of the current orbit: the instants between which the steps lie
   Instant instant_;              // workspace
   Eigen::VectorXd state_;
 };

@@ -83,8 +83,8 @@ void Shooting::apply_map(const Eigen::VectorXd& scale, Orbit& orbit) {
   orbit.residual = size > 0.0 ? norm / size : norm;
 }
 
-// One step of Newton's method, (1 -+ dg/dz) step = r, shortened until it pays. False if no length does; the
-// orbit is then as it was.
+// One step of Newton's method, (1 -+ dg/dz) step = r, shortened until it reduces the residual. False, with
+// the orbit unchanged, if no length does.
 bool Shooting::newton(const Eigen::VectorXd& scale, Orbit& orbit) {
   const Eigen::Index size = equation_.size();
   const Eigen::MatrixXd jacobian =

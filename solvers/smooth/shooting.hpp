@@ -38,15 +38,15 @@ struct ShootingOptions {
 
 // The periodic orbit as a fixed point of the period map, by Newton's method with the integrator's
 // sensitivities. The arctan law is monotone as the exact law is, so the map expands no distance in the energy
-// norm: where Newton's steps do not pay, the map itself is applied.
+// norm: if a Newton step does not reduce the residual, the map itself is applied.
 class Shooting {
  public:
   // Both must outlive the shooting.
   Shooting(const Equation& equation, Integrator& integrator, const ShootingOptions& options = {})
       : equation_(equation), integrator_(integrator), options_(options) {}
 
-  // From the guess in orbit.z at orbit.section; orbit.half_period says which map. Fills the rest of `orbit`.
-  // scale: what each component counts as small against.
+  // Starts from the guess orbit.z at orbit.section; orbit.half_period selects the map. Fills the rest of
+  // `orbit`. scale: of each component, for its errors.
   void find(const Eigen::VectorXd& scale, Orbit& orbit);
 
  private:

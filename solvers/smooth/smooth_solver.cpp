@@ -140,8 +140,8 @@ void SmoothSolver::search() {
   shooting_.find(scale_, orbit_);
 }
 
-// The exact orbit at the instant at which all contacts slide fastest, each beside its own best: there the
-// smooth orbit is nearest, and its motion least sensitive. False where the exact law has no orbit.
+// The exact orbit at the instant at which all contacts slide fastest, each relative to its own maximum: there
+// the smooth orbit is nearest, and its motion least sensitive. False if the exact law has no orbit.
 bool SmoothSolver::guess_from_exact_law() {
   const Status status = exact_->solve().status;
   if (status != Status::ok && status != Status::grazing) return false;
@@ -187,8 +187,8 @@ void SmoothSolver::guess_without_friction() {
   scale_ = scale(orbit_.z.head(n).cwiseAbs().maxCoeff(), orbit_.z.segment(n, n).cwiseAbs().maxCoeff());
 }
 
-// What displacements, velocities and Maxwell forces count as small against: the largest there are, and at
-// least a thousandth of the static ones.
+// Scales of displacements, velocities and Maxwell forces for their errors: the largest values, and at least a
+// thousandth of the static ones.
 Eigen::VectorXd SmoothSolver::scale(double displacement, double velocity) const {
   const Eigen::Index n = equation_.masses();
   const double least = 1e-3 * equation_.static_displacement();

@@ -155,7 +155,7 @@ EnergyBudget EnergyAccount::budget(double energy_now) const {
   const double dissipated = std::accumulate(budget.dissipated.begin(), budget.dissipated.end(), 0.0);
   const double stored = std::max(std::abs(initial_), std::abs(energy_now));
   const double forcing = forcing_ * forcing_;
-  // Where nothing moves there is the rounding of velocities, of which work is a first, losses a second power.
+  // Where nothing moves, velocities are rounding: work is linear in them, losses are quadratic.
   constexpr double work_rounding = 1e-11, loss_rounding = 1e-26;
   const double size = std::max({stored, dissipated, total_.input_size});
   const double missing = initial_ + total_.input - energy_now - dissipated;

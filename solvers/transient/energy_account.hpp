@@ -22,7 +22,7 @@ class EnergyAccount {
   // Both must outlive the account.
   EnergyAccount(const mechanics::Assembly& assembly, const Flow& flow);
 
-  // Masses, element laws and forcing from now on; after the flow has got them.
+  // Sets masses, element laws and forcing; to be called after the flow has got them.
   void set_system(const mechanics::LinearSystem& system);
 
   // Kinetic energy of masses and inerters, potential energy of springs, those in Maxwell elements too [J];
@@ -34,7 +34,7 @@ class EnergyAccount {
 
   // The first `length` of a step in this mode.
   void follow(const Mode& mode, const Expansion& step, double length);
-  // What each element has dissipated when that will have been followed [J].
+  // What each element will have dissipated at the end of that part of the step [J].
   std::vector<double> dissipated_within(const Mode& mode, const Expansion& step, double length);
 
   const std::vector<double>& dissipated() const { return total_.dissipated; }  // by each element so far [J]
@@ -69,7 +69,7 @@ class EnergyAccount {
   std::vector<mechanics::ElementCoefficients> laws_;
   double forcing_ = 0.0;  // largest energy norm of the static response so far [sqrt(J)]
 
-  // Of the mode in hand: a row of z and u for each loss, then force and velocity of each drive.
+  // The current mode: a row of z and u for each loss, then force and velocity of each drive.
   bool prepared_ = false;
   periodic::ContactMask stuck_ = 0, positive_ = 0;
   std::vector<Loss> losses_;

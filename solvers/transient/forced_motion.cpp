@@ -30,7 +30,7 @@ Sweep sweep_of(const ForcedOptions& options) {
           .time = std::abs(change) / options.sweep.rate};
 }
 
-// The motion under an excitation that is given anew, at another frequency, from time to time.
+// A motion whose excitation is set anew, at another frequency, from time to time.
 class Driven {
  public:
   Driven(const mechanics::Assembly& assembly, const ValuesAt& values_at, const InitialState& initial,
@@ -67,8 +67,8 @@ class Driven {
 
  private:
   // y'' = (i k alpha - (k omega)^2) Y_k e^{i k phi}: the supports exert -M_s y'' through inerters, of which
-  // the assembly has taken the second part. It works at the masses' velocities; for the rest of its work the
-  // supports' velocities jump from stair to stair.
+  // the assembly contains the second part. The first part works at the masses' velocities; the rest of its
+  // work is in the jumps of the supports' velocities from stair to stair.
   void add_angular_acceleration(double alpha) {
     if (alpha == 0.0 || system_.motion.rows() == 0) return;
     for (std::size_t k = 0; k < system_.orders.size(); ++k) {
@@ -95,15 +95,15 @@ bool keep_frequency(Driven& driven, double omega, double phase, double until) {
   if (!driven.trajectory.can_last(until - driven.trajectory.time())) return false;
   while (driven.trajectory.time() < until) {
     const double left = until - driven.trajectory.time();
-    // What rounding leaves of the last period is no stretch of its own.
+    // A rounding error of the last period is not a passage of its own.
     if (left <= 1e-12 * until) break;
     if (!driven.trajectory.advance(std::min(period, left), phase)) return false;
   }
   return true;
 }
 
-// Through a range of frequencies on `count` stairs, to time `until` <= sweep.time. It starts and ends at the
-// frequency that is there then, half a stair from that of the first and the last: with their energies.
+// Through a range of frequencies on `count` stairs, to time `until` <= sweep.time. Start and end have their
+// true frequency, half a stair from that of the first and the last stair, and the energies that belong to it.
 bool climb(Driven& driven, const Sweep& sweep, double until, int count) {
   const double tau = until / count, lag = sweep.alpha * tau * tau / 12.0;
   driven.drive(sweep.from, sweep.alpha, 0.0);

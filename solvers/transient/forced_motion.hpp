@@ -10,7 +10,7 @@
 namespace frahm::transient {
 
 // The excitation's phase: omega t at constant frequency; in a run-up or run-down
-//   phi(t) = omega_0 t + alpha t^2 / 2  until the frequency has reached `to`, which is then kept.
+//   phi(t) = omega_0 t + alpha t^2 / 2  until the frequency has reached `to`, where it stays.
 struct FrequencySweep {
   double to = 0.0;    // [rad/s], > 0
   double rate = 0.0;  // |alpha| [rad/s^2], > 0

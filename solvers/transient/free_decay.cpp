@@ -13,11 +13,11 @@
 namespace frahm::transient {
 namespace {
 
-// Passages are short, so that what counts as rest shrinks with the motion, and not in step with its half
-// periods, so that stops do not fall between two passages.
+// Passages are short, so that the limit of rest shrinks with the motion. Their length is no fraction of its
+// half period, so that stops do not fall between two passages.
 constexpr double kPassagePeriods = 0.37;
 
-// What is left of a creeping motion, of the energy norm it started with, when it counts as arrived.
+// The part of its initial energy norm at which a creeping motion counts as arrived.
 constexpr double kArrived = 1e-12;
 
 struct Decaying {
@@ -63,10 +63,10 @@ bool has_reached(const Trajectory& trajectory, double time) {
   return trajectory.time() >= time * (1.0 - kRounding);
 }
 
-// How the motion ends if it is seen to, `left` of the energy norm at the start being there still.
+// The end of the motion, if it is recognised; `left`: remaining part of the energy norm at the start.
 std::optional<DecayEnd> seen_end(const Trajectory& trajectory, double left) {
   if (trajectory.is_at_rest()) return trajectory.has_crept() ? DecayEnd::creeping : DecayEnd::at_rest;
-  // Still sliding, by less and less, where its own friction would hold it.
+  // The contact still slides ever less where its own friction would hold it.
   if (trajectory.friction_slides()) {
     if (left <= kArrived) return DecayEnd::creeping;
   } else if (left <= kDecayed) {
@@ -83,7 +83,7 @@ Ending march(const Decaying& decaying, double duration, Trajectory& trajectory) 
   while (!has_reached(trajectory, last)) {
     const bool within = !has_reached(trajectory, duration) || duration == 0.0;
     const double next = within && duration > 0.0 ? duration : last;
-    // A phase has no meaning here: nothing is forced.
+    // The phase has no meaning here: there is no excitation.
     if (!trajectory.advance(std::min(kPassagePeriods * period, next - trajectory.time()), 0.0)) {
       ending.end = within ? DecayEnd::failed : DecayEnd::cut_off;
       return ending;
@@ -107,7 +107,7 @@ Ending march(const Decaying& decaying, double duration, Trajectory& trajectory) 
   return ending;
 }
 
-// The same motion once more, to a duration that it has shown it lasts.
+// The same motion once more, to a duration that was already computed in full.
 Samples history(const Decaying& decaying, const mechanics::Assembly& assembly, const InitialState& initial,
                 double duration, const DecayOptions& options) {
   Trajectory trajectory(assembly, sample_times(duration, options.samples), options.watch);

@@ -22,20 +22,20 @@ struct DecayOptions {
 
 // A displacement a millionth of the first: below what any measurement of a decay resolves.
 inline constexpr double kDecayed = 1e-6;
-// Periods of the lowest mode after which a motion that will not end is left: undamped, or of zeta < 0.002.
+// Periods of the lowest mode after which a motion without an end is cut off: undamped, or of zeta < 0.002.
 inline constexpr double kMostPeriods = 1000.0;
 
-// Steps of the fastest motion after which a decay without a given duration is left: a second or two for one
-// mass. A stiff or overdamped system comes to it first.
+// Steps of the fastest motion after which a decay without a given duration is cut off: a second or two of
+// work for one mass. A stiff or overdamped system reaches this limit first.
 inline constexpr double kStepsByDefault = 1e6;
 // Steps beyond a given duration, at most, in which the motion's end is sought: a tenth of a second or so.
 inline constexpr double kStepsBeyond = 1e5;
-// Of the energy norm at the start: what is left then is taken for nothing, and has no extrema any more.
+// Part of the energy norm at the start: a smaller rest counts as zero and has no extrema any more.
 inline constexpr double kGone = 1e-100;
 
 enum class DecayEnd {
   at_rest,   // stopped by friction
-  creeping,  // it tends to a place that friction holds, and never arrives
+  creeping,  // it tends to a position that friction holds, and never arrives
   decayed,   // no friction slides any more, and the energy norm has fallen to kDecayed
   cut_off,   // none of these, as far as it has been followed
   failed,
@@ -47,8 +47,8 @@ struct DecayOfMass {
   // Viscous damping alone: 2 pi zeta/s, the same for all i. Friction makes it grow from cycle to cycle, as
   // it takes the same 4 x_f from each.
   std::vector<double> log_decrement;
-  // Where the mass rests or tends to [m]; NaN where that is not known: failed, or cut off, unless nothing but
-  // damping in all modes is there, which leads to 0.
+  // The position where the mass rests or to which it tends [m]. NaN: not known, as the motion failed or was
+  // cut off; but 0 for a motion cut off if all modes are damped and nothing else acts.
   double rest = 0.0;
 };
 
@@ -66,12 +66,12 @@ struct FreeDecay {
   Samples history;
 };
 
-// values: of the network without excitation; its omega is not used. hysteretic_omega [rad/s]: 0 stands for
-// the lowest undamped natural frequency.  Throws mechanics::MechanicsError for values without a meaning.
+// values: of the network without excitation; its omega is not used. hysteretic_omega [rad/s]: 0 means the
+// lowest undamped natural frequency.  Throws mechanics::MechanicsError for values without a meaning.
 //
 // A given duration of more steps than the trajectory lasts (10 million) fails.
 //
-// A motion that ends more gently than kCreeping (turning_points.hpp) is not told from one that creeps.
+// A motion that ends more gently than kCreeping (turning_points.hpp) counts as one that creeps.
 FreeDecay free_decay(const mechanics::Network& network, mechanics::NetworkValues values,
                      const InitialState& initial, const DecayOptions& options);
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-// What a motion from given initial values leaves behind.
+// The record of a motion from given initial values.
 namespace frahm::transient {
 
 // At t = 0, of each mass: displacement [m] and velocity [m/s]. Empty: at rest where no spring is strained.
@@ -23,7 +23,7 @@ struct Extremum {
   double displacement = 0.0;  // [m]
 };
 
-// A contact at rest. Of one that sticks at t = 0 the onset is 0.
+// An interval in which a contact is at rest. If it sticks at t = 0 the onset is 0.
 struct Stop {
   double onset = 0.0;    // [s]
   double release = 0.0;  // [s]; NaN: not released by the end
@@ -45,8 +45,8 @@ struct EnergyBudget {
   // [J] Work of the excitation. Of a run-up also what changes of elements put in, and the jumps of its
   // supports' velocities from stair to stair.
   double input = 0.0;
-  // What the equation fails to close by, relative to the largest of its terms (of the input, the integral of
-  // the size of its power); 0 where nothing moves.
+  // The error of the energy balance, relative to its largest term (for the input, the integral of the size of
+  // its power); 0 where nothing moves.
   double balance = 0.0;
   std::vector<double> dissipated = {};  // by each element [J], 0 of those that dissipate nothing
   std::vector<double> share = {};       // of each element in all that is dissipated; 0 where nothing is

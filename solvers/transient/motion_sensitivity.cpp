@@ -117,9 +117,9 @@ void MotionSensitivity::begin(const Step& first) {
   for (Direction& d : directions_) d.delta += (d.by.log_step * tau) * rate;
 }
 
-// What arrives just where a passage ends does so between the two. Where several arrive and all stick from
-// there on, the impulses of their friction leave of delta its M-orthogonal projection onto the velocities
-// that keep them stuck, whichever comes first; the next passage begins with that.
+// A contact that arrives just at the end of a passage arrives between two passages. If several arrive and all
+// stick from there on, the impulses of their friction reduce delta to its M-orthogonal projection onto the
+// velocities that keep them stuck, in any order of arrival; the next passage begins with that projection.
 const char* MotionSensitivity::cross_border(const Step& first) {
   const periodic::Mode<kAny, kAny>& after = flow_.mode(first.mode);
   if (after.stuck == ending_.mode.stuck && after.positive == ending_.mode.positive) return "";
@@ -145,7 +145,7 @@ void MotionSensitivity::keep_ending(const Step& last) {
     ending_.slopes.push_back(flow_.sliding_speed(last.right, j).slope);
 }
 
-// The samples before `end` [s], from a step of the passage in hand on.
+// The samples before `end` [s], from a step of the current passage on.
 void MotionSensitivity::sample(std::size_t i, double end) {
   if (next_sample_ == times_.size() || times_[next_sample_] >= end) return;
   Step& step = steps_.steps()[i];
@@ -167,7 +167,7 @@ void MotionSensitivity::sample(std::size_t i, double end) {
   }
 }
 
-// Held masses are released again only by forces that still change.
+// Held masses are released only by forces that still change.
 bool MotionSensitivity::is_at_rest() const {
   const auto& eq = flow_.equations();
   const Index harmonics = eq.force.cols() - 1;

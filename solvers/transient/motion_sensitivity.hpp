@@ -73,7 +73,7 @@ class MotionSensitivity {
   Flow flow_;
   periodic::Walk<kAny, kAny> walk_;
   periodic::OrbitSteps<kAny, kAny> steps_;
-  periodic::Orbit<kAny, kAny> stretch_;  // the passage in hand
+  periodic::Orbit<kAny, kAny> stretch_;  // the current passage
   std::vector<Direction> directions_;
   State z_;
   double time_ = 0.0, passage_start_ = 0.0;  // [s]
@@ -88,7 +88,7 @@ class MotionSensitivity {
   periodic::StepSamples<kAny, kAny> samples_;
   std::span<const periodic::Observed> observed_;
   periodic::ObservedMotion motion_;
-  std::vector<periodic::Polynomial> powers_;  // of the step fractions in hand
+  std::vector<periodic::Polynomial> powers_;  // of the current step fractions
   Watch watch_;
 };
 

@@ -253,7 +253,7 @@ Trajectory::State Trajectory::resting_state(const State& z) const {
   const auto& eq = flow_.equations();
   const Index n = eq.masses();
   Eigen::VectorXd stiffness = Eigen::VectorXd::Zero(eq.internal_forces()), s = stiffness;
-  // Where nothing sticks any start serves, and from zero nothing rounds.
+  // If nothing sticks any start is right, and zero is free of rounding.
   const Eigen::VectorXd q =
       stuck_ == 0 ? Eigen::VectorXd(Eigen::VectorXd::Zero(n)) : Eigen::VectorXd(z.head(n));
   Eigen::VectorXd force = eq.force.col(0) - eq.K * q;
@@ -293,7 +293,7 @@ bool Trajectory::friction_slides() const {
   return false;
 }
 
-// Held masses are released again only by forces that still change: those of Maxwell elements.
+// Held masses are released only by forces that still change: those of Maxwell elements.
 bool Trajectory::is_at_rest() const {
   const auto& eq = flow_.equations();
   constexpr double kRelaxed = 1e-12;

@@ -13,15 +13,15 @@ namespace frahm::transient {
 
 using Flow = periodic::Flow<Eigen::Dynamic, Eigen::Dynamic>;
 
-// A motion from given initial values on the exact flow, passage after passage, with all that is kept of it:
-// the extrema of each mass, the stops of each contact, the state at given times.
+// A motion from given initial values on the exact flow, passage after passage, with its records: the extrema
+// of each mass, the stops of each contact, the state at given times.
 class Trajectory {
  public:
-  // times: at which the state is kept, ascending [s].  `assembly` must outlive the trajectory.
+  // times: at which the state is recorded, ascending [s].  `assembly` must outlive the trajectory.
   Trajectory(const mechanics::Assembly& assembly, std::vector<double> times, Watch watch);
 
-  // Matrices and forcing, or only another forcing, from now on. The state is carried over; what sticks,
-  // sticks on (a support whose velocity jumps takes it along). phase: omega t of the fundamental now [rad].
+  // Matrices and forcing, or only another forcing, from now on. The state is carried over; stuck contacts
+  // stay stuck (a support whose velocity jumps takes them along). phase: omega t of the fundamental now.
   void set_system(const mechanics::LinearSystem& system, double phase);
   void set_forcing(const mechanics::LinearSystem& system, double phase);
 
@@ -31,11 +31,11 @@ class Trajectory {
 
   // Moves on by `duration` [s] > 0; `phase` as above. False: failure() says why, nothing moves any more.
   bool advance(double duration, double phase);
-  // Whether `duration` [s] more is within what is computed in one go; false: as advance().
+  // Whether another `duration` [s] is within the limit of one computation; false: as advance().
   bool can_last(double duration);
   const char* failure() const { return failure_; }
 
-  // From now on all masses are where they tend to, without velocity: of a motion of which nothing is left.
+  // Sets all masses at rest where they tend to: for a motion that has died away.
   void come_to_rest();
 
   // Fills the samples that are left with the state now.
@@ -82,7 +82,7 @@ class Trajectory {
   Flow flow_;
   periodic::Walk<Eigen::Dynamic, Eigen::Dynamic> walk_;
   periodic::OrbitSteps<Eigen::Dynamic, Eigen::Dynamic> steps_;
-  periodic::Orbit<Eigen::Dynamic, Eigen::Dynamic> stretch_;  // the passage in hand
+  periodic::Orbit<Eigen::Dynamic, Eigen::Dynamic> stretch_;  // the current passage
   EnergyAccount account_;
   State z_;
   double phase_ = 0.0;            // omega t of the fundamental where z_ is [rad]
@@ -90,7 +90,7 @@ class Trajectory {
   double time_ = 0.0;
   double steps_taken_ = 0.0;
   const char* failure_ = nullptr;
-  double energy_scale_ = 0.0;  // [sqrt(J)] of the passage in hand
+  double energy_scale_ = 0.0;  // [sqrt(J)] of the current passage
 
   bool has_mode_ = false;
   periodic::ContactMask stuck_ = 0, positive_ = 0;

@@ -33,7 +33,7 @@ void TurningPoints::follow(const MassStep& step) {
   const double tolerance = periodic::kRest * step.speed_scale, end = step.length;
   const Polynomial& v = step.velocity;
   const periodic::ValueAndSlope last = periodic::evaluate_with_slope(v, end);
-  // A root at the very end belongs to the next step, which tells where the motion goes from there.
+  // A root at the very end belongs to the next step, which shows where the motion goes from there.
   constexpr double kAtEnd = 1e-6;
   const double last_root = std::abs(last.value) <= tolerance ? end * (1.0 - kAtEnd) : end;
   const periodic::Roots roots = periodic::sign_changes(without_root_at_start(v, tolerance));

@@ -18,12 +18,12 @@ enum class Outcome {
   stopped,        // by the caller
 };
 
-// A multiplier tells what holds an optimum: it is 0 of a peak, bound or limit that does not, and NaN where
-// the tuning did not converge. Rounding counts as 0.
+// A multiplier shows what holds an optimum: it is 0 for a peak, bound or limit that does not, and NaN if the
+// tuning did not converge. Rounding counts as 0.
 
 enum class AtBound { no, lower, upper };
 
-// A design parameter at the optimum [SI]. One entry each of a constant, one per knot of a schedule.
+// A design parameter at the optimum [SI]. A constant has one entry, a schedule one per knot.
 struct TunedParameter {
   std::vector<double> value;
   std::vector<AtBound> at_bound;
@@ -79,13 +79,13 @@ struct Optimum {
   std::uint64_t orbits = 0, gradients = 0;  // periodic responses and derivatives that it took
 };
 
-// Solves the task from one of its starts: one optimum, or one for each limit of the trade-off. Depends on the
-// task and the start alone, to the last bit. Never throws for what the numbers bring; throws
+// Solves the task from one of its starts: one optimum, or one for each limit of the trade-off. The result
+// depends on the task and the start alone, to the last bit. Does not throw for numerical failures; throws
 // mechanics::MechanicsError for a task without meaning (NaN or reversed bounds, a quantity without
 // derivative).
 std::vector<Optimum> tune(const Task& task, std::size_t start, const std::function<bool()>& stop_asked);
 
-// How good a design is beside others, and how sure: for the record and the report.
+// A comparison of a design with others, and its sensitivity to detuning: for the record and the report.
 struct Detuning {
   std::vector<double> change;  // relative: -0.1 ... 0.1
   std::vector<std::vector<double>>
@@ -105,7 +105,7 @@ struct Assessment {
 };
 
 // rule: values of the scheduled parameters over the band by another rule (already clipped), one function per
-// parameter, empty for those that have none.
+// parameter, empty for parameters without a rule.
 using Rule = std::function<double(double band)>;
 Assessment assess(const Task& task, const Optimum& optimum, const std::vector<Rule>& rules);
 

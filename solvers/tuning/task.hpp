@@ -15,7 +15,7 @@
 // What is to be tuned: a network whose numbers depend on design parameters, a band of frequencies, and what
 // is wanted of the response over it.
 //
-// The folders of this room; each knows those before it, none of those after it:
+// The subfolders; each uses those above it in this list and none below:
 //   problem/    an optimisation problem in plain terms, its KKT conditions, the libraries that solve it
 //   variance/   mean squares of a network under white noise
 //   task.hpp, optimum.hpp   the question and the answer (what asks for it is in stages/)
@@ -95,7 +95,7 @@ struct Task {
   std::vector<QuantityLimit> limits;
   std::optional<TradeOff> trade_off;
   Noise noise;  // of Objective::variance
-  // Scheduled parameters only: the response is at no frequency above that of the best constant.
+  // Scheduled parameters only: at no frequency may the response exceed that of the best constant design.
   bool dominate_constant = false;
 
   SolverKind solver = SolverKind::ipopt;        // a local one

@@ -5,8 +5,8 @@
 
 namespace frahm::studies {
 
-// The answer of a method that needs no model of the system: all but grey_box. What cannot be found is its
-// failure.
+// The result of a method that needs no model of the system: all but grey_box. If nothing can be found, its
+// `failure` says why.
 identification::Identification identify_in_closed_form(const Study& study);
 
 }  // namespace frahm::studies

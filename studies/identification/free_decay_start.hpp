@@ -9,8 +9,8 @@ namespace frahm::studies {
 // Damping ratio, friction and natural frequency from the first free record with a displacement.
 identification::Identification first_estimates(const Study& study);
 
-// Moves the starts of the task's parameters to where the mass on its spring has these, as nearly as the
-// parameters can: what they do not determine stays as the study states it.
+// Sets the starting parameters of the task so that the mass on its spring has these estimates, as nearly as
+// possible; parameters that they do not determine keep the study's values.
 void set_start(const Study& study, const identification::Identification& first,
                identification::GreyBoxTask& task);
 

@@ -73,11 +73,10 @@ void refuse_same_names(const Study& study, const std::vector<results::Column>& c
   std::sort(names.begin(), names.end());
   const auto twice = std::adjacent_find(names.begin(), names.end());
   if (twice == names.end()) return;
-  throw StudyError(
-      rules::name_taken,
-      fmt::format("{}: the result would have two things called \"{}\": one a parameter, record or mass "
-                  "of the study; call that otherwise",
-                  study.source.name, *twice));
+  throw StudyError(rules::name_taken,
+                   "{}: the result would have two things called \"{}\": one a parameter, record or mass "
+                   "of the study; call that otherwise",
+                   study.source.name, *twice);
 }
 
 }  // namespace

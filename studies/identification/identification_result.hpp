@@ -16,8 +16,8 @@ struct IdentificationResult {
   identification::Identification fit;
 };
 
-// What `watch` throws is passed on. Throws StudyError for data from which nothing can be found, with the
-// reason, and for a parameter that cannot take the estimate it names.
+// What `watch` throws is passed on. Throws StudyError, with the reason, if nothing can be found from the
+// data, and for a parameter that cannot take the estimate it names.
 IdentificationResult identify(const Study& study, const transient::Watch& watch = {});
 
 }  // namespace frahm::studies

@@ -48,8 +48,7 @@ struct Stored {
 Stored read(const std::filesystem::path& file) {
   const results::MapReader result(file);
   if (!result.has_group(identification_group))
-    throw StudyError(rules::wrong_file,
-                     fmt::format("{}: is not the result of an identification", file.string()));
+    throw StudyError(rules::wrong_file, "{}: is not the result of an identification", file.string());
   StoredStudy stored = read_stored_study(result, file);
   return {std::move(stored.study), std::move(stored.overrides), result.columns(identification_group),
           file.string()};
@@ -71,9 +70,8 @@ std::vector<Assignment> settled(const Stored& stored) {
     if (fitted.each_record) estimate += "_" + first.name;
     const double value = stored.value(estimate);
     if (std::isnan(value))
-      throw StudyError(
-          rules::not_computed,
-          fmt::format("{}: the data do not determine {}, which the study needs", stored.name, estimate));
+      throw StudyError(rules::not_computed, "{}: the data do not determine {}, which the study needs",
+                       stored.name, estimate);
     all.push_back({fitted.parameter, value});
   }
   return all;
@@ -146,11 +144,10 @@ void drive(const Study& study, const mechanics::NetworkValues& values, const std
 void make_motion(const Stored& stored, TomlTable& root) {
   const std::vector<double> time = stored.column(stored.study.identify()->records.front().name + "_time");
   if (time.size() < 2)
-    throw StudyError(
-        rules::wrong_dependence,
-        fmt::format("{}: the excitation's frequency is computed from parameters, so that there is no "
-                    "axis to sweep",
-                    stored.name));
+    throw StudyError(rules::wrong_dependence,
+                     "{}: the excitation's frequency is computed from parameters, so that there is no "
+                     "axis to sweep",
+                     stored.name);
   set_kind(root, StudyKind::transient);
   root.push_back({"transient",
                   {},
@@ -192,12 +189,11 @@ std::string study_of_one_mass(const Stored& stored) {
   const IdentifyChoice& choice = *study.identify();
   const double zeta = stored.value("damping_ratio");
   if (std::isnan(zeta)) {
-    throw StudyError(
-        rules::not_computed,
-        fmt::format("{}: the method {} finds no damping ratio of one mass; describe the system in the study "
-                    "([[mass]], [[element]]) and name in [[identify.parameter]] which estimate each of its "
-                    "parameters takes",
-                    stored.name, method_name(choice.method)));
+    throw StudyError(rules::not_computed,
+                     "{}: the method {} finds no damping ratio of one mass; describe the system in the study "
+                     "([[mass]], [[element]]) and name in [[identify.parameter]] which estimate each of its "
+                     "parameters takes",
+                     stored.name, method_name(choice.method));
   }
   double mass = choice.mass ? stated(study, *choice.mass) : stored.value("mass");
   double omega = stored.value("natural_frequency");

@@ -38,8 +38,7 @@ void name_parameters(const Study& study, Identification& fit) {
     if (parameter.estimate.empty() || parameter.estimate == own) continue;
     const auto place = std::find(names.begin(), names.end(), parameter.estimate);
     const auto fail = [&](Rule rule, const std::string& what) {
-      throw study.source.error_at(rule, parameter.position,
-                                  fmt::format("[[identify.parameter]] \"{}\": {}", own, what));
+      throw study.source.error_at(rule, parameter.position, "[[identify.parameter]] \"{}\": {}", own, what);
     };
     if (place == names.end()) throw std::logic_error("no estimate " + parameter.estimate);
     if (std::find(names.begin(), names.end(), own) != names.end())
@@ -68,8 +67,8 @@ IdentificationResult identify(const Study& study, const transient::Watch& watch)
       result.fit = identify_in_closed_form(study);
     }
     if (!result.fit.failure.empty())
-      throw StudyError(rules::not_computed,
-                       fmt::format("{}: nothing is identified: {}", study.source.name, result.fit.failure));
+      throw StudyError(rules::not_computed, "{}: nothing is identified: {}", study.source.name,
+                       result.fit.failure);
     name_parameters(study, result.fit);
     for (const RecordChoice& record : study.identify()->records) {
       if (record.doubtful > 0)
@@ -79,7 +78,7 @@ IdentificationResult identify(const Study& study, const transient::Watch& watch)
     }
     return result;
   } catch (const mechanics::MechanicsError& error) {
-    throw StudyError(rules::not_computed, study.source.name + ": " + error.what());
+    throw StudyError(rules::not_computed, "{}", study.source.name + ": " + error.what());
   }
 }
 

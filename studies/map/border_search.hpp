@@ -16,8 +16,8 @@ namespace frahm::studies {
 // thread; each has its own.
 //
 // An edge between two neighbours belongs to the tile of its lower one. The regimes at all points of the tile,
-// and at the neighbours beyond its upper faces, are found here anew, each row starting from nothing. So the
-// borders of a tile depend on the study alone, not on points taken over from an earlier result, and both
+// and at the neighbours beyond its upper faces, are solved again here, each row without earlier orbits. So
+// the borders of a tile depend on the study alone, not on points taken over from an earlier result, and both
 // tiles that meet at a point see the same regime there.
 class BorderSearch {
  public:

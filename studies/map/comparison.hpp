@@ -12,11 +12,11 @@ namespace frahm::studies {
 // Whether the study or what it is compared with follows the arctan law.
 bool meets_arctan_law(const Study& study);
 
-// The rest is of a study that has a comparison. Its network and numbers, as they are compared:
+// The functions below need a study with a comparison. The network and the values of the other response:
 mechanics::Network compared_network(const Study& study);
 StudyValues compared_values(const Study& study);
 
-// What the other response is asked for: the compared quantities, then the status.
+// The quantities of the other response: the compared ones, then the status.
 std::vector<periodic::Quantity> compared_quantities(const Study& study);
 
 // The variables a comparison adds to the record: `X_compared` and `X_difference` of each quantity X, then

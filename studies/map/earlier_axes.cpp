@@ -20,7 +20,7 @@ struct CommonParameter {
 };
 
 [[noreturn]] void fail(const std::string& file, const std::string& why) {
-  throw StudyError(rules::wrong_option, fmt::format("--from {}: {}", file, why));
+  throw StudyError(rules::wrong_option, "--from {}: {}", file, why);
 }
 
 // As the values of the study's own axes become SI, so that the same values are the same to the last bit.

@@ -15,15 +15,15 @@ namespace frahm::studies {
 struct EarlierDimension {
   static constexpr std::uint64_t nowhere = std::numeric_limits<std::uint64_t>::max();
 
-  std::size_t along = 0;             // the dimension of the study on which it depends
-  std::vector<std::uint64_t> index;  // of each index of that: in the earlier map, or `nowhere`
-  std::uint64_t places = 0;          // different ones that the earlier map has along it
+  std::size_t along = 0;             // the dimension of the study that determines it
+  std::vector<std::uint64_t> index;  // for each index of that: the index in the earlier map, or `nowhere`
+  std::uint64_t places = 0;          // number of different ones along it in the earlier map
 };
 
-// How many points of an earlier map, the same ones counted once, the study's map has not.
+// How many points of an earlier map, equal ones counted once, are not in the study's map.
 std::uint64_t points_off_grid(const std::vector<EarlierDimension>& dimensions);
 
-// Of each dimension of an earlier map of the same physics. Parameters are compared by their SI values
+// Matches each dimension of an earlier map of the same physics. Parameters are compared by their SI values
 // (value_match.hpp), so that the axes may have other values, steps, units and order.
 // file: the earlier map, for messages.  Throws StudyError where an axis has no value in common, and where
 // parameters that advanced together have dimensions of their own now.

@@ -41,9 +41,8 @@ results::MapReader open_earlier_map(const std::filesystem::path& file) {
   check_is_hdf5(file);
   results::MapReader result(file);
   if (!result.layout().axes.empty()) return result;
-  throw StudyError(rules::wrong_option,
-                   fmt::format("--from {}: is {}, not a map: there is no point to take over", file.string(),
-                               kind_of(result)));
+  throw StudyError(rules::wrong_option, "--from {}: is {}, not a map: there is no point to take over",
+                   file.string(), kind_of(result));
 }
 
 }  // namespace frahm::studies

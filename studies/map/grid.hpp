@@ -8,8 +8,8 @@
 
 #include "studies/reading/study.hpp"
 
-// The points of a map, and how they are cut into the tiles that are computed and kept as a whole. All of it
-// depends on the study alone, never on who computes it.
+// The points of a map and its tiles: groups of points computed and saved as a whole. Both depend on the study
+// alone, never on who computes them.
 namespace frahm::studies {
 
 // The points start <= index < start + count along each dimension of the map, slowest first.
@@ -17,7 +17,7 @@ struct MapBox {
   std::vector<std::uint64_t> start, count;
 
   std::uint64_t points() const;
-  // The offset of one of its points among them, in row-major order.  index: of the map.
+  // The offset of a point within the box, in row-major order.  index: in the map.
   std::uint64_t offset_of(std::span<const std::uint64_t> index) const;
 };
 
@@ -31,7 +31,7 @@ struct Grid {
   // innermost and is a row.
   std::vector<std::size_t> order;
 
-  // Those that rows are counted along: all but the last.
+  // The dimensions across the rows: all but the last.
   std::span<const std::size_t> row_dimensions() const { return std::span(order).first(order.size() - 1); }
 
   std::uint64_t points() const;
@@ -42,8 +42,8 @@ struct Grid {
   // The points of a tile. Tiles are numbered in the order of computation.  tile: below tiles().
   MapBox box(std::uint64_t tile) const;
 
-  // The points of a chunk, numbered as the tiles are: its tiles follow each other, and those of the next
-  // chunk follow them.  chunk: below chunks().
+  // The points of a chunk. Chunks are numbered in the order of their tiles: the tiles of a chunk are
+  // consecutive.  chunk: below chunks().
   MapBox chunk_box(std::uint64_t chunk) const;
 
   // The tile that holds a point.  index: one number for each dimension of the map.
@@ -57,11 +57,11 @@ Grid grid_of(const Study& study);
 // The values of a derived coordinate along its dimension.
 std::vector<double> coordinate_values(const Study& study, const DerivedCoordinate& coordinate);
 
-// Whether masses or elements change along a row, and not from row to row alone.
+// Whether masses or elements change within a row, not only between rows.
 bool matrices_change_along_rows(const Study& study);
 
-// Moves `index` to the next point of the box along `dimensions`, the last of which runs fastest; false, and
-// back at the start, after its last point.
+// Moves `index` to the next point of the box along `dimensions`, the last of which runs fastest; after its
+// last point false, with `index` back at the start.
 bool next_point(const MapBox& box, std::span<const std::size_t> dimensions,
                 std::vector<std::uint64_t>& index);
 

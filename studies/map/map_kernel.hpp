@@ -16,9 +16,9 @@ namespace frahm::studies {
 
 class KnownPoints;
 
-// Computes the tiles of a study's map: of each point the quantities of its periodic response, and of the one
-// it is compared with, and where its regimes change. A point without a response fails with a reason; it never
-// ends the work. For one thread; each has its own.
+// Computes the tiles of a study's map: at each point the quantities of the periodic response and of the
+// response compared with it, and where regimes change. A point without a response fails with a reason; it
+// never ends the work. For one thread; each has its own.
 //
 // Each tile starts from nothing and goes through its rows in a fixed order, each point starting from the
 // orbits computed before it, so that the record of a tile depends on the tile alone, and on the earlier
@@ -40,7 +40,7 @@ class MapKernel {
   const Grid& grid_;
   KnownPoints* earlier_;
   std::size_t quantities_;             // of the study's own record
-  std::vector<std::size_t> compared_;  // where each compared quantity stands among those solved for
+  std::vector<std::size_t> compared_;  // index of each compared quantity among those solved for
   RowSolver own_;
   std::optional<RowSolver> other_;
   std::optional<BorderSearch> border_search_;

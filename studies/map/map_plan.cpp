@@ -14,8 +14,8 @@
 namespace frahm::studies {
 MapPlan plan_map(Study study, std::vector<std::string> set) {
   if (study.kind() != StudyKind::sweep)
-    throw StudyError(rules::other_kind, fmt::format("{}: a {} is one motion, not a map", study.source.name,
-                                                    kind_name(study.kind())));
+    throw StudyError(rules::other_kind, "{}: a {} is one motion, not a map", study.source.name,
+                     kind_name(study.kind()));
   refuse_overruled(study, set);
   MapPlan plan;
   plan.study = std::move(study);

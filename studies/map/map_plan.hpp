@@ -10,14 +10,14 @@
 
 namespace frahm::studies {
 
-// A sweep ready to be computed, kept and recorded.
+// A sweep ready to be computed and recorded.
 struct MapPlan : StudyPlan {
   Grid grid = {};
   std::vector<periodic::Quantity> quantities = {};            // of the study's own response
-  std::vector<periodic::QuantityDescription> variables = {};  // those, and what a comparison adds
+  std::vector<periodic::QuantityDescription> variables = {};  // of those, and of a comparison
 };
 
-// Throws StudyError for what stands wrong in the study, and for one that is no sweep.
+// Throws StudyError for an error in the study, and for a study that is not a sweep.
 MapPlan plan_map(Study study, std::vector<std::string> set);
 
 class KnownPoints;

@@ -10,21 +10,21 @@
 #include "studies/record/assembly_options.hpp"
 #include "studies/record/provenance.hpp"
 
-// What a result file says of a map, and of how it came about (results/FORMAT.md).
+// The record of a map in a result file (results/FORMAT.md).
 namespace frahm::studies {
 
-// The layout of a map's file: what every file says, the axes in the user's units, coordinates and variables,
-// without a point.
+// The layout of a map's file, without points: what every file says, the axes in the user's units, coordinates
+// and variables.
 results::MapLayout map_layout(const MapPlan& plan, const RunRecord& run);
 
 // The time histories of the points that the study lists, solved and written to /orbits; nothing if it lists
 // none. An orbit that does not exist has a row without samples. Throws AssemblyStopped.
 void write_orbits(const MapPlan& plan, const AssemblyOptions& options, results::MapWriter& writer);
 
-// The group /borders, without a border. Returns its number, for MapWriter::append_ragged.
+// Creates the group /borders, empty. Returns its number, for MapWriter::append_ragged.
 std::size_t create_borders(const MapPlan& plan, results::MapWriter& writer);
 
-// The row of a border in it.  tile: the points among which it has its place.
+// The row of a border in that group.  tile: the tile of the border.
 std::vector<double> border_row(const Study& study, const MapBox& tile, const Border& border);
 
 // Resonance and half-power frequencies of the masses that the study lists, solved for each point of the axes

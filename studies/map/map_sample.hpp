@@ -9,7 +9,7 @@
 
 namespace frahm::studies {
 
-// What some tiles, evenly spread over a map, tell of the whole.
+// Cost and size of a sample of tiles, evenly spread over a map.
 struct MapSample {
   std::uint64_t points = 0;        // computed, >= 1
   double seconds = 0.0;            // of one thread
@@ -18,7 +18,7 @@ struct MapSample {
   std::uint64_t stored_bytes = 0;  // the same, compressed
   double encoding_seconds = 0.0;   // what the compression took one thread
   std::uint64_t failed = 0;        // points
-  std::string failed_at, reason;   // of the first that failed; its place as --at takes it
+  std::string failed_at, reason;   // of the first that failed; its point as --at takes it
 };
 
 // Computes tiles of the map until `seconds` have passed or all are done; at least one.

@@ -22,9 +22,9 @@ std::vector<periodic::Quantity> listed_quantities(const Study& study) {
     if (!quantity) {
       std::vector<std::string> known;
       for (const auto& each : periodic::all_quantities(study.network)) known.push_back(name_of(study, each));
-      throw study.source.error_at(
-          rules::unknown_name, name.position,
-          fmt::format("[output]: quantities: there is no \"{}\"{}", name.text, suggestion(name.text, known)));
+      throw study.source.error_at(rules::unknown_name, name.position,
+                                  "[output]: quantities: there is no \"{}\"{}", name.text,
+                                  suggestion(name.text, known));
     }
     result.push_back(*quantity);
   }
@@ -84,11 +84,10 @@ void check_report(const Study& study, const std::vector<periodic::QuantityDescri
   for (const periodic::QuantityDescription& quantity : recorded) names.push_back(quantity.name);
   for (const OutputChoice::Name& name : study.sweep()->report_quantities) {
     if (std::find(names.begin(), names.end(), name.text) != names.end()) continue;
-    throw study.source.error_at(
-        rules::unknown_name, name.position,
-        fmt::format("[report]: quantities: \"{}\" is not recorded by this study{}; [output] "
-                    "quantities chooses what is",
-                    name.text, suggestion(name.text, names)));
+    throw study.source.error_at(rules::unknown_name, name.position,
+                                "[report]: quantities: \"{}\" is not recorded by this study{}; [output] "
+                                "quantities chooses what is",
+                                name.text, suggestion(name.text, names));
   }
 }
 
@@ -119,18 +118,17 @@ std::vector<periodic::QuantityDescription> output_variables(
   for (const auto& [name, what] : names_of_groups(study)) {
     const auto other = taken.find(name);
     if (other == taken.end()) continue;
-    throw study.source.error_at(
-        rules::name_taken, other->second.position,
-        fmt::format("\"{}\" is the name of {} and of {}, which stand in one file; rename it", name,
-                    other->second.what, what));
+    throw study.source.error_at(rules::name_taken, other->second.position,
+                                "\"{}\" is the name of {} and of {}, which stand in one file; rename it",
+                                name, other->second.what, what);
   }
   for (const auto& variable : result) {
     const auto [other, is_free] = taken.try_emplace(variable.name, Taken{variable.long_name, {}});
     if (is_free) continue;
     throw study.source.error_at(
         rules::name_taken, other->second.position,
-        fmt::format("\"{}\" is the name of {} and of a result ({}), which stand in one file; rename it",
-                    variable.name, other->second.what, variable.long_name));
+        "\"{}\" is the name of {} and of a result ({}), which stand in one file; rename it", variable.name,
+        other->second.what, variable.long_name);
   }
   check_report(study, result);
   return result;

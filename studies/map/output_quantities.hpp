@@ -7,11 +7,10 @@
 
 namespace frahm::studies {
 
-// The quantities that the study asks for, in the order of the record. Throws StudyError for a name that no
-// quantity has.
+// The quantities that the study asks for, in the order of the record. Throws StudyError for an unknown name.
 std::vector<periodic::Quantity> output_quantities(const Study& study);
 
-// The variables of the record: these quantities, then what a comparison adds. Throws StudyError where two
+// The variables of the record: these quantities, then those of a comparison. Throws StudyError where two
 // names of the record would be the same.
 std::vector<periodic::QuantityDescription> output_variables(
     const Study& study, const std::vector<periodic::Quantity>& quantities);

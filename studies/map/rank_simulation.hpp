@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-// What a map would take on many ranks: the handing out of its tiles replayed event by event with measured
-// costs, nothing computed.
+// The predicted time of a map on many ranks: the dealing of its tiles is replayed event by event with
+// measured costs.
 //
 // Rank 0 serves one request after the other, each with a block of tiles (engine/handout.hpp). A rank asks as
 // soon as its queue is empty, that is when its last thread has taken the last tile of its block, and is
@@ -13,13 +13,13 @@
 // the file.
 namespace frahm::studies {
 
-// So many tiles in turn of which each takes one thread so long.
+// Consecutive tiles of equal cost in one thread.
 struct CostRun {
   std::uint64_t tiles = 0;
   double seconds = 0.0;
 };
 
-// A tile of a sample, and what it took one thread.
+// A tile of a sample and its cost in one thread.
 struct TileCost {
   std::uint64_t tile = 0;
   double seconds = 0.0;
@@ -29,13 +29,13 @@ struct TileCost {
 // each tile once and below `tiles`.
 std::vector<CostRun> costs_of_all(std::vector<TileCost> sample, std::uint64_t tiles);
 
-// Each in seconds.
+// All times in seconds.
 struct RankCosts {
   std::vector<CostRun> tiles;  // in the order of their numbers
   double start = 0.0;          // until a rank has read the study and asks
   double assembly = 0.0;       // of the file, by one thread
   double service = 7e-6;       // of a request, by rank 0: two-sided Open MPI on one machine, measured
-  double answer = 1e-3;        // until a rank looks for its answer: it sleeps so long between two looks
+  double answer = 1e-3;        // until a rank looks for its answer: its pause between two looks
 };
 
 // Shares of `wall` x cores; efficiency and all shares make 1.
@@ -45,15 +45,15 @@ struct RankPrediction {
   double start = 0.0;
   double waiting = 0.0;        // of threads for tiles that rank 0 has not handed out yet
   double imbalance = 0.0;      // of threads that find none left while others compute their last
-  double assembly = 0.0;       // of all cores but those of rank 0, and of these the work itself
+  double assembly = 0.0;       // idle cores of the other ranks, and the work of rank 0
   std::uint64_t requests = 0;  // that were answered with tiles
 };
 
 // ranks, threads of each: > 0.  Time O(tiles log threads + requests log ranks), memory O(ranks x threads).
 RankPrediction simulate_ranks(const RankCosts& costs, int ranks, int threads);
 
-// The largest number of ranks, at most `most`, up to which the efficiency stays at `least` or above, taken to
-// fall with the number of ranks; 0 if that of one rank is below.
+// The largest number of ranks, at most `most`, with an efficiency of at least `least`, which is assumed to
+// fall with the number of ranks; 0 if one rank is already below it.
 int ranks_with_efficiency(const RankCosts& costs, int threads, double least, int most);
 
 }  // namespace frahm::studies

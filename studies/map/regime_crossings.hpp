@@ -7,26 +7,26 @@
 #include "solvers/exact/response.hpp"
 #include "solvers/quantities/quantity.hpp"
 
-// Where the regime of a Coulomb element changes along a line, its place on which is t from 0 to 1.
+// Where the regime of a Coulomb element changes along a line with the position t from 0 to 1.
 namespace frahm::studies {
 
-// What an orbit tells at one place.
+// The regime of an orbit at one position.
 struct RegimePoint {
   periodic::Regime regime = periodic::Regime::not_computed;
   // The shortest stop, or slide between two stops, in a period [rad]; NaN or infinite: none, or not known. It
-  // shrinks to nothing where the orbit loses a stop, two stops join, or the element no longer moves.
+  // shrinks to zero where the orbit loses a stop, two stops join, or the element no longer moves.
   double briefest = 0.0;
 };
 
 // The change from one regime to another; `below` is at smaller t.
 struct RegimeCrossing {
-  // To half of crossing_width, or where stops were seen to shrink to nothing, there: regimes count stops from
-  // 1e-9 of a period on, which is farther from it where stops grow slowly along the line.
+  // Within half of crossing_width; or, if stops were seen to shrink to zero, their zero: regimes count stops
+  // only from 1e-9 of a period on, which lies farther away where stops grow slowly along the line.
   double at = 0.0;
   periodic::Regime below = periodic::Regime::not_computed, above = periodic::Regime::not_computed;
 };
 
-// Between points so far apart, and no farther, the regimes on both sides of a crossing were seen.
+// The regimes on both sides of a crossing were seen at points no farther apart than this.
 inline constexpr double crossing_width = 1e-7;
 
 // Whether the element sticks or slides by friction there; false without friction or response.
@@ -36,18 +36,17 @@ bool has_regime(periodic::Regime regime);
 RegimePoint regime_point(periodic::Regime regime, const std::vector<periodic::Stretch>& stretches,
                          std::size_t element);
 
-// Where a crossing is likely to be, and about how far from it at most.
+// The likely position of a crossing, and about its largest error.
 struct CrossingForecast {
   double at = 0.0;
   double reach = 0.0;  // > 0
 };
 
-// The crossings between two places whose regimes, first and last, differ, in ascending order: none if either
-// end has no regime. Wherever a regime is met that is neither of the two, both parts are searched; pairs of
-// crossings between points of one regime are not seen, and where a place without a regime (a failed one) is
-// met those around it are not. probe: the point at a place inside. forecast: where to look first.  It is
-// asked some ten times a crossing, at most 100 times, and there are at most 32 crossings, however the regimes
-// change.
+// The crossings between the ends of the line, whose regimes `first` and `last` differ, in ascending order:
+// none if either end has no regime. If a third regime is met, both parts are searched. Two crossings between
+// points of one regime are missed, as are those around a point without a regime (a failed one). probe: the
+// point at a position inside, called some ten times per crossing and at most 100 times. forecast: where to
+// look first. There are at most 32 crossings, however the regimes change.
 std::vector<RegimeCrossing> find_crossings(periodic::Regime first, periodic::Regime last,
                                            const std::function<RegimePoint(double at)>& probe,
                                            const std::optional<CrossingForecast>& forecast = std::nullopt);

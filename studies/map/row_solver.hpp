@@ -23,11 +23,11 @@ class RowSolver {
   void begin_row();                      // of element values
   // The next point starts from the first one of the row or stretch of frequencies in hand.
   void turn() { points_onwards_ = 0; }
-  // Completes the parameters (SI) and puts the point's numbers in place.
+  // Completes the parameters (SI) and sets the network's values at the point.
   void set_parameters(std::span<double> parameters);
-  // The quantities of the point in place; `reason` is why it fails, empty if it does not.
+  // The quantities of that point; `reason` says why it fails, empty if it does not.
   std::span<const double> solve(std::string& reason);
-  // How its orbit goes, if it has one (PeriodicResponse::stretches).
+  // The stretches of its orbit, if it has one (PeriodicResponse::stretches).
   std::vector<periodic::Stretch> stretches() const { return response_.stretches(); }
 
  private:
@@ -36,11 +36,11 @@ class RowSolver {
 
   const Parameters& parameters_;
   StudyValues values_;
-  std::vector<double> missing_;  // of each quantity: what a point has that failed before it was solved
+  std::vector<double> missing_;  // of each quantity: its value at a point that failed before it was solved
   bool matrices_change_;
   periodic::PeriodicResponse response_;
   bool matrices_set_ = false;         // to the row's
-  std::uint64_t points_onwards_ = 0;  // along which the frequency has gone one way
+  std::uint64_t points_onwards_ = 0;  // with the frequency going one way
   double omega_ = 0.0;                // of the last of them [rad/s]
   double direction_ = 0.0;            // the step to it
   mechanics::NetworkValues numbers_;

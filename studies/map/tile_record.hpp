@@ -12,22 +12,22 @@
 #include "studies/map/regime_crossings.hpp"
 
 // The record of a finished tile, little-endian: for one quantity after the other its values (float64) at the
-// points of the tile, row-major in the map's order of dimensions; then for each failed point its place among
-// them (u64), the length of the reason (u64) and the reason. Of a study with borders then no_point (u64) and
-// for each border the place of the edge's lower point (u64), t (float64), the dimension, the element and the
+// points of the tile, row-major in the map's order of dimensions; then for each failed point its offset among
+// them (u64), the length of the reason (u64) and the reason. A study with borders adds no_point (u64) and for
+// each border the offset of the edge's lower point (u64), t (float64), the dimension, the element and the
 // regimes below and above (u16 each).
 namespace frahm::studies {
 
 inline constexpr std::uint64_t no_point = std::numeric_limits<std::uint64_t>::max();
 
 struct FailedPoint {
-  std::uint64_t place = 0;  // among the points of the tile, row-major
+  std::uint64_t place = 0;  // offset among the points of the tile, row-major
   std::string reason;
 };
 
 // A change of regime between a point of the tile and its neighbour along a dimension.
 struct Border {
-  std::uint64_t place = 0;       // of the point among those of the tile, row-major
+  std::uint64_t place = 0;       // offset of the point in the tile, row-major
   std::size_t dimension = 0;     // of the map, slowest first
   std::size_t element = 0;       // among the network's Coulomb elements
   RegimeCrossing crossing = {};  // t from 0 at the point to 1 at its neighbour
@@ -42,7 +42,7 @@ struct TileRecord {
 // Appends the record to `out`.
 void encode(const TileRecord& record, engine::Bytes& out);
 
-// values: their number, points of the tile x quantities. Throws std::runtime_error for bytes that are no such
+// values: their number, points of the tile x quantities. Throws std::runtime_error for bytes that are not a
 // record.
 void decode(std::span<const std::byte> bytes, std::size_t values, TileRecord& record);
 

@@ -9,8 +9,8 @@ namespace frahm::studies {
 
 inline constexpr int kCrankAngles = 361;  // of one turn: a degree apart, both ends
 
-// What a study's cranks do in one turn, at the parameters as the study states them; empty if it has none.
-// Along the dimension "angle":
+// The motion of a study's cranks over one turn, at the parameters of the study; empty without cranks. Along
+// the dimension "angle":
 //   angle                                  of the crank, 0 to 2 pi [rad]
 //   <node>_motion                          displacement a(angle) of its slider [m]
 //   <node>_taylor_1, _2, _4                of the Taylor series in crank over rod, cut at that order [m]

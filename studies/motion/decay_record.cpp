@@ -61,7 +61,7 @@ mechanics::NetworkValues motion_values(const Study& study) {
     values.hysteretic_omega = 1.0;  // the natural frequencies do not depend on it
     values.hysteretic_omega = periodic::linear_modes(study.network, values, false).frequency.front();
   } catch (const mechanics::MechanicsError& error) {
-    throw StudyError(rules::not_computed, study.source.name + ": " + error.what());
+    throw StudyError(rules::not_computed, "{}", study.source.name + ": " + error.what());
   }
   return values;
 }
@@ -85,11 +85,11 @@ FreeDecay solve_decay(const Study& study, const transient::Watch& watch) {
     FreeDecay decay =
         transient::free_decay(study.network, motion_values(study), initial_state(study), options);
     if (decay.end == DecayEnd::failed)
-      throw StudyError(rules::not_computed,
+      throw StudyError(rules::not_computed, "{}",
                        study.source.name + ": the motion is not computed: " + decay.reason);
     return decay;
   } catch (const mechanics::MechanicsError& error) {
-    throw StudyError(rules::not_computed, study.source.name + ": " + error.what());
+    throw StudyError(rules::not_computed, "{}", study.source.name + ": " + error.what());
   }
 }
 

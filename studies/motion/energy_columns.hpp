@@ -7,7 +7,7 @@
 // Where the energy of a motion goes: in its record, and as a short table.
 namespace frahm::studies {
 
-// <element>_energy, <element>_energy_share of those that dissipate; initial_energy, final_energy,
+// Adds <element>_energy, <element>_energy_share of elements that dissipate; initial_energy, final_energy,
 // energy_balance, and of a transient energy_input.
 void add_energies(const Study& study, const transient::EnergyBudget& energy, MotionColumns& columns);
 

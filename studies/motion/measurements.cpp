@@ -45,11 +45,10 @@ std::vector<double> sample_times_of(const Study& study, double duration, double 
   constexpr double kRounding = 1e-12;
   const double steps = std::floor(duration * rate * (1.0 + kRounding));
   if (!(steps >= 1.0 && steps < kMostSamples)) {
-    throw StudyError(
-        rules::out_of_range,
-        fmt::format("{}: {:.6g} s at {:.6g} samples a second make {:.6g} samples; must be from 2 "
-                    "to ten million",
-                    study.source.name, duration, rate, steps + 1.0));
+    throw StudyError(rules::out_of_range,
+                     "{}: {:.6g} s at {:.6g} samples a second make {:.6g} samples; must be from 2 "
+                     "to ten million",
+                     study.source.name, duration, rate, steps + 1.0);
   }
   std::vector<double> times;
   for (double i = 0.0; i <= steps; i += 1.0) times.push_back(i / rate);
@@ -99,8 +98,8 @@ std::vector<MeasuredColumn> periodic_columns(const Study& study, const mechanics
   response.set_values(values);
   const periodic::ResponseSummary& summary = response.solve();
   if (summary.status != periodic::Status::ok && summary.status != periodic::Status::grazing)
-    throw StudyError(rules::not_computed,
-                     fmt::format("{}: there is no periodic response: {}", study.source.name, summary.reason));
+    throw StudyError(rules::not_computed, "{}: there is no periodic response: {}", study.source.name,
+                     summary.reason);
   std::vector<double> phases;
   for (const double time : times) phases.push_back(values.omega * time);
   return columns_of(response.history(phases));
@@ -118,11 +117,11 @@ std::vector<MeasuredColumn> chosen(const Study& study, std::vector<MeasuredColum
   for (const std::string& name : names) {
     const auto place = std::find(known.begin(), known.end(), name);
     if (place == known.end()) {
-      throw StudyError(rules::unknown_name,
-                       fmt::format("--columns: nothing is called \"{}\"{}", name, suggestion(name, known)));
+      throw StudyError(rules::unknown_name, "--columns: nothing is called \"{}\"{}", name,
+                       suggestion(name, known));
     }
     if (std::count(names.begin(), names.end(), name) > 1)
-      throw StudyError(rules::given_twice, fmt::format("--columns: \"{}\" is asked for twice", name));
+      throw StudyError(rules::given_twice, "--columns: \"{}\" is asked for twice", name);
     columns.push_back(all[static_cast<std::size_t>(place - known.begin())]);
   }
   return columns;
@@ -162,7 +161,7 @@ Measurements measure(const Study& study, std::span<const double> parameters,
     add_noise(options.noise, result.columns);
     return result;
   } catch (const mechanics::MechanicsError& error) {
-    throw StudyError(rules::not_computed, study.source.name + ": " + error.what());
+    throw StudyError(rules::not_computed, "{}", study.source.name + ": " + error.what());
   }
 }
 

@@ -8,8 +8,7 @@
 
 #include "studies/reading/study.hpp"
 
-// Measurements as a sensor would take them of the motion that a study computes: to try an experiment before
-// it is made.
+// Simulated sensor measurements of the motion of a study, to try an experiment before it is made.
 namespace frahm::studies {
 
 // Normally distributed, independent from sample to sample, with this standard deviation.
@@ -39,8 +38,8 @@ struct Measurements {
 
 // Of a decay or transient: <mass>_displacement, <mass>_velocity. Of a periodic response (a sweep or tuning,
 // at these SI values of all parameters): <mass>_acceleration and <element>_force too.
-// Throws StudyError for a column that does not exist, with those that do, for a motion that is not computed,
-// and for more than ten million samples.
+// Throws StudyError for an unknown column (the known ones are listed), for a motion that is not computed, and
+// for more than ten million samples.
 Measurements measure(const Study& study, std::span<const double> parameters,
                      const MeasurementOptions& options);
 

@@ -9,7 +9,7 @@
 
 namespace frahm::studies {
 
-// Columns of a group, with the units of the study: of one without units only angles keep theirs.
+// Columns of a group, with the units of the study: in a dimensionless study only angles have one.
 class MotionColumns {
  public:
   explicit MotionColumns(const Study& study) : study_(study) {}
@@ -19,7 +19,7 @@ class MotionColumns {
            const std::string& dimension, std::vector<double> values, std::size_t size = 0);
   void add_number(const std::string& name, const char* unit, const std::string& long_name, double value);
 
-  // time, and along it displacement and velocity of each mass and what each element has dissipated that can.
+  // Adds time and, along it, each mass's displacement and velocity and each element's dissipated energy.
   void add_samples(const transient::Samples& samples);
 
   std::vector<results::Column> take() { return std::move(columns_); }

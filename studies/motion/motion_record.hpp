@@ -16,15 +16,14 @@ namespace frahm::studies {
 // A value as the study states it, in SI.
 double stated(const Study& study, const StudyValue& value);
 
-// The numbers of the network as the study states them. Of a decay hysteretic_omega is that of its
-// reference_frequency, or the lowest undamped natural frequency. Throws StudyError for a network that cannot
-// move.
+// The numbers of the network as the study states them. In a decay hysteretic_omega is its
+// reference_frequency, or else the lowest undamped natural frequency. Throws StudyError for a network that
+// cannot move.
 mechanics::NetworkValues motion_values(const Study& study);
 
 transient::InitialState initial_state(const Study& study);
 
-// Throws StudyError for values without a meaning, and where the motion cannot be completed; what `watch`
-// throws is passed on.
+// Throws StudyError for invalid values, and if the motion cannot be completed; passes on what `watch` throws.
 transient::FreeDecay solve_decay(const Study& study, const transient::Watch& watch = {});
 std::vector<results::Column> decay_columns(const Study& study, const transient::FreeDecay& decay);
 void print_decay(const Study& study, const transient::FreeDecay& decay, std::ostream& out);

@@ -51,9 +51,9 @@ transient::ForcedOptions forced_options(const Study& study) {
     options.sweep = {stated(study, *motion.sweep_to), stated(study, *motion.sweep_rate)};
     if (options.sweep.to == options.from) {
       throw study.source.error_at(rules::wrong_order, motion.sweep_to->position,
-                                  fmt::format("{}: is the frequency at which the motion begins; leave out "
-                                              "sweep_to and sweep_rate for one frequency",
-                                              motion.sweep_to->where));
+                                  "{}: is the frequency at which the motion begins; leave out "
+                                  "sweep_to and sweep_rate for one frequency",
+                                  motion.sweep_to->where);
     }
     options.duration = std::abs(options.sweep.to - options.from) / options.sweep.rate;
   }
@@ -68,11 +68,11 @@ ForcedMotion solve_transient(const Study& study, const transient::Watch& watch) 
     ForcedMotion motion = transient::forced_motion(
         study.network, [&](double omega) { return values_at(study, omega); }, initial_state(study), options);
     if (!motion.failure.empty())
-      throw StudyError(rules::not_computed,
+      throw StudyError(rules::not_computed, "{}",
                        study.source.name + ": the motion is not computed: " + motion.failure);
     return motion;
   } catch (const mechanics::MechanicsError& error) {
-    throw StudyError(rules::not_computed, study.source.name + ": " + error.what());
+    throw StudyError(rules::not_computed, "{}", study.source.name + ": " + error.what());
   }
 }
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-// How a cluster under Slurm is asked for a study: as an array of tasks.
+// A study as a job array of a Slurm cluster.
 namespace frahm::studies {
 
 struct ArrayJob {
@@ -16,15 +16,15 @@ struct ArrayJob {
   std::vector<std::string> set;        // as given: name=value
   std::string noun;                    // what is shared among the tasks: "map", "tuning"
   std::uint64_t tiles = 0;             // of the job; a task has at least one
-  std::optional<double> core_seconds;  // of the whole; nothing if it is not known
-  std::uint64_t most_tasks = 0;        // that one array may have
+  std::optional<double> core_seconds;  // of the whole; nothing if unknown
+  std::uint64_t most_tasks = 0;        // the most that one array may have
 };
 
-// Tasks of some ten minutes each on one core, as far as tiles and limit allow; one for each tile where the
-// time is not known. Less than 2: the job cannot be shared.
+// The number of tasks: some ten minutes each on one core, as far as tiles and limit allow; one for each tile
+// if the time is unknown. Less than 2: the job cannot be shared.
 std::uint64_t tasks_of(const ArrayJob& job);
 
-// Prints the lines that submit the job, tell how far it is and join its shards.
+// Prints the lines that submit the job, show its progress and join its shards.
 void print_array_job(const ArrayJob& job, std::ostream& out);
 
 // MaxArraySize in what `scontrol show config` prints; nothing if it does not say.

@@ -129,7 +129,7 @@ int check_motion(const Study& study, std::ostream& out) {
   try {
     print_modes(study, modes_at_point(study, values), out);
   } catch (const mechanics::MechanicsError& error) {
-    throw StudyError(rules::not_computed, study.source.name + ": " + error.what());
+    throw StudyError(rules::not_computed, "{}", study.source.name + ": " + error.what());
   }
   return exit_code::done;
 }
@@ -142,7 +142,7 @@ void print_stated_modes(const Study& study, std::ostream& out) {
   try {
     print_modes(study, modes_at_point(study, values), out);
   } catch (const mechanics::MechanicsError& error) {
-    throw StudyError(rules::not_computed, study.source.name + ": " + error.what());
+    throw StudyError(rules::not_computed, "{}", study.source.name + ": " + error.what());
   }
 }
 
@@ -192,7 +192,7 @@ MapSample sample_of(const MapPlan& plan, double seconds) {
   try {
     return sample_map(plan, seconds);
   } catch (const mechanics::MechanicsError& error) {
-    throw StudyError(rules::not_computed, plan.study.source.name + ": " + error.what());
+    throw StudyError(rules::not_computed, "{}", plan.study.source.name + ": " + error.what());
   }
 }
 
@@ -204,9 +204,9 @@ int check_command(const CheckOptions& options, std::ostream& out) {
   const auto start = Clock::now();
   Study read = read_study_with(options.study, options.set);
   if (options.simulate_ranks > 0 && read.kind() != StudyKind::sweep)
-    throw StudyError(rules::other_kind, options.study.string() +
-                                            ": --simulate-ranks is for maps; this study is " +
-                                            std::string(kind_noun(read.kind())));
+    throw StudyError(rules::other_kind, "{}",
+                     options.study.string() + ": --simulate-ranks is for maps; this study is " +
+                         std::string(kind_noun(read.kind())));
   if (read.kind() == StudyKind::tune) return check_tune(options, std::move(read), out);
   if (read.identify()) return check_identification(options, std::move(read), out);
   if (read.kind() != StudyKind::sweep) return check_motion(read, out);

@@ -16,10 +16,9 @@ struct CheckOptions {
   int simulate_ranks = 0;             // so many ranks of `threads` threads (0: one); 0: no simulation
 };
 
-// Validates a study and tells what running it means: points and tiles, the time and size to expect, the line
+// Validates a study and prints what its run needs: points and tiles, the time and size to expect, the line
 // that submits it as an array of tasks, and the linear modes at the first point of the grid. Computes rows of
-// the map for about a second to predict the time. Returns 0. Throws StudyError for whatever is wrong in the
-// study.
+// the map for about a second to predict the time. Returns 0. Throws StudyError for any error in the study.
 int check_command(const CheckOptions& options, std::ostream& out);
 
 }  // namespace frahm::studies

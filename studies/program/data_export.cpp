@@ -33,8 +33,8 @@ Amount amount_of(const char* option, const std::string& text) {
   const char* end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, amount.value);
   if (error != std::errc{} || !(amount.value > 0.0) || !std::isfinite(amount.value))
-    throw StudyError(rules::wrong_option,
-                     fmt::format("{} \"{}\": must be a number > 0, with its unit or without", option, text));
+    throw StudyError(rules::wrong_option, "{} \"{}\": must be a number > 0, with its unit or without", option,
+                     text);
   amount.unit.assign(stop, end);
   amount.unit.erase(0, amount.unit.find_first_not_of(' '));
   return amount;
@@ -44,12 +44,11 @@ double si_amount(const Study& study, const char* option, const std::string& text
   const Amount amount = amount_of(option, text);
   if (amount.unit.empty()) return amount.value;
   if (study.dimensionless)
-    throw StudyError(rules::wrong_option,
-                     fmt::format("{} \"{}\": a dimensionless study has no units", option, text));
+    throw StudyError(rules::wrong_option, "{} \"{}\": a dimensionless study has no units", option, text);
   try {
     return UnitSystem().to_si(amount.value, amount.unit, quantity);
   } catch (const UnitError& error) {
-    throw StudyError(rules::wrong_option, fmt::format("{} \"{}\": {}", option, text, error.what()));
+    throw StudyError(rules::wrong_option, "{} \"{}\": {}", option, text, error.what());
   }
 }
 
@@ -67,7 +66,7 @@ std::uint64_t seed_of(const std::string& text) {
   const auto [stop, error] = std::from_chars(text.data(), end, seed);
   if (error == std::errc{} && stop == end) return seed;
   throw StudyError(rules::wrong_option,
-                   fmt::format("--seed \"{}\": must be a whole number from 0 to 18446744073709551615", text));
+                   "--seed \"{}\": must be a whole number from 0 to 18446744073709551615", text);
 }
 
 Quantity quantity_of(std::string_view column) {
@@ -86,10 +85,9 @@ SensorNoise noise_of(const Study& study, const DataOptions& options) {
     return noise;
   }
   if (amount.unit.empty() && !study.dimensionless) {
-    throw StudyError(
-        rules::wrong_option,
-        fmt::format("--noise \"{}\": has no unit; write a share such as 1%, or an amount such as \"0.1 mm\"",
-                    options.noise));
+    throw StudyError(rules::wrong_option,
+                     "--noise \"{}\": has no unit; write a share such as 1%, or an amount such as \"0.1 mm\"",
+                     options.noise);
   }
   const Quantity first = options.columns.empty() ? Quantity::length : quantity_of(options.columns.front());
   noise.absolute = si_amount(study, "--noise", options.noise, first);
@@ -105,8 +103,8 @@ void check_place(const std::filesystem::path& place) {
   if (!there || !std::filesystem::is_regular_file(place)) return;
   if (std::getline(there, line) && line.starts_with(data_mark)) return;
   throw StudyError(rules::wrong_file,
-                   fmt::format("{}: is there already and not made by frahm export --data; name another file",
-                               place.string()));
+                   "{}: is there already and not made by frahm export --data; name another file",
+                   place.string());
 }
 
 std::string csv(const Study& study, const std::filesystem::path& file, const DataOptions& options,
@@ -146,9 +144,9 @@ int export_data(const std::filesystem::path& file, const DataOptions& options, s
   const Study study = study_of(file, options.set);
   if (study.identify())
     throw StudyError(rules::other_kind,
-                     fmt::format("{}: an identification reads measurements and has no motion of its own; "
-                                 "frahm export --study makes a study of what it found",
-                                 file.string()));
+                     "{}: an identification reads measurements and has no motion of its own; "
+                     "frahm export --study makes a study of what it found",
+                     file.string());
   const MeasurementOptions asked{
       .rate = rate_of(study, options.rate),
       .duration = options.duration.empty()

@@ -8,7 +8,7 @@
 
 namespace frahm::studies {
 
-// Of `frahm export --data`. Texts as typed.
+// The options of `frahm export --data`, as typed.
 struct DataOptions {
   std::filesystem::path output;  // CSV; "-": stdout
   std::vector<std::string> set;  // name=value: parameters of a study
@@ -20,8 +20,8 @@ struct DataOptions {
   std::vector<std::string> columns;
 };
 
-// Writes simulated measurements of the motion of a study, or of that a result was made from, as a table that
-// an identification reads. Returns 0. Throws StudyError naming the option, engine::IoError.
+// Writes simulated measurements of the motion of a study, or of the study of a result, as a table that an
+// identification reads. Returns 0. Throws StudyError naming the option, engine::IoError.
 int export_data(const std::filesystem::path& file, const DataOptions& options, std::ostream& out);
 
 }  // namespace frahm::studies

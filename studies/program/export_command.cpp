@@ -131,15 +131,14 @@ void write_export(const ExportOptions& options, const results::MapReader& map, s
 }
 
 [[noreturn]] void refuse_place(const std::filesystem::path& place) {
-  throw StudyError(
-      rules::wrong_file,
-      fmt::format("{}: is there already and not made by frahm export; name another file", place.string()));
+  throw StudyError(rules::wrong_file, "{}: is there already and not made by frahm export; name another file",
+                   place.string());
 }
 
 // A study replaces nothing but an earlier one of its own kind, which begins with this mark.
 void check_place_of_study(const char* option, const std::filesystem::path& place, const char* mark) {
   if (place.extension() != ".toml")
-    throw StudyError(rules::wrong_file, fmt::format("{} {}: a study is named .toml", option, place.string()));
+    throw StudyError(rules::wrong_file, "{} {}: a study is named .toml", option, place.string());
   std::ifstream there(place);
   std::string line;
   if (!there || (std::getline(there, line) && line == mark)) return;
@@ -186,7 +185,7 @@ void check_options(const ExportOptions& options) {
   for (const auto& [option, file] : {std::pair("--sweep", options.sweep), std::pair("--study", options.study),
                                      std::pair("--data", data.output)}) {
     if (!file.empty() && !options.output.empty())
-      throw StudyError(rules::wrong_option, fmt::format("--output: {} names its own file", option));
+      throw StudyError(rules::wrong_option, "--output: {} names its own file", option);
   }
 }
 
@@ -198,11 +197,10 @@ int export_command(const ExportOptions& options, std::ostream& out) {
   if (!options.study.empty()) return write_study(options, out);
   if (!options.data.output.empty()) return export_data(options.file, options.data, out);
   if (options.file.extension() == ".toml")
-    throw StudyError(
-        rules::wrong_file,
-        fmt::format("{}: is a study, whose result is exported, or with --data what sensors would "
-                    "show of it",
-                    options.file.string()));
+    throw StudyError(rules::wrong_file,
+                     "{}: is a study, whose result is exported, or with --data what sensors would "
+                     "show of it",
+                     options.file.string());
   require_result(options.file);
   const results::MapReader map(options.file);
   if (options.output == "-") {

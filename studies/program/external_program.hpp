@@ -13,7 +13,7 @@ struct ProgramEnd {
   std::string output = {};  // what it wrote to standard output
 };
 
-// Runs a program, found by its name on the PATH, without a shell; its errors go where ours do.
+// Runs a program, found by its name on the PATH, without a shell; it shares our standard error.
 // arguments: without the name.  input: for its standard input.  Throws std::system_error.
 ProgramEnd run_program_of_system(const std::string& name, const std::vector<std::string>& arguments,
                                  std::string_view input = {});

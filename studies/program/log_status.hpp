@@ -8,9 +8,9 @@
 
 namespace frahm::studies {
 
-// Tells how far an unfinished output is by its shard logs: points done, failed and missing, who is at work,
-// how fast and how long still, and which tasks of an array are to be submitted again. Where the note of the
-// study is gone, or the study no longer what it was, tiles stand for points. logs: all of one study. Throws
+// Prints the progress of an unfinished output from its shard logs: points done, failed and missing, who is at
+// work, the rate and the time left, and which tasks of an array to submit again. If the note of the study is
+// missing or the study has changed, tiles are counted instead of points. logs: all of one study. Throws
 // engine::IoError.
 void print_log_status(const std::filesystem::path& output, const std::vector<std::filesystem::path>& logs,
                       const engine::LogHeader& study, std::ostream& out);

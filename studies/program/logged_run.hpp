@@ -12,10 +12,10 @@
 #include "studies/record/provenance.hpp"
 #include "studies/record/study_plan.hpp"
 
-// What runs have in common whose tiles are kept in shard logs beside the output.
+// Common to all runs that save their tiles in shard logs beside the output.
 namespace frahm::studies {
 
-// What a run took.
+// The effort of a run.
 struct Effort {
   std::uint64_t points = 0;  // computed by it
   std::uint64_t reused = 0;  // taken over by it from an earlier result
@@ -25,17 +25,17 @@ struct Effort {
   int ranks = 1;
 };
 
-// What the kinds of study do in their own ways.
+// The steps that differ between the kinds of study.
 struct LoggedWork {
-  std::function<engine::Job()> job;  // what is to be computed; called once, with the lock of the output held
+  std::function<engine::Job()> job;  // the job to compute; called once, with the lock of the output held
   // Makes the file; false if it was stopped.
   std::function<bool(const RunRecord&, const AssemblyOptions&, const engine::OutputLock&)> assemble;
-  std::function<int()> tell_what_stands;        // of a file that is there already; returns the exit code
-  std::function<int(const Effort&)> tell_made;  // of one just made
+  std::function<int()> tell_what_stands;        // prints an existing file; returns the exit code
+  std::function<int(const Effort&)> tell_made;  // prints a file just made
 };
 
-// Computes what is left of a plan, keeps it in shard logs beside the output, and makes the file when all is
-// there. Returns the exit code. Throws engine::ResumeRefused, engine::Locked, engine::IoError, StudyError.
+// Computes the missing tiles of a plan, saves them in shard logs beside the output, then makes the file.
+// Returns the exit code. Throws engine::ResumeRefused, engine::Locked, engine::IoError, StudyError.
 int run_in_logs(const RunCommandOptions& options, const engine::RunOptions& run, const StudyPlan& plan,
                 const LoggedWork& work, std::ostream& out);
 

@@ -9,14 +9,14 @@
 
 namespace frahm::studies {
 
-// The linear modes of a network at one point: of all friction sliding, and of every contact stuck.
+// The linear modes of a network at one point: with all friction sliding, and with every contact stuck.
 struct ModesAtPoint {
   periodic::LinearModes sliding;
-  periodic::LinearModes stuck;  // no modes where nothing is left to move
+  periodic::LinearModes stuck;  // no modes if nothing can move
   bool friction = false;        // without it the two are the same
 };
 
-// Throws mechanics::MechanicsError where the matrices have no meaning.
+// Throws mechanics::MechanicsError for invalid matrices.
 ModesAtPoint modes_at_point(const Study& study, const mechanics::NetworkValues& values);
 
 // Frequencies (rad/s, Hz and rpm, or one number in a dimensionless study), damping ratios, shapes.

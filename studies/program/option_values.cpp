@@ -26,9 +26,8 @@ engine::Shard shard_of(std::string_view text) {
     const auto index = whole_number(text.substr(0, slash)), count = whole_number(text.substr(slash + 1));
     if (index && count && *index < *count) return {.index = *index, .count = *count};
   }
-  throw StudyError(
-      rules::wrong_option,
-      fmt::format("--shard \"{}\": write i/n, such as 0/16 to 15/16: i is below n, from 0 on", text));
+  throw StudyError(rules::wrong_option,
+                   "--shard \"{}\": write i/n, such as 0/16 to 15/16: i is below n, from 0 on", text);
 }
 
 engine::Shard shard_of_array_task(const std::function<const char*(const char*)>& variable) {
@@ -37,10 +36,9 @@ engine::Shard shard_of_array_task(const std::function<const char*(const char*)>&
     const char* text = variable(name);
     if (!text) return otherwise;
     if (const auto number = whole_number(text)) return *number;
-    throw StudyError(
-        rules::wrong_option,
-        fmt::format("the environment has {} = \"{}\", which is no whole number; give --shard i/n", name,
-                    text));
+    throw StudyError(rules::wrong_option,
+                     "the environment has {} = \"{}\", which is no whole number; give --shard i/n", name,
+                     text);
   };
   const std::uint64_t id = read("SLURM_ARRAY_TASK_ID", 0), first = read("SLURM_ARRAY_TASK_MIN", 0);
   const std::uint64_t step = read("SLURM_ARRAY_TASK_STEP", 1), count = read("SLURM_ARRAY_TASK_COUNT", 1);
@@ -51,11 +49,10 @@ engine::Shard shard_of_array_task(const std::function<const char*(const char*)>&
   if (!is_series || id < first || id > last || (id - first) % step != 0) {
     throw StudyError(
         rules::wrong_option,
-        fmt::format(
-            "array task {} of {} tasks from {} to {} in steps of {} (environment SLURM_ARRAY_TASK_*): which "
-            "share it has is clear only where the tasks are evenly spaced; give --shard i/n, such as "
-            "--shard $SLURM_ARRAY_TASK_ID/16 of an --array within 0-15",
-            id, count, first, last, step));
+        "array task {} of {} tasks from {} to {} in steps of {} (environment SLURM_ARRAY_TASK_*): which "
+        "share it has is clear only where the tasks are evenly spaced; give --shard i/n, such as "
+        "--shard $SLURM_ARRAY_TASK_ID/16 of an --array within 0-15",
+        id, count, first, last, step);
   }
   return {.index = (id - first) / step, .count = count};
 }
@@ -70,9 +67,8 @@ std::chrono::duration<double> time_span_of(std::string_view option, std::string_
                          : unit == "d" ? 86400.0
                                        : 0.0;
   if (error != std::errc{} || !(number * seconds > 0.0) || !std::isfinite(number * seconds)) {
-    throw StudyError(
-        rules::wrong_option,
-        fmt::format("{} \"{}\": write a time above 0 with its unit: 90s, 50m, 2h or 1d", option, text));
+    throw StudyError(rules::wrong_option, "{} \"{}\": write a time above 0 with its unit: 90s, 50m, 2h or 1d",
+                     option, text);
   }
   return std::chrono::duration<double>(number * seconds);
 }

@@ -7,8 +7,8 @@
 
 #include "engine/run.hpp"
 
-// Values of options that are more than a number. All throw StudyError, naming the option, for what they
-// cannot read.
+// Values of options that are more than a number. All throw StudyError, naming the option, for an invalid
+// value.
 namespace frahm::studies {
 
 // "3/16": shard 3 of 16, counted from 0.

@@ -38,8 +38,8 @@ int point_command(const PointOptions& options, std::ostream& out) {
   Study study = read_study_with(options.study, options.set);
   if (study.kind() != StudyKind::sweep && study.kind() != StudyKind::tune) {
     throw StudyError(rules::other_kind,
-                     fmt::format("{}: {} has no periodic response to tell; frahm run computes what it has",
-                                 study.source.name, kind_noun(study.kind())));
+                     "{}: {} has no periodic response to tell; frahm run computes what it has",
+                     study.source.name, kind_noun(study.kind()));
   }
   std::vector<double> parameters = parameters_at(study, options.at);
   set_crank_orders_at(study, parameters);
@@ -49,9 +49,8 @@ int point_command(const PointOptions& options, std::ostream& out) {
   options.json ? print_point_json(study, report, out) : print_point(study, report, out);
   if (report.status == "failed") return exit_code::some_failed;
   if (options.history && !report.history) {
-    throw StudyError(rules::not_computed,
-                     fmt::format("--history {}: the point is {} and has no time history: {}",
-                                 options.history->string(), report.status, report.reason));
+    throw StudyError(rules::not_computed, "--history {}: the point is {} and has no time history: {}",
+                     options.history->string(), report.status, report.reason);
   }
   if (options.history) write_whole_file(*options.history, csv(*report.history, study.dimensionless));
   return exit_code::done;

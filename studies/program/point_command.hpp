@@ -10,19 +10,19 @@ namespace frahm::studies {
 
 struct PointOptions {
   std::filesystem::path study;
-  // name=value each, a unit behind the value or none. What neither names is as the study states it.
+  // name=value each, a unit behind the value or none. Other parameters have the study's values.
   std::vector<std::string> at = {};
   std::vector<std::string> set = {};  // applied to the study before
   // CSV file of the time history; "-" is refused, as `out` has the report.
   std::optional<std::filesystem::path> history = {};
-  bool gradient = false;  // derivatives too: exact, by differences, and how far they are apart
+  bool gradient = false;  // derivatives too: exact, by differences, and their deviation
   bool json = false;      // the report as one JSON object
 };
 
-// Tells the periodic response of one point in full: status, every quantity, the sequence of modes over the
+// Prints the periodic response of one point in full: status, every quantity, the sequence of modes over the
 // period. Returns 0, or 3 for a point that failed. Throws StudyError for a wrong study, name or value, and
-// for a history of a point that has none; engine::IoError for one that cannot be written (nothing is left of
-// it then).
+// for the history of a point without one; engine::IoError for a history that cannot be written (no part of it
+// is left).
 int point_command(const PointOptions& options, std::ostream& out);
 
 }  // namespace frahm::studies

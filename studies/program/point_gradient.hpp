@@ -9,17 +9,17 @@
 
 namespace frahm::studies {
 
-// The derivatives of the standard quantities that have any, by each number parameter on which the network
-// depends; by the excitation's frequency itself where no parameter sets it.
+// The derivatives of the differentiable standard quantities by each number parameter on which the network
+// depends; by the excitation frequency itself if no parameter sets it.
 struct PointGradient {
   struct By {
     std::string parameter;
     std::string unit;  // SI, of the parameter; "1" where it has none or none is known
     std::vector<periodic::DerivativeCheck> derivatives;  // of each quantity
   };
-  std::string reason;  // why the point has none; else empty
+  std::string reason;  // why the point has no derivatives; else empty
   std::vector<periodic::QuantityDescription> quantities;
-  std::vector<By> by;  // empty where there is a reason
+  std::vector<By> by;  // empty if there is a reason
 };
 
 // parameters: SI values of all parameters, complete. Throws mechanics::MechanicsError where the network's

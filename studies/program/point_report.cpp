@@ -37,7 +37,7 @@ periodic::PeriodicResponse response_of(const Study& study,
   try {
     return {study.network, quantities};
   } catch (const mechanics::MechanicsError& error) {
-    throw StudyError(rules::not_computed, study.source.name + ": " + error.what());
+    throw StudyError(rules::not_computed, "{}", study.source.name + ": " + error.what());
   }
 }
 

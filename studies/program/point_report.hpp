@@ -22,7 +22,7 @@ struct PointReport {
   };
   struct QuantityValue {
     periodic::QuantityDescription description;
-    double value = 0.0;  // NaN, -1 of a count: there is none
+    double value = 0.0;  // NaN or a count of -1: no value
   };
 
   std::vector<Parameter> parameters;  // the numbers of the study
@@ -31,29 +31,29 @@ struct PointReport {
   double residual = 0.0;              // 1
   int newton_iterations = 0;
   int passages = 0;                            // of the flow that the search took
-  std::vector<QuantityValue> quantities;       // all_quantities, and what a comparison adds
+  std::vector<QuantityValue> quantities;       // all_quantities, and those of a comparison
   std::vector<std::string> friction_elements;  // in the order of Stretch::contacts
   std::vector<periodic::Stretch> stretches;    // over the period; empty without a response
-  std::optional<ModesAtPoint> modes;           // absent where the matrices have no meaning
+  std::optional<ModesAtPoint> modes;           // absent for invalid matrices
   std::optional<periodic::History> history;    // if asked for and there is a response
   std::optional<PointGradient> gradient;       // if asked for
 };
 
 // Solves a point from nothing known. parameters: SI values of all parameters, complete.
 // history_samples: of the time history, both ends of the period included; 0: none is wanted. gradient: exact
-// derivatives beside differences are.
+// derivatives, beside differences, are wanted.
 // Throws StudyError for a network that cannot move at any values.
 PointReport tell_point(const Study& study, std::vector<double> parameters, std::size_t history_samples,
                        bool gradient);
 
-// The value of a flag in words: "one_stop"; what is no flag has no meaning.
+// The value of a flag in words: "one_stop"; "" for a value that is no flag.
 std::string flag_meaning(const periodic::QuantityDescription& description, double value);
 // Whether a quantity has a value at the point: not NaN, and no count of -1.
 bool has_value(const PointReport::QuantityValue& quantity);
 
-// For readers.
+// Prints the report as text.
 void print_point(const Study& study, const PointReport& report, std::ostream& out);
-// One JSON object; what has no value is null. Angles in rad, the rest with its unit beside it.
+// Prints one JSON object; a missing value is null. Angles in rad, the rest with its unit beside it.
 void print_point_json(const Study& study, const PointReport& report, std::ostream& out);
 
 }  // namespace frahm::studies

@@ -40,10 +40,9 @@ void print_limit(const RankCosts& costs, int ranks, int threads, std::ostream& o
 void print_rank_table(const Grid& grid, const MapSample& sample, int ranks, int threads, double start_seconds,
                       std::ostream& out) {
   if (static_cast<std::int64_t>(ranks) * threads > most_threads)
-    throw StudyError(
-        rules::wrong_option,
-        fmt::format("--simulate-ranks {} with --threads {}: at most {} threads in all can be replayed", ranks,
-                    threads, most_threads));
+    throw StudyError(rules::wrong_option,
+                     "--simulate-ranks {} with --threads {}: at most {} threads in all can be replayed",
+                     ranks, threads, most_threads);
   const double share = static_cast<double>(grid.points()) / static_cast<double>(sample.points);
   const RankCosts costs{.tiles = costs_of_all(sample.costs, grid.tiles()),
                         .start = start_seconds,

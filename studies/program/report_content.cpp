@@ -52,9 +52,8 @@ void check_quantities(const std::vector<std::string>& asked, const results::MapL
     if (is_known) continue;
     std::string names;
     for (const results::Variable& variable : known) names += (names.empty() ? "" : ", ") + variable.name;
-    throw StudyError(rules::wrong_option,
-                     fmt::format("--quantities: the result has no quantity \"{}\"; it has {}", name,
-                                 names.empty() ? "no map" : names));
+    throw StudyError(rules::wrong_option, "--quantities: the result has no quantity \"{}\"; it has {}", name,
+                     names.empty() ? "no map" : names);
   }
 }
 
@@ -67,10 +66,9 @@ void check_size(const results::MapLayout& layout, std::size_t quantities, bool a
   if (points * static_cast<double>(quantities) <= most_numbers) return;
   throw StudyError(
       rules::too_large,
-      fmt::format(
-          "the report would hold {} quantities at {:.4g} points; {} takes {:.0e} numbers at most: name "
-          "fewer by --quantities, or sweep a part of the map for it",
-          quantities, points, all_digits ? "Node.js" : "a browser", most_numbers));
+      "the report would hold {} quantities at {:.4g} points; {} takes {:.0e} numbers at most: name "
+      "fewer by --quantities, or sweep a part of the map for it",
+      quantities, points, all_digits ? "Node.js" : "a browser", most_numbers);
 }
 
 std::vector<std::string> shown_quantities(const std::vector<std::string>& asked,

@@ -7,9 +7,8 @@
 
 namespace frahm::studies {
 
-// What a study tells its report besides the result: group "crank", the motion of its cranks; group "study",
-// of one motion by what the page knows whether it can end and what a period is, of a tuning over which part
-// of the band its limits hold.
+// Facts of a study for its report: group "crank", the motion of its cranks; group "study", for one motion
+// whether it can end and its period, for a tuning the part of the band over which each limit holds.
 std::vector<results::PageGroup> report_facts(const Study& study);
 
 }  // namespace frahm::studies

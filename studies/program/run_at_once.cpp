@@ -34,9 +34,8 @@ transient::Watch watch_for_stop(const engine::StopRequest& stop) {
 
 void refuse_sharing(const RunCommandOptions& options, const Study& study) {
   if (options.run.shard.count <= 1) return;
-  throw StudyError(rules::other_kind,
-                   fmt::format("{}: {} is one piece of work, which an array of tasks cannot share",
-                               study.source.name, kind_noun(study.kind())));
+  throw StudyError(rules::other_kind, "{}: {} is one piece of work, which an array of tasks cannot share",
+                   study.source.name, kind_noun(study.kind()));
 }
 
 // What an identification reads it must not take the place of.
@@ -46,8 +45,8 @@ void refuse_own_data(const Study& study, const std::filesystem::path& output) {
   for (const std::filesystem::path& file : study.identify()->files) {
     if (std::filesystem::equivalent(output, file, ignored))
       throw StudyError(rules::wrong_file,
-                       fmt::format("{}: is a file that the study reads; name another for the result with -o",
-                                   output.string()));
+                       "{}: is a file that the study reads; name another for the result with -o",
+                       output.string());
   }
 }
 

@@ -7,10 +7,10 @@
 
 namespace frahm::studies {
 
-// What is one piece of work: the motion of a study of kind "decay" or "transient", or a model identified from
+// Runs a study that is one piece of work: a motion (kind "decay" or "transient") or a model identified from
 // data. Writes its file and prints a short table.
-// It takes seconds at most, so nothing is kept in between and a file of the same study is written anew.
-// A signal or the time budget stops it: then it leaves no file. Returns 0; 4 if stopped; 7 if a fit did not
+// This takes seconds at most, so nothing is saved on the way and a file of the same study is replaced.
+// A run stopped by a signal or the time budget leaves no file. Returns 0; 4 if stopped; 7 if a fit did not
 // converge. Throws as run_command().
 int run_at_once(const RunCommandOptions& options, Study study, std::ostream& out);
 

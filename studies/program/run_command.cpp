@@ -19,9 +19,8 @@ int run_command(const RunCommandOptions& options, std::ostream& out) {
   Study study = read_study_with(options.study, options.set);
   if (study.kind() == StudyKind::sweep) return run_map(options, std::move(study), out);
   if (!options.from.empty())
-    throw StudyError(rules::other_kind,
-                     fmt::format("{}: {} has no points to take over from {}: --from is for maps",
-                                 study.source.name, kind_noun(study.kind()), options.from.string()));
+    throw StudyError(rules::other_kind, "{}: {} has no points to take over from {}: --from is for maps",
+                     study.source.name, kind_noun(study.kind()), options.from.string());
   if (study.kind() == StudyKind::tune) return run_tuning(options, std::move(study), out);
   return run_at_once(options, std::move(study), out);
 }

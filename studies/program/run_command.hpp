@@ -12,7 +12,7 @@ namespace frahm::studies {
 struct RunCommandOptions {
   std::filesystem::path study;
   std::vector<std::string> set;  // name=value, a unit behind the value or none
-  std::filesystem::path from;    // of a map: the result whose points are taken over; empty: none
+  std::filesystem::path from;    // of a map: the result to take points over from; empty: none
   std::string command;           // as typed, for the record
   engine::RunOptions run;        // output empty: the study's name with .h5, in the working directory
 };
@@ -20,7 +20,7 @@ struct RunCommandOptions {
 // The study's name with .h5, in the working directory.
 std::filesystem::path default_output(const std::filesystem::path& study);
 
-// Computes what a study asks for, a map (run_map.hpp), an optimum (run_tuning.hpp), one motion
+// Computes the result of a study, a map (run_map.hpp), an optimum (run_tuning.hpp), one motion
 // or an identified model (run_at_once.hpp), writes its file and prints a short table of it. Returns 0; 3 if
 // some points failed; 4 if stopped; 7 if an optimum or a fit was not found. Throws StudyError,
 // engine::ResumeRefused when an output of another study is there, engine::IoError, results::StoreError.

@@ -7,7 +7,7 @@
 
 namespace frahm::studies {
 
-// Computes the map of a study of kind "sweep", or what is left of it, and writes its file. Prints a short
+// Computes the map of a study of kind "sweep", or its missing tiles, and writes its file. Prints a short
 // table of it. Returns 0; 3 if some points failed; 4 if stopped. Throws as run_command().
 int run_map(const RunCommandOptions& options, Study study, std::ostream& out);
 

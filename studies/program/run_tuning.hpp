@@ -10,12 +10,11 @@
 
 namespace frahm::studies {
 
-// Tunes a study of kind "tune", or what is left of its starts, writes its file and prints the optimum.
-// Returns 0; 4 if stopped; 7 if it did not converge, with the best design so far in the file. Throws as
-// run_command().
+// Computes a study of kind "tune", or its missing starts, writes its file and prints the optimum. Returns 0;
+// 4 if stopped; 7 if it did not converge, with the best design so far in the file. Throws as run_command().
 int run_tuning(const RunCommandOptions& options, Study study, std::ostream& out);
 
-// Prints what a file just written holds, and why it is no optimum on stderr. Returns 0 or 7.
+// Prints the tuning just written; if it is not an optimum, prints the reason on stderr. Returns 0 or 7.
 int tell_tuning(const StudyPlan& plan, const TuningResult& result, const std::filesystem::path& file,
                 std::ostream& out);
 

@@ -5,9 +5,9 @@
 
 namespace frahm::studies {
 
-// Tells what a finished result file holds, or how far the shard logs beside an unfinished one are; of
-// both the logs first, which are the news. Returns 0.
-// Throws engine::IoError if there is neither, results::StoreError for a file that is no result.
+// Prints the content of a finished result file, or the progress in the shard logs beside an unfinished one;
+// if both exist, the logs first, because they are newer. Returns 0. Throws engine::IoError if there is
+// neither, results::StoreError for a file that is no result.
 int status_command(const std::filesystem::path& file, std::ostream& out);
 
 }  // namespace frahm::studies

@@ -20,7 +20,7 @@ mechanics::Network mass_on_base(bool friction_on_base);  // spring and damper to
 // One component of amplitude 1 and phase 0; for more than one replace `excitation`.
 mechanics::NetworkValues mass_values(double r, double zeta, double f);
 
-// What is known of a response in closed form.
+// The quantities of a response that are known in closed form.
 struct KnownQuantities {
   double amplitude = 0.0;       // (max x - min x)/2
   double stroke = 0.0;          // of the spring

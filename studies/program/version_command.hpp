@@ -4,8 +4,8 @@
 
 namespace frahm::studies {
 
-// Prints name and version; verbose: commit, compiler, flags, libraries, threads and whether this CPU has what
-// the program was built for. Returns 0.
+// Prints name and version; verbose: commit, compiler, flags, libraries, threads and whether this CPU has the
+// instructions of the build. Returns 0.
 int version_command(bool verbose, std::ostream& out);
 
 }  // namespace frahm::studies

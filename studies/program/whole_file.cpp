@@ -54,14 +54,12 @@ void check_output_is_not_input(const std::filesystem::path& output, const std::f
                                std::string_view extension) {
   std::error_code error;
   if (std::filesystem::equivalent(output, input, error)) {
-    throw StudyError(
-        rules::wrong_file,
-        fmt::format("{}: is the file that is read; name another for the output", output.string()));
+    throw StudyError(rules::wrong_file, "{}: is the file that is read; name another for the output",
+                     output.string());
   }
   if (output.extension() == ".toml" || output.extension() == ".h5") {
-    throw StudyError(rules::wrong_file,
-                     fmt::format("{}: has the name of a study or a result; name this output {}",
-                                 output.string(), extension));
+    throw StudyError(rules::wrong_file, "{}: has the name of a study or a result; name this output {}",
+                     output.string(), extension);
   }
 }
 

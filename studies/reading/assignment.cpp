@@ -29,7 +29,7 @@ class AssignmentReading {
 
  private:
   [[noreturn]] void fail(Rule rule, std::string_view message) const {
-    throw StudyError(rule, fmt::format("{} \"{}\": {}", option_, text_, message));
+    throw StudyError(rule, "{} \"{}\": {}", option_, text_, message);
   }
 
   std::size_t named(std::string_view name) const {
@@ -87,8 +87,8 @@ std::vector<Assignment> parse_assignments(const Study& study, std::string_view o
       return other.parameter == assignment.parameter;
     });
     if (twice) {
-      throw StudyError(rules::given_twice, fmt::format("{}: \"{}\" is given twice", option,
-                                                       study.parameters.list[assignment.parameter].name));
+      throw StudyError(rules::given_twice, "{}: \"{}\" is given twice", option,
+                       study.parameters.list[assignment.parameter].name);
     }
     assignments.push_back(assignment);
     more = comma != std::string_view::npos;

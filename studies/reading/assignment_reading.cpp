@@ -8,7 +8,7 @@ namespace frahm::studies {
 Assignment read_assignment(const StudyContext& context, const Study& study, const std::string& where,
                            const TomlEntry& entry, const WhyNot& why_not) {
   const auto fail = [&](Rule rule, Position position, const std::string& message) {
-    throw context.source.error_at(rule, position, fmt::format("{}: {}: {}", where, entry.key, message));
+    throw context.source.error_at(rule, position, "{}: {}: {}", where, entry.key, message);
   };
   const auto index = study.parameters.find(entry.key);
   if (!index)

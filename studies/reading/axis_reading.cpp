@@ -19,20 +19,19 @@ std::size_t read_axis_parameter(const TomlSection& section, const Study& study) 
   const std::string name = section.text("parameter");
   const auto index = study.parameters.find(name);
   if (!index) {
-    section.fail(
-        rules::unknown_name, "parameter",
-        fmt::format("no parameter is called \"{}\"{}", name, suggestion(name, study.parameters.names())));
+    section.fail(rules::unknown_name, "parameter", "no parameter is called \"{}\"{}", name,
+                 suggestion(name, study.parameters.names()));
   }
   if (!study.parameters.list[*index].is_number()) {
     section.fail(rules::computed_parameter, "parameter",
-                 fmt::format("\"{}\" is computed from other parameters; an axis needs one that is a "
-                             "number",
-                             name));
+                 "\"{}\" is computed from other parameters; an axis needs one that is a "
+                 "number",
+                 name);
   }
   for (const ParameterAxis& other : study.sweep()->axes) {
     if (other.parameter != *index) continue;
-    section.fail(rules::given_twice, "parameter",
-                 fmt::format("\"{}\" has an axis already (line {})", name, other.position.line));
+    section.fail(rules::given_twice, "parameter", "\"{}\" has an axis already (line {})", name,
+                 other.position.line);
   }
   return *index;
 }
@@ -51,16 +50,15 @@ void read_axis_unit(const StudyContext& context, const TomlSection& section, con
     try {
       axis.si_factor = si_factor(parameter, *unit);
     } catch (const UnitError& error) {
-      section.fail(error.rule(), "unit", error.what());
+      section.fail(error.rule(), "unit", "{}", error.what());
     }
     axis.unit = unit->text;
   } else if (parameter.unit) {
     if (si_factor(parameter, *parameter.unit) != 1.0) {
-      section.fail(
-          rules::missing_unit,
-          fmt::format("the parameter is given in \"{0}\" and its axis in no unit; add unit = \"{0}\" or "
-                      "another",
-                      parameter.unit->text));
+      section.fail_here(rules::missing_unit,
+                        "the parameter is given in \"{0}\" and its axis in no unit; add unit = \"{0}\" or "
+                        "another",
+                        parameter.unit->text);
     }
     axis.unit = parameter.unit->text;
   } else if (parameter.quantity) {
@@ -85,21 +83,19 @@ std::vector<double> read_range(const TomlSection& section) {
   section.require("points");
   const std::int64_t points = section.integer_or("points", 0);
   if (points < 1 || points > most_points) {
-    section.fail(rules::out_of_range, "points",
-                 fmt::format("{} is out of range: a whole number from 2 to {}", points, most_points));
+    section.fail(rules::out_of_range, "points", "{} is out of range: a whole number from 2 to {}", points,
+                 most_points);
   }
   if (points == 1)
     section.fail(rules::out_of_range, "points",
                  "one point does not reach from \"from\" to \"to\"; write values = [...]");
   if (from == to)
-    section.fail(rules::wrong_order, "to",
-                 fmt::format("\"from\" and \"to\" are the same, {}; write values = [...]", to));
+    section.fail(rules::wrong_order, "to", "\"from\" and \"to\" are the same, {}; write values = [...]", to);
   const bool logarithmic = section.choice_or("spacing", {"linear", "log"}) == "log";
   for (const char* end : {"from", "to"}) {
     if (logarithmic && !(section.number(end) > 0.0)) {
       section.fail(rules::out_of_range, end,
-                   fmt::format("{} is not possible with spacing = \"log\": both ends must be > 0",
-                               section.number(end)));
+                   "{} is not possible with spacing = \"log\": both ends must be > 0", section.number(end));
     }
   }
   return spaced(from, to, static_cast<std::size_t>(points), logarithmic);
@@ -114,8 +110,7 @@ std::vector<double> read_listed(const TomlSection& section) {
   const TomlValue& list = section.require("values");
   const auto* items = list.as<TomlArray>();
   if (!items)
-    section.fail(rules::wrong_type, "values",
-                 fmt::format("expected an array of numbers, found {}", described(list)));
+    section.fail(rules::wrong_type, "values", "expected an array of numbers, found {}", described(list));
   if (items->empty())
     section.fail(rules::empty, "values", "the array is empty; an axis needs at least one value");
   std::vector<double> values;
@@ -131,8 +126,8 @@ void check_values_differ(const TomlSection& section, const ParameterAxis& axis) 
   std::sort(sorted.begin(), sorted.end());
   const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
   if (twice != sorted.end() && axis.zip.empty()) {
-    section.fail(rules::given_twice, section.find("values") ? "values" : "points",
-                 fmt::format("{} appears twice", *twice));
+    section.fail(rules::given_twice, section.find("values") ? "values" : "points", "{} appears twice",
+                 *twice);
   }
 }
 
@@ -140,7 +135,7 @@ void convert_axis(const TomlSection& section, ParameterAxis& axis) {
   for (const double value : axis.values) {
     axis.si_values.push_back(value * axis.si_factor);
     if (!std::isfinite(axis.si_values.back()))
-      section.fail(rules::not_finite, fmt::format("{} is out of range in SI units", value));
+      section.fail_here(rules::not_finite, "{} is out of range in SI units", value);
   }
 }
 
@@ -153,9 +148,9 @@ void add_to_grid(const TomlSection& section, Study& study) {
     if (axis.zip.empty() || other.zip != axis.zip) continue;
     if (axis.values.size() != dimension.size) {
       section.fail(rules::wrong_length, "zip",
-                   fmt::format("{} values cannot advance together with the {} of axis \"{}\" (line {})",
-                               axis.values.size(), dimension.size,
-                               study.parameters.list[other.parameter].name, other.position.line));
+                   "{} values cannot advance together with the {} of axis \"{}\" (line {})",
+                   axis.values.size(), dimension.size, study.parameters.list[other.parameter].name,
+                   other.position.line);
     }
     dimension.axes.push_back(index);
     return;
@@ -173,7 +168,8 @@ void read_axis(const StudyContext& context, const TomlValue& table, std::size_t 
   const Parameter& parameter = study.parameters.list[axis.parameter];
   read_axis_unit(context, section, parameter, axis);
   if (!section.find("values") && !section.find("from")) {
-    section.fail(rules::missing_key, "its values are missing: give values = [...] or from, to and points");
+    section.fail_here(rules::missing_key,
+                      "its values are missing: give values = [...] or from, to and points");
   }
   axis.values = section.find("values") ? read_listed(section) : read_range(section);
   if (section.find("zip")) axis.zip = section.identifier("zip");
@@ -189,9 +185,9 @@ void check_zip_names(const StudyContext& context, const Study& study) {
     for (const ParameterAxis& axis : study.sweep()->axes) {
       if (zipped.zip != study.parameters.list[axis.parameter].name) continue;
       throw context.source.error_at(rules::name_taken, zipped.position,
-                                    fmt::format("axis \"{}\": zip: \"{}\" is the name of a parameter "
-                                                "on an axis; give the zip a name of its own",
-                                                study.parameters.list[zipped.parameter].name, zipped.zip));
+                                    "axis \"{}\": zip: \"{}\" is the name of a parameter "
+                                    "on an axis; give the zip a name of its own",
+                                    study.parameters.list[zipped.parameter].name, zipped.zip);
     }
   }
 }
@@ -209,9 +205,9 @@ void read_axes(const StudyContext& context, const TomlValue& root, Study& study)
   for (const GridDimension& dimension : study.sweep()->dimensions)
     points *= static_cast<double>(dimension.size);
   if (points > most_grid_points) {
-    throw context.source.error_at(
-        rules::too_large, tables.back()->position,
-        fmt::format("the grid has {:.3g} points, more than the {:.0e} allowed", points, most_grid_points));
+    throw context.source.error_at(rules::too_large, tables.back()->position,
+                                  "the grid has {:.3g} points, more than the {:.0e} allowed", points,
+                                  most_grid_points);
   }
 }
 
@@ -241,9 +237,9 @@ void read_coordinates(const StudyContext& context, const TomlValue& root, Study&
     const auto moving = dimensions_moving(study, coordinate.value.expression.reads());
     if (moving.size() != 1) {
       section.fail(rules::wrong_dependence, "value",
-                   fmt::format("depends on {}; a coordinate depends on the parameters of one axis (or of one "
-                               "zip)",
-                               moving.empty() ? "no axis" : "several axes"));
+                   "depends on {}; a coordinate depends on the parameters of one axis (or of one "
+                   "zip)",
+                   moving.empty() ? "no axis" : "several axes");
     }
     coordinate.dimension = moving.front();
     study.sweep()->coordinates.push_back(std::move(coordinate));

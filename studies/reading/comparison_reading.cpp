@@ -26,8 +26,8 @@ void read_compared_law(NetworkReading& reading, const TomlSection& section, cons
     for (const mechanics::Element& each : elements) {
       const mechanics::ElementKind& kind = mechanics::kind_of(each);
       if (kind.law == nullptr || kind.can_be_smoothed()) continue;
-      section.fail(rules::wrong_law, "law",
-                   fmt::format("element \"{}\" is a {}, which has no arctan law", each.name, kind.name));
+      section.fail(rules::wrong_law, "law", "element \"{}\" is a {}, which has no arctan law", each.name,
+                   kind.name);
     }
     comparison.slope = read_value(reading, section, "slope", Quantity::inverse_speed, Range::positive);
     return;
@@ -44,8 +44,7 @@ void read_compared_profile(const TomlSection& section, const Study& study, Compa
     section.fail(rules::key_without_use, "slope", "belongs to a compared law, not to a compared profile");
   const std::int64_t order = section.integer_or("taylor_order", 0);
   if (order != 1 && order != 2 && order != 4)
-    section.fail(rules::out_of_range, "taylor_order",
-                 fmt::format("{} is not possible; write 1, 2 or 4", order));
+    section.fail(rules::out_of_range, "taylor_order", "{} is not possible; write 1, 2 or 4", order);
   comparison.taylor_order = static_cast<int>(order);
   const auto& excitations = study.network.excitations;
   const auto differs = [&](const mechanics::Excitation& each) {
@@ -54,7 +53,7 @@ void read_compared_profile(const TomlSection& section, const Study& study, Compa
   if (std::any_of(excitations.begin(), excitations.end(), differs)) return;
   const bool none = std::none_of(excitations.begin(), excitations.end(),
                                  [](const auto& each) { return each.kind == ExcitationKind::crank; });
-  section.fail(rules::key_without_use, "taylor_order",
+  section.fail(rules::key_without_use, "taylor_order", "{}",
                none ? "the study has no motion of the profile \"crank\" to be cut"
                     : "the study's cranks are cut at this order themselves");
 }
@@ -63,8 +62,8 @@ void read_compared_profile(const TomlSection& section, const Study& study, Compa
 periodic::Quantity read_quantity(const TomlSection& section, const OutputChoice::Name& name,
                                  const Study& study) {
   const auto fail = [&](Rule rule, const std::string& message) {
-    throw section.source().error_at(
-        rule, name.position, fmt::format("{}: quantities: \"{}\"{}", section.where(), name.text, message));
+    throw section.source().error_at(rule, name.position, "{}: quantities: \"{}\"{}", section.where(),
+                                    name.text, message);
   };
   const auto describe = [&](const periodic::Quantity& quantity) {
     return periodic::describe(quantity, study.network, study.dimensionless);
@@ -89,10 +88,10 @@ void read_comparison(const StudyContext& context, const TomlValue& root, Study& 
   const TomlSection section(context.source, entry->value, "[compare]",
                             {"law", "slope", "taylor_order", "quantities"});
   if ((section.find("law") != nullptr) == (section.find("taylor_order") != nullptr))
-    section.fail(rules::one_of_two_keys,
-                 fmt::format("needs either \"law\", another friction law, or \"taylor_order\", another crank "
-                             "profile; it has {}",
-                             section.find("law") ? "both" : "neither"));
+    section.fail_here(rules::one_of_two_keys,
+                      "needs either \"law\", another friction law, or \"taylor_order\", another crank "
+                      "profile; it has {}",
+                      section.find("law") ? "both" : "neither");
   Comparison comparison;
   NetworkReading reading(context, study.parameters);
   if (section.find("law")) {

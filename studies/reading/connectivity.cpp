@@ -50,10 +50,10 @@ void check_masses_are_held(const StudyContext& context, const NetworkOfStudy& sy
     }
     throw context.source.error_at(
         rules::floating_mass, masses[i],
-        fmt::format("{} {} float{} free: no chain of springs leads to ground or to a node of prescribed "
-                    "motion, so the stiffness matrix is not positive definite",
-                    floating.size() == 1 ? "mass" : "the masses", listed(floating, " and "),
-                    floating.size() == 1 ? "s" : ""));
+        "{} {} float{} free: no chain of springs leads to ground or to a node of prescribed "
+        "motion, so the stiffness matrix is not positive definite",
+        floating.size() == 1 ? "mass" : "the masses", listed(floating, " and "),
+        floating.size() == 1 ? "s" : "");
   }
 }
 

@@ -45,13 +45,11 @@ void check_even(const CsvReading& reading) {
     const std::string hint = row.separator == ',' ? ", and decimals are written with a point" : "";
     const std::string place = fmt::format("{}:{}", reading.result.file, row.line);
     if (alike)
-      reading.fail(rules::wrong_length,
-                   fmt::format("{}: {} cells, but {} in line {}; all rows have as many{}", place,
-                               row.cells.size(), first.cells.size(), first.line, hint));
-    reading.fail(
-        rules::wrong_row,
-        fmt::format("{}: separated by {}, but line {} by {}; all rows are separated alike{}", place,
-                    separator_name(row.separator), first.line, separator_name(first.separator), hint));
+      reading.fail_at_file(rules::wrong_length, "{}: {} cells, but {} in line {}; all rows have as many{}",
+                           place, row.cells.size(), first.cells.size(), first.line, hint);
+    reading.fail_at_file(rules::wrong_row,
+                         "{}: separated by {}, but line {} by {}; all rows are separated alike{}", place,
+                         separator_name(row.separator), first.line, separator_name(first.separator), hint);
   }
 }
 
@@ -88,20 +86,19 @@ void refuse_misspelt(const CsvReading& reading, const RecordForm& form) {
     const bool of_node = std::any_of(motion_endings.begin(), motion_endings.end(),
                                      [&](const char* ending) { return name.ends_with(ending); });
     if (!of_node || form.find(name)) continue;
-    reading.fail(
-        rules::unknown_name,
-        fmt::format("{}:{}: \"{}\" is of no node of the study{}; where it means nothing here, say which "
-                    "columns do: columns = {{ ... }}",
-                    reading.result.file, reading.result.header, name, suggestion(name, known)));
+    reading.fail_at_file(rules::unknown_name,
+                         "{}:{}: \"{}\" is of no node of the study{}; where it means nothing here, say which "
+                         "columns do: columns = {{ ... }}",
+                         reading.result.file, reading.result.header, name, suggestion(name, known));
   }
 }
 
 // Without `columns` those count whose header is the name of a role.
 std::vector<WantedColumn> wanted_by_header(const CsvReading& reading) {
   if (reading.header.empty()) {
-    reading.fail(rules::no_header,
-                 fmt::format("{}: has no header; say which column is what: columns = {{ {} = 1, ... }}",
-                             reading.result.file, reading.forms.front().roles.front().name));
+    reading.fail_at_file(rules::no_header,
+                         "{}: has no header; say which column is what: columns = {{ {} = 1, ... }}",
+                         reading.result.file, reading.forms.front().roles.front().name);
   }
   std::vector<std::string> found;
   for (const std::string& role : role_names(reading.forms)) {
@@ -112,9 +109,8 @@ std::vector<WantedColumn> wanted_by_header(const CsvReading& reading) {
   for (const Role& role : form.roles) {
     const bool there = std::find(found.begin(), found.end(), role.name) != found.end();
     if (role.required && !there)
-      reading.fail(rules::unknown_column, fmt::format("{}:{}: no column is called \"{}\"{}",
-                                                      reading.result.file, reading.result.header, role.name,
-                                                      suggestion(role.name, header_names(reading))));
+      reading.fail_at_file(rules::unknown_column, "{}:{}: no column is called \"{}\"{}", reading.result.file,
+                           reading.result.header, role.name, suggestion(role.name, header_names(reading)));
     if (there) wanted.push_back({role.name, std::nullopt, role.name, reading.record.position()});
   }
   if (!form.is_trace && !named(reading, label_role).empty())
@@ -139,9 +135,9 @@ void check_order(const CsvReading& reading, const WantedColumn& column,
   for (const WantedColumn& other : wanted) {
     if (other.role == column.role || other.role != name) continue;
     reading.fail(rules::unknown_column, column.position,
-                 fmt::format("columns: {}: column {} of {} is headed \"{}\"; number and "
-                             "header disagree",
-                             column.role, *column.number, reading.result.file, name));
+                 "columns: {}: column {} of {} is headed \"{}\"; number and "
+                 "header disagree",
+                 column.role, *column.number, reading.result.file, name);
   }
 }
 
@@ -153,23 +149,21 @@ std::size_t index_of(const CsvReading& reading, const WantedColumn& column,
     const std::size_t count =
         reading.header.empty() ? reading.rows.front().cells.size() : reading.header.size();
     if (*column.number > count)
-      reading.fail(rules::unknown_column, column.position,
-                   fmt::format("{}: there is no column {}; {} has {}", where, *column.number, file, count));
+      reading.fail(rules::unknown_column, column.position, "{}: there is no column {}; {} has {}", where,
+                   *column.number, file, count);
     check_order(reading, column, wanted);
     return *column.number - 1;
   }
   if (reading.header.empty())
     reading.fail(rules::no_header, column.position,
-                 fmt::format("{}: {} has no header; give the number of the column, from 1", where, file));
+                 "{}: {} has no header; give the number of the column, from 1", where, file);
   const std::vector<std::size_t> found = named(reading, column.name);
   if (found.empty())
-    reading.fail(rules::unknown_column, column.position,
-                 fmt::format("{}: no column of {} is called \"{}\"{}", where, file, column.name,
-                             suggestion(column.name, header_names(reading))));
+    reading.fail(rules::unknown_column, column.position, "{}: no column of {} is called \"{}\"{}", where,
+                 file, column.name, suggestion(column.name, header_names(reading)));
   if (found.size() > 1)
-    reading.fail(rules::given_twice,
-                 fmt::format("{}:{}: columns {} and {} are both called \"{}\"", file, reading.result.header,
-                             found[0] + 1, found[1] + 1, column.name));
+    reading.fail_at_file(rules::given_twice, "{}:{}: columns {} and {} are both called \"{}\"", file,
+                         reading.result.header, found[0] + 1, found[1] + 1, column.name);
   return found.front();
 }
 
@@ -179,9 +173,9 @@ void leave_out_doubtful(CsvReading& reading, std::size_t column) {
   for (CsvRow& row : reading.rows) {
     const std::string& cell = row.cells[column];
     if (cell != "0" && cell != "1")
-      reading.fail(rules::wrong_row,
-                   fmt::format("{}:{}: {}: \"{}\" is neither 0 nor 1, which marks a doubtful row",
-                               reading.result.file, row.line, called(reading, column), cell));
+      reading.fail_at_file(rules::wrong_row,
+                           "{}:{}: {}: \"{}\" is neither 0 nor 1, which marks a doubtful row",
+                           reading.result.file, row.line, called(reading, column), cell);
     reading.result.first_is_doubtful |= cell == "1" && &row == &reading.rows.front();
     if (cell == "0") kept.push_back(std::move(row));
   }
@@ -197,8 +191,8 @@ RawColumn numbers_of(const CsvReading& reading, const Role& role, std::size_t in
     const std::string& cell = row.cells[index];
     const auto number = cell_number(cell);
     if (!number || !std::isfinite(*number))
-      reading.fail(rules::wrong_row, fmt::format("{}:{}: {}: {}", reading.result.file, row.line,
-                                                 column.called, cell_problem(cell)));
+      reading.fail_at_file(rules::wrong_row, "{}:{}: {}: {}", reading.result.file, row.line, column.called,
+                           cell_problem(cell));
     column.values.push_back(*number);
   }
   return column;
@@ -208,9 +202,9 @@ RawRecord read_columns_of(CsvReading reading, const std::filesystem::path& path)
   try {
     reading.rows = read_csv(path, reading.result.file);
   } catch (const StudyError& error) {
-    reading.fail(error.rule(), error.what());
+    reading.fail_at_file(error.rule(), "{}", error.what());
   }
-  if (reading.rows.empty()) reading.fail(rules::too_few, fmt::format("{}: has no rows", reading.result.file));
+  if (reading.rows.empty()) reading.fail_at_file(rules::too_few, "{}: has no rows", reading.result.file);
   check_even(reading);
   take_header(reading);
   std::vector<WantedColumn> wanted = read_wanted(reading.record, reading.forms);
@@ -219,17 +213,16 @@ RawRecord read_columns_of(CsvReading reading, const std::filesystem::path& path)
   want_doubtful(reading, wanted);
   const RecordForm& form = form_of_wanted(reading.record, reading.forms, wanted);
   if (reading.rows.empty())
-    reading.fail(rules::too_few, fmt::format("{}:{}: has no rows below its header", reading.result.file,
-                                             reading.result.header));
+    reading.fail_at_file(rules::too_few, "{}:{}: has no rows below its header", reading.result.file,
+                         reading.result.header);
 
   std::vector<std::size_t> index;
   for (const WantedColumn& column : wanted) {
     index.push_back(index_of(reading, column, wanted));
     const auto same = std::find(index.begin(), index.end() - 1, index.back());
     if (same != index.end() - 1)
-      reading.fail(rules::given_twice, column.position,
-                   fmt::format("columns: {}: column {} is {} already", column.role, index.back() + 1,
-                               wanted[same - index.begin()].role));
+      reading.fail(rules::given_twice, column.position, "columns: {}: column {} is {} already", column.role,
+                   index.back() + 1, wanted[same - index.begin()].role);
   }
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     if (wanted[i].role == doubtful_role) leave_out_doubtful(reading, index[i]);

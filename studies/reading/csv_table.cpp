@@ -23,7 +23,7 @@ std::string text_of(const std::filesystem::path& path, const std::string& name) 
   std::string text = read_file(path, name);
   if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
   if (text.find('\0') != std::string::npos)
-    throw StudyError(rules::not_text, fmt::format("{}: is no text in UTF-8: it contains zero bytes", name));
+    throw StudyError(rules::not_text, "{}: is no text in UTF-8: it contains zero bytes", name);
   return text;
 }
 
@@ -69,8 +69,7 @@ std::vector<CsvRow> read_csv(const std::filesystem::path& path, const std::strin
     const std::string_view content = trimmed(line);
     if (content.empty() || content.starts_with('#')) continue;
     if (std::count(content.begin(), content.end(), '"') % 2 != 0)
-      throw StudyError(rules::not_text,
-                       fmt::format("{}:{}: a quote is not closed on its line", name, number));
+      throw StudyError(rules::not_text, "{}:{}: a quote is not closed on its line", name, number);
     // A tab is blank at the ends of a line, unless tabs are what separates.
     const char inside = separator_of(content), separator = inside == '\0' ? separator_of(line) : inside;
     rows.push_back({number, separator, split(separator == '\t' ? line : content, separator)});

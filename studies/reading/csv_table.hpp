@@ -18,25 +18,25 @@ struct CsvRow {
 
 // The rows of a CSV file in UTF-8, with or without its mark and with either line ending. Blank lines and
 // lines that start with # do not count.
-// name: stands for the file in messages.
-// Throws StudyError: a file that cannot be read, a quote that is not closed, what is no text.
+// name: of the file, for messages.
+// Throws StudyError for a file that cannot be read, is not text or has an open quote.
 std::vector<CsvRow> read_csv(const std::filesystem::path& path, const std::string& name);
 
-// Whether a row names its columns: no cell is a number, with a decimal point or a comma.
+// Whether a row holds the names of the columns: no cell is a number, with a decimal point or a comma.
 bool is_header(const CsvRow& row);
 
-// What a cell of a header names: "x [mm]" -> "x", in "mm".
+// The name and the unit in a header cell: "x [mm]" -> "x", in "mm".
 struct ColumnName {
   std::string name;
   std::optional<std::string> unit;
 };
 ColumnName column_name(const std::string& cell);
 
-// The number that a cell is, finite or not; nothing if it is none.
+// The number in a cell, finite or not; nothing if the cell is not a number.
 std::optional<double> cell_number(std::string_view cell);
 
-// What is wrong with a cell that is no finite number, for messages: `"1,5" is not a number; decimals are
-// written with a point`.
+// The error in a cell that is not a finite number, for messages: `"1,5" is not a number; decimals are written
+// with a point`.
 std::string cell_problem(const std::string& cell);
 
 }  // namespace frahm::studies

@@ -19,8 +19,8 @@ double read_bound(const TomlSection& section, const char* key, double si_factor,
 void check_bounds(const TomlSection& section, double lower, double upper) {
   if (lower <= upper) return;
   section.fail(rules::wrong_order, "upper",
-               fmt::format("{} is below \"lower\" = {}; bounds go from the lower to the upper",
-                           section.number("upper"), section.number("lower")));
+               "{} is below \"lower\" = {}; bounds go from the lower to the upper", section.number("upper"),
+               section.number("lower"));
 }
 
 std::size_t read_design_parameter(const TuneReading& reading, const TomlSection& section) {
@@ -30,15 +30,13 @@ std::size_t read_design_parameter(const TuneReading& reading, const TomlSection&
   const auto twice = std::find_if(designs.begin(), designs.end(),
                                   [&](const DesignChoice& other) { return other.parameter == parameter; });
   if (twice != designs.end())
-    section.fail(rules::given_twice, "parameter",
-                 fmt::format("\"{}\" is a design parameter already (line {})", name, twice->position.line));
+    section.fail(rules::given_twice, "parameter", "\"{}\" is a design parameter already (line {})", name,
+                 twice->position.line);
   const auto& band = reading.choice.band;
   if (band && band->parameter == parameter)
-    section.fail(rules::key_without_use, "parameter",
-                 fmt::format("\"{}\" runs over the band; it cannot be tuned", name));
+    section.fail(rules::key_without_use, "parameter", "\"{}\" runs over the band; it cannot be tuned", name);
   if (!network_depends_on(reading.study, parameter))
-    section.fail(rules::wrong_dependence, "parameter",
-                 fmt::format("no value of the network depends on \"{}\"", name));
+    section.fail(rules::wrong_dependence, "parameter", "no value of the network depends on \"{}\"", name);
   return parameter;
 }
 
@@ -57,9 +55,9 @@ std::vector<double> read_knots(const TomlSection& section, const BandChoice& ban
     const std::int64_t count = section.integer_or("knots", 0);
     if (count < 2 || count > most_knots)
       section.fail(rules::out_of_range, "knots",
-                   fmt::format("{} is out of range: a whole number from 2 to {}, or an array of "
-                               "places",
-                               count, most_knots));
+                   "{} is out of range: a whole number from 2 to {}, or an array of "
+                   "places",
+                   count, most_knots);
     return even_knots(band.range, static_cast<std::size_t>(count));
   }
   std::vector<double> knots = read_numbers(section, "knots");
@@ -67,12 +65,12 @@ std::vector<double> read_knots(const TomlSection& section, const BandChoice& ban
   const auto falls = std::adjacent_find(knots.begin(), knots.end(), std::greater_equal<>());
   if (falls != knots.end())
     section.fail(rules::wrong_order, "knots",
-                 fmt::format("{} follows {}; knots rise from one end of the band to the other",
-                             falls[1] / band.unit.si_factor, falls[0] / band.unit.si_factor));
+                 "{} follows {}; knots rise from one end of the band to the other",
+                 falls[1] / band.unit.si_factor, falls[0] / band.unit.si_factor);
   if (knots.size() < 2 || knots.front() != band.range.from || knots.back() != band.range.to)
     section.fail(rules::wrong_order, "knots",
-                 fmt::format("the first and the last knot are the ends of the band, {} and {}",
-                             band.range.from / band.unit.si_factor, band.range.to / band.unit.si_factor));
+                 "the first and the last knot are the ends of the band, {} and {}",
+                 band.range.from / band.unit.si_factor, band.range.to / band.unit.si_factor);
   return knots;
 }
 
@@ -93,8 +91,7 @@ void read_schedule(const TuneReading& reading, const TomlSection& section, Desig
   if (!schedule.find("max_slope")) return;
   design.max_slope = schedule.number("max_slope");
   if (!(design.max_slope > 0.0))
-    schedule.fail(rules::out_of_range, "max_slope",
-                  fmt::format("{} is not possible; must be > 0", design.max_slope));
+    schedule.fail(rules::out_of_range, "max_slope", "{} is not possible; must be > 0", design.max_slope);
   design.max_slope *= design.unit.si_factor / band->unit.si_factor;
 }
 
@@ -128,7 +125,7 @@ void read_limit(TuneReading& reading, const TomlValue& table, std::size_t number
   limit.name = section.text("quantity");
   limit.unit = read_quantity_unit(reading, section, limit.quantity);
   if (!section.find("lower") && !section.find("upper"))
-    section.fail(rules::one_of_two_keys, "needs \"lower\", \"upper\" or both");
+    section.fail_here(rules::one_of_two_keys, "needs \"lower\", \"upper\" or both");
   limit.lower = read_bound(section, "lower", limit.unit.si_factor, limit.lower);
   limit.upper = read_bound(section, "upper", limit.unit.si_factor, limit.upper);
   check_bounds(section, limit.lower, limit.upper);
@@ -160,13 +157,13 @@ void read_scenario(TuneReading& reading, const TomlValue& table, std::size_t num
   scenario.name = section.identifier("name");
   for (const ScenarioChoice& other : reading.choice.scenarios) {
     if (other.name == scenario.name)
-      section.fail(rules::name_taken, "name", fmt::format("\"{}\" is taken", scenario.name));
+      section.fail(rules::name_taken, "name", "\"{}\" is taken", scenario.name);
   }
   const TomlValue& set = section.require("set");
   const auto* entries = set.as<TomlTable>();
   if (!entries)
-    section.fail(rules::wrong_type, "set",
-                 fmt::format("expected a table such as {{ FP = 0.1 }}, found {}", described(set)));
+    section.fail(rules::wrong_type, "set", "expected a table such as {{ FP = 0.1 }}, found {}",
+                 described(set));
   for (const TomlEntry& entry : *entries) scenario.set.push_back(read_setting(reading, section, entry));
   reading.choice.scenarios.push_back(std::move(scenario));
 }
@@ -184,8 +181,8 @@ void read_column(TuneReading& reading, const TomlValue& table, std::size_t numbe
   column.upper = read_bound(section, "upper", 1.0, column.upper);
   check_bounds(section, column.lower, column.upper);
   if (!reading.choice.band)
-    section.fail(rules::key_without_use,
-                 "a column lies beside the schedule over a band, and there is no band");
+    section.fail_here(rules::key_without_use,
+                      "a column lies beside the schedule over a band, and there is no band");
   reading.choice.columns.push_back(std::move(column));
 }
 

@@ -67,8 +67,7 @@ inline Dual abs(const Dual& a) {
   return chain(a, std::abs(a.value), sign);
 }
 
-// a^b: d(a^b) = b a^(b-1) da + a^b log(a) db. The two terms are apart so that a constant exponent allows a <=
-// 0.
+// a^b: d(a^b) = b a^(b-1) da + a^b log(a) db. Two separate terms: a constant exponent allows a <= 0.
 inline Dual pow(const Dual& a, const Dual& b) {
   const double power = std::pow(a.value, b.value);
   const double by_base =
@@ -77,7 +76,7 @@ inline Dual pow(const Dual& a, const Dual& b) {
   return {power, by_base + by_exponent};
 }
 
-// The smaller and the larger of two numbers; a NaN on either side is kept. At a tie the second counts.
+// The smaller and the larger of two numbers; a NaN on either side gives NaN. At a tie the second counts.
 inline double minimum(double a, double b) {
   return std::isnan(a) || a < b ? a : b;
 }

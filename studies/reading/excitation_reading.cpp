@@ -30,9 +30,8 @@ const std::vector<std::string> motion_keys{"node",  "profile", "amplitude", "ord
 int read_order(const TomlSection& section, const std::string& key, std::int64_t least) {
   const std::int64_t order = section.integer_or(key, 1);
   if (order < least || order > highest_order) {
-    section.fail(
-        rules::out_of_range, key,
-        fmt::format("{} is out of range: a whole number from {} to {}", order, least, highest_order));
+    section.fail(rules::out_of_range, key, "{} is out of range: a whole number from {} to {}", order, least,
+                 highest_order);
   }
   return static_cast<int>(order);
 }
@@ -72,9 +71,9 @@ void read_crank(NetworkReading& reading, const TomlSection& section, Excitation 
   const std::int64_t taylor_order = section.integer_or("taylor_order", 0);
   if (section.find("taylor_order") && taylor_order != 1 && taylor_order != 2 && taylor_order != 4) {
     section.fail(rules::out_of_range, "taylor_order",
-                 fmt::format("{} is not possible; write 1, 2 or 4, or leave it out for the "
-                             "crank's full Fourier series",
-                             taylor_order));
+                 "{} is not possible; write 1, 2 or 4, or leave it out for the "
+                 "crank's full Fourier series",
+                 taylor_order);
   }
   component.taylor_order = static_cast<int>(taylor_order);
   component.even_orders = component.taylor_order / 2;
@@ -94,13 +93,12 @@ void read_force(NetworkReading& reading, const TomlValue& table, std::size_t num
   const auto& network = reading.result.network;
   const auto node = find_node(network, name);
   if (!node) {
-    section.fail(rules::unknown_name, named,
-                 fmt::format("no mass is called \"{}\"{}", name, suggestion(name, network.masses)));
+    section.fail(rules::unknown_name, named, "no mass is called \"{}\"{}", name,
+                 suggestion(name, network.masses));
   }
   if (node->kind != NodeKind::mass) {
-    section.fail(rules::wrong_node, named,
-                 fmt::format("a force acts on a mass, and \"{}\" is {}", name,
-                             node->kind == NodeKind::ground ? "fixed" : "a node of prescribed motion"));
+    section.fail(rules::wrong_node, named, "a force acts on a mass, and \"{}\" is {}", name,
+                 node->kind == NodeKind::ground ? "fixed" : "a node of prescribed motion");
   }
   read_profile(section, {"harmonic"});
   read_component(reading, section, {ExcitationKind::force, node->index});
@@ -128,7 +126,7 @@ int lowest_order(const NetworkReading& reading, const TomlSection& section, bool
   }
   if (lowest == std::numeric_limits<int>::max()) {
     if (constant_will_do && !reading.result.network.excitations.empty()) return 1;
-    section.fail(
+    section.fail_here(
         rules::missing_section,
         "needs a [[excitation.force]] or [[excitation.motion]] of order 1 or more: nothing shakes the "
         "system");
@@ -147,10 +145,10 @@ void check_hysteretic_frequency(const NetworkReading& reading, const TomlSection
     if (component.kind == ExcitationKind::crank && component.taylor_order != 1) orders.push_back(2);
   }
   if (std::all_of(orders.begin(), orders.end(), [&](int order) { return order == orders.front(); })) return;
-  section.fail(rules::missing_key,
-               fmt::format("the key \"reference_order\" is missing: the excitation has several orders, and "
-                           "the hysteretic element \"{}\" has its loss factor at reference_order x frequency",
-                           hysteretic->name));
+  section.fail_here(rules::missing_key,
+                    "the key \"reference_order\" is missing: the excitation has several orders, and "
+                    "the hysteretic element \"{}\" has its loss factor at reference_order x frequency",
+                    hysteretic->name);
 }
 
 }  // namespace
@@ -170,9 +168,9 @@ void read_prescribed_nodes(NetworkReading& reading, const TomlValue& excitation)
                    "\"ground\" is fixed; give the moving support a name of its own");
     } else if (node->kind == NodeKind::mass) {
       section.fail(rules::wrong_node, "node",
-                   fmt::format("\"{}\" is a mass, whose motion is sought; a node of prescribed motion has a "
-                               "name of its own",
-                               name));
+                   "\"{}\" is a mass, whose motion is sought; a node of prescribed motion has a "
+                   "name of its own",
+                   name);
     }
   }
 }

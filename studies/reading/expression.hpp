@@ -16,7 +16,7 @@
 
 namespace frahm::studies {
 
-// A text that is no expression. column: of the offending character, 1 for the first of the text.
+// The text is not an expression. column: of the offending character, from 1.
 class ExpressionError : public std::runtime_error {
  public:
   ExpressionError(Rule rule, const std::string& message, std::size_t column)
@@ -32,15 +32,14 @@ class ExpressionError : public std::runtime_error {
 // A formula of named parameters, such as 26.5104 + 0.4811*I: + - * / ^ ( ), pi, the functions sqrt exp log
 // sin cos tan atan abs, and min, max of two arguments. As in mathematics -2^2 = -4 and 2^3^2 = 2^9.
 //
-// Read once into a short program for a stack machine, with constants folded; evaluated without allocation, on
-// doubles or on duals for exact derivatives.
+// It is compiled once into a short program for a stack machine, with constants folded, and evaluated without
+// allocation, on doubles or, for exact derivatives, on duals.
 class Expression {
  public:
   explicit Expression(double constant);
 
-  // names: of the parameters; a name in the text stands for the entry of the same index given to evaluate().
-  // Throws ExpressionError for a text that is not an expression of these names, or whose constant part is not
-  // a finite number (1/0).
+  // names: of the parameters, in the order of the values given to evaluate(). Throws ExpressionError for a
+  // text that is not an expression of these names, or whose constant part is not a finite number (1/0).
   static Expression parse(std::string_view text, std::span<const std::string> names);
 
   // parameters: SI values, one for each of the names given to parse().
@@ -55,11 +54,11 @@ class Expression {
   // The parameter, if the expression is a parameter's name and nothing else.
   std::optional<std::size_t> sole_parameter() const;
 
-  // The expression as it is computed, in postfix form: the same for all ways of writing it that compute the
-  // same. names: those given to parse().
+  // The computed operations in postfix form: equal for all spellings that compute the same. names: those
+  // given to parse().
   std::string canonical_text(std::span<const std::string> names) const;
 
-  // Names that have a meaning in expressions, so that no parameter may have them: pi and the functions.
+  // Reserved names, which no parameter may have: pi and the functions.
   static const std::vector<std::string>& reserved_names();
 
  private:
@@ -90,7 +89,7 @@ class Expression {
     std::uint32_t parameter;  // index, of Operation::parameter
     double constant;          // value, of Operation::constant
   };
-  static constexpr std::size_t stack_size = 32;  // the parser refuses what needs more
+  static constexpr std::size_t stack_size = 32;  // the parser refuses longer programs
 
   Expression() = default;
 

@@ -58,21 +58,20 @@ EarlierEstimates read_earlier(const std::filesystem::path& path, const std::stri
   try {
     const results::MapReader reader(path);
     if (!reader.has_group(identification_group))
-      throw StudyError(rules::wrong_file, fmt::format("{}: is the result of no identification", file));
+      throw StudyError(rules::wrong_file, "{}: is the result of no identification", file);
     const Columns columns = reader.columns(identification_group);
     const results::Column* outcome = find_number(columns, "outcome");
     if (outcome && outcome->values.front() != converged_outcome)
-      throw StudyError(rules::wrong_file,
-                       fmt::format("{}: its fit did not converge, and fixes nothing", file));
+      throw StudyError(rules::wrong_file, "{}: its fit did not converge, and fixes nothing", file);
     earlier = estimates_among(columns, file);
   } catch (const results::StoreError& error) {
-    throw StudyError(rules::wrong_file, error.what());
+    throw StudyError(rules::wrong_file, "{}", error.what());
   }
   for (const auto& row : earlier.covariance) {
     if (row.size() != earlier.names.size())
       throw StudyError(rules::wrong_file,
-                       fmt::format("{}: a row of its covariance has {} numbers, but it has {} estimates",
-                                   file, row.size(), earlier.names.size()));
+                       "{}: a row of its covariance has {} numbers, but it has {} estimates", file,
+                       row.size(), earlier.names.size());
   }
   return earlier;
 }
@@ -82,8 +81,7 @@ void check_unit(const IdentifyReading& reading, const EarlierEstimates& earlier,
                 const Parameter& parameter) {
   const std::string& unit = earlier.units[i];
   const auto fail = [&](Rule rule, const std::string& problem) {
-    throw StudyError(rule,
-                     fmt::format("{}: the estimate \"{}\": {}", earlier.file, earlier.names[i], problem));
+    throw StudyError(rule, "{}: the estimate \"{}\": {}", earlier.file, earlier.names[i], problem);
   };
   if (unit.empty() || unit == "1") return;
   if (reading.study.dimensionless)
@@ -105,8 +103,7 @@ void check_free_to_fix(const IdentifyReading& reading, const EarlierEstimates& e
                        std::size_t parameter) {
   const IdentifyChoice& choice = reading.choice;
   const auto fail = [&](Rule rule, const std::string& problem) {
-    throw StudyError(rule,
-                     fmt::format("{}: the estimate \"{}\" {}", earlier.file, earlier.names[i], problem));
+    throw StudyError(rule, "{}: the estimate \"{}\" {}", earlier.file, earlier.names[i], problem);
   };
   for (const FixedEstimate& other : choice.fixed) {
     if (other.parameter == parameter) fail(rules::given_twice, "stands in an earlier file of fixed_from too");
@@ -145,11 +142,10 @@ std::vector<Taken> taken_from(const IdentifyReading& reading, const EarlierEstim
   }
   throw StudyError(
       rules::unknown_name,
-      fmt::format(
-          "{}: none of its estimates is a number parameter of this study that is not fitted; it has {}, the "
-          "study {}",
-          earlier.file, earlier.names.empty() ? "none" : listed(earlier.names, " and "),
-          open.empty() ? "none" : listed(open, " and ")));
+      "{}: none of its estimates is a number parameter of this study that is not fitted; it has {}, the "
+      "study {}",
+      earlier.file, earlier.names.empty() ? "none" : listed(earlier.names, " and "),
+      open.empty() ? "none" : listed(open, " and "));
 }
 
 // Estimates of different files are independent of each other.
@@ -184,8 +180,8 @@ void read_fixed(IdentifyReading& reading, const TomlSection& identify) {
       reading.choice.files.push_back(reading.folder / file);
       fix(reading, read_earlier(reading.folder / file, file));
     } catch (const StudyError& error) {
-      throw identify.source().error_at(error.rule(), item->position,
-                                       fmt::format("[identify]: fixed_from: {}", error.what()));
+      throw identify.source().error_at(error.rule(), item->position, "[identify]: fixed_from: {}",
+                                       error.what());
     }
   }
 }

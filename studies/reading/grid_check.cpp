@@ -52,9 +52,8 @@ std::string place_name(const Study& study, const Checked& checked, std::span<con
   const Position position = checked.value ? checked.value->position : checked.parameter->position;
   const std::string where =
       checked.value ? checked.value->where : fmt::format("parameter \"{}\"", checked.parameter->name);
-  throw study.source.error_at(
-      rule, position,
-      fmt::format("{}: {}{}; {}", where, problem, place_name(study, checked, parameters), must));
+  throw study.source.error_at(rule, position, "{}: {}{}; {}", where, problem,
+                              place_name(study, checked, parameters), must);
 }
 
 void check_derived(const Study& study, const Checked& checked, std::span<const double> parameters) {

@@ -26,9 +26,9 @@ void leave_out_padding(RawRecord& record) {
 void keep_rows(const ColumnReading& reading, RawRecord& record, const std::vector<double>& doubtful) {
   for (std::size_t i = 0; i < record.columns.front().values.size(); ++i) {
     if (!doubtful.empty() && doubtful[i] != 0.0 && doubtful[i] != 1.0)
-      reading.fail(rules::wrong_row,
-                   fmt::format("{}: value {} of the doubtful rows' marks is {}, neither 0 nor 1", record.file,
-                               i + 1, doubtful[i]));
+      reading.fail_at_file(rules::wrong_row,
+                           "{}: value {} of the doubtful rows' marks is {}, neither 0 nor 1", record.file,
+                           i + 1, doubtful[i]);
     if (doubtful.empty() || doubtful[i] == 0.0) record.rows.push_back(i + 1);
   }
   record.first_is_doubtful = record.rows.empty() || record.rows.front() != 1;
@@ -45,23 +45,23 @@ void check_datasets(const ColumnReading& reading, const std::vector<double>& dou
   const RawColumn& first = record.columns.front();
   for (const RawColumn& column : record.columns) {
     if (column.values.size() != first.values.size())
-      reading.fail(rules::wrong_length,
-                   fmt::format("{}: {} has {} values, but {} has {}; columns are of one length", record.file,
-                               column.called, column.values.size(), first.called, first.values.size()));
+      reading.fail_at_file(rules::wrong_length,
+                           "{}: {} has {} values, but {} has {}; columns are of one length", record.file,
+                           column.called, column.values.size(), first.called, first.values.size());
   }
   if (!doubtful.empty() && doubtful.size() != first.values.size())
-    reading.fail(rules::wrong_length,
-                 fmt::format("{}: {} has {} values, but the doubtful rows are marked by {}; columns are of "
-                             "one length",
-                             record.file, first.called, first.values.size(), doubtful.size()));
+    reading.fail_at_file(rules::wrong_length,
+                         "{}: {} has {} values, but the doubtful rows are marked by {}; columns are of "
+                         "one length",
+                         record.file, first.called, first.values.size(), doubtful.size());
 }
 
 void check_finite(const ColumnReading& reading) {
   for (const RawColumn& column : reading.result.columns) {
     for (std::size_t i = 0; i < column.values.size(); ++i) {
       if (std::isfinite(column.values[i])) continue;
-      reading.fail(rules::wrong_row, fmt::format("{}: {} is not a finite number",
-                                                 reading.result.where(column, i), column.values[i]));
+      reading.fail_at_file(rules::wrong_row, "{}: {} is not a finite number", reading.result.where(column, i),
+                           column.values[i]);
     }
   }
 }
@@ -72,9 +72,9 @@ void check_path(const ColumnReading& reading, const WantedColumn& column) {
                  "columns: label: labels are read from CSV files only");
   if (column.number)
     reading.fail(rules::wrong_type, column.position,
-                 fmt::format("columns: {}: the path of a dataset is expected, such as "
-                             "\"transient/time\", found the number {}",
-                             column.role, *column.number));
+                 "columns: {}: the path of a dataset is expected, such as "
+                 "\"transient/time\", found the number {}",
+                 column.role, *column.number);
 }
 
 }  // namespace
@@ -82,10 +82,10 @@ void check_path(const ColumnReading& reading, const WantedColumn& column) {
 RawRecord read_hdf5_columns(ColumnReading reading, const std::filesystem::path& path) {
   reading.result.has_lines = false;
   if (!reading.record.find("columns"))
-    reading.record.fail(
+    reading.record.fail_here(
         rules::missing_key,
-        "the key \"columns\" is missing: of an HDF5 file it names the datasets, such as columns = { time = "
-        "\"transient/time\" }");
+        "the key \"columns\" is missing: of an HDF5 file it names the datasets, such as columns = {{ time = "
+        "\"transient/time\" }}");
   const std::vector<WantedColumn> wanted = read_wanted(reading.record, reading.forms);
   const RecordForm& form = form_of_wanted(reading.record, reading.forms, wanted);
   for (const WantedColumn& column : wanted) check_path(reading, column);
@@ -103,7 +103,7 @@ RawRecord read_hdf5_columns(ColumnReading reading, const std::filesystem::path& 
       }
     }
   } catch (const std::runtime_error& error) {  // StudyError or StoreError
-    reading.fail(rules::wrong_file, error.what());
+    reading.fail_at_file(rules::wrong_file, "{}", error.what());
   }
   check_datasets(reading, doubtful);
   leave_out_padding(reading.result);

@@ -84,21 +84,21 @@ std::size_t read_parameter(const IdentifyReading& reading, const TomlSection& se
   const std::string name = section.text("parameter");
   const auto index = parameters.find(name);
   if (!index)
-    section.fail(rules::unknown_name, "parameter",
-                 fmt::format("no parameter is called \"{}\"{}", name, suggestion(name, parameters.names())));
+    section.fail(rules::unknown_name, "parameter", "no parameter is called \"{}\"{}", name,
+                 suggestion(name, parameters.names()));
   if (!parameters.list[*index].is_number())
     section.fail(rules::computed_parameter, "parameter",
-                 fmt::format("\"{}\" is computed from other parameters; only one that is a "
-                             "number is identified",
-                             name));
+                 "\"{}\" is computed from other parameters; only one that is a "
+                 "number is identified",
+                 name);
   for (const IdentifiedParameter& other : reading.choice.parameters) {
     if (other.parameter == *index)
-      section.fail(rules::given_twice, "parameter",
-                   fmt::format("\"{}\" is identified already (line {})", name, other.position.line));
+      section.fail(rules::given_twice, "parameter", "\"{}\" is identified already (line {})", name,
+                   other.position.line);
   }
   if (!system_depends_on(reading.study, *index))
     section.fail(rules::wrong_dependence, "parameter",
-                 fmt::format("no value of the system or of its start depends on \"{}\"", name));
+                 "no value of the system or of its start depends on \"{}\"", name);
   return *index;
 }
 
@@ -114,7 +114,7 @@ UsualUnit read_usual_unit(const IdentifyReading& reading, const TomlSection& sec
     try {
       usual = {unit->text, si_factor(definition, *unit)};
     } catch (const UnitError& error) {
-      section.fail(error.rule(), "unit", error.what());
+      section.fail(error.rule(), "unit", "{}", error.what());
     }
   }
   if (usual.text.empty() && definition.quantity) usual.text = si_unit(*definition.quantity);
@@ -138,15 +138,14 @@ void read_bounds(const Study& study, const TomlSection& section, IdentifiedParam
   if (section.find("upper")) fitted.upper = section.number("upper") * factor;
   if (!(fitted.lower < fitted.upper))
     section.fail(rules::wrong_order, "upper",
-                 fmt::format("{} is not above \"lower\" = {}; bounds go from the lower to the upper",
-                             section.number("upper"), fitted.lower / factor));
+                 "{} is not above \"lower\" = {}; bounds go from the lower to the upper",
+                 section.number("upper"), fitted.lower / factor);
   const double start = std::get<double>(study.parameters.list[fitted.parameter].definition);
   if (start >= fitted.lower && start <= fitted.upper) return;
-  section.fail(
-      rules::out_of_range, start < fitted.lower ? "lower" : "upper",
-      fmt::format("the fit starts from {:.6g} of [parameters], outside its bounds {:.6g} to {:.6g}{}{}",
-                  start / factor, fitted.lower / factor, fitted.upper / factor,
-                  fitted.unit.text.empty() ? "" : " ", fitted.unit.text));
+  section.fail(rules::out_of_range, start < fitted.lower ? "lower" : "upper",
+               "the fit starts from {:.6g} of [parameters], outside its bounds {:.6g} to {:.6g}{}{}",
+               start / factor, fitted.lower / factor, fitted.upper / factor,
+               fitted.unit.text.empty() ? "" : " ", fitted.unit.text);
 }
 
 // A formula's estimate in the place of a parameter.
@@ -155,16 +154,16 @@ void read_estimate(const IdentifyReading& reading, const TomlSection& section, I
   for (const char* key : {"lower", "upper", "each_record"}) {
     if (section.find(key))
       section.fail(rules::key_without_use, key,
-                   fmt::format("belongs to the method \"grey_box\"; \"{}\" has no use for it", method));
+                   "belongs to the method \"grey_box\"; \"{}\" has no use for it", method);
   }
   const std::vector<std::string> known = estimates_of(reading.choice);
   taken.estimate = section.text("estimate");
   if (reading.data == DataFiles::leave) return;  // which estimates there are depends on the data
   if (std::find(known.begin(), known.end(), taken.estimate) == known.end())
-    section.fail(rules::unknown_name, "estimate",
-                 fmt::format("the method \"{}\" gives no estimate \"{}\"{}", method, taken.estimate,
-                             known.empty() ? ", as each row of its table has its own answer"
-                                           : suggestion(taken.estimate, known)));
+    section.fail(
+        rules::unknown_name, "estimate", "the method \"{}\" gives no estimate \"{}\"{}", method,
+        taken.estimate,
+        known.empty() ? ", as each row of its table has its own answer" : suggestion(taken.estimate, known));
 }
 
 }  // namespace

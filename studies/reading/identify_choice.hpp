@@ -27,7 +27,7 @@ enum class IdentifyMethod {
   grey_box,
 };
 
-// Of the group in a result that holds an identification, and of its flag `outcome` where the fit converged
+// The group of an identification in a result file, and its flag `outcome` for a converged fit
 // (results/FORMAT.md).
 inline constexpr const char* identification_group = "identification";
 inline constexpr double converged_outcome = 1.0;
@@ -36,7 +36,7 @@ inline constexpr double converged_outcome = 1.0;
 const std::vector<std::string>& method_names();
 const std::string& method_name(IdentifyMethod method);
 
-// A column of measurements: what it stands for (its role) and its numbers [SI].
+// A column of measurements: its role (the measured quantity) and its numbers [SI].
 struct DataColumn {
   std::string role;  // "time", "main_displacement", "amplitude", "lower_frequency" ...
   std::vector<double> values;
@@ -50,7 +50,7 @@ struct RecordChoice {
   std::vector<Assignment> set;                    // of a grey box: parameters of this record
   std::vector<DataColumn> columns;                // all of one length, doubtful rows left out
   std::vector<std::string> labels;                // of the rows, where the file has them; else empty
-  std::size_t doubtful = 0;                       // rows left out because the file marks them so
+  std::size_t doubtful = 0;                       // rows marked doubtful in the file, left out
   std::optional<StudyValue> added_mass;           // [kg], of the method added_mass with traces
   std::optional<StudyValue> static_displacement;  // [m], of the method resonance_magnification
   Position position;
@@ -78,7 +78,7 @@ struct FixedEstimate {
 
 enum class IdentifyStart { given, free_decay };
 
-// What shakes the mass of a response curve.
+// The excitation of a response curve: a force on the mass or the motion of its support.
 enum class CurveOf { force, support };
 
 // [identify]
@@ -86,21 +86,21 @@ struct IdentifyChoice {
   IdentifyMethod method = IdentifyMethod::grey_box;
   IdentifyStart start = IdentifyStart::given;  // of a grey box
   CurveOf curve = CurveOf::force;              // of half_power, resonance_magnification, forced_resonance
-  std::optional<std::size_t> cycles;           // of log_decrement: over so many; absent: all there are
+  std::optional<std::size_t> cycles;           // of log_decrement: number used; absent: all
   bool sensor_offset = false;                  // of free_decay: the sensor's zero is to be fitted
-  // Of free_decay and forced_resonance: what turns ratios into N s/m and N. A free decay has at most one of
-  // the two, as it tells the other; a force at resonance has a stiffness.
+  // Of free_decay and forced_resonance: converts ratios to N s/m and N. A free decay takes at most one of the
+  // two, because it determines the other; a forced resonance takes the stiffness.
   std::optional<StudyValue> mass, stiffness;
   std::optional<StudyValue> reference_frequency;  // omega_h [rad/s] of free records
   std::vector<RecordChoice> records;              // at least one
   std::vector<IdentifiedParameter> parameters;    // of a grey box: at least one
   std::vector<FixedEstimate> fixed;
-  std::vector<std::filesystem::path> files;  // all that the study reads: of the records and of `fixed_from`
+  std::vector<std::filesystem::path> files;  // all files read: of the records and of `fixed_from`
   std::vector<std::vector<double>> fixed_covariance;  // of `fixed`, in its order
 
   std::vector<InitialValues> initial;  // of the free records of a grey box
 
-  // The values beside `initial` that are expressions of parameters.
+  // The values, except those in `initial`, that are expressions of parameters.
   std::vector<const StudyValue*> values() const;
 };
 

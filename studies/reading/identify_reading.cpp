@@ -39,9 +39,8 @@ void check_keys_of_method(const TomlSection& section, Method method) {
     if (!section.find(key.name) || std::count(key.methods.begin(), key.methods.end(), method) > 0) continue;
     std::vector<std::string> owners;
     for (const Method owner : key.methods) owners.push_back(fmt::format("\"{}\"", method_name(owner)));
-    section.fail(rules::key_without_use, key.name,
-                 fmt::format("belongs to the method {}; \"{}\" has no use for it", listed(owners, " or "),
-                             method_name(method)));
+    section.fail(rules::key_without_use, key.name, "belongs to the method {}; \"{}\" has no use for it",
+                 listed(owners, " or "), method_name(method));
   }
 }
 
@@ -58,8 +57,8 @@ void read_method(const TomlSection& section, IdentifyChoice& choice) {
   if (!section.find("cycles")) return;
   const std::int64_t cycles = section.integer_or("cycles", 1);
   if (cycles < 1 || cycles > most_cycles)
-    section.fail(rules::out_of_range, "cycles",
-                 fmt::format("{} is out of range: a whole number from 1 to {}", cycles, most_cycles));
+    section.fail(rules::out_of_range, "cycles", "{} is out of range: a whole number from 1 to {}", cycles,
+                 most_cycles);
   choice.cycles = static_cast<std::size_t>(cycles);
 }
 
@@ -93,8 +92,9 @@ RecordChoice read_record_heading(NetworkReading& reading, const TomlSection& sec
     if (other.name != record.name) continue;
     const std::string problem =
         fmt::format("the name \"{}\" is taken by the record of line {}", record.name, other.position.line);
-    section.find("name") ? section.fail(rules::name_taken, "name", problem)
-                         : section.fail(rules::name_taken, problem + "; give them a \"name\" each");
+    section.find("name")
+        ? section.fail(rules::name_taken, "name", "{}", problem)
+        : section.fail_here(rules::name_taken, "{}", problem + "; give them a \"name\" each");
   }
   record.added_mass = read_optional(reading, section, "added_mass", Quantity::mass, Range::not_negative);
   record.static_displacement = read_optional(reading, section, "static_displacement", Quantity::length);
@@ -114,11 +114,11 @@ void check_reference_frequency(const TomlSection& section, const Study& study, c
   for (const RecordChoice& record : choice.records) {
     const bool free = record.motion == identification::MotionKind::free;
     if (!free && !study.network.excitations.empty()) continue;
-    section.fail(
+    section.fail_here(
         rules::missing_key,
-        fmt::format("the key \"reference_frequency\" is missing: the study has a hysteretic element, and the "
-                    "record \"{}\" no known frequency at which it would have its loss factor",
-                    record.name));
+        "the key \"reference_frequency\" is missing: the study has a hysteretic element, and the "
+        "record \"{}\" no known frequency at which it would have its loss factor",
+        record.name);
   }
 }
 
@@ -127,8 +127,7 @@ void check_start(const TomlSection& section, const Study& study, const IdentifyC
   if (choice.start != IdentifyStart::free_decay) return;
   if (study.network.masses.size() != 1)
     section.fail(rules::unfit_for_method, "start",
-                 fmt::format("\"free_decay\" is for a system of one mass; this one has {}",
-                             study.network.masses.size()));
+                 "\"free_decay\" is for a system of one mass; this one has {}", study.network.masses.size());
   const std::string role = study.network.masses.front() + "_displacement";
   const bool has_one =
       std::any_of(choice.records.begin(), choice.records.end(), [&](const RecordChoice& record) {
@@ -136,7 +135,7 @@ void check_start(const TomlSection& section, const Study& study, const IdentifyC
       });
   if (!has_one)
     section.fail(rules::unfit_for_method, "start",
-                 fmt::format("\"free_decay\" needs a record with motion = \"free\" and {}", role));
+                 "\"free_decay\" needs a record with motion = \"free\" and {}", role);
 }
 
 // The method's formula is of one record; only the frequencies with and without an added mass come from traces
@@ -147,9 +146,9 @@ void check_count(const TomlSection& section, const IdentifyChoice& choice,
   for (std::size_t i = 1; i < records.size(); ++i) {
     const bool traces = choice.records[0].find("time") && choice.records[i].find("time");
     if (choice.method == Method::added_mass && traces) continue;
-    records[i].fail(rules::unfit_for_method,
-                    fmt::format("the method \"{}\" reads one record{}", section.text("method"),
-                                choice.method == Method::added_mass ? ", or traces alone" : ""));
+    records[i].fail_here(rules::unfit_for_method, "the method \"{}\" reads one record{}",
+                         section.text("method"),
+                         choice.method == Method::added_mass ? ", or traces alone" : "");
   }
 }
 
@@ -157,7 +156,7 @@ void check_count(const TomlSection& section, const IdentifyChoice& choice,
 void check_stiffness(const TomlSection& section, const IdentifyChoice& choice) {
   if (choice.method != Method::forced_resonance || choice.stiffness) return;
   if (choice.records.front().find("force"))
-    section.fail(
+    section.fail_here(
         rules::missing_key,
         "the key \"stiffness\" is missing (a stiffness, N/m): the displacement that a force would cause at "
         "rest is force / stiffness");
@@ -165,8 +164,8 @@ void check_stiffness(const TomlSection& section, const IdentifyChoice& choice) {
 
 void check_parameters(const TomlSection& section, const IdentifyChoice& choice) {
   if (choice.method != Method::grey_box || !choice.parameters.empty()) return;
-  section.fail(rules::missing_section,
-               "the study has no [[identify.parameter]]: a grey box needs a parameter to fit");
+  section.fail_here(rules::missing_section,
+                    "the study has no [[identify.parameter]]: a grey box needs a parameter to fit");
 }
 
 std::vector<TomlSection> sections_of(const TomlSection& identify, const TomlValue& root, const char* kind,
@@ -229,7 +228,7 @@ void read_identification(const StudyContext& context, const TomlValue& root, Stu
   for (const TomlSection& record : record_sections(section, root))
     choice.records.push_back(read_record_heading(reading, record, choice));
   if (choice.records.empty())
-    section.fail(rules::missing_section, "the study has no [[identify.record]]: nothing was measured");
+    section.fail_here(rules::missing_section, "the study has no [[identify.record]]: nothing was measured");
 }
 
 void read_measurements(const StudyContext& context, const TomlValue& root,

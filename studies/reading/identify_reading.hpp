@@ -7,10 +7,10 @@
 
 #include "studies/reading/study_reading.hpp"
 
-// Inside the reading of an identification: what [identify] and its tables share.
+// Shared by the readers of [identify] and its tables.
 namespace frahm::studies {
 
-// The identification as far as it is read.
+// The identification while it is read.
 struct IdentifyReading {
   const StudyContext& context;
   std::filesystem::path folder;  // of the files that the study names
@@ -28,10 +28,10 @@ std::vector<TomlSection> parameter_sections(const TomlSection& identify, const T
 // [[identify.parameter]]: of a grey box before the records, of a formula after them.
 void read_identified_parameters(IdentifyReading& reading, const TomlSection& section);
 
-// A [[identify.record]], whose added mass or static displacement is read already, with its data.
+// A [[identify.record]] with its data; its added mass or static displacement is already read.
 void read_record(IdentifyReading& reading, const TomlSection& section, RecordChoice& record);
 
-// `fixed_from`: estimates of earlier identifications in the place of the parameters of their names.
+// `fixed_from`: estimates of earlier identifications replace the parameters of the same names.
 void read_fixed(IdentifyReading& reading, const TomlSection& identify);
 
 }  // namespace frahm::studies

@@ -38,8 +38,8 @@ LookupTable read_lookup_table(const std::filesystem::path& path) {
   bool header_possible = true;
   for (const CsvRow& row : read_csv(path, path.string())) {
     const auto fail = [&](std::string_view problem) {
-      throw StudyError(rules::wrong_row,
-                       fmt::format("{}:{}: {}, found \"{}\"", path.string(), row.line, problem, shown(row)));
+      throw StudyError(rules::wrong_row, "{}:{}: {}, found \"{}\"", path.string(), row.line, problem,
+                       shown(row));
     };
     if (row.cells.size() < 2) fail("a row has two columns separated by a comma");
     const std::optional<Point> point = as_point(row);
@@ -52,8 +52,7 @@ LookupTable read_lookup_table(const std::filesystem::path& path) {
     table.y.push_back(point->y);
   }
   if (table.x.size() < 2)
-    throw StudyError(rules::too_few,
-                     fmt::format("{}: a table needs at least two rows of numbers", path.string()));
+    throw StudyError(rules::too_few, "{}: a table needs at least two rows of numbers", path.string());
   return table;
 }
 

@@ -17,9 +17,8 @@ int read_samples(const TomlSection& section, std::int64_t otherwise) {
   const std::int64_t samples = section.integer_or("samples", otherwise);
   const bool none = samples == 0 && otherwise == 0;
   if (!none && (samples < 2 || samples > most_samples)) {
-    section.fail(rules::out_of_range, "samples",
-                 fmt::format("{} is out of range: a whole number from 2 to {}{}", samples, most_samples,
-                             otherwise == 0 ? ", or 0 for no history" : ""));
+    section.fail(rules::out_of_range, "samples", "{} is out of range: a whole number from 2 to {}{}", samples,
+                 most_samples, otherwise == 0 ? ", or 0 for no history" : "");
   }
   return static_cast<int>(samples);
 }
@@ -32,16 +31,15 @@ InitialValues read_initial_values(NetworkReading& reading, const TomlValue& tabl
   const auto& network = reading.result.network;
   const auto node = find_node(network, name);
   if (!node) {
-    section.fail(rules::unknown_name, "node",
-                 fmt::format("no mass is called \"{}\"{}", name, suggestion(name, network.masses)));
+    section.fail(rules::unknown_name, "node", "no mass is called \"{}\"{}", name,
+                 suggestion(name, network.masses));
   }
   if (node->kind != NodeKind::mass) {
-    section.fail(rules::wrong_node, "node",
-                 fmt::format("\"{}\" is {}; only a mass has initial values", name,
-                             node->kind == NodeKind::ground ? "fixed" : "a node of prescribed motion"));
+    section.fail(rules::wrong_node, "node", "\"{}\" is {}; only a mass has initial values", name,
+                 node->kind == NodeKind::ground ? "fixed" : "a node of prescribed motion");
   }
   if (!section.find("displacement") && !section.find("velocity"))
-    section.fail(rules::one_of_two_keys, "a displacement, a velocity or both are needed");
+    section.fail_here(rules::one_of_two_keys, "a displacement, a velocity or both are needed");
   return {node->index, read_value(reading, section, "displacement", Quantity::length, Range::finite, 0.0),
           read_value(reading, section, "velocity", Quantity::speed, Range::finite, 0.0)};
 }
@@ -55,8 +53,8 @@ std::vector<InitialValues> read_initial(NetworkReading& reading, const TomlValue
                                    [&](const InitialValues& other) { return other.mass == values.mass; });
     if (twice) {
       throw reading.context.source.error_at(rules::given_twice, table->position,
-                                            fmt::format("initial values of \"{}\": are given twice",
-                                                        reading.result.network.masses[values.mass]));
+                                            "initial values of \"{}\": are given twice",
+                                            reading.result.network.masses[values.mass]);
     }
     initial.push_back(std::move(values));
   }
@@ -103,9 +101,9 @@ void check_run_up(const NetworkReading& reading, const TomlSection& section) {
       if (std::find(inputs.begin(), inputs.end(), *sole) == inputs.end()) continue;
       throw section.source().error_at(
           rules::wrong_dependence, value->position,
-          fmt::format("{}: depends on \"{}\", which runs from the frequency to sweep_to; only "
-                      "the motion's frequency may change in a run-up",
-                      value->where, parameters.list[*sole].name));
+          "{}: depends on \"{}\", which runs from the frequency to sweep_to; only "
+          "the motion's frequency may change in a run-up",
+          value->where, parameters.list[*sole].name);
     }
   }
 }
@@ -122,14 +120,14 @@ void read_transient(NetworkReading& reading, const TomlValue& root, TransientCho
   motion.sweep_to = read_optional(reading, section, "sweep_to", Quantity::angular_frequency);
   motion.sweep_rate = read_optional(reading, section, "sweep_rate", Quantity::angular_acceleration);
   if (motion.sweep_to.has_value() != motion.sweep_rate.has_value()) {
-    section.fail(rules::missing_key,
-                 fmt::format("the key \"{}\" is missing: a run-up or run-down has both sweep_to and "
-                             "sweep_rate",
-                             motion.sweep_to ? "sweep_rate" : "sweep_to"));
+    section.fail_here(rules::missing_key,
+                      "the key \"{}\" is missing: a run-up or run-down has both sweep_to and "
+                      "sweep_rate",
+                      motion.sweep_to ? "sweep_rate" : "sweep_to");
   }
   if (motion.sweep_to) check_run_up(reading, section);
   if (!motion.duration && !motion.sweep_to)
-    section.fail(rules::missing_key, "the key \"duration\" is missing (a time, s)");
+    section.fail_here(rules::missing_key, "the key \"duration\" is missing (a time, s)");
 }
 
 }  // namespace
@@ -139,9 +137,9 @@ void refuse_smooth_friction(const Study& study) {
     if (study.network.elements[e].law != mechanics::FrictionLaw::arctan) continue;
     const StudyValue& slope = study.values.second[e];
     throw study.source.error_at(rules::wrong_law, slope.position,
-                                fmt::format("{}: {} follows friction as it is; the law \"arctan\" is for a "
-                                            "sweep",
-                                            slope.where, kind_noun(study.kind())));
+                                "{}: {} follows friction as it is; the law \"arctan\" is for a "
+                                "sweep",
+                                slope.where, kind_noun(study.kind()));
   }
 }
 
@@ -153,9 +151,9 @@ void refuse_names_of_energies(const StudyContext& context, const Study& study) {
     if (name != "initial" && name != "final") continue;
     throw context.source.error_at(
         rules::name_taken, study.values.element[e].position,
-        fmt::format("element \"{}\": the record of a motion has a number {}_energy of its own; the element "
-                    "needs another name",
-                    name, name));
+        "element \"{}\": the record of a motion has a number {}_energy of its own; the element "
+        "needs another name",
+        name, name);
   }
 }
 

@@ -56,8 +56,7 @@ const ElementKind& read_kind(const TomlSection& section) {
     if (kind.name == type) return kind;
     known.push_back(kind.name);
   }
-  section.fail(rules::unknown_name, "type",
-               fmt::format("no element is of type \"{}\"{}", type, suggestion(type, known)));
+  section.fail(rules::unknown_name, "type", "no element is of type \"{}\"{}", type, suggestion(type, known));
 }
 
 // Each type has its values and no key of another type.
@@ -66,8 +65,7 @@ void check_keys_of_kind(const TomlSection& section, const ElementKind& kind) {
     const bool of_law = kind.can_be_smoothed() && (key == "law" || key == kind.smoothed.key);
     if (of_law || key == kind.value.key || key == kind.second.key || !section.find(key)) continue;
     const std::string second = kind.second.exists() ? fmt::format(" and a {}", kind.second.key) : "";
-    section.fail(rules::unknown_key, key,
-                 fmt::format("a {} has a {}{}, no {}", kind.name, kind.value.key, second, key));
+    section.fail(rules::unknown_key, key, "a {} has a {}{}, no {}", kind.name, kind.value.key, second, key);
   }
 }
 
@@ -75,8 +73,8 @@ mechanics::FrictionLaw read_law(const TomlSection& section, const ElementKind& k
   if (!kind.can_be_smoothed()) return mechanics::FrictionLaw::exact;
   if (section.choice_or("law", {"exact", "arctan"}) == "arctan") return mechanics::FrictionLaw::arctan;
   if (section.find(kind.smoothed.key))
-    section.fail(rules::key_without_use, kind.smoothed.key,
-                 fmt::format("only the law \"arctan\" has a {}", kind.smoothed.key));
+    section.fail(rules::key_without_use, kind.smoothed.key, "only the law \"arctan\" has a {}",
+                 kind.smoothed.key);
   return mechanics::FrictionLaw::exact;
 }
 
@@ -91,17 +89,17 @@ void check_one_law(const NetworkReading& reading, const TomlSection& section, co
   const ElementKind& other_kind = mechanics::kind_of(*other);
   if (!kind.can_be_smoothed() || !other_kind.can_be_smoothed()) {
     const bool own = !kind.can_be_smoothed();
-    section.fail(rules::wrong_law,
-                 fmt::format("a {} has no arctan law, which {} follows", own ? kind.name : other_kind.name,
-                             own ? fmt::format("element \"{}\"", other->name) : "this element"));
+    section.fail_here(rules::wrong_law, "a {} has no arctan law, which {} follows",
+                      own ? kind.name : other_kind.name,
+                      own ? fmt::format("element \"{}\"", other->name) : "this element");
   }
   const bool arctan = law == mechanics::FrictionLaw::arctan;
   const std::string message = fmt::format(
       "\"{}\"{}, but element \"{}\" follows \"{}\"; the coulomb elements of a study follow one law",
       arctan ? "arctan" : "exact", section.find("law") ? "" : " is the law if none is named", other->name,
       arctan ? "exact" : "arctan");
-  section.find("law") ? section.fail(rules::wrong_law, "law", message)
-                      : section.fail(rules::wrong_law, message);
+  section.find("law") ? section.fail(rules::wrong_law, "law", "{}", message)
+                      : section.fail_here(rules::wrong_law, "{}", message);
 }
 
 std::array<Node, 2> read_between(const NetworkReading& reading, const TomlSection& section) {
@@ -117,17 +115,16 @@ std::array<Node, 2> read_between(const NetworkReading& reading, const TomlSectio
     const auto node = find_node(reading.result.network, names[i]);
     if (!node) {
       throw section.source().error_at(rules::unknown_name, (*ends)[i].position,
-                                      fmt::format("{}: no node is called \"{}\"{}", where, names[i],
-                                                  suggestion(names[i], node_names(reading.result.network))));
+                                      "{}: no node is called \"{}\"{}", where, names[i],
+                                      suggestion(names[i], node_names(reading.result.network)));
     }
     nodes[i] = *node;
   }
-  if (nodes[0] == nodes[1])
-    section.fail(rules::wrong_node, "between", fmt::format("both ends are at \"{}\"", names[0]));
+  if (nodes[0] == nodes[1]) section.fail(rules::wrong_node, "between", "both ends are at \"{}\"", names[0]);
   if (nodes[0].kind != NodeKind::mass && nodes[1].kind != NodeKind::mass) {
     section.fail(rules::wrong_node, "between",
-                 fmt::format("neither \"{}\" nor \"{}\" is a mass, so nothing moves the element freely",
-                             names[0], names[1]));
+                 "neither \"{}\" nor \"{}\" is a mass, so nothing moves the element freely", names[0],
+                 names[1]);
   }
   return nodes;
 }
@@ -190,9 +187,9 @@ void check_every_motion_is_felt(const NetworkReading& reading, const TomlValue& 
       return element.a == node || element.b == node;
     });
     if (felt) continue;
-    throw reading.context.source.error_at(
-        rules::wrong_node, table->position,
-        fmt::format("motion of \"{0}\": no element is attached to the node \"{0}\"", name));
+    throw reading.context.source.error_at(rules::wrong_node, table->position,
+                                          "motion of \"{0}\": no element is attached to the node \"{0}\"",
+                                          name);
   }
 }
 
@@ -202,9 +199,8 @@ void take_name(NetworkReading& reading, const TomlSection& section, const std::s
                const std::string& owner) {
   for (const auto& taken : reading.names) {
     if (taken.name != name) continue;
-    section.fail(
-        rules::name_taken, "name",
-        fmt::format("the name is taken by {}; nodes and elements need different names", taken.owner));
+    section.fail(rules::name_taken, "name",
+                 "the name is taken by {}; nodes and elements need different names", taken.owner);
   }
   reading.names.push_back({name, owner});
 }
@@ -241,8 +237,8 @@ StudyValue read_value(NetworkReading& reading, const TomlSection& section, const
     return result;
   }
   if (!value) {
-    section.fail(rules::missing_key, fmt::format("the key \"{}\" is missing ({}, {})", key,
-                                                 quantity_name(quantity), written_si_unit(quantity)));
+    section.fail_here(rules::missing_key, "the key \"{}\" is missing ({}, {})", key, quantity_name(quantity),
+                      written_si_unit(quantity));
   }
   result.position = value->position;
   if (value->as<std::string>()) {
@@ -258,8 +254,7 @@ StudyValue read_value(NetworkReading& reading, const TomlSection& section, const
   try {
     result.expression = Expression(number.value * (number.unit ? si_factor(*number.unit, quantity) : 1.0));
   } catch (const UnitError& error) {
-    throw section.source().error_at(error.rule(), number.unit_position,
-                                    fmt::format("{}: {}", result.where, error.what()));
+    throw section.source().error_at(error.rule(), number.unit_position, "{}: {}", result.where, error.what());
   }
   return result;
 }

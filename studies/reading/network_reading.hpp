@@ -6,10 +6,10 @@
 
 #include "studies/reading/study_reading.hpp"
 
-// Inside the reading of the network: what masses, elements and the excitation share.
+// Shared by the readers of masses, elements and the excitation.
 namespace frahm::studies {
 
-// The network as far as it is read.
+// The network while it is read.
 struct NetworkReading {
   NetworkReading(const StudyContext& study, Parameters& read) : context(study), parameters(read) {}
 
@@ -17,7 +17,7 @@ struct NetworkReading {
   Parameters& parameters;
   NetworkOfStudy result;
 
-  // A name of a node or element, which are unique together, and what has it: `mass "main"`.
+  // A name in use and its owner: `mass "main"`. Nodes and elements share one set of names.
   struct TakenName {
     std::string name, owner;
   };
@@ -25,7 +25,7 @@ struct NetworkReading {
   std::vector<Position> masses;  // of the tables of result.network.masses
 };
 
-// Refuses a name that something has already. key: of the name in the section.
+// Refuses a name already in use. key: of the name in the section.
 void take_name(NetworkReading& reading, const TomlSection& section, const std::string& name,
                const std::string& owner);
 
@@ -45,7 +45,7 @@ std::optional<StudyValue> read_optional(NetworkReading& reading, const TomlSecti
 
 // [[excitation.motion]] names the nodes of prescribed motion, so it comes before the elements. [excitation]
 // with its forces and the frequency comes after the masses. Constant forces alone are refused unless
-// constant_will_do: they shake nothing in a periodic response, but a load suddenly applied has a motion.
+// constant_will_do: they cause no periodic motion, but a suddenly applied load causes a transient.
 void read_prescribed_nodes(NetworkReading& reading, const TomlValue& excitation);
 void read_excitation(NetworkReading& reading, const TomlValue& excitation, bool constant_will_do);
 

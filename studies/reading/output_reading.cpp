@@ -17,9 +17,9 @@ void read_quantities(const TomlSection& section, OutputChoice& output) {
     const std::string word = section.text("quantities");
     if (word != "standard" && word != "all") {
       section.fail(rules::wrong_type, "quantities",
-                   fmt::format("\"{0}\" is neither \"standard\" nor \"all\"; names stand in an array: "
-                               "[\"{0}\"]",
-                               word));
+                   "\"{0}\" is neither \"standard\" nor \"all\"; names stand in an array: "
+                   "[\"{0}\"]",
+                   word);
     }
     output.quantities = word == "all" ? OutputChoice::Quantities::all : OutputChoice::Quantities::standard;
     return;
@@ -34,15 +34,14 @@ void read_orbits(const StudyContext& context, const TomlSection& section, Study&
   const auto* points = value->as<TomlArray>();
   if (!points)
     section.fail(rules::wrong_type, "orbits",
-                 "expected an array of points such as [{ omega = 250, I = 6.36 }]");
+                 "expected an array of points such as [{{ omega = 250, I = 6.36 }}]");
   for (const TomlValue& point : *points) {
     const auto* entries = point.as<TomlTable>();
     if (!entries) {
-      throw context.source.error_at(
-          rules::wrong_type, point.position,
-          fmt::format("[output]: orbits: a point is a table such as {{ omega = 250 }}, found "
-                      "{}",
-                      described(point)));
+      throw context.source.error_at(rules::wrong_type, point.position,
+                                    "[output]: orbits: a point is a table such as {{ omega = 250 }}, found "
+                                    "{}",
+                                    described(point));
     }
     std::vector<Assignment> assignments;
     for (const TomlEntry& entry : *entries)
@@ -59,9 +58,9 @@ void read_borders(const TomlSection& section, Study& study) {
     if (!mechanics::has_contact(element)) continue;
     if (element.law != mechanics::FrictionLaw::exact) {
       section.fail(rules::wrong_law, "borders",
-                   fmt::format("element \"{}\" follows the arctan law, under which nothing sticks "
-                               "and there are no regimes to border on each other",
-                               element.name));
+                   "element \"{}\" follows the arctan law, under which nothing sticks "
+                   "and there are no regimes to border on each other",
+                   element.name);
     }
     ++contacts;
   }
@@ -69,9 +68,8 @@ void read_borders(const TomlSection& section, Study& study) {
     section.fail(rules::no_contact, "borders",
                  "borders are those between regimes of coulomb elements, and there is none");
   if (contacts > most_bordered_elements)
-    section.fail(rules::too_large, "borders",
-                 fmt::format("of {} coulomb elements; at most {} can be told apart", contacts,
-                             most_bordered_elements));
+    section.fail(rules::too_large, "borders", "of {} coulomb elements; at most {} can be told apart",
+                 contacts, most_bordered_elements);
 }
 
 // Whether each frequency along a dimension belongs to one place of it.
@@ -101,15 +99,14 @@ void read_resonances(const StudyContext& context, const TomlSection& section, St
     const std::string name = read_text(context.source, where, item);
     const auto mass = std::find(masses.begin(), masses.end(), name);
     if (mass == masses.end()) {
-      throw context.source.error_at(
-          rules::unknown_name, item.position,
-          fmt::format("{}: no mass is called \"{}\"{}", where, name, suggestion(name, masses)));
+      throw context.source.error_at(rules::unknown_name, item.position, "{}: no mass is called \"{}\"{}",
+                                    where, name, suggestion(name, masses));
     }
     const auto index = static_cast<std::size_t>(mass - masses.begin());
     auto& chosen = study.sweep()->output.resonances;
     if (std::find(chosen.begin(), chosen.end(), index) != chosen.end())
-      throw context.source.error_at(rules::given_twice, item.position,
-                                    fmt::format("{}: \"{}\" appears twice", where, name));
+      throw context.source.error_at(rules::given_twice, item.position, "{}: \"{}\" appears twice", where,
+                                    name);
     chosen.push_back(index);
   }
   const auto dimension = study.sweep()->frequency_dimension;
@@ -132,10 +129,8 @@ std::vector<OutputChoice::Name> read_quantity_names(const TomlSection& section) 
   const auto* items = value.as<TomlArray>();
   if (!items || items->empty()) {
     const bool output = section.where() == "[output]";
-    section.fail(
-        rules::wrong_type, "quantities",
-        fmt::format("expected {}an array of names, found {}", output ? "\"standard\", \"all\" or " : "",
-                    items ? "an empty array" : described(value)));
+    section.fail(rules::wrong_type, "quantities", "expected {}an array of names, found {}",
+                 output ? "\"standard\", \"all\" or " : "", items ? "an empty array" : described(value));
   }
   std::vector<OutputChoice::Name> names;
   const std::string where = fmt::format("{}: quantities", section.where());
@@ -143,8 +138,8 @@ std::vector<OutputChoice::Name> read_quantity_names(const TomlSection& section) 
     const std::string name = read_identifier(section.source(), where, item);
     const bool twice = std::any_of(names.begin(), names.end(), [&](auto& n) { return n.text == name; });
     if (twice)
-      throw section.source().error_at(rules::given_twice, item.position,
-                                      fmt::format("{}: \"{}\" appears twice", where, name));
+      throw section.source().error_at(rules::given_twice, item.position, "{}: \"{}\" appears twice", where,
+                                      name);
     names.push_back({name, item.position});
   }
   return names;

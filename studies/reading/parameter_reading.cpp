@@ -14,8 +14,7 @@ std::string where_is(const std::string& name) {
 
 Parameter named_parameter(const StudyContext& context, const TomlEntry& entry) {
   const auto fail = [&](Rule rule, std::string_view problem) {
-    throw context.source.error_at(rule, entry.position,
-                                  fmt::format("[parameters]: \"{}\" {}", entry.key, problem));
+    throw context.source.error_at(rule, entry.position, "[parameters]: \"{}\" {}", entry.key, problem);
   };
   if (!is_identifier(entry.key))
     fail(rules::not_a_name, "is not a name: names are a letter followed by letters, digits and _");
@@ -37,14 +36,14 @@ TableOf read_table(const StudyContext& context, const Parameters& parameters, co
   const std::string of = section.identifier("of");
   const auto index = parameters.find(of);
   if (!index) {
-    section.fail(rules::unknown_name, "of",
-                 fmt::format("no parameter is called \"{}\"{}", of, suggestion(of, parameters.names())));
+    section.fail(rules::unknown_name, "of", "no parameter is called \"{}\"{}", of,
+                 suggestion(of, parameters.names()));
   }
   table.of = *index;
   try {
     table.table = read_lookup_table(folder / table.file);
   } catch (const StudyError& error) {
-    section.fail(error.rule(), "table", error.what());
+    section.fail(error.rule(), "table", "{}", error.what());
   }
   return table;
 }
@@ -111,10 +110,9 @@ void order_derived(const StudyContext& context, Parameters& parameters) {
   const auto stuck = std::find(resolved.begin(), resolved.end(), false);
   if (stuck == resolved.end()) return;
   const auto i = static_cast<std::size_t>(stuck - resolved.begin());
-  throw context.source.error_at(
-      rules::circular_definition, parameters.list[i].position,
-      fmt::format("{}: its definition runs in a circle: {}", where_is(parameters.list[i].name),
-                  circle_through(parameters, resolved, i)));
+  throw context.source.error_at(rules::circular_definition, parameters.list[i].position,
+                                "{}: its definition runs in a circle: {}", where_is(parameters.list[i].name),
+                                circle_through(parameters, resolved, i));
 }
 
 }  // namespace
@@ -126,9 +124,8 @@ Parameters read_parameters(const StudyContext& context, const TomlValue& root,
   if (!section) return parameters;
   const auto* entries = section->value.as<TomlTable>();
   if (!entries) {
-    throw context.source.error_at(
-        rules::wrong_type, section->position,
-        fmt::format("[parameters]: expected a table, found {}", described(section->value)));
+    throw context.source.error_at(rules::wrong_type, section->position,
+                                  "[parameters]: expected a table, found {}", described(section->value));
   }
   for (const TomlEntry& entry : *entries) parameters.list.push_back(named_parameter(context, entry));
   for (std::size_t i = 0; i < entries->size(); ++i) {
@@ -146,8 +143,8 @@ void convert_parameters(const StudyContext& context, Parameters& parameters) {
       value *= si_factor(parameter, *parameter.unit);
       if (!std::isfinite(value)) throw UnitError(rules::not_finite, "the value in SI units is out of range");
     } catch (const UnitError& error) {
-      throw context.source.error_at(error.rule(), parameter.unit_position,
-                                    fmt::format("{}: {}", where_is(parameter.name), error.what()));
+      throw context.source.error_at(error.rule(), parameter.unit_position, "{}: {}", where_is(parameter.name),
+                                    error.what());
     }
   }
 }
@@ -156,11 +153,10 @@ NumberWithUnit read_number_with_unit(const StudyContext& context, const std::str
                                      const TomlValue& value) {
   if (is_number(value)) return {read_number(context.source, where, value), std::nullopt, value.position};
   if (!value.as<TomlTable>()) {
-    throw context.source.error_at(
-        rules::wrong_type, value.position,
-        fmt::format("{}: expected a number, {{ value, unit }} or an expression in quotes, "
-                    "found {}",
-                    where, described(value)));
+    throw context.source.error_at(rules::wrong_type, value.position,
+                                  "{}: expected a number, {{ value, unit }} or an expression in quotes, "
+                                  "found {}",
+                                  where, described(value));
   }
   const TomlSection section(context.source, value, where, {"value", "unit"});
   const double number = section.number("value");
@@ -172,7 +168,7 @@ NumberWithUnit read_number_with_unit(const StudyContext& context, const std::str
 std::optional<Unit> read_unit(const StudyContext& context, const std::string& where, const TomlValue& value) {
   const std::string text = read_text(context.source, fmt::format("{}: unit", where), value);
   const auto fail = [&](Rule rule, std::string_view message) {
-    throw context.source.error_at(rule, value.position, fmt::format("{}: unit: {}", where, message));
+    throw context.source.error_at(rule, value.position, "{}: unit: {}", where, message);
   };
   if (context.dimensionless) {
     if (text != "1")
@@ -195,8 +191,8 @@ Expression read_expression(const StudyContext& context, const Parameters& parame
     return Expression::parse(text, parameters.names());
   } catch (const ExpressionError& error) {
     throw context.source.error_at(error.rule(),
-                                  context.source.inside_string(value.position, error.column() - 1),
-                                  fmt::format("{}: {}", where, error.what()));
+                                  context.source.inside_string(value.position, error.column() - 1), "{}: {}",
+                                  where, error.what());
   }
 }
 

@@ -31,7 +31,7 @@ struct Parameter {
   // Of numbers only:
   std::optional<Unit> unit;  // as the study gives it
   Position unit_position;
-  std::optional<Quantity> quantity;  // known when some value of the network is this parameter alone:
+  std::optional<Quantity> quantity;  // known if a network value is this parameter alone:
   std::string used_as;               // that value, for messages
   bool in_frequency = false;         // the excitation frequency depends on it: its 1/s, Hz are cycles
 
@@ -44,7 +44,7 @@ struct Assignment {
   double value = 0.0;         // SI
 };
 
-// A unit in which a parameter or a quantity is spoken of.
+// The unit of a parameter or quantity in the study and in messages.
 struct UsualUnit {
   std::string text;        // in a form UDUNITS reads; "" for SI
   double si_factor = 1.0;  // SI value = si_factor x value
@@ -60,7 +60,7 @@ struct Parameters {
   // SI values of all parameters as the study states them, in the order of `list`.
   std::vector<double> nominal() const;
 
-  // The numbers (indices, ascending) on which what reads these parameters depends, through expressions and
+  // Indices (ascending) of the number parameters that determine these parameters, through expressions and
   // tables.
   std::vector<std::size_t> inputs_of(std::span<const std::size_t> reads) const;
 
@@ -83,8 +83,8 @@ void Parameters::complete(std::span<Number> values) const {
 }
 
 // Factor from a unit given for a number parameter (in [parameters], on an axis or on the command line) to SI.
-// Throws UnitError where the unit has not the dimension the parameter is known to have, or where 1/s, Hz or
-// 1/min could count cycles or not.
+// Throws UnitError for a wrong dimension, if the parameter's is known, and where it is unclear whether 1/s,
+// Hz or 1/min count cycles.
 double si_factor(const Parameter& parameter, const Unit& unit);
 
 }  // namespace frahm::studies

@@ -14,7 +14,7 @@ namespace frahm::studies {
 namespace {
 
 [[noreturn]] void refuse(const std::string& name, const std::string& why) {
-  throw StudyError(rules::unreadable_file, fmt::format("{}: cannot be read: {}", name, why));
+  throw StudyError(rules::unreadable_file, "{}: cannot be read: {}", name, why);
 }
 
 std::ifstream open_file(const std::filesystem::path& path, const std::string& name) {

@@ -10,16 +10,7 @@ std::string RawRecord::where(const RawColumn& column, std::size_t row) const {
 }
 
 StudyError data_error(Rule rule, const TomlSection& record, const std::string& message) {
-  return record.source().error_at(rule, record.require("file").position,
-                                  fmt::format("{}: {}", record.where(), message));
-}
-
-void ColumnReading::fail(Rule rule, const std::string& message) const {
-  throw data_error(rule, record, message);
-}
-
-void ColumnReading::fail(Rule rule, Position position, const std::string& message) const {
-  throw record.source().error_at(rule, position, fmt::format("{}: {}", record.where(), message));
+  return record.source().error_at(rule, record.require("file").position, "{}: {}", record.where(), message);
 }
 
 RawRecord read_columns(const TomlSection& record, const std::filesystem::path& folder,

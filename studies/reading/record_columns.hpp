@@ -9,7 +9,7 @@
 #include "studies/reading/record_form.hpp"
 #include "studies/reading/toml_section.hpp"
 
-// The columns of a record as its file has them: numbers in the file's own units.
+// The columns of a record as stored in its file, in the file's units.
 namespace frahm::studies {
 
 struct RawColumn {
@@ -21,11 +21,11 @@ struct RawColumn {
 
 struct RawRecord {
   std::string file;               // as the study names it
-  bool has_lines = true;          // a text: its rows are lines
+  bool has_lines = true;          // a text file: its rows are lines
   std::size_t header = 0;         // its line; 0: none
-  std::vector<std::size_t> rows;  // line, or number of the value from 1, of each row kept
+  std::vector<std::size_t> rows;  // line, or number of the value from 1, of each row used
   std::vector<RawColumn> columns;
-  std::vector<std::string> labels;  // of each row kept, if there is such a column
+  std::vector<std::string> labels;  // of each row used, if the file has labels
   std::size_t doubtful = 0;         // rows left out
   bool first_is_doubtful = false;   // the first row is one of them
 
@@ -42,17 +42,24 @@ struct ColumnReading {
   const std::vector<RecordForm>& forms;
   RawRecord result = {};
 
-  [[noreturn]] void fail(Rule rule, const std::string& message) const;  // at the file
-  [[noreturn]] void fail(Rule rule, Position position,
-                         const std::string& message) const;  // at a place of the study
+  template <class... Args>
+  [[noreturn]] void fail_at_file(Rule rule, fmt::format_string<Args...> message, Args&&... args) const {
+    throw data_error(rule, record, fmt::format(message, std::forward<Args>(args)...));
+  }
+  template <class... Args>
+  [[noreturn]] void fail(Rule rule, Position position, fmt::format_string<Args...> message,
+                         Args&&... args) const {
+    throw record.source().error_at(rule, position, "{}: {}", record.where(),
+                                   fmt::format(message, std::forward<Args>(args)...));
+  }
 };
 
-// The columns of a file of each kind; result.file is known.
+// The columns of a CSV or an HDF5 file; result.file is already set.
 RawRecord read_csv_columns(const ColumnReading& reading, const std::filesystem::path& path);
 RawRecord read_hdf5_columns(ColumnReading reading, const std::filesystem::path& path);
 
-// The columns of a record's file, by its ending: .h5, .hdf5 and .nc are HDF5, others CSV. They are those that
-// the record's `columns` name, else those whose header is the name of a role.  folder: of the study.
+// The columns of a record's file, by its ending: .h5, .hdf5 and .nc are HDF5, others CSV. They are chosen by
+// the record's `columns`, else by headers that are names of roles.  folder: of the study.
 // Throws StudyError for a file that cannot be read, and for columns that are missing or not numbers.
 RawRecord read_columns(const TomlSection& record, const std::filesystem::path& folder,
                        const std::vector<RecordForm>& forms);

@@ -10,7 +10,7 @@
 // Which columns a record of measurements has, by the method that reads it.
 namespace frahm::studies {
 
-// What a column of measurements stands for.
+// The meaning of a column of measurements.
 struct Role {
   std::string name;
   Quantity quantity = Quantity::number;
@@ -23,12 +23,12 @@ struct Role {
 struct RecordForm {
   std::vector<Role> roles;
   std::size_t least_rows = 1;
-  bool is_trace = false;  // over the time: no row has a label
+  bool is_trace = false;  // over time: no row has a label
 
   const Role* find(const std::string& name) const;
 };
 
-// Columns beside these: of any form which is no trace, and of any form.
+// Further columns: labels in every form except traces, doubtful marks in every form.
 inline constexpr const char* label_role = "label";
 inline constexpr const char* doubtful_role = "doubtful";  // 1: the row is left out; 0: it counts
 
@@ -36,14 +36,14 @@ inline constexpr const char* doubtful_role = "doubtful";  // 1: the row is left 
 // <mass>_displacement, <mass>_velocity, <mass>_acceleration, <mass>_force and <support>_displacement.
 std::vector<RecordForm> record_forms(const Study& study);
 
-// All names that a column may have in one form or another.
+// All names that a column may have in any form.
 std::vector<std::string> role_names(const std::vector<RecordForm>& forms);
 
-// The form to which the columns found belong: the first that has all it requires, else the one of which most
-// are there.
+// The form of the columns found: the first whose required columns are all there, else the one with most of
+// them.
 const RecordForm& form_of(const std::vector<RecordForm>& forms, const std::vector<std::string>& found);
 
-// What it requires and what it may have, in words: `time and displacement`.
+// The required and the optional columns, in words: `time and displacement`.
 std::string described(const RecordForm& form);
 
 // Columns of a measured excitation or of a mass's motion.

@@ -24,16 +24,15 @@ void check_units(const TomlSection& section, const RawRecord& raw) {
   if (!units) return;
   const auto* entries = units->as<TomlTable>();
   if (!entries)
-    section.fail(
-        rules::wrong_type, "units",
-        fmt::format("expected a table such as {{ displacement = \"mm\" }}, found {}", described(*units)));
+    section.fail(rules::wrong_type, "units", "expected a table such as {{ displacement = \"mm\" }}, found {}",
+                 described(*units));
   std::vector<std::string> roles;
   for (const RawColumn& column : raw.columns) roles.push_back(column.role->name);
   for (const TomlEntry& entry : *entries) {
     if (std::find(roles.begin(), roles.end(), entry.key) != roles.end()) continue;
     throw section.source().error_at(rules::unknown_name, entry.position,
-                                    fmt::format("{}: units: no column of numbers is \"{}\"{}",
-                                                section.where(), entry.key, suggestion(entry.key, roles)));
+                                    "{}: units: no column of numbers is \"{}\"{}", section.where(), entry.key,
+                                    suggestion(entry.key, roles));
   }
 }
 
@@ -82,7 +81,7 @@ double factor_of(const IdentifyReading& reading, const TomlSection& section, con
   const std::string where = fmt::format("{}: units: {}", section.where(), column.role->name);
   const auto given = read_unit(reading.context, where, entry->value);
   const auto fail = [&](Rule rule, std::string_view problem) {
-    throw section.source().error_at(rule, entry->value.position, fmt::format("{}: {}", where, problem));
+    throw section.source().error_at(rule, entry->value.position, "{}: {}", where, problem);
   };
   if (given && in_file && !is_same(*given, *in_file))
     fail(rules::two_units, fmt::format("\"{}\", but the file gives \"{}\" in {}", given->text, in_file->text,
@@ -146,9 +145,9 @@ void refuse_other_excitation(const IdentifyReading& reading, const TomlSection& 
     const std::string& node = force ? network.masses[excitation.node] : network.prescribed[excitation.node];
     if (record.find(node + (force ? "_force" : "_displacement"))) continue;
     section.fail(rules::unfit_for_method, "file",
-                 fmt::format("an excitation was measured, and takes the place of [excitation]; but \"{}\" is "
-                             "excited too and was not measured",
-                             node));
+                 "an excitation was measured, and takes the place of [excitation]; but \"{}\" is "
+                 "excited too and was not measured",
+                 node);
   }
 }
 
@@ -162,8 +161,8 @@ void read_motion_kind(const IdentifyReading& reading, const TomlSection& section
   };
   if (!any(is_motion))
     section.fail(rules::unknown_column, section.find("columns") ? "columns" : "file",
-                 fmt::format("no motion of a mass was measured; the columns are {}",
-                             described(record_forms(study).front())));
+                 "no motion of a mass was measured; the columns are {}",
+                 described(record_forms(study).front()));
   const bool measured = any(is_excitation), stated = !study.network.excitations.empty();
   const std::string word = section.choice_or(
       "motion", measured || stated ? std::vector<std::string>{"forced", "free", "periodic"}
@@ -173,17 +172,17 @@ void read_motion_kind(const IdentifyReading& reading, const TomlSection& section
                                      : MotionKind::periodic;
   if (record.motion != MotionKind::forced && measured)
     section.fail(rules::unfit_for_method, "motion",
-                 fmt::format("\"{}\", but an excitation was measured, which is for \"forced\"", word));
+                 "\"{}\", but an excitation was measured, which is for \"forced\"", word);
   if (record.motion != MotionKind::free && !measured && !stated)
     section.fail(rules::missing_section, "motion",
-                 fmt::format("\"{}\", but the study has no [excitation] and none was measured", word));
+                 "\"{}\", but the study has no [excitation] and none was measured", word);
   if (measured && record.doubtful > 0)
     section.fail(rules::doubtful_row, "file",
                  "a measured excitation drives the motion at all times: none of its rows can be left out as "
                  "doubtful");
   if (measured) refuse_other_excitation(reading, section, record);
   if (record.motion == MotionKind::free && study.initial().empty())
-    section.fail(
+    section.fail_here(
         rules::missing_section,
         "a free motion starts from [[initial]] values, and the study has none: nothing moves that is not "
         "displaced or set in motion");
@@ -205,8 +204,8 @@ void read_settings(const IdentifyReading& reading, const TomlSection& section, R
   if (!set) return;
   const auto* entries = set->as<TomlTable>();
   if (!entries)
-    section.fail(rules::wrong_type, "set",
-                 fmt::format("expected a table such as {{ I = 4.72 }}, found {}", described(*set)));
+    section.fail(rules::wrong_type, "set", "expected a table such as {{ I = 4.72 }}, found {}",
+                 described(*set));
   for (const TomlEntry& entry : *entries) record.set.push_back(read_setting(reading, section, entry));
 }
 
@@ -217,13 +216,12 @@ void check_keys(const IdentifyReading& reading, const TomlSection& section, cons
   for (const char* key : {"set", "motion"}) {
     if (section.find(key) && method != Method::grey_box)
       section.fail(rules::key_without_use, key,
-                   fmt::format("belongs to the method \"grey_box\"; \"{}\" has no use for it", name));
+                   "belongs to the method \"grey_box\"; \"{}\" has no use for it", name);
   }
   const auto check = [&](const char* key, bool wanted, const char* rule) {
-    if (section.find(key) && !wanted)
-      section.fail(rules::key_without_use, key, fmt::format("has no use here; {}", rule));
+    if (section.find(key) && !wanted) section.fail(rules::key_without_use, key, "has no use here; {}", rule);
     if (!section.find(key) && wanted)
-      section.fail(rules::missing_key, fmt::format("the key \"{}\" is missing; {}", key, rule));
+      section.fail_here(rules::missing_key, "the key \"{}\" is missing; {}", key, rule);
   };
   check("added_mass", method == Method::added_mass && form.is_trace,
         "it is the mass added while the trace of a record of the method \"added_mass\" was taken, 0 without");

@@ -7,18 +7,17 @@
 
 #include "studies/reading/study.hpp"
 
-// Parameters as the command line says them, and back.
+// Parameter values from the command line, and back into its form.
 namespace frahm::studies {
 
-// The study with the values of --set (name=value each; none: as it stands). Throws StudyError.
+// The study with the values of --set (name=value each; none: unchanged). Throws StudyError.
 Study read_study_with(const std::filesystem::path& path, const std::vector<std::string>& set);
 
 // SI values of all parameters at one point: those of --at (name=value each), the rest as the study states
-// them. Throws StudyError for a wrong name or value, or where some value of the network is out of its range
-// there.
+// them. Throws StudyError for a wrong name or value, or if a network value is out of range there.
 std::vector<double> parameters_at(const Study& study, const std::vector<std::string>& at);
 
-// A number and its unit as a study speaks of it: {250, "rpm"}; unit "" if it has none or none is known.
+// A number in the study's unit: {250, "rpm"}; unit "" if it has none or none is known.
 struct SpokenValue {
   double value = 0.0;
   std::string unit;
@@ -26,8 +25,8 @@ struct SpokenValue {
 // parameter: index in Parameters::list, of a number.  si: its value in SI.
 SpokenValue spoken_value(const Study& study, std::size_t parameter, double si);
 
-// The SI unit of a number parameter, in the form of CF: that of what it stands for, else that of the unit it
-// is given in; "1" where neither is known.
+// The SI unit of a number parameter in CF form: that of its quantity, else that of its given unit; "1" if
+// neither is known.
 std::string recorded_unit(const Study& study, std::size_t parameter);
 
 }  // namespace frahm::studies

@@ -38,8 +38,8 @@ void check_top_keys(const StudySource& source, const TomlValue& root) {
   for (const auto& words : sections_of_kind) known.insert(known.end(), words.begin(), words.end());
   for (const TomlEntry& entry : *root.as<TomlTable>()) {
     if (contains(known, entry.key)) continue;
-    throw source.error_at(rules::unknown_section, entry.position,
-                          fmt::format("unknown section \"{}\"{}", entry.key, suggestion(entry.key, known)));
+    throw source.error_at(rules::unknown_section, entry.position, "unknown section \"{}\"{}", entry.key,
+                          suggestion(entry.key, known));
   }
 }
 
@@ -61,9 +61,8 @@ std::string_view why_without(StudyKind kind, const std::string& section) {
 void check_sections_of_kind(const Study& study, const TomlValue& root) {
   for (const TomlEntry& entry : *root.as<TomlTable>()) {
     if (contains(sections(study.kind()), entry.key)) continue;
-    throw study.source.error_at(rules::other_kind, entry.position,
-                                fmt::format("the section \"{}\" is not part of {}{}", entry.key,
-                                            kind_noun(study.kind()), why_without(study.kind(), entry.key)));
+    throw study.source.error_at(rules::other_kind, entry.position, "the section \"{}\" is not part of {}{}",
+                                entry.key, kind_noun(study.kind()), why_without(study.kind(), entry.key));
   }
 }
 
@@ -76,8 +75,7 @@ void read_heading(const TomlValue& root, Study& study) {
   section.require("schema");
   const std::int64_t schema = section.integer_or("schema", 1);
   if (schema != 1)
-    section.fail(rules::out_of_range, "schema",
-                 fmt::format("{} is unknown; this version reads schema = 1", schema));
+    section.fail(rules::out_of_range, "schema", "{} is unknown; this version reads schema = 1", schema);
   section.require("kind");
   const std::string kind = section.choice_or("kind", {"sweep", "tune", "identify", "decay", "transient"});
   if (kind == kind_name(StudyKind::sweep)) study.choice = SweepChoice{};

@@ -22,17 +22,17 @@ namespace frahm::studies {
 
 enum class StudyKind { sweep, decay, transient, tune, identify };
 
-// A study, complete and checked: whatever stands here has a meaning for the solvers.
+// A study, complete and checked: every value here is valid for the solvers.
 struct Study {
   StudySource source;
   std::string title;  // "" if the study has none
   bool dimensionless = false;
 
   Parameters parameters;
-  mechanics::Network network;  // of an identification by a formula: none
-  StudyValues values;          // of a decay: its frequency and excitation mean nothing
+  mechanics::Network network;  // empty in an identification by a formula
+  StudyValues values;          // in a decay, frequency and excitation are unused
 
-  // What its kind asks for, in the order of StudyKind.
+  // The options of its kind, in the order of StudyKind.
   std::variant<SweepChoice, DecayChoice, TransientChoice, TuneChoice, IdentifyChoice> choice;
 
   StudyKind kind() const { return static_cast<StudyKind>(choice.index()); }
@@ -53,7 +53,7 @@ struct Study {
   // The initial values of its masses: of a decay, a transient or an identification.
   std::span<const InitialValues> initial() const;
 
-  // The values beside those of the network that are expressions of parameters.
+  // The values outside the network that are expressions of parameters.
   std::vector<const StudyValue*> values_of_its_kind() const;
 };
 
@@ -62,15 +62,15 @@ struct Study {
 // key`) and for a file that cannot be read.
 Study read_study(const std::filesystem::path& path);
 
-// Whether the measurements of an identification, and earlier results that it takes, are read with it. Where
-// they are left its records have no columns and nothing is fixed.
+// Whether the measurements and earlier results of an identification are read too. If not, its records have no
+// columns and no parameter is fixed.
 enum class DataFiles { read, leave };
 
-// The same for a text at hand; name: stands for the file in messages, and its folder for that of the tables.
+// The same for a given text; name: of the file, for messages; its folder holds the tables.
 Study parse_study(std::string text, const std::filesystem::path& name, DataFiles data = DataFiles::read);
 
 std::string_view kind_name(StudyKind kind);  // as the study writes it
-std::string_view kind_noun(StudyKind kind);  // as sentences say it: "a tuning"
+std::string_view kind_noun(StudyKind kind);  // in sentences: "a tuning"
 
 // The study with some number parameters replaced, and checked again.
 Study with_parameters(Study study, std::span<const Assignment> assignments);
@@ -79,20 +79,18 @@ Study with_parameters(Study study, std::span<const Assignment> assignments);
 void set_along(const SweepChoice& sweep, std::size_t dimension, std::size_t index,
                std::span<double> parameters);
 
-// The dimensions of the map along which what reads these parameters changes, ascending; none where the study
-// is no sweep.
+// The dimensions of the map along which these parameters change, ascending; none unless the study is a sweep.
 std::vector<std::size_t> dimensions_moving(const Study& study, std::span<const std::size_t> reads);
 
-// The unit in which a number parameter is spoken of (a bare number in an orbit, --at and --set; messages):
-// that of its axis, band or bounds, else that of its definition, else "" for SI; and its factor to SI.
+// The unit of a number parameter in messages and for bare numbers in orbits, --at and --set: that of its
+// axis, band or bounds, else that of its definition, else "" for SI; with its factor to SI.
 UsualUnit usual_unit(const Study& study, std::size_t parameter);
 
-// Refuses a point (SI values of all parameters; derived ones are recomputed) at which some value is not
-// finite or out of its range. Throws StudyError: the value's place in the study, what it is and for which
-// parameters, the rule.
+// Throws StudyError for a point (SI values of all parameters; derived ones are recomputed) at which a value
+// is not finite or out of range: its position in the study, the value, the parameters and the rule.
 void check_point(const Study& study, std::span<double> parameters);
 
-// Gives each crank the even orders that its crank/rod at a point needs, which may be more than on the grid.
+// Gives each crank the even orders that its crank/rod needs at a point; these may be more than on the grid.
 void set_crank_orders_at(Study& study, std::span<double> parameters);
 
 }  // namespace frahm::studies

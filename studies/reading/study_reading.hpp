@@ -14,15 +14,15 @@
 // The parts of reading a study, in the order in which parse_study() calls them. Each throws StudyError.
 namespace frahm::studies {
 
-// What every part needs: where the text is, what units mean and whether units are allowed at all.
+// Shared by all parts: the text, the unit system, and whether units are allowed at all.
 struct StudyContext {
   const StudySource& source;
   const UnitSystem& units;
   bool dimensionless = false;
 };
 
-// [parameters]. Numbers are still in their own unit: convert_parameters() comes after the network, which
-// tells what they stand for. folder: of the tables.
+// [parameters]. Numbers stay in their own units until convert_parameters(), because the network determines
+// their quantities. folder: of the tables.
 Parameters read_parameters(const StudyContext& context, const TomlValue& root,
                            const std::filesystem::path& folder);
 void convert_parameters(const StudyContext& context, Parameters& parameters);
@@ -32,40 +32,39 @@ struct NetworkOfStudy {
   StudyValues values;
 };
 
-// [[mass]], [[element]] and, of a study that is not free of it, [excitation]. Notes in `parameters` what they
-// stand for.
+// [[mass]], [[element]] and, if the kind of study has one, [excitation]. Sets the quantities of `parameters`.
 NetworkOfStudy read_network(const StudyContext& context, const TomlValue& root, Parameters& parameters,
                             StudyKind kind);
 
-// [decay], [transient] and [[initial]] into the study's choice, after the network and as it does.
+// [decay], [transient] and [[initial]] into the study's choice, after the network, in the same way.
 void read_motion(const StudyContext& context, const TomlValue& root, Study& study);
 
-// [compare] into the choice of a sweep, once the network is there. Notes in the parameters what a slope is.
+// [compare] into the choice of a sweep, once the network is there. Sets the quantity of a slope parameter.
 void read_comparison(const StudyContext& context, const TomlValue& root, Study& study);
 
 // [tune], [[design]], [[constraint]], [[scenario]] and [[column]] into the study's choice, once units are
 // converted.
 void read_tuning(const StudyContext& context, const TomlValue& root, Study& study);
 
-// Refuses what has no meaning at some corner of the bounds, of the scenarios and of the band, and gives each
+// Refuses values that are invalid at a corner of the bounds, of the scenarios and of the band, and gives each
 // crank the even orders that it needs there.
 void check_tuning(Study& study);
 
-// [identify] and its tables into the study's choice. What they say in expressions comes before units are
-// converted, as the network does; the measurements and the earlier estimates after. folder: of their files.
+// [identify] and its tables into the study's choice. Their expressions are read before units are converted,
+// as those of the network; measurements and earlier estimates after. folder: of their files.
 void read_identification(const StudyContext& context, const TomlValue& root, Study& study);
 void read_measurements(const StudyContext& context, const TomlValue& root,
                        const std::filesystem::path& folder, DataFiles data, Study& study);
 
-// Refuses what has no meaning in some record where the fit starts, and gives each crank the even orders that
-// it needs there. Within the bounds there may be places without a meaning: a fit goes around them.
+// Refuses values that are invalid in some record at the start of the fit, and gives each crank the even
+// orders that it needs there. Other points within the bounds may be invalid: the fit avoids them.
 void check_identification(Study& study);
 
-// Each corner of a box of some dimensions, as in which of them it lies at the upper end; of many dimensions
-// not all of the corners, but all that differ from the lowest and the highest in one of them.
+// The corners of a box: true marks the upper end of a dimension. For many dimensions, only the lowest and the
+// highest corner and those that differ from either in one dimension.
 std::vector<std::vector<bool>> corners(std::size_t dimensions);
 
-// What follows friction as it is has no use for its smoothed law.
+// Refuses the smoothed friction law in a study whose solver follows the exact one.
 void refuse_smooth_friction(const Study& study);
 
 // Every mass must be held: by a chain of springs from ground or a node of prescribed motion.
@@ -82,13 +81,13 @@ void read_report(const StudyContext& context, const TomlValue& root, Study& stud
 // The names in the array `quantities` of a section, each once.
 std::vector<OutputChoice::Name> read_quantity_names(const TomlSection& section);
 
-// Every value must be finite and within its range wherever the grid goes and at the orbits kept. A value is
-// tried on all points of the dimensions it depends on, or, where these are too many, on their corners.
+// Every value must be finite and in its range on the whole grid and at the orbits listed. A value is checked
+// at all points of the dimensions it depends on or, if these are too many, at their corners.
 void check_grid(const Study& study);
 
-// How many even orders each crank needs for its largest crank/rod on the grid and at the orbits kept.
+// Gives each crank the even orders for its largest crank/rod on the grid and at the orbits listed.
 void set_crank_orders(Study& study);
-// Adds those that it needs at a point more (SI values of all parameters, completed).
+// Adds the orders needed at one more point (SI values of all parameters, completed).
 void add_crank_orders_at(Study& study, std::span<const double> parameters);
 
 // A number in the unit given beside it, as { value, unit } or as a bare number (no unit then).
@@ -101,8 +100,8 @@ NumberWithUnit read_number_with_unit(const StudyContext& context, const std::str
                                      const TomlValue& value);
 
 // A number parameter set to a value: an entry of a table such as { omega = 250, I = { value = 6, unit = "kg"
-// } }, a bare number in the unit in which the study speaks of it. why_not: why a parameter cannot be set
-// there, "" if it can; empty: any can.
+// } }, a bare number in its usual unit. why_not: the reason why a parameter cannot be set there, "" if it
+// can; empty: all can.
 using WhyNot = std::function<std::string(std::size_t parameter)>;
 Assignment read_assignment(const StudyContext& context, const Study& study, const std::string& where,
                            const TomlEntry& entry, const WhyNot& why_not = {});

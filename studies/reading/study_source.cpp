@@ -54,11 +54,11 @@ std::string_view StudySource::line(std::size_t number) const {
   return rest;
 }
 
-StudyError StudySource::error_at(Rule rule, Position position, std::string_view message) const {
-  if (position.line == 0) return StudyError(rule, fmt::format("{}: {}", name, printable(message)));
+std::string StudySource::placed(Position position, std::string_view message) const {
+  if (position.line == 0) return fmt::format("{}: {}", name, printable(message));
   const std::string_view shown = line(position.line);
-  return StudyError(rule, fmt::format("{}:{}:{}: {}{}", name, position.line, position.column,
-                                      printable(message), shown.empty() ? "" : excerpt(shown, position)));
+  return fmt::format("{}:{}:{}: {}{}", name, position.line, position.column, printable(message),
+                     shown.empty() ? "" : excerpt(shown, position));
 }
 
 Position StudySource::inside_string(Position string, std::size_t offset) const {

@@ -46,7 +46,7 @@ struct StudyValues {
 void evaluate(const StudyValues& values, const Parameters& definitions, std::span<double> parameters,
               mechanics::NetworkValues& out);
 
-// The exact derivative of the numbers of the network by one number parameter (SI both), the others held:
+// The exact derivative of the numbers of the network by one number parameter (SI both), the others fixed:
 // a column of the Jacobian, laid out as evaluate() lays out the values. Allocates one dual per parameter.
 void differentiate(const StudyValues& values, const Parameters& definitions,
                    std::span<const double> parameters, std::size_t by, mechanics::NetworkValues& out);

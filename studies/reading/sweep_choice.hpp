@@ -32,7 +32,7 @@ struct GridDimension {
   std::size_t size = 0;
 };
 
-// A number computed from the parameters of one dimension and kept beside them (the frequency ratio beside
+// A number computed from the parameters of one dimension and recorded beside them (frequency ratio beside
 // rpm).
 struct DerivedCoordinate {
   std::string name, long_name;
@@ -49,29 +49,28 @@ struct OutputChoice {
   };
 
   Quantities quantities = Quantities::standard;
-  std::vector<Name> names;  // of Quantities::listed, not empty then; the program knows which names exist
+  std::vector<Name> names;  // of Quantities::listed, then not empty; not checked here
   bool single_precision = false;
-  bool borders = false;                         // whether those between regimes are solved; exact law only
-  std::vector<std::vector<Assignment>> orbits;  // points whose time histories are kept
+  bool borders = false;                         // whether borders of regimes are solved; exact law only
+  std::vector<std::vector<Assignment>> orbits;  // points whose time histories are recorded
   std::vector<std::size_t> resonances;          // masses whose resonance is sought along the frequency axis
 };
 
-// The same points again under another friction law, or with the cranks' motion cut at another order; beside
-// the study's own.
+// A second response at the same points: another friction law, or the cranks' motion cut at another order.
 struct Comparison {
-  int taylor_order = 0;  // of every crank: 1, 2 or 4; 0: the law is what differs
+  int taylor_order = 0;  // of every crank: 1, 2 or 4; 0: the law differs
   mechanics::FrictionLaw law = mechanics::FrictionLaw::exact;  // of every coulomb element
   StudyValue slope;                                            // of the arctan law
   std::vector<periodic::Quantity> quantities;                  // real-valued, at least one
 };
 
-// The axes of a map and what is kept of its points.
+// The axes of a map and what is recorded of its points.
 struct SweepChoice {
   std::vector<ParameterAxis> axes;
   std::vector<GridDimension> dimensions;  // the first varies slowest; at least one
   std::vector<DerivedCoordinate> coordinates;
   OutputChoice output;
-  std::vector<OutputChoice::Name> report_quantities;  // of the report's page; empty: its own choice
+  std::vector<OutputChoice::Name> report_quantities;  // of the report's page; empty: its default
   std::optional<Comparison> comparison;
 
   // The dimension along which the excitation frequency changes, which runs innermost in the computation; if

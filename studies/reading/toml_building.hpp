@@ -5,14 +5,13 @@
 #include "studies/reading/study.hpp"
 #include "studies/reading/toml_reading.hpp"
 
-// Values for a document that is written (toml_writing.hpp); they have no place in a text.
+// Values for a document to be written (toml_writing.hpp); they have no position in a text.
 namespace frahm::studies {
 
 TomlValue toml_number(double value);
 TomlValue toml_string(const std::string& value);
 
-// A number parameter's value [SI] in the unit in which the study speaks of it: 3, or { value = 3, unit = "mm"
-// }.
+// A number parameter's value [SI] in its usual unit: 3, or { value = 3, unit = "mm" }.
 TomlValue toml_parameter(const Study& study, std::size_t parameter, double si);
 
 // The entry of a table that is being changed, nullptr if absent.

@@ -74,8 +74,8 @@ TomlValue read_toml(const StudySource& source) {
   try {
     return {{1, 1}, converted_table(toml::parse(source.text))};
   } catch (const toml::parse_error& error) {
-    throw source.error_at(rules::not_toml, position_of(error.source()),
-                          fmt::format("not valid TOML: {}", without_preamble(error.description())));
+    throw source.error_at(rules::not_toml, position_of(error.source()), "not valid TOML: {}",
+                          without_preamble(error.description()));
   }
 }
 

@@ -13,11 +13,11 @@ namespace frahm::studies {
 struct TomlEntry;
 struct TomlValue;
 
-struct TomlDate {};  // a date or a time: legal TOML that no study has a use for
+struct TomlDate {};  // a date or a time: legal TOML that no study uses
 using TomlArray = std::vector<TomlValue>;
 using TomlTable = std::vector<TomlEntry>;  // in the order of the file
 
-// A value of a TOML document and where it stands.
+// A value of a TOML document and its position.
 struct TomlValue {
   Position position;
   std::variant<bool, std::int64_t, double, std::string, TomlDate, TomlArray, TomlTable> content;
@@ -34,7 +34,7 @@ struct TomlEntry {
   TomlValue value;
 };
 
-// What a value is, for messages: `the text "abc"`, `the number 3`, `an array`.
+// A value described for messages: `the text "abc"`, `the number 3`, `an array`.
 std::string described(const TomlValue& value);
 
 // Reads the text of a study as a TOML document; its value is a TomlTable.

@@ -31,7 +31,7 @@ class Scan {
 
  private:
   [[noreturn]] void fail(Rule rule, std::string_view message) const {
-    throw source_.error_at(rule, position_, message);
+    throw source_.error_at(rule, position_, "{}", message);
   }
 
   // Steps over bytes, refusing control characters, and keeps the position.
@@ -94,9 +94,8 @@ class Scan {
 
 void scan_before_toml(const StudySource& source) {
   if (source.text.size() > longest_text) {
-    throw source.error_at(
-        rules::too_large, {},
-        fmt::format("{} bytes are too long for a study (at most {})", source.text.size(), longest_text));
+    throw source.error_at(rules::too_large, {}, "{} bytes are too long for a study (at most {})",
+                          source.text.size(), longest_text);
   }
   Scan(source).run();
 }

@@ -14,7 +14,7 @@ constexpr std::size_t longest_label = 40;  // bytes of a name shown in a message
 
 [[noreturn]] void fail_at(Rule rule, const StudySource& source, const TomlValue& value,
                           const std::string& where, std::string_view message) {
-  throw source.error_at(rule, value.position, fmt::format("{}: {}", where, message));
+  throw source.error_at(rule, value.position, "{}: {}", where, message);
 }
 
 std::string key_of(const std::string& where, std::string_view key) {
@@ -45,18 +45,9 @@ TomlSection::TomlSection(const StudySource& source, const TomlValue& table, std:
             fmt::format("expected a table, found {}", described(table)));
   for (const TomlEntry& entry : *entries) {
     if (std::find(keys.begin(), keys.end(), entry.key) != keys.end()) continue;
-    throw source.error_at(
-        rules::unknown_key, entry.position,
-        fmt::format("{}: unknown key \"{}\"{}", where_, entry.key, suggestion(entry.key, keys)));
+    throw source.error_at(rules::unknown_key, entry.position, "{}: unknown key \"{}\"{}", where_, entry.key,
+                          suggestion(entry.key, keys));
   }
-}
-
-void TomlSection::fail(Rule rule, std::string_view message) const {
-  fail_at(rule, *source_, *table_, where_, message);
-}
-
-void TomlSection::fail(Rule rule, std::string_view key, std::string_view message) const {
-  fail_at(rule, *source_, require(key), key_of(where_, key), message);
 }
 
 const TomlValue* TomlSection::find(std::string_view key) const {
@@ -66,7 +57,7 @@ const TomlValue* TomlSection::find(std::string_view key) const {
 
 const TomlValue& TomlSection::require(std::string_view key) const {
   const TomlValue* value = find(key);
-  if (!value) fail(rules::missing_key, fmt::format("the key \"{}\" is missing", key));
+  if (!value) fail_here(rules::missing_key, "the key \"{}\" is missing", key);
   return *value;
 }
 
@@ -85,8 +76,7 @@ std::string TomlSection::identifier(std::string_view key) const {
 bool TomlSection::boolean_or(std::string_view key, bool otherwise) const {
   const TomlValue* value = find(key);
   if (!value) return otherwise;
-  if (!value->as<bool>())
-    fail(rules::wrong_type, key, fmt::format("expected true or false, found {}", described(*value)));
+  if (!value->as<bool>()) fail(rules::wrong_type, key, "expected true or false, found {}", described(*value));
   return *value->as<bool>();
 }
 
@@ -98,8 +88,7 @@ std::int64_t TomlSection::integer_or(std::string_view key, std::int64_t otherwis
   const TomlValue* value = find(key);
   if (!value) return otherwise;
   const auto* integer = value->as<std::int64_t>();
-  if (!integer)
-    fail(rules::wrong_type, key, fmt::format("expected a whole number, found {}", described(*value)));
+  if (!integer) fail(rules::wrong_type, key, "expected a whole number, found {}", described(*value));
   return *integer;
 }
 
@@ -107,8 +96,8 @@ std::string TomlSection::choice_or(std::string_view key, const std::vector<std::
   if (!find(key)) return choices.front();
   const std::string word = text(key);
   if (std::find(choices.begin(), choices.end(), word) == choices.end()) {
-    fail(rules::not_a_choice, key,
-         fmt::format("\"{}\" is not possible here; write {}", word, listed(quoted(choices), " or ")));
+    fail(rules::not_a_choice, key, "\"{}\" is not possible here; write {}", word,
+         listed(quoted(choices), " or "));
   }
   return word;
 }
@@ -158,9 +147,9 @@ std::vector<const TomlValue*> read_tables(const StudySource& source, const TomlV
   if (!entry) return tables;
   const auto* array = entry->value.as<TomlArray>();
   if (!array) {
-    throw source.error_at(
-        rules::wrong_type, entry->position,
-        fmt::format("expected [[{}]], as there can be several, found {}", path, described(entry->value)));
+    throw source.error_at(rules::wrong_type, entry->position,
+                          "expected [[{}]], as there can be several, found {}", path,
+                          described(entry->value));
   }
   for (const TomlValue& table : *array) tables.push_back(&table);
   return tables;

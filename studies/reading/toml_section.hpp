@@ -11,11 +11,11 @@
 namespace frahm::studies {
 
 // A table of the study with the keys it may have, and its values by type. Every function throws a StudyError
-// that says where, what was found and what is right.
+// with the position, what was found and what is allowed.
 class TomlSection {
  public:
-  // where: what messages call the table: `[study]`, `element "guide"`. keys: all it may have; the first other
-  // one is an error.
+  // where: the table's name in messages: `[study]`, `element "guide"`. keys: all allowed keys; the first
+  // other key is an error.
   TomlSection(const StudySource& source, const TomlValue& table, std::string where,
               std::vector<std::string> keys);
 
@@ -34,9 +34,18 @@ class TomlSection {
   std::string choice_or(std::string_view key,
                         const std::vector<std::string>& choices) const;  // default: the first
 
-  [[noreturn]] void fail(Rule rule, std::string_view message) const;  // at the table
-  [[noreturn]] void fail(Rule rule, std::string_view key,
-                         std::string_view message) const;  // at the value of a key
+  // At the table, and at the value of a key.
+  template <class... Args>
+  [[noreturn]] void fail_here(Rule rule, fmt::format_string<Args...> message, Args&&... args) const {
+    throw source_->error_at(rule, position(), "{}: {}", where_,
+                            fmt::format(message, std::forward<Args>(args)...));
+  }
+  template <class... Args>
+  [[noreturn]] void fail(Rule rule, std::string_view key, fmt::format_string<Args...> message,
+                         Args&&... args) const {
+    throw source_->error_at(rule, require(key).position, "{}: {}: {}", where_, key,
+                            fmt::format(message, std::forward<Args>(args)...));
+  }
 
  private:
   const StudySource* source_;
@@ -55,7 +64,7 @@ bool is_number(const TomlValue& value);
 std::vector<const TomlValue*> read_tables(const StudySource& source, const TomlValue& parent,
                                           const std::string& path);
 
-// What messages call one of several tables: `element "guide"` by the text of its naming key, else
+// The name of one of several tables in messages: `element "guide"` by the text of its naming key, else
 // `[[element]] 3`. number: from 1.
 std::string label(const TomlValue& table, std::string_view kind, std::string_view naming_key,
                   std::string_view path, std::size_t number);

@@ -54,12 +54,10 @@ void check_over_band(Study& study, std::vector<double>& parameters) {
                          const char* rule) {
   const BandChoice& band = *study.tune()->band;
   const std::string& unit = band.unit.text;
-  throw study.source.error_at(
-      rules::out_of_range, value.position,
-      fmt::format("{}: {} at {} = {:.6g}{}; {}", value.where,
-                  std::isfinite(found) ? fmt::format("is {:.6g}", found) : "has no value",
-                  study.parameters.list[band.parameter].name, at / band.unit.si_factor,
-                  unit.empty() || unit == "1" ? "" : " " + unit, rule));
+  throw study.source.error_at(rules::out_of_range, value.position, "{}: {} at {} = {:.6g}{}; {}", value.where,
+                              std::isfinite(found) ? fmt::format("is {:.6g}", found) : "has no value",
+                              study.parameters.list[band.parameter].name, at / band.unit.si_factor,
+                              unit.empty() || unit == "1" ? "" : " " + unit, rule);
 }
 
 void check_weight_and_rules(const Study& study, std::vector<double> parameters) {

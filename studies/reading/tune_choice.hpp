@@ -17,7 +17,7 @@ namespace frahm::studies {
 // The range of frequencies over which the response counts.
 struct BandChoice {
   std::size_t parameter = 0;  // index in Parameters::list, of a number on which the frequency depends
-  UsualUnit unit;             // in which the study speaks of it
+  UsualUnit unit;             // of the parameter in the study
   tuning::Band range;
   Position position;
 };
@@ -68,7 +68,7 @@ struct ColumnChoice {
   double upper = kInfinity;
 };
 
-// [tune] and what belongs to it.
+// [tune] and its tables.
 struct TuneChoice {
   tuning::Objective objective = tuning::Objective::minimax;
   std::string quantity_name;
@@ -85,7 +85,7 @@ struct TuneChoice {
   tuning::Noise noise;
   std::vector<DesignChoice> designs;  // at least one
   std::vector<LimitChoice> limits;
-  std::vector<ScenarioChoice> scenarios;  // none: the study as it stands
+  std::vector<ScenarioChoice> scenarios;  // none: the study alone
   std::vector<ColumnChoice> columns;
 
   bool has_schedule() const;

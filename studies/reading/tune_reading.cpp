@@ -29,15 +29,15 @@ void check_variance(const TuneReading& reading, const TomlSection& section) {
   const Measure measure = reading.choice.quantity.measure;
   if (measure != Measure::rms && measure != Measure::stroke) {
     section.fail(rules::unfit_quantity, "quantity",
-                 fmt::format("\"{}\" has no variance; under white noise it is a mass's <mass>_rms or an "
-                             "element's <element>_stroke (its rms)",
-                             reading.choice.quantity_name));
+                 "\"{}\" has no variance; under white noise it is a mass's <mass>_rms or an "
+                 "element's <element>_stroke (its rms)",
+                 reading.choice.quantity_name);
   }
   if (const mechanics::Element* unfit = mechanics::element_unfit_for_noise(reading.study.network)) {
     section.fail(rules::unfit_for_method, "objective",
-                 fmt::format("a variance is that of a linear system under white noise, and element \"{}\" is "
-                             "a {}; write \"minimax\" or \"mean_square\"",
-                             unfit->name, mechanics::kind_of(*unfit).name));
+                 "a variance is that of a linear system under white noise, and element \"{}\" is "
+                 "a {}; write \"minimax\" or \"mean_square\"",
+                 unfit->name, mechanics::kind_of(*unfit).name);
   }
 }
 
@@ -45,44 +45,42 @@ void read_noise(TuneReading& reading, const TomlSection& section) {
   const TomlValue* value = section.find("noise");
   const bool wanted = reading.choice.objective == Objective::variance;
   if (!value && wanted)
-    section.fail(rules::missing_key,
-                 "the key \"noise\" is missing: a variance needs noise = { force_on = \"<mass>\" } or "
-                 "{ acceleration_of = \"<node>\" }");
+    section.fail_here(rules::missing_key,
+                      "the key \"noise\" is missing: a variance needs noise = {{ force_on = \"<mass>\" }} or "
+                      "{{ acceleration_of = \"<node>\" }}");
   if (!value) return;
   if (!wanted) section.fail(rules::key_without_use, "noise", "belongs to objective = \"variance\"");
   const TomlSection noise(reading.context.source, *value, "[tune]: noise",
                           {"force_on", "acceleration_of", "intensity"});
   const bool force = noise.find("force_on") != nullptr;
   if (force == (noise.find("acceleration_of") != nullptr))
-    noise.fail(rules::one_of_two_keys,
-               "needs either \"force_on\", a mass, or \"acceleration_of\", a node of prescribed motion");
+    noise.fail_here(rules::one_of_two_keys,
+                    "needs either \"force_on\", a mass, or \"acceleration_of\", a node of prescribed motion");
   const auto& network = reading.study.network;
   const char* key = force ? "force_on" : "acceleration_of";
   const auto& names = force ? network.masses : network.prescribed;
   const std::string name = noise.text(key);
   const auto node = std::find(names.begin(), names.end(), name);
   if (node == names.end()) {
-    noise.fail(rules::unknown_name, key,
-               fmt::format("no {} is called \"{}\"{}", force ? "mass" : "node of prescribed motion", name,
-                           suggestion(name, names)));
+    noise.fail(rules::unknown_name, key, "no {} is called \"{}\"{}",
+               force ? "mass" : "node of prescribed motion", name, suggestion(name, names));
   }
   reading.choice.noise.kind = force ? tuning::NoiseKind::force_on : tuning::NoiseKind::acceleration_of;
   reading.choice.noise.node = static_cast<std::size_t>(node - names.begin());
   if (noise.find("intensity")) reading.choice.noise.intensity = noise.number("intensity");
   if (!(reading.choice.noise.intensity > 0.0))
-    noise.fail(rules::out_of_range, "intensity",
-               fmt::format("{} is not possible; must be > 0", reading.choice.noise.intensity));
+    noise.fail(rules::out_of_range, "intensity", "{} is not possible; must be > 0",
+               reading.choice.noise.intensity);
 }
 
 // As with an axis, a range without a unit is SI, and refused where the parameter is given in another.
 UsualUnit read_band_unit(const TuneReading& reading, const TomlSection& section, std::size_t parameter) {
   UsualUnit unit = read_parameter_unit(reading, section, parameter);
   if (!section.find("unit") && unit.si_factor != 1.0) {
-    section.fail(
+    section.fail_here(
         rules::missing_unit,
-        fmt::format(
-            "the parameter is given in \"{0}\" and its band in no unit; add unit = \"{0}\" or another",
-            unit.text));
+        "the parameter is given in \"{0}\" and its band in no unit; add unit = \"{0}\" or another",
+        unit.text);
   }
   return unit;
 }
@@ -97,9 +95,8 @@ void read_band(TuneReading& reading, const TomlSection& section) {
   const Study& study = reading.study;
   const auto inputs = study.parameters.inputs_of(study.values.omega.expression.reads());
   if (std::find(inputs.begin(), inputs.end(), choice.parameter) == inputs.end()) {
-    band.fail(rules::wrong_dependence, "parameter",
-              fmt::format("the excitation frequency does not depend on \"{}\"",
-                          study.parameters.list[choice.parameter].name));
+    band.fail(rules::wrong_dependence, "parameter", "the excitation frequency does not depend on \"{}\"",
+              study.parameters.list[choice.parameter].name);
   }
   choice.unit = read_band_unit(reading, band, choice.parameter);
   choice.range = read_range(band, choice.unit.si_factor);
@@ -110,10 +107,12 @@ void require_band(const TuneReading& reading, const TomlSection& section) {
   const TuneChoice& choice = reading.choice;
   if (choice.band) return;
   if (choice.objective != Objective::variance)
-    section.fail(rules::missing_key,
-                 "the key \"band\" is missing: band = { parameter = \"omega\", from = 15.0, to = 35.0 }");
+    section.fail_here(
+        rules::missing_key,
+        "the key \"band\" is missing: band = {{ parameter = \"omega\", from = 15.0, to = 35.0 }}");
   if (!choice.limits.empty() || choice.trade_off)
-    section.fail(rules::missing_key, "the key \"band\" is missing: limits hold over a band of frequencies");
+    section.fail_here(rules::missing_key,
+                      "the key \"band\" is missing: limits hold over a band of frequencies");
 }
 
 void read_start(const TomlSection& section, TuneChoice& choice) {
@@ -122,15 +121,14 @@ void read_start(const TomlSection& section, TuneChoice& choice) {
     const std::int64_t starts = section.integer_or("start", 1);
     if (starts < 1 || starts > most_starts)
       section.fail(rules::out_of_range, "start",
-                   fmt::format("{} is out of range: a whole number from 1 to {}, \"given\" or "
-                               "\"nlopt\"",
-                               starts, most_starts));
+                   "{} is out of range: a whole number from 1 to {}, \"given\" or "
+                   "\"nlopt\"",
+                   starts, most_starts);
     choice.start = tuning::Start::many;
     choice.starts = static_cast<std::size_t>(starts);
   } else if (value && !value->as<std::string>()) {
-    section.fail(
-        rules::wrong_type, "start",
-        fmt::format("expected \"given\", \"nlopt\" or a number of starts, found {}", described(*value)));
+    section.fail(rules::wrong_type, "start", "expected \"given\", \"nlopt\" or a number of starts, found {}",
+                 described(*value));
   } else if (section.choice_or("start", {"given", "nlopt"}) == "nlopt") {
     choice.start = tuning::Start::global;
   }
@@ -145,9 +143,8 @@ void read_tolerance(const TomlSection& section, TuneChoice& choice) {
   if (!section.find("tolerance")) return;
   choice.tolerance = section.number("tolerance");
   if (!(choice.tolerance > 0.0 && choice.tolerance < largest_tolerance))
-    section.fail(
-        rules::out_of_range, "tolerance",
-        fmt::format("{} is out of range: above 0 and below {}", choice.tolerance, largest_tolerance));
+    section.fail(rules::out_of_range, "tolerance", "{} is out of range: above 0 and below {}",
+                 choice.tolerance, largest_tolerance);
 }
 
 void read_trade_off(TuneReading& reading, const TomlSection& section) {
@@ -179,10 +176,9 @@ void check_weight(const TuneReading& reading, const TomlSection& section) {
       for (const Assignment& assignment : scenario.set) set = set || assignment.parameter == input;
     }
     if (designed || set)
-      section.fail(
-          rules::wrong_dependence, "weight",
-          fmt::format("depends on \"{}\", which the {}; a weight is of the band alone",
-                      parameters.list[input].name, designed ? "tuning changes" : "scenarios change"));
+      section.fail(rules::wrong_dependence, "weight",
+                   "depends on \"{}\", which the {}; a weight is of the band alone",
+                   parameters.list[input].name, designed ? "tuning changes" : "scenarios change");
   }
 }
 
@@ -207,17 +203,17 @@ periodic::Quantity read_real_quantity(const TuneReading& reading, const TomlSect
   if (!quantity) {
     std::vector<std::string> known;
     for (const auto& each : periodic::all_quantities(network)) known.push_back(describe(each).name);
-    section.fail(rules::unknown_name, key,
-                 fmt::format("\"{}\" is no quantity of the study{}", name, suggestion(name, known)));
+    section.fail(rules::unknown_name, key, "\"{}\" is no quantity of the study{}", name,
+                 suggestion(name, known));
   }
   if (describe(*quantity).kind != periodic::QuantityKind::real)
     section.fail(rules::unfit_quantity, key,
-                 fmt::format("\"{}\" is a count or a flag; a tuning needs a number that varies "
-                             "continuously",
-                             name));
+                 "\"{}\" is a count or a flag; a tuning needs a number that varies "
+                 "continuously",
+                 name);
   if (!periodic::is_differentiable(quantity->measure))
-    section.fail(rules::unfit_quantity, key,
-                 fmt::format("\"{}\" has no derivative by a design; a tuning needs one", name));
+    section.fail(rules::unfit_quantity, key, "\"{}\" has no derivative by a design; a tuning needs one",
+                 name);
   return *quantity;
 }
 
@@ -230,9 +226,8 @@ UsualUnit read_quantity_unit(const TuneReading& reading, const TomlSection& sect
   if (!unit) return {"1", 1.0};
   const Unit own = reading.context.units.parse(description.unit);
   if (own.exponents != unit->exponents || unit->foreign)
-    section.fail(rules::wrong_dimension, "unit",
-                 fmt::format("\"{}\" is the unit of {}, but {} is in {}", unit->text, dimension_name(*unit),
-                             description.name, description.unit));
+    section.fail(rules::wrong_dimension, "unit", "\"{}\" is the unit of {}, but {} is in {}", unit->text,
+                 dimension_name(*unit), description.name, description.unit);
   if (description.unit == si_unit(Quantity::angular_frequency))
     return {unit->text, si_factor(*unit, Quantity::angular_frequency)};
   return {unit->text, unit->scale / own.scale};
@@ -246,7 +241,7 @@ UsualUnit read_parameter_unit(const TuneReading& reading, const TomlSection& sec
     try {
       if (unit) usual = {unit->text, si_factor(definition, *unit)};
     } catch (const UnitError& error) {
-      section.fail(error.rule(), "unit", error.what());
+      section.fail(error.rule(), "unit", "{}", error.what());
     }
   }
   if (reading.study.dimensionless) return {"1", 1.0};
@@ -260,12 +255,11 @@ std::size_t read_number_parameter(const TuneReading& reading, const TomlSection&
   const std::string name = section.text(key);
   const auto index = parameters.find(name);
   if (!index)
-    section.fail(rules::unknown_name, key,
-                 fmt::format("no parameter is called \"{}\"{}", name, suggestion(name, parameters.names())));
+    section.fail(rules::unknown_name, key, "no parameter is called \"{}\"{}", name,
+                 suggestion(name, parameters.names()));
   if (!parameters.list[*index].is_number())
-    section.fail(
-        rules::computed_parameter, key,
-        fmt::format("\"{}\" is computed from other parameters; {} needs one that is a number", name, role));
+    section.fail(rules::computed_parameter, key,
+                 "\"{}\" is computed from other parameters; {} needs one that is a number", name, role);
   return *index;
 }
 
@@ -273,9 +267,8 @@ std::vector<double> read_numbers(const TomlSection& section, const std::string& 
   const TomlValue& list = section.require(key);
   const auto* items = list.as<TomlArray>();
   if (!items || items->empty())
-    section.fail(
-        rules::wrong_type, key,
-        fmt::format("expected an array of numbers, found {}", items ? "an empty array" : described(list)));
+    section.fail(rules::wrong_type, key, "expected an array of numbers, found {}",
+                 items ? "an empty array" : described(list));
   std::vector<double> values;
   for (const TomlValue& item : *items)
     values.push_back(read_number(section.source(), fmt::format("{}: {}", section.where(), key), item));
@@ -285,9 +278,8 @@ std::vector<double> read_numbers(const TomlSection& section, const std::string& 
 tuning::Band read_range(const TomlSection& section, double si_factor) {
   const double from = section.number("from"), to = section.number("to");
   if (!(from <= to))
-    section.fail(
-        rules::wrong_order, "to",
-        fmt::format("{} is below \"from\" = {}; a band goes from the lower end to the upper", to, from));
+    section.fail(rules::wrong_order, "to",
+                 "{} is below \"from\" = {}; a band goes from the lower end to the upper", to, from);
   return {from * si_factor, to * si_factor};
 }
 

@@ -5,10 +5,10 @@
 
 #include "studies/reading/study_reading.hpp"
 
-// Inside the reading of a tuning: what [tune] and its tables share.
+// Shared by the readers of [tune] and its tables.
 namespace frahm::studies {
 
-// The tuning as far as it is read.
+// The tuning while it is read.
 struct TuneReading {
   const StudyContext& context;
   const TomlValue& root;
@@ -34,7 +34,7 @@ std::size_t read_number_parameter(const TuneReading& reading, const TomlSection&
 // An array of numbers, at least one.
 std::vector<double> read_numbers(const TomlSection& section, const std::string& key);
 
-// from <= to in the unit given, to SI.
+// A range from <= to in the given unit, converted to SI.
 tuning::Band read_range(const TomlSection& section, double si_factor);
 
 // An expression of the parameters in quotes.

@@ -49,10 +49,10 @@ struct Unit {
   std::string text;                // as the user wrote it, which is a form UDUNITS reads
   double scale = 1.0;              // to the coherent SI unit of the same dimension
   std::array<int, 3> exponents{};  // of metre, kilogram, second
-  int radians = 0;                 // exponent of the radian: tells rad/s from 1/s
+  int radians = 0;                 // exponent of the radian: rad/s is not 1/s
   bool foreign = false;            // contains kelvin, ampere, mole or candela
 
-  // 1/s, Hz or 1/min: cycles where an angular frequency is meant, and 2 pi off where a plain rate is.
+  // 1/s, Hz or 1/min: cycles where an angular frequency is meant, wrong by 2 pi where a plain rate is meant.
   bool counts_cycles() const;
 };
 
@@ -77,7 +77,7 @@ class UnitSystem {
   UnitSystem(const UnitSystem&) = delete;
   UnitSystem& operator=(const UnitSystem&) = delete;
 
-  // Throws UnitError for a text that is no unit, or no proportional one (degC, dB, dates).
+  // Throws UnitError for a text that is not a unit, or not a proportional one (degC, dB, dates).
   Unit parse(std::string_view text) const;
 
   // `value` of `unit` in the SI unit of `expected`. Throws UnitError.

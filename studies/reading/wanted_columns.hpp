@@ -8,7 +8,7 @@
 #include "studies/reading/record_form.hpp"
 #include "studies/reading/toml_section.hpp"
 
-// What a record's `columns` ask for.
+// The columns that a record selects by its key `columns`.
 namespace frahm::studies {
 
 // A column by its number or its name.
@@ -19,7 +19,7 @@ struct WantedColumn {
   Position position;                  // in the study
 };
 
-// Those of the key `columns`; none if it is absent. Throws StudyError for a role that no form has.
+// Reads the key `columns`; none if it is absent. Throws StudyError for a role that no form has.
 std::vector<WantedColumn> read_wanted(const TomlSection& record, const std::vector<RecordForm>& forms);
 
 // The form of the columns wanted. Throws StudyError where one is missing or does not belong to it.

@@ -45,15 +45,14 @@ struct AssemblyStage {
   std::function<engine::PieceWork()> make_work;  // called once in each thread
 };
 
-// Removes the logs a file was made of, when it is in its place. One that is in use by a shard still at work
-// stays, which is noted on stderr.
+// Removes the logs of a file once the file is complete. A log still in use by a running shard stays; a note
+// on stderr says so.
 void remove_used_logs(const AssemblyOptions& options);
 
 // An assembly was asked to stop.
 struct AssemblyStopped {};
 
-// Carries a stage out, with its progress. Throws AssemblyStopped, and
-// what the work throws.
+// Carries out a stage and shows its progress. Throws AssemblyStopped and the exceptions of the work.
 void carry_out(const AssemblyStage& stage, const AssemblyOptions& options);
 
 }  // namespace frahm::studies

@@ -17,18 +17,18 @@ struct Tiling {
 };
 
 // What the results of a study depend on, hashed (XXH3, 128 bits, as hex).
-// physics: network, definitions and values of the parameters (of those on an axis only that they are),
+// physics: network, definitions and values of the parameters (of those on an axis only that they are on one),
 // contents of tables, quantities, precision, version of the solver. grid: the axes' SI values and the tiles,
 // a motion's duration and samples, or a tuning's starts, rules and columns. Titles, comments, names of files,
 // units and coordinates beside the axes change neither.
 engine::Fingerprint fingerprint(const Study& study, Tiling tiling = {},
                                 std::span<const periodic::Quantity> quantities = {});
 
-// Of the shard logs of such a study if its map grows from the result of this identity.
+// The fingerprint of the shard logs of a map that grows from the result with this identity.
 engine::Fingerprint grown_fingerprint(const engine::Fingerprint& study, const std::string& identity);
 
-// What tells a result from every other, whatever it holds: its texts, among them the study, who computed it
-// and when, and what it grew from itself.
+// A hash that identifies one result, made from its texts: among them the study, who computed it and when, and
+// the result from which it grew.
 std::string identity_of(std::span<const results::Text> provenance);
 
 }  // namespace frahm::studies

@@ -13,22 +13,22 @@ namespace frahm::studies {
 // Throws results::StoreError for a file that is no result of this program.
 std::optional<engine::Fingerprint> fingerprint_of_file(const std::filesystem::path& path);
 
-// The same of a result at hand.
+// The same for an open result.
 engine::Fingerprint fingerprint_of(const results::MapReader& map);
 
-// The text of /provenance that tells how many tiles a file made by merge --partial does not hold.
+// The text of /provenance with the number of tiles missing from a file made by merge --partial.
 inline constexpr const char* missing_tiles_text = "missing_tiles";
-// That which tells the result from which it grew from every other.
+// The text of /provenance with the identity of the result from which this one grew.
 inline constexpr const char* grown_from_identity = "grown_from_identity";
 
-// Throws engine::IoError where there is no such result, telling an unfinished run from a wrong name.
+// Throws engine::IoError if there is no such result: an unfinished run or a wrong name.
 void require_result(const std::filesystem::path& path);
 
 // Whether there is a file made by merge --partial.
 bool is_partial(const std::filesystem::path& path);
 
-// A result may be written where nothing stands, or in the place of another result; never over a study, a
-// table, any other file, a folder or a device.  study: the file whose result it is; empty: not known.
+// A result may be a new file or replace another result; it never replaces a study, a table, any other file, a
+// folder or a device.  study: the study's own file; empty: not known.
 // Throws engine::IoError.
 void check_result_place(const std::filesystem::path& output, const std::filesystem::path& study);
 

@@ -11,11 +11,11 @@ namespace frahm::studies {
 // The study that a result was made from.
 struct StoredStudy {
   Study study;                        // with the overrides of its run
-  std::vector<Assignment> overrides;  // these
+  std::vector<Assignment> overrides;  // of its run
 };
 
-// From the text in the result. Tables that the study reads are looked for beside the result; measurements are
-// left.  file: of `result`.  Throws StudyError, results::StoreError.
+// Reads the text in the result. The study's tables are searched beside the result; measurements are not read.
+// file: of `result`.  Throws StudyError, results::StoreError.
 StoredStudy read_stored_study(const results::MapReader& result, const std::filesystem::path& file);
 
 }  // namespace frahm::studies

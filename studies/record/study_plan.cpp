@@ -60,9 +60,8 @@ void refuse_overruled(const Study& study, const std::vector<std::string>& set) {
     for (const Assignment& assignment : parse_assignments(study, "--set", text)) {
       const std::string why = overruled_by(study, assignment.parameter);
       if (why.empty()) continue;
-      throw StudyError(rules::wrong_option,
-                       fmt::format("--set \"{}\": \"{}\" {}", text,
-                                   study.parameters.list[assignment.parameter].name, why));
+      throw StudyError(rules::wrong_option, "--set \"{}\": \"{}\" {}", text,
+                       study.parameters.list[assignment.parameter].name, why);
     }
   }
 }

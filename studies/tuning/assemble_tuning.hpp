@@ -8,8 +8,8 @@
 namespace frahm::studies {
 
 // Makes the result file of a tuning from the starts in the logs, whoever computed them, and then removes
-// these logs; nothing if it was stopped, with the output as it was. Throws as assemble() does, StudyError
-// for a task without meaning.
+// these logs; nothing if it was stopped, with the output unchanged. Throws as assemble() does, and StudyError
+// for an invalid task.
 std::optional<TuningResult> assemble_tuning(const StudyPlan& plan, const RunRecord& run,
                                             const AssemblyOptions& options, const engine::OutputLock& held);
 

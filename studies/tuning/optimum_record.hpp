@@ -6,13 +6,13 @@
 #include "engine/bytes.hpp"
 #include "solvers/tuning/optimum.hpp"
 
-// The record of one start of a tuning, as the shard logs keep it: its optima, to the last bit.
+// The record of one start of a tuning in the shard logs: its optima, to the last bit.
 namespace frahm::studies {
 
 // Appends the record to `out`.
 void encode(const std::vector<tuning::Optimum>& optima, engine::Bytes& out);
 
-// Throws std::runtime_error for bytes that encode() has not written.
+// Throws std::runtime_error for bytes not written by encode().
 std::vector<tuning::Optimum> decode_optima(std::span<const std::byte> bytes);
 
 }  // namespace frahm::studies

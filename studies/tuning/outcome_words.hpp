@@ -7,10 +7,10 @@
 
 namespace frahm::studies {
 
-// How a tuning ended in words, in the order of tuning::Outcome.
+// The words for the outcome of a tuning, in the order of tuning::Outcome.
 const std::vector<std::string>& outcome_words();
 
-// Its values as the flag of a record, of which 0 stands for not computed.
+// The outcomes as flags of a record, where 0 means not computed.
 std::vector<double> outcome_flags(const std::vector<tuning::Outcome>& outcomes);
 
 }  // namespace frahm::studies

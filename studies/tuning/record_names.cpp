@@ -146,9 +146,9 @@ void check_record_names(const Study& study) {
     results::check(front_columns(study, example));
   } catch (const std::invalid_argument& error) {
     throw StudyError(rules::name_taken,
-                     fmt::format("{}: the record of this tuning would need one name twice; rename a "
-                                 "parameter, a column or a scenario: {}",
-                                 study.source.name, error.what()));
+                     "{}: the record of this tuning would need one name twice; rename a "
+                     "parameter, a column or a scenario: {}",
+                     study.source.name, error.what());
   }
 }
 

@@ -33,8 +33,8 @@ double step_of(const Study& study, std::optional<double> asked) {
   const double width = (band.range.to - band.range.from) / band.unit.si_factor;
   if (!asked) return is_frequency(study) ? rpm / band.unit.si_factor : round_step(width / rows_wanted);
   if (!(*asked > 0.0) || !std::isfinite(*asked) || width / *asked > most_rows)
-    throw StudyError(rules::wrong_option,
-                     fmt::format("--step {}: must be > 0 and at least a millionth of the band", *asked));
+    throw StudyError(rules::wrong_option, "--step {}: must be > 0 and at least a millionth of the band",
+                     *asked);
   return *asked;
 }
 
@@ -84,8 +84,8 @@ std::string schedule_table(const StoredTuning& stored, std::optional<double> ste
   const Study& study = stored.study;
   const TuneChoice& tune = *study.tune();
   if (!tune.has_schedule())
-    throw StudyError(rules::missing_key, fmt::format("{}: nothing is scheduled: no [[design]] has a schedule",
-                                                     study.source.name));
+    throw StudyError(rules::missing_key, "{}: nothing is scheduled: no [[design]] has a schedule",
+                     study.source.name);
   const BandChoice& band = *tune.band;
   const bool tells_rpm = !study.dimensionless && std::abs(band.unit.si_factor / rpm - 1.0) > 1e-12;
   std::string text = header(study, tells_rpm);

@@ -11,7 +11,7 @@ namespace frahm::studies {
 // the band; the excitation in rpm where the band is in another unit; each scheduled parameter; each
 // [[column]] of the study and, if it has a range, whether it is within. step: in the unit of the band, > 0;
 // absent: 1 rpm where the band parameter is the excitation's frequency, else a round number that gives some
-// 200 rows. Throws StudyError where nothing is scheduled, and for a step that is none.
+// 200 rows. Throws StudyError if nothing is scheduled, and for an invalid step.
 std::string schedule_table(const StoredTuning& stored, std::optional<double> step);
 
 }  // namespace frahm::studies

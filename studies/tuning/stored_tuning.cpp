@@ -23,7 +23,7 @@ std::vector<double> values_of(const std::vector<results::Column>& columns, const
 StoredTuning read_stored_tuning(const std::filesystem::path& file) {
   const results::MapReader result(file);
   if (!result.has_group(optimum_group))
-    throw StudyError(rules::wrong_file, fmt::format("{}: is not the result of a tuning", file.string()));
+    throw StudyError(rules::wrong_file, "{}: is not the result of a tuning", file.string());
   StoredTuning stored;
   StoredStudy of_file = read_stored_study(result, file);
   stored.study = std::move(of_file.study);
@@ -35,9 +35,7 @@ StoredTuning read_stored_tuning(const std::filesystem::path& file) {
     std::vector<double> values = values_of(columns, name);
     const bool known = !values.empty() && std::none_of(values.begin(), values.end(),
                                                        [](double value) { return std::isnan(value); });
-    if (!known)
-      throw StudyError(rules::wrong_file,
-                       fmt::format("{}: has no design: {} is missing", file.string(), name));
+    if (!known) throw StudyError(rules::wrong_file, "{}: has no design: {} is missing", file.string(), name);
     for (double& value : values) value *= design.unit.si_factor;
     stored.design.push_back(std::move(values));
   }

@@ -8,16 +8,16 @@
 
 namespace frahm::studies {
 
-// A tuning as its result file keeps it.
+// A tuning read from its result file.
 struct StoredTuning {
   Study study;                        // with the overrides of its run
-  std::vector<Assignment> overrides;  // these
+  std::vector<Assignment> overrides;  // of its run
   DesignValues design;                // of the optimum
   std::vector<double> band;           // where the responses are sampled, in the unit of the band
 };
 
-// Tables that the study reads are looked for beside the result. Throws StudyError for a file without an
-// optimum, results::StoreError.
+// Tables of the study are searched beside the result. Throws StudyError for a file without an optimum,
+// results::StoreError.
 StoredTuning read_stored_tuning(const std::filesystem::path& file);
 
 }  // namespace frahm::studies

@@ -101,8 +101,8 @@ TomlValue output_of(const Study& study) {
 SweepStudy sweep_study(const StoredTuning& stored, const std::string& stem) {
   const Study& study = stored.study;
   if (!study.tune()->band || stored.band.empty())
-    throw StudyError(rules::missing_key,
-                     fmt::format("{}: a tuning without a band has no response to sweep", study.source.name));
+    throw StudyError(rules::missing_key, "{}: a tuning without a band has no response to sweep",
+                     study.source.name);
   TomlValue root = read_toml(study.source);
   TomlTable& sections = std::get<TomlTable>(root.content);
   std::erase_if(sections, [](const TomlEntry& entry) {

@@ -6,7 +6,7 @@
 #include "solvers/tuning/optimum.hpp"
 #include "studies/reading/study.hpp"
 
-// What a tuning's design parameters are worth, and with them all parameters of its study.
+// The values of a tuning's design parameters, and with them of all parameters of its study.
 namespace frahm::studies {
 
 // Of each design parameter its value, or those at the knots of its schedule [SI].
@@ -14,18 +14,18 @@ using DesignValues = std::vector<std::vector<double>>;
 
 DesignValues design_values(const tuning::Optimum& optimum);
 
-// A design parameter at a place of the band [SI]: linear between the knots of a schedule.
+// A design parameter at a value of the band parameter [SI]: linear between the knots of a schedule.
 double value_at(const DesignChoice& design, std::span<const double> values, double band);
 
 // SI values of all parameters as a scenario of the study sets them; derived ones are not completed.
 std::vector<double> parameters_in_scenario(const Study& study, std::size_t scenario);
 
-// The same of a design at a place of the band [SI], completed.
+// The same for a design at a value of the band parameter [SI], completed.
 std::vector<double> parameters_of(const Study& study, const DesignValues& design, std::size_t scenario,
                                   double band);
 
-// Of each design parameter the schedule that its rule gives for the study as it stands, before anything is
-// tuned, clipped to the bounds; an empty function where it has no rule. study: must outlive them.
+// For each design parameter the schedule that its rule gives in the untuned study, clipped to the bounds; an
+// empty function without a rule. study: must outlive them.
 std::vector<tuning::Rule> rules_of(const Study& study);
 
 // The names of the scenarios; "study" where there are none.

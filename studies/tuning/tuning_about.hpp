@@ -6,7 +6,7 @@
 #include "studies/record/group_columns.hpp"
 #include "studies/tuning/tuning_record.hpp"
 
-// Inside the record of a tuning: what its parts are made from.
+// Shared by the parts of the record of a tuning.
 namespace frahm::studies {
 
 // A design parameter with its name and unit.
@@ -15,7 +15,7 @@ struct NamedDesign {
   std::string name, unit;
 };
 
-// A result and the words in which the study speaks of it. study and result: must outlive it.
+// A result with the names and units of the study. study and result: must outlive it.
 struct TuningAbout {
   TuningAbout(const Study& of_study, const TuningResult& of_result);
 
@@ -29,8 +29,8 @@ struct TuningAbout {
   std::string band, band_unit = "1";
 };
 
-// Everything along the band: the responses, the schedule and what stands beside it; and the objectives of the
-// designs compared, which a variance has without a band.
+// Everything along the band: the responses, the schedule and the columns beside it; and the objectives of the
+// designs compared, which a variance has even without a band.
 void add_band(const TuningAbout& about, GroupColumns& columns);
 
 // Every design parameter of several optima, a column for each knot of a schedule. prefix: of the names;

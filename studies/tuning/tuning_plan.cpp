@@ -18,7 +18,7 @@ std::vector<tuning::Optimum> tune(const Study& study, const tuning::Task& task, 
   try {
     return tuning::tune(task, start, stop_asked);
   } catch (const mechanics::MechanicsError& error) {
-    throw StudyError(rules::not_computed, study.source.name + ": " + error.what());
+    throw StudyError(rules::not_computed, "{}", study.source.name + ": " + error.what());
   }
 }
 

@@ -9,11 +9,11 @@
 namespace frahm::studies {
 
 // A study of kind "tune" ready to be computed: a tile is one start, its record the optima found from it.
-// Throws StudyError for names that cannot stand in one record, and for --set of what the study overrules.
+// Throws StudyError for names that clash in the record, and for --set of values that the study overrides.
 StudyPlan plan_tuning(Study study, std::vector<std::string> set);
 
 // The work of such a plan, which must outlive it. A start that is asked to stop is given up. Its kernels
-// throw StudyError for a task without meaning.
+// throw StudyError for an invalid task.
 engine::Job job_of_tuning(const StudyPlan& plan);
 
 }  // namespace frahm::studies

@@ -7,7 +7,7 @@
 #include "studies/reading/study.hpp"
 #include "studies/tuning/tuning_result.hpp"
 
-// What a result file says of a tuning: group /optimum, and /optimum/front along a trade-off
+// The record of a tuning in a result file: group /optimum, and /optimum/front along a trade-off
 // (results/FORMAT.md).
 namespace frahm::studies {
 
@@ -18,7 +18,7 @@ std::vector<results::Column> optimum_columns(const Study& study, const TuningRes
 std::vector<results::Column> front_columns(const Study& study, const TuningResult& result);
 std::vector<results::Text> optimum_texts(const Study& study, const TuningResult& result);
 
-// Throws StudyError where a name that the study chooses is that of something else in the record.
+// Throws StudyError if a name chosen in the study is already another name in the record.
 void check_record_names(const Study& study);
 
 // The limits of a tuning with that of the trade-off behind them: names in the record, units.

@@ -31,7 +31,7 @@ tuning::Assessment assess(const Study& study, const Optimum& optimum) {
   try {
     return tuning::assess(tuning_task(study), optimum, rules_of(study));
   } catch (const mechanics::MechanicsError& error) {
-    throw StudyError(rules::not_computed, study.source.name + ": " + error.what());
+    throw StudyError(rules::not_computed, "{}", study.source.name + ": " + error.what());
   }
 }
 

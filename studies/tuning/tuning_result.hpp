@@ -14,7 +14,7 @@ struct StartResult {
   std::vector<tuning::Optimum> optima;
 };
 
-// What a tuning has found.
+// The result of a tuning.
 struct TuningResult {
   std::vector<StartResult> starts;  // ascending in number, at least one
   std::vector<std::size_t> best;    // the start chosen for each limit of the trade-off: index in `starts`
@@ -30,10 +30,10 @@ struct TuningResult {
 // designs that break their limits the least violation counts. At least one.
 std::size_t best_of(const std::vector<const tuning::Optimum*>& optima);
 
-// Chooses among the starts and assesses the optimum. Throws StudyError for a task without meaning.
+// Chooses among the starts and assesses the optimum. Throws StudyError for an invalid task.
 TuningResult tuning_result(const Study& study, std::vector<StartResult> starts);
 
-// Whether an optimum has a design, so that it has a response.
+// Whether an optimum has a design, and so a response.
 bool has_design(const Study& study, const tuning::Optimum& optimum);
 
 }  // namespace frahm::studies

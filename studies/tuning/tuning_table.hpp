@@ -7,10 +7,10 @@
 
 namespace frahm::studies {
 
-// A tuning for readers: what was tuned, the optimum and what holds it, its peaks, limits and how sure it is.
+// Prints a tuning: task, design, objective and certificate, trade-off, peaks, limits, detuning, effort.
 void print_tuning(const Study& study, const TuningResult& result, std::ostream& out);
 
-// What is to be tuned: the objective, its band and scenarios, and the limits, as a study states them.
+// Prints the task of a study: the objective, its band and scenarios, and the limits.
 void print_task(const Study& study, std::ostream& out);
 
 }  // namespace frahm::studies

@@ -5,7 +5,7 @@
 
 namespace frahm::studies {
 
-// What a study of kind "tune" asks of the solver. Its functions may be called from several threads at once.
+// The solver's task for a study of kind "tune". Its functions may be called from several threads at once.
 // study: must outlive the task.
 tuning::Task tuning_task(const Study& study);
 

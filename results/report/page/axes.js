@@ -1,4 +1,4 @@
-// The axes of a map in words and places: labels, spacing, which point lies nearest.
+// The axes of a map: labels, spacing, nearest points.
 import { numberText, unitText, withUnit, words } from "./units.js";
 
 const greek = new Map(
@@ -35,7 +35,7 @@ export function symbolText(name) {
     .join(" ");
 }
 
-// The record tells where the study uses a parameter: "[excitation]: frequency", 'element "inerter": inertance'.
+// The record states where the study uses a parameter: "[excitation]: frequency", 'element "inerter": inertance'.
 function plainMeaning(longName = "") {
   const use = /^(?:\[+(\w+)\]+(?: \d+)?|.* "(\w+)"): (\w+)$/.exec(longName);
   if (!use) return longName;
@@ -55,7 +55,7 @@ export function coordinateLabel({ name, unit, long_name: longName }) {
   return withUnit(text, unitText(unit));
 }
 
-// Of an axis of the map by one of its coordinates, with the other parameters that move along it.
+// The label of a map axis by one of its coordinates, with the other parameters that change along it.
 export function axisLabel(map, axis, coordinate) {
   const others = axis.coordinates.filter((other) => other !== coordinate && map.parameters.has(other.name));
   const label = coordinateLabel(coordinate);
@@ -68,7 +68,7 @@ export function coordinateText({ name, unit, values }, i) {
   return `${symbolText(name)} = ${numberText(values[i])}${after ? ` ${after}` : ""}`;
 }
 
-// Where point i of an axis of the map stands: the parameters that it moves, else what speaks for it.
+// Point i of a map axis as text: the parameters that change along the axis, else its first coordinate.
 export function axisText(map, axis, i) {
   const own = axis.coordinates.filter(({ name }) => map.parameters.has(name));
   return (own.length ? own : axis.coordinates.slice(0, 1))
@@ -87,7 +87,7 @@ export function coordinateColumns(map, points) {
   );
 }
 
-// Whether values lie evenly, on a linear or a logarithmic scale: "linear", "log", or "" for neither.
+// The scale on which values are evenly spaced: "linear", "log", or "" for neither.
 export function spacing(values) {
   const even = (of) => {
     const step = (of(values.at(-1)) - of(values[0])) / (values.length - 1);
@@ -101,7 +101,7 @@ export function spacing(values) {
 
 const wideSpan = 1000;
 
-// The scale of a monotone axis: that on which its values lie evenly, else the logarithmic one where they span decades.
+// The scale of a monotone axis: the one on which its values are even, else logarithmic if they span decades.
 export function axisScale(values) {
   const ends = [values[0], values.at(-1)],
     least = Math.min(...ends);
@@ -130,7 +130,7 @@ export function cellEdges(values, type) {
   return [first, ...inner, last].map(from);
 }
 
-// The place of a value along a monotone axis as a fractional index, NaN outside.
+// The fractional index of a value along a monotone axis, NaN outside.
 export function fractionalIndex(values, at) {
   const rising = values.at(-1) >= values[0];
   for (let i = 0; i + 1 < values.length; ++i) {

@@ -1,7 +1,7 @@
 // Regime borders: crossings solved on the grid's edges (group /borders), joined into curves over two axes.
 
-// Crossings within the map of two axes where the other axes stand at an index: an edge of the grid lies along
-// x or along y, at a whole index of the other.  Returns [{key, i, j, alongX}], i and j fractional indices.
+// The crossings within the slice over x and y at the given index of the other axes. Each lies on a grid edge
+// along x or along y, at a whole index of the other.  Returns [{key, i, j, alongX}], i and j fractional indices.
 export function crossingsOfSlice(crossings, { x, y, index }) {
   return crossings
     .filter(
@@ -55,7 +55,7 @@ function pairsWithin(points) {
   return { pairs, left };
 }
 
-// Where three regimes meet in a cell, each kind of border has one loose end: they go to their middle.
+// Where three regimes meet in a cell, each kind of border has one loose end: all ends are joined at their mean.
 function joinLooseEnds(loose) {
   if (loose.length < 2) return [];
   const middle = {
@@ -92,7 +92,7 @@ function chained(pieces) {
   return lines;
 }
 
-// Curves of the borders of one contact over axes x and y, the others at `index`: [{key, points: [[i, j], ...]}],
+// Border curves of one contact over axes x and y, the other axes at `index`: [{key, points: [[i, j], ...]}],
 // key "non_stop|stuck"; i, j fractional indices along x and y.
 export function borderCurves(crossings, { x, y, index, nx, ny }) {
   const cells = new Map();

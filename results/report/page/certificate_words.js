@@ -1,11 +1,11 @@
-// Whether a tuning is a proven optimum, and why not, in sentences of numbers.
+// Whether a tuning is a proven optimum, and why not, as sentences.
 import { symbolText } from "./axes.js";
 import { numberText, quantityText, unitText } from "./units.js";
 
 const roundingGap = 1e-12; // relative
 
-// How near the worst peak is to the bound that the tuning found. Where no design keeps the limits nothing was pressed
-// towards that bound.
+// The gap between the worst peak and the bound that the tuning found; no sentence if there is no gap, as where no
+// design meets the limits.
 function gapSentences({ kind, band, group, converged }) {
   const gap = Math.abs(group.number("certificate_gap"));
   if (kind !== "minimax" || !band || Number.isNaN(gap)) return [];
@@ -58,7 +58,7 @@ const outcomeWords = {
   stopped: "This tuning was stopped before its end. What follows is the best design so far",
 };
 
-// The reason as the record has it, with the name of the parameter of its place in the band, which stands there in SI.
+// The reason of the record; its value in the band, which is in SI, gets the name and unit of the band's parameter.
 export function reasonText({ reason, band }) {
   if (!band || !["1", "rad s-1"].includes(band.unit)) return reason;
   const after = unitText(band.unit);
@@ -68,13 +68,13 @@ export function reasonText({ reason, band }) {
   );
 }
 
-// Why not all is well, or "". Of a trade-off that is said of its last limit.
+// Why the tuning did not converge, or "". For a trade-off this is about its last limit.
 export function outcomeWarning(tuning) {
   const { outcome, converged, group, front } = tuning;
   if (converged) return "";
   const violation = group.number("violation");
   const broken = violation > 0 ? ` (largest violation of a limit: ${numberText(100 * violation, 4)} %)` : "";
-  const reason = outcome === "infeasible" ? "" : reasonText(tuning); // which says the same again
+  const reason = outcome === "infeasible" ? "" : reasonText(tuning); // which would repeat the outcome
   const told =
     `${outcomeWords[outcome] ?? "It is not known how this tuning ended"}${broken}` +
     `${reason ? `: ${reason}` : ""}.`;

@@ -23,7 +23,7 @@ export function cranksOf(record) {
 
 const largest = (values) => values.reduce((most, value) => Math.max(most, Math.abs(value)), 0);
 
-// How far a cut is from the motion at most: {length in the motion's unit, relative}.
+// The largest error of a cut: {length in the motion's unit, relative}.
 export function largestErrors({ motion }, { series, error }) {
   return {
     length: largest(motion.values.map((value, i) => series.values[i] - value)),

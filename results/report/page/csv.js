@@ -1,5 +1,5 @@
-// Columns as CSV: "name [unit]" above its numbers, as frahm's own exports have them; what is missing is empty.
-// A column with `digits` is known to so many.
+// Columns as CSV: "name [unit]" above its numbers, as in frahm's own exports; missing values are empty.
+// A column with `digits` is written to so many digits.
 export function csvText(columns) {
   const rows = Math.max(0, ...columns.map((column) => column.values.length));
   const quoted = (text) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);

@@ -19,7 +19,7 @@ function write(figure) {
   process.stdout.write(`${figure.name}\n`);
 }
 
-// One that cannot be drawn does not keep the others back.
+// A figure that cannot be drawn does not stop the others.
 for (const figure of figuresOf(record)) {
   try {
     write(figure);

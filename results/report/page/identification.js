@@ -1,4 +1,4 @@
-// An identification as its page sees it, read from the group /identification: estimates, fitted series, rows.
+// An identification as its page uses it, read from the group /identification: estimates, fitted series, rows.
 
 function estimateOf(group, name, names) {
   const column = group.column(name),
@@ -76,21 +76,21 @@ export function identificationOf(record) {
   };
 }
 
-// What the interval of an estimate tells: "determined", "undetermined" (by the data) or "untold" (as many unknowns
+// What the interval of an estimate shows: "determined", "undetermined" (by the data) or "untold" (as many unknowns
 // as data).
 export function certainty({ value, low, high }) {
   if (Number.isNaN(value) || low === -Infinity || high === Infinity) return "undetermined";
   return Number.isNaN(low) || Number.isNaN(high) ? "untold" : "determined";
 }
 
-// Root mean square of what the model leaves of the data.
+// Root mean square of the residuals.
 export function residualRms({ residual }) {
   const known = Array.from(residual.values).filter(Number.isFinite);
   return Math.sqrt(known.reduce((sum, value) => sum + value * value, 0) / known.length);
 }
 
-// What each method finds independently, each by the first of its names that the record has; the other estimates follow
-// from these. Of a method not named here all estimates are.
+// The independent estimates of each method, each by the first of its names in the record; the other estimates follow
+// from them. For a method not named here all estimates are independent.
 const independentOf = {
   added_mass: [["mass"], ["stiffness"]],
   energy_balance: [["damping"], ["friction_force"]],
@@ -131,7 +131,7 @@ export function closePairs(identification, least) {
     .sort((p, q) => Math.abs(q.value) - Math.abs(p.value));
 }
 
-// Whether the data of a record are more than what was found from them, so that its fit tells anything.
+// Whether a record has more data than independent estimates, so that its fit quality means something.
 export function hasFreedom({ series, ...identification }, record) {
   const own = series.filter((one) => one.record === record);
   const data = own.reduce((sum, { measured }) => sum + measured.values.length, 0);

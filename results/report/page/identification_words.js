@@ -1,17 +1,17 @@
-// What an identification means, in sentences of numbers.
+// The results of an identification as sentences.
 import { symbolText } from "./axes.js";
 import { certainty, closePairs, hasFreedom } from "./identification.js";
 import { numberText, sentence, shownUnit, words } from "./units.js";
 
 const digits = 4,
   mostDigits = 10;
-const mostNamed = 6; // estimates told one by one; the table has all
-const hardlyApart = 0.95; // correlation from which two estimates are hardly told apart
-const mostPairs = 3; // of those told
+const mostNamed = 6; // estimates listed one by one; the table has all
+const hardlyApart = 0.95; // correlation from which two estimates can hardly be separated
+const mostPairs = 3; // of such estimates listed
 const roundingPart = 1e-12; // of a value: narrower intervals are rounding
 const noCorrelation = 1e-9; // below it is rounding
 
-// Digits that a value needs so that its interval shows in it; 0 where the interval is rounding.
+// Digits that a value needs to show its interval; 0 where the interval is rounding.
 function neededDigits(value, low, high) {
   const half = (high - low) / 2;
   const size = Math.max(Math.abs(value), half);
@@ -46,7 +46,7 @@ export function estimateText(estimate) {
   }
 }
 
-// A correlation with as many digits as tell it from one, and rounding as zero.
+// A correlation with enough digits to differ from one; rounding is written as zero.
 export function correlationText(value, places = digits) {
   if (Math.abs(value) < noCorrelation) return "0";
   const apart = 1 - Math.abs(value);

@@ -1,4 +1,4 @@
-// One motion as its page sees it, a free vibration (/decay) or a forced one (/transient): masses, stops, energies.
+// One motion as its page uses it, a free vibration (/decay) or a forced one (/transient): masses, stops, energies.
 
 function namesWith(group, end, dimension) {
   return group.columns
@@ -46,7 +46,7 @@ function massOf(group, name) {
   };
 }
 
-// Where a contact sticks; one that is not released sticks to the end.
+// The intervals in which a contact sticks; a contact never released sticks to the end.
 function stopsOf(group, name, end) {
   const from = known(group.values(`${name}_stop_onset`));
   const released = group.values(`${name}_release`);
@@ -72,7 +72,7 @@ function unitsOf({ columns }) {
   return { time: of(/^time$|^duration$|_peak_time$|_stop_onset$/, "s"), energy: of(/_energy$/, "J") };
 }
 
-// The frequency of a run in the unit in which the study speaks of it, such as rpm.
+// The frequency of a run in the unit that the study uses, such as rpm.
 function spokenFrequency(column, study) {
   const spoken = study?.column("frequency_unit");
   if (!spoken) return column;
@@ -101,7 +101,7 @@ export function motionOf(record, kind) {
     units: unitsOf(group),
     excitation: fact("excitation_frequency"),
     mayStop: fact("rubbing_elements") !== 0,
-    followed: fact("given_duration") === 0, // to its end, as far as it has one
+    followed: fact("given_duration") === 0, // no duration given: followed to its end
     hysteretic: fact("hysteretic_elements") !== 0,
     duration,
     stopTime: group.number("stop_time"),
@@ -116,11 +116,11 @@ export function motionOf(record, kind) {
   };
 }
 
-const leastSamples = 8; // of a period, that their joining lines show the motion
-const goodSamples = 20; // of a period, to ask for
+const leastSamples = 8; // per period, for lines between samples to show the motion
+const goodSamples = 20; // per period, recommended
 const median = (values) => [...values].sort((a, b) => a - b)[values.length >> 1];
 
-// The time from a turning point to the next but one, of the mass that turns most often.
+// The period of the mass that turns most often: twice the median time between its turning points.
 function periodOfTurning({ masses }) {
   const of = ({ turningTimes }) =>
     2 *
@@ -133,21 +133,21 @@ function periodOfTurning({ masses }) {
   return periods.length ? Math.min(...periods) : NaN;
 }
 
-// The period of the excitation, of a run-up or run-down the shortest.
+// The period of the excitation; in a run-up or run-down the shortest period.
 function periodOfExcitation({ angularFrequency, excitation }) {
   const fastest = angularFrequency?.values.reduce((a, b) => Math.max(a, b), 0) ?? excitation;
   return (2 * Math.PI) / fastest;
 }
 
-// Whether a mass moves farther between its samples than joined samples of `leastSamples` a period could miss.
+// Whether the samples of a mass miss its peak by more than `leastSamples` samples per period could.
 function missesPeak({ displacement, peak }) {
   if (!displacement || !(peak > 0)) return false;
   const seen = displacement.values.reduce((most, value) => Math.max(most, Math.abs(value)), 0);
   return seen < peak * Math.cos(Math.PI / leastSamples);
 }
 
-// How the samples of a history stand to what moves: {step [s], period [s] or NaN, perPeriod, sparse: whether lines
-// that join them would show another motion, enough: how many samples would do, NaN where that is not known}.
+// How densely a history samples its motion: {step [s], period [s] or NaN, perPeriod, sparse: whether lines between
+// the samples would show another motion, enough: a sufficient number of samples, NaN if not known}.
 export function samplingOf(motion) {
   const { kind, time, masses, duration } = motion;
   if (!time || time.values.length < 2)
@@ -184,21 +184,21 @@ export function isRounding(decrement) {
   return Math.abs(decrement) < roundingDecrement;
 }
 
-// Whether a displacement is nothing beside those of the turning points.
+// Whether a displacement is rounding compared with the turning points.
 export function isRoundingOf(value, turningPoints) {
   const largest = turningPoints.reduce((most, point) => Math.max(most, Math.abs(point)), 0);
   return Math.abs(value) <= roundingPart * largest;
 }
 
-// Whether a mass lies where it turned at the start and never moved.
+// Whether a mass never moved from its initial position.
 export function isStill({ turningTimes, turningPoints, rest, displacement }, { stopTime }) {
   const [place] = turningPoints;
   if (turningPoints.length !== 1 || turningTimes[0] !== 0 || place !== rest) return false;
   return Number.isFinite(stopTime) || (displacement?.values.every((value) => value === rest) ?? false);
 }
 
-// Whether friction holds a mass at its rest since its last turning point: one that damping alone brings there comes
-// nearer from turn to turn, one that friction stops is there at once.
+// Whether friction holds a mass at rest since its last turning point. Damping alone brings a mass nearer to its rest
+// from turn to turn; friction stops the mass there at once.
 export function isHeldSinceTurning({ turningPoints, rest }, { mayStop }) {
   const beyond = (value) => value - rest;
   const last = turningPoints.at(-1),
@@ -206,15 +206,15 @@ export function isHeldSinceTurning({ turningPoints, rest }, { mayStop }) {
   return mayStop && last === rest && !isRoundingOf(beyond(before), turningPoints.map(beyond));
 }
 
-// Whether the decrements of a mass, which are about zero, tell how it decays: it swings from one side of zero to the
-// other. That of the only mass does, but for where it stops.
+// Whether the decrements of a mass, computed about zero, measure its decay: the mass swings from one side of zero to
+// the other. A single mass does, except where it stops.
 export function swingsAboutZero({ turningPoints }, { masses }) {
   return (
     masses.length === 1 || turningPoints.every((point, i) => i === 0 || point * turningPoints[i - 1] < 0)
   );
 }
 
-// Whether a mass decays in one mode, so that its decrement is that of a damping ratio.
+// Whether a mass decays in one mode, so that its decrement gives a damping ratio.
 export function isOneMode({ masses }) {
   return masses.length === 1;
 }
@@ -229,7 +229,7 @@ export function dampingRatio(decrement) {
   return decrement / Math.hypot(2 * Math.PI, decrement);
 }
 
-// y at `at` by straight lines between the samples.
+// y at `at` by linear interpolation.
 export function interpolated(x, y, at) {
   let high = x.findIndex((value) => value >= at);
   if (high < 0) return NaN;
@@ -237,8 +237,8 @@ export function interpolated(x, y, at) {
   return y[high - 1] + ((y[high] - y[high - 1]) * (at - x[high - 1])) / (x[high] - x[high - 1]);
 }
 
-// The time within which, from the start or back from the end, every mass changes its sense of motion `turns` times;
-// null where that is more than a quarter of all.
+// The range of samples, at the start or at the end, in which every mass reverses its motion `turns` times; null if
+// the range is more than a quarter of all samples.
 export function stretch({ time, masses }, turns, end) {
   const count = time.values.length,
     step = end === "first" ? 1 : -1;

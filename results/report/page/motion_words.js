@@ -1,4 +1,4 @@
-// What a motion means, in sentences of numbers.
+// The results of a motion as sentences.
 import {
   dampingRatio,
   decrementsEndEarly,
@@ -15,7 +15,7 @@ import { numberText, quantityText, sentence, shareText, words } from "./units.js
 
 const digits = 4;
 
-// Of all masses together, where the sentences of each have not told it.
+// The rest of all masses together, unless the sentences on each mass state it.
 function restSentence({ kind, stopTime, duration, masses, units }) {
   if (kind !== "decay" || stopTime === 0) return [];
   if (Number.isNaN(stopTime) && masses.some(({ rest }) => Number.isFinite(rest))) return [];
@@ -26,7 +26,7 @@ function restSentence({ kind, stopTime, duration, masses, units }) {
   ];
 }
 
-// "0.51", or that it is zero but for rounding.
+// "0.51", or "0 (rounding)".
 export function decrementText(decrement, places = digits) {
   return isRounding(decrement) ? "0 (rounding)" : numberText(decrement, places);
 }
@@ -61,12 +61,12 @@ function decrementSentence(mass, motion) {
   return [`Its logarithmic decrement is ${first}${ratio}${last}.`];
 }
 
-// Where a mass rests or what it tends to; zero where that is a rounding of how far it moves.
+// The rest position of a mass, or the limit it tends to; zero if it is rounding compared with the motion.
 export function restText({ rest, unit, turningPoints }, places = digits) {
   return rest !== 0 && isRoundingOf(rest, turningPoints) ? "0 (rounding)" : quantityText(rest, unit, places);
 }
 
-// How a mass stands to where it rests or tends to at the end of the record: "rests", "held" (others move on), "tends"
+// The state of a mass relative to its rest position at the end of the record: "rests", "held" (others move on), "tends"
 // (it never arrives) or "moves" (friction stops it later, or it never arrives).
 export function approachOf(mass, motion) {
   if (Number.isFinite(motion.stopTime)) return "rests";
@@ -74,7 +74,7 @@ export function approachOf(mass, motion) {
   return motion.mayStop && !motion.followed ? "moves" : "tends";
 }
 
-// Where it lies in the end, if it ever does.
+// The rest position of a mass, if it has one.
 function restOfMass(mass, motion) {
   if (!Number.isFinite(mass.rest)) return [];
   const at = restText(mass),

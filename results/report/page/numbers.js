@@ -13,7 +13,7 @@ async function inflated(base64) {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-// Bytes b of all elements stand together; `size` of them make an element.
+// Undoes the shuffle: bytes b of all elements lie together; an element has `size` bytes.
 function unshuffled(bytes, size) {
   const count = bytes.length / size;
   const elements = new Uint8Array(bytes.length);

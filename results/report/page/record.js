@@ -1,7 +1,7 @@
-// A result as its page sees it: axes, variables on them, groups of columns, texts. Plain data and look-ups.
+// A result as its page uses it: axes, variables on them, groups of columns, texts. Plain data and look-ups.
 import { unpackLevels, unpackNumbers } from "./numbers.js";
 
-// A flag's or count's value that means "nothing here".
+// The values of flags and counts that mean "missing".
 const none = { flag: 0, count: -1 };
 
 export function isMissing({ kind }, value) {
@@ -34,7 +34,7 @@ export class Group {
     const column = this.byName.get(name);
     return column ? meaningOf(column, column.values[i]) : "";
   }
-  // The words of a flag, one of each row; none where there is no such flag.
+  // The words of a flag, one for each row; empty if there is no such flag.
   words(name) {
     return Array.from(this.values(name) ?? [], (_, i) => this.word(name, i));
   }
@@ -48,7 +48,7 @@ export function meaningOf(variable, value) {
 }
 
 // Axes: {name, size, stride, coordinates: [{name, unit, long_name, values, monotone}]}; the first coordinate
-// rises or falls all along, and speaks for the axis.
+// is monotone and represents the axis.
 export class ResponseMap {
   constructor(axes, variables, { parameters, left_out }) {
     this.axes = axes;
@@ -85,7 +85,7 @@ function isMonotone(values) {
   return values.every((value, i) => i === 0 || (value - values[i - 1]) * sign > 0);
 }
 
-// The values of an axis may turn back, so that they cannot be an axis of a figure; then their number is.
+// The index along an axis; it scales figures if the axis's own values are not monotone.
 function indexAlong({ name, size, coordinates }) {
   return {
     name: coordinates.some((coordinate) => coordinate.name === name) ? `${name}_number` : name,
@@ -109,7 +109,7 @@ async function unpackMap(data) {
   }
   const line = { size: sizes[data.along], stride: strides[data.along] };
   const levelsOf = new Map(data.variables.map(({ name, levels }) => [name, levels]));
-  const unpacked = new Map(); // by levels and scale: some variables move alike
+  const unpacked = new Map(); // by levels and scale: some variables are equal
   const valuesOf = ({ name, values, levels_of: carrier = name, scale, low, step }) => {
     if (values) return unpackNumbers(values);
     const key = [carrier, scale, low, step].join(" ");

@@ -1,9 +1,9 @@
 // The SVG file of a figure, complete in itself.
 
 const width = 720,
-  ratio = 0.6; // height over width, where the figure does not say
+  ratio = 0.6; // height over width, unless the figure states it
 
-// One line on where a figure comes from.
+// The origin of a figure in one line.
 function about(record) {
   const fingerprint = record.provenance.fingerprint_physics ?? "";
   return `${record.title}; ${record.file}; ${record.source}; fingerprint ${fingerprint}`;

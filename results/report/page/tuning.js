@@ -1,4 +1,4 @@
-// A tuning as its page sees it, read from the group /optimum: designs, responses, peaks, limits.
+// A tuning as its page uses it, read from the group /optimum: designs, responses, peaks, limits.
 import { words } from "./units.js";
 
 export const designNames = { before: "before", after: "tuned", constant: "best constant", rule: "rule" };
@@ -15,7 +15,7 @@ export function quantityWords({ kind, quantity }) {
   return kind === "variance" ? text.replace(/ rms$/, "") : text;
 }
 
-// The same with its weight: the response that the record holds.
+// The quantity with its weight: the response in the record.
 export function responseWords(tuning) {
   return `${tuning.weight ? "weighted " : ""}${words(tuning.quantity)}`;
 }
@@ -49,14 +49,14 @@ function parameterOf(group, name) {
   };
 }
 
-// Whether a place is where the band begins or ends.
+// Whether a value of the band's parameter is an end of the band.
 function isEndOf(band, at) {
   if (!band?.length) return false;
   const near = 1e-9 * Math.abs(band.at(-1) - band[0]);
   return Math.abs(at - band[0]) <= near || Math.abs(at - band.at(-1)) <= near;
 }
 
-// Which peaks hold the design is known of a tuning that converged.
+// The peaks that hold the design are known only if the tuning converged.
 function peaksOf(group, band, scenarios, { converged, objective }) {
   const values = group.values("peak_value") ?? [];
   return Array.from(values, (value, i) => {
@@ -164,8 +164,8 @@ export function steepestPieces({ knots, values, maxSlope }) {
   return count;
 }
 
-// Where the tuned response comes nearest to that of the best constant design, or above it: {ratio, at}; null where
-// the record has not both.
+// The largest ratio of the tuned response to that of the best constant design: {ratio, at}; null if the record lacks
+// one of the two.
 export function nearestToConstant({ band, responses }) {
   const of = (design) => responses.filter((response) => response.design === design);
   const after = of("after"),
@@ -181,7 +181,7 @@ export function nearestToConstant({ band, responses }) {
   return nearest;
 }
 
-// How many rounds at the end settle what the worst peak of a schedule leaves free: their bound is a mean response.
+// The number of final rounds that settle what a schedule's worst peak leaves free; their bound is a mean response.
 export function settlingRounds({ group, kind, parameters, objective }) {
   const bounds = group.values("round_bound") ?? [];
   if (kind !== "minimax" || !parameters.some(({ scheduled }) => scheduled)) return 0;

@@ -1,18 +1,18 @@
-// What a tuning means, in sentences of numbers: each is computed here from what the record holds.
+// The results of a tuning as sentences, computed here from the numbers of the record.
 import { symbolText } from "./axes.js";
 import { certificateSentences } from "./certificate_words.js";
 import { heldBounds, knotsAtBounds, nearestToConstant, quantityWords, steepestPieces } from "./tuning.js";
 import { numberText, quantityText, sentence, unitText, words } from "./units.js";
 
 const digits = 4;
-const mostIntervals = 4; // that a sentence tells one by one
+const mostIntervals = 4; // that a sentence lists one by one
 
-// What lies between two amplitudes: {percent: by how much less, decibel: 20 log10(after / before)}.
+// The change from one amplitude to another: {percent: reduction, decibel: 20 log10(after / before)}.
 export function reduction(before, after) {
   return { percent: 100 * (1 - after / before), decibel: 20 * Math.log10(after / before) };
 }
 
-// Where y >= 0 along x, by straight lines between the samples: {intervals: [[from, to], ...], share of the whole}.
+// Where y >= 0 along x, by linear interpolation: {intervals: [[from, to], ...], share of the whole}.
 export function nonNegative(x, y) {
   const intervals = [];
   const extend = (from, to) => {
@@ -102,7 +102,7 @@ function scenarioText({ scenarios, kind }) {
     : `, as the mean of ${scenarios.length} scenarios`;
 }
 
-// What a variance is of: "relative to base under white noise, ...".
+// The conditions of a variance: "relative to base under white noise, ...".
 function noiseText({ texts }) {
   const { noise, noise_density: density, relative_to: support } = texts;
   if (!noise) return "";
@@ -162,7 +162,7 @@ function bandSentences(tuning) {
   return sentences;
 }
 
-// What holds the design, as phrases.
+// The active peaks, bounds and limits that hold the design, as phrases.
 function holders(tuning) {
   const peaks = tuning.peaks
     .filter(({ active }) => active)
@@ -212,7 +212,7 @@ function brokenSentence(tuning, { name, unit, value, at, scenario, band, lower, 
   );
 }
 
-// Of a design that is no proven optimum: what it breaks, and where it lies; its multipliers mean nothing.
+// For a design that is no proven optimum: the limits it breaks and the bounds it lies on; its multipliers mean nothing.
 function unprovenSentences(tuning) {
   const broken = tuning.limits
     .filter((limit) => limit.excess > 0)
@@ -247,7 +247,7 @@ function slopeText({ unit, maxSlope }, band) {
   return `${quantityText(maxSlope, unit, digits)} per ${per || "unit"} of ${symbolText(band.name)}`;
 }
 
-// Schedules that change as fast as they may.
+// Where schedules change as fast as they may.
 function slopeSentences({ parameters, band }) {
   return parameters
     .filter((parameter) => parameter.scheduled && band && Number.isFinite(parameter.maxSlope))
@@ -259,7 +259,7 @@ function slopeSentences({ parameters, band }) {
     });
 }
 
-const touching = 0.999; // of the constant's response, from which that holds the design
+const touching = 0.999; // share of the constant's response, from which the constant holds the design
 
 function dominateSentences(tuning) {
   const nearest = tuning.texts.dominate === "constant" ? nearestToConstant(tuning) : null;
@@ -271,7 +271,7 @@ function dominateSentences(tuning) {
   ];
 }
 
-// Where what stands beside the schedule leaves its range.
+// Where the columns beside the schedule are within their range.
 function columnSentences(tuning) {
   return tuning.columns
     .filter(({ lower, upper }) => Number.isFinite(lower) || Number.isFinite(upper))
@@ -308,7 +308,7 @@ function noNumberSentences(tuning) {
   ];
 }
 
-// Over which limits the problem was solved, and which of the designs the page shows.
+// The limits for which the problem was solved, and the limit whose design the page shows.
 function tradeOffSentences(tuning) {
   const { front, limits, group } = tuning;
   if (!front) return [];
@@ -328,7 +328,7 @@ function tradeOffSentences(tuning) {
   ];
 }
 
-// What holds of the tuning, as paragraphs: [[sentence, ...], ...].
+// The text on a tuning, as paragraphs: [[sentence, ...], ...].
 export function whatItMeans(tuning) {
   if (!Number.isFinite(tuning.objective)) return [noNumberSentences(tuning)];
   return [

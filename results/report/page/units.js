@@ -1,4 +1,4 @@
-// Units as readers write them, and numbers in them.
+// Units and numbers as readers write them.
 
 const superscripts = {
   "-": "\u207b",
@@ -62,9 +62,9 @@ const prefixed = {
 };
 
 const leastPrefixed = 1e-4,
-  mostPrefixed = 1e7; // of the least and greatest prefix: beyond, powers of ten stand with the unit itself
+  mostPrefixed = 1e7; // of the least and greatest prefix: beyond, powers of ten of the unit itself
 
-const roundingShare = 1e-12; // of all: what is nearer to all is all but for rounding
+const roundingShare = 1e-12; // a share nearer to 1 than this is 1 but for rounding
 
 // {factor, text}: a value in `unit` is value x factor in `text`.
 export function shownUnit(unit, values) {
@@ -113,19 +113,19 @@ export function quantityText(value, unit, digits = 6) {
     : numberText(value * factor, digits);
 }
 
-// A share of all in percent, with as many digits as tell it from all: "99.97 %".
+// A share in percent, with enough digits to differ from 100 %: "99.97 %".
 export function shareText(share, digits = 3) {
   const left = Math.abs(1 - share);
   const needed = left > roundingShare ? Math.ceil(-Math.log10(left)) : 0;
   return `${numberText(100 * share, Math.max(digits, needed))} %`;
 }
 
-// With its first letter large.
+// The text with a capital first letter.
 export function sentence(text) {
   return text.charAt(0).toUpperCase() + text.slice(1);
 }
 
-// "main_peak" to "main peak"; words of flags too.
+// "main_peak" to "main peak"; also for flag meanings.
 export function words(name) {
   return name.replaceAll("_", " ");
 }

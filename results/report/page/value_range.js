@@ -1,4 +1,4 @@
-// What the numbers of a quantity span over the whole map: looked for once, however often it is asked for.
+// The range of a quantity over the whole map, computed once.
 import { isMissing } from "./record.js";
 
 const known = new WeakMap(); // variable -> its range
@@ -23,14 +23,14 @@ export function valueRange(variable) {
   return known.get(variable);
 }
 
-// Whether powers of ten mean something: of a quantity that is never negative, and neither a count nor a word.
+// Whether a logarithmic scale is meaningful: the quantity is never negative, and neither a count nor a flag.
 export function suitsLogarithm(variable) {
   const { low, leastPositive } = valueRange(variable);
   return variable.kind === "float" && low >= 0 && leastPositive < Infinity;
 }
 
 const farAbove = 8;
-const sampled = 10_000; // values are enough to tell
+const sampled = 10_000; // values are enough
 
 // Whether the largest value is far above most, so that a linear scale would show little.
 export function spansDecades(variable) {

@@ -11,7 +11,7 @@ constexpr double kSamePlace = 1e-7;          // frequencies closer than this, re
 constexpr double kWithinPiece = 1.0 - 1e-6;  // of the way to a knot, on which the next piece begins
 constexpr double kIdle = 0.8;                // of the bound
 
-// Both sides of a peak without symmetry, else the larger, which is both.
+// Both sides of a peak without symmetry; else the larger one, which stands for both.
 std::vector<std::size_t> sides_of(std::size_t sides) {
   if (sides == 2) return {0, 1};
   return {BandCurve::larger};
@@ -42,13 +42,13 @@ ActivePoints::ActivePoints(const DesignSpace& space, const std::vector<CurveKind
     : curves_(curves), goal_(goal), knots_(space.knots()) {
   const bool dominates = has_dominated(curves);
   for (std::size_t c = 0; c < curves.size(); ++c) {
-    // What stays below the constant design everywhere needs no grid of its own beside that.
+    // A curve that stays below the constant design everywhere needs no grid of its own.
     const bool is_covered = dominates && curves[c].of == CurveKind::Of::objective;
     if (is_bounded(c) && !is_covered) add_grid(c, scan);
   }
 }
 
-// Whether the goal keeps a curve under a bound; else it only integrates it.
+// Whether the goal bounds a curve; otherwise it only integrates the curve.
 bool ActivePoints::is_bounded(std::size_t curve) const {
   return curves_[curve].of != CurveKind::Of::objective || goal_.of == Goal::Of::worst ||
          goal_.of == Goal::Of::mean_response;
@@ -88,7 +88,7 @@ void ActivePoints::join(const Scan& scan, bool follow) {
 }
 
 // A maximum inside the band and inside a piece of every schedule can be followed half the way to the next
-// such thing on either side.
+// maximum or knot on either side.
 bool ActivePoints::can_follow(const Scan& scan, std::size_t i, ActivePoint& point) const {
   const Band band = curves_[point.curve].band;
   point.from = band.from;

@@ -8,31 +8,31 @@
 
 namespace frahm::tuning {
 
-// A place of the band at which a side of a curve is kept under its bound, or a local maximum that is followed
-// as the design changes, between two places that it does not leave.
+// A point of the band at which a side of a curve must stay under its bound, or a local maximum that is
+// followed as the design changes, within an interval that it does not leave.
 struct ActivePoint {
   std::size_t curve = 0;  // index among the problem's curves
   double at = 0.0;
   std::size_t side = BandCurve::larger;
   bool followed = false;
-  double from = 0.0, to = 0.0;  // of a followed one
+  double from = 0.0, to = 0.0;  // interval of a followed maximum
 };
 
 // Whether the design has to stay below a constant one everywhere.
 bool has_dominated(const std::vector<CurveKind>& curves);
 
-// The places of the band that the problem of a round is made of: a grid at first, then the true maxima of
-// each design join, and what lies far below the bound goes.
+// The active points of a round's problem: a grid at first; then the true maxima of each design join, and
+// points far below the bound are dropped.
 class ActivePoints {
  public:
-  // All must outlive the points. scan: of the first design; its maxima tell which curves have two sides.
+  // All must outlive the points. scan: of the first design; its maxima show which curves have two sides.
   ActivePoints(const DesignSpace& space, const std::vector<CurveKind>& curves, const Goal& goal,
                const Scan& scan);
 
   const std::vector<ActivePoint>& all() const { return points_; }
 
-  // The scan's maxima join. Of those that are followed, the ones before, which these are again, go. One that
-  // is not takes the place of a point it differs from by next to nothing. follow: those that can be.
+  // Replaces the followed maxima by those of the scan. A maximum that is not followed replaces a point almost
+  // equal to it, or is added. follow: follows the maxima that can be followed.
   void join(const Scan& scan, bool follow);
 
   // Drops points far below the bound, which only cost time; a scan finds those that rise again.

@@ -176,7 +176,7 @@ std::vector<double> ActiveProblem::responses_of(std::span<const double> x,
 
 void ActiveProblem::constrain(std::span<const double> x, std::span<double> values,
                               std::span<double> entries) {
-  // The blocks' entries of the Jacobian follow each other as the blocks do.
+  // The Jacobian's entries are in the order of the blocks.
   std::size_t entry = constrain_responses(x, values, entries);
   for (const SlopeRows& slopes : slope_rows_) {
     for (std::size_t k = 0; k < slopes.rows.count; ++k) {

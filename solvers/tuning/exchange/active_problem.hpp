@@ -35,7 +35,7 @@ class ActiveProblem final : public Problem {
   // The curves at the active points, from the values of all constraints at x.
   std::vector<double> responses_of(std::span<const double> x, std::span<const double> values) const;
 
-  // Variables at the design x; t is what they give.
+  // Starts the variables at the design x; the curves there give the start of t.
   void start_at(std::span<const double> x);
 
   double objective(std::span<const double> x, std::span<double> gradient) override;

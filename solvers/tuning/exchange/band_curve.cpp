@@ -56,7 +56,7 @@ TunedResponse::State BandCurve::solve(std::span<const double> x, double band, bo
       offset_ = 1.0 + kind_.bound / scale;
       break;
     case Of::dominated: {
-      // The constant design stays, so its response at a frequency is found once.
+      // The constant design does not change, so its response at a frequency is computed once.
       if (band != constant_band_ || (with_derivatives && !constant_has_derivatives_)) {
         const TunedResponse::State of_constant = constant_->solve(kind_.constant, band, with_derivatives);
         reason_ = constant_->reason();

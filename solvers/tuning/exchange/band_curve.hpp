@@ -8,8 +8,8 @@
 
 namespace frahm::tuning {
 
-// A curve over the band that a design has to press down: the weighted objective, which stays under the worst
-// peak, or something that stays under 1.
+// A curve over the band that a design has to keep low: the weighted objective, which stays under the worst
+// peak t, or a scaled response that stays under 1.
 struct CurveKind {
   enum class Of {
     objective,    // weight X                        <= t
@@ -25,14 +25,14 @@ struct CurveKind {
   double bound = 0.0;            // of a limit
   std::vector<double> constant;  // design of `dominated`
 
-  // What the curve stays under, where that is not t. Where the constant design is the best by itself a
-  // dominating one can only touch it: a hair of room lets the optimiser do so.
+  // The curve's upper bound, if it is not t. Where the constant design is already the best, a dominating
+  // design can only equal it: a small tolerance lets the optimiser do so.
   double most() const { return of == Of::dominated ? 1.0 + kTouch : 1.0; }
   static constexpr double kTouch = 1e-8;
 };
 
-// Its values at designs and frequencies one after the other. Where the orbit has no symmetry a peak has two
-// sides, each with a smooth value of its own.
+// Evaluates the curve at one design and frequency after the other. If the orbit has no symmetry a peak has
+// two sides, each with its own smooth value.
 class BandCurve {
  public:
   // All must outlive the curve.
@@ -63,7 +63,7 @@ class BandCurve {
   std::optional<TunedResponse> constant_;  // of `dominated`
   double constant_band_ = kNone;           // where it was solved last
   bool constant_has_derivatives_ = false;
-  double factor_ = 1.0, offset_ = 0.0;  // value = factor X + offset at the place in hand
+  double factor_ = 1.0, offset_ = 0.0;  // value = factor X + offset at the last point solved
   double factor_slope_ = 0.0;           // d factor / d band
   std::string reason_;
 };

@@ -44,7 +44,7 @@ class Search {
     return point;
   }
 
-  // The highest a curve like the cubic can come between a and b, generously.
+  // A generous bound of a curve like the cubic between a and b.
   static double reach(const CurvePoint& a, const CurvePoint& b) {
     const double h = b.at - a.at;
     const double rise = std::max({a.slope_right * h, -b.slope_left * h, 0.0});
@@ -54,7 +54,7 @@ class Search {
   void search(const CurvePoint& a, const CurvePoint& b, double narrowest) {
     const double h = b.at - a.at;
     if (!is_finite(a) || !is_finite(b)) {
-      // A place without a value between two that have one is left to the samples; its surroundings are
+      // A point without a value between two that have one is left to the samples; its surroundings are
       // searched down to a thousandth of the seeds' spacing.
       if (h < 1e6 * narrowest || (!is_finite(a) && !is_finite(b))) return;
       const CurvePoint m = ask(0.5 * (a.at + b.at));
@@ -107,7 +107,7 @@ class Search {
     found_.maxima.push_back(std::isfinite(top.value) ? top : last);
   }
 
-  // A point at which the curve turns from rising to falling by itself: a known kink, or exactly the top.
+  // A point that is a maximum by itself: a known kink, or a point exactly at the top.
   void consider(const CurvePoint& point) {
     if (point.slope_left >= 0.0 && point.slope_right <= 0.0) found_.maxima.push_back(point);
   }

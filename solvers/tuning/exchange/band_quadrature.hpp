@@ -13,7 +13,7 @@ struct QuadratureNode {
   double at = 0.0, weight = 0.0;
 };
 
-// Gauss-Legendre nodes between places that are as close about every pole of the design x as it is wide.
+// Gauss-Legendre nodes between points that are as close about every pole of the design x as it is wide.
 std::vector<QuadratureNode> pole_quadrature(const Task& task, const DesignSpace& space,
                                             const std::vector<CurveKind>& curves, std::span<const double> x);
 

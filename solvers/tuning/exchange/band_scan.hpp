@@ -20,7 +20,7 @@ struct Scan {
   struct Place {
     double at = 0.0, value = -kInfinity;
   };
-  std::vector<Maximum> maxima;  // by curve, then place
+  std::vector<Maximum> maxima;  // by curve, then along the band
   std::vector<Place> tightest;  // of each curve, where it is highest, however low that is
   double worst = 0.0;           // of the objective's curves; infinite where the response has no bound
   double violation = 0.0;       // by which the other curves exceed 1
@@ -32,7 +32,7 @@ struct Scan {
 // Scans of designs, one after the other.
 class BandScan {
  public:
-  // All must outlive the scan. stop_asked: a scan that is stopped ends at once and means nothing.
+  // All must outlive the scan. stop_asked: a stopped scan ends at once and is invalid.
   BandScan(const Task& task, const DesignSpace& space, const std::vector<CurveKind>& curves, Effort& effort,
            const std::function<bool()>& stop_asked);
 
@@ -49,7 +49,7 @@ class BandScan {
   std::vector<std::unique_ptr<BandCurve>> responses_;  // of each curve
 };
 
-// Places of a curve's band at a design from which no peak can hide (resonance_places.hpp).
+// Points of a curve's band at a design between which no peak is missed (resonance_places.hpp).
 std::vector<double> places_of(const Task& task, const DesignSpace& space, const CurveKind& curve,
                               std::span<const double> x, int intervals);
 

@@ -20,14 +20,14 @@ constexpr SolverOptions kRough{.tolerance = 1e-4, .most_iterations = 40, .feasib
 constexpr int kRoundsThatDrop = 5;
 constexpr double kAcceptableResidual = 1e-5;
 
-// What the rounds have come to, and whether another will help.
+// The progress of the rounds, and whether another round will help.
 class Convergence {
  public:
-  // tolerance: of gap and violation, that promised. closed: that from which nothing is left to gain.
+  // tolerance: of gap and violation, as promised. closed: the gap below which nothing more can be gained.
   Convergence(double tolerance, double closed) : tolerance_(tolerance), closed_(closed) {}
 
-  // Of a round; exact: its problem was solved to the last digit, with the maxima followed. true: no more
-  // rounds.
+  // Judges a round; exact: its problem was solved to the last digit, with the maxima followed. Returns true
+  // if no more rounds are needed.
   bool judge(double gap, double violation, bool exact) {
     // The solver lets its constraints slip by its own tolerance: the bound may lie above the worst peak.
     const double size = std::max(gap, violation);
@@ -73,8 +73,8 @@ Exchange::Exchange(const Task& task, const DesignSpace& space, const std::vector
       scan_(task, space, curves, effort, stop_asked) {}
 
 // Whether maxima are followed as the design changes. Constants move sharp resonances out from between fixed
-// frequencies, so always; a schedule shapes the response place by place and has a grid at its knots, and what
-// its trials met stays met: at the end.
+// frequencies, so their maxima are always followed. A schedule shapes the response at each band value by
+// itself and has a grid at its knots, where limits once met stay met: its maxima are followed at the end.
 bool Exchange::follows(bool near_end) const {
   return near_end || has_dominated(curves_) || !space_.has_schedule();
 }
@@ -109,7 +109,7 @@ Exchange::Step Exchange::solve(const Goal& goal, std::span<const double> x,
   const std::vector<double>& solved = step.solution.x;
   step.x.assign(solved.begin(), solved.begin() + static_cast<std::ptrdiff_t>(space_.variables()));
   step.active = active;
-  // An integral changes with the nodes that suit the new design.
+  // The value of an integral changes with the nodes that suit the new design.
   step.objective_again = goal.of == Goal::Of::worst ? step.solution.objective : integral(goal, step.x);
   step.rows = problem.responses();
   std::vector<double> values(problem.constraints.size());
@@ -186,7 +186,7 @@ Exchange::Result Exchange::run_with(SolverKind solver, const Goal& goal, std::ve
     active.join(found, follows(near_end));
     if (!settles) options = near_end ? kExact : kRough;
     x = step.x;
-    // 3. The best so far, and whether another round pays.
+    // 3. Update the best design, and decide whether another round helps.
     if (found.unbounded || found.failed) continue;
     is_last = convergence.judge(gap, std::max(0.0, found.violation), exact);
     const bool is_best = !result.has_step || is_better(goal, step, found, result);
@@ -196,7 +196,7 @@ Exchange::Result Exchange::run_with(SolverKind solver, const Goal& goal, std::ve
   return result;
 }
 
-// How the rounds ended, from the design that is kept.
+// How the rounds ended, by the best design.
 void Exchange::conclude(bool gap_closed, Result& result) const {
   if (!result.has_step) {
     result.outcome = Outcome::failed;

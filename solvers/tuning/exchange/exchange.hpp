@@ -25,7 +25,7 @@ class Exchange {
     std::vector<ActivePoint> active;  // whose problem it was
     std::vector<double> responses;    // of the active points at x
     RowBlock rows;                    // of the active points, among the solution's multipliers
-    double objective_again = 0.0;     // an integral with the nodes that suit the new design
+    double objective_again = 0.0;     // the integral, with the nodes of the new design
   };
 
   struct Result {
@@ -45,7 +45,7 @@ class Exchange {
   };
   Result run(const Goal& goal, const std::vector<double>& x);
 
-  // The goal's integral or variance at a design; NaN: it has none there.
+  // The goal's integral or variance at a design; NaN: no value there.
   double integral(const Goal& goal, std::span<const double> x);
 
  private:

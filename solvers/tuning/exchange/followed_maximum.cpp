@@ -21,7 +21,7 @@ class Climb {
     slope = {at, 0.5 * (curve_.slope_left(side_) + curve_.slope_right(side_))};
     return std::isfinite(slope.value);
   }
-  // What a step from here can still gain is below the rounding of the value.
+  // The gain of another step from here is below the rounding of the value.
   bool is_top(const Slope& here, double step) const {
     return std::abs(here.value * step) <= 1e-16 * std::abs(curve_.value(side_));
   }

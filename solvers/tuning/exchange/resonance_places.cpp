@@ -34,7 +34,7 @@ std::vector<std::vector<Eigen::Index>> configurations(Eigen::Index contacts) {
   return sets;
 }
 
-// Poles of z' = A z, z = (eta, eta', s), with q = B eta what the contacts that are held leave free. A slider
+// Poles of z' = A z, z = (eta, eta', s), q = B eta: the motions that the held contacts leave free. A slider
 // behind a spring has s' = k u' while it sticks, and s' = 0 while it slides.
 void add_poles(const mechanics::LinearSystem& system, const std::vector<Eigen::Index>& stuck,
                std::vector<Pole>& poles) {
@@ -67,7 +67,7 @@ void add_poles(const mechanics::LinearSystem& system, const std::vector<Eigen::I
   }
 }
 
-// In an order that goes with the band: by configuration, then frequency.
+// In an order that is the same along the band: by configuration, then frequency.
 std::vector<Pole> poles_of(const mechanics::LinearSystem& system) {
   std::vector<Pole> poles;
   for (const auto& stuck : configurations(system.contacts())) {
@@ -79,7 +79,7 @@ std::vector<Pole> poles_of(const mechanics::LinearSystem& system) {
   return poles;
 }
 
-// The poles and the frequency at a place of the band.
+// The poles and the frequency at a point of the band.
 struct Station {
   double at = 0.0, omega = 0.0;
   std::vector<Pole> poles;
@@ -109,7 +109,7 @@ std::vector<double> resonance_places(const mechanics::Network& network, const Va
       assembly.set_values(values, system);
       station.poles = poles_of(system);
     } catch (const mechanics::MechanicsError&) {
-      station.poles.clear();  // the response will say what is wrong there
+      station.poles.clear();  // the response will report the reason
     }
     return station;
   };

@@ -24,13 +24,13 @@ class TunedResponse {
                 std::vector<periodic::Quantity> quantities, Effort& effort);
 
   enum class State { solved, unbounded, failed };
-  // At the design x and a place of the band. Where a derivative will be wanted and the orbit grazes, that of
-  // a frequency one part in 1e9 beside is found instead.
+  // Solves at the design x and a point of the band. If a derivative is needed and the orbit grazes, the orbit
+  // at a frequency one part in 1e9 beside it is found instead.
   State solve(std::span<const double> x, double band, bool with_derivatives);
   const std::string& reason() const { return reason_; }  // of the last solve, if not solved
 
   double value(std::size_t quantity) const { return value_[quantity]; }
-  // d quantity / d parameter at the place, the frequency and the other parameters held.
+  // d quantity / d parameter at the current point, the frequency and the other parameters held.
   double derivative(std::size_t quantity, std::size_t parameter) const {
     return derivative_[parameter * value_.size() + quantity];
   }

@@ -32,7 +32,7 @@ std::span<const double> view(const Number* values, Index count) {
   return {values, static_cast<std::size_t>(count)};
 }
 
-// Where Ipopt ended, with its multipliers.
+// Ipopt's last point, with its multipliers.
 struct Optimum {
   std::vector<double> x, lower, upper, constraint;
 };
@@ -133,7 +133,7 @@ void set_options(Ipopt::OptionsList& list, const SolverOptions& options) {
   list.SetStringValue("hessian_approximation", "limited-memory");
   list.SetStringValue("mu_strategy", "adaptive");
   list.SetStringValue("nlp_scaling_method", "none");  // the problem is scaled already
-  list.SetNumericValue("bound_relax_factor", 0.0);    // bounds are kept exactly
+  list.SetNumericValue("bound_relax_factor", 0.0);    // bounds hold exactly
   list.SetIntegerValue("max_iter", options.most_iterations);
   list.SetNumericValue("tol", options.tolerance);
   list.SetNumericValue("dual_inf_tol", options.tolerance);
@@ -143,7 +143,7 @@ void set_options(Ipopt::OptionsList& list, const SolverOptions& options) {
   list.SetNumericValue("acceptable_constr_viol_tol", options.feasibility);
 }
 
-// How Ipopt ended, in our words.
+// Ipopt's ending in our terms.
 struct End {
   Ending ending = Ending::failed;
   const char* reason = "";

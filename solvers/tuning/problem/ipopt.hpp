@@ -2,7 +2,7 @@
 
 #include "solvers/tuning/problem/problem.hpp"
 
-// The adapter to Ipopt; who has a problem calls solve() (solver.hpp).
+// The adapter to Ipopt; callers use solve() (solver.hpp).
 namespace frahm::tuning {
 
 // Interior-point method with exact gradients and a limited-memory Hessian. Re-entrant: solves in several

@@ -9,7 +9,7 @@
 namespace frahm::tuning {
 namespace {
 
-constexpr double kNear = 1e-3;  // of the scale: a bound further away than that is taken to have no multiplier
+constexpr double kNear = 1e-3;  // of the scale: a bound further away than this has no multiplier
 
 // One bound and how its multiplier enters: outward = +1 at an upper bound, -1 at a lower one.
 struct Bound {

@@ -29,7 +29,7 @@ double infeasibility(const Problem& problem, const std::vector<double>& values);
 // The largest, in objective_scale, of
 //   scale_i |dL/dx_i|              stationarity, of each variable
 //   multiplier x slack             complementarity, of each bound of a variable or constraint
-//   |multiplier| x scale           of each multiplier that has no bound to belong to
+//   |multiplier| x scale           of each multiplier without a bound
 double kkt_residual(const Problem& problem, const Linearization& at, const Multipliers& multipliers);
 
 // The multipliers of the bounds near x that come nearest to the conditions above, in the sense of least

@@ -11,15 +11,15 @@
 namespace frahm::tuning {
 namespace {
 
-// Of the random numbers of global searches, the same in every solve.
+// Seed of the random numbers of global searches, the same in every solve.
 constexpr unsigned long kSeed = 1909;
-// Relative steps at which a local search ends that does not reach the tolerance, and one within a global
-// search.
+// Relative steps at which a local search ends without reaching the tolerance, and a local search within a
+// global one.
 constexpr double kSteps = 1e-15;
 constexpr double kSettled = 1e-8;
-// Of MMA's inner problem, which else loses itself in its last digits.
+// Limit for MMA's inner problem, which otherwise does not end because of its last digits.
 constexpr double kDualEvaluations = 1000;
-// Of a local search from the best point; each must halve the KKT residual.
+// Restarts of a local search from the best point; each must halve the KKT residual.
 constexpr int kRestarts = 20;
 // Evaluations of a global search per iteration and (variables + 1).
 constexpr int kPopulation = 10;
@@ -76,8 +76,8 @@ class Program {
  private:
   using Solver = std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)>;
 
-  // A point where the problem is not defined is higher than any other; to DIRECT, which computes with the
-  // values, no higher than the highest.
+  // The value of a point where the problem is not defined: higher than any other; for DIRECT, which computes
+  // with the values, as high as the highest.
   double undefined() const {
     return code_ == NLOPT_GN_DIRECT_L ? std::max(problem_.worst_objective(), -1e300) : kInfinity;
   }
@@ -90,7 +90,7 @@ class Program {
     return false;
   }
 
-  // A local search is over at an optimum, which NLopt itself does not recognise.
+  // A local search ends at an optimum; NLopt itself does not recognise it.
   void record_improvement() {
     int& recorded = problem_.record().iterations;
     if (problem_.improvements() == recorded) return;
@@ -200,8 +200,8 @@ const char* reason_of(nlopt_result result) {
   }
 }
 
-// A local search ends where the objective's rounding hides what is to be gained, or with a Hessian gone bad:
-// it starts afresh at the best point as long as that serves.
+// A local search may end because rounding hides the remaining gain or its Hessian has become bad: it restarts
+// at the best point as long as that helps.
 Solution descend(Program& program, ScaledProblem& scaled, const SolverOptions& options) {
   std::vector<double> x = scaled.start();
   double residual = kInfinity;

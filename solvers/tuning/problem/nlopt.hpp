@@ -2,10 +2,10 @@
 
 #include "solvers/tuning/problem/solver.hpp"
 
-// The adapter to NLopt; who has a problem calls solve() (solver.hpp).
+// The adapter to NLopt; callers use solve() (solver.hpp).
 namespace frahm::tuning {
 
-// Every kind but ipopt. The problem fits the method: solve() has looked.
+// For every kind but ipopt. solve() has checked that the problem fits the method.
 Solution solve_with_nlopt(Problem& problem, SolverKind kind, const SolverOptions& options);
 
 }  // namespace frahm::tuning

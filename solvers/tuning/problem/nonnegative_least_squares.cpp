@@ -34,7 +34,7 @@ VectorXd solve_passive(const System& system, const std::vector<Index>& passive) 
   return x;
 }
 
-// The column whose increase from zero lessens the error most for its length; -1: none.
+// The column whose increase from zero reduces the error most for its length; -1: none.
 Index steepest(const System& system, const VectorXd& x, const std::vector<bool>& held) {
   const VectorXd slopes = system.A.transpose() * (system.b - system.A * x);
   Index best = -1;

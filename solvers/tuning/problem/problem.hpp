@@ -27,20 +27,20 @@ struct Constraint {
   double scale = 1.0;  // typical size of its values, > 0
 };
 
-// Place of one derivative d g_constraint / d x_variable that may differ from zero.
+// Position of one derivative d g_constraint / d x_variable that may differ from zero.
 struct JacobianEntry {
   std::size_t constraint = 0, variable = 0;
 };
 
-// What is to be minimised. The lists are fixed during a solve. A point may be asked for first without and
-// then with derivatives. Exceptions of the functions end the solve and leave it as they are.
+// What is to be minimised. The lists are fixed during a solve. A point may be requested first without and
+// then with derivatives. Exceptions of the functions end the solve and are passed on.
 class Problem {
  public:
   virtual ~Problem() = default;
 
   std::vector<Variable> variables;
   std::vector<Constraint> constraints;
-  std::vector<JacobianEntry> jacobian;  // structure, each place once
+  std::vector<JacobianEntry> jacobian;  // structure, each position once
   double objective_scale = 1.0;         // typical size of the objective, > 0
 
   // Objective at x (size of variables); its gradient (the same size) is filled unless empty.
@@ -55,7 +55,7 @@ class Problem {
   virtual bool stop_asked() { return false; }
 };
 
-// How a solve ended. The first two are decided by our KKT residual, whatever the library says.
+// How a solve ended. Our KKT residual decides the first two, regardless of what the library reports.
 enum class Ending {
   converged,        // KKT residual within the tolerance, constraints within the feasibility
   acceptable,       // feasible, and the KKT residual within kAcceptable tolerances
@@ -81,7 +81,7 @@ struct IterationRecord {
 //   d f* / d (lower bound of variable i) = +lower_multipliers[i]
 struct Solution {
   Ending ending = Ending::failed;
-  std::string reason;          // a sentence: why it ended so
+  std::string reason;          // a sentence: why the solve ended
   std::vector<double> x;       // size of variables: the optimum, else the best feasible point met
   double objective = 0.0;      // at x
   double kkt_residual = 0.0;   // of kkt.hpp, by the same computation for every solver; NaN: no gradient at x

@@ -101,7 +101,7 @@ std::vector<double> ScaledProblem::best() const {
   return x;
 }
 
-// Within the bounds, which a division and a multiplication by the scale may leave by a rounding.
+// Moves x into the bounds: a division and a multiplication by the scale may leave them by a rounding.
 std::vector<double> ScaledProblem::unscaled(std::span<const double> x) const {
   std::vector<double> whole = at_.x;
   for (std::size_t i = 0; i < size(); ++i) {
@@ -153,8 +153,8 @@ bool ScaledProblem::is_defined() const {
   return !with_derivatives_ || (all_finite(at_.gradient) && all_finite(at_.entries));
 }
 
-// A feasible point before others, the lower before the higher; where the objective no longer tells two
-// feasible points apart, that of the smaller KKT residual.
+// A feasible point is better than an infeasible one, a lower one better than a higher one; between feasible
+// points of equal objective the smaller KKT residual decides.
 bool ScaledProblem::is_better(const Best& one, const Best& other) const {
   const bool feasible = one.infeasibility <= options_.feasibility;
   if (!feasible || other.infeasibility > options_.feasibility) return one.infeasibility < other.infeasibility;
@@ -163,7 +163,7 @@ bool ScaledProblem::is_better(const Best& one, const Best& other) const {
   return level ? !(one.residual >= other.residual) : gain > 0.0;
 }
 
-// Where it is worth while to look: an optimum is feasible, and the last steps to it gain little.
+// Whether a check is worth while: an optimum is feasible, and the last steps to it gain little.
 bool ScaledProblem::may_be_optimal(const Best& here) const {
   return best_ && here.infeasibility <= options_.feasibility &&
          std::abs(here.objective - best_->objective) <= kSettling * problem_.objective_scale;
@@ -188,7 +188,7 @@ void ScaledProblem::record_iteration(int iteration, double infeasibility, double
   solution_.history.push_back({iteration, objective * problem_.objective_scale, infeasibility, optimality});
 }
 
-// A fixed variable is stationary by the multiplier of one of its bounds.
+// A fixed variable is made stationary by the multiplier of one of its bounds.
 void ScaledProblem::hold_fixed(Multipliers& multipliers) const {
   std::vector<double> slope = at_.gradient;
   for (std::size_t e = 0; e < problem_.jacobian.size(); ++e) {
@@ -230,7 +230,7 @@ Solution ScaledProblem::finish(Ending ending) {
   with_derivatives_ = true;
   linearize(best_ ? best_->x : unscaled(start()));
   if (defined_) return conclude(least_squares_multipliers(problem_, at_), ending);
-  // No gradient here, so nothing can be said of an optimum.
+  // Without a gradient here the point cannot be shown to be an optimum.
   Solution result =
       conclude({std::vector<double>(n), std::vector<double>(n), std::vector<double>(constraints())}, ending);
   result.ending = stopped_ ? Ending::stopped : ending;

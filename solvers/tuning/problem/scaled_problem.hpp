@@ -11,13 +11,12 @@
 
 namespace frahm::tuning {
 
-// What a library sees of a Problem: the variables that are free, objective and constraints, all in units of
-// their scales. It remembers the best point met, whatever becomes of the solve, and keeps exceptions out of
-// the library.
+// A Problem as a library sees it: the free variables, objective and constraints, all in units of their
+// scales. It remembers the best point met, however the solve ends, and keeps exceptions out of the library.
 class ScaledProblem {
  public:
-  // What is asked for at each point. With derivatives, a point without a gradient is taken as one where the
-  // problem is not defined; with residuals, the KKT residual tells points apart that the objective does not.
+  // What is computed at each point. With derivatives, the problem counts as undefined at a point without a
+  // gradient; with residuals, the KKT residual ranks points of equal objective.
   enum class Judging { values, derivatives, residuals };
 
   // Throws std::invalid_argument where the problem makes no sense.
@@ -84,7 +83,7 @@ class ScaledProblem {
   Problem& problem_;
   SolverOptions options_;
   bool with_derivatives_, with_residuals_;
-  std::vector<std::size_t> free_, entry_;  // place in Problem::variables, in Problem::jacobian
+  std::vector<std::size_t> free_, entry_;  // index in Problem::variables, in Problem::jacobian
   std::vector<JacobianEntry> jacobian_;
   Linearization at_;
   bool defined_ = false;  // the problem at at_.x
@@ -97,7 +96,7 @@ class ScaledProblem {
 };
 
 // Throws std::invalid_argument where the problem makes no sense: an empty interval, a scale that is not
-// positive, a start that is not finite, a place of the Jacobian that does not exist.
+// positive, a start that is not finite, a Jacobian position that does not exist.
 void check(const Problem& problem);
 
 }  // namespace frahm::tuning

@@ -43,7 +43,7 @@ DesignSpace::Place DesignSpace::place(std::size_t p, double band, std::span<cons
   const auto slope = [&](std::size_t piece) {
     return (x[first + piece + 1] - x[first + piece]) / (knots[piece + 1] - knots[piece]);
   };
-  // Beyond its ends a schedule keeps its end values.
+  // Beyond its ends a schedule has its end values.
   const std::size_t last = knots.size() - 1;
   if (band < knots.front()) return {{{first, 1.0}, {}}, 1, x[first]};
   if (band > knots.back()) return {{{first + last, 1.0}, {}}, 1, x[first + last]};

@@ -8,7 +8,7 @@
 namespace frahm::tuning {
 
 // How the design parameters follow from the variables x of an optimisation: one variable for a constant, one
-// for each knot of a schedule, which is linear in between (weights of the two knots about a place).
+// for each knot of a schedule, which is linear in between (weights of the two knots about a point).
 class DesignSpace {
  public:
   // Throws mechanics::MechanicsError for bounds that are not finite or reversed, and knots out of order.
@@ -18,7 +18,7 @@ class DesignSpace {
     std::size_t variable = 0;
     double weight = 0.0;  // d parameter / d variable
   };
-  // A parameter at one place of the band.
+  // A parameter at one point of the band.
   struct Place {
     Share shares[2];
     int count = 0;
@@ -38,7 +38,7 @@ class DesignSpace {
 
   // Variables that make each parameter the same everywhere, within its bounds. value: one per parameter.
   std::vector<double> constant_design(std::span<const double> value) const;
-  // Places of the band at which some schedule has a knot, ascending.
+  // Values of the band parameter at which some schedule has a knot, ascending.
   std::vector<double> knots() const;
 
  private:

@@ -11,7 +11,7 @@ namespace {
 constexpr double kChanges[] = {-0.10, -0.05, -0.01, 0.01, 0.05, 0.10};
 constexpr int kSamples = 400;
 
-// The task with design parameters that nothing bounds, so that any design can be looked at.
+// The task without bounds on its design parameters, so that any design can be examined.
 Task without_bounds(const Task& task) {
   Task open = task;
   open.limits.clear();
@@ -87,8 +87,8 @@ class Assessor {
     return result;
   }
 
-  // A schedule with knots so close that the straight lines between them miss the rule by little; its corners,
-  // where it meets the bounds, lie within one piece.
+  // A schedule with knots so close that the straight lines between them stay near the rule; the rule's
+  // corners, where it meets the bounds, lie within one piece.
   Curve rule_curve(const std::vector<Rule>& rules, const std::vector<double>& nominal,
                    const std::vector<double>& band) {
     constexpr int kPieces = 800;

@@ -36,7 +36,7 @@ std::vector<CurveKind> curves_of(const Task& task, const std::vector<QuantityLim
   return curves;
 }
 
-// As near to x as the slope limit allows, by passes that pull neighbours together.
+// The nearest values to x that the slope limit allows, by passes that pull neighbours together.
 void respect_slopes(const DesignSpace& space, std::vector<double>& x) {
   for (std::size_t p = 0; p < space.parameters(); ++p) {
     const auto& schedule = space.parameter(p).schedule;
@@ -109,7 +109,7 @@ Stages DesignTuning::from(const std::vector<double>& value) {
 
 Exchange::Result DesignTuning::tune_constant(const std::vector<double>& value) {
   Exchange exchange(task_, constant_space_, curves_, effort_, stop_asked_);
-  // A start without response, or without bound to it, moves towards the middle of the box.
+  // If a start has no response, or an unbounded one, it moves towards the middle of the box.
   std::optional<Exchange::Result> as_given;
   for (const double share : {0.0, 0.25, 0.5, 1.0}) {
     std::vector<double> x = constant_space_.constant_design(value);
@@ -125,7 +125,7 @@ Exchange::Result DesignTuning::tune_constant(const std::vector<double>& value) {
   return *as_given;
 }
 
-// The task's curves and, where the schedule has to stay below the constant design everywhere, those.
+// The task's curves, and the dominated curves if the schedule has to stay below the constant design.
 std::vector<CurveKind> DesignTuning::schedule_curves(const std::vector<double>& constant) const {
   std::vector<CurveKind> curves = curves_;
   if (!task_.dominate_constant) return curves;
@@ -144,7 +144,7 @@ Exchange::Result DesignTuning::tune_schedule(const std::vector<double>& value) {
   Exchange exchange(task_, space_, curves, effort_, stop_asked_);
   Exchange::Result result = exchange.run(goal(), start);
   if (task_.objective != Objective::minimax || task_.dominate_constant) return result;
-  // The best of each place by itself is a second start.
+  // The best value at each knot by itself gives a second start.
   const Exchange::Result other = exchange.run(goal(), place_by_place(start));
   const bool is_better = other.has_step && other.scan.violation <= std::max(result.scan.violation, 1e-9) &&
                          other.scan.worst < result.scan.worst * (1.0 - kRoom);
@@ -152,7 +152,7 @@ Exchange::Result DesignTuning::tune_schedule(const std::vector<double>& value) {
   return result;
 }
 
-// The value of each knot of each schedule that alone makes the objective least at the knot.
+// For each knot of each schedule, the value that alone makes the objective least at the knot.
 std::vector<double> DesignTuning::place_by_place(const std::vector<double>& start) {
   constexpr int kTried = 12;
   std::vector<double> x = start;
@@ -180,7 +180,7 @@ std::vector<double> DesignTuning::place_by_place(const std::vector<double>& star
   return x;
 }
 
-// Least mean response with the worst peak held.
+// Minimises the mean response while the worst peak is held.
 void DesignTuning::settle_free_knots(double most, Stages& stages) {
   const std::vector<CurveKind> curves = schedule_curves(space_.constant_design(stages.constant_value));
   Exchange exchange(task_, space_, curves, effort_, stop_asked_);

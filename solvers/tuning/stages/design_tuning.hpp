@@ -7,10 +7,10 @@
 
 namespace frahm::tuning {
 
-// What the stages of a tuning came to.
+// Results of the stages of a tuning.
 struct Stages {
   Exchange::Result best;               // the design and its true maxima
-  Exchange::Step decisive;             // whose multipliers tell what holds the objective; after best.has_step
+  Exchange::Step decisive;             // its multipliers show what holds the objective; set if best.has_step
   double bound = 0.0;                  // of the objective over its active frequencies
   Exchange::Result constant;           // the best constant design, where a parameter is scheduled
   std::vector<double> constant_value;  // of each parameter; empty where none is
@@ -28,14 +28,14 @@ class DesignTuning {
   // value: of each parameter; the schedules start constant.
   Stages from(const std::vector<double>& value);
 
-  // The true objective of constant parameters, and what limits are broken on top of it; NaN: it has none.
+  // The true objective of constant parameters, raised by broken limits; NaN: no value.
   double worst_of(std::span<const double> value);
 
   const DesignSpace& space() const { return space_; }
   const DesignSpace& constant_space() const { return constant_space_; }
   const std::vector<CurveKind>& curves() const { return curves_; }
   const std::vector<QuantityLimit>& limits() const { return limits_; }
-  // The integral or variance that the task minimises (not of a minimax), at a design; NaN: it has none.
+  // The integral or variance that the task minimises (not of a minimax), at a design; NaN: no value.
   double objective_of(std::span<const double> x);
   // All local maxima of a design, low ones too.
   Scan full_scan(std::span<const double> x);

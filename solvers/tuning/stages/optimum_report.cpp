@@ -104,7 +104,7 @@ class Report {
     return minimax ? stages_.constant.scan.worst : stages_.constant.step.objective_again;
   }
 
-  // The last stage of a schedule may meet limits that the one before broke.
+  // The last stage of a schedule may meet limits that the previous stage broke.
   void judge_limits(Optimum& optimum) const {
     if (optimum.outcome != Outcome::infeasible || is_broken(optimum.violation)) return;
     optimum.outcome = Outcome::not_converged;
@@ -112,9 +112,9 @@ class Report {
         "the limits are met, but the rounds of exchange do not tell how near the objective is to its least";
   }
 
-  // The last scan looks at low peaks too, from other places: what it sees is the certificate.
+  // The last scan includes low peaks and starts from other points: its result is the certificate.
   void judge_certificate(Optimum& optimum) const {
-    // Of the problem over the active frequencies: where these are not all it says nothing of the design.
+    // The KKT residual is that of the active frequencies: if some are missing it does not judge the design.
     if (std::abs(optimum.certificate_gap) > std::max(task_.tolerance, kSlip)) optimum.kkt_residual = kNone;
     if (optimum.outcome != Outcome::converged) return;
     if (std::isnan(optimum.certificate_gap)) {
@@ -131,8 +131,8 @@ class Report {
     }
   }
 
-  // What holds an optimum holds it by more than rounding: a peak by its share, a bound or a limit by what the
-  // objective falls, relatively, when it gives way by a hundredth of the range or by itself.
+  // A multiplier counts only above rounding: a peak's by its share; a bound's or limit's by the relative fall
+  // of the objective when the bound moves by a hundredth of the range, the limit by its own size.
   void judge_multipliers(Optimum& optimum) const {
     constexpr double kHolds = 1e-6;
     const bool known = optimum.outcome == Outcome::converged;
@@ -153,8 +153,7 @@ class Report {
     }
   }
 
-  // Multipliers belong to bounds that are met: what an interior-point method leaves at others is its
-  // rounding.
+  // Multipliers belong to bounds that are met: an interior-point method leaves rounding at the others.
   void write_parameters(Optimum& optimum) const {
     constexpr double kMet = 1e-5;  // of the range
     const DesignSpace& space = tuning_.space();

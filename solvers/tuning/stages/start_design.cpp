@@ -23,7 +23,7 @@ std::vector<Variable> box(const DesignSpace& space) {
   return variables;
 }
 
-// The box alone, and a value that needs no derivative.
+// A box as the only constraint, and an objective without derivative.
 class BoxProblem final : public Problem {
  public:
   BoxProblem(const DesignSpace& space, const std::function<double(std::span<const double>)>& worst_of,

@@ -10,7 +10,7 @@ using Eigen::Index;
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 
-constexpr int kRefinements = 2;  // each takes the rounding of the solve out of the last residual
+constexpr int kRefinements = 2;  // each removes the rounding of the solve from the last residual
 
 // Y of T Y + Y T^H + W = 0, the columns from the last to the first:
 //   (T + conj(T_kk)) y_k = -w_k - sum_{j > k} y_j conj(T_kj)

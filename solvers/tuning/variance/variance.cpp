@@ -22,7 +22,7 @@ using mechanics::NetworkValues;
 
 namespace {
 
-// Real part of an eigenvalue, over the largest modulus: no smaller is no damping.
+// Real part of an eigenvalue over the largest modulus; a smaller one means no damping.
 constexpr double kLeastDamping = 1e-12;
 
 double along(const std::vector<double>& gradient, const std::vector<double>& direction) {

@@ -212,7 +212,7 @@ TEST_CASE("quantities keep their places and orbits are in the units of their axe
   CHECK(study.sweep()->output.single_precision);
   REQUIRE(study.sweep()->output.names.size() == 2);
   const auto& name = study.sweep()->output.names[1];
-  CHECK_THAT(study.source.error_at(frahm::studies::rules::not_text, name.position, name.text).what(),
+  CHECK_THAT(study.source.error_at(frahm::studies::rules::not_text, name.position, "{}", name.text).what(),
              Catch::StartsWith("study.toml:25:28: status\n"));
   REQUIRE(study.sweep()->output.orbits.size() == 2);
   CHECK_THAT(study.sweep()->output.orbits[0][0].value, Catch::WithinRel(4.0 * std::numbers::pi, rounding));

@@ -1,4 +1,4 @@
-// What a crank drives: its motion over the angle, with the Taylor series cut after an order, and what the cuts miss.
+// The motion that a crank gives its node over the angle, its Taylor series cut after an order, and the cuts' errors.
 import { numberText, words } from "../units.js";
 import { lineFigure, style } from "./line_figure.js";
 

@@ -7,7 +7,7 @@ import { drawFrame, lineColours } from "./frame.js";
 
 const shareEnd = "_energy_share";
 
-// Those that dissipate at all.
+// The shares of elements that dissipate energy.
 export function dissipating(variables) {
   return variables.filter(({ name, values }) => name.endsWith(shareEnd) && values.some((value) => value > 0));
 }

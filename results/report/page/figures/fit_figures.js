@@ -1,4 +1,4 @@
-// Data against the model that was fitted to them, and what the model leaves of them.
+// Data against the fitted model, and the residuals.
 import { symbolText } from "../axes.js";
 import { residualRms } from "../identification.js";
 import { numberText, quantityText, words } from "../units.js";
@@ -27,7 +27,7 @@ function drawnData(series) {
     : { lines: [], points: [{ ...drawn, r: 2.6, symbol: "open" }] };
 }
 
-// Of what the data do not determine, the model has some value all the same.
+// The model is drawn at some value even of an estimate that the data do not determine.
 function undeterminedText(estimates) {
   const names = estimates.filter(({ value }) => Number.isNaN(value)).map(({ name }) => symbolText(name));
   if (names.length === 0) return "";

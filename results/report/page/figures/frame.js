@@ -1,4 +1,4 @@
-// What all figures share: one look for screen, export and paper, drawn by Observable Plot.
+// The common look of all figures on screen, in files and on paper, drawn by Observable Plot.
 //
 // A figure is {name, title, caption, draw(canvas), table()}:
 //   name     of its files, [a-z0-9_]+
@@ -15,7 +15,7 @@ formatDefaultLocale({ decimal: ".", thousands: "\u2009", grouping: [3], currency
 const fontFamily = "system-ui, -apple-system, 'Segoe UI', 'DejaVu Sans', Arial, sans-serif";
 const lineHeight = 18;
 
-// Okabe and Ito's colours, told apart by all; black and yellow are left out, for dark and for light pages.
+// Okabe and Ito's colours, safe for the colour-blind; no black and no yellow, for dark and for light pages.
 export const lineColours = [
   "#0072B2",
   "#D55E00",
@@ -28,7 +28,7 @@ export const lineColours = [
 ];
 export const lineDashes = ["", "6 3", "2 2", "8 3 2 3", "4 4", "1 3", "10 4", "3 5"];
 
-// Of the regimes of a contact, one everywhere; not_computed has none.
+// Colours of a contact's regimes, the same in all figures; not_computed has none.
 export const regimeColours = {
   no_friction: "#9A9A9A",
   non_stop: "#0072B2",
@@ -37,7 +37,7 @@ export const regimeColours = {
   stuck: "#6F4E9B",
 };
 
-// Entries of a legend in rows that fit the width; one that is longer takes rows of its own.
+// Legend entries in rows that fit the width; a longer entry takes rows of its own.
 function legendRows(legend, width) {
   const rows = [[]];
   let used = 0;
@@ -211,7 +211,7 @@ export function grid(x = {}, y = {}) {
 
 const leastSpread = 1e-4; // below it the labels of an axis would need too many digits
 
-// Options of an axis for these values: round ends, and where they are all but equal, some room about them.
+// Axis options for these values: round ends, and a margin around nearly equal values.
 export function roomFor(values) {
   const [low, high] = extent(values.filter(Number.isFinite));
   const size = Math.max(Math.abs(low), Math.abs(high));
@@ -233,7 +233,7 @@ export function dots(x, y, options = {}) {
   return Plot.dot(points, { r: 3, ...options });
 }
 
-// Shows x and y of the nearest point of the curves to a pointer, where there is one. rows: [{x, y, text}].
+// Shows x and y of the curve point nearest to the pointer, on an interactive canvas. rows: [{x, y, text}].
 export function tips(canvas, rows) {
   if (!canvas.interactive) return [];
   return [
@@ -244,7 +244,7 @@ export function tips(canvas, rows) {
   ];
 }
 
-// A name that is good for a file, from one that may hold anything.
+// A valid file name made from any text.
 export function fileName(text) {
   return text.replaceAll(/[^A-Za-z0-9_]+/g, "_");
 }

@@ -8,13 +8,13 @@ import { powerText, powerTicks } from "./power_ticks.js";
 
 const marginLeft = 68,
   marginRight = 20;
-const leastSpan = 1e-3; // of an axis, relative to its numbers: what differs by less is level
+const leastSpan = 1e-3; // of an axis, relative to its numbers: a smaller span is drawn as level
 const mostEdged = 200; // bands that have lines at their edges
 const mostDots = 3000; // that are all drawn
 const pathTolerance = 0.2; // pixels
 const dashesOf = (number) => lineDashes[number % lineDashes.length];
 
-// A curve's look by its number: colour and dashes differ, so that it is told apart in black and white too.
+// The style of curve number i: colour and dashes differ, so that curves are distinct in black and white too.
 export function style(number) {
   return { stroke: lineColours[number % lineColours.length], dash: dashesOf(number) };
 }
@@ -24,7 +24,7 @@ function* valuesOf(spec, axis) {
   if (axis === "y") for (const { y } of spec.levels ?? []) yield y;
 }
 
-// Least and greatest number in `unit`, with room around; with the zero where the axis asks for it.
+// Least and greatest number in `unit`, with a margin; includes zero if the axis asks for it.
 function domainOf(spec, axis) {
   const { type, zero, tight, domain, decades = 14 } = spec[axis];
   if (domain) return domain;
@@ -91,7 +91,7 @@ function lineMark(line, canvas, x, y) {
 
 const isWithin = (value, [low, high]) => value >= low && value <= high;
 
-// Dots in the order of their x, as histories without lines have them, are thinned as lines are.
+// Dots of a history drawn without lines are in the order of x, and are thinned as lines are.
 function pointMark(points, canvas, x, y) {
   const many = points.x.length > mostDots;
   const thin = many ? thinnedHistory(points.x, points.y, canvas.width - marginLeft - marginRight) : points;
@@ -196,7 +196,7 @@ function drawLines(canvas, spec) {
 //   lines: [{name, text, x, y, stroke, dash, width, path}]  text: in the legend; path: x does not rise
 //   points: [{name, text, x, y, stroke, symbol}]             symbol: "open" or "full"
 //   bands: [{text, from, to, fill}], levels: [{text, y, stroke, dash}], moments: [{text, x, stroke, dash}]}
-// What is `silent` has neither tip nor CSV column. Numbers in the units named; lengths and forces are drawn with
+// A `silent` item has neither tip nor CSV column. Numbers in the units named; lengths and forces are drawn with
 // prefixes.
 export function lineFigure(spec) {
   const { name, title, caption, ratio } = spec;

@@ -1,6 +1,6 @@
 // The numbers of a figure of curves, points and bands (line_figure.js), for its CSV.
 
-// Columns: curves over the same x stand behind it together; each further x has the name of its curve too.
+// Columns: curves over the same x follow it together; the name of each further x includes that of its curve.
 export function tableOf(spec) {
   const columns = [],
     across = spec.x.name ?? spec.x.label;

@@ -1,7 +1,7 @@
-// Long curves with fewer points that draw the same: no extreme is lost, no place moves by more than asked.
+// Thins long curves without a visible change: no extreme is lost, no point is off by more than a tolerance.
 
-// A history with, in each of `columns` columns of pixels, its first, least, greatest and last point. x rises.
-// Returns {x, y}; of no more than four points a column the history itself.
+// Reduces a history to its first, least, greatest and last point in each of `columns` pixel columns. x rises.
+// Returns {x, y}: the history itself if it has at most four points a column.
 export function thinnedHistory(x, y, columns) {
   if (x.length <= 4 * columns) return { x, y };
   const low = x[0],
@@ -27,8 +27,8 @@ function turned(angle, from) {
   return turn - 2 * Math.PI * Math.round(turn / (2 * Math.PI));
 }
 
-// A path of any shape whose left-out points all lie within `tolerance` of it. scale: pixels per unit of x and of y.
-// Goes straight on while one direction passes all points since the last one kept, and none turns back.
+// Thins a path of any shape; the omitted points lie within `tolerance` of the rest. scale: pixels per unit of x and y.
+// A piece goes straight on while one direction passes all points since the last one retained and none turns back.
 export function thinnedPath(x, y, scale, tolerance) {
   const at = (i) => [x[i] * scale.x, y[i] * scale.y];
   const kept = [0];

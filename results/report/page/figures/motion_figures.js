@@ -33,7 +33,7 @@ function moments({ stopTime, units }) {
 
 const sparseCaption = "Samples, not joined: they stand too far apart to show the motion between them.";
 
-// Curves as dots where the samples do not tell what lies between them.
+// Draws curves as dots if the samples are too far apart to be joined.
 function joinedOrDots(motion, lines) {
   return samplingOf(motion).sparse
     ? { lines: [], points: lines.map((line) => ({ ...line, r: 1.5 })), caption: sparseCaption }
@@ -100,7 +100,7 @@ function within(bands, low, high) {
     .filter(({ from }) => from.length > 0);
 }
 
-// The first or the last few cycles, of a motion so long that its history shows none of them.
+// The first and the last few cycles of a motion so long that its history shows no single cycle.
 function cyclesFigures(motion) {
   return ["first", "last"].flatMap((end) => {
     const part = stretch(motion, shownTurns, end);

@@ -1,4 +1,4 @@
-// Figures of a kept orbit: time history, phase portrait, friction-force loop.
+// Figures of a recorded orbit: time history, phase portrait, friction-force loop.
 import { coordinateText } from "../axes.js";
 import { shownUnit, withUnit, words } from "../units.js";
 import { curve, dots, drawFrame, grid, lineColours, roomFor } from "./frame.js";
@@ -15,7 +15,7 @@ export function orbitSamples(group, k) {
 
 const inset = 8; // pixels between curves and frame: a friction force stays at its limits
 
-// A closed period: the first sample again at the end of a trace around a loop.
+// Closes a period: repeats the first sample at the end of a loop.
 const closed = (values) => (values.length ? [...values, values[0]] : values);
 
 function shownColumn(column) {
@@ -26,7 +26,7 @@ function shownColumn(column) {
 const namesEnding = (samples, end) =>
   [...samples.keys()].filter((name) => name.endsWith(end)).map((name) => name.slice(0, -end.length));
 
-// Masses: what has an acceleration; contacts: what has a sliding velocity.
+// Masses have an acceleration, contacts a sliding velocity.
 function massesOf(samples) {
   return namesEnding(samples, "_acceleration");
 }
@@ -58,7 +58,7 @@ function traces(canvas, samples, names, axis, symbol) {
   });
 }
 
-// What is at rest is a point.
+// A contact at rest is drawn as a point.
 function loopMarks(x, y) {
   const stroke = lineColours[0];
   const isPoint = [x, y].every((values) => values.every((value) => value === values[0]));

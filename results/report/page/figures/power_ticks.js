@@ -1,7 +1,7 @@
 // The ticks of a logarithmic axis.
 import { numberText, superscript } from "../units.js";
 
-// Places of the ticks of a logarithmic axis: powers of ten, or 1, 2, 5 of each where there are few.
+// The ticks of a logarithmic axis: powers of ten, or 1, 2, 5 of each where there are few.
 export function powerTicks([low, high]) {
   const decades = Math.log10(high / low),
     step = Math.ceil(decades / 8);
@@ -13,7 +13,7 @@ export function powerTicks([low, high]) {
   return ticks.filter((tick) => tick >= low && tick <= high);
 }
 
-// How a logarithmic axis over this domain writes its ticks: plainly, or where that takes many zeros as powers of ten.
+// The tick format of a logarithmic axis over this domain: plain, or powers of ten if plain takes many zeros.
 export function powerText([low, high]) {
   if (low >= 1e-3 && high < 1e5) return (value) => numberText(value);
   return (value) => {

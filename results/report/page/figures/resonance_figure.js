@@ -17,7 +17,7 @@ export function resonanceParameters(group) {
   return group.along("curve").filter(({ name }) => !solved.test(name));
 }
 
-// The curves by their number, where no parameter orders them.
+// The number of each curve, used if no parameter orders the curves.
 export function curveNumbers(group) {
   const { length } = resonanceQuantities(group)[0].values;
   return { name: "curve", unit: "1", values: Float64Array.from({ length }, (_, i) => i + 1) };
@@ -29,7 +29,7 @@ export function firstParameter(group) {
   return resonanceParameters(group).find(joins) ?? curveNumbers(group);
 }
 
-// Evenly chosen ones of many.
+// At most `mostCurves` of a list, evenly chosen.
 function some(list) {
   if (list.length <= mostCurves) return list;
   return Array.from(
@@ -58,7 +58,7 @@ function curvesOver(group, x) {
   return some(allCurvesOver(group, x));
 }
 
-// How many of the curves are shown, and how many points have none.
+// How many curves are shown, and how many response curves have no resonance.
 export function resonanceNote(group, quantity, x) {
   const all = allCurvesOver(group, x).length,
     none = quantity.values.filter(Number.isNaN).length;

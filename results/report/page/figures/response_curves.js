@@ -17,17 +17,17 @@ import {
 } from "./frame.js";
 
 const stepped = { curve: "step" }; // of whole numbers and flags: between two points nothing is known
-const inset = 5; // pixels between the frame and what is zero
+const inset = 5; // pixels between the frame and zero
 const fewPoints = 40; // up to so many, each is marked
 
-// What tells a curve from the others: the coordinates in which the points differ, else all of them.
+// A curve's name: the coordinates in which the points differ, else all of them.
 function curveName(map, index, axis, all) {
   const others = map.axes.map((_, a) => a).filter((a) => a !== axis && map.axes[a].size > 1);
   const differ = others.filter((a) => all.some((other) => other[a] !== index[a]));
   return (differ.length ? differ : others).map((a) => axisText(map, map.axes[a], index[a])).join(", ");
 }
 
-// Runs of equal regime along a line; each reaches the first point of the next, so that no gap stands between.
+// Runs of equal regime along a line; each reaches the first point of the next, so that there is no gap.
 function regimeRuns(map, regime, index, axis) {
   const words = Array.from(map.line(regime, index, axis), (value) => meaningOf(regime, value));
   const runs = [];
@@ -50,7 +50,7 @@ function yLabel(variable, scale, shown) {
     : withUnit(name, shown.text);
 }
 
-// The colour and dash of curve n: from the ninth on the colours come again with another dash.
+// The colour and dash of curve n: from the ninth on the colours repeat with another dash.
 function styleOf(n) {
   const round = Math.floor(n / lineColours.length);
   return {

@@ -12,7 +12,7 @@ import { drawFrame, svgElement } from "./frame.js";
 
 const resampled = 480; // cells of an axis whose values lie unevenly
 
-// Of each cell of the picture the index of the grid's point: itself, or the nearest one on an uneven axis.
+// The grid index of each cell of the picture: its own, or that of the nearest point on an uneven axis.
 function cellPoints({ values, isEven, scale }) {
   if (isEven) return Array.from(values, (_, i) => i);
   const to = scale === "log" ? Math.log : (value) => value;
@@ -50,7 +50,7 @@ function painterOf(variable, range, state) {
   };
 }
 
-const logSpan = 1e-4; // of the largest: what lies below has the lowest colour on a logarithmic scale
+const logSpan = 1e-4; // of the largest value: smaller ones have the lowest colour on a logarithmic scale
 
 // The lower end of a logarithmic scale of colours.
 export function leastOfLogarithm(variable) {
@@ -58,7 +58,7 @@ export function leastOfLogarithm(variable) {
   return Math.max(leastPositive, high * logSpan);
 }
 
-// Of all the map, so that a slider moves along one scale. scale: "linear" or "log", which the quantity suits.
+// The colour range of the whole map, so that all slider positions share one scale. scale: "linear" or "log".
 function colourRange(variable, scale) {
   const { low: least, high } = valueRange(variable);
   if (!(least <= high)) return [0, 1];
@@ -127,7 +127,7 @@ const borderDashes = {
   "multi_stop|stuck": "1 2",
 };
 
-// Places between the grid's values, by straight lines.
+// The value at a fractional index, by linear interpolation.
 export function valueAt(values, place) {
   const i = Math.min(Math.floor(place), values.length - 2);
   return values.length === 1 ? values[0] : values[i] + (place - i) * (values[i + 1] - values[i]);
@@ -160,7 +160,7 @@ function borderMarks(crossings, state, map, axes) {
   return { marks, legend };
 }
 
-// The points picked, by number; those that differ in other axes only lie at one place.
+// The picked points with their numbers; points that differ only along other axes coincide.
 function pickedMarks({ picked = [], x, y }, axes) {
   const places = new Map();
   picked.forEach((index, n) => {

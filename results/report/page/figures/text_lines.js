@@ -1,4 +1,4 @@
-// How wide texts are, about, and how they fall into lines.
+// Estimates the width of texts, and breaks them into lines.
 
 export const fontSize = 12;
 export const digitWidth = 0.64 * fontSize; // of the widest common font
@@ -8,7 +8,7 @@ export function textWidth(text) {
   return text.length * characterWidth;
 }
 
-// A text in lines that fit the width: broken at blanks, a longer word where it must be.
+// A text in lines that fit the width: broken at blanks, and within words too long for a line.
 export function wrapped(text, width) {
   const most = Math.max(4, Math.floor(width / characterWidth));
   const lines = [""];

@@ -1,4 +1,4 @@
-// How a tuning came about and how firm it stands: detuning, rounds of exchange, starts, the front of a trade-off.
+// The progress and robustness of a tuning: detuning, rounds of exchange, starts, the front of a trade-off.
 import { symbolText } from "../axes.js";
 import { quantityWords, settlingRounds } from "../tuning.js";
 import { words } from "../units.js";
@@ -18,7 +18,7 @@ function percent(values) {
   return Float64Array.from(values, (value) => 100 * value);
 }
 
-// Curves through the optimum itself, where nothing has changed.
+// Detuning curves, with the optimum itself added at no change.
 export function detuningFigure({ group, parameters, kind }) {
   const changes = Array.from(group.values("change"));
   const order = [...changes.keys()].sort((a, b) => changes[a] - changes[b]);
@@ -52,7 +52,7 @@ export function detuningFigure({ group, parameters, kind }) {
   });
 }
 
-// The rounds that press the objective down, without those that settle what it leaves free.
+// The rounds that lower the objective, without those that settle what it leaves free.
 function pressingRounds(tuning) {
   const { group } = tuning;
   const count = group.values("round_bound").length - settlingRounds(tuning);
@@ -108,7 +108,7 @@ export function roundsFigure(tuning) {
   });
 }
 
-// What is left between bound and worst peak, relative, by rounds.
+// The relative gap between bound and worst peak, round by round.
 export function gapFigure(tuning) {
   const { x, bound, worst, violation } = pressingRounds(tuning);
   const gap = Float64Array.from(bound, (value, i) => Math.abs(worst[i] - value) / Math.abs(worst[i]));

@@ -191,7 +191,7 @@ export function scheduleFigure({ band }, parameter, atBounds) {
 
 const level = (text, at, stroke, dash) => (Number.isFinite(at) ? [{ text, y: at, stroke, dash }] : []);
 
-// What stands beside the schedule (a CVT's ratio), with its range where it has one.
+// A column beside the schedule (a CVT's ratio), with its range if it has one.
 export function columnFigure({ band }, { name, unit, values, range, lower, upper }) {
   const flagged = (word, text, symbol) => {
     const code = range.flags.find(([, meaning]) => meaning === word)?.[0];

@@ -1,4 +1,4 @@
-// The part of a page that tells what its crank does.
+// The part of a page about the cranks of the study.
 import { cranksOf, largestErrors } from "../crank.js";
 import { crankErrorFigure, crankMotionFigure } from "../figures/crank_figures.js";
 import { section, table } from "../parts/elements.js";

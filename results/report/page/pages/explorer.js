@@ -1,4 +1,4 @@
-// A map under the hand: lists and sliders say what is shown, a click on the map takes a point for the curves.
+// The interactive map: lists and sliders choose what is shown, a click on the map picks a point for the curves.
 import { coordinateLabel } from "../axes.js";
 import { choice, slider, tick } from "../parts/controls.js";
 import { element, section } from "../parts/elements.js";
@@ -14,7 +14,7 @@ const scales = [
   ["log", "logarithmic"],
 ];
 
-// Everything of the explorer: the record, its state, its figures, the places of its controls.
+// All parts of the explorer: the record, its state, its figures, the containers of its controls.
 function viewOf(record) {
   const { map } = record,
     state = firstState(record);
@@ -36,7 +36,7 @@ function viewOf(record) {
   };
 }
 
-// At the next frame, however often it is asked for until then.
+// Redraws once at the next frame, however often it is called before.
 function redraw(view) {
   if (view.waiting) return;
   view.waiting = true;
@@ -53,7 +53,7 @@ function change(view, changes) {
   redraw(view);
 }
 
-// Axes and their coordinates as [axis:coordinate, label]: those that rise or fall all along.
+// The monotone coordinates of the axes as [axis:coordinate, label].
 function coordinateChoices({ map, wide }) {
   return wide
     .flatMap((axis) => map.axes[axis].coordinates.map((coordinate, c) => [`${axis}:${c}`, coordinate]))
@@ -67,7 +67,7 @@ function chosenCoordinate(state, key) {
   return axis;
 }
 
-// Another axis across or up; the two change places where it is the other's.
+// Sets the horizontal or vertical axis; swaps the two if the other has the chosen axis.
 function setAxis(view, which, key) {
   const { state } = view,
     other = which === "x" ? "y" : "x";
@@ -147,7 +147,7 @@ function controlsOfCurves(view) {
   ];
 }
 
-// Of every axis that the map does not show.
+// A slider for every axis that the map does not show.
 function slidersOf(view) {
   const { map, state, wide } = view;
   const hidden = wide.filter((axis) => state.y === null || (axis !== state.x && axis !== state.y));
@@ -160,7 +160,7 @@ function slidersOf(view) {
   );
 }
 
-// The controls anew: which there are depends on what is shown.
+// Rebuilds the controls, which depend on what is shown.
 function arrange(view) {
   view.mapControls.replaceChildren(...controlsOfMap(view).filter(Boolean));
   view.curveControls.replaceChildren(...controlsOfCurves(view).filter(Boolean));

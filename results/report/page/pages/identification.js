@@ -109,7 +109,7 @@ function rowsTable({ rows }) {
 
 const counted = (count, thing) => `${numberText(count, 5)} ${thing}${count === 1 ? "" : "s"}`;
 
-// Of rows that were each computed for themselves there is no fit to tell of.
+// Rows computed one by one have no fit.
 function methodText({ method, group, outcome, estimates }) {
   const freedom = group.number("degrees_of_freedom");
   const fit = [

@@ -1,4 +1,4 @@
-// The figures of a map as it is looked at (see sweep_state.js): cells over two axes, curves along one, damping budget.
+// The figures of a map as viewed (see sweep_state.js): cells over two axes, curves along one, damping budget.
 import { axisText, symbolText } from "../axes.js";
 import { crossingsOfSlice } from "../borders.js";
 import { dissipating, energyShares, energySharesTable } from "../figures/energy_shares.js";
@@ -8,7 +8,7 @@ import { numberText, sentence, words } from "../units.js";
 import { spansDecades, suitsLogarithm, valueRange } from "../value_range.js";
 import { curvePoints, shownContact, sliding } from "./sweep_state.js";
 
-// Where the point of the sliders stands on all axes but those left out.
+// The sliders' point as text, on all axes but those left out.
 function placeWithout(map, state, leftOut) {
   return map.axes
     .map((axis, a) => (leftOut.includes(a) || axis.size < 2 ? "" : axisText(map, axis, state.index[a])))
@@ -27,7 +27,7 @@ function bordersAlong(map, state) {
     .map(({ place }) => valueAt(values, place[state.curveAxis]));
 }
 
-// On powers of ten where that is asked for and means something; by itself where it shows more.
+// Logarithmic if chosen, or automatically if it shows more; only where it is meaningful.
 function colourScaleOf({ variable, scale }) {
   const wanted = scale === "automatic" ? spansDecades(variable) : scale === "log";
   return wanted && suitsLogarithm(variable) ? "log" : "linear";
@@ -110,7 +110,7 @@ export function curveFigure(map, state) {
   };
 }
 
-// null where nothing was recorded of it.
+// null if no energy share is recorded.
 export function budgetFigure(map, state) {
   const shares = dissipating(map.variables);
   if (shares.length === 0 || sliding(map).length === 0) return null;

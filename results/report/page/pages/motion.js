@@ -65,7 +65,7 @@ function stopText({ stopTime, units }) {
   return stopTime === 0 ? "the start" : quantityText(stopTime, units.time, 8);
 }
 
-// What is recorded of a motion as one number and has no place of its own.
+// The single numbers of a motion that the page shows nowhere else.
 function factsTable(motion) {
   const { group, hysteretic, duration, discretisationError, units, kind } = motion;
   const reference = hysteretic ? group.column("reference_frequency") : undefined;

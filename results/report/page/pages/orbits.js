@@ -1,4 +1,4 @@
-// The orbits that a study keeps: one at a time on the page, all of them for papers.
+// The recorded orbits: one at a time on the page, all of them for papers.
 import { orbitFigures, orbitLabel, orbitSamples } from "../figures/orbit_figures.js";
 import { choice } from "../parts/controls.js";
 import { element, section } from "../parts/elements.js";
@@ -12,7 +12,7 @@ function figuresOf(group, k) {
   return orbitFigures(orbitSamples(group, k), orbitLabel(group, k), `_${k + 1}`);
 }
 
-// null where there are none.
+// null if there are none.
 export function orbitSection(record) {
   const group = record.groups.get("orbits");
   const count = countOf(group);

@@ -1,11 +1,11 @@
-// Which parts a result has: those of its map, and those of each of its groups.
+// The parts of a result's page: those of its map, and those of each of its groups.
 import { tuningFigures, tuningParts } from "./tuning.js";
 import { identificationFigures, identificationParts } from "./identification.js";
 import { crankFigures, crankParts } from "./crank.js";
 import { hasMotion, motionFigures, motionParts } from "./motion.js";
 import { sweepFigures, sweepParts } from "./sweep.js";
 
-// parts(record): elements of the page.  figures(record): figures that need no hand, for papers.
+// parts(record): elements of the page.  figures(record): figures without interaction, for papers.
 const kinds = [
   { has: (record) => record.map !== null, parts: sweepParts, figures: sweepFigures },
   { has: (record) => record.groups.has("optimum"), parts: tuningParts, figures: tuningFigures },

@@ -30,7 +30,7 @@ function figureOf(group, state) {
   };
 }
 
-// Of a map without parameters beside the frequency.
+// The table for a map whose only axis is the frequency.
 function resonanceNumbers(group) {
   const rows = resonanceQuantities(group).map(({ name, unit, values }) => [
     words(name),
@@ -62,7 +62,7 @@ function resonanceExplorer(record, group) {
   return [controls, shown.card];
 }
 
-// null where nothing was solved.
+// null if no resonance was solved.
 export function resonanceSection(record) {
   const group = record.groups.get("resonance");
   if (!group?.along("curve").length) return null;
@@ -72,7 +72,7 @@ export function resonanceSection(record) {
   return section("Resonance", ...shown);
 }
 
-// One figure of each quantity, over the first parameter.
+// One figure for each quantity, over the first parameter.
 export function resonanceFigures(record) {
   const group = record.groups.get("resonance");
   if (!group || !resonanceParameters(group).length) return [];

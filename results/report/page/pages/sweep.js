@@ -1,4 +1,4 @@
-// The page of a map: what is missing, the map itself, kept orbits, resonances, axes, what is not in the page.
+// The page of a map: what is missing, the map itself, recorded orbits, resonances, axes, quantities not in the page.
 import { coordinateLabel } from "../axes.js";
 import { element, section, table } from "../parts/elements.js";
 import { failedPoints, missingPoints } from "../parts/missing_points.js";

@@ -1,13 +1,13 @@
-// What of a map is being looked at: quantity, axes, the point of the sliders and those picked for curves.
+// The state of a map's view: quantity, axes, the sliders' point and the points picked for curves.
 import { fractionalIndex } from "../axes.js";
 import { meaningOf } from "../record.js";
 
-// The axes along which there is something to move.
+// The axes with more than one point.
 export const sliding = (map) => map.axes.map((_, a) => a).filter((a) => map.axes[a].size > 1);
 
 const manyPoints = 8;
 
-// The frequency, or whatever has most points, lies along x; the next along y.
+// The frequency, else the axis with most points, lies along x; the next along y.
 function axesOf(map) {
   const bySize = sliding(map).sort((a, b) => map.axes[b].size - map.axes[a].size);
   const isFrequency = (a) =>
@@ -17,9 +17,9 @@ function axesOf(map) {
   return { x, y: bySize.find((axis) => axis !== x) ?? null };
 }
 
-// (row of /borders, whether its edge lies along this axis) -> fractional index along the axis: by a parameter that
-// rises or falls all along, else the point of the grid or the one stretch between two on which all its parameters
-// fit; NaN if there is none, or several.
+// (row of /borders, whether its edge lies along this axis) -> fractional index along the axis: from a monotone
+// parameter, else from the one grid point, or the one interval between two, that fits all parameters; NaN if none or
+// several fit.
 function placeAlong({ coordinates, size }, group) {
   const known = coordinates.filter(({ name }) => group.has(name));
   const ordered = known.find(({ monotone }) => monotone);
@@ -37,7 +37,7 @@ function placeAlong({ coordinates, size }, group) {
   };
 }
 
-// How far along the stretch from point i to the next one all coordinates stand; NaN if not equally far.
+// The fraction of the interval from point i to the next at which all coordinates lie; NaN if they differ.
 function shareOfStretch(known, i, value) {
   const shares = known.map((one) => {
     const [from, to] = [one.values[i], one.values[i + 1]];
@@ -119,13 +119,13 @@ export function firstState(record) {
   };
 }
 
-// The contact whose borders and regimes are shown: that of a regime or of stops which is the quantity, else the chosen.
+// The contact whose borders and regimes are shown: that of the quantity, if a regime or stops, else the chosen one.
 export function shownContact({ variable, contact, crossings }) {
   const own = variable.name.replace(/_(regime|stops)$/, "");
   return crossings.has(own) ? own : contact;
 }
 
-// The points whose curves are shown: those kept, then the current one if it is not among them.
+// The points whose curves are shown: the picked ones, then the current one unless it is among them.
 export function curvePoints(state) {
   const same = (a, b) => a.every((i, axis) => axis === state.curveAxis || i === b[axis]);
   return state.kept.some((index) => same(index, state.index)) ? state.kept : [...state.kept, state.index];

@@ -1,4 +1,4 @@
-// The page of a tuning: what it means, the optimum and what holds it, and how it came about.
+// The page of a tuning: its results as text, the optimum and what holds it, and its progress.
 import { symbolText } from "../axes.js";
 import { columnFigure, responseFigure, scheduleFigure, weightFigure } from "../figures/tuning_response.js";
 import {
@@ -21,7 +21,7 @@ function per(value, objectiveUnit, unit) {
   return `${quantityText(value, objectiveUnit)} per ${unitText(unit) || "unit"}`;
 }
 
-// Of a design that is no proven optimum the bounds that it lies on.
+// The bounds that a parameter lies on, in a design that is no proven optimum.
 function metText({ scheduled, ...parameter }) {
   const { lower, upper } = knotsAtBounds(parameter);
   const of = (end, { length }) => `on its ${end} bound${scheduled ? ` at ${length} knots` : ""}`;
@@ -39,7 +39,7 @@ function heldText(tuning, parameter) {
   return held || "\u2013";
 }
 
-// What moving the bounds that hold the design outwards gives.
+// The gain of moving outwards the bounds that hold the design.
 function boundsTable(tuning) {
   const rows = tuning.parameters.flatMap((parameter) =>
     heldBounds(tuning, parameter).map(({ end, knots, multiplier, gain }) => [
@@ -123,7 +123,7 @@ function schedulesTables({ parameters, band }) {
     );
 }
 
-// What a peak does for the optimum; only peaks of a worst case hold one.
+// The share of a peak in holding the optimum; only peaks of a worst case can hold one.
 function shareText({ converged }, { active, asHigh, share }) {
   if (!converged) return "not known";
   if (active) return `${numberText(100 * share, 4)} %`;
@@ -204,7 +204,7 @@ function limitsTable(tuning) {
   ];
 }
 
-// "8, the best is number 3, counted from 0", or of one start what it is.
+// "8, the best is number 3, counted from 0"; one start has no best.
 function startsText({ group, texts }) {
   const number = group.values("start_objective")?.length ?? 1,
     start = texts.start ?? "given";
@@ -246,7 +246,7 @@ function worstTable(tuning) {
   return table(["design", objectiveLabel(tuning)], rows, { numeric: [1] });
 }
 
-// What another objective the last rounds press down, if they do.
+// The caption states the other objective of the last rounds, if they have one.
 function roundsCaption(tuning) {
   const count = settlingRounds(tuning);
   if (count === 0) return "Rounds of the tuning.";
@@ -336,7 +336,7 @@ function progressFigures(tuning) {
   ];
 }
 
-// No section for nothing.
+// The section, unless it is empty.
 function sectionOf(title, children) {
   const known = children.filter((child) => child !== null);
   return known.length ? [section(title, ...known)] : [];

@@ -2,7 +2,7 @@
 import { coordinateText } from "../axes.js";
 import { element } from "./elements.js";
 
-// A drop-down list of [value, text]; chosen(value) is called when another is taken.
+// A drop-down list of [value, text]; chosen(value) is called when the choice changes.
 export function choice(label, options, selected, chosen) {
   const list = element(
     "select",
@@ -19,7 +19,7 @@ export function tick(label, checked, changed) {
   return element("label", { class: "control tick" }, box, element("span", {}, label));
 }
 
-// Over the points of an axis {name, size, coordinates}; at(): the index it stands at, moved(index).
+// Over the points of an axis {name, size, coordinates}; at(): the current index, moved(index).
 // Returns {row, refresh}.
 export function slider({ name, size, coordinates }, at, moved) {
   const text = () => coordinates.map((coordinate) => coordinateText(coordinate, at())).join(", ");

@@ -12,7 +12,7 @@ export function element(name, attributes = {}, ...children) {
   return made;
 }
 
-// head: texts; rows: arrays of texts or elements; a cell that is a number stands right.
+// head: texts; rows: arrays of texts or elements; numbers are aligned right.
 export function table(head, rows, { caption, numeric = [] } = {}) {
   const cell = (name, content, column) =>
     element(name, numeric.includes(column) ? { class: "number" } : {}, content ?? "");

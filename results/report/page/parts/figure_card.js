@@ -1,9 +1,9 @@
-// A figure on the page: drawn to the width there is, with buttons for its SVG and its CSV.
+// A figure on the page: drawn to the available width, with buttons for its SVG and its CSV.
 import { csvText } from "../csv.js";
 import { svgFile } from "../svg_file.js";
 import { element } from "./elements.js";
 
-const ratio = 0.6; // height over width, where the figure does not say
+const ratio = 0.6; // height over width, unless the figure states it
 const leastHeight = 260,
   mostHeight = 560;
 
@@ -30,7 +30,7 @@ function download(name, type, text) {
   setTimeout(() => URL.revokeObjectURL(url), 10_000);
 }
 
-// record: what the figure is of. Returns {card, plot: what holds the figure, svg: as it is shown, redraw}.
+// record: the result that the figure shows. Returns {card, plot: the figure's container, svg: as shown, redraw}.
 export function figureCard(figure, record) {
   const plot = element("div", { class: "plot" });
   const heading = element("h3", {}, figure.title);

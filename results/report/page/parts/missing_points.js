@@ -2,7 +2,7 @@
 import { meaningOf } from "../record.js";
 import { element, section } from "./elements.js";
 
-// What is not there, and why; [] where nothing is missing.
+// Notes on the missing points, with their causes; [] if none are missing.
 export function missingPoints(record) {
   const { map, provenance } = record;
   const notes = [];

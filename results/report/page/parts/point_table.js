@@ -1,10 +1,10 @@
-// One point of the map: its parameters, all quantities the page holds, and the command that computes it again.
+// One point of the map: its parameters, all quantities on the page, and the command that computes it again.
 import { axisText, coordinateText, pointCommand } from "../axes.js";
 import { meaningOf } from "../record.js";
 import { numberText, unitText, words } from "../units.js";
 import { element, table } from "./elements.js";
 
-const shownDigits = 8; // where the page holds all
+const shownDigits = 8; // if the page has all digits
 
 // A quantity at a point as text, in the unit of the record.
 export function valueText(map, variable, index) {
@@ -28,7 +28,7 @@ function pointPlace(map, index) {
   );
 }
 
-// For a pointer over the map.
+// The tip shown while the pointer is over the map.
 export function pointTip(record, index, first) {
   const { map } = record;
   const shown = [first, ...map.variables.filter((variable) => variable !== first)].slice(0, 14);
@@ -41,7 +41,7 @@ export function pointTip(record, index, first) {
   );
 }
 
-// What the words of a regime mean, where there is one.
+// The meaning of the regimes' names, if a regime is recorded.
 function regimeNote({ variables }) {
   return variables.some(({ name }) => name.endsWith("_regime"))
     ? "Regimes, by the stops of finite length in a period: non stop, none; one stop, one or two; multi stop, " +
