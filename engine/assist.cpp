@@ -20,7 +20,7 @@ using Clock = std::chrono::steady_clock;
 using Kind = RankMessage::Kind;
 using namespace std::chrono_literals;
 
-// The next message of rank 0. Looked for now and then: MPI itself would wait at full speed.
+// The next message of rank 0. It is polled with pauses: MPI itself would wait at full speed.
 RankMessage next_message(Ranks& ranks) {
   for (;;) {
     if (const auto message = ranks.receive()) return decode(message->bytes);
@@ -33,7 +33,7 @@ class Asking {
  public:
   Asking(Ranks& ranks, TeamWork& work) : ranks_(ranks), work_(work) {}
 
-  // Takes in what has come, asks for tiles when there are none left, and tells now and then how far it is.
+  // Handles the messages received, asks for tiles when none are left, and reports progress now and then.
   void look(bool stop_asked) {
     while (const auto message = ranks_.receive()) take_in(decode(message->bytes));
     if (stop_asked) drop();
@@ -69,7 +69,7 @@ class Asking {
   Clock::time_point told_ = Clock::now();
 };
 
-// What it finished, when the log is closed and on the disk.
+// Returns the finished counts once the log is closed and on the disk.
 Finished compute_tiles(const Job& job, const RunOptions& options, int threads, const StopSignals& signals) {
   const LogHeader study{.fingerprint = job.fingerprint, .tiles = job.tiles};
   ShardLog log(own_log(options), study);

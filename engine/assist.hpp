@@ -10,8 +10,8 @@ namespace frahm::engine {
 // Computes the tiles that rank 0 deals out and saves them in its own log; rank 0 calls run() with the same
 // job and options. Returns the exit code with which rank 0 ends the program, even without a run if all was
 // already computed. On SIGTERM, SIGINT or SIGUSR1 it leaves the run after the tiles in hand, and rank 0 then
-// stops all. Throws std::invalid_argument, Locked, IoError and the first exception of a kernel, then call
-// tell_failure().
+// stops all. Throws std::invalid_argument, Locked, IoError and the first exception of a kernel; the caller
+// then calls tell_failure().
 int assist(const Job& job, const RunOptions& options);
 
 // Reports to rank 0 that this rank cannot go on, and waits for it to end the program; returns the exit code.

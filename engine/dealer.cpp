@@ -64,7 +64,7 @@ void Dealer::welcome(int rank, const RankMessage& message) {
 }
 
 void Dealer::deal_to(int rank) {
-  if (stopping_) return;  // it has been told
+  if (stopping_) return;  // the rank has its `stop`
   std::vector<std::uint64_t> block;
   {
     const std::lock_guard turn(turn_);
@@ -107,7 +107,7 @@ std::vector<std::uint64_t> Dealer::take_block(int threads) {
   return {begin, begin + static_cast<std::ptrdiff_t>(size)};
 }
 
-// Ranks not heard of yet count as having as many threads as rank 0.
+// Ranks without a message yet are assumed to have as many threads as rank 0.
 int Dealer::expected_threads() const {
   int all = 0;
   for (const Member& member : members_) all += member.threads > 0 ? member.threads : members_.front().threads;

@@ -28,19 +28,19 @@ class RankFailed : public std::runtime_error {
 // (engine/handout), as they ask for them.
 class Dealer {
  public:
-  // study: its mark, by which the others know that they have the same.  threads: of rank 0.  tiles: to be
+  // study: its mark, by which each rank checks that it has the same study.  threads: of rank 0.  tiles: to be
   // computed, in order.  own: the queue of rank 0.
   Dealer(Ranks& ranks, std::uint64_t study, int threads, std::vector<std::uint64_t> tiles, TileQueue& own);
 
   // Answers all messages that have come, and fills the own queue when it is empty; called again and again by
-  // one thread until all_have_left(). stop_asked: from then on no tile is dealt out, and the others are told.
+  // one thread until all_have_left(). stop_asked: no more tiles are dealt out, and the others get `stop`.
   void serve(bool stop_asked);
 
   // Whether no other rank computes or will compute any more.
   bool all_have_left() const { return present_ == 0; }
 
   // The functions below may be called from other threads.
-  Finished finished() const;        // by the other ranks, as they told last
+  Finished finished() const;        // by the other ranks, as last reported
   int threads() const;              // of all ranks
   std::string stop_reason() const;  // of the first rank that was stopped by itself; empty if none was
 
@@ -50,7 +50,7 @@ class Dealer {
  private:
   struct Member {
     std::string name;  // "rank 3 (process 4711 on node17)"
-    int threads = 0;   // 0: not heard of yet
+    int threads = 0;   // 0: no message yet
     bool at_work = false, has_left = false;
     Finished finished = {};
   };
@@ -71,7 +71,7 @@ class Dealer {
   TileQueue& own_;
   bool own_is_closed_ = false, stopping_ = false;
   std::atomic<int> present_;
-  mutable std::mutex turn_;  // guards what follows
+  mutable std::mutex turn_;  // guards the members below
   std::vector<Member> members_;
   std::string stop_reason_;
   std::optional<RankFailed> failure_;

@@ -26,7 +26,7 @@ auto uninterrupted(Call call) {
   return result;
 }
 
-// What the holder of the lock left in the file; empty if nothing.
+// The text that the holder of the lock left in the file; empty if none.
 std::string read_owner(const File& file, std::uint64_t owner_at) {
   std::array<char, owner_size> text{};
   file.read_at(owner_at, std::as_writable_bytes(std::span(text)));

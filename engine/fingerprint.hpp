@@ -7,7 +7,7 @@
 
 namespace frahm::engine {
 
-// What a result depends on, as two hashes made by the caller (hex text, 1 to 64 characters each).
+// Two hashes, made by the caller, of all that a result depends on (hex text, 1 to 64 characters each).
 struct Fingerprint {
   std::string physics;  // inputs, solver version, precision
   std::string grid;     // which points, and how they are cut into tiles

@@ -14,7 +14,7 @@ namespace {
 
 using Turn = std::function<void()>;
 
-// Hands pieces out and takes what they return in their order. All but the constructor is thread-safe.
+// Hands out pieces and takes their turns in order. All but the constructor is thread-safe.
 class Pieces {
  public:
   Pieces(std::uint64_t pieces, std::uint64_t most_at_once) : pieces_(pieces), most_at_once_(most_at_once) {}
@@ -27,7 +27,7 @@ class Pieces {
     return taken_++;
   }
 
-  // Keeps the turn of a piece; then, unless another thread is doing so, takes all turns that have come.
+  // Stores the turn of a piece; then takes all turns that are due, unless another thread is doing so.
   void give(std::uint64_t piece, Turn turn) {
     std::unique_lock lock(mutex_);
     waiting_.emplace(piece, std::move(turn));
@@ -54,7 +54,7 @@ class Pieces {
 
  private:
   const std::uint64_t pieces_, most_at_once_;
-  std::mutex mutex_;  // guards what follows
+  std::mutex mutex_;  // guards the members below
   std::condition_variable progress_;
   std::uint64_t taken_ = 0, used_ = 0;
   bool in_use_ = false;  // by a thread that takes turns
@@ -62,7 +62,7 @@ class Pieces {
   std::map<std::uint64_t, Turn> waiting_;
 };
 
-// What each thread does.
+// The work of each thread.
 void make_pieces(Pieces& pieces, const std::function<PieceWork()>& make_work,
                  const std::function<bool()>& stop_asked) {
   try {

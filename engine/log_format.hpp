@@ -40,7 +40,7 @@ constexpr std::size_t record_overhead = record_head_size + sizeof(std::uint32_t)
 // Throws std::invalid_argument for a hash of the fingerprint that is empty or longer than 64 characters.
 Bytes encode_header(const LogHeader& header);
 
-// Where the present or last writer of a log began.
+// The start of the present or last writer of a log.
 struct WriterStart {
   std::chrono::system_clock::time_point time;  // to the millisecond
   std::uint64_t good_bytes = header_size;      // what the log held then
@@ -71,7 +71,7 @@ bool read_record(const File& log, std::uint64_t offset, std::uint64_t file_size,
 std::uint64_t tile_of(const Bytes& record);
 std::span<const std::byte> payload_of(const Bytes& record);
 
-// What a log holds.
+// The extent of a log.
 struct LogExtent {
   std::uint64_t records = 0;
   std::uint64_t good_bytes = 0;  // header and records up to the first bad one

@@ -18,9 +18,9 @@
 namespace frahm::engine {
 namespace {
 
-// What the launchers of the usual implementations leave in the environment of the processes they start. MPI
-// is not begun without one: alone it would cost every short command its start, and some clusters forbid it on
-// their login nodes.
+// Whether the environment has a variable set by the launchers of the usual implementations. MPI is not
+// started without a launcher: its start would slow every short command, and some clusters forbid it on their
+// login nodes.
 bool is_launched_by_mpi() {
   constexpr std::array launchers{"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "MV2_COMM_WORLD_SIZE"};
   return std::any_of(launchers.begin(), launchers.end(), [](const char* name) { return std::getenv(name); });
@@ -75,7 +75,7 @@ class MpiRanks : public Ranks {
   int take_machine() override {
     cpu_set_t all = own_mask();
     for (const cpu_set_t& mask : machine_) CPU_OR(&all, &all, &mask);
-    ::sched_setaffinity(0, sizeof all, &all);  // where that is not allowed, its own processors have to do
+    ::sched_setaffinity(0, sizeof all, &all);  // if not allowed, its own processors must do
     return static_cast<int>(machine_.size());
   }
 
@@ -99,7 +99,7 @@ class MpiRanks : public Ranks {
   }
 
  private:
-  // Its bytes have to stay where they are until they are on their way.
+  // The bytes must not move until they are sent.
   struct Sending {
     explicit Sending(const Bytes& message) : bytes(message) {}
     Bytes bytes;

@@ -19,8 +19,8 @@ double percent(const Tally& tally) {
                            : 100.0 * static_cast<double>(tally.done) / static_cast<double>(tally.points);
 }
 
-// Points per second that this run computes; nothing before the first one. Those that it finds in an earlier
-// result cost next to nothing, and may come first: they say nothing of the time the others take.
+// Points per second that this run computes; nothing before the first one. Points from an earlier result are
+// left out: they cost next to nothing and may come first.
 std::optional<double> rate(const Tally& tally, double seconds) {
   const std::uint64_t found = tally.resumed + tally.reused;
   const std::uint64_t computed = tally.done > found ? tally.done - found : 0;
@@ -134,7 +134,7 @@ void Progress::report(const Tally& tally, bool last) {
 
 std::string readable_time(double seconds) {
   const auto whole = [](double value) { return static_cast<std::uint64_t>(value); };
-  const double longest = 86400.0 * 365.0 * 1000.0;  // beyond it the number means nothing
+  const double longest = 86400.0 * 365.0 * 1000.0;  // beyond it the number is meaningless
   const std::uint64_t s = whole(std::ceil(std::min(seconds, longest)));
   if (s < 60) return fmt::format("{} s", s);
   if (s < 3600) return fmt::format("{} min {} s", s / 60, s % 60);

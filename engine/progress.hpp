@@ -15,7 +15,7 @@ enum class ProgressStyle {
   none,
 };
 
-// How far a run is, counted in points because tiles differ in size.
+// The progress of a run, counted in points because tiles differ in size.
 struct Tally {
   std::uint64_t points = 0;   // to do in all
   std::uint64_t done = 0;     // finished, by earlier runs too

@@ -9,7 +9,7 @@
 
 namespace frahm::engine {
 
-// What a rank has finished in this run.
+// The work that a rank has finished in this run.
 struct Finished {
   std::uint64_t tiles = 0, points = 0;
   std::uint64_t reused = 0;            // of the points: not computed but found in an earlier result

@@ -36,7 +36,7 @@ void check(const RunOptions& options) {
   }
 }
 
-// Removes what RunOptions::fresh says.
+// Removes the logs named by RunOptions::fresh.
 void discard_logs(const RunOptions& options, const LogHeader& study) {
   std::vector<std::filesystem::path> logs = find_logs(options.output);
   if (options.shard.count > 1) {
@@ -46,10 +46,10 @@ void discard_logs(const RunOptions& options, const LogHeader& study) {
   remove_logs(logs);
 }
 
-// What is left of the shard's tiles when the logs beside the output have been read.
+// The tiles of the shard that are missing in the logs beside the output.
 struct Remainder {
   std::vector<std::uint64_t> tiles;  // in order
-  Summary so_far;                    // counts what the logs keep
+  Summary so_far;                    // counts of the logs
 };
 
 Remainder read_logs(const Job& job, const RunOptions& options, const LogHeader& study) {
@@ -73,7 +73,7 @@ Remainder read_logs(const Job& job, const RunOptions& options, const LogHeader& 
   return remainder;
 }
 
-// How far the whole run is.
+// The progress of the whole run.
 Tally tally_of(const Tally& found, const TeamWork& work, const std::optional<Dealer>& dealer) {
   Finished finished = work.finished();
   if (dealer) finished += dealer->finished();
@@ -84,7 +84,7 @@ Tally tally_of(const Tally& found, const TeamWork& work, const std::optional<Dea
   return now;
 }
 
-// The other ranks, as long as it lives: rank 0 serves them beside its own work. Alone, it is nothing.
+// While it exists, rank 0 serves the other ranks beside its own work. Without other ranks it does nothing.
 class Attendance {
  public:
   Attendance(std::optional<Dealer>& dealer, StopAsked stop_asked) : dealer_(dealer) {
@@ -110,7 +110,7 @@ std::optional<Dealer> supply(const RunOptions& options, const LogHeader& study, 
   return std::nullopt;
 }
 
-// Adds to a summary what this run did.
+// Adds the counts of this run to a summary.
 void count(const TeamWork& work, const std::optional<Dealer>& dealer, int threads, Ranks* ranks,
            Summary& summary) {
   const Finished elsewhere = dealer ? dealer->finished() : Finished{};
@@ -159,7 +159,7 @@ Summary run(const Job& job, const RunOptions& options) {
   const bool all = summary.tiles_computed == tiles.size();
   summary.outcome = all ? Outcome::complete : Outcome::stopped;
   summary.reason = all ? "every tile is finished" : stop.reason();
-  if (summary.reason.empty()) summary.reason = dealer->stop_reason();  // another rank asked
+  if (summary.reason.empty()) summary.reason = dealer->stop_reason();  // another rank stopped
   return summary;
 }
 

@@ -76,8 +76,8 @@ struct Summary {
   Tally points;
   int threads = 0;  // of all ranks
   int ranks = 1;
-  int threads_here = 0;  // of this machine, for the work left when all ranks are done
-  double seconds = 0.0;  // wall time
+  int threads_here = 0;                // of this machine, for the work left when all ranks are done
+  double seconds = 0.0;                // wall time
   double cpu_seconds_elsewhere = 0.0;  // of the other ranks
   std::vector<UnusedBytes> unused;     // ends of logs that could not be used when the run began
 };

@@ -18,7 +18,7 @@ ShardLog::ShardLog(const std::filesystem::path& path, const LogHeader& header)
   found_ = read_records(file_, *kept, [](auto&&...) {});
   if (*kept != header) {
     if (found_.records > 0) throw ResumeRefused(path, *kept, header);
-    begin(header);  // nothing is kept in it, so there is nothing to protect
+    begin(header);  // it holds no record, so nothing is lost
     return;
   }
   file_.write_at(owner_offset, encode_writer({std::chrono::system_clock::now(), found_.good_bytes}));
@@ -51,8 +51,8 @@ void ShardLog::append(std::uint64_t tile, std::span<const std::byte> payload) {
   try {
     file_.write_at(end_, record);
   } catch (const IoError&) {
-    // Cut off the part that was written. Should even that fail, the reader will cut there, and the next
-    // record is written over it.
+    // Cut off the part that was written. If that fails too, the reader stops there, and the next record
+    // overwrites it.
     try {
       file_.truncate(end_);
     } catch (const IoError&) {

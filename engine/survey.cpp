@@ -24,7 +24,7 @@ WriterState state_of_writer(const std::filesystem::path& log) {
   return state;
 }
 
-// Of each log of the index the points its present writer has finished itself.
+// For each log of the index the points finished by its present writer.
 std::vector<std::uint64_t> points_of_writers(const Job& job, const TileIndex& index,
                                              const std::vector<WriterState>& writers) {
   std::vector<std::uint64_t> points(writers.size(), 0);
@@ -37,10 +37,10 @@ std::vector<std::uint64_t> points_of_writers(const Job& job, const TileIndex& in
   return points;
 }
 
-// Of all writers at work; nothing where none is, or one of them is unknown.
+// The rate of all writers at work; nothing if there is none or the rate of one is unknown.
 std::optional<double> rate(const std::vector<WriterState>& writers, const std::vector<std::uint64_t>& points,
                            std::chrono::system_clock::time_point now) {
-  constexpr double least_seconds = 1.0;  // a younger writer counts as one that has not begun
+  constexpr double least_seconds = 1.0;  // a younger writer counts as not begun
   std::optional<double> sum;
   for (std::size_t i = 0; i < writers.size(); ++i) {
     if (!writers[i].at_work) continue;

@@ -17,7 +17,7 @@ void TeamWork::compute(int threads, const StopAsked& stop_asked) {
   });
 }
 
-// What each thread does: takes the next tile, computes it and keeps it.
+// The work of each thread: takes the next tile, computes it and saves it.
 void TeamWork::take_part(const StopAsked& give_up) {
   const Kernel kernel = job_.make_kernel(give_up);
   Bytes record;

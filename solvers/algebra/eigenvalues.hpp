@@ -4,7 +4,7 @@
 
 namespace frahm::algebra {
 
-// Of an n x n matrix, n.
+// The n eigenvalues of an n x n matrix.
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& A);
 
 }  // namespace frahm::algebra

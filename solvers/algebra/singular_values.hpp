@@ -4,7 +4,7 @@
 
 namespace frahm::algebra {
 
-// Of A = U diag(values) V^T, m x n, with k = min(m, n).
+// Singular values of A = U diag(values) V^T, m x n, with k = min(m, n).
 struct SingularValues {
   Eigen::VectorXd values;  // k, descending
   Eigen::MatrixXd V;       // n x k

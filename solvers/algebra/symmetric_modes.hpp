@@ -4,7 +4,7 @@
 
 namespace frahm::algebra {
 
-// Of symmetric n x n matrices.
+// Eigenvalues and eigenvectors of symmetric n x n matrices.
 struct SymmetricModes {
   Eigen::VectorXd values;   // n, ascending
   Eigen::MatrixXd vectors;  // n x n, in columns

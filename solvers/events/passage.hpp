@@ -9,8 +9,8 @@ namespace frahm::periodic {
 // A change of mode: the event that ended the segment before it, and its outcome. Sensitivities, histories and
 // the certificate read these data instead of deducing them from the modes on both sides.
 struct Event {
-  std::size_t segment = 0;  // the segment that it ends; the next one begins with it
-  ContactMask arrived = 0;  // contacts whose velocity reached zero here and that now stick or slide back
+  std::size_t segment = 0;   // the segment that it ends; the next one begins with it
+  ContactMask arrived = 0;   // contacts whose velocity reached zero here and that now stick or slide back
   ContactMask released = 0;  // contacts that stuck before and now slide
   // The contact that ended the segment; an arrival counts before a release (-1: none changed). Then the slope
   // of its guard function [m a step^2 or N a step], seen from inside the segment, and the side of the limit

@@ -26,7 +26,7 @@ void saltate(const Flow<N, H>& flow, ContactMask arrived, ContactMask released, 
   Eigen::Matrix<double, N, S::kState> correction;
   correction.setZero(n, eq.states());
   typename S::Vector left = w.left.a - before.a;        // the part of the jump that no contact has added yet
-  using Earlier = Eigen::Matrix<double, 1, S::kState>;  // by which a contact arrives, a unit of the state
+  using Earlier = Eigen::Matrix<double, 1, S::kState>;  // time lead of an arrival, a unit of the state
   Earlier earlier = Earlier::Zero(eq.states());
   bool is_first = true;
   for (Eigen::Index j = 0; j < eq.contacts(); ++j) {

@@ -56,7 +56,7 @@ struct History {
   }
 };
 
-// So many phases omega t at equal intervals over a period, both its ends included [rad].
+// `samples` phases omega t at equal intervals over a period, both ends included [rad].
 inline std::vector<double> phases_of_a_period(std::size_t samples) {
   std::vector<double> phases(samples, 0.0);
   for (std::size_t i = 1; i < samples; ++i)

@@ -60,7 +60,7 @@ struct Configuration {
   const typename S::ContactSquare& constraint() const { return constraint_; }  // G^+
   const typename S::VectorByContacts& reaction() const { return reaction_; }   // M^-1 W G^+
 
-  // s' without the support's part.
+  // s' without the part of the support.
   template <class Velocities, class Forces>
   auto internal_rates(const StepEquations<N, H>& equations, const Velocities& v, const Forces& s) const {
     return spring.asDiagonal() * (equations.D.transpose() * v) - equations.internal_rate.asDiagonal() * s;
@@ -143,7 +143,7 @@ void Configuration<N, H>::set_system(const StepEquations<N, H>& equations, Conta
   const typename S::VectorByContacts MW = equations.M_inverse * equations.W;
 
   // G_S^+ with G = W^T M^-1 W over the held contacts. Their directions may be linearly dependent; of the
-  // forces that then serve equally, those of least sum (lambda_j / F_j)^2 are taken.
+  // forces that are then equivalent, those of least sum (lambda_j / F_j)^2 are taken.
   const ContactMask held = stuck & equations.holding;
   constraint_.setZero(m, m);
   if (count(held) == 1) {

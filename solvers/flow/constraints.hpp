@@ -5,8 +5,8 @@
 // Linear algebra of stuck contacts, for any number of them.
 namespace frahm::periodic {
 
-// G^+ for a symmetric positive semidefinite G (m x m): lambda = G^+ b solves G lambda = b; where several
-// lambda do, that of least sum (lambda_j / weight_j)^2. Rows and columns of weight 0 are left out (zero).
+// G^+ for a symmetric positive semidefinite G (m x m): lambda = G^+ b solves G lambda = b; if there are
+// several, that of least sum (lambda_j / weight_j)^2. Rows and columns of weight 0 are left out (zero).
 Eigen::MatrixXd weighted_pseudo_inverse(const Eigen::MatrixXd& G, const Eigen::VectorXd& weight);
 
 }  // namespace frahm::periodic

@@ -16,15 +16,15 @@
 // stores no motion: code that follows a motion has its own workspace (events/passage.hpp).
 namespace frahm::periodic {
 
-// Which contacts stick and in which direction the others slide, with the friction forces that follow.
+// The contacts that stick, the directions in which the others slide, and the resulting friction forces.
 template <int N, int H>
 struct Mode {
   ContactMask stuck = 0, positive = 0;  // positive: sliding with w^T q' > 0
   std::size_t configuration = 0;
-  typename Sizes<N, H>::Contacts friction;    // sigma_j F_j of contacts that slide; 0 where it is a state [N]
-  typename Sizes<N, H>::Vector acceleration;  // Af * friction
-  typename Sizes<N, H>::State step;           // Ef * friction
-  typename Sizes<N, H>::Series series;        // series_f * friction
+  typename Sizes<N, H>::Contacts friction;     // sigma_j F_j of contacts that slide; 0 if a state [N]
+  typename Sizes<N, H>::Vector acceleration;   // Af * friction
+  typename Sizes<N, H>::State step;            // Ef * friction
+  typename Sizes<N, H>::Series series;         // series_f * friction
   typename Sizes<N, H>::Contacts stuck_force;  // Lf * friction
 
   double sign(Eigen::Index contact) const { return contains(positive, contact) ? 1.0 : -1.0; }

@@ -7,11 +7,11 @@
 #include "solvers/identification/identification.hpp"
 #include "solvers/identification/linear_fit.hpp"
 
-// What the methods for free vibration have in common.
+// Common parts of the methods for free vibration.
 namespace frahm::identification {
 
 // "" where the extremes can be used: at least `least` of them, finite, times increasing and about
-// evenly spaced, maxima and minima in turn, not growing; else the sentence that says why not.
+// evenly spaced, maxima and minima in turn, not growing; else a sentence that says why not.
 std::string unless_decaying(const DecayExtrema& extrema, std::size_t least);
 
 // The standard errors of the extremes, or ones where they are not known.

@@ -52,7 +52,7 @@ Recursion regression(const Eigen::VectorXd& x, const Eigen::VectorXd& sigma, boo
   return {beta, fit.p[1] / (1.0 + beta), with_offset ? fit.p[2] / (1.0 + beta) : 0.0};
 }
 
-// How zeta and x_f of the regression change with each extreme: central differences serve for error bars.
+// How zeta and x_f of the regression change with each extreme: central differences suffice for error bars.
 Eigen::MatrixXd regression_slopes(const Eigen::VectorXd& x, const Eigen::VectorXd& sigma, bool with_offset) {
   Eigen::MatrixXd slopes(2, x.size());
   for (Index i = 0; i < x.size(); ++i) {

@@ -11,7 +11,7 @@
 namespace frahm::identification {
 namespace {
 
-// Of a mass on a shaken support, T^2 = (1 + 4 zeta^2 u) / ((1 - u)^2 + 4 zeta^2 u), u = (omega/omega_n)^2.
+// For a mass on a shaken support, T^2 = (1 + 4 zeta^2 u) / ((1 - u)^2 + 4 zeta^2 u), u = (omega/omega_n)^2.
 // With w = sqrt(1 + 8 zeta^2) its peak is T_p^2 = (w + 1)^2 / ((w - 1)(w + 3)) at u = 2 / (w + 1), and
 // T^2 = T_p^2 / 2 a quadratic in u, of product P and squared difference of its roots D^2: with y = w + 1,
 // d = w - 1,
@@ -42,7 +42,7 @@ double of_force(double lower, double upper) {
   return std::sin(0.5 * std::atan((upper - lower) * (upper + lower) / (upper * upper + lower * lower)));
 }
 
-// Peak and natural frequency, omega_peak / omega_n.
+// Peak over natural frequency, omega_peak / omega_n.
 double peak_ratio(double zeta, ResponseTo shaken_by) {
   if (shaken_by == ResponseTo::force) return std::sqrt(1.0 - 2.0 * zeta * zeta);
   return std::sqrt(2.0 / (std::sqrt(1.0 + 8.0 * zeta * zeta) + 1.0));
@@ -65,7 +65,7 @@ std::string wrong(const HalfPowerRows& rows) {
   return "";
 }
 
-// f and its derivatives by omega, lower, upper of the peak; central differences serve for error bars.
+// f and its derivatives by omega, lower, upper of the peak; central differences suffice for error bars.
 using OfPeak = std::function<double(double peak, double lower, double upper)>;
 void add(Identification& result, Estimate estimate, const CurvePeak& peak, const OfPeak& f) {
   constexpr double kStep = 1e-5;

@@ -46,7 +46,7 @@ LeastSquaresFit least_squares(const std::vector<Unknown>& unknowns, const Residu
                               const LeastSquaresOptions& options = {});
 
 // Covariance of the unknowns, s^2 (J^T J)^-1 with s^2 = variance of a residual. By the singular values of J
-// with its columns scaled; unknowns that take part in a direction without any effect have an infinite
+// with its columns scaled; unknowns with a part in a direction without effect have an infinite
 // variance, and NaN covariances.
 // scales: typical sizes of the unknowns.
 Eigen::MatrixXd covariance(const Eigen::MatrixXd& jacobian, double variance, const Eigen::VectorXd& scales);

@@ -14,7 +14,7 @@ namespace frahm::identification {
 // Estimates, by regression of ln|x_i| over the extremes, weighed by their standard errors: log_decrement,
 // damping_ratio, damping_ratio_first_order; from their times damped_frequency, natural_frequency [rad/s];
 // from the first and the last extreme of the cycles alone: log_decrement_over_cycles,
-// damping_ratio_over_cycles, damping_ratio_first_order_over_cycles. cycles: so many from the first extreme;
+// damping_ratio_over_cycles, damping_ratio_first_order_over_cycles. cycles: counted from the first extreme;
 // absent: as many as there are. failure: fewer extremes than 2 cycles + 1 or than three, an oscillation that
 // grows.
 Identification log_decrement(const DecayExtrema& extrema, std::optional<std::size_t> cycles);

@@ -13,7 +13,7 @@ namespace frahm::identification {
 // The residuals of all records as functions of the unknowns.
 class Misfit {
  public:
-  explicit Misfit(const GreyBoxTask& task);  // which must outlive it
+  explicit Misfit(const GreyBoxTask& task);  // the task must outlive it
 
   const std::vector<Unknown>& unknowns() const { return unknowns_; }
   Eigen::VectorXd start() const {
@@ -27,7 +27,7 @@ class Misfit {
     for (const std::vector<double>& weights : weights_) count += weights.size();
     return count;
   }
-  // Which parameter an unknown is.
+  // The parameter of an unknown.
   std::size_t parameter(std::size_t unknown) const { return parameter_[unknown]; }
   Eigen::Index residuals() const {
     std::size_t count = 0;
@@ -39,7 +39,7 @@ class Misfit {
   bool operator()(const Eigen::VectorXd& p, Eigen::VectorXd& r, Eigen::MatrixXd* by);
   // Throws what the mechanics refuses. by, by_fixed: unless null, derivatives by unknowns and fixed ones.
   bool evaluate(const Eigen::VectorXd& p, Eigen::VectorXd& r, Eigen::MatrixXd* by, Eigen::MatrixXd* by_fixed);
-  const std::string& reason() const { return reason_; }  // why there were none
+  const std::string& reason() const { return reason_; }  // why there were no residuals
 
   // From now on follows the first `seconds` of each record, and enough to determine every unknown. False: all
   // records are already followed in full.

@@ -4,7 +4,7 @@
 
 #include "solvers/identification/identification.hpp"
 
-// From ratios to newtons: what is known of one mass on a spring beside its measured motion.
+// Known values of one mass on a spring, beside its measured motion: they turn ratios into forces.
 namespace frahm::identification {
 
 struct OneMass {

@@ -97,7 +97,7 @@ Identification resonance_magnification(const ResponseCurve& curve, double static
   auto found = ratios();
   found[0].value = exact(peak.amplitude);
   found[1].value = magnification_first_order(static_displacement, peak.amplitude);
-  // Central differences serve for error bars.
+  // Central differences suffice for error bars.
   const double slope = (exact(peak.amplitude + h) - exact(peak.amplitude - h)) / (2.0 * h);
   add_from(result, found[0], {{"peak_amplitude", slope}});
   add_from(result, found[1], {{"peak_amplitude", -found[1].value / peak.amplitude}});

@@ -5,7 +5,7 @@
 namespace frahm::mechanics {
 
 // Displacement of a slider driven by a crank of radius R [m] and a rod of length L [m], R < L, at the crank
-// angle theta, counted from the rod's length:
+// angle theta, measured from the rod's length:
 //
 //   a(theta) = R sin(theta) + sqrt(L^2 - R^2 cos^2(theta)) - L
 //            = R sin(theta) + sum_{m >= 0} even[m] cos(2 m theta)
@@ -22,7 +22,7 @@ std::vector<double> crank_even_orders(double radius, double rod, int count, int 
 std::vector<double> crank_even_orders_derivative(double radius, double rod, double radius_by, double rod_by,
                                                  int count, int taylor_order = 0);
 
-// How many even orders it takes until the rest is below 1e-15 R, at most kMostEvenOrders, which serve up to
+// The number of even orders after which the rest is below 1e-15 R, at most kMostEvenOrders, enough up to
 // kLargestCrankRatio.  ratio = R/L in (0, 1).
 int crank_orders_needed(double ratio);
 inline constexpr int kMostEvenOrders = 40;

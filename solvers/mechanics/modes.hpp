@@ -19,7 +19,7 @@ LinearModes linear_modes(const mechanics::Network& network, const mechanics::Net
 void modes_of(const mechanics::LinearSystem& system, std::vector<double>& frequency,
               std::vector<double>& damping);
 
-// Their derivatives along `by`, the derivative of the system; NaN of a mode whose frequency is another's too.
+// Their derivatives along `by`, the derivative of the system; NaN for modes of equal frequency.
 void modes_derivative(const mechanics::LinearSystem& system, const mechanics::LinearSystem& by,
                       std::vector<double>& frequency, std::vector<double>& damping);
 

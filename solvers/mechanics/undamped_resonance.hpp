@@ -13,8 +13,8 @@ struct UndampedMode {
   Eigen::VectorXd shape;
 };
 
-// All undamped modes of a system with its friction sliding. Modes of one frequency are given as a basis of
-// those of them that are undamped.
+// All undamped modes of a system with its friction sliding. For several modes of one frequency:
+// a basis of their undamped combinations.
 std::vector<UndampedMode> undamped_modes(const mechanics::LinearSystem& system);
 
 // Whether an undamped mode is driven at its resonance harder than friction can hold: n omega = omega_phi to

@@ -54,7 +54,7 @@ struct OneStop {
 };
 OneStop one_stop_response(double r, double zeta, double f);
 
-// max|x|: of the response without stops, of that with one stop a half cycle, or 0 where f >= 1; else NaN.
+// max|x| of the response without stops or with one stop a half cycle; 0 for f >= 1; otherwise NaN.
 double classical_amplitude(double r, double zeta, double f);
 
 // Floquet multipliers of a full period.

@@ -6,7 +6,7 @@
 namespace frahm::periodic {
 
 // The largest modulus of the eigenvalues of a square matrix: lim ||A^m||^(1/m) (Gelfand), m = 2^squarings.
-// There is no iteration that could fail; the error is log(condition of the eigenvectors) / m.
+// No iteration can fail; the error is log(condition of the eigenvectors) / m.
 template <class Square>
 double spectral_radius(Square A, int squarings = 36) {
   if constexpr (Square::RowsAtCompileTime == 2) {

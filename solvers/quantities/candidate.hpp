@@ -14,7 +14,7 @@ struct Candidate {
   double s = 0.0;              // steps since the start of that step
   std::ptrdiff_t change = -1;  // the change of mode whose limit it is; -1: none
   bool stationary = true;      // within a segment
-  bool reached = true;         // arrived at here, not held from before
+  bool reached = true;         // reached here, not held from before
   bool can_be_most = true;     // a local maximum of the trace; so is every stationary value that counts
   bool can_be_least = true;    // a local minimum
 };

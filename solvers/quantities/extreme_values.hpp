@@ -14,7 +14,7 @@ namespace frahm::periodic {
 struct Extremes {
   double most = -kInfinity;
   double least = kInfinity;
-  // omega t in [0, 2 pi) at which each is first reached; NaN where it is only held.
+  // omega t in [0, 2 pi) at which each is first reached; NaN if it is held throughout.
   double most_phase = kNone;
   double least_phase = kNone;
 

@@ -13,7 +13,7 @@
 #include "solvers/quantities/request.hpp"
 #include "solvers/quantities/sensitivity_sizes.hpp"
 
-// From an exact orbit to the exact derivatives of the quantities asked for.
+// Computes the exact derivatives of the requested quantities at an exact orbit.
 namespace frahm::periodic {
 
 template <int N, int H>

@@ -34,7 +34,7 @@ class Integrals {
     LinearForm<N, H> force, velocity;
   };
 
-  // Lists what puts energy in during a mode.
+  // Lists the powers that put energy in during a mode.
   using PowersOf = std::function<void(const Mode<N, H>&, std::vector<Power>&)>;
 
   // Over the orbit's steps. The orbit covers half a period if `half_period`, and all integrals are of the

@@ -20,7 +20,7 @@ struct Asked {
   std::size_t trace = 0;
 };
 
-// Everything is SI. Only what the quantities asked for need is filled in (request.hpp).
+// Everything is SI. Only the data that the requested quantities need are filled in (request.hpp).
 // y = (q, v, s, u): displacements [m] and velocities [m/s] of the masses, internal forces [N], and the
 // oscillators of the forcing u = (1, cos(order_1 omega t), sin(order_1 omega t), ...).
 struct Measured {
@@ -32,7 +32,7 @@ struct Measured {
   bool half_period = false;  // x(t + T/2) = -x(t)
 
   std::vector<Extremes> extremes;                  // of each trace
-  std::vector<std::vector<Candidate>> candidates;  // of each trace, where derivatives are asked for
+  std::vector<std::vector<Candidate>> candidates;  // of each trace, if derivatives are requested
 
   Eigen::MatrixXd gram;                     // integral of y y^T over a period [units of y^2 x s]
   Eigen::MatrixXd motion, motion_velocity;  // of the prescribed nodes, rows on u [m], [m/s]

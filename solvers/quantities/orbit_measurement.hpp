@@ -84,7 +84,7 @@ void OrbitMeasurement<N, H>::integrate(const Orbit<N, H>& orbit, OrbitSteps<N, H
   measured.motion_velocity /= eq.step;
 }
 
-// What puts energy in: outside forces on masses, and what drives each prescribed node.
+// The inputs of energy: outside forces on masses, and the force that drives each prescribed node.
 template <int N, int H>
 void OrbitMeasurement<N, H>::list_powers(const Mode<N, H>& mode, const mechanics::LinearSystem& system,
                                          Powers& powers) const {

@@ -8,8 +8,7 @@
 
 namespace frahm::periodic {
 
-// An orbit laid out in steps of one mode each, from its section on. A step has its Taylor expansion when one
-// was asked for.
+// An orbit laid out in steps of one mode each, from its section on. A step has a Taylor expansion on request.
 template <int N, int H>
 struct OrbitStep {
   double start = 0.0;   // [steps] since the section

@@ -23,8 +23,8 @@ struct InstantDerivative {
 
 inline constexpr const char* kSeveralArrive = "several contacts come to rest at one instant";
 
-// Why derivatives do not pass the changes of a passage; "" where they do. Contacts that come to rest together
-// may do so one after the other on either side, in either order.
+// Why no derivative exists across the changes of a passage; "" if it exists. Contacts that come to rest
+// together may do so one after the other on either side, in either order.
 template <int N, int H>
 const char* why_no_passage_derivative(const Flow<N, H>& flow, std::span<const Event> changes) {
   for (const Event& change : changes) {

@@ -94,7 +94,7 @@ QuantityDescription describe(const Quantity& quantity, const mechanics::Network&
 // an error_bound, as that of the integration is not one.
 std::vector<Quantity> all_quantities(const mechanics::Network& network);
 
-// What an atlas records: peak, amplitude, mean, rms and phase of each mass; stroke of each spring; stops,
+// Record of an atlas: peak, amplitude, mean, rms and phase of each mass; stroke of each spring; stops,
 // stuck fraction, regime and energy of each element with a contact; status, floquet_radius, energy_balance,
 // residual, error_bound, transmitted_force.
 std::vector<Quantity> standard_quantities(const mechanics::Network& network);
@@ -113,7 +113,7 @@ bool is_missing(QuantityKind kind, double value);
 // The same for a response that ended in this status, the one quantity that has a value then.
 double missing_value(Measure measure, Status status);
 
-// Why PeriodicResponse::gradient() does not differentiate a quantity: it is a count, a flag or a figure of
+// Why PeriodicResponse::gradient() does not differentiate a quantity: it is a count, a flag or a number about
 // the computation itself, or would take the second derivative of the period map. "" where it does.
 const char* why_not_differentiated(Measure measure);
 inline bool is_differentiable(Measure measure) {

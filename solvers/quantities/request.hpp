@@ -33,7 +33,7 @@ void tell_missing(const Request& request, Status status, std::span<double> out);
 void tell_derivatives(const Request& request, const Measured& measured, MeasuredDerivative& by,
                       std::span<double> out, std::span<const char*> why_none);
 
-// Whether a derivative asked for is that of this candidate. found: the extremes of all candidates.
+// Whether a requested derivative is that of this candidate. found: the extremes of all candidates.
 bool is_asked(const TraceUse& use, const Candidate& candidate, const Extremes& found, bool half_period);
 
 }  // namespace frahm::periodic

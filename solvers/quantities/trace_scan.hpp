@@ -18,10 +18,10 @@ struct TraceStep {
   bool starts_segment = false, ends_segment = false;
 };
 
-// The trace's Taylor polynomial over a step, asked for where an extreme may lie within.
+// The trace's Taylor polynomial over a step, called where an extreme may lie within.
 using StepPolynomial = std::function<Polynomial(std::size_t step)>;
 
-// section, rate: omega t where the steps begin and of one step [rad].
+// section: omega t where the steps begin [rad]; rate: omega t per step [rad].
 Extremes scan_extremes(std::span<const TraceStep> trace, double section, double rate,
                        const StepPolynomial& polynomial);
 

@@ -9,7 +9,7 @@
 
 namespace frahm::periodic {
 
-// A parameter of which the network's values are functions.
+// A parameter on which the network's values depend.
 struct CheckedParameter {
   double value = 0.0;                                              // in its SI unit
   mechanics::NetworkValues direction;                              // derivative of the network's values by it
@@ -18,7 +18,7 @@ struct CheckedParameter {
 
 // The derivative of one quantity by one parameter, twice.
 struct DerivativeCheck {
-  double exact = 0.0;        // NaN: there is none, see why_none
+  double exact = 0.0;        // NaN: no derivative, see why_none
   double difference = 0.0;   // by central differences; NaN: none could be taken
   double uncertainty = 0.0;  // of the difference: what its extrapolation last changed, and noise
   std::string why_none = {};

@@ -12,7 +12,7 @@ namespace frahm::periodic {
 
 // Periodic responses of one network, one point of a map after the other. Not for use by two threads at once;
 // each thread has its own. A network whose Coulomb elements follow the exact law is solved exactly
-// (response/exact_solver.hpp), one with the arctan law by integration of its smooth equation (smooth/); one
+// (exact/exact_solver.hpp), one with the arctan law by integration of its smooth equation (smooth/); one
 // with both is refused. Orders with a common divisor are divided by it first (response/common_divisor.hpp).
 //
 //   PeriodicResponse response(network, quantities);

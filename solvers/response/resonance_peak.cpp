@@ -93,7 +93,7 @@ class Curve {
     for (double h = (right - left) / 64.0;; h *= 0.25) {
       const auto [low, high] = half_power_points(at, value);
       const double width = std::fmin(high - at, at - low);
-      // A peak without half-power points in the band is so flat that the first differences serve.
+      // A peak without half-power points in the band is so flat that the first differences suffice.
       const bool last = !(width > 0.0) || h <= width / 64.0;
       if (width > 0.0) h = std::max(h, width / 64.0);
       const double solved = root([&](double x) { return slope(f, x, h); }, std::max(left, at - 8.0 * h),

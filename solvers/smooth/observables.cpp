@@ -106,7 +106,7 @@ Extremes Observables::extremes_of(const Form& form, const Orbit& orbit) {
   return orbit.half_period ? periodic::mirrored(found) : found;
 }
 
-// What puts energy in: outside forces on masses, and what drives each prescribed node.
+// The inputs of energy: outside forces on masses, and the force that drives each prescribed node.
 std::vector<std::pair<Form, Form>> Observables::powers() const {
   std::vector<std::pair<Form, Form>> result;
   const auto& network = assembly_.network();

@@ -8,7 +8,7 @@
 #include "solvers/smooth/forms.hpp"
 #include "solvers/smooth/shooting.hpp"
 
-// From an orbit of a smooth law to the quantities asked for, by the integrator's dense output.
+// Computes the requested quantities of an orbit of a smooth law, by the integrator's dense output.
 namespace frahm::smooth {
 
 using periodic::Extremes;

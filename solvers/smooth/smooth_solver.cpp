@@ -115,7 +115,7 @@ const periodic::ResponseSummary& SmoothSolver::solve() {
   orbit_.residual = kNone;
   orbit_.newton_iterations = orbit_.passages = 0;
   orbit_.half_period = system_.odd_forcing;
-  if (periodic::is_unbounded(system_, undamped_modes_)) {  // arctan friction takes out less than the exact
+  if (periodic::is_unbounded(system_, undamped_modes_)) {  // arctan friction dissipates less than exact
     orbit_.status = Status::unbounded;
     orbit_.reason = "an undamped mode is driven at its resonance, and no friction holds it";
   } else {

@@ -11,7 +11,7 @@ namespace frahm::transient {
 // The energies of a motion on the exact flow, step after step: what each element dissipates,
 //   integral of c v^2 (damper, hysteretic), of s^2 / c (Maxwell), of F |v| (friction that slides),
 // and the work of the excitation: of the outside forces on the masses, and of what drives each prescribed
-// node. Six-point Gauss-Legendre between the events, as of a periodic orbit (periodic/integrals.hpp).
+// node. Six-point Gauss-Legendre between the events, as of a periodic orbit (quantities/integrals.hpp).
 class EnergyAccount {
  public:
   using Flow = periodic::Flow<Eigen::Dynamic, Eigen::Dynamic>;

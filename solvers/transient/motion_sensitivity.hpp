@@ -13,7 +13,7 @@ namespace frahm::transient {
 
 // A motion from given initial values on the exact flow, as sensors show it at given times, with its exact
 // derivatives along changes of system, excitation and initial values: through stops, releases and reversals,
-// up to rest and on from there (periodic/passage_sensitivity.hpp).
+// up to rest and on from there (quantities/passage_sensitivity.hpp).
 //
 // Where a contact slides from rest at the very start, the derivative by a velocity is that of starts that
 // slide the same way: against it the contact would reverse first.
@@ -27,7 +27,7 @@ class MotionSensitivity {
   // The forcing's harmonics at phase 0 from now on, which no direction changes (Flow::set_oscillators).
   void set_oscillators(std::span<const std::complex<double>> at_zero) { flow_.set_oscillators(at_zero); }
 
-  // To be called once, after set_system. by: of each direction; an empty vector stands for zeros.
+  // To be called once, after set_system. by: of each direction; an empty vector means zeros.
   void start(const InitialState& initial, std::span<const InitialState> by);
 
   double time() const { return time_; }  // [s]

@@ -1,6 +1,6 @@
 #pragma once
 
-// How far a motion is followed (trajectory.hpp, motion_sensitivity.hpp).
+// Limits of the length of a motion (trajectory.hpp, motion_sensitivity.hpp).
 namespace frahm::transient {
 
 inline constexpr double kStepsAtOnce = 256.0;  // in memory: a few hundred kilobytes for a few masses

@@ -8,9 +8,8 @@
 
 namespace frahm::transient {
 
-// A velocity that ends more gently than this, relative to the largest deceleration its scale allows, has not
-// arrived at zero: it creeps there and is taken for zero only because it has become so small
-// (periodic::kRest).
+// A velocity that ends with less deceleration than this, relative to the largest one its scale allows, has
+// not reached zero: it creeps, and counts as zero only because it is so small (periodic::kRest).
 inline constexpr double kCreeping = 3.0 * periodic::kRest;
 
 // One step of a mass: its Taylor polynomials in the step fraction, and how long the step lasts.

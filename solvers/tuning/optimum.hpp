@@ -69,7 +69,7 @@ struct Optimum {
   double certificate_gap =
       0.0;  // (objective - bound) / objective: what no active frequency has seen; minimax only, else NaN
   double kkt_residual = 0.0;        // relative; of the problem over the active frequencies
-  double violation = 0.0;           // largest, of the limits, relative
+  double violation = 0.0;           // largest, of the limits, relative; 0 within the tolerance
   double constant_objective = 0.0;  // of the best constant design, where a parameter is scheduled, else NaN
   std::vector<double> constant;     // that design, Task::parameters order; empty where nothing is scheduled
   std::vector<Peak> peaks;          // ascending in scenario, then frequency

@@ -12,13 +12,13 @@
 #include "solvers/tuning/problem/solver.hpp"
 #include "solvers/tuning/variance/noise.hpp"
 
-// What is to be tuned: a network whose numbers depend on design parameters, a band of frequencies, and what
-// is wanted of the response over it.
+// The task of a tuning: a network whose numbers depend on design parameters, a band of frequencies, and the
+// objective and limits of the response over it.
 //
 // The subfolders; each uses those above it in this list and none below:
 //   problem/    an optimisation problem in plain terms, its KKT conditions, the libraries that solve it
 //   variance/   mean squares of a network under white noise
-//   task.hpp, optimum.hpp   the question and the answer (what asks for it is in stages/)
+//   task.hpp, optimum.hpp   the task and its result (stages/ has the functions)
 //   schedules/  design parameters as variables: constants, or piecewise linear over the band
 //   exchange/   the design problem over a band: its curves, their maxima, the active ones
 //   stages/     a tuning from its start to its report

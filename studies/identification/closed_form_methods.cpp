@@ -62,7 +62,7 @@ Identification magnification_of(const Study& study, const RecordChoice& record) 
       shaken_by(*study.identify()));
 }
 
-// Turning points that were read off by someone else: a time for each, or none.
+// Turning points given as data: a time for each, or none.
 identification::DecayExtrema extrema_of(const RecordChoice& record) {
   identification::DecayExtrema extrema;
   extrema.time = column(record, "extremum_time");

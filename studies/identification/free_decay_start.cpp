@@ -13,7 +13,7 @@ namespace {
 
 using identification::GreyBoxTask, identification::Identification, identification::Model;
 
-// The record that Liang and Feeny are asked about; the reading of the study has seen to it that there is one.
+// The record for Liang and Feeny's method; the reading of the study ensures that there is one.
 std::size_t record_of(const Study& study) {
   const auto& records = study.identify()->records;
   const std::string role = study.network.masses.front() + "_displacement";
@@ -31,12 +31,12 @@ double estimate_of(const Identification& first, const char* name) {
   return found->value;
 }
 
-// What the model should have: omega_n [rad/s], zeta [1], x_f [m].
+// The values that the model should have: omega_n [rad/s], zeta [1], x_f [m].
 struct Wanted {
   double natural_frequency, damping_ratio, friction_displacement;
 };
 
-// How far one mass is from what is wanted, each relative to a size at which it matters, and how that changes:
+// The distance of one mass from the wanted values, each relative to its scale, and its derivatives:
 //   ln(omega_n / wanted),  zeta - wanted,  (x_f - wanted) / x_0
 class Distance {
  public:

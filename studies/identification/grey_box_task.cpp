@@ -10,7 +10,7 @@ namespace {
 
 using identification::Model, identification::Signal;
 
-// What a StudyValue is worth, and how it changes with one parameter.
+// A StudyValue and its derivative by one parameter.
 Dual dual_of(const Study& study, const StudyValue& value, std::span<const double> parameters,
              std::size_t by) {
   std::vector<Dual> duals;
@@ -53,7 +53,7 @@ void differentiate_model(const Study& study, std::span<const double> parameters,
   }
 }
 
-// SI values of all parameters in a record, before those that are fitted or fixed take theirs.
+// SI values of all parameters in a record, before the fitted and the fixed ones are set.
 std::vector<double> parameters_in_record(const Study& study, const RecordChoice& record) {
   std::vector<double> parameters = study.parameters.nominal();
   for (const Assignment& assignment : record.set) parameters[assignment.parameter] = assignment.value;
@@ -62,7 +62,7 @@ std::vector<double> parameters_in_record(const Study& study, const RecordChoice&
 
 identification::ModelAt model_at(const Study& study) {
   const IdentifyChoice& choice = *study.identify();
-  std::vector<std::size_t> places;  // of the entries of `at` among the parameters
+  std::vector<std::size_t> places;  // indices of the entries of `at` among the parameters
   for (const IdentifiedParameter& fitted : choice.parameters) places.push_back(fitted.parameter);
   for (const FixedEstimate& fixed : choice.fixed) places.push_back(fixed.parameter);
   std::vector<std::vector<double>> records;
@@ -79,7 +79,7 @@ identification::ModelAt model_at(const Study& study) {
   };
 }
 
-// The name without the ending, if it has it.
+// The name without the ending, if it has this ending.
 std::optional<std::string> before(const std::string& role, const std::string& ending) {
   if (!role.ends_with(ending)) return std::nullopt;
   return role.substr(0, role.size() - ending.size());

@@ -66,7 +66,7 @@ void add_record(const Study& study, const FittedRecord& record, GroupColumns& co
   }
 }
 
-// A parameter or a record may be called as something that the file holds beside it.
+// A parameter or a record may have the name of something else in the file.
 void refuse_same_names(const Study& study, const std::vector<results::Column>& columns) {
   std::vector<std::string> names{"estimate", "record", "row"};  // dimensions, which are indices
   for (const results::Column& column : columns) names.push_back(column.variable.name);

@@ -17,7 +17,7 @@ using identification::Estimate, identification::FittedRecord, identification::Id
 constexpr std::size_t most_correlations = 12;  // columns that still fit beside one another
 constexpr std::size_t most_rows = 30;
 
-// An estimate in the unit in which the study speaks of the parameter of its name, else SI.
+// An estimate in the study's unit of the parameter of the same name, else SI.
 struct Spoken {
   double factor = 1.0;  // SI value = factor x value
   std::string unit;
@@ -150,7 +150,7 @@ void print_identification(const Study& study, const IdentificationResult& result
   }
   print_estimates(study, result.fit, out);
   print_rows(study, result.fit, out);
-  // Those of a formula's own results follow from one another.
+  // Correlations of a formula's own results follow from the formula: they are not printed.
   if (study.identify()->method == IdentifyMethod::grey_box) print_correlations(result.fit, out);
   print_quality(result.fit, out);
   for (const std::string& note : result.fit.notes) fmt::print(out, "note: {}\n", note);

@@ -54,8 +54,8 @@ Stored read(const std::filesystem::path& file) {
           file.string()};
 }
 
-// All parameters that the identification settles, with their values; a later one counts. Of one that every
-// record has for itself, that of the first record.
+// All parameters that the identification determines, with their values; a later value counts. For a parameter
+// with a value in each record, that of the first record.
 std::vector<Assignment> settled(const Stored& stored) {
   const IdentifyChoice& choice = *stored.study.identify();
   const RecordChoice& first = choice.records.front();
@@ -125,7 +125,7 @@ double moving_force(const Study& study, const mechanics::NetworkValues& values) 
   return std::max(1e-3 / compliance, 4.0 * system.limit.sum());
 }
 
-// The system, which nothing drives but what was measured, under a harmonic force on its first mass.
+// Puts a harmonic force on the first mass of a system that has no excitation except measured ones.
 void drive(const Study& study, const mechanics::NetworkValues& values, const std::vector<double>& modes,
            TomlTable& root) {
   const std::string omega = free_name(study, "omega"), force = free_name(study, "P");

@@ -28,8 +28,8 @@ IdentificationResult fit_grey_box(const Study& study, const transient::Watch& wa
   return result;
 }
 
-// Each parameter that takes an estimate stands among the estimates under its own name too, so that a later
-// study of the chain knows it. The reading of the study has seen to it that the method has the estimate.
+// Adds each parameter that takes an estimate to the estimates under its own name too, so that a later study
+// of the chain finds it. The reading of the study ensures that the method has the estimate.
 void name_parameters(const Study& study, Identification& fit) {
   std::vector<std::string> names;
   for (const identification::Estimate& estimate : fit.estimates) names.push_back(estimate.name);

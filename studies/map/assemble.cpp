@@ -109,7 +109,7 @@ class ChunkMaking {
   TileRecord record_;
 };
 
-// The map, and the borders on it. Returns the points that failed.
+// Writes the map and its borders. Returns the points that failed.
 Failures write_map(const MapPlan& plan, const results::MapLayout& layout, const engine::TileIndex& index,
                    const AssemblyOptions& options, results::MapWriter& writer) {
   Failures failures;
@@ -135,7 +135,7 @@ Failures write_map(const MapPlan& plan, const results::MapLayout& layout, const 
   return failures;
 }
 
-// Where the finished tiles lie: each record of each log is read and checked.
+// Finds the finished tiles: each record of each log is read and checked.
 engine::TileIndex read_logs(const MapPlan& plan, const AssemblyOptions& options) {
   StageProgress progress("reading", plan.grid.points(), options.progress);
   return engine::index_tiles(options.logs, plan.log_header(),
@@ -154,7 +154,7 @@ void refuse_gaps(const AssemblyOptions& options, const std::vector<std::uint64_t
                                                     missing_tasks_text(options.logs, missing)));
 }
 
-// Makes the file, whole and at its place.
+// Makes the complete file at its final path.
 Assembly make_file(const MapPlan& plan, const RunRecord& run, const AssemblyOptions& options) {
   const engine::TileIndex index = read_logs(plan, options);
   const auto missing = engine::missing_tiles(index);

@@ -10,8 +10,7 @@
 namespace frahm::studies {
 
 struct Assembly {
-  bool finished =
-      false;  // false: stopped; the output is unchanged, and the other members mean nothing
+  bool finished = false;  // false: stopped; the output is unchanged, and the other members mean nothing
   std::uint64_t tiles = 0, missing_tiles = 0;
   std::string missing_tasks = {};  // missing_tasks_text()
   std::uint64_t failed_points = 0;

@@ -7,7 +7,7 @@
 namespace frahm::studies {
 namespace {
 
-// 1, 2 ... in their order: 0 is that of a flag not computed.
+// Values 1, 2 ... in their order: 0 means not computed.
 results::Variable flag_of(const std::string& name, const std::string& long_name,
                           const std::vector<std::string>& meanings) {
   results::Variable variable{.name = name, .long_name = long_name, .type = results::Type::flag};
@@ -17,7 +17,7 @@ results::Variable flag_of(const std::string& name, const std::string& long_name,
   return variable;
 }
 
-// The regimes as the map has them.
+// The regimes as flags of the map.
 results::Variable regime(const Study& study, std::size_t element, const std::string& name,
                          const std::string& long_name) {
   results::Variable variable{.name = name, .long_name = long_name, .type = results::Type::flag};

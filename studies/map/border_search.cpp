@@ -17,7 +17,7 @@ std::vector<periodic::Quantity> regimes_of(const mechanics::Network& network) {
   return regimes;
 }
 
-// A border that is met on one edge after the other.
+// A border met on successive edges.
 class BorderCurve {
  public:
   std::optional<CrossingForecast> forecast() const {
@@ -40,9 +40,9 @@ class BorderCurve {
  private:
   static constexpr double least_reach = 1e-4, first_reach = 0.05;  // of an edge
 
-  int places_ = 0;      // met in turn
-  double last_ = 0.0;   // of them
-  double step_ = 0.0;   // to it
+  int places_ = 0;      // number of crossings met in turn
+  double last_ = 0.0;   // the last of these
+  double step_ = 0.0;   // the last step to it
   double error_ = 0.0;  // of its forecast
 };
 
@@ -75,7 +75,7 @@ bool BorderSearch::is_beyond(const Index& index, std::size_t dimension) const {
   return index[dimension] == tile_.start[dimension] + tile_.count[dimension];
 }
 
-// Of the first element's regime at a point.
+// The offset of the first element's regime at a point.
 std::size_t BorderSearch::offset_of(const Index& index) const {
   return wide_.offset_of(index) * elements_;
 }
@@ -85,14 +85,14 @@ void BorderSearch::find_regimes() {
   const auto rows = grid_.row_dimensions();
   Index row = wide_.start;
   do {
-    // Beyond two faces at once no edge of the tile ends.
+    // No edge of the tile ends beyond two faces at once.
     const auto beyond = std::ranges::count_if(rows, [&](std::size_t d) { return is_beyond(row, d); });
     if (beyond <= 1) find_regimes_of_row(row);
   } while (next_point(wide_, rows, row));
 }
 
-// Of the row that begins at `index`, within the tile's extent along it; then of the neighbour beyond, the
-// first point of the next tile, which starts from nothing as it does there.
+// Finds the regimes of the row that begins at `index`, within the tile; then of the neighbour beyond, the
+// first point of the next tile, which starts without earlier orbits, as in that tile.
 void BorderSearch::find_regimes_of_row(Index index) {
   const std::size_t along = grid_.order.back();
   bool is_own = true;
@@ -111,12 +111,12 @@ void BorderSearch::find_regimes_of_row(Index index) {
   }
 }
 
-// All dimensions but that of the row are in place.
+// All dimensions except the row's are already set.
 void BorderSearch::find_regimes_of_point(const Index& index) {
   const std::size_t along = grid_.order.back();
   set_along(*study_.sweep(), along, index[along], parameters_);
   solver_.set_parameters(parameters_);
-  std::string reason;  // the map tells it
+  std::string reason;  // unused: the map reports it
   const std::span<const double> found = solver_.solve(reason);
   std::ranges::transform(found, regimes_.begin() + static_cast<std::ptrdiff_t>(offset_of(index)),
                          [](double regime) { return static_cast<Regime>(regime); });
@@ -150,8 +150,8 @@ std::vector<RegimeCrossing> BorderSearch::crossings_on_edge(const Index& lower, 
       [&](double at) { return point_on_edge(lower, dimension, element, at); }, forecast);
 }
 
-// All parameters of a dimension go along an edge together, linearly in SI. Each search starts from the orbit
-// of the one before, which lies near.
+// All parameters of a dimension change together along an edge, linearly in SI. Each search starts from the
+// orbit of the one before, which lies near.
 RegimePoint BorderSearch::point_on_edge(const Index& lower, std::size_t dimension, std::size_t element,
                                         double at) {
   for (std::size_t d = 0; d < lower.size(); ++d) set_along(*study_.sweep(), d, lower[d], parameters_);

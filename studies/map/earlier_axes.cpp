@@ -23,7 +23,7 @@ struct CommonParameter {
   throw StudyError(rules::wrong_option, "--from {}: {}", file, why);
 }
 
-// As the values of the study's own axes become SI, so that the same values are the same to the last bit.
+// Converts to SI exactly as for the study's own axes, so that equal values agree to the last bit.
 std::vector<double> si_values(const Parameter& parameter, const results::Coordinate& coordinate,
                               const UnitSystem& units) {
   std::vector<double> values = coordinate.values;
@@ -66,7 +66,7 @@ std::size_t common_dimension(const Study& study, const std::vector<CommonParamet
                          earlier));
 }
 
-// For each index the numbers of the known values that its parameters have; nothing if one has none.
+// For each index the ranks of the known values of its parameters; nothing if one has no known value.
 using Place = std::vector<std::uint32_t>;
 
 std::optional<Place> place_of(const std::vector<std::vector<std::uint32_t>>& numbers, std::size_t index) {
@@ -89,7 +89,7 @@ EarlierDimension match(const Study& study, const results::Axis& earlier, const U
     known.push_back(std::move(same.known));
     wanted.push_back(std::move(same.wanted));
   }
-  std::map<Place, std::uint64_t> index_of;  // the first, where points of a zip are the same
+  std::map<Place, std::uint64_t> index_of;  // the first, if points of a zip are equal
   for (std::uint64_t i = 0; i < earlier.size; ++i) index_of.emplace(*place_of(known, i), i);
   dimension.places = index_of.size();
   bool any = false;
@@ -116,7 +116,7 @@ std::vector<EarlierDimension> match_axes(const Study& study, const results::MapL
 }
 
 std::uint64_t points_off_grid(const std::vector<EarlierDimension>& dimensions) {
-  // Dimensions of the earlier map that advance together here are counted together.
+  // Dimensions of the earlier map that advance together in this study are counted together.
   std::map<std::size_t, std::vector<const EarlierDimension*>> of_study;
   std::uint64_t all = 1, common = 1;
   for (const EarlierDimension& dimension : dimensions) {

@@ -16,7 +16,7 @@ namespace {
 constexpr std::string_view hdf5_signature = "\x89HDF\r\n\x1a\n";  // HDF5 file format, III.A: superblock
 
 void check_is_hdf5(const std::filesystem::path& path) {
-  std::error_code ignored;  // opening will tell
+  std::error_code ignored;  // opening reports the error
   if (std::filesystem::is_directory(path, ignored))
     throw engine::IoError(path, "is a folder; --from needs the result of a map");
   errno = 0;
@@ -28,7 +28,7 @@ void check_is_hdf5(const std::filesystem::path& path) {
     throw engine::IoError(path, "is not an HDF5 file; --from needs the result of a map");
 }
 
-// What a result without a map holds.
+// The kind of a result without a map.
 std::string_view kind_of(const results::MapReader& result) {
   if (result.has_group("identification")) return "an identification";
   if (result.has_group("optimum")) return "a tuning";

@@ -14,8 +14,8 @@ struct TileSizes {
   std::uint64_t longest_row;  // longer ones are cut
   std::uint64_t least, most;
 };
-// Below the least warm starts are lost for nothing; the most is some 20 ms of work: fine steps of progress
-// and resume.
+// Smaller tiles would waste warm starts; the largest is some 20 ms of work, for fine steps of progress and
+// resume.
 constexpr TileSizes exact_tiles{.longest_row = 4000, .least = 256, .most = 2048};
 // Orbits of the arctan law take some 20 ms each and start from the exact ones, which are found beside them.
 constexpr TileSizes arctan_tiles{.longest_row = 64, .least = 16, .most = 64};
@@ -76,7 +76,7 @@ std::uint64_t boxes(const Grid& grid, const std::vector<std::uint64_t>& extent) 
   return result;
 }
 
-// One of them, numbered in the order of computation.
+// One of these boxes, numbered in the order of computation.
 MapBox box_of(const Grid& grid, const std::vector<std::uint64_t>& extent, std::uint64_t number) {
   MapBox result{std::vector<std::uint64_t>(extent.size()), std::vector<std::uint64_t>(extent.size())};
   for (auto d = grid.order.rbegin(); d != grid.order.rend(); ++d) {

@@ -38,8 +38,7 @@ std::size_t variable_named(const results::MapLayout& layout, const std::string& 
   return static_cast<std::size_t>(std::distance(layout.variables.begin(), found));
 }
 
-// Whether a run could have recorded the value. One that it could not is the work of a hand or another
-// program.
+// Whether a run could have recorded the value. If not, a person or another program wrote it.
 bool is_possible(double value, const periodic::QuantityDescription& variable) {
   if (variable.kind == QuantityKind::count)
     return value >= -1.0 && value <= std::numeric_limits<std::int32_t>::max() && value == std::trunc(value);
@@ -95,7 +94,7 @@ void KnownPoints::take(const MapBox& box, std::span<double> values, std::vector<
   taken_ += taken;
 }
 
-// The points of a tile that the earlier map has, those of one chunk after the other.
+// The points of a tile that the earlier map has, in the order of its chunks.
 std::vector<KnownPoints::Found> KnownPoints::find(const MapBox& box) const {
   const results::MapLayout& layout = reader_.layout();
   std::vector<std::size_t> dimensions(box.start.size());
@@ -170,7 +169,7 @@ MapBox KnownPoints::box_around(std::span<const Found> points) const {
   return box;
 }
 
-// Whether a point of the earlier map was computed and has not failed.
+// Whether a point of the earlier map was computed without failure.
 bool KnownPoints::is_answer(std::span<const double> values, std::uint64_t points_of_tile,
                             std::uint64_t place) const {
   const auto value = [&](std::size_t variable) { return values[variable * points_of_tile + place]; };

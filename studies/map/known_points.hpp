@@ -14,8 +14,8 @@
 
 namespace frahm::studies {
 
-// The points of a map that an earlier result of the same physics holds, on whatever grid: reused by content,
-// the SI values of their parameters. Not reused are points that failed or were not computed there, and points
+// The points of a map that an earlier result of the same physics holds, on any grid: reused by content, the
+// SI values of their parameters. Not reused are points that failed or were not computed there, and points
 // with all values missing, unless the status is `unbounded` or is the only variable.
 //
 // Shared by all threads; one at a time reads the file, as HDF5 requires. Chunks are read when they are

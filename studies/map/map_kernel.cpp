@@ -11,7 +11,7 @@
 namespace frahm::studies {
 namespace {
 
-// What the study's own response is asked for: what it records, and what else is compared.
+// The quantities of the study's own response: those recorded, then others that are compared.
 std::vector<periodic::Quantity> asked_for(const Study& study, std::vector<periodic::Quantity> quantities) {
   if (!study.sweep()->comparison) return quantities;
   for (const periodic::Quantity& compared : study.sweep()->comparison->quantities) {
@@ -73,7 +73,7 @@ void MapKernel::operator()(std::uint64_t tile, engine::Bytes& out) {
 // The points of the row that begins at index_, along the last dimension in the order of computation.
 void MapKernel::compute_row(const MapBox& box) {
   const std::size_t along = grid_.order.back();
-  std::uint64_t place = box.offset_of(index_), step = 1;  // of the row's first point; from one to the next
+  std::uint64_t place = box.offset_of(index_), step = 1;  // of the row's first point; to the next point
   for (std::size_t d = 0; d < index_.size(); ++d) {
     if (d > along) step *= box.count[d];
     if (d != along) set_along(*study_.sweep(), d, index_[d], parameters_);

@@ -87,7 +87,7 @@ KeptOrbit keep_orbit(const MapPlan& plan, const std::vector<Assignment>& point) 
   return orbit;
 }
 
-// Names and units of the samples, which a point without an orbit does not tell.
+// Names and units of the samples, which a point without an orbit does not provide.
 std::vector<results::Variable> sample_variables(const Study& study) {
   std::vector<results::Variable> variables;
   const auto add = [&](const std::string& name, const char* unit, const std::string& long_name) {

@@ -31,7 +31,7 @@ std::vector<periodic::Quantity> listed_quantities(const Study& study) {
   return result;
 }
 
-// A name of the record that the study chose, and where.
+// A name in the record chosen by the study, and its position.
 struct Taken {
   std::string what;
   Position position;
@@ -53,7 +53,7 @@ std::map<std::string, Taken> names_of_coordinates(const Study& study) {
   return taken;
 }
 
-// Groups of the file and what stands in them beside the axes' own parameters.
+// Groups of the file and their contents beside the axes' own parameters.
 std::vector<std::pair<std::string, std::string>> names_of_groups(const Study& study) {
   std::vector<std::pair<std::string, std::string>> names{{"provenance", "a group of the file"}};
   const auto add = [&](const std::string& name, const char* what) { names.emplace_back(name, what); };
@@ -78,7 +78,7 @@ std::vector<std::pair<std::string, std::string>> names_of_groups(const Study& st
   return names;
 }
 
-// A page shows what is recorded.
+// A page can only show recorded quantities.
 void check_report(const Study& study, const std::vector<periodic::QuantityDescription>& recorded) {
   std::vector<std::string> names;
   for (const periodic::QuantityDescription& quantity : recorded) names.push_back(quantity.name);

@@ -51,11 +51,11 @@ struct Request {
   }
 };
 
-// Of one rank: the times at which its threads are free, as a heap with the earliest in front.
+// The times at which the threads of one rank are free, as a heap with the earliest in front.
 using FreeTimes = std::vector<double>;
 
-// Its threads take the tiles of a block that arrives at `time`, each the next one when it is free. Adds to
-// `waiting` what they waited for the block; returns when the last tile was taken.
+// Threads take the tiles of a block that arrives at `time`, each the next one when it is free. Adds to
+// `waiting` their waiting time for the block; returns the time when the last tile is taken.
 double compute_block(std::uint64_t block, double time, TileWalk& tiles, FreeTimes& free, double& waiting) {
   double taken = time;
   for (std::uint64_t i = 0; i < block; ++i) {
@@ -68,7 +68,7 @@ double compute_block(std::uint64_t block, double time, TileWalk& tiles, FreeTime
   return taken;
 }
 
-// What the threads did between the first request and the end of the last tile.
+// The time of the threads between the first request and the end of the last tile.
 struct Computation {
   double span = 0.0;       // [s]
   double waiting = 0.0;    // [core s]
@@ -84,7 +84,7 @@ Computation compute(const RankCosts& costs, int ranks, int threads) {
   TileWalk tiles(costs.tiles);
   std::uint64_t left = tiles_of(costs.tiles);
   Computation done;
-  double served = 0.0;  // when rank 0 has dealt with the request before
+  double served = 0.0;  // when rank 0 has served the previous request
   while (left > 0) {
     const Request request = requests.top();
     requests.pop();
@@ -135,7 +135,7 @@ RankPrediction simulate_ranks(const RankCosts& costs, int ranks, int threads) {
 int ranks_with_efficiency(const RankCosts& costs, int threads, double least, int most) {
   const auto is_enough = [&](int ranks) { return simulate_ranks(costs, ranks, threads).efficiency >= least; };
   if (is_enough(most)) return most;
-  int low = 0, high = most;  // enough (or no ranks at all), not enough
+  int low = 0, high = most;  // efficient enough (or 0 ranks), not enough
   while (high - low > 1) {
     // Small numbers count by ratio too: 1, 2, 4 ... until the first that is not enough.
     const int middle = high == most ? std::min(std::max(1, 2 * low), (low + high) / 2) : (low + high) / 2;

@@ -12,26 +12,26 @@ namespace {
 
 using periodic::Regime;
 
-// [rad] What is shorter is no stop to the regimes (1e-9 of a period), and what is little longer is about to
+// [rad] A shorter stop does not count in the regimes (1e-9 of a period); one little longer is about to
 // vanish.
 constexpr double shortest_event = 2e-9 * std::numbers::pi;
 constexpr double nearly_vanished = 3.0;
-// From where regimes change to where the event has vanished; beyond it rounding has led the search.
+// From the change of regimes to the zero of the event; a larger correction is due to rounding.
 constexpr double most_correction = 1e-4;
 // Parts of parts that are searched where third regimes are met: 2^5 crossings of an edge at most.
 constexpr int deepest_part = 5;
-// Looks around a forecast, each farther than the one before; then it has misled.
+// Probes around a forecast, each farther than the one before; after that the forecast is dropped.
 constexpr int most_forecast_steps = 4;
 constexpr double widening = 4.0;
 // Steps by extrapolation that may leave more than half of the bracket, one after the other.
 constexpr int most_poor_steps = 2;
 
-// How much happens in an orbit of the regime. What vanishes at a crossing is seen where more happens.
+// How rich in events a regime is. An event that vanishes at a crossing is seen on the richer side.
 int richness(Regime regime) {
   return regime == Regime::one_stop ? 1 : regime == Regime::multi_stop ? 2 : 0;
 }
 
-// One crossing between two places of different regimes.
+// One crossing between two positions of different regimes.
 class Bracket {
  public:
   Bracket(double low, Regime below, double high, Regime above,
@@ -41,14 +41,14 @@ class Bracket {
   double width() const { return high_ - low_; }
   bool is_narrow() const { return width() <= crossing_width; }
   bool holds(Regime regime) const { return regime == below_ || regime == above_; }
-  // Where the briefest event has vanished, if it was seen to.
+  // The position where the briefest event has vanished, if this was seen.
   RegimeCrossing crossing() const;
   double high() const { return high_; }
   Regime above() const { return above_; }
 
-  // Where to look next.
+  // The next position to probe.
   double proposal();
-  // Takes the point in.
+  // Narrows the bracket to the point.
   void narrow(double at, const RegimePoint& point);
   // The part below `at`, where another regime was met.
   void cut(double at, Regime regime) {
@@ -71,17 +71,17 @@ class Bracket {
   double first_, last_;  // the whole part that is searched
   double low_, high_;
   Regime below_, above_;
-  std::vector<Seen> seen_;          // on the side where more happens, the last three
-  std::optional<double> estimate_;  // of the crossing, the last one
-  double error_ = 0.0;              // of it, by its last change
+  std::vector<Seen> seen_;          // on the richer side, the last three
+  std::optional<double> estimate_;  // the last one of the crossing
+  double error_ = 0.0;              // of the estimate, by its last change
   int poor_steps_ = 0;
   std::optional<CrossingForecast> forecast_;  // nothing once the crossing is known to lie near, or not to
   int forecast_steps_ = 0;
 };
 
-// Where the briefest event vanishes: the place as a polynomial of its length. The length is proportional to
-// the distance, or to its square root, where a velocity only just touches zero; the quadratic polynomial is
-// both.
+// Where the briefest event vanishes: the position as a polynomial of its length. The length is proportional
+// to the distance, or to its square root, where a velocity only just touches zero; the quadratic polynomial
+// covers both.
 double Bracket::vanishing_place() const {
   double at = 0.0;
   for (std::size_t i = 0; i < seen_.size(); ++i) {
@@ -112,7 +112,7 @@ RegimeCrossing Bracket::crossing() const {
   return {at, below_, above_};
 }
 
-// At the forecast, then ever farther on that side of it where the crossing is.
+// At the forecast, then farther and farther on the side of the crossing.
 std::optional<double> Bracket::forecast() {
   if (!forecast_) return std::nullopt;
   double at = forecast_->at;
@@ -135,7 +135,7 @@ double Bracket::proposal() {
     return middle;
   }
   const std::optional<double> estimate = extrapolated();
-  // A second place to extrapolate from is more likely near the first.
+  // A second position to extrapolate from is more likely near the first.
   if (seen_.size() == 1) return seen_.front().at == low_ ? low_ + 0.25 * width() : high_ - 0.25 * width();
   if (!estimate) return middle;
   // On the far side of the estimate, so that the bracket closes from both ends.
@@ -164,7 +164,7 @@ void Bracket::narrow(double at, const RegimePoint& point) {
   seen_.push_back({at, point.briefest});
 }
 
-// Appends the crossings of a part; parts of it that are met are searched in turn.
+// Appends the crossings of a part; its own parts are searched in turn.
 void search(Bracket bracket, int depth, const std::function<RegimePoint(double)>& probe,
             std::vector<RegimeCrossing>& crossings) {
   while (!bracket.is_narrow()) {

@@ -16,10 +16,10 @@
 namespace frahm::studies {
 namespace {
 
-constexpr double rounding = 1e-12;      // a component that is so small a part of the motion is none
-constexpr double least_motion = 1e-30;  // [m, or without dimension] what rounding leaves a stuck mass: 1e-47
+constexpr double rounding = 1e-12;      // a smaller part of the motion counts as zero
+constexpr double least_motion = 1e-30;  // [m, or without dimension] rounding leaves a stuck mass 1e-47
 
-// Response curves of some masses along the frequency axis, the other parameters held: amplitudes at the
+// Response curves of some masses along the frequency axis, the other parameters fixed: amplitudes at the
 // reference order over the axis's parameter.
 class ResponseCurves {
  public:
@@ -45,7 +45,7 @@ class ResponseCurves {
   }
 
  private:
-  // Of each mass the amplitude sought and the size of its motion.
+  // For each mass the amplitude sought and the size of its motion.
   static std::vector<periodic::Quantity> harmonics(const Study& study) {
     std::vector<periodic::Quantity> quantities;
     for (const std::size_t mass : study.sweep()->output.resonances) {
@@ -66,7 +66,7 @@ class ResponseCurves {
     try {
       response_.set_values(values_);
     } catch (const mechanics::MechanicsError&) {
-      return amplitudes;  // such a point of the map has failed, with its reason
+      return amplitudes;  // in the map such a point fails with its reason
     }
     if (response_.solve().status == periodic::Status::unbounded) {
       std::fill(amplitudes.begin(), amplitudes.end(), kInfinity);
@@ -89,7 +89,7 @@ class ResponseCurves {
   std::map<double, std::vector<double>> known_;  // by the value of the parameter
 };
 
-// The coordinates of the rows, and of each mass its resonance.
+// The coordinates of the rows, and the resonance of each mass.
 std::vector<results::Variable> row_variables(const Study& study, std::size_t frequency_dimension) {
   std::vector<results::Variable> variables;
   const auto add = [&](const std::string& name, const std::string& unit, const std::string& long_name) {
@@ -114,7 +114,7 @@ std::vector<results::Variable> row_variables(const Study& study, std::size_t fre
   return variables;
 }
 
-// The place of a curve along each dimension, 0 along the frequency; the last dimension runs fastest.
+// The index of a curve along each dimension, 0 along the frequency; the last dimension runs fastest.
 std::vector<std::size_t> index_of(const Study& study, std::size_t frequency_dimension, std::uint64_t curve) {
   std::vector<std::size_t> index(study.sweep()->dimensions.size(), 0);
   for (std::size_t d = index.size(); d-- > 0;) {

@@ -8,7 +8,7 @@
 namespace frahm::studies {
 namespace {
 
-// What a point that could not be set up has.
+// The values of a point that could not be set up.
 std::vector<double> values_of_failure(std::span<const periodic::Quantity> quantities) {
   std::vector<double> values;
   for (const periodic::Quantity& quantity : quantities)
@@ -52,8 +52,8 @@ std::span<const double> RowSolver::solve(std::string& reason) {
   return point_;
 }
 
-// Along a row the solver extrapolates over the frequency, which has to go one way: axes that advance together
-// may turn back or stand still, and without a frequency axis it stands still always.
+// Along a row the solver extrapolates over the frequency, which must change in one direction: with axes that
+// advance together it may turn back or pause, and without a frequency axis it is constant.
 void RowSolver::turn_where_frequency_does() {
   const double step = numbers_.omega - omega_;
   const bool onwards = points_onwards_ == 1 ? step != 0.0 : step * direction_ > 0.0;

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t word = sizeof(std::uint64_t);
 
-// Takes words and texts off the front of a record.
+// Reads words and texts from the front of a record.
 class RecordReading {
  public:
   explicit RecordReading(std::span<const std::byte> bytes) : bytes_(bytes) {}

@@ -11,7 +11,7 @@ namespace {
 
 struct Value {
   double value = 0.0;
-  double rounding = 0.0;  // by which it may be off
+  double rounding = 0.0;  // its largest rounding error
 };
 
 // The different values of an axis, ascending.
@@ -36,7 +36,7 @@ std::size_t first_not_below(std::span<const Value> values, double value) {
       std::distance(values.begin(), std::ranges::lower_bound(values, value, {}, &Value::value)));
 }
 
-// The number of the known value that this one is.
+// The rank of the known value equal to this one.
 std::uint32_t same_of(std::span<const Value> known, const Value& wanted) {
   const std::size_t above = first_not_below(known, wanted.value);
   std::uint32_t nearest = ValueMatch::none;

@@ -4,7 +4,7 @@
 
 #include "studies/motion/motion_columns.hpp"
 
-// Where the energy of a motion goes: in its record, and as a short table.
+// The energy budget of a motion: in its record, and as a short table.
 namespace frahm::studies {
 
 // Adds <element>_energy, <element>_energy_share of elements that dissipate; initial_energy, final_energy,

@@ -18,7 +18,7 @@ namespace frahm::studies {
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
-constexpr double kSamplesAPeriod = 100.0;  // by default: smooth to the eye, and what most loggers take
+constexpr double kSamplesAPeriod = 100.0;  // by default: smooth to the eye, usual for loggers
 constexpr double kPeriods = 10.0;          // of a periodic response, by default
 constexpr double kMostSamples = 1e7;
 
@@ -55,7 +55,7 @@ std::vector<double> sample_times_of(const Study& study, double duration, double 
   return times;
 }
 
-// All the columns of a motion there are.
+// All columns that a motion has.
 std::vector<MeasuredColumn> columns_of(const Study& study, const transient::Samples& samples) {
   std::vector<MeasuredColumn> columns;
   for (std::size_t i = 0; i < study.network.masses.size(); ++i) {
@@ -105,7 +105,7 @@ std::vector<MeasuredColumn> periodic_columns(const Study& study, const mechanics
   return columns_of(response.history(phases));
 }
 
-// Those that were asked for, in that order.
+// The requested columns, in that order.
 std::vector<MeasuredColumn> chosen(const Study& study, std::vector<MeasuredColumn> all,
                                    std::vector<std::string> names) {
   if (names.empty()) {

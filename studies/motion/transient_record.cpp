@@ -15,7 +15,7 @@ namespace {
 
 using transient::ForcedMotion, transient::Stop;
 
-// The network's values when the parameter that is the frequency, if there is one, takes another value.
+// The network's values at another frequency, set through its parameter if there is one.
 mechanics::NetworkValues values_at(const Study& study, double omega) {
   std::vector<double> parameters = study.parameters.nominal();
   const auto running = study.values.omega.expression.sole_parameter();

@@ -28,7 +28,7 @@ std::string shell_word(const std::string& word) {
   return text + "'";
 }
 
-// What a shell command prints; nothing of it if it fails.
+// The output of a shell command; empty if it fails.
 std::string output_of(const char* command) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(::popen(command, "r"), ::pclose);
   std::string text;
@@ -37,7 +37,7 @@ std::string output_of(const char* command) {
   return text;
 }
 
-// The shard is written out: when only some tasks are submitted again, each still means the same.
+// The shard is written out, so that a task keeps its shard when only some tasks are submitted again.
 std::string run_of_task(const ArrayJob& job, const std::string& output, std::uint64_t tasks) {
   std::string run = "frahm run " + shell_word(job.study.string()) + " -o " + output;
   for (const std::string& setting : job.set) run += " --set " + shell_word(setting);
@@ -88,7 +88,7 @@ std::optional<std::uint64_t> max_array_size_in(std::string_view configuration) {
 
 std::uint64_t most_array_tasks() {
   constexpr std::uint64_t default_of_slurm = 1001;
-  // Where the controller does not answer, scontrol would wait for it longer than anyone here would.
+  // If the controller does not answer, scontrol would wait too long.
   return max_array_size_in(output_of("timeout 5 scontrol show config 2>/dev/null"))
       .value_or(default_of_slurm);
 }

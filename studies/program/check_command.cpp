@@ -110,7 +110,7 @@ void print_transient_choice(const Study& study, std::ostream& out) {
   fmt::print(out, "\n");
 }
 
-// Of a decay or transient.
+// Checks a decay or transient.
 int check_motion(const Study& study, std::ostream& out) {
   const mechanics::NetworkValues values = motion_values(study);
   const transient::InitialState initial = initial_state(study);
@@ -156,7 +156,7 @@ void print_design_range(const Study& study, const DesignChoice& design, std::ost
   fmt::print(out, "{}\n", design.rule ? ", beside a rule" : "");
 }
 
-// Of a tuning.
+// Checks a tuning.
 int check_tune(const CheckOptions& options, Study read, std::ostream& out) {
   const StudyPlan plan = plan_tuning(std::move(read), options.set);
   const Study& study = plan.study;
@@ -175,7 +175,7 @@ int check_tune(const CheckOptions& options, Study read, std::ostream& out) {
   return exit_code::done;
 }
 
-// Of an identification.
+// Checks an identification.
 int check_identification(const CheckOptions& options, Study read, std::ostream& out) {
   const StudyPlan plan = plan_without_map(std::move(read), options.set);
   const Study& study = plan.study;

@@ -6,8 +6,8 @@
 
 namespace {
 
-// Before any other code of the program, which may use the instructions it asks for. Compiled for every x86-64
-// (studies/CMakeLists.txt), and without a library that might not be.
+// Runs before any other code of the program, which may use the instructions checked here. It is compiled for
+// every x86-64 (studies/CMakeLists.txt), without a library that might not be.
 __attribute__((constructor(101))) void check_cpu() {
   __builtin_cpu_init();
   if (std::string_view(FRAHM_CPU) != "x86-64-v3") return;

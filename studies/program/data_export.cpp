@@ -96,7 +96,7 @@ SensorNoise noise_of(const Study& study, const DataOptions& options) {
   return noise;
 }
 
-// A table replaces nothing but an earlier one of its own kind.
+// A table replaces only an earlier table of its own kind.
 void check_place(const std::filesystem::path& place) {
   std::ifstream there(place);
   std::string line;

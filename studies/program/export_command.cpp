@@ -69,8 +69,8 @@ void write_box(const results::MapReader& map, const MapBox& box, std::ostream& o
   out << text;
 }
 
-// The map cut into boxes of points that follow each other: along the first axis longer than what is read at
-// once holds, one index of all before it.
+// Writes the map in boxes of consecutive points: a box covers whole inner axes, part of the next axis and one
+// index of all axes before that.
 void write_map(const results::MapReader& map, std::ostream& out) {
   const results::MapLayout& layout = map.layout();
   out << header(layout);
@@ -93,7 +93,7 @@ void write_map(const results::MapReader& map, std::ostream& out) {
   }
 }
 
-// The columns of a group side by side, numbers in the first row, what is shorter or missing left empty.
+// The columns of a group side by side, single numbers in the first row, missing cells empty.
 void write_columns(const std::vector<results::Column>& columns, std::ostream& out) {
   std::size_t rows = 0;
   std::string text;
@@ -116,7 +116,7 @@ void write_columns(const std::vector<results::Column>& columns, std::ostream& ou
   }
 }
 
-// A group asked for, else the map, or of a file without one its motion or optimum.
+// Writes the requested group, else the map, or in a file without a map the motion or optimum.
 void write_table(const results::MapReader& map, const std::string& asked, std::ostream& out) {
   if (!asked.empty()) return write_columns(map.columns(asked), out);
   for (const char* group : {"decay", "transient", optimum_group, identification_group}) {
@@ -135,7 +135,7 @@ void write_export(const ExportOptions& options, const results::MapReader& map, s
                    place.string());
 }
 
-// A study replaces nothing but an earlier one of its own kind, which begins with this mark.
+// A study replaces only an earlier study of its own kind, which begins with this mark.
 void check_place_of_study(const char* option, const std::filesystem::path& place, const char* mark) {
   if (place.extension() != ".toml")
     throw StudyError(rules::wrong_file, "{} {}: a study is named .toml", option, place.string());
@@ -148,7 +148,7 @@ void check_place_of_study(const char* option, const std::filesystem::path& place
 int write_sweep(const ExportOptions& options, std::ostream& out) {
   const std::filesystem::path& place = options.sweep;
   check_place_of_study("--sweep", place, sweep_mark);
-  const bool again = std::filesystem::exists(place);  // its tables are there then, and ours
+  const bool again = std::filesystem::exists(place);  // its tables then exist and are ours
   const SweepStudy sweep = sweep_study(read_stored_tuning(options.file), place.stem().string());
   for (const auto& [name, csv] : sweep.tables) {
     const std::filesystem::path table = place.parent_path() / name;

@@ -24,7 +24,7 @@ using TemporaryFile = std::unique_ptr<std::FILE, CloseFile>;
   throw std::system_error(errno, std::generic_category(), what);
 }
 
-// A file without a name: what goes in and comes out passes through files, so that neither side waits.
+// A file without a name: input and output pass through files, so that neither side waits.
 TemporaryFile temporary_file() {
   TemporaryFile file(std::tmpfile());
   if (!file) fail("temporary file");

@@ -6,7 +6,7 @@
 
 namespace frahm::studies {
 
-// How another program ended.
+// The end of another program.
 struct ProgramEnd {
   bool found = true;        // whether there is such a program on the PATH
   int code = 0;             // its exit code; 128 + the signal that ended it

@@ -18,14 +18,14 @@
 namespace frahm::studies {
 namespace {
 
-constexpr std::size_t most_logs_told = 10;  // by name; of more their number
+constexpr std::size_t most_logs_told = 10;  // listed by name; the others are counted
 
-// The job of some logs, and the plan it is made of.
+// The job of some logs, and its plan.
 struct LoggedJob {
   std::unique_ptr<const MapPlan> map;
   std::unique_ptr<const StudyPlan> tuning;
   engine::Job job;
-  std::string unit;  // of what the job counts: points, starts or tiles
+  std::string unit;  // the unit of the counts: points, starts or tiles
 };
 
 LoggedJob job_of_note(const std::filesystem::path& output, const engine::LogHeader& study) {
@@ -83,7 +83,7 @@ void print_done(const engine::Survey& survey, const LoggedJob& known, std::ostre
              known.job.tiles, survey.missing.size());
 }
 
-// Of each number of shards those that somebody computes at this moment.
+// For each number of shards, the shards being computed at this moment.
 std::map<std::uint64_t, std::set<std::uint64_t>> shards_at_work(const engine::Survey& survey) {
   std::map<std::uint64_t, std::set<std::uint64_t>> shards;
   for (const engine::WriterState& writer : survey.writers) {
@@ -109,8 +109,8 @@ void print_work(const engine::Survey& survey, const std::string& unit, std::ostr
              survey.seconds_left ? "about " + engine::readable_time(*survey.seconds_left) : "unknown");
 }
 
-// What to submit again: of each array that was submitted its tasks with tiles missing, and of these the ones
-// that nobody is at work on. Any one of the arrays completes the work.
+// The tasks to submit again: for each submitted array its tasks with tiles missing, and among them those that
+// are not being computed. Any one of the arrays completes the work.
 void print_missing_tasks(const engine::Survey& survey, const std::vector<std::filesystem::path>& logs,
                          std::ostream& out) {
   if (survey.missing.empty()) return;

@@ -20,7 +20,7 @@
 namespace frahm::studies {
 namespace {
 
-// In its place a result may have grown from another file than it would now.
+// The logs of the result at `output`, which may have grown from another file than it would now.
 std::vector<std::filesystem::path> logs_of_result(const StudyPlan& plan,
                                                   const std::filesystem::path& output) {
   const engine::LogHeader own =
@@ -52,9 +52,9 @@ bool is_finished(const StudyPlan& plan, const std::filesystem::path& output) {
           : "");
 }
 
-// Whether there is anything to compute: false when the file is there already and is that of this study; what
-// a run killed between writing it and removing its logs has left is removed then. from: the result from which
-// a map grows; empty: none. lock: takes the lock of the output, unless the run is one shard of several.
+// Whether there is anything to compute: false if the file of this study exists already; then the logs left by
+// a run that was killed before it removed them are removed. from: the result from which a map grows; empty:
+// none. lock: takes the lock of the output, unless the run is one shard of several.
 bool begin(const StudyPlan& plan, const engine::RunOptions& run, const std::filesystem::path& from,
            std::optional<engine::OutputLock>& lock) {
   const auto is_done = [&] {
@@ -73,7 +73,7 @@ bool begin(const StudyPlan& plan, const engine::RunOptions& run, const std::file
   return false;
 }
 
-// Computes what is left of a plan's job, with the note of its study beside the logs.
+// Computes the missing tiles of a plan's job, with the note of its study beside the logs.
 engine::Summary compute(const StudyPlan& plan, const engine::Job& job, const engine::RunOptions& run) {
   const bool is_new = write_study_note(run.output, plan);
   try {
@@ -87,7 +87,7 @@ engine::Summary compute(const StudyPlan& plan, const engine::Job& job, const eng
   }
 }
 
-// Notes, on stderr, what could not be used of earlier logs.
+// Notes on stderr the unusable parts of earlier logs.
 void tell_unused(const engine::Summary& summary) {
   for (const engine::UnusedBytes& unused : summary.unused) {
     fmt::print(std::cerr, "note: {}: {} bytes from byte {} on are no whole tile and are computed again\n",
@@ -98,6 +98,10 @@ void tell_unused(const engine::Summary& summary) {
 // The ends of a run that makes no file: stopped while it computed, or while the file was made; one shard of
 // several. They return the exit code.
 int tell_stopped(const engine::Summary& summary, const std::filesystem::path& output) {
+  if (summary.points.done == 0) {
+    fmt::print(std::cerr, "{}: nothing is computed yet; the same command begins anew\n", summary.reason);
+    return exit_code::stopped;
+  }
   const double percent =
       100.0 * static_cast<double>(summary.points.done) / static_cast<double>(summary.points.points);
   fmt::print(std::cerr, "{}: {:.1f} % is done and kept beside {}; the same command goes on from there\n",
@@ -152,7 +156,7 @@ int run_in_logs(const RunCommandOptions& options, const engine::RunOptions& run,
                                  .threads = summary.threads_here,
                                  .progress = run.progress,
                                  .stop_asked = [&] { return stop.asked(); }};
-  check_result_place(run.output, options.study);  // as it was before, still
+  check_result_place(run.output, options.study);  // again: it may have changed
   if (!work.assemble(record, assembly, *lock)) return tell_unwritten(stop, run.output);
   remove_study_notes(run.output);
   return work.tell_made({.points = summary.points.done - summary.points.resumed - summary.points.reused,

@@ -11,8 +11,8 @@
 
 namespace {
 
-// The BLAS under Ipopt's linear solver keeps to the thread that calls it: threads are ours to start. OpenBLAS
-// reads OPENBLAS_NUM_THREADS when it is loaded, before main(), so it is told by its own function; another
+// The BLAS under Ipopt's linear solver must use only the calling thread, because this program starts the
+// threads. OpenBLAS reads OPENBLAS_NUM_THREADS before main(), so its own function sets the number; another
 // BLAS has none.
 void keep_blas_to_one_thread() {
   using SetThreads = void (*)(int);

@@ -24,7 +24,7 @@
 namespace frahm::studies {
 namespace {
 
-// The study of the first log that says one.
+// The study named in the first log that has one.
 engine::LogHeader study_of(const std::vector<std::filesystem::path>& logs,
                            const std::filesystem::path& output) {
   for (const auto& log : logs) {
@@ -70,7 +70,7 @@ void remove_notes(const MergeOptions& options, const std::vector<std::filesystem
   for (const auto& place : places_of_note(options, logs)) remove_study_notes(place);
 }
 
-// The result from which missing points are still to be taken must not be replaced by a part.
+// A result from which missing points are still to be taken must not be replaced by a partial one.
 void refuse_loss_of_source(const MergeOptions& options, const StudyPlan& plan) {
   if (!options.partial || !plan.grown_from || !std::filesystem::exists(options.output)) return;
   const results::MapReader there(options.output);
@@ -81,7 +81,7 @@ void refuse_loss_of_source(const MergeOptions& options, const StudyPlan& plan) {
                                   options.output.string()));
 }
 
-// A result of something else is not replaced, unless the map grows from it in its place.
+// A result of another study is not replaced, unless the map grows from it and replaces it.
 void refuse_another_result(const MergeOptions& options, const StudyPlan& plan) {
   const auto kept = fingerprint_of_file(options.output);
   if (!kept || *kept == plan.fingerprint) return;
@@ -132,9 +132,10 @@ int merge_tuning(const MergeOptions& options, const std::vector<std::filesystem:
   return tell_tuning(plan, *result, options.output, out);
 }
 
-// Whether an earlier merge or run has made the file already: a whole result, and of the study of whatever
-// logs are still there, left behind when it was killed while it removed them. These go.
+// Whether an earlier merge or run has made the file already: a whole result of the same study as the logs
+// that are still there. Such logs, left by a process killed while removing them, are removed.
 bool is_merged(const MergeOptions& options, std::vector<std::filesystem::path> logs, std::ostream& out) {
+  refuse_study(options.output);
   check_result_place(options.output, {});
   const auto kept = fingerprint_of_file(options.output);
   if (!kept || is_partial(options.output)) return false;

@@ -43,8 +43,8 @@ engine::Shard shard_of_array_task(const std::function<const char*(const char*)>&
   const std::uint64_t id = read("SLURM_ARRAY_TASK_ID", 0), first = read("SLURM_ARRAY_TASK_MIN", 0);
   const std::uint64_t step = read("SLURM_ARRAY_TASK_STEP", 1), count = read("SLURM_ARRAY_TASK_COUNT", 1);
   const std::uint64_t last = read("SLURM_ARRAY_TASK_MAX", first + (count - 1) * step);
-  // Slurm gives a set of single numbers, such as --array=1,3, the step 1: no place in the set follows from
-  // it, nor what each task would take for its share.
+  // Slurm gives a set of single numbers, such as --array=1,3, the step 1, from which neither the position in
+  // the set nor the share of a task follows.
   const bool is_series = step > 0 && count > 0 && last == first + (count - 1) * step;
   if (!is_series || id < first || id > last || (id - first) % step != 0) {
     throw StudyError(

@@ -33,7 +33,7 @@ void require_node() {
       "--figures: needs the program node, which is not on the PATH (Debian: apt-get install nodejs)");
 }
 
-// The script that draws, as a file as long as it is needed.
+// The drawing script, as a file that exists only while it is needed.
 class FigureScript {
  public:
   explicit FigureScript(const std::filesystem::path& folder) : path_(folder / script_name) {
@@ -59,14 +59,14 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-// By the first converter that is installed.
+// Converts with the first installed converter.
 ProgramEnd make_pdf(const std::string& svg, const std::string& pdf) {
   ProgramEnd end = run_program_of_system("rsvg-convert", {"--format=pdf", "--output=" + pdf, svg});
   if (!end.found) end = run_program_of_system("inkscape", {"--export-filename=" + pdf, svg});
   return end;
 }
 
-// names: of the figures, without their extension. Prints what there is of each.
+// names: of the figures, without their extension. Prints the files made of each.
 void make_pdfs(const std::vector<std::string>& names, const std::filesystem::path& folder,
                std::ostream& out) {
   bool has_converter = true;

@@ -41,7 +41,7 @@ periodic::PeriodicResponse response_of(const Study& study,
   }
 }
 
-// Each with what stands for it at a point that could not be set up.
+// Each quantity with its value at a point that could not be set up.
 void describe_all(const Study& study, const std::vector<periodic::Quantity>& quantities,
                   PointReport& report) {
   for (const periodic::Quantity& quantity : quantities) {
@@ -50,7 +50,7 @@ void describe_all(const Study& study, const std::vector<periodic::Quantity>& qua
   }
 }
 
-// Of a response whose values are set.
+// Solves a response whose values are set.
 void solve(periodic::PeriodicResponse& response, PointReport& report) {
   const periodic::ResponseSummary& summary = response.solve();
   report.reason = summary.reason;
@@ -62,7 +62,7 @@ void solve(periodic::PeriodicResponse& response, PointReport& report) {
   for (std::size_t i = 0; i < values.size(); ++i) report.quantities[i].value = values[i];
 }
 
-// Adds what the study's comparison says of the point. parameters: complete.
+// Adds the study's comparison at the point. parameters: complete.
 void add_comparison(const Study& study, std::vector<double> parameters,
                     const std::vector<periodic::Quantity>& quantities, PointReport& report) {
   if (!study.sweep() || !study.sweep()->comparison) return;
@@ -104,7 +104,7 @@ PointReport tell_point(const Study& study, std::vector<double> parameters, std::
   try {
     response.set_values(values);
   } catch (const mechanics::MechanicsError& error) {
-    // As in a map: such a point is one that failed.
+    // As in a map, such a point has failed.
     report.reason = error.what();
     report.residual = kNone;
     report.status = status_of(report);

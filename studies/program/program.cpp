@@ -49,8 +49,7 @@ Every command has its own help: frahm run --help
 
 Exit codes: 0 done, 1 internal error, 2 wrong usage or study, 3 some points failed, 4 stopped (run again to
 resume), 5 refused to mix results of different studies, 6 input or output failed, 7 a tuning or fit did not
-converge,
-8 self-check failed)";
+converge, 8 self-check failed)";
 
 constexpr const char* run_examples = R"(
 Examples:
@@ -102,7 +101,7 @@ Examples:
   frahm report tuned.h5 --figures figures     its figures for a paper: SVG, CSV, and PDF with rsvg-convert or
                                               inkscape)";
 
-using Action = std::function<int(std::ostream&)>;  // of the command that was given
+using Action = std::function<int(std::ostream&)>;  // of the given command
 
 CLI::App* add_command(CLI::App& program, const char* name, const char* what, const char* examples) {
   CLI::App* command = program.add_subcommand(name, what);
@@ -115,14 +114,16 @@ void add_study(CLI::App& command, std::filesystem::path& study) {
 }
 
 void add_set(CLI::App& command, std::vector<std::string>& set) {
-  command.add_option("--set", set, "replace a parameter: name=value or \"name=value unit\"; repeatable")
+  command
+      .add_option("--set", set,
+                  "change a parameter that is no axis: name=value or \"name=value unit\"; repeatable")
       ->allow_extra_args(false);
 }
 
 void add_threads(CLI::App& command, int& threads) {
   command
       .add_option("--threads", threads,
-                  "0: OMP_NUM_THREADS, else SLURM_CPUS_PER_TASK, else one on each processor")
+                  "number of threads; 0: OMP_NUM_THREADS, else SLURM_CPUS_PER_TASK, else all processors")
       ->check(CLI::Range(0, 4096))
       ->take_last();
 }
@@ -138,34 +139,34 @@ void add_progress(CLI::App& command, engine::ProgressStyle& style) {
       ->take_last();
 }
 
-// What `run` is given as texts, to be read when the whole line is known.
+// The options of `run` as texts, read once the whole line is known.
 struct RunTexts {
   RunCommandOptions options;
   std::string shard, budget;
 };
 
 void add_run(CLI::App& program, RunTexts& texts, Action& action) {
-  CLI::App* run = add_command(
-      program, "run",
-      "compute the map of a study or its optimum, or what is left of it; its one motion; or identify a model",
-      run_examples);
+  CLI::App* run =
+      add_command(program, "run",
+                  "compute what a study asks for: a map, an optimum, one motion or a model; again, to resume",
+                  run_examples);
   auto& [options, shard, budget] = texts;
   add_study(*run, options.study);
   run->add_option("-o,--output", options.run.output, "result file; else the study's name with .h5, here");
   add_threads(*run, options.run.threads);
-  run->add_option(
-      "--shard", shard,
-      "i/n: compute every n-th tile from i on, i from 0; in an array task of Slurm its own share");
-  run->add_option(
-      "--from", options.from,
-      "result of the same system on another grid: its points are taken over, the others computed");
-  run->add_flag("--fresh", options.run.fresh, "discard what earlier runs have left");
+  run->add_option("--shard", shard,
+                  "i/n: compute part i of n, i from 0; else, in an array task of Slurm, its own part");
+  run->add_option("--from", options.from,
+                  "reuse the points of this earlier result, of the same system on another grid");
+  run->add_flag("--fresh", options.run.fresh, "start anew: an earlier result and its logs are lost");
   run->add_option("--time-budget", budget, "stop after 90s, 50m, 2h or 1d");
   add_set(*run, options.set);
   add_progress(*run, options.run.progress);
   run->callback([&, run] {
     action = [&, run](std::ostream& out) {
       options.run.shard = run->count("--shard") == 0 ? shard_of_array_task(std::getenv) : shard_of(shard);
+      if (run->count("--output") > 0 && options.run.output.empty())
+        throw StudyError(rules::wrong_option, "--output \"\": name the result file");
       if (run->count("--from") > 0 && options.from.empty())
         throw StudyError(rules::wrong_option, "--from \"\": name the result whose points are taken over");
       if (run->count("--time-budget") > 0) options.run.time_budget = time_span_of("--time-budget", budget);
@@ -176,19 +177,18 @@ void add_run(CLI::App& program, RunTexts& texts, Action& action) {
 }
 
 void add_check(CLI::App& program, CheckOptions& options, Action& action) {
-  CLI::App* check =
-      add_command(program, "check", "validate a study and tell what running it means", check_examples);
+  CLI::App* check = add_command(
+      program, "check", "validate a study; its size, its time, its natural frequencies", check_examples);
   add_study(*check, options.study);
   add_set(*check, options.set);
   add_threads(*check, options.threads);
   check
       ->add_option("--max-array", options.max_array,
-                   "tasks an array may have on the cluster (MaxArraySize); else as Slurm here says, or 1001")
+                   "most tasks of a Slurm array (MaxArraySize); else as Slurm here says, or 1001")
       ->check(CLI::Range(1, 4'000'001));  // the largest Slurm can be set to
   check
-      ->add_option(
-          "--simulate-ranks", options.simulate_ranks,
-          "predict time and efficiency on 1, 10, 100 ... so many MPI ranks of --threads each (0: one)")
+      ->add_option("--simulate-ranks", options.simulate_ranks,
+                   "predict time and efficiency on up to so many MPI ranks of --threads each (0: one)")
       ->check(CLI::Range(1, 100'000));
   check->callback([&] { action = [&](std::ostream& out) { return check_command(options, out); }; });
 }
@@ -196,12 +196,12 @@ void add_check(CLI::App& program, CheckOptions& options, Action& action) {
 void add_point(CLI::App& program, PointOptions& options, Action& action) {
   CLI::App* point = add_command(program, "point", "the full report of one response", point_examples);
   add_study(*point, options.study);
-  point->add_option("--at", options.at, "name=value,...; the rest as the study states it")
+  point->add_option("--at", options.at, "name=value,...; other parameters as in the study")
       ->allow_extra_args(false);
   add_set(*point, options.set);
   point->add_option("--history", options.history, "write the motion over one period to this CSV file");
   point->add_flag("--gradient", options.gradient,
-                  "exact derivatives by the parameters, beside central differences");
+                  "exact derivatives with respect to the parameters, beside central differences");
   point->add_flag("--json", options.json, "the report as one JSON object");
   point->callback([&] { action = [&](std::ostream& out) { return point_command(options, out); }; });
 }
@@ -214,10 +214,11 @@ void add_status(CLI::App& program, std::filesystem::path& file, Action& action) 
 
 void add_merge(CLI::App& program, MergeOptions& options, Action& action) {
   CLI::App* merge =
-      add_command(program, "merge", "make the result file from the logs of shards", merge_examples);
+      add_command(program, "merge", "join what run --shard computed into the result file", merge_examples);
   merge->add_option("FILE", options.output, "result file to make")->required();
   merge->add_option("SHARD", options.logs, "shard logs (*.frahm-log); else those beside FILE");
-  merge->add_flag("--partial", options.partial, "although tiles are missing; the logs are kept then");
+  merge->add_flag("--partial", options.partial,
+                  "write what there is although tiles are missing; the logs stay");
   add_threads(*merge, options.threads);
   add_progress(*merge, options.progress);
   merge->callback([&] { action = [&](std::ostream& out) { return merge_command(options, out); }; });
@@ -225,16 +226,14 @@ void add_merge(CLI::App& program, MergeOptions& options, Action& action) {
 
 void add_export(CLI::App& program, ExportOptions& options, Action& action) {
   CLI::App* command = add_command(
-      program, "export",
-      "write a map as CSV, or the columns of a motion, tuning or identification; studies of what was "
-      "tuned or identified; simulated measurements",
+      program, "export", "write a result as CSV; a study of an optimum or a model; simulated measurements",
       export_examples);
   command->add_option("FILE", options.file, "result file")->required();
   command->add_option("--group", options.group,
                       "a group instead of the map: resonance, orbits, identification ...");
-  command->add_flag("--csv", options.csv, "the only form there is, and the default");
+  command->add_flag("--csv", options.csv, "CSV, which is the default");
   command->add_flag("--schedule", options.schedule, "of a tuning: its schedule for a controller");
-  command->add_option("--step", options.step, "of the schedule, in the unit of the band; else 1 rpm");
+  command->add_option("--step", options.step, "of --schedule: its step, in the unit of the band; else 1 rpm");
   command->add_option("--sweep", options.sweep, "of a tuning: a study that sweeps its optimum, to this file");
   command->add_option("--study", options.study,
                       "of an identification: a study in which its estimates stand, to this file");
@@ -277,7 +276,7 @@ void add_report(CLI::App& program, ReportOptions& options, Action& action) {
   command->callback([&] { action = [&](std::ostream& out) { return report_command(options, out); }; });
 }
 
-// Everything the command line can give a value to.
+// All values that the command line can set.
 struct CommandLine {
   RunTexts run;
   CheckOptions check;
@@ -294,8 +293,7 @@ void describe(CLI::App& program, CommandLine& line) {
   program.footer(first_steps);
   program.require_subcommand(0, 1);
   auto* version = program.add_flag("--version", line.version, "print the version");
-  program.add_flag("--verbose", line.verbose, "with --version: compiler, libraries, processor")
-      ->needs(version);
+  program.add_flag("--verbose", line.verbose, "compiler, libraries, processor")->needs(version);
   add_run(program, line.run, line.action);
   add_check(program, line.check, line.action);
   add_point(program, line.point, line.action);
@@ -312,7 +310,7 @@ void describe(CLI::App& program, CommandLine& line) {
 // How a command ended.
 struct Ending {
   int code = exit_code::done;
-  std::string complaint = {};  // what went wrong; empty if nothing did
+  std::string complaint = {};  // the error; empty if there was none
 };
 
 Ending carry_out(const Action& action, std::ostream& out) {
@@ -348,13 +346,14 @@ Ending carry_out(const Action& action, std::ostream& out) {
   }
 }
 
-// Parses the command line; the exit code if there is nothing more to do. A rank that follows says nothing.
+// Parses the command line; the exit code if there is nothing more to do. A rank other than 0 prints nothing.
 std::optional<int> parse(CLI::App& program, CommandLine& line, int argc, const char* const* argv,
                          std::ostream& out, std::ostream& complaints) {
   for (int i = 0; i < argc; ++i) line.run.options.command += (i == 0 ? "frahm" : std::string(" ") + argv[i]);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() != 0) complaints << "frahm: ";
     return program.exit(error, out, complaints) == 0 ? exit_code::done : exit_code::wrong_input;
   }
   if (line.version) line.action = [&line](std::ostream& to) { return version_command(line.verbose, to); };
@@ -363,7 +362,7 @@ std::optional<int> parse(CLI::App& program, CommandLine& line, int argc, const c
   return exit_code::wrong_input;
 }
 
-// Of this process alone, or of rank 0.
+// Runs the program in a single process, or in rank 0.
 int lead(engine::Ranks* ranks, int argc, const char* const* argv, std::ostream& out) {
   CLI::App program(overview, "frahm");
   CommandLine line;
@@ -375,8 +374,8 @@ int lead(engine::Ranks* ranks, int argc, const char* const* argv, std::ostream& 
   return ending.code;
 }
 
-// Of the other ranks: a run is shared, whatever else is asked for is done by rank 0. They say nothing
-// themselves; rank 0 reports what goes wrong with one.
+// Runs the program in the other ranks: a run is shared, rank 0 does every other command. These ranks print
+// nothing; rank 0 reports their errors.
 int follow(engine::Ranks& ranks, int argc, const char* const* argv) {
   CLI::App program(overview, "frahm");
   CommandLine line;

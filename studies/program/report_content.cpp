@@ -12,7 +12,7 @@
 namespace frahm::studies {
 namespace {
 
-// The study that the result holds, if it can be read again: a table that it reads may have stayed elsewhere.
+// The study that the result holds, if it can be read again: a table of the study may be elsewhere.
 std::optional<Study> study_of(const results::MapReader& result, const std::filesystem::path& file) {
   try {
     return read_stored_study(result, file).study;
@@ -23,14 +23,14 @@ std::optional<Study> study_of(const results::MapReader& result, const std::files
   }
 }
 
-// What the table of quantities has an atlas show, and differences from a map compared with.
+// The quantities marked for an atlas in the table of quantities, and the differences of a comparison.
 bool is_shown_by_default(const std::string& name, const std::optional<Study>& study) {
   if (name.ends_with("_difference")) return true;
   const auto quantity = study ? periodic::find_quantity(name, study->network) : std::nullopt;
   return quantity ? periodic::is_shown(*quantity, study->network) : periodic::is_shown(name);
 }
 
-// All recorded quantities if it is none of those.
+// All recorded quantities if none of them is shown by default.
 std::vector<std::string> default_quantities(const results::MapLayout& layout,
                                             const std::optional<Study>& study) {
   std::vector<std::string> shown, all;
@@ -83,7 +83,7 @@ std::vector<std::string> shown_quantities(const std::vector<std::string>& asked,
   return names;
 }
 
-// The names of what runs along the axes of the map.
+// The names of the parameters along the axes of the map.
 std::vector<std::string> axis_parameters(const results::MapLayout& layout,
                                          const std::optional<Study>& study) {
   std::vector<std::string> names;

@@ -10,7 +10,7 @@
 namespace frahm::studies {
 namespace {
 
-// The frequency of the excitation [rad/s] as the study states it, by which the page knows a period.
+// The study's excitation frequency [rad/s], from which the page knows the period.
 results::Column excitation_frequency(const Study& study) {
   std::vector<double> parameters = study.parameters.nominal();
   mechanics::NetworkValues values;
@@ -21,8 +21,8 @@ results::Column excitation_frequency(const Study& study) {
           .values = {values.omega}};
 }
 
-// The unit in which the study speaks of the excitation frequency, as a column of one such unit in SI; none
-// where it speaks of it in SI.
+// The study's unit of the excitation frequency, as a column with the SI value of one such unit; none if the
+// unit is SI.
 std::vector<results::Column> frequency_unit(const Study& study) {
   for (std::size_t i = 0; i < study.parameters.list.size(); ++i) {
     const Parameter& parameter = study.parameters.list[i];
@@ -37,7 +37,7 @@ std::vector<results::Column> frequency_unit(const Study& study) {
   return {};
 }
 
-// The number of elements of which something holds, given what each adds.
+// The number of elements that meet a condition.
 template <class Condition>
 results::Column number_of(const Study& study, const std::string& name, const Condition& holds) {
   const auto& elements = study.network.elements;
@@ -61,7 +61,7 @@ results::Column given_duration(const Study& study) {
           .values = {study.motion()->duration ? 1.0 : 0.0}};
 }
 
-// By what the page of a motion knows whether it can end, and what a period is.
+// The page of a motion needs these to know whether the motion can end, and its period.
 std::vector<results::Column> motion_facts(const Study& study) {
   using mechanics::ElementKind;
   using Added = mechanics::Added<double>;
@@ -79,7 +79,7 @@ std::vector<results::Column> motion_facts(const Study& study) {
   return facts;
 }
 
-// The parts of the band over which the limits of a tuning hold, of those that name one, in the unit of its
+// The parts of the band over which the limits of a tuning hold, for limits that name one, in the unit of the
 // band.
 std::vector<results::Column> limit_bands(const Study& study) {
   const TuneChoice& tune = *study.tune();

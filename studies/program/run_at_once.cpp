@@ -20,7 +20,7 @@
 namespace frahm::studies {
 namespace {
 
-// Why it has been stopped.
+// The reason of a stop.
 struct Stopped {
   std::string reason;
 };
@@ -38,10 +38,10 @@ void refuse_sharing(const RunCommandOptions& options, const Study& study) {
                    study.source.name, kind_noun(study.kind()));
 }
 
-// What an identification reads it must not take the place of.
+// An identification must not replace a file that it reads.
 void refuse_own_data(const Study& study, const std::filesystem::path& output) {
   if (!study.identify()) return;
-  std::error_code ignored;  // a file that is not there is no other's
+  std::error_code ignored;  // a missing file is no data file
   for (const std::filesystem::path& file : study.identify()->files) {
     if (std::filesystem::equivalent(output, file, ignored))
       throw StudyError(rules::wrong_file,
@@ -50,7 +50,7 @@ void refuse_own_data(const Study& study, const std::filesystem::path& output) {
   }
 }
 
-// An identification is made anew where its data have changed.
+// An identification is computed again if its data have changed.
 bool is_of_same_file(const Study& study, const std::filesystem::path& output) {
   const results::MapReader map(output);
   const std::string name = std::filesystem::path(study.source.name).filename().string();

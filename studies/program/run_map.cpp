@@ -23,7 +23,7 @@ int run_map(const RunCommandOptions& options, Study study, std::ostream& out) {
   };
   const auto make_file = [&](const RunRecord& record, const AssemblyOptions& how,
                              const engine::OutputLock& held) {
-    earlier.reset();  // the new file may take its place
+    earlier.reset();  // the new file may replace it
     return assemble(plan, record, how, held).finished;
   };
   const auto tell = [&](std::optional<Effort> effort) {

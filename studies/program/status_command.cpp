@@ -81,11 +81,11 @@ void print_file(const std::filesystem::path& file, std::ostream& out) {
   }
 }
 
-// The logs beside a file, by the study they belong to: there is more than one only where a run was refused or
-// a log put there by hand.
+// The logs beside a file, by their study: there are several studies only if a run was refused or a log put
+// there by hand.
 struct FoundLogs {
   std::vector<std::pair<engine::LogHeader, std::vector<std::filesystem::path>>> studies;
-  std::vector<std::string> unreadable;  // what is wrong with each log that cannot be read
+  std::vector<std::string> unreadable;  // the error of each log that cannot be read
 };
 
 FoundLogs logs_beside(const std::filesystem::path& file) {
@@ -93,7 +93,7 @@ FoundLogs logs_beside(const std::filesystem::path& file) {
   for (const auto& log : engine::find_logs(file)) {
     try {
       const auto study = engine::study_of_log(log);
-      if (!study) continue;  // cut off at birth
+      if (!study) continue;  // cut off in its header
       auto known = std::find_if(found.studies.begin(), found.studies.end(),
                                 [&](const auto& some) { return some.first == *study; });
       if (known == found.studies.end()) known = found.studies.insert(known, {*study, {}});
@@ -123,6 +123,7 @@ std::string state_of_logs(const std::filesystem::path& file, const engine::LogHe
 }  // namespace
 
 int status_command(const std::filesystem::path& file, std::ostream& out) {
+  refuse_study(file);
   const bool is_there = std::filesystem::exists(file);
   const FoundLogs found = logs_beside(file);
   if (!is_there && found.studies.empty() && found.unreadable.empty())

@@ -32,8 +32,8 @@ struct StudyNote {
   std::string text;
 };
 
-// The line behind the study's path, and that of the earlier result's if there is one. Returns the number of
-// overrides.
+// Reads the line after the study's path, and that of the earlier result if there is one. Returns the number
+// of overrides.
 std::size_t read_numbers(std::istream& file, StudyNote& note) {
   std::string line;
   std::getline(file, line);
@@ -59,8 +59,8 @@ std::optional<StudyNote> read_note(const std::filesystem::path& path) {
   return note;
 }
 
-// The study of a note. Of one that was moved with its tables and its logs, these are no longer where the
-// study was, but beside the note.
+// The study of a note. If the note was moved with its tables and logs, the tables are beside the note and no
+// longer at the study's old path.
 Study study_of_note(const StudyNote& note, const std::filesystem::path& path) {
   try {
     return parse_study(note.text, note.study);
@@ -83,7 +83,7 @@ bool write_study_note(const std::filesystem::path& output, const StudyPlan& plan
   for (const std::string& set : plan.set) text += set + '\n';
   text += plan.study.source.text;
   const std::filesystem::path path = note_path(output, plan.log_header().fingerprint);
-  // Other shards may be writing the same note at this moment: each writes its own and puts it in place whole.
+  // Other shards may be writing the same note at this moment: each renames its complete file.
   const std::filesystem::path own = fmt::format("{}-{:08x}", path.string(), std::random_device()());
   write_whole_file(own, text);
   std::error_code error;
@@ -135,7 +135,7 @@ void remove_study_notes(const std::filesystem::path& output) {
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(engine::directory_of(output), error)) {
     const std::string name = entry.path().filename().string();
-    // Behind the suffix stand the names of notes that a kill left half written.
+    // Names with more text behind the suffix are notes left half written by a kill.
     if (name.starts_with(prefix) && name.find(note_suffix) != std::string::npos) {
       std::filesystem::remove(entry.path(), error);
     }

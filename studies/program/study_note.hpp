@@ -42,7 +42,7 @@ void check_note_gives(const StudyPlan& plan, const NotedStudy& noted, const engi
 // Removes the note of one study.
 void remove_study_note(const std::filesystem::path& output, const StudyPlan& plan);
 
-// Removes the notes of an output, whatever their study.
+// Removes the notes of an output, for any study.
 void remove_study_notes(const std::filesystem::path& output);
 
 }  // namespace frahm::studies

@@ -37,7 +37,7 @@ double radius(const std::array<std::complex<double>, 2>& multipliers) {
   return std::max(std::abs(multipliers[0]), std::abs(multipliers[1]));
 }
 
-// Every orbit found must also lose what is put in.
+// Every orbit found must also dissipate the energy put in.
 KnownQuantities solve(ClassicalSystem& system, const mechanics::NetworkValues& values, VerifyCase& energy) {
   const KnownQuantities found = system.solve(values);
   if (found.has_orbit && found.regime != Regime::stuck) energy.compare(found.energy_balance, 0.0);
@@ -107,7 +107,7 @@ void add_one_stop(std::vector<VerifyCase>& cases, VerifyCase& energy) {
   for (VerifyCase* added : {&amplitude, &stuck, &multiplier}) cases.push_back(std::move(*added));
 }
 
-// Where formulas have poles or lose their footing: zeta = 0 at r = 1, and zeta about 1.
+// Points where formulas have poles or are ill-conditioned: zeta = 0 at r = 1, and zeta about 1.
 void add_degenerate(std::vector<VerifyCase>& cases, VerifyCase& energy) {
   VerifyCase unbounded{"Undamped at resonance, f < pi/4: unbounded", 0.0};
   VerifyCase bounded{"Undamped at and 1e-9 beside resonance, f > pi/4: amplitude", agreement};

@@ -36,8 +36,8 @@ std::size_t read_axis_parameter(const TomlSection& section, const Study& study) 
   return *index;
 }
 
-// Without a unit the values are SI, like every bare number; where the parameter itself is given in another
-// unit that is too easily overlooked to be allowed.
+// Without a unit the values are SI, like every bare number. This is refused if the parameter itself is given
+// in another unit, because it is easily overlooked.
 void read_axis_unit(const StudyContext& context, const TomlSection& section, const Parameter& parameter,
                     ParameterAxis& axis) {
   if (context.dimensionless) {
@@ -120,7 +120,7 @@ std::vector<double> read_listed(const TomlSection& section) {
   return values;
 }
 
-// A value twice is a mistake, except in a zip, where the other axes tell the points apart.
+// A repeated value is a mistake, except in a zip, where the other axes distinguish the points.
 void check_values_differ(const TomlSection& section, const ParameterAxis& axis) {
   std::vector<double> sorted = axis.values;
   std::sort(sorted.begin(), sorted.end());

@@ -60,14 +60,14 @@ void take_header(CsvReading& reading) {
   reading.rows.erase(reading.rows.begin());
 }
 
-// What its cells name, without units.
+// The names in its cells, without units.
 std::vector<std::string> header_names(const CsvReading& reading) {
   std::vector<std::string> names;
   for (const std::string& cell : reading.header) names.push_back(column_name(cell).name);
   return names;
 }
 
-// The columns that a header cell names so, with its unit or without.
+// The columns with this name in the header, with or without a unit.
 std::vector<std::size_t> named(const CsvReading& reading, const std::string& name) {
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < reading.header.size(); ++i) {
@@ -76,8 +76,8 @@ std::vector<std::size_t> named(const CsvReading& reading, const std::string& nam
   return found;
 }
 
-// A column that looks like one of a motion, but of no node that the study has, would be silently without
-// effect.
+// A column that looks like one of a motion, but of no node that the study has, would have no effect, without
+// a message.
 void refuse_misspelt(const CsvReading& reading, const RecordForm& form) {
   if (!form.is_trace) return;
   std::vector<std::string> known;
@@ -86,14 +86,16 @@ void refuse_misspelt(const CsvReading& reading, const RecordForm& form) {
     const bool of_node = std::any_of(motion_endings.begin(), motion_endings.end(),
                                      [&](const char* ending) { return name.ends_with(ending); });
     if (!of_node || form.find(name)) continue;
+    const std::string hint = suggestion(name, known);
     reading.fail_at_file(rules::unknown_name,
-                         "{}:{}: \"{}\" is of no node of the study{}; where it means nothing here, say which "
-                         "columns do: columns = {{ ... }}",
-                         reading.result.file, reading.result.header, name, suggestion(name, known));
+                         "{}:{}: \"{}\" is of no node of the study{}{} To leave it out, name the others in "
+                         "columns = {{ ... }}",
+                         reading.result.file, reading.result.header, name, hint,
+                         hint.ends_with('?') ? "" : ".");
   }
 }
 
-// Without `columns` those count whose header is the name of a role.
+// Without `columns`, the columns are those whose header is the name of a role.
 std::vector<WantedColumn> wanted_by_header(const CsvReading& reading) {
   if (reading.header.empty()) {
     reading.fail_at_file(rules::no_header,
@@ -109,8 +111,9 @@ std::vector<WantedColumn> wanted_by_header(const CsvReading& reading) {
   for (const Role& role : form.roles) {
     const bool there = std::find(found.begin(), found.end(), role.name) != found.end();
     if (role.required && !there)
-      reading.fail_at_file(rules::unknown_column, "{}:{}: no column is called \"{}\"{}", reading.result.file,
-                           reading.result.header, role.name, suggestion(role.name, header_names(reading)));
+      reading.fail_at_file(rules::unknown_column, "{}:{}: the header has no column \"{}\"{}",
+                           reading.result.file, reading.result.header, role.name,
+                           suggestion(role.name, header_names(reading)));
     if (there) wanted.push_back({role.name, std::nullopt, role.name, reading.record.position()});
   }
   if (!form.is_trace && !named(reading, label_role).empty())
@@ -119,7 +122,7 @@ std::vector<WantedColumn> wanted_by_header(const CsvReading& reading) {
   return wanted;
 }
 
-// Rows that a file marks are left out whether or not the study speaks of the column.
+// Rows marked in the file are left out even if the study does not name that column.
 void want_doubtful(const CsvReading& reading, std::vector<WantedColumn>& wanted) {
   const bool there = std::any_of(wanted.begin(), wanted.end(),
                                  [](const WantedColumn& each) { return each.role == doubtful_role; });
@@ -127,7 +130,7 @@ void want_doubtful(const CsvReading& reading, std::vector<WantedColumn>& wanted)
     wanted.push_back({doubtful_role, std::nullopt, doubtful_role, reading.record.position()});
 }
 
-// A header that stands over the numbers in another order than the study says would give the wrong data.
+// A header in another order than the study's columns would give the wrong data.
 void check_order(const CsvReading& reading, const WantedColumn& column,
                  const std::vector<WantedColumn>& wanted) {
   if (reading.header.empty()) return;
@@ -167,7 +170,7 @@ std::size_t index_of(const CsvReading& reading, const WantedColumn& column,
   return found.front();
 }
 
-// Keeps the rows that nobody doubts; what the others say is not looked at.
+// Drops the rows marked as doubtful; their other cells are not read.
 void leave_out_doubtful(CsvReading& reading, std::size_t column) {
   std::vector<CsvRow> kept;
   for (CsvRow& row : reading.rows) {

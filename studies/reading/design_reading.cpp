@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::int64_t most_knots = 10'000;
 
-// Bounds in the unit given, to SI; what is absent is `otherwise`.
+// A bound in the given unit, converted to SI; `otherwise` if absent.
 double read_bound(const TomlSection& section, const char* key, double si_factor, double otherwise) {
   return section.find(key) ? section.number(key) * si_factor : otherwise;
 }
@@ -48,7 +48,7 @@ std::vector<double> even_knots(const tuning::Band& band, std::size_t count) {
   return knots;
 }
 
-// Knots in the unit of the band: how many, evenly spaced, or where.
+// Knots in the unit of the band: their number, evenly spaced, or their values.
 std::vector<double> read_knots(const TomlSection& section, const BandChoice& band) {
   const TomlValue& value = section.require("knots");
   if (!value.as<TomlArray>()) {
@@ -110,7 +110,7 @@ void read_design(TuneReading& reading, const TomlValue& table, std::size_t numbe
   if (section.find("rule")) {
     if (!design.is_scheduled())
       section.fail(rules::key_without_use, "rule",
-                   "is another schedule to compare with; a constant has none");
+                   "is compared with a schedule, and this [[design]] has none");
     design.rule = read_formula(reading, section, "rule");
   }
   reading.choice.designs.push_back(std::move(design));
@@ -186,7 +186,7 @@ void read_column(TuneReading& reading, const TomlValue& table, std::size_t numbe
   reading.choice.columns.push_back(std::move(column));
 }
 
-// Reads each of the tables [[path]]; how many there are.
+// Reads each of the tables [[path]]; returns their number.
 template <class Read>
 std::size_t read_each(TuneReading& reading, const std::string& path, const Read& read) {
   std::size_t number = 0;

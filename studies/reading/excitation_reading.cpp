@@ -22,7 +22,7 @@ const std::string force_path = "excitation.force";
 const std::string motion_path = "excitation.motion";
 const std::vector<std::string> excitation_keys{"frequency", "reference_order", "force", "motion"};
 
-// A component's keys; those of the other profile are known so that the message can be about the profile.
+// A component's keys, with those of the other profile, so that the message can be about the profile.
 const std::vector<std::string> force_keys{"on", "node", "profile", "amplitude", "order", "phase"};
 const std::vector<std::string> motion_keys{"node",  "profile", "amplitude", "order",
                                            "phase", "crank",   "rod",       "taylor_order"};
@@ -65,7 +65,7 @@ void read_component(NetworkReading& reading, const TomlSection& section, Excitat
   values.rod.push_back({});
 }
 
-// How many of its even orders are kept depends on crank/rod over the whole study: set_crank_orders().
+// The number of its even orders depends on crank/rod over the whole study: set_crank_orders().
 void read_crank(NetworkReading& reading, const TomlSection& section, Excitation component) {
   auto& [network, values] = reading.result;
   const std::int64_t taylor_order = section.integer_or("taylor_order", 0);
@@ -118,7 +118,7 @@ void read_motion(NetworkReading& reading, const TomlValue& table, std::size_t nu
   }
 }
 
-// 1 if there are constant forces alone, where they will do.
+// The lowest order above 0; 1 for constant forces alone, where these are allowed.
 int lowest_order(const NetworkReading& reading, const TomlSection& section, bool constant_will_do) {
   int lowest = std::numeric_limits<int>::max();
   for (const Excitation& component : reading.result.network.excitations) {

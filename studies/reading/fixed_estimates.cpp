@@ -15,7 +15,7 @@ namespace {
 
 const std::string covariance_ending = "_covariance";
 
-// The estimates of a result file that have a covariance, and it, in one order.
+// The estimates of a result file that have a covariance, and that covariance in the same order.
 struct EarlierEstimates {
   std::string file;  // as the study names it
   std::vector<std::string> names, units;
@@ -32,7 +32,7 @@ const results::Column* find_number(const Columns& columns, const std::string& na
   return found == columns.end() ? nullptr : &*found;
 }
 
-// The estimates lie in the order of their rows of the covariance matrix.
+// The estimates are in the order of the rows of the covariance matrix.
 EarlierEstimates estimates_among(const Columns& columns, const std::string& file) {
   EarlierEstimates earlier;
   earlier.file = file;
@@ -118,8 +118,7 @@ void check_free_to_fix(const IdentifyReading& reading, const EarlierEstimates& e
     fail(rules::wrong_file, "was not determined by its data and fixes nothing");
 }
 
-// Which estimates of a file are parameters here that are not fitted again: index of the estimate, of the
-// parameter.
+// An estimate of a file for a parameter that is not fitted again: index of the estimate, of the parameter.
 struct Taken {
   std::size_t estimate = 0, parameter = 0;
 };

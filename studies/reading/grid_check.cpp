@@ -16,6 +16,7 @@ struct Checked {
   const StudyValue* value = nullptr;     // or
   const Parameter* parameter = nullptr;  // with its index
   std::vector<std::size_t> reads;        // parameters
+  std::string_view origin = "";          // who sets them
 };
 
 std::vector<Checked> all_checked(const Study& study) {
@@ -43,6 +44,7 @@ std::string place_name(const Study& study, const Checked& checked, std::span<con
     text += fmt::format("{} {} = {:.6g}{}{}", text.empty() ? " at" : ",", study.parameters.list[i].name,
                         parameters[i] / unit.si_factor, shown ? " " : "", shown ? unit.text : "");
   }
+  if (!checked.origin.empty()) text += fmt::format(" ({})", checked.origin);
   return text;
 }
 
@@ -98,7 +100,7 @@ void check(const Study& study, const Checked& checked, std::span<double> paramet
 }
 
 // Walks over the product of the dimensions along which `reads` change, all points or only the corners.
-// visit(): at each, with `parameters` placed there but not completed.
+// visit(): at each point, with `parameters` set there but not completed.
 template <class Visit>
 void walk(const Study& study, std::span<const std::size_t> reads, std::vector<double>& parameters,
           const Visit& visit) {
@@ -126,7 +128,7 @@ void walk(const Study& study, std::span<const std::size_t> reads, std::vector<do
   } while (turned < moving.size());
 }
 
-// The parameters (SI) of the orbits that a sweep keeps.
+// The parameters (SI) of the orbits that a sweep records.
 std::vector<std::vector<double>> kept_orbits(const Study& study) {
   std::vector<std::vector<double>> orbits;
   if (!study.sweep()) return orbits;
@@ -160,7 +162,7 @@ bool is_crank(const Study& study, std::size_t excitation) {
   return study.network.excitations[excitation].kind == mechanics::ExcitationKind::crank;
 }
 
-// The largest crank/rod of an excitation on the grid and at the orbits kept.
+// The largest crank/rod of an excitation on the grid and at the recorded orbits.
 double largest_crank_ratio(const Study& study, std::size_t excitation) {
   std::vector<double> parameters = study.parameters.nominal();
   double largest = 0.0;
@@ -177,7 +179,7 @@ double largest_crank_ratio(const Study& study, std::size_t excitation) {
 }
 
 void keep_orders(mechanics::Excitation& crank, double ratio) {
-  // A bound of zero needs none.
+  // A bound of zero needs no even orders.
   if (crank.taylor_order == 0 && ratio > 0.0) crank.even_orders = mechanics::crank_orders_needed(ratio);
 }
 
@@ -206,8 +208,11 @@ void set_crank_orders_at(Study& study, std::span<double> parameters) {
   }
 }
 
-void check_point(const Study& study, std::span<double> parameters) {
-  for (const Checked& checked : all_checked(study)) check(study, checked, parameters);
+void check_point(const Study& study, std::span<double> parameters, std::string_view origin) {
+  for (Checked& checked : all_checked(study)) {
+    checked.origin = origin;
+    check(study, checked, parameters);
+  }
 }
 
 void check_grid(const Study& study) {
@@ -216,7 +221,8 @@ void check_grid(const Study& study) {
     std::vector<double> parameters = nominal;
     walk(study, checked.reads, parameters, [&] { check(study, checked, parameters); });
   }
-  for (std::vector<double> parameters : kept_orbits(study)) check_point(study, parameters);
+  for (std::vector<double> parameters : kept_orbits(study))
+    check_point(study, parameters, "[output]: orbits");
 }
 
 }  // namespace frahm::studies

@@ -11,7 +11,7 @@
 namespace frahm::studies {
 namespace {
 
-// What ends all columns of an HDF5 file alike is no measurement but the padding of shorter columns.
+// NaN at the common end of all columns of an HDF5 file is the padding of shorter columns, not a measurement.
 void leave_out_padding(RawRecord& record) {
   const auto padded = [&] {
     return !record.columns.front().values.empty() &&

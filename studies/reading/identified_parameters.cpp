@@ -10,7 +10,7 @@ namespace {
 
 using Method = IdentifyMethod;
 
-// What each method estimates and a parameter of a system can take.
+// The estimates of each method that a parameter of a system can take.
 std::vector<std::string> estimates_of(const IdentifyChoice& choice) {
   const bool is_known = choice.mass || choice.stiffness;
   const bool is_curve = choice.records.front().find("amplitude") != nullptr;  // not a table of answers by row
@@ -121,7 +121,7 @@ UsualUnit read_usual_unit(const IdentifyReading& reading, const TomlSection& sec
   return usual;
 }
 
-// Some value of the network is this parameter, and may not be negative.
+// Whether a network value that may not be negative is this parameter.
 bool cannot_be_negative(const Study& study, std::size_t parameter) {
   for (const auto* list : study.values.lists()) {
     for (const StudyValue& value : *list) {
@@ -148,7 +148,7 @@ void read_bounds(const Study& study, const TomlSection& section, IdentifiedParam
                fitted.unit.text.empty() ? "" : " ", fitted.unit.text);
 }
 
-// A formula's estimate in the place of a parameter.
+// Reads a formula's estimate for a parameter.
 void read_estimate(const IdentifyReading& reading, const TomlSection& section, IdentifiedParameter& taken) {
   const std::string& method = method_name(reading.choice.method);
   for (const char* key : {"lower", "upper", "each_record"}) {
@@ -158,7 +158,7 @@ void read_estimate(const IdentifyReading& reading, const TomlSection& section, I
   }
   const std::vector<std::string> known = estimates_of(reading.choice);
   taken.estimate = section.text("estimate");
-  if (reading.data == DataFiles::leave) return;  // which estimates there are depends on the data
+  if (reading.data == DataFiles::leave) return;  // the estimates depend on the data
   if (std::find(known.begin(), known.end(), taken.estimate) == known.end())
     section.fail(
         rules::unknown_name, "estimate", "the method \"{}\" gives no estimate \"{}\"{}", method,

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "studies/reading/study_reading.hpp"
@@ -5,7 +7,7 @@
 namespace frahm::studies {
 namespace {
 
-// What the cranks need wherever the bounds let a fit go.
+// Adds the crank orders needed anywhere within the bounds of the fit.
 void add_crank_orders_within(Study& study, const std::vector<double>& start) {
   const auto& fitted = study.identify()->parameters;
   for (const std::vector<bool>& corner : corners(fitted.size())) {
@@ -26,7 +28,7 @@ void check_identification(Study& study) {
   for (const RecordChoice& record : study.identify()->records) {
     std::vector<double> parameters = study.parameters.nominal();
     for (const Assignment& assignment : record.set) parameters[assignment.parameter] = assignment.value;
-    check_point(study, parameters);
+    check_point(study, parameters, fmt::format("[[identify.record]] \"{}\"", record.name));
     add_crank_orders_within(study, parameters);
   }
 }

@@ -12,7 +12,7 @@
 #include "studies/reading/parameters.hpp"
 #include "studies/reading/study_values.hpp"
 
-// What a study of kind "identify" asks for, with its data. Numbers are SI.
+// The options of a study of kind "identify", with its data. Numbers are SI.
 namespace frahm::studies {
 
 enum class IdentifyMethod {
@@ -95,7 +95,7 @@ struct IdentifyChoice {
   std::vector<RecordChoice> records;              // at least one
   std::vector<IdentifiedParameter> parameters;    // of a grey box: at least one
   std::vector<FixedEstimate> fixed;
-  std::vector<std::filesystem::path> files;  // all files read: of the records and of `fixed_from`
+  std::vector<std::filesystem::path> files;           // all files read: of the records and of `fixed_from`
   std::vector<std::vector<double>> fixed_covariance;  // of `fixed`, in its order
 
   std::vector<InitialValues> initial;  // of the free records of a grey box

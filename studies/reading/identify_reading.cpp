@@ -33,7 +33,7 @@ const std::vector<MethodKey>& method_keys() {
   return keys;
 }
 
-// What another method would use would be silently without effect.
+// Refuses keys of other methods, which would have no effect here.
 void check_keys_of_method(const TomlSection& section, Method method) {
   for (const MethodKey& key : method_keys()) {
     if (!section.find(key.name) || std::count(key.methods.begin(), key.methods.end(), method) > 0) continue;
@@ -107,8 +107,8 @@ void check_system(const TomlSection& section, const Study& study, const Identify
                "a grey box fits parameters of a system, and the study has none: [[mass]] and [[element]]");
 }
 
-// A hysteretic element has its damping at one frequency, which nothing else tells where nothing is forced at
-// a known one.
+// A hysteretic element has its damping at one frequency. Without a forcing at a known frequency it must be
+// given.
 void check_reference_frequency(const TomlSection& section, const Study& study, const IdentifyChoice& choice) {
   if (choice.reference_frequency || !mechanics::frequency_dependent_element(study.network)) return;
   for (const RecordChoice& record : choice.records) {
@@ -138,8 +138,8 @@ void check_start(const TomlSection& section, const Study& study, const IdentifyC
                  "\"free_decay\" needs a record with motion = \"free\" and {}", role);
 }
 
-// The method's formula is of one record; only the frequencies with and without an added mass come from traces
-// of their own.
+// The method's formula needs one record; only the frequencies with and without an added mass need a trace
+// each.
 void check_count(const TomlSection& section, const IdentifyChoice& choice,
                  const std::vector<TomlSection>& records) {
   if (choice.method == Method::grey_box) return;
@@ -152,7 +152,7 @@ void check_count(const TomlSection& section, const IdentifyChoice& choice,
   }
 }
 
-// A force at resonance stands beside displacements as force / stiffness.
+// A force at resonance is compared with displacements as force / stiffness.
 void check_stiffness(const TomlSection& section, const IdentifyChoice& choice) {
   if (choice.method != Method::forced_resonance || choice.stiffness) return;
   if (choice.records.front().find("force"))

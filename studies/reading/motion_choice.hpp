@@ -6,7 +6,7 @@
 
 #include "studies/reading/study_values.hpp"
 
-// What a study of kind "decay" or "transient" asks for.
+// The options of a study of kind "decay" or "transient".
 namespace frahm::studies {
 
 // A mass's initial values [m], [m/s].

@@ -77,7 +77,7 @@ void read_decay(NetworkReading& reading, const TomlValue& root, DecayChoice& mot
   }
 }
 
-// In a run-up the frequency is put in the place of the parameter that it is, for all that follows it.
+// A run-up sets the frequency's parameter, if there is one, so the frequency must be that parameter alone.
 void check_run_up(const NetworkReading& reading, const TomlSection& section) {
   const Parameters& parameters = reading.parameters;
   const auto& forces = reading.result.network.excitations;
@@ -137,13 +137,12 @@ void refuse_smooth_friction(const Study& study) {
     if (study.network.elements[e].law != mechanics::FrictionLaw::arctan) continue;
     const StudyValue& slope = study.values.second[e];
     throw study.source.error_at(rules::wrong_law, slope.position,
-                                "{}: {} follows friction as it is; the law \"arctan\" is for a "
-                                "sweep",
+                                "{}: the law \"arctan\" is for sweeps only; {} follows the exact law",
                                 slope.where, kind_noun(study.kind()));
   }
 }
 
-// The energies of a motion stand beside those of its elements, <element>_energy.
+// The energies of a motion are recorded beside those of its elements, <element>_energy.
 void refuse_names_of_energies(const StudyContext& context, const Study& study) {
   const auto& elements = study.network.elements;
   for (std::size_t e = 0; e < elements.size(); ++e) {

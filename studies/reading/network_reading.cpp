@@ -35,8 +35,8 @@ Quantity quantity_of(Dimension dimension) {
   return Quantity::number;
 }
 
-// The keys that elements have beside name, type and between, each once: values, then the choice of a law and
-// what smooths it.
+// The keys of elements beside name, type and between, each once: values, then the choice of a law and its
+// slope.
 std::vector<std::string> keys_of_kinds() {
   std::vector<std::string> keys;
   const auto add = [&](const std::string& key) {
@@ -95,8 +95,8 @@ void check_one_law(const NetworkReading& reading, const TomlSection& section, co
   }
   const bool arctan = law == mechanics::FrictionLaw::arctan;
   const std::string message = fmt::format(
-      "\"{}\"{}, but element \"{}\" follows \"{}\"; the coulomb elements of a study follow one law",
-      arctan ? "arctan" : "exact", section.find("law") ? "" : " is the law if none is named", other->name,
+      "\"{}\"{}, but element \"{}\" follows \"{}\"; all coulomb elements of a study follow one law",
+      arctan ? "arctan" : "exact", section.find("law") ? "" : " by default", other->name,
       arctan ? "exact" : "arctan");
   section.find("law") ? section.fail(rules::wrong_law, "law", "{}", message)
                       : section.fail_here(rules::wrong_law, "{}", message);
@@ -162,7 +162,7 @@ void read_element(NetworkReading& reading, const TomlValue& table, std::size_t n
   reading.result.values.second.push_back(second.exists() ? read(second) : StudyValue{});
 }
 
-// A value that is nothing but a parameter, perhaps through other names for it, tells what that parameter is.
+// A value that is a parameter alone, perhaps through other names, determines that parameter's quantity.
 void note_quantity(Parameters& parameters, const StudyValue& value) {
   auto parameter = value.expression.sole_parameter();
   for (std::size_t steps = 0; parameter && steps <= parameters.list.size(); ++steps) {
@@ -237,8 +237,9 @@ StudyValue read_value(NetworkReading& reading, const TomlSection& section, const
     return result;
   }
   if (!value) {
-    section.fail_here(rules::missing_key, "the key \"{}\" is missing ({}, {})", key, quantity_name(quantity),
-                      written_si_unit(quantity));
+    const bool pure = quantity == Quantity::number;
+    section.fail_here(rules::missing_key, "the key \"{}\" is missing ({}{}{})", key, quantity_name(quantity),
+                      pure ? "" : ", ", pure ? "" : written_si_unit(quantity));
   }
   result.position = value->position;
   if (value->as<std::string>()) {

@@ -72,7 +72,7 @@ void read_borders(const TomlSection& section, Study& study) {
                  contacts, most_bordered_elements);
 }
 
-// Whether each frequency along a dimension belongs to one place of it.
+// Whether each frequency along a dimension belongs to one value of its axis.
 bool frequencies_differ(const Study& study, std::size_t dimension) {
   std::vector<double> parameters = study.parameters.nominal(), omega;
   for (std::size_t i = 0; i < study.sweep()->dimensions[dimension].size; ++i) {

@@ -69,7 +69,7 @@ std::vector<std::size_t> read_by(const Parameter& parameter) {
   return {};
 }
 
-// Follows what is unresolved from a parameter until it meets itself again: "a -> b -> a".
+// Follows unresolved parameters from one until it is reached again: "a -> b -> a".
 std::string circle_through(const Parameters& parameters, const std::vector<bool>& resolved,
                            std::size_t start) {
   std::vector<std::size_t> path;
@@ -186,6 +186,9 @@ std::optional<Unit> read_unit(const StudyContext& context, const std::string& wh
 
 Expression read_expression(const StudyContext& context, const Parameters& parameters,
                            const std::string& where, const TomlValue& value) {
+  if (!value.as<std::string>())
+    throw context.source.error_at(rules::wrong_type, value.position,
+                                  "{}: expected an expression in quotes, found {}", where, described(value));
   const std::string text = read_text(context.source, where, value);
   try {
     return Expression::parse(text, parameters.names());

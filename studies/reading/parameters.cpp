@@ -31,7 +31,7 @@ std::vector<double> Parameters::nominal() const {
 std::vector<std::size_t> Parameters::inputs_of(std::span<const std::size_t> reads) const {
   std::vector<bool> needed(list.size(), false);
   for (const std::size_t i : reads) needed[i] = true;
-  // `derived` lists what is read before what reads it: backwards, every reader is met before what it reads.
+  // `derived` lists each parameter after those it reads: backwards, every reader comes before what it reads.
   for (auto i = derived.rbegin(); i != derived.rend(); ++i) {
     if (!needed[*i]) continue;
     needed[*i] = false;
@@ -65,11 +65,11 @@ double si_factor(const Parameter& parameter, const Unit& unit) {
                                 unit.text, dimension_name(unit), parameter.name, parameter.unit->text));
   }
   if (unit.counts_cycles()) {
-    throw UnitError(
-        rules::ambiguous_unit,
-        fmt::format("the unit \"{}\" may count cycles or radians here, as the excitation frequency does "
-                    "not depend on \"{}\"; write rad/s, rpm or cycle/s, or no unit for SI",
-                    unit.text, parameter.name));
+    throw UnitError(rules::ambiguous_unit,
+                    fmt::format("the unit \"{}\" may count cycles or radians; write rad/s, rpm or cycle/s, "
+                                "or no unit for SI (the "
+                                "excitation frequency does not depend on \"{}\", which would settle it)",
+                                unit.text, parameter.name));
   }
   return unit.scale;
 }

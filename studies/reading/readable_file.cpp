@@ -20,7 +20,7 @@ namespace {
 std::ifstream open_file(const std::filesystem::path& path, const std::string& name) {
   std::ifstream file(path, std::ios::binary);
   if (!file) refuse(name, std::strerror(errno));
-  std::error_code ignored;  // reading will tell
+  std::error_code ignored;  // reading reports the error
   if (std::filesystem::is_directory(path, ignored)) refuse(name, "it is a directory");
   return file;
 }

@@ -36,7 +36,7 @@ RecordForm response_curve() {
           two_rows};
 }
 
-// Of a free vibration of one mass: as sampled, or its extremes alone.
+// The forms of a free vibration of one mass: as sampled, or its extremes alone.
 std::vector<RecordForm> decay_forms() {
   Role extremum_time = increasing("extremum_time", Quantity::time);
   extremum_time.required = false;

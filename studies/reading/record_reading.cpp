@@ -18,7 +18,7 @@ const TomlEntry* unit_entry(const TomlSection& section, const std::string& role)
   return units ? find_entry(*units, role) : nullptr;
 }
 
-// Every entry of `units` is that of a column of numbers.
+// Every entry of `units` must belong to a column of numbers.
 void check_units(const TomlSection& section, const RawRecord& raw) {
   const TomlValue* units = section.find("units");
   if (!units) return;
@@ -136,7 +136,7 @@ void take_columns(const IdentifyReading& reading, const TomlSection& section, Ra
   record.doubtful = raw.doubtful;
 }
 
-// What was measured stands in the place of the study's whole excitation.
+// A measured excitation replaces the study's whole excitation.
 void refuse_other_excitation(const IdentifyReading& reading, const TomlSection& section,
                              const RecordChoice& record) {
   const mechanics::Network& network = reading.study.network;
@@ -151,7 +151,7 @@ void refuse_other_excitation(const IdentifyReading& reading, const TomlSection& 
   }
 }
 
-// Of a grey box: how the motion came about, and what must be there for it.
+// Of a grey box: the cause of the motion, and the columns it needs.
 void read_motion_kind(const IdentifyReading& reading, const TomlSection& section, RecordChoice& record) {
   const Study& study = reading.study;
   const auto& columns = record.columns;

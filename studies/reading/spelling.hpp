@@ -6,7 +6,7 @@
 
 namespace frahm::studies {
 
-// What to add to a message about an unknown name: `; did you mean "stiffness"?` when one of the valid names
+// Text to add to a message about an unknown name: `; did you mean "stiffness"?` when one of the valid names
 // is near (few letters changed, swapped, missing or added; case ignored), else `; known: ...` when there are
 // few enough to print, else nothing.
 std::string suggestion(std::string_view found, std::span<const std::string> valid);

@@ -13,6 +13,7 @@
 namespace frahm::studies {
 namespace {
 
+constexpr std::string_view hdf5_signature = "\x89HDF\r\n";
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // some editors begin a UTF-8 file with it
 
 // The sections of each kind of study, in the order of StudyKind.
@@ -43,7 +44,7 @@ void check_top_keys(const StudySource& source, const TomlValue& root) {
   }
 }
 
-// Why a kind of study does without a section that others have.
+// Why a kind of study has no use for a section of another kind.
 std::string_view why_without(StudyKind kind, const std::string& section) {
   if (kind == StudyKind::sweep) return "";
   if (kind == StudyKind::tune) {
@@ -57,7 +58,7 @@ std::string_view why_without(StudyKind kind, const std::string& section) {
   return "";
 }
 
-// What belongs to another kind of study would be silently without effect here.
+// Refuses sections of other kinds of study, which would have no effect here.
 void check_sections_of_kind(const Study& study, const TomlValue& root) {
   for (const TomlEntry& entry : *root.as<TomlTable>()) {
     if (contains(sections(study.kind()), entry.key)) continue;
@@ -70,7 +71,7 @@ void read_heading(const TomlValue& root, Study& study) {
   const TomlEntry* heading = find_entry(root, "study");
   if (!heading)
     throw study.source.error_at(rules::missing_section, root.position,
-                                "the study does not begin: [study] with schema and kind is missing");
+                                "[study] with schema and kind is missing");
   const TomlSection section(study.source, heading->value, "[study]", {"schema", "kind", "title", "units"});
   section.require("schema");
   const std::int64_t schema = section.integer_or("schema", 1);
@@ -87,7 +88,7 @@ void read_heading(const TomlValue& root, Study& study) {
   study.dimensionless = section.choice_or("units", {"SI", "dimensionless"}) == "dimensionless";
 }
 
-// What the masses and elements read.
+// The parameters that the masses and elements read.
 std::vector<std::size_t> read_by_matrices(const Study& study) {
   std::vector<std::size_t> reads;
   const auto add = [&](const StudyValue& value) {
@@ -119,7 +120,7 @@ bool has_system(const TomlValue& root) {
          find_entry(root, "initial");
 }
 
-// That every value has a meaning wherever the study goes.
+// Checks that every value is valid wherever the study goes.
 void check_whole(Study& study) {
   check_grid(study);
   set_crank_orders(study);
@@ -130,7 +131,10 @@ void check_whole(Study& study) {
 }  // namespace
 
 Study read_study(const std::filesystem::path& path) {
-  return parse_study(read_file(path, path.string()), path);
+  std::string text = read_file(path, path.string());
+  if (text.starts_with(hdf5_signature))
+    throw StudyError(rules::wrong_file, "{}: is a result; name its study", path.string());
+  return parse_study(std::move(text), path);
 }
 
 Study parse_study(std::string text, const std::filesystem::path& name, DataFiles data) {

@@ -88,7 +88,8 @@ UsualUnit usual_unit(const Study& study, std::size_t parameter);
 
 // Throws StudyError for a point (SI values of all parameters; derived ones are recomputed) at which a value
 // is not finite or out of range: its position in the study, the value, the parameters and the rule.
-void check_point(const Study& study, std::span<double> parameters);
+// origin: who sets the parameters so, `scenario "rough"`; "" if the message need not say.
+void check_point(const Study& study, std::span<double> parameters, std::string_view origin = "");
 
 // Gives each crank the even orders that its crank/rod needs at a point; these may be more than on the grid.
 void set_crank_orders_at(Study& study, std::span<double> parameters);

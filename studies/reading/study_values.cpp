@@ -3,7 +3,7 @@
 namespace frahm::studies {
 namespace {
 
-// What `part` makes of each value (the value itself, or its derivative), in the layout of NetworkValues.
+// Applies `part` to each value (the value itself, or its derivative), in the layout of NetworkValues.
 template <class Number, class Part>
 void fill(const StudyValues& values, std::span<const Number> parameters, Part part,
           mechanics::NetworkValues& out) {

@@ -11,7 +11,7 @@
 #include "studies/reading/study_source.hpp"
 #include "studies/reading/study_values.hpp"
 
-// What a study of kind "sweep" asks for.
+// The options of a study of kind "sweep".
 namespace frahm::studies {
 
 // A parameter that runs over values.

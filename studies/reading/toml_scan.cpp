@@ -34,7 +34,7 @@ class Scan {
     throw source_.error_at(rule, position_, "{}", message);
   }
 
-  // Steps over bytes, refusing control characters, and keeps the position.
+  // Steps over bytes, refuses control characters and updates the position.
   void advance(std::size_t bytes) {
     for (; bytes > 0 && !rest_.empty(); --bytes, rest_.remove_prefix(1)) {
       const auto c = static_cast<unsigned char>(rest_.front());
@@ -87,7 +87,7 @@ class Scan {
   std::string_view rest_;
   Position position_{1, 1};
   std::size_t brackets_ = 0;
-  std::size_t dots_ = 0;  // of the dotted key or number at hand
+  std::size_t dots_ = 0;  // of the current dotted key or number
 };
 
 }  // namespace

@@ -34,7 +34,7 @@ std::string key_text(const std::string& key) {
 
 std::string in_line(const TomlValue& value);
 
-// What stands between the brackets of an array or of a table.
+// The text between the brackets of an array or of a table.
 template <class Items, class Text>
 std::string joined(const Items& items, const Text& text) {
   std::string result;

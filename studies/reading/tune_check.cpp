@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t places_over_band = 9;
 constexpr std::size_t places_of_weight = 1001;
 
-// SI values of all parameters in each scenario, as the study states them.
+// SI values of all parameters in each scenario of the study.
 std::vector<std::vector<double>> scenarios_of(const Study& study) {
   const std::vector<double> nominal = study.parameters.nominal();
   if (study.tune()->scenarios.empty()) return {nominal};
@@ -33,10 +33,10 @@ std::vector<double> places_of(const TuneChoice& tune, std::size_t count) {
   return places;
 }
 
-// At each place of the band.
-void check_over_band(Study& study, std::vector<double>& parameters) {
+// Checks each sampled value of the band.
+void check_over_band(Study& study, std::vector<double>& parameters, const std::string& origin) {
   const auto check = [&] {
-    check_point(study, parameters);
+    check_point(study, parameters, origin);
     add_crank_orders_at(study, parameters);
   };
   std::vector<double> places = places_of(*study.tune(), places_over_band);
@@ -86,12 +86,17 @@ void check_weight_and_rules(const Study& study, std::vector<double> parameters) 
 
 void check_tuning(Study& study) {
   const TuneChoice& tune = *study.tune();
-  for (const std::vector<double>& scenario : scenarios_of(study)) {
+  const std::vector<std::vector<double>> scenarios = scenarios_of(study);
+  for (std::size_t s = 0; s < scenarios.size(); ++s) {
+    const std::vector<double>& scenario = scenarios[s];
+    const std::string origin = tune.scenarios.empty()
+                                   ? std::string("within [tune] and [[design]]")
+                                   : fmt::format("scenario \"{}\"", tune.scenarios[s].name);
     for (const std::vector<bool>& corner : corners(tune.designs.size())) {
       std::vector<double> parameters = scenario;
       for (std::size_t i = 0; i < corner.size(); ++i)
         parameters[tune.designs[i].parameter] = corner[i] ? tune.designs[i].upper : tune.designs[i].lower;
-      check_over_band(study, parameters);
+      check_over_band(study, parameters, origin);
     }
     check_weight_and_rules(study, scenario);
   }

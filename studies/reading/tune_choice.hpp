@@ -11,7 +11,7 @@
 #include "studies/reading/parameters.hpp"
 #include "studies/reading/study_values.hpp"
 
-// What a study of kind "tune" asks for. Numbers are SI unless they say otherwise.
+// The options of a study of kind "tune". Numbers are SI unless stated otherwise.
 namespace frahm::studies {
 
 // The range of frequencies over which the response counts.

@@ -23,8 +23,8 @@ void read_objective(const TomlSection& section, TuneChoice& choice) {
                                              : Objective::variance;
 }
 
-// Under white noise the motion is known by its variance alone, and that of a linear system of one stiffness
-// and damping for all frequencies.
+// Under white noise only the variance of the motion is known, and only for a linear system whose stiffness
+// and damping are the same at all frequencies.
 void check_variance(const TuneReading& reading, const TomlSection& section) {
   const Measure measure = reading.choice.quantity.measure;
   if (measure != Measure::rms && measure != Measure::stroke) {
@@ -73,7 +73,7 @@ void read_noise(TuneReading& reading, const TomlSection& section) {
                reading.choice.noise.intensity);
 }
 
-// As with an axis, a range without a unit is SI, and refused where the parameter is given in another.
+// As with an axis, a range without a unit is SI, and refused if the parameter is given in another unit.
 UsualUnit read_band_unit(const TuneReading& reading, const TomlSection& section, std::size_t parameter) {
   UsualUnit unit = read_parameter_unit(reading, section, parameter);
   if (!section.find("unit") && unit.si_factor != 1.0) {
@@ -133,8 +133,7 @@ void read_start(const TomlSection& section, TuneChoice& choice) {
     choice.start = tuning::Start::global;
   }
   if (section.find("global") && choice.start != tuning::Start::global)
-    section.fail(rules::key_without_use, "global",
-                 "is the search of start = \"nlopt\", and the start is another");
+    section.fail(rules::key_without_use, "global", "belongs to start = \"nlopt\"");
   choice.global_solver =
       tuning::solver_named(section.choice_or("global", {"crs2", "isres", "direct", "mlsl"}));
 }
@@ -161,7 +160,7 @@ void read_trade_off(TuneReading& reading, const TomlSection& section) {
   reading.choice.trade_off = std::move(trade_off);
 }
 
-// A weight is a function of the band alone: of no design parameter and of nothing that scenarios change.
+// A weight is a function of the band alone, independent of design parameters and of scenarios.
 void check_weight(const TuneReading& reading, const TomlSection& section) {
   const TuneChoice& choice = reading.choice;
   if (!choice.weight) return;

@@ -49,7 +49,7 @@ bool has_dimension(const Unit& unit, Quantity quantity) {
   return unit.radians == 0;
 }
 
-// What the visitor of UDUNITS reads off a unit; proportional = false for temperatures, logarithms and dates.
+// A unit as the visitor of UDUNITS reads it; proportional = false for temperatures, logarithms and dates.
 struct Reading {
   Unit unit;
   bool proportional = true;
@@ -105,7 +105,7 @@ ut_status visit_galilean(const ut_unit*, double scale, const ut_unit* underlying
 
 }  // namespace
 
-// UDUNITS prints its complaints unless a handler is set; the handler of before is put back at the end.
+// UDUNITS prints its errors unless a handler is set; the previous handler is restored at the end.
 struct UnitSystem::Database {
   ut_error_message_handler previous_handler = ut_set_error_message_handler(ut_ignore);
   ut_system* system = ut_read_xml(nullptr);

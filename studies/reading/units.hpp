@@ -61,7 +61,7 @@ struct Unit {
 // for another dimension.
 double si_factor(const Unit& unit, Quantity expected);
 
-// What a unit measures, in words: "a stiffness", else its dimension in base units: "m2 s-2".
+// The quantity of a unit, in words: "a stiffness", else its dimension in base units: "m2 s-2".
 std::string dimension_name(const Unit& unit);
 
 // The coherent SI unit of the same dimension: "N s m-1" where it has a name, else "m2 kg s-3"; "1" of a

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-// Set by build_facts.cmake; a test holds that they are.
+// Set by build_facts.cmake; a test checks this.
 #ifndef FRAHM_VERSION
 #define FRAHM_VERSION "unknown"
 #define FRAHM_COMMIT "unknown"

@@ -12,7 +12,7 @@ namespace {
 // Raised with every change of the solvers that changes a result by more than the last bits.
 constexpr int solver_version = 4;
 
-// The text that is hashed: a line for each thing, every number in its shortest exact form.
+// The text that is hashed: a line for each item, every number in its shortest exact form.
 class CanonicalText {
  public:
   template <typename... Args>
@@ -83,7 +83,7 @@ void add_network(const Study& study, CanonicalText& text) {
   text.line("reference order {}", network.reference_order);
 }
 
-// What tells a decay or transient from another of the same network.
+// The properties that distinguish decays or transients of the same network.
 void add_motion(const Study& study, CanonicalText& text) {
   if (!study.motion() && !study.identify()) return;
   const auto names = study.parameters.names();
@@ -111,7 +111,7 @@ void add_comparison(const Study& study, CanonicalText& text) {
     text.line("compare {}", periodic::describe(quantity, study.network, study.dimensionless).name);
 }
 
-// What tells a tuning from another of the same network: whatever its optimum depends on.
+// The properties that distinguish tunings of the same network: all that the optimum depends on.
 void add_tuning(const Study& study, CanonicalText& text) {
   if (!study.tune()) return;
   const TuneChoice& tune = *study.tune();
@@ -140,7 +140,7 @@ void add_tuning(const Study& study, CanonicalText& text) {
   }
 }
 
-// What a tuning's file holds beside its optimum, and how many starts it has.
+// The content of a tuning's file beside its optimum, and the number of starts.
 void add_assessment(const Study& study, CanonicalText& text) {
   if (!study.tune()) return;
   const auto names = study.parameters.names();
@@ -170,7 +170,7 @@ void add_records(const Study& study, CanonicalText& text) {
   }
 }
 
-// What tells an identification from another of the same network: its data, and what is made of them.
+// The properties that distinguish identifications of the same network: data, method and parameters.
 void add_identification(const Study& study, CanonicalText& text) {
   if (!study.identify()) return;
   const IdentifyChoice& choice = *study.identify();

@@ -16,7 +16,7 @@ struct Tiling {
   std::span<const std::uint64_t> tile;
 };
 
-// What the results of a study depend on, hashed (XXH3, 128 bits, as hex).
+// A hash of all that the results of a study depend on (XXH3, 128 bits, as hex).
 // physics: network, definitions and values of the parameters (of those on an axis only that they are on one),
 // contents of tables, quantities, precision, version of the solver. grid: the axes' SI values and the tiles,
 // a motion's duration and samples, or a tuning's starts, rules and columns. Titles, comments, names of files,

@@ -5,6 +5,7 @@
 #include "engine/io_error.hpp"
 #include "engine/tile_index.hpp"
 #include "results/store_error.hpp"
+#include "studies/reading/study_source.hpp"
 
 namespace frahm::studies {
 
@@ -18,7 +19,14 @@ engine::Fingerprint fingerprint_of(const results::MapReader& map) {
           .grid = provenance_text(map, "fingerprint_grid")};
 }
 
+void refuse_study(const std::filesystem::path& result) {
+  if (result.extension() == ".toml")
+    throw StudyError(rules::wrong_file, "{}: is a study; name its result, such as {}", result.string(),
+                     result.stem().string() + ".h5");
+}
+
 void require_result(const std::filesystem::path& path) {
+  refuse_study(path);
   if (std::filesystem::exists(path)) return;
   if (engine::find_logs(path).empty()) throw engine::IoError(path, "there is no such file");
   throw engine::IoError(path,

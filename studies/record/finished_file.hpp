@@ -21,6 +21,9 @@ inline constexpr const char* missing_tiles_text = "missing_tiles";
 // The text of /provenance with the identity of the result from which this one grew.
 inline constexpr const char* grown_from_identity = "grown_from_identity";
 
+// Refuses a study where the name of a result is needed. Throws StudyError.
+void refuse_study(const std::filesystem::path& result);
+
 // Throws engine::IoError if there is no such result: an unfinished run or a wrong name.
 void require_result(const std::filesystem::path& path);
 

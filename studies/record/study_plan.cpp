@@ -27,8 +27,8 @@ std::string overruled_by_measurements(const IdentifyChoice& choice, std::size_t 
   return "";
 }
 
-// What the study itself does with a parameter, so that no value of the command line can count; empty if
-// nothing.
+// The part of the study that overrides a parameter, so that a command-line value has no effect; empty if
+// none.
 std::string overruled_by(const Study& study, std::size_t parameter) {
   if (study.sweep()) {
     for (const ParameterAxis& axis : study.sweep()->axes) {

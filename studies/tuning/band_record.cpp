@@ -10,7 +10,7 @@
 namespace frahm::studies {
 namespace {
 
-// A number at each place of the band, of the optimum's parameters there.
+// A number at each value of the band, from the optimum's parameters there.
 using AtPlace = std::function<double(const std::vector<double>& parameters, double place)>;
 
 std::vector<double> along_band(const TuningAbout& about, const AtPlace& value) {

@@ -11,7 +11,7 @@ using tuning::LimitState, tuning::Optimum, tuning::Peak, tuning::Round, tuning::
 
 constexpr std::size_t word = sizeof(std::uint64_t);
 
-// Everything is kept in words of 8 bytes; a text or a list is its length and what it holds.
+// Everything is stored in words of 8 bytes; a text or a list is its length and its content.
 class Writing {
  public:
   explicit Writing(engine::Bytes& out) : out_(out) {}

@@ -106,7 +106,7 @@ std::string noise_words(const Study& study) {
 
 namespace {
 
-// White noise and what the motion is measured from, which a variance is of.
+// The white noise of a variance, and the reference of the motion.
 void add_noise(const Study& study, std::vector<results::Text>& texts) {
   const tuning::Noise& noise = study.tune()->noise;
   const bool force = noise.kind == tuning::NoiseKind::force_on;

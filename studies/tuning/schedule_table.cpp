@@ -12,7 +12,7 @@ namespace {
 constexpr double rpm = std::numbers::pi / 30.0;  // [rad/s]
 constexpr double rows_wanted = 200.0;
 constexpr double most_rows = 1e6;
-constexpr double same_place = 1e-9;  // of a step: a whole step so near to an end is the end
+constexpr double same_place = 1e-9;  // of a step: a whole step this near to an end is that end
 
 bool is_frequency(const Study& study) {
   const auto sole = study.values.omega.expression.sole_parameter();
@@ -38,7 +38,7 @@ double step_of(const Study& study, std::optional<double> asked) {
   return *asked;
 }
 
-// In the unit of the band.
+// The rows' values in the unit of the band.
 std::vector<double> places_of(const BandChoice& band, double step) {
   const double from = band.range.from / band.unit.si_factor, to = band.range.to / band.unit.si_factor;
   std::vector<double> places{from};

@@ -14,7 +14,7 @@
 namespace frahm::studies {
 namespace {
 
-// The unit in which the sweep speaks of a parameter; empty for none.
+// The unit of a parameter in the sweep; empty for none.
 std::string unit_of(const Study& study, std::size_t parameter) {
   return spoken_value(study, parameter, 0.0).unit;
 }
@@ -50,8 +50,8 @@ void add_scenario_axes(const Study& study, TomlArray& axes) {
   }
 }
 
-// A schedule in SI. Its ends reach a hair beyond the band, since a value turned from one unit into another
-// and back may lie a rounding outside.
+// A schedule in SI. Its ends reach slightly beyond the band, because a value converted from one unit to
+// another and back may be off by a rounding error.
 std::string schedule_csv(const Study& study, const DesignChoice& design, const std::vector<double>& values) {
   constexpr double hair = 1e-9;
   const std::string& of = study.parameters.list[study.tune()->band->parameter].name;

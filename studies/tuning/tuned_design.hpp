@@ -9,7 +9,7 @@
 // The values of a tuning's design parameters, and with them of all parameters of its study.
 namespace frahm::studies {
 
-// Of each design parameter its value, or those at the knots of its schedule [SI].
+// For each design parameter its value, or its values at the knots of its schedule [SI].
 using DesignValues = std::vector<std::vector<double>>;
 
 DesignValues design_values(const tuning::Optimum& optimum);

@@ -28,7 +28,7 @@ void compute_start(const Study& study, const tuning::Task& task, std::uint64_t s
   const bool stopped = std::any_of(optima.begin(), optima.end(), [](const tuning::Optimum& optimum) {
     return optimum.outcome == tuning::Outcome::stopped;
   });
-  // A stop that came while it was at work may have cut a step short without being its end.
+  // A stop during the work may have cut a step short without the outcome `stopped`.
   if (stopped || stop_asked()) throw engine::GivenUp{};
   if (optima.empty()) throw std::logic_error("a start of a tuning has no optimum");
   encode(optima, out);

@@ -25,7 +25,7 @@ std::string in_brackets(const std::string& name, const std::string& unit) {
   return unit.empty() || unit == "1" ? name : fmt::format("{} [{}]", name, unit);
 }
 
-// The bound on which a parameter lies, and, where that holds the optimum, what moving it by one unit gives.
+// The bound at which a parameter lies and, if it limits the optimum, the gain of moving it by one unit.
 std::string bound_words(const tuning::TunedParameter& tuned, double factor) {
   if (tuned.at_bound[0] == tuning::AtBound::no) return "";
   const bool lower = tuned.at_bound[0] == tuning::AtBound::lower;

@@ -25,10 +25,10 @@ std::vector<tuning::DesignParameter> design_parameters(const Study& study) {
   return parameters;
 }
 
-// The numbers of the network, and how they change with each design parameter and the band's.
+// The network's values and their derivatives by each design parameter and the band's.
 tuning::NetworkAt network_at(const Study& study) {
   const TuneChoice& tune = *study.tune();
-  std::vector<std::size_t> places;  // of the entries of `at` among the parameters
+  std::vector<std::size_t> places;  // indices of the entries of `at` among the parameters
   for (const DesignChoice& design : tune.designs) places.push_back(design.parameter);
   places.push_back(tune.band ? tune.band->parameter : nothing);
   std::vector<std::vector<double>> scenarios;
@@ -63,7 +63,7 @@ std::function<tuning::Weight(double)> weight_of(const Study& study) {
   };
 }
 
-// A single frequency, which stands for nothing, where a variance has no band.
+// A dummy single frequency if a variance has no band.
 tuning::Band band_of(const Study& study) {
   if (study.tune()->band) return study.tune()->band->range;
   const std::vector<double> nominal = study.parameters.nominal();

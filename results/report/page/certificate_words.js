@@ -52,7 +52,7 @@ export function certificateSentences(tuning) {
 
 const outcomeWords = {
   not_converged: "This tuning did not converge. What follows is the best design found, not a proven optimum",
-  infeasible: "No design was found that keeps every limit. What follows is the one that breaks them least",
+  infeasible: "No design was found that meets every limit. What follows breaks one",
   unbounded: "The response has no bound somewhere in the band. What follows is as far as the tuning came",
   failed: "This tuning failed. What follows is as far as it came",
   stopped: "This tuning was stopped before its end. What follows is the best design so far",

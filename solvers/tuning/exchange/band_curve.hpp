@@ -44,7 +44,7 @@ class BandCurve {
   // The larger side, or one of two (0: most, 1: least).
   static constexpr std::size_t larger = 2;
   double value(std::size_t side) const;
-  double derivative(std::size_t side, std::size_t parameter) const;  // d value / d parameter, at its place
+  double derivative(std::size_t side, std::size_t parameter) const;  // d value / d parameter, all else held
   double slope_left(std::size_t side) const;                         // d value / d band along the schedules
   double slope_right(std::size_t side) const;
   // Sides that need a bound each: both of a peak without symmetry, else only the first.

@@ -17,7 +17,7 @@ using CurveAt = std::function<CurvePoint(double at)>;
 struct BandMaxima {
   std::vector<CurvePoint>
       maxima;  // ascending in `at`; the ends of the band are maxima where the curve falls inwards
-  std::vector<CurvePoint> samples;  // all points at which the curve was asked for, ascending
+  std::vector<CurvePoint> samples;  // all points at which the curve was evaluated, ascending
 };
 
 // seeds: ascending, at least one, the ends of the band first and last. They include every known kink and,

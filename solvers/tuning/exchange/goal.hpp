@@ -2,7 +2,7 @@
 
 namespace frahm::tuning {
 
-// What an optimisation minimises.
+// The objective of an optimisation.
 struct Goal {
   enum class Of {
     worst,          // t, the worst weighted response at the active frequencies (epigraph)

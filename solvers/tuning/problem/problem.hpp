@@ -51,7 +51,7 @@ class Problem {
   // empty. NaN as above.
   virtual void constrain(std::span<const double> x, std::span<double> values, std::span<double> entries) = 0;
 
-  // Asked at every evaluation: true ends the solve with the best point so far.
+  // Called at every evaluation: true ends the solve with the best point so far.
   virtual bool stop_asked() { return false; }
 };
 
@@ -89,7 +89,7 @@ struct Solution {
   std::vector<double> lower_multipliers, upper_multipliers;  // of each variable, >= 0
   std::vector<double> constraint_multipliers;                // of each constraint
   int iterations = 0;   // of NLopt's algorithms: improvements of the best point
-  int evaluations = 0;  // points at which objective and constraints were asked for
+  int evaluations = 0;  // points at which objective and constraints were evaluated
   std::vector<IterationRecord> history;
 };
 

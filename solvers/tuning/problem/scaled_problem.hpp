@@ -53,11 +53,11 @@ class ScaledProblem {
   Solution& record() { return solution_; }  // where an adapter writes history, iterations, reason
   void record_iteration(int iteration, double infeasibility, double optimality, double objective);
 
-  // The solution at the best point, with multipliers by least squares. `ending`: of a point that is no
+  // The solution at the best point, with multipliers by least squares. `ending`: used if that point is not an
   // optimum. Rethrows what the problem's functions threw.
   Solution finish(Ending ending);
 
-  // The same at x with the library's multipliers, both scaled; the best point instead where it serves better.
+  // The same at x with the library's multipliers, both scaled; the best point instead if that is better.
   Solution finish_at(std::span<const double> x, std::span<const double> lower, std::span<const double> upper,
                      std::span<const double> constraint, Ending ending);
 

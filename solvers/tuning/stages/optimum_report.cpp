@@ -26,7 +26,7 @@ std::string sentence(Outcome outcome, const Stages& stages) {
     case Outcome::not_converged:
       return "the rounds of exchange no longer close the gap: " + stages.best.step.solution.reason;
     case Outcome::infeasible:
-      return "no design was found that meets the limits: the best breaks one by " +
+      return "no design was found that meets the limits: this one breaks one by " +
              number(100.0 * scan.violation) + " %";
     case Outcome::unbounded:
       return "the response has no bound at " + number(scan.at) + " of the band: " + scan.reason;
@@ -69,7 +69,7 @@ class Report {
       return optimum;
     }
     scan_ = tuning_.full_scan(x_);
-    optimum.violation = std::max(0.0, scan_.violation);
+    optimum.violation = is_broken(scan_.violation) ? scan_.violation : 0.0;
     judge_limits(optimum);
     if (optimum.outcome != Outcome::infeasible) optimum.kkt_residual = stages_.decisive.solution.kkt_residual;
     if (task_.objective == Objective::minimax) {
