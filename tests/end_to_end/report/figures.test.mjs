@@ -76,7 +76,7 @@ test("what cannot be done is said, with its exit code", (t) => {
     frahm(["report", join(folder, "absent.h5")], { code: 6 }),
     /absent\.h5: there is no such file/,
   );
-  assert.match(frahm(["report", study("hundal")], { code: 6 }), /hundal\.toml/);
+  assert.match(frahm(["report", study("hundal")], { code: 2 }), /hundal\.toml/);
   assert.match(frahm(["report", file, "-o", file], { code: 2 }), /is the file that is read/);
   writeFileSync(join(folder, "taken"), "");
   assert.match(frahm(["report", file, "--figures", join(folder, "taken")], { code: 6 }), /taken/);
