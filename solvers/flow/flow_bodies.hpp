@@ -110,14 +110,14 @@ void Flow<N, H>::set_oscillation(double omega) {
   for (Eigen::Index k = 0; k < harmonics; ++k) {
     const double rate = orders_[static_cast<std::size_t>(k)] * fundamental_rate_;
     equations_.phase_rate[k] = rate;
-    const auto place = 2 * static_cast<std::size_t>(k);
-    rotation_[place] = std::cos(rate);
-    rotation_[place + 1] = std::sin(rate);
+    const auto entry = 2 * static_cast<std::size_t>(k);
+    rotation_[entry] = std::cos(rate);
+    rotation_[entry + 1] = std::sin(rate);
     double term = 1.0;  // rate^i / i!, with the signs of cos: + 0 - 0, of sin: 0 + 0 -
     for (int i = 0; i < kTerms; term *= rate / ++i) {
       const double signed_term = i % 4 < 2 ? term : -term;
-      rotation_series_[place][i] = i % 2 == 0 ? signed_term : 0.0;
-      rotation_series_[place + 1][i] = i % 2 == 1 ? signed_term : 0.0;
+      rotation_series_[entry][i] = i % 2 == 0 ? signed_term : 0.0;
+      rotation_series_[entry + 1][i] = i % 2 == 1 ? signed_term : 0.0;
     }
   }
 }

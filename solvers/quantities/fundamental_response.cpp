@@ -9,9 +9,9 @@ namespace frahm::periodic {
 namespace {
 
 Eigen::VectorXcd static_load(const mechanics::LinearSystem& system) {
-  const Eigen::Index place = reference_place(system);
-  Eigen::VectorXcd load = system.applied_force.col(place);
-  if (system.motion.rows() > 0) load -= system.K_support * system.motion.col(place);
+  const Eigen::Index column = reference_column(system);
+  Eigen::VectorXcd load = system.applied_force.col(column);
+  if (system.motion.rows() > 0) load -= system.K_support * system.motion.col(column);
   return load;
 }
 
@@ -25,7 +25,7 @@ Eigen::VectorXcd static_solution(const mechanics::LinearSystem& system, const Ei
 
 }  // namespace
 
-Eigen::Index reference_place(const mechanics::LinearSystem& system) {
+Eigen::Index reference_column(const mechanics::LinearSystem& system) {
   return std::find(system.orders.begin(), system.orders.end(), system.reference_order) -
          system.orders.begin();
 }
@@ -37,11 +37,11 @@ Eigen::VectorXd static_displacement(const mechanics::LinearSystem& system) {
 // K dx = d(f - K_support Y) - dK x
 Eigen::VectorXd static_displacement_derivative(const mechanics::LinearSystem& system,
                                                const mechanics::LinearSystem& by) {
-  const Eigen::Index place = reference_place(system);
+  const Eigen::Index column = reference_column(system);
   const Eigen::VectorXcd x = static_solution(system, static_load(system));
-  Eigen::VectorXcd load = by.applied_force.col(place) - by.K * x;
+  Eigen::VectorXcd load = by.applied_force.col(column) - by.K * x;
   if (system.motion.rows() > 0)
-    load -= by.K_support * system.motion.col(place) + system.K_support * by.motion.col(place);
+    load -= by.K_support * system.motion.col(column) + system.K_support * by.motion.col(column);
   const Eigen::VectorXcd x_by = static_solution(system, load);
   Eigen::VectorXd result(x.size());
   for (Eigen::Index i = 0; i < x.size(); ++i) result[i] = modulus_derivative(x[i], x_by[i]);
@@ -49,20 +49,20 @@ Eigen::VectorXd static_displacement_derivative(const mechanics::LinearSystem& sy
 }
 
 double support_amplitude(const mechanics::LinearSystem& system) {
-  const Eigen::VectorXd amplitude = system.motion.col(reference_place(system)).cwiseAbs();
+  const Eigen::VectorXd amplitude = system.motion.col(reference_column(system)).cwiseAbs();
   return (amplitude.array() > 0.0).count() == 1 ? amplitude.maxCoeff() : 0.0;
 }
 
 double support_amplitude_derivative(const mechanics::LinearSystem& system,
                                     const mechanics::LinearSystem& by) {
-  const Eigen::Index place = reference_place(system);
+  const Eigen::Index column = reference_column(system);
   Eigen::Index support = 0;
-  system.motion.col(place).cwiseAbs().maxCoeff(&support);
-  return modulus_derivative(system.motion(support, place), by.motion(support, place));
+  system.motion.col(column).cwiseAbs().maxCoeff(&support);
+  return modulus_derivative(system.motion(support, column), by.motion(support, column));
 }
 
 double force_transmissibility(const mechanics::LinearSystem& system, const Eigen::VectorXcd& X) {
-  const std::complex<double> applied = system.applied_force.col(reference_place(system)).sum();
+  const std::complex<double> applied = system.applied_force.col(reference_column(system)).sum();
   const double rate = system.reference_order * system.omega;
   // What acts on the supports is P - sum_i m_i x_i'', at the reference order P + (n omega)^2 sum_i m_i X_i.
   const std::complex<double> on_supports =
@@ -73,9 +73,9 @@ double force_transmissibility(const mechanics::LinearSystem& system, const Eigen
 double force_transmissibility_derivative(const mechanics::LinearSystem& system,
                                          const mechanics::LinearSystem& by, const Eigen::VectorXcd& X,
                                          const Eigen::VectorXcd& X_by) {
-  const Eigen::Index place = reference_place(system);
-  const std::complex<double> applied = system.applied_force.col(place).sum();
-  const std::complex<double> applied_by = by.applied_force.col(place).sum();
+  const Eigen::Index column = reference_column(system);
+  const std::complex<double> applied = system.applied_force.col(column).sum();
+  const std::complex<double> applied_by = by.applied_force.col(column).sum();
   const double n = system.reference_order, rate = n * system.omega;
   const Eigen::VectorXcd mass = system.mass.cast<std::complex<double>>();
   const std::complex<double> moved = mass.dot(X);

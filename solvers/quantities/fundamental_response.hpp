@@ -9,7 +9,7 @@
 namespace frahm::periodic {
 
 // Index of the reference order in LinearSystem::orders.
-Eigen::Index reference_place(const mechanics::LinearSystem& system);
+Eigen::Index reference_column(const mechanics::LinearSystem& system);
 
 // |K^-1 (f - K_support Y)|: the displacements [m] of the masses under the reference order's amplitudes of
 // force and motion, applied quasi-statically.

@@ -103,8 +103,8 @@ QuantityDescription describe(const Quantity& quantity, const Network& network, b
   result.name = name_of(row, quantity.index, network);
   result.unit = dimensionless && !is_angle(quantity.measure) ? "1" : row.unit;
   result.long_name = row.meaning;
-  if (const auto place = result.long_name.find("{}"); place != std::string::npos) {
-    result.long_name.replace(place, 2, owner_name(row.owner, quantity.index, network));
+  if (const auto braces = result.long_name.find("{}"); braces != std::string::npos) {
+    result.long_name.replace(braces, 2, owner_name(row.owner, quantity.index, network));
   }
   result.kind = row.kind;
   for (const FlagMeaning& flag : row.flags) result.flags.emplace_back(flag.meaning, flag.value);
@@ -130,7 +130,7 @@ std::vector<Quantity> standard_quantities(const Network& network) {
     for (const QuantityRow& row : quantity_table()) {
       if (row.standard.of == of) rows.push_back(&row);
     }
-    std::ranges::sort(rows, {}, [](const QuantityRow* row) { return row->standard.place; });
+    std::ranges::sort(rows, {}, [](const QuantityRow* row) { return row->standard.rank; });
     for (const std::size_t owner : owners(of, network)) {
       for (const QuantityRow* row : rows) result.push_back({row->measure, owner});
     }

@@ -55,7 +55,7 @@ struct Component {
 Component component(const Measured& m, D d, const mechanics::Incidence& at) {
   Component X{value::reference_component(m, at), 0.0};
   if (m.half_period && m.system->reference_order % 2 == 0) return X;
-  const Eigen::Index first = m.oscillators(), cosine = 1 + 2 * reference_place(*m.system);
+  const Eigen::Index first = m.oscillators(), cosine = 1 + 2 * reference_column(*m.system);
   const auto changed = [&](Eigen::Index k) {
     double sum = value::integral(at, d.gram, m.motion, first, k);
     const auto column = m.gram.col(first + k).segment(first, m.motion.cols());
@@ -106,9 +106,9 @@ double loss(const Measured& m, D d, std::size_t e) {
   if (law_by.damping != 0.0) by += law_by.damping * value::square_of_velocity(m, m.assembly->incidences()[e]);
   if (law.damping != 0.0) by += law.damping * square_of_velocity(m, d, m.assembly->incidences()[e]);
   if (law.internal_damping > 0.0) {
-    const Eigen::Index place = 2 * m.masses() + law.internal;
-    const double lost = m.gram(place, place) / law.internal_damping;
-    by += (d.gram(place, place) - lost * law_by.internal_damping) / law.internal_damping;
+    const Eigen::Index row = 2 * m.masses() + law.internal;
+    const double lost = m.gram(row, row) / law.internal_damping;
+    by += (d.gram(row, row) - lost * law_by.internal_damping) / law.internal_damping;
   }
   if (law.friction != 0.0 || law_by.friction != 0.0) {
     const std::size_t contact = m.assembly->shares()[e].contact;

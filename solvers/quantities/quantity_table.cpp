@@ -342,13 +342,13 @@ constexpr QuantityRow kTable[] = {
 
 // The row of each measure is at the measure's own index, and has a derivative or a reason for none.
 consteval bool is_complete() {
-  int place = 0;
+  int next = 0;
   for (const QuantityRow& row : kTable) {
-    if (static_cast<int>(row.measure) != place++ || row.value == nullptr) return false;
+    if (static_cast<int>(row.measure) != next++ || row.value == nullptr) return false;
     if ((row.derivative == nullptr) != (*row.why_not_differentiated != '\0')) return false;
     if ((row.kind == QuantityKind::flag) == row.flags.empty()) return false;
   }
-  return place == static_cast<int>(Measure::modal_damping) + 1;
+  return next == static_cast<int>(Measure::modal_damping) + 1;
 }
 static_assert(is_complete());
 

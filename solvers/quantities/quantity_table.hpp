@@ -15,7 +15,7 @@ enum class Owner { mass, element, contact, point, mode, support };
 enum class StandardOf { none, masses, springs, contacts, point };
 struct Standard {
   StandardOf of = StandardOf::none;
-  int place = 0;  // position among those of one owner, from 1
+  int rank = 0;  // position among those of one owner, from 1
 };
 
 // For which owners a page shows the quantity by default.

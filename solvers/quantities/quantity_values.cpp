@@ -20,7 +20,7 @@ bool has_no_reference(const Measured& m) {
 // X_n of a mass by itself.
 std::complex<double> reference_component(const Measured& m, Eigen::Index mass) {
   if (has_no_reference(m)) return 0.0;
-  const Eigen::Index first = m.oscillators() + 1 + 2 * reference_place(*m.system);
+  const Eigen::Index first = m.oscillators() + 1 + 2 * reference_column(*m.system);
   return {2.0 / m.period * m.gram(mass, first), -2.0 / m.period * m.gram(mass, first + 1)};
 }
 
@@ -30,8 +30,8 @@ double loss(const Measured& m, std::size_t element) {
   double energy = m.friction_loss[element];
   if (law.damping != 0.0) energy += law.damping * square_of_velocity(m, m.assembly->incidences()[element]);
   if (law.internal_damping > 0.0) {
-    const Eigen::Index place = 2 * m.masses() + law.internal;
-    energy += m.gram(place, place) / law.internal_damping;
+    const Eigen::Index row = 2 * m.masses() + law.internal;
+    energy += m.gram(row, row) / law.internal_damping;
   }
   return energy;
 }
@@ -54,7 +54,7 @@ double integral(const mechanics::Incidence& at, const Eigen::MatrixXd& gram, con
 
 std::complex<double> reference_component(const Measured& m, const mechanics::Incidence& at) {
   if (has_no_reference(m)) return 0.0;
-  const Eigen::Index cosine = 1 + 2 * reference_place(*m.system);
+  const Eigen::Index cosine = 1 + 2 * reference_column(*m.system);
   return {2.0 / m.period * integral(at, m.gram, m.motion, m.oscillators(), cosine),
           -2.0 / m.period * integral(at, m.gram, m.motion, m.oscillators(), cosine + 1)};
 }

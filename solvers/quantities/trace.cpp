@@ -20,9 +20,9 @@ mechanics::Incidence mass_incidence(const mechanics::Network& network, std::size
 
 std::size_t place_of(Trace trace, std::vector<Trace>& traces) {
   const auto found = std::find(traces.begin(), traces.end(), trace);
-  const auto place = static_cast<std::size_t>(found - traces.begin());
+  const auto index = static_cast<std::size_t>(found - traces.begin());
   if (found == traces.end()) traces.push_back(std::move(trace));
-  return place;
+  return index;
 }
 
 }  // namespace frahm::periodic

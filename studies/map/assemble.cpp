@@ -24,7 +24,7 @@ class Failures {
   // A point of a tile.
   void add(const MapBox& box, const FailedPoint& point) {
     ++number_;
-    if (first_.size() < most_failures_listed) first_.push_back({index_of(box, point.place), point.reason});
+    if (first_.size() < most_failures_listed) first_.push_back({index_of(box, point.offset), point.reason});
   }
   void add(const Failures& later) {
     number_ += later.number_;
@@ -47,10 +47,10 @@ class Failures {
     std::string reason;
   };
 
-  static std::vector<std::uint64_t> index_of(const MapBox& box, std::uint64_t place) {
+  static std::vector<std::uint64_t> index_of(const MapBox& box, std::uint64_t offset) {
     std::vector<std::uint64_t> index(box.start.size());
-    for (std::size_t d = index.size(); d-- > 0; place /= box.count[d])
-      index[d] = box.start[d] + place % box.count[d];
+    for (std::size_t d = index.size(); d-- > 0; offset /= box.count[d])
+      index[d] = box.start[d] + offset % box.count[d];
     return index;
   }
 

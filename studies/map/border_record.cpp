@@ -56,7 +56,7 @@ std::size_t create_borders(const MapPlan& plan, results::MapWriter& writer) {
 
 std::vector<double> border_row(const Study& study, const MapBox& tile, const Border& border) {
   std::vector<double> row(study.sweep()->axes.size());
-  std::uint64_t rest = border.place;
+  std::uint64_t rest = border.offset;
   for (std::size_t d = study.sweep()->dimensions.size(); d-- > 0; rest /= tile.count[d]) {
     const std::size_t index = tile.start[d] + rest % tile.count[d];
     for (const std::size_t a : study.sweep()->dimensions[d].axes) {

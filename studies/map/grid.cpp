@@ -95,9 +95,9 @@ std::uint64_t MapBox::points() const {
 }
 
 std::uint64_t MapBox::offset_of(std::span<const std::uint64_t> index) const {
-  std::uint64_t place = 0;
-  for (std::size_t d = 0; d < index.size(); ++d) place = place * count[d] + (index[d] - start[d]);
-  return place;
+  std::uint64_t offset = 0;
+  for (std::size_t d = 0; d < index.size(); ++d) offset = offset * count[d] + (index[d] - start[d]);
+  return offset;
 }
 
 std::uint64_t Grid::points() const {

@@ -87,8 +87,8 @@ void KnownPoints::take(const MapBox& box, std::span<double> values, std::vector<
   }
   std::uint64_t taken = 0;
   for (const Found& point : found) {
-    if (!is_answer(values, points, point.place)) continue;
-    known[point.place] = 1;
+    if (!is_answer(values, points, point.in_tile)) continue;
+    known[point.in_tile] = 1;
     ++taken;
   }
   taken_ += taken;
@@ -101,9 +101,9 @@ std::vector<KnownPoints::Found> KnownPoints::find(const MapBox& box) const {
   std::iota(dimensions.begin(), dimensions.end(), std::size_t{0});
   std::vector<Found> found;
   std::vector<std::uint64_t> index = box.start;
-  std::uint64_t place = 0;
+  std::uint64_t in_tile = 0;
   do {
-    Found point{.place = place++};
+    Found point{.in_tile = in_tile++};
     bool is_there = true;
     for (std::size_t d = 0; d < dimensions_.size() && is_there; ++d) {
       const std::uint64_t at = dimensions_[d].index[index[dimensions_[d].along]];
@@ -130,7 +130,7 @@ void KnownPoints::read_chunk(std::span<const Found> points, std::uint64_t points
     const std::vector<double> read = read_variable(variables_[q], box);
     for (std::size_t i = 0; i < points.size(); ++i) {
       check_possible(q, read[from[i]], points[i]);
-      values[q * points_of_tile + points[i].place] = read[from[i]];
+      values[q * points_of_tile + points[i].in_tile] = read[from[i]];
     }
   }
 }
@@ -171,8 +171,8 @@ MapBox KnownPoints::box_around(std::span<const Found> points) const {
 
 // Whether a point of the earlier map was computed without failure.
 bool KnownPoints::is_answer(std::span<const double> values, std::uint64_t points_of_tile,
-                            std::uint64_t place) const {
-  const auto value = [&](std::size_t variable) { return values[variable * points_of_tile + place]; };
+                            std::uint64_t in_tile) const {
+  const auto value = [&](std::size_t variable) { return values[variable * points_of_tile + in_tile]; };
   for (const std::size_t status : statuses_) {
     if (value(status) == static_cast<double>(periodic::Status::not_computed) ||
         value(status) == static_cast<double>(periodic::Status::failed))

@@ -38,9 +38,9 @@ class KnownPoints {
  private:
   // A point of a tile that the earlier map has.
   struct Found {
-    std::uint64_t chunk = 0;   // number of its chunk in the earlier map
-    std::uint64_t offset = 0;  // in the earlier map, row-major
-    std::uint64_t place = 0;   // offset in the tile
+    std::uint64_t chunk = 0;    // number of its chunk in the earlier map
+    std::uint64_t offset = 0;   // in the earlier map, row-major
+    std::uint64_t in_tile = 0;  // offset in the tile
   };
 
   std::vector<Found> find(const MapBox& box) const;
@@ -49,7 +49,7 @@ class KnownPoints {
   void check_possible(std::size_t variable, double value, const Found& point) const;
   std::vector<double> read_variable(std::size_t variable, const MapBox& box) const;
   MapBox box_around(std::span<const Found> points) const;
-  bool is_answer(std::span<const double> values, std::uint64_t points_of_tile, std::uint64_t place) const;
+  bool is_answer(std::span<const double> values, std::uint64_t points_of_tile, std::uint64_t in_tile) const;
 
   const MapPlan& plan_;
   std::filesystem::path file_;

@@ -73,7 +73,7 @@ void MapKernel::operator()(std::uint64_t tile, engine::Bytes& out) {
 // The points of the row that begins at index_, along the last dimension in the order of computation.
 void MapKernel::compute_row(const MapBox& box) {
   const std::size_t along = grid_.order.back();
-  std::uint64_t place = box.offset_of(index_), step = 1;  // of the row's first point; to the next point
+  std::uint64_t offset = box.offset_of(index_), step = 1;  // of the row's first point; to the next point
   for (std::size_t d = 0; d < index_.size(); ++d) {
     if (d > along) step *= box.count[d];
     if (d != along) set_along(*study_.sweep(), d, index_[d], parameters_);
@@ -81,12 +81,12 @@ void MapKernel::compute_row(const MapBox& box) {
   own_.begin_row();
   if (other_) other_->begin_row();
   const std::uint64_t points = box.points();
-  for (std::uint64_t i = 0; i < box.count[along]; ++i, place += step) {
-    if (known_[place]) continue;
+  for (std::uint64_t i = 0; i < box.count[along]; ++i, offset += step) {
+    if (known_[offset]) continue;
     set_along(*study_.sweep(), along, box.start[along] + i, parameters_);
     compute_point();
-    for (std::size_t q = 0; q < point_.size(); ++q) record_.values[q * points + place] = point_[q];
-    if (!reason_.empty()) record_.failed.push_back({place, reason_});
+    for (std::size_t q = 0; q < point_.size(); ++q) record_.values[q * points + offset] = point_[q];
+    if (!reason_.empty()) record_.failed.push_back({offset, reason_});
   }
 }
 

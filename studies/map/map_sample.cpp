@@ -47,7 +47,7 @@ void add(const MapPlan& plan, std::uint64_t tile, const TileRecord& record,
   }
   sample.encoding_seconds += seconds_since(start);
   if (sample.failed == 0 && !record.failed.empty()) {
-    sample.failed_at = point_text(plan.study, index_in(box, record.failed.front().place));
+    sample.failed_at = point_text(plan.study, index_in(box, record.failed.front().offset));
     sample.reason = record.failed.front().reason;
   }
   sample.failed += record.failed.size();

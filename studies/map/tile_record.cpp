@@ -35,7 +35,7 @@ void append(std::uint64_t number, engine::Bytes& out) {
 constexpr unsigned element_shift = 16, below_shift = 32, above_shift = 48;
 
 void append(const Border& border, engine::Bytes& out) {
-  append(border.place, out);
+  append(border.offset, out);
   append(std::bit_cast<std::uint64_t>(border.crossing.at), out);
   append(std::uint64_t{border.dimension} | std::uint64_t{border.element} << element_shift |
              static_cast<std::uint64_t>(border.crossing.below) << below_shift |
@@ -44,7 +44,7 @@ void append(const Border& border, engine::Bytes& out) {
 }
 
 Border take_border(RecordReading& reading) {
-  Border border{.place = reading.number()};
+  Border border{.offset = reading.number()};
   border.crossing.at = std::bit_cast<double>(reading.number());
   const std::uint64_t rest = reading.number();
   border.dimension = static_cast<std::uint16_t>(rest);
@@ -63,7 +63,7 @@ void encode(const TileRecord& record, engine::Bytes& out) {
     engine::put_little_endian(out.data() + begin + word * i, std::bit_cast<std::uint64_t>(record.values[i]));
   }
   for (const FailedPoint& point : record.failed) {
-    append(point.place, out);
+    append(point.offset, out);
     append(point.reason.size(), out);
     const auto text = std::as_bytes(std::span(point.reason));
     out.insert(out.end(), text.begin(), text.end());
@@ -84,14 +84,14 @@ void decode(std::span<const std::byte> bytes, std::size_t values, TileRecord& re
   record.failed.clear();
   record.borders.reset();
   while (!reading.at_end()) {
-    const std::uint64_t place = reading.number();
-    if (place == no_point) {
+    const std::uint64_t offset = reading.number();
+    if (offset == no_point) {
       record.borders.emplace();
       while (!reading.at_end()) record.borders->push_back(take_border(reading));
       return;
     }
     const auto text = reading.take(reading.number());
-    record.failed.push_back({place, {reinterpret_cast<const char*>(text.data()), text.size()}});
+    record.failed.push_back({offset, {reinterpret_cast<const char*>(text.data()), text.size()}});
   }
 }
 

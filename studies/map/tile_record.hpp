@@ -21,13 +21,13 @@ namespace frahm::studies {
 inline constexpr std::uint64_t no_point = std::numeric_limits<std::uint64_t>::max();
 
 struct FailedPoint {
-  std::uint64_t place = 0;  // offset among the points of the tile, row-major
+  std::uint64_t offset = 0;  // offset among the points of the tile, row-major
   std::string reason;
 };
 
 // A change of regime between a point of the tile and its neighbour along a dimension.
 struct Border {
-  std::uint64_t place = 0;       // offset of the point in the tile, row-major
+  std::uint64_t offset = 0;      // offset of the point in the tile, row-major
   std::size_t dimension = 0;     // of the map, slowest first
   std::size_t element = 0;       // among the network's Coulomb elements
   RegimeCrossing crossing = {};  // t from 0 at the point to 1 at its neighbour

@@ -13,9 +13,9 @@ namespace {
 void add_gradient(const DesignSpace& space, const BandCurve& curve, std::size_t side, double factor,
                   std::span<double> gradient) {
   for (std::size_t p = 0; p < space.parameters(); ++p) {
-    const DesignSpace::Place& place = curve.response().place(p);
-    for (int i = 0; i < place.count; ++i)
-      gradient[place.shares[i].variable] += factor * place.shares[i].weight * curve.derivative(side, p);
+    const DesignSpace::Interpolation& at_knots = curve.response().interpolation(p);
+    for (int i = 0; i < at_knots.count; ++i)
+      gradient[at_knots.shares[i].variable] += factor * at_knots.shares[i].weight * curve.derivative(side, p);
   }
 }
 
@@ -73,8 +73,8 @@ void ActiveProblem::add_response_rows() {
     const std::size_t row = constraints.size();
     constraints.push_back({.name = "response", .upper = epigraph ? 0.0 : bound_of(point.curve)});
     for (std::size_t p = 0; p < space_.parameters(); ++p) {
-      const DesignSpace::Place place = space_.place(p, point.at, somewhere);
-      for (int k = 0; k < place.count; ++k) jacobian.push_back({row, place.shares[k].variable});
+      const DesignSpace::Interpolation at_knots = space_.interpolation(p, point.at, somewhere);
+      for (int k = 0; k < at_knots.count; ++k) jacobian.push_back({row, at_knots.shares[k].variable});
     }
     if (epigraph) jacobian.push_back({row, space_.variables()});
   }
@@ -204,9 +204,9 @@ std::size_t ActiveProblem::constrain_responses(std::span<const double> x, std::s
     value = solved ? curve.value(point.side) - (epigraph ? x.back() : 0.0) : kNone;
     if (entries.empty()) continue;
     for (std::size_t p = 0; p < space_.parameters(); ++p) {
-      const DesignSpace::Place& place = curve.response().place(p);
-      for (int k = 0; k < place.count; ++k)
-        entries[entry++] = solved ? place.shares[k].weight * curve.derivative(point.side, p) : kNone;
+      const DesignSpace::Interpolation& at_knots = curve.response().interpolation(p);
+      for (int k = 0; k < at_knots.count; ++k)
+        entries[entry++] = solved ? at_knots.shares[k].weight * curve.derivative(point.side, p) : kNone;
     }
     if (epigraph) entries[entry++] = -1.0;
   }

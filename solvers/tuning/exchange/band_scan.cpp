@@ -19,7 +19,7 @@ std::vector<double> places_of(const Task& task, const DesignSpace& space, const 
   mechanics::NetworkValues values;
   std::vector<double> at(space.parameters() + 1);
   const auto values_at = [&](double band) -> const mechanics::NetworkValues& {
-    for (std::size_t p = 0; p < space.parameters(); ++p) at[p] = space.place(p, band, x).value;
+    for (std::size_t p = 0; p < space.parameters(); ++p) at[p] = space.interpolation(p, band, x).value;
     at.back() = band;
     task.network_at(curve.scenario, at, values, nullptr);
     return values;
@@ -59,7 +59,7 @@ void BandScan::scan_curve(std::span<const double> x, std::size_t c, double floor
     const std::size_t sides = state == TunedResponse::State::solved ? curve.sides() : 1;
     scan.maxima.push_back({c, maximum.at, maximum.value, sides});
   }
-  Scan::Place highest;
+  Scan::Extreme highest;
   for (const CurvePoint& sample : found.samples) {
     if (sample.value > highest.value) highest = {sample.at, sample.value};
   }

@@ -17,13 +17,13 @@ struct Scan {
     double at = 0.0, value = 0.0;
     std::size_t sides = 1;
   };
-  struct Place {
+  struct Extreme {
     double at = 0.0, value = -kInfinity;
   };
-  std::vector<Maximum> maxima;  // by curve, then along the band
-  std::vector<Place> tightest;  // of each curve, where it is highest, however low that is
-  double worst = 0.0;           // of the objective's curves; infinite where the response has no bound
-  double violation = 0.0;       // by which the other curves exceed 1
+  std::vector<Maximum> maxima;    // by curve, then along the band
+  std::vector<Extreme> tightest;  // of each curve, where it is highest, however low that is
+  double worst = 0.0;             // of the objective's curves; infinite where the response has no bound
+  double violation = 0.0;         // by which the other curves exceed 1
   bool failed = false, unbounded = false;
   double at = 0.0;     // where it failed or is unbounded
   std::string reason;  // why

@@ -12,7 +12,7 @@ TunedResponse::TunedResponse(const Task& task, const DesignSpace& space, std::si
       scenario_(scenario),
       response_(task.network, quantities),
       effort_(effort),
-      places_(space.parameters()),
+      interpolations_(space.parameters()),
       at_(space.parameters() + 1),
       value_(quantities.size()),
       derivative_(at_.size() * quantities.size()) {}
@@ -25,9 +25,9 @@ TunedResponse::State TunedResponse::solve(std::span<const double> x, double band
 }
 
 TunedResponse::State TunedResponse::solve_at(std::span<const double> x, double band, bool with_derivatives) {
-  for (std::size_t p = 0; p < places_.size(); ++p) {
-    places_[p] = space_.place(p, band, x);
-    at_[p] = places_[p].value;
+  for (std::size_t p = 0; p < interpolations_.size(); ++p) {
+    interpolations_[p] = space_.interpolation(p, band, x);
+    at_[p] = interpolations_[p].value;
   }
   at_.back() = band;
   task_.network_at(scenario_, at_, values_, with_derivatives ? &directions_ : nullptr);
@@ -55,11 +55,12 @@ TunedResponse::State TunedResponse::solve_at(std::span<const double> x, double b
   return State::solved;
 }
 
-double TunedResponse::slope(std::size_t quantity, double DesignSpace::Place::*of_parameter) const {
+double TunedResponse::slope(std::size_t quantity, double DesignSpace::Interpolation::*of_parameter) const {
   // dX/dband = partial X / partial band + sum_p partial X / partial p  p'(band)
-  double sum = derivative(quantity, places_.size());
-  for (std::size_t p = 0; p < places_.size(); ++p) {
-    if (places_[p].*of_parameter != 0.0) sum += derivative(quantity, p) * places_[p].*of_parameter;
+  double sum = derivative(quantity, interpolations_.size());
+  for (std::size_t p = 0; p < interpolations_.size(); ++p) {
+    if (interpolations_[p].*of_parameter != 0.0)
+      sum += derivative(quantity, p) * interpolations_[p].*of_parameter;
   }
   return sum;
 }

@@ -35,16 +35,22 @@ class TunedResponse {
     return derivative_[parameter * value_.size() + quantity];
   }
   // d quantity / d band along the schedules, on either side of a knot.
-  double slope_left(std::size_t quantity) const { return slope(quantity, &DesignSpace::Place::slope_left); }
-  double slope_right(std::size_t quantity) const { return slope(quantity, &DesignSpace::Place::slope_right); }
+  double slope_left(std::size_t quantity) const {
+    return slope(quantity, &DesignSpace::Interpolation::slope_left);
+  }
+  double slope_right(std::size_t quantity) const {
+    return slope(quantity, &DesignSpace::Interpolation::slope_right);
+  }
   // x(t + T/2) = -x(t): both sides of every peak are equal.
   bool is_symmetric() const { return is_symmetric_; }
   const mechanics::NetworkValues& values() const { return values_; }
-  const DesignSpace::Place& place(std::size_t parameter) const { return places_[parameter]; }
+  const DesignSpace::Interpolation& interpolation(std::size_t parameter) const {
+    return interpolations_[parameter];
+  }
 
  private:
   State solve_at(std::span<const double> x, double band, bool with_derivatives);
-  double slope(std::size_t quantity, double DesignSpace::Place::*of_parameter) const;
+  double slope(std::size_t quantity, double DesignSpace::Interpolation::*of_parameter) const;
 
   const Task& task_;
   const DesignSpace& space_;
@@ -54,7 +60,7 @@ class TunedResponse {
 
   mechanics::NetworkValues values_;
   std::vector<mechanics::NetworkValues> directions_;
-  std::vector<DesignSpace::Place> places_;
+  std::vector<DesignSpace::Interpolation> interpolations_;
   std::vector<double> at_, value_, derivative_;
   std::string reason_;
   bool is_symmetric_ = false, gradient_missing_ = false;

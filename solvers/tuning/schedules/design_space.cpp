@@ -36,7 +36,8 @@ DesignSpace::DesignSpace(const std::vector<DesignParameter>& parameters) : param
   first_.push_back(owner_.size());
 }
 
-DesignSpace::Place DesignSpace::place(std::size_t p, double band, std::span<const double> x) const {
+DesignSpace::Interpolation DesignSpace::interpolation(std::size_t p, double band,
+                                                      std::span<const double> x) const {
   const std::size_t first = first_[p];
   if (!parameters_[p].schedule) return {{{first, 1.0}, {}}, 1, x[first]};
   const std::vector<double>& knots = parameters_[p].schedule->knots;
@@ -50,14 +51,14 @@ DesignSpace::Place DesignSpace::place(std::size_t p, double band, std::span<cons
   const auto above = std::upper_bound(knots.begin(), knots.end(), band) - knots.begin();
   const std::size_t piece = std::min(static_cast<std::size_t>(above) - 1, last - 1);
   const double share = (band - knots[piece]) / (knots[piece + 1] - knots[piece]);
-  Place place;
-  place.shares[0] = {first + piece, 1.0 - share};
-  place.shares[1] = {first + piece + 1, share};
-  place.count = 2;
-  place.value = (1.0 - share) * x[first + piece] + share * x[first + piece + 1];
-  place.slope_left = place.slope_right = slope(piece);
-  if (share == 0.0 && piece > 0) place.slope_left = slope(piece - 1);
-  return place;
+  Interpolation at;
+  at.shares[0] = {first + piece, 1.0 - share};
+  at.shares[1] = {first + piece + 1, share};
+  at.count = 2;
+  at.value = (1.0 - share) * x[first + piece] + share * x[first + piece + 1];
+  at.slope_left = at.slope_right = slope(piece);
+  if (share == 0.0 && piece > 0) at.slope_left = slope(piece - 1);
+  return at;
 }
 
 std::vector<double> DesignSpace::constant_design(std::span<const double> value) const {

@@ -19,7 +19,7 @@ class DesignSpace {
     double weight = 0.0;  // d parameter / d variable
   };
   // A parameter at one point of the band.
-  struct Place {
+  struct Interpolation {
     Share shares[2];
     int count = 0;
     double value = 0.0;
@@ -34,7 +34,7 @@ class DesignSpace {
   std::size_t count(std::size_t p) const { return first_[p + 1] - first_[p]; }
   bool has_schedule() const { return variables() > parameters(); }
 
-  Place place(std::size_t p, double band, std::span<const double> x) const;
+  Interpolation interpolation(std::size_t p, double band, std::span<const double> x) const;
 
   // Variables that make each parameter the same everywhere, within its bounds. value: one per parameter.
   std::vector<double> constant_design(std::span<const double> value) const;

@@ -211,17 +211,17 @@ class Report {
     for (std::size_t c = 0; c < tuning_.curves().size(); ++c) {
       const CurveKind& kind = tuning_.curves()[c];
       if (kind.of == CurveKind::Of::objective) continue;
-      const Scan::Place& place = scan_.tightest[c];
-      const double excess = place.value - kind.most();
+      const Scan::Extreme& nearest = scan_.tightest[c];
+      const double excess = nearest.value - kind.most();
       if (is_broken(excess))
         optimum.limits[kind.limit].excess = std::max(optimum.limits[kind.limit].excess, excess);
-      if (place.value <= tightest[kind.limit]) continue;
-      tightest[kind.limit] = place.value;
+      if (nearest.value <= tightest[kind.limit]) continue;
+      tightest[kind.limit] = nearest.value;
       BandCurve curve(task_, tuning_.space(), kind, effort_);
       LimitState& state = optimum.limits[kind.limit];
-      state.at = place.at;
+      state.at = nearest.at;
       state.scenario = kind.scenario;
-      if (curve.solve(x_, place.at, false) == TunedResponse::State::solved)
+      if (curve.solve(x_, nearest.at, false) == TunedResponse::State::solved)
         state.value = curve.quantity(BandCurve::larger);
     }
     const Exchange::Step& step = stages_.decisive;

@@ -39,11 +39,11 @@ MapPlan plan_of(const std::string& text) {
 }
 
 // Values that no two neighbours share, told by the variable and the place in the map.
-double value_at(std::size_t variable, std::uint64_t place) {
-  const auto x = static_cast<double>(place);
+double value_at(std::size_t variable, std::uint64_t offset) {
+  const auto x = static_cast<double>(offset);
   return variable == 0   ? 0.1 * x + 0.25
-         : variable == 1 ? static_cast<double>(place % 1013)
-                         : 1.0 + static_cast<double>(place % 3);
+         : variable == 1 ? static_cast<double>(offset % 1013)
+                         : 1.0 + static_cast<double>(offset % 3);
 }
 
 // What stands where no tile was finished.
@@ -52,9 +52,9 @@ bool is_missing(std::size_t variable, double value) {
 }
 
 std::uint64_t place_of(const Grid& grid, const std::vector<std::uint64_t>& index) {
-  std::uint64_t place = 0;
-  for (std::size_t d = 0; d < index.size(); ++d) place = place * grid.shape[d] + index[d];
-  return place;
+  std::uint64_t offset = 0;
+  for (std::size_t d = 0; d < index.size(); ++d) offset = offset * grid.shape[d] + index[d];
+  return offset;
 }
 
 // The record of a tile of such values, every point of which fails if so.
@@ -68,8 +68,8 @@ engine::Bytes tile_bytes(const MapPlan& plan, std::uint64_t tile, bool failed) {
       record.values.push_back(value_at(v, place_of(plan.grid, index)));
     } while (next_point(box, dimensions, index));
   }
-  for (std::uint64_t place = 0; failed && place < box.points(); ++place)
-    record.failed.push_back({place, "tile " + std::to_string(tile)});
+  for (std::uint64_t offset = 0; failed && offset < box.points(); ++offset)
+    record.failed.push_back({offset, "tile " + std::to_string(tile)});
   engine::Bytes bytes;
   encode(record, bytes);
   return bytes;

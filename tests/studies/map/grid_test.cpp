@@ -25,9 +25,9 @@ std::vector<int> visits(const Grid& grid) {
     const MapBox box = grid.box(tile);
     std::vector<std::uint64_t> index = box.start;
     do {
-      std::uint64_t place = 0;
-      for (std::size_t d = 0; d < index.size(); ++d) place = place * grid.shape[d] + index[d];
-      ++visited.at(place);
+      std::uint64_t offset = 0;
+      for (std::size_t d = 0; d < index.size(); ++d) offset = offset * grid.shape[d] + index[d];
+      ++visited.at(offset);
     } while (next_point(box, dimensions, index));
   }
   return visited;

@@ -77,7 +77,7 @@ TEST_CASE(
       plan_of(oscillator("\"k\"") + axis_of("k", "[1, -1, 2]") + axis_of("r", "[0.5, 0.6]") + peaks);
   const TileRecord tile = tile_of(plan, 0);
   REQUIRE(tile.failed.size() == 2);
-  CHECK(tile.failed[0].place == 2);
+  CHECK(tile.failed[0].offset == 2);
   CHECK_THAT(tile.failed[0].reason, Catch::Contains("stiffness") && Catch::Contains("not positive definite"));
   CHECK(std::isnan(tile.values[2]));
   CHECK(tile.values[6 + 2] == 4.0);    // failed
@@ -182,7 +182,7 @@ TEST_CASE("where only the compared law finds no orbit the point tells why and ke
   const MapPlan plan = plan_of(text + axis_of("f", "[0, 0.9]") + axis_of("r", "[1]") + peaks + compare_laws);
   const TileRecord tile = tile_of(plan, 0);
   REQUIRE(tile.failed.size() == 1);
-  CHECK(tile.failed[0].place == 0);
+  CHECK(tile.failed[0].offset == 0);
   CHECK_THAT(tile.failed[0].reason, Catch::StartsWith("compared: ") && Catch::Contains("estimated error"));
   CHECK(values_of(plan, tile, "status")[0] == 1.0);
   CHECK_THAT(values_of(plan, tile, "main_peak")[0], Catch::WithinRel(5e6, 1e-6));

@@ -20,7 +20,7 @@ TEST_CASE("a tile's record gives back its values and its failed points") {
   CHECK(std::signbit(read.values[1]));
   CHECK(std::isnan(read.values[2]));
   REQUIRE(read.failed.size() == 2);
-  CHECK(read.failed[0].place == 2);
+  CHECK(read.failed[0].offset == 2);
   CHECK(read.failed[0].reason == "it did not converge");
   CHECK(count_failed(bytes, sample.values.size()) == 2);
 }
@@ -40,7 +40,7 @@ TEST_CASE("a tile's record gives back its borders, also where there are none, an
     REQUIRE(read.borders);
     REQUIRE(read.borders->size() == borders);
     for (const Border& back : *read.borders) {
-      CHECK(back.place == 3);
+      CHECK(back.offset == 3);
       CHECK(back.dimension == 2);
       CHECK(back.element == 1);
       CHECK(back.crossing.at == 0.625);
