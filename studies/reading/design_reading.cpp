@@ -157,7 +157,7 @@ void read_scenario(TuneReading& reading, const TomlValue& table, std::size_t num
   scenario.name = section.identifier("name");
   for (const ScenarioChoice& other : reading.choice.scenarios) {
     if (other.name == scenario.name)
-      section.fail(rules::name_taken, "name", "\"{}\" is taken", scenario.name);
+      section.fail(rules::name_taken, "name", "\"{}\" is the name of an earlier scenario", scenario.name);
   }
   const TomlValue& set = section.require("set");
   const auto* entries = set.as<TomlTable>();

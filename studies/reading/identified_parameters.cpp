@@ -161,8 +161,8 @@ void read_estimate(const IdentifyReading& reading, const TomlSection& section, I
   if (reading.data == DataFiles::leave) return;  // the estimates depend on the data
   if (std::find(known.begin(), known.end(), taken.estimate) == known.end())
     section.fail(
-        rules::unknown_name, "estimate", "the method \"{}\" gives no estimate \"{}\"{}", method,
-        taken.estimate,
+        rules::unknown_name, "estimate",
+        "the method \"{}\" gives no estimate \"{}\" with what [identify] states{}", method, taken.estimate,
         known.empty() ? ", as each row of its table has its own answer" : suggestion(taken.estimate, known));
 }
 

@@ -53,7 +53,7 @@ std::vector<InitialValues> read_initial(NetworkReading& reading, const TomlValue
                                    [&](const InitialValues& other) { return other.mass == values.mass; });
     if (twice) {
       throw reading.context.source.error_at(rules::given_twice, table->position,
-                                            "initial values of \"{}\": are given twice",
+                                            "initial values of \"{}\": are given already",
                                             reading.result.network.masses[values.mass]);
     }
     initial.push_back(std::move(values));

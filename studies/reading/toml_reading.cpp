@@ -56,6 +56,18 @@ std::string_view without_preamble(std::string_view description) {
   return colon == std::string_view::npos ? description : description.substr(colon + 2);
 }
 
+// What the library says, in a study's words where its own are of its inside.
+std::string plain(std::string_view description) {
+  const std::string text(without_preamble(description));
+  const std::size_t open = text.find('\''), close = text.rfind('\'');
+  const std::string quoted = open < close ? text.substr(open + 1, close - open - 1) : "";
+  if (text.starts_with("cannot redefine existing"))
+    return fmt::format("\"{}\" is given already", quoted.substr(0, quoted.find('\'')));
+  if (text.find("could not be interpreted as a value") != std::string::npos)
+    return fmt::format("\"{}\" is no value: a number too large, or a text without quotes", quoted);
+  return text;
+}
+
 }  // namespace
 
 std::string described(const TomlValue& value) {
@@ -75,7 +87,7 @@ TomlValue read_toml(const StudySource& source) {
     return {{1, 1}, converted_table(toml::parse(source.text))};
   } catch (const toml::parse_error& error) {
     throw source.error_at(rules::not_toml, position_of(error.source()), "not valid TOML: {}",
-                          without_preamble(error.description()));
+                          plain(error.description()));
   }
 }
 

@@ -92,12 +92,13 @@ std::int64_t TomlSection::integer_or(std::string_view key, std::int64_t otherwis
   return *integer;
 }
 
-std::string TomlSection::choice_or(std::string_view key, const std::vector<std::string>& choices) const {
+std::string TomlSection::choice_or(std::string_view key, const std::vector<std::string>& choices,
+                                   std::string_view besides) const {
   if (!find(key)) return choices.front();
   const std::string word = text(key);
   if (std::find(choices.begin(), choices.end(), word) == choices.end()) {
-    fail(rules::not_a_choice, key, "\"{}\" is not possible here; write {}", word,
-         listed(quoted(choices), " or "));
+    fail(rules::not_a_choice, key, "\"{}\" is not possible here; write {}{}", word,
+         listed(quoted(choices), besides.empty() ? " or " : ", "), besides);
   }
   return word;
 }

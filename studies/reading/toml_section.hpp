@@ -31,8 +31,9 @@ class TomlSection {
   bool boolean_or(std::string_view key, bool otherwise) const;
   double number(std::string_view key) const;  // required, finite
   std::int64_t integer_or(std::string_view key, std::int64_t otherwise) const;
-  std::string choice_or(std::string_view key,
-                        const std::vector<std::string>& choices) const;  // default: the first
+  // The first of the choices if absent. besides: what else the key can be, for the message.
+  std::string choice_or(std::string_view key, const std::vector<std::string>& choices,
+                        std::string_view besides = "") const;
 
   // At the table, and at the value of a key.
   template <class... Args>

@@ -129,7 +129,7 @@ void read_start(const TomlSection& section, TuneChoice& choice) {
   } else if (value && !value->as<std::string>()) {
     section.fail(rules::wrong_type, "start", "expected \"given\", \"nlopt\" or a number of starts, found {}",
                  described(*value));
-  } else if (section.choice_or("start", {"given", "nlopt"}) == "nlopt") {
+  } else if (section.choice_or("start", {"given", "nlopt"}, " or a number of starts") == "nlopt") {
     choice.start = tuning::Start::global;
   }
   if (section.find("global") && choice.start != tuning::Start::global)
