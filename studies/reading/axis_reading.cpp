@@ -172,7 +172,10 @@ void read_axis(const StudyContext& context, const TomlValue& table, std::size_t 
                       "its values are missing: give values = [...] or from, to and points");
   }
   axis.values = section.find("values") ? read_listed(section) : read_range(section);
-  if (section.find("zip")) axis.zip = section.identifier("zip");
+  if (section.find("zip")) {
+    axis.zip = section.identifier("zip");
+    axis.zip_position = section.require("zip").position;
+  }
   convert_axis(section, axis);
   check_values_differ(section, axis);
   study.sweep()->axes.push_back(std::move(axis));
@@ -184,7 +187,7 @@ void check_zip_names(const StudyContext& context, const Study& study) {
   for (const ParameterAxis& zipped : study.sweep()->axes) {
     for (const ParameterAxis& axis : study.sweep()->axes) {
       if (zipped.zip != study.parameters.list[axis.parameter].name) continue;
-      throw context.source.error_at(rules::name_taken, zipped.position,
+      throw context.source.error_at(rules::name_taken, zipped.zip_position,
                                     "axis \"{}\": zip: \"{}\" is the name of a parameter "
                                     "on an axis; give the zip a name of its own",
                                     study.parameters.list[zipped.parameter].name, zipped.zip);

@@ -146,9 +146,9 @@ void check_count(const TomlSection& section, const IdentifyChoice& choice,
   for (std::size_t i = 1; i < records.size(); ++i) {
     const bool traces = choice.records[0].find("time") && choice.records[i].find("time");
     if (choice.method == Method::added_mass && traces) continue;
-    records[i].fail_here(rules::unfit_for_method, "the method \"{}\" reads one record{}",
+    records[i].fail_here(rules::unfit_for_method, "the method \"{}\" takes one record{}",
                          section.text("method"),
-                         choice.method == Method::added_mass ? ", or traces alone" : "");
+                         choice.method == Method::added_mass ? " with a table, or traces only" : "");
   }
 }
 

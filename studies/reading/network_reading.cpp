@@ -275,8 +275,9 @@ NetworkOfStudy read_network(const StudyContext& context, const TomlValue& root, 
   for (const TomlValue* table : read_tables(context.source, root, "mass"))
     read_mass(reading, *table, ++number);
   if (number == 0)
-    throw context.source.error_at(rules::missing_section, root.position,
-                                  "the study has no [[mass]]: nothing moves");
+    throw context.source.error_at(
+        rules::missing_section, root.position, "the study has no [[mass]]: nothing moves{}",
+        kind == StudyKind::identify ? "; leave out all of the system, or add its masses" : "");
   if (is_forced && !excitation)
     throw context.source.error_at(rules::missing_section, root.position, "the study has no [excitation]");
   if (is_forced) read_prescribed_nodes(reading, excitation->value);

@@ -44,18 +44,21 @@ void check_top_keys(const StudySource& source, const TomlValue& root) {
   }
 }
 
-// Why a kind of study has no use for a section of another kind.
-std::string_view why_without(StudyKind kind, const std::string& section) {
-  if (kind == StudyKind::sweep) return "";
-  if (kind == StudyKind::tune) {
-    const bool of_a_map = section == "axis" || section == "coordinate" || section == "output";
-    return of_a_map ? ": the band of [tune] and the bounds of [[design]] are its ranges" : "";
+// What to say of a section that this kind of study does without.
+std::string why_without(StudyKind kind, const std::string& section) {
+  const bool of_a_map = section == "axis" || section == "coordinate" || section == "output";
+  const bool one_motion = kind == StudyKind::decay || kind == StudyKind::transient;
+  if (kind == StudyKind::tune && of_a_map)
+    return ": the band of [tune] and the bounds of [[design]] are its ranges";
+  if (one_motion && of_a_map) return ": it computes one motion, not a map";
+  if (one_motion && section == "excitation")
+    return ": a free vibration starts from [[initial]] values and is not driven";
+  std::vector<std::string> owners;
+  for (const StudyKind each :
+       {StudyKind::sweep, StudyKind::decay, StudyKind::transient, StudyKind::tune, StudyKind::identify}) {
+    if (contains(sections(each), section)) owners.push_back(fmt::format("\"{}\"", kind_name(each)));
   }
-  if (kind == StudyKind::identify) return "";
-  if (section == "axis" || section == "coordinate" || section == "output")
-    return ": it computes one motion, not a map";
-  if (section == "excitation") return ": a free vibration starts from [[initial]] values and is not driven";
-  return "";
+  return "; it is for kind = " + listed(owners, " or ");
 }
 
 // Refuses sections of other kinds of study, which would have no effect here.

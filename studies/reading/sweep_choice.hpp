@@ -20,9 +20,9 @@ struct ParameterAxis {
   std::string unit;            // as the user wrote it, in a form UDUNITS reads; "" where none is known (SI)
   double si_factor = 1.0;      // SI value = si_factor x value
   std::vector<double> values;  // in `unit`
-  std::vector<double> si_values;  // the same in SI
-  std::string zip;                // axes of the same name advance together; "" alone
-  Position position;              // of the [[axis]]
+  std::vector<double> si_values;    // the same in SI
+  std::string zip;                  // axes of the same name advance together; "" alone
+  Position position, zip_position;  // of the [[axis]] and its zip
 };
 
 // One dimension of the map: an axis, or several that advance together.
