@@ -5,18 +5,18 @@
 namespace frahm::periodic {
 
 std::unique_ptr<ResponseSolver> make_exact_solver(const mechanics::Network& network,
-                                                  std::vector<Quantity> quantities) {
+                                                  std::vector<Quantity> quantities, Path path) {
   const mechanics::Assembly assembly(network);
   const std::size_t masses = network.masses.size(), harmonics = assembly.orders().size();
   if (assembly.contacts() <= Sizes<1, 1>::kMaxContacts && assembly.internal_forces() == 0) {
     if (masses == 1 && harmonics == 1)
-      return std::make_unique<SizedSolver<1, 1>>(network, std::move(quantities));
+      return std::make_unique<SizedSolver<1, 1>>(network, std::move(quantities), path);
     if (masses == 1 && harmonics == 2)
-      return std::make_unique<SizedSolver<1, 2>>(network, std::move(quantities));
+      return std::make_unique<SizedSolver<1, 2>>(network, std::move(quantities), path);
     if (masses == 2 && harmonics == 1)
-      return std::make_unique<SizedSolver<2, 1>>(network, std::move(quantities));
+      return std::make_unique<SizedSolver<2, 1>>(network, std::move(quantities), path);
   }
-  return std::make_unique<SizedSolver<Eigen::Dynamic, Eigen::Dynamic>>(network, std::move(quantities));
+  return std::make_unique<SizedSolver<Eigen::Dynamic, Eigen::Dynamic>>(network, std::move(quantities), path);
 }
 
 }  // namespace frahm::periodic

@@ -13,13 +13,21 @@ namespace frahm::periodic {
 
 enum class Status;
 
+// How a response was found: from the phases at which its contacts reverse, nothing ever sticking (nonstop/); or by
+// shooting on its flow.
+enum class Way { shooting, reversal_phases };
+
+// Which of them are tried. General: shooting alone.
+enum class Path { fastest, general };
+
 // Data of every response, independent of the quantities requested.
 struct ResponseSummary {
-  Status status;
+  Status status{};
+  Way way = Way::shooting;
   std::string reason;     // why it failed; empty otherwise
   double residual = 0.0;  // 1
   int newton_iterations = 0;
-  int passages = 0;          // periods (or half periods) of the flow that the search took
+  int passages = 0;          // periods (or half periods) of the flow that the search took; 0 from phases
   bool half_period = false;  // the response repeats with the opposite sign: x(t + T/2) = -x(t), T the
                              // period of the orders divided by their common divisor
 };
@@ -81,6 +89,26 @@ class ResponseSolver {
                               std::span<const mechanics::NetworkValues> directions, ObservedMotion& out) = 0;
   virtual History history(std::span<const double> phases) = 0;
   virtual std::vector<Stretch> stretches() const = 0;
+
+  virtual void solve_row(std::span<const mechanics::NetworkValues> points, std::span<ResponseSummary> found,
+                         std::span<double> out) {
+    solve_rest(points, found, out);
+  }
+
+ protected:
+  // Those points of a row whose status is not_computed, one after the other.
+  void solve_rest(std::span<const mechanics::NetworkValues> points, std::span<ResponseSummary> found,
+                  std::span<double> out);
+
+ private:
+  const ResponseSummary& solve_next(const mechanics::NetworkValues& values);
+
+  mechanics::NetworkValues last_;  // of solve_rest()
+  bool has_last_ = false;
+  ResponseSummary refused_;
 };
+
+// Whether two points have the same masses and elements, and so the same matrices but for what depends on the frequency.
+bool have_same_elements(const mechanics::NetworkValues& a, const mechanics::NetworkValues& b);
 
 }  // namespace frahm::periodic

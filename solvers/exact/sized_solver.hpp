@@ -2,6 +2,7 @@
 
 #include "solvers/exact/orbit_search.hpp"
 #include "solvers/exact/response.hpp"
+#include "solvers/exact/nonstop_row.hpp"
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/orbits/phase.hpp"
 #include "solvers/quantities/gradient.hpp"
@@ -14,11 +15,20 @@ namespace frahm::periodic {
 template <int N, int H>
 class SizedSolver final : public ResponseSolver {
  public:
-  SizedSolver(const mechanics::Network& network, const std::vector<Quantity>& quantities)
+  SizedSolver(const mechanics::Network& network, const std::vector<Quantity>& quantities, Path path)
       : assembly_(network),
         search_(assembly_, flow_),
         observables_(assembly_, flow_, quantities),
-        gradient_(assembly_, flow_, quantities) {}
+        gradient_(assembly_, flow_, quantities) {
+    if (path == Path::fastest && nonstop::NonstopSolver::serves(assembly_))
+      nonstop_ = std::make_unique<nonstop::NonstopSolver>(assembly_, quantities);
+  }
+
+  void solve_row(std::span<const mechanics::NetworkValues> points, std::span<ResponseSummary> found,
+                 std::span<double> out) override {
+    if (nonstop_) nonstop::solve_row(*nonstop_, points, found, out);
+    solve_rest(points, found, out);
+  }
 
   void set_values(const mechanics::NetworkValues& values) override {
     values_ = values;
@@ -77,6 +87,7 @@ class SizedSolver final : public ResponseSolver {
   Gradient<N, H> gradient_;
   Orbit<N, H> orbit_;
   ResponseSummary summary_;
+  std::unique_ptr<nonstop::NonstopSolver> nonstop_;  // none where it does not serve, or is not wanted
 };
 
 template <int N, int H>

@@ -68,6 +68,15 @@ class DividedOrders final : public ResponseSolver {
       out[i] = of_whole_period(quantities_[i].measure, out[i]);
   }
 
+  void solve_row(std::span<const NetworkValues> points, std::span<ResponseSummary> found,
+                 std::span<double> out) override {
+    row_.assign(points.begin(), points.end());
+    for (NetworkValues& values : row_) quicken(values);
+    solver_->solve_row(row_, found, out);
+    for (std::size_t i = 0; i < out.size(); ++i)
+      out[i] = of_whole_period(quantities_[i % quantities_.size()].measure, out[i]);
+  }
+
   const char* gradient(std::span<const NetworkValues> directions, std::span<double> out) override {
     const char* reason = solver_->gradient(quickened(directions), out);
     is_differentiable_ = *reason == '\0';
@@ -109,11 +118,15 @@ class DividedOrders final : public ResponseSolver {
 
  private:
   // omega_h, where it is not given, is that of the reference order at the user's own frequency.
+  void quicken(NetworkValues& values) {
+    follows_frequency_ = !(values.hysteretic_omega > 0.0);
+    if (follows_frequency_) values.hysteretic_omega = reference_order_ * values.omega;
+    values.omega *= divisor_;
+  }
+
   const NetworkValues& quickened(const NetworkValues& values) {
     values_ = values;
-    values_.omega *= divisor_;
-    follows_frequency_ = !(values.hysteretic_omega > 0.0);
-    if (follows_frequency_) values_.hysteretic_omega = reference_order_ * values.omega;
+    quicken(values_);
     return values_;
   }
 
@@ -147,6 +160,7 @@ class DividedOrders final : public ResponseSolver {
   std::vector<Quantity> quantities_;
   std::unique_ptr<ResponseSolver> solver_;  // of the divided orders
   NetworkValues values_;                    // as it was given them
+  std::vector<NetworkValues> row_;          // the same
   std::vector<NetworkValues> directions_;
   bool follows_frequency_ = true, is_differentiable_ = false;
 };

@@ -9,20 +9,34 @@ namespace {
 
 // A solver of the network's law.
 std::unique_ptr<ResponseSolver> make_solver(const mechanics::Network& network,
-                                            std::vector<Quantity> quantities) {
+                                            std::vector<Quantity> quantities, Path path) {
   if (smooth::is_smooth(network)) return smooth::make_solver(network, std::move(quantities));
-  return make_exact_solver(network, std::move(quantities));
+  return make_exact_solver(network, std::move(quantities), path);
+}
+
+std::unique_ptr<ResponseSolver> make_divided_solver(const mechanics::Network& network,
+                                                    std::vector<Quantity> quantities, Path path) {
+  return divide_orders(network, std::move(quantities),
+                       [path](const mechanics::Network& divided, std::vector<Quantity> asked) {
+                         return make_solver(divided, std::move(asked), path);
+                       });
 }
 
 }  // namespace
 
-PeriodicResponse::PeriodicResponse(const mechanics::Network& network, std::vector<Quantity> quantities)
-    : solver_(common_divisor(network) > 1 ? divide_orders(network, std::move(quantities), make_solver)
-                                          : make_solver(network, std::move(quantities))) {}
+PeriodicResponse::PeriodicResponse(const mechanics::Network& network, std::vector<Quantity> quantities,
+                                   Path path)
+    : solver_(common_divisor(network) > 1 ? make_divided_solver(network, std::move(quantities), path)
+                                          : make_solver(network, std::move(quantities), path)) {}
 PeriodicResponse::~PeriodicResponse() = default;
 PeriodicResponse::PeriodicResponse(PeriodicResponse&&) noexcept = default;
 PeriodicResponse& PeriodicResponse::operator=(PeriodicResponse&&) noexcept = default;
 
+void PeriodicResponse::solve_row(std::span<const mechanics::NetworkValues> points,
+                                 std::span<ResponseSummary> found, std::span<double> out) {
+  for (ResponseSummary& summary : found) summary = {};
+  solver_->solve_row(points, found, out);
+}
 void PeriodicResponse::set_values(const mechanics::NetworkValues& values) {
   solver_->set_values(values);
 }

@@ -16,16 +16,26 @@ namespace frahm::periodic {
 // with both is refused. Orders with a common divisor are divided by it first (response/common_divisor.hpp).
 //
 //   PeriodicResponse response(network, quantities);
-//   response.set_values(values);   response.solve();  response.quantities(out);  // first frequency of a row
+//   response.solve_row(points, found, out);  // many points at once, and the fastest way
+//
+//   response.set_values(values);   response.solve();  response.quantities(out);  // one point by shooting
 //   response.set_forcing(values);  response.solve();  response.quantities(out);  // next: from known orbits
-//   orbits before it
 class PeriodicResponse {
  public:
   // Throws mechanics::MechanicsError for a network that cannot move, or that mixes friction laws.
-  PeriodicResponse(const mechanics::Network& network, std::vector<Quantity> quantities);
+  PeriodicResponse(const mechanics::Network& network, std::vector<Quantity> quantities,
+                   Path path = Path::fastest);
   ~PeriodicResponse();
   PeriodicResponse(PeriodicResponse&&) noexcept;
   PeriodicResponse& operator=(PeriodicResponse&&) noexcept;
+
+  // Solves the points of a row, most often along the frequency. Where the masses and elements are the same at all of
+  // them, but for friction limits, orbits on which nothing sticks are found from their reversal phases, with no use
+  // of other points; the others by shooting, each from those before it.
+  // found: of each point; status not_computed, with the reason, where its values cannot be set, and failed where
+  // the search failed.  out: points x quantities, as quantities() gives them.  Never throws.
+  void solve_row(std::span<const mechanics::NetworkValues> points, std::span<ResponseSummary> found,
+                 std::span<double> out);
 
   // New element values: matrices, limits and forcing. Throws mechanics::MechanicsError, naming element, value
   // and rule, and leaves the response unset.

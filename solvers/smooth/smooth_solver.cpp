@@ -126,8 +126,12 @@ const periodic::ResponseSummary& SmoothSolver::solve() {
       orbit_.reason = error.what();
     }
   }
-  summary_ = {orbit_.status,   orbit_.reason,     orbit_.residual, orbit_.newton_iterations,
-              orbit_.passages, orbit_.half_period};
+  summary_ = {.status = orbit_.status,
+              .reason = orbit_.reason,
+              .residual = orbit_.residual,
+              .newton_iterations = orbit_.newton_iterations,
+              .passages = orbit_.passages,
+              .half_period = orbit_.half_period};
   return summary_;
 }
 

@@ -52,8 +52,7 @@ BorderSearch::BorderSearch(const Study& study, const Grid& grid)
     : study_(study),
       grid_(grid),
       elements_(regimes_of(study.network).size()),
-      solver_(study, study.network, study.values, regimes_of(study.network),
-              matrices_change_along_rows(study)),
+      solver_(study, study.network, study.values, regimes_of(study.network)),
       parameters_(study.parameters.nominal()) {}
 
 void BorderSearch::find(const MapBox& tile, std::vector<Border>& borders) {
@@ -101,25 +100,26 @@ void BorderSearch::find_regimes_of_row(Index index) {
     is_own = is_own && !is_beyond(index, d);
   }
   const std::uint64_t points = is_own ? wide_.count[along] : tile_.count[along];
-  for (std::uint64_t i = 0; i < points; ++i) {
-    if (i == 0 || i == tile_.count[along]) {
-      solver_.forget();
-      solver_.begin_row();
-    }
-    index[along] = tile_.start[along] + i;
-    find_regimes_of_point(index);
-  }
+  find_regimes_of_stretch(index, 0, tile_.count[along]);
+  if (points > tile_.count[along]) find_regimes_of_stretch(index, tile_.count[along], points);
 }
 
-// All dimensions except the row's are already set.
-void BorderSearch::find_regimes_of_point(const Index& index) {
+// The points [first, last) of a row, without earlier orbits. All other dimensions are already set.
+void BorderSearch::find_regimes_of_stretch(Index index, std::uint64_t first, std::uint64_t last) {
   const std::size_t along = grid_.order.back();
-  set_along(*study_.sweep(), along, index[along], parameters_);
-  solver_.set_parameters(parameters_);
-  std::string reason;  // unused: the map reports it
-  const std::span<const double> found = solver_.solve(reason);
-  std::ranges::transform(found, regimes_.begin() + static_cast<std::ptrdiff_t>(offset_of(index)),
-                         [](double regime) { return static_cast<Regime>(regime); });
+  solver_.forget();
+  solver_.begin_row();
+  for (std::uint64_t i = first; i < last; ++i) {
+    set_along(*study_.sweep(), along, tile_.start[along] + i, parameters_);
+    solver_.add_point(parameters_);
+  }
+  solver_.solve();
+  for (std::uint64_t i = first; i < last; ++i) {
+    index[along] = tile_.start[along] + i;
+    std::ranges::transform(solver_.quantities(i - first),
+                           regimes_.begin() + static_cast<std::ptrdiff_t>(offset_of(index)),
+                           [](double regime) { return static_cast<Regime>(regime); });
+  }
 }
 
 // The edges along a dimension that begin at the points of a row.
@@ -160,10 +160,7 @@ RegimePoint BorderSearch::point_on_edge(const Index& lower, std::size_t dimensio
     parameters_[axis.parameter] =
         std::lerp(axis.si_values[lower[dimension]], axis.si_values[lower[dimension] + 1], at);
   }
-  solver_.begin_row();
-  solver_.set_parameters(parameters_);
-  std::string reason;
-  const auto regime = static_cast<Regime>(solver_.solve(reason)[element]);
+  const auto regime = static_cast<Regime>(solver_.solve_alone(parameters_)[element]);
   if (!has_regime(regime)) return {regime};
   return regime_point(regime, solver_.stretches(), element);
 }

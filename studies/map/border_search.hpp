@@ -35,7 +35,7 @@ class BorderSearch {
   std::size_t offset_of(const Index& index) const;
   void find_regimes();
   void find_regimes_of_row(Index index);
-  void find_regimes_of_point(const Index& index);
+  void find_regimes_of_stretch(Index index, std::uint64_t first, std::uint64_t last);
   void search_row(const Index& row, std::size_t dimension, std::vector<Border>& borders);
   std::vector<RegimeCrossing> crossings_on_edge(const Index& lower, std::size_t dimension,
                                                 std::size_t element,

@@ -150,10 +150,6 @@ std::vector<double> coordinate_values(const Study& study, const DerivedCoordinat
   return values;
 }
 
-bool matrices_change_along_rows(const Study& study) {
-  return !study.sweep()->frequency_dimension || study.sweep()->values_depend_on_frequency;
-}
-
 bool next_point(const MapBox& box, std::span<const std::size_t> dimensions,
                 std::vector<std::uint64_t>& index) {
   for (auto d = dimensions.rbegin(); d != dimensions.rend(); ++d) {

@@ -57,9 +57,6 @@ Grid grid_of(const Study& study);
 // The values of a derived coordinate along its dimension.
 std::vector<double> coordinate_values(const Study& study, const DerivedCoordinate& coordinate);
 
-// Whether masses or elements change within a row, not only between rows.
-bool matrices_change_along_rows(const Study& study);
-
 // Moves `index` to the next point of the box along `dimensions`, the last of which runs fastest; after its
 // last point false, with `index` back at the start.
 bool next_point(const MapBox& box, std::span<const std::size_t> dimensions,

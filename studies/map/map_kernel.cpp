@@ -29,8 +29,7 @@ MapKernel::MapKernel(const Study& study, const Grid& grid, std::vector<periodic:
       grid_(grid),
       earlier_(earlier),
       quantities_(quantities.size()),
-      own_(study, study.network, study.values, asked_for(study, quantities),
-           matrices_change_along_rows(study)),
+      own_(study, study.network, study.values, asked_for(study, quantities)),
       parameters_(study.parameters.nominal()),
       point_(quantities.size()) {
   if (study.sweep()->output.borders) border_search_.emplace(study, grid);
@@ -42,8 +41,7 @@ MapKernel::MapKernel(const Study& study, const Grid& grid, std::vector<periodic:
   }
   own_compared_.resize(compared_.size());
   point_.resize(quantities_ + compared_variables(study).size());
-  other_.emplace(study, compared_network(study), compared_values(study), compared_quantities(study),
-                 matrices_change_along_rows(study));
+  other_.emplace(study, compared_network(study), compared_values(study), compared_quantities(study));
 }
 
 void MapKernel::operator()(std::uint64_t tile, engine::Bytes& out) {
@@ -80,27 +78,32 @@ void MapKernel::compute_row(const MapBox& box) {
   }
   own_.begin_row();
   if (other_) other_->begin_row();
-  const std::uint64_t points = box.points();
+  offsets_.clear();
   for (std::uint64_t i = 0; i < box.count[along]; ++i, offset += step) {
     if (known_[offset]) continue;
     set_along(*study_.sweep(), along, box.start[along] + i, parameters_);
-    compute_point();
-    for (std::size_t q = 0; q < point_.size(); ++q) record_.values[q * points + offset] = point_[q];
-    if (!reason_.empty()) record_.failed.push_back({offset, reason_});
+    own_.add_point(parameters_);
+    if (other_) other_->add_point(parameters_);
+    offsets_.push_back(offset);
   }
+  own_.solve();
+  if (other_) other_->solve();
+  for (std::size_t i = 0; i < offsets_.size(); ++i) record_point(i, offsets_[i], box.points());
 }
 
-// Fills point_, and reason_ if the point fails.
-void MapKernel::compute_point() {
-  own_.set_parameters(parameters_);
-  const std::span<const double> own = own_.solve(reason_);
+// Point i of the row that was solved, at this offset in the tile.
+void MapKernel::record_point(std::size_t i, std::uint64_t offset, std::uint64_t points) {
+  const std::span<const double> own = own_.quantities(i);
   std::copy_n(own.begin(), quantities_, point_.begin());
-  if (!other_) return;
-  for (std::size_t i = 0; i < compared_.size(); ++i) own_compared_[i] = own[compared_[i]];
-  std::string reason;
-  other_->set_parameters(parameters_);
-  compare(own_compared_, other_->solve(reason), std::span(point_).subspan(quantities_));
-  if (reason_.empty() && !reason.empty()) reason_ = fmt::format("compared: {}", reason);
+  std::string reason = own_.reason(i);
+  if (other_) {
+    for (std::size_t c = 0; c < compared_.size(); ++c) own_compared_[c] = own[compared_[c]];
+    compare(own_compared_, other_->quantities(i), std::span(point_).subspan(quantities_));
+    if (reason.empty() && !other_->reason(i).empty())
+      reason = fmt::format("compared: {}", other_->reason(i));
+  }
+  for (std::size_t q = 0; q < point_.size(); ++q) record_.values[q * points + offset] = point_[q];
+  if (!reason.empty()) record_.failed.push_back({offset, std::move(reason)});
 }
 
 }  // namespace frahm::studies

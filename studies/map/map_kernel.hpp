@@ -20,8 +20,8 @@ class KnownPoints;
 // response compared with it, and where regimes change. A point without a response fails with a reason; it
 // never ends the work. For one thread; each has its own.
 //
-// Each tile starts from nothing and goes through its rows in a fixed order, each point starting from the
-// orbits computed before it, so that the record of a tile depends on the tile alone, and on the earlier
+// Each tile starts from nothing and goes through its rows in a fixed order, each orbit that needs a start starting
+// from those computed before it, so that the record of a tile depends on the tile alone, and on the earlier
 // result from which the map grows.
 class MapKernel {
  public:
@@ -34,7 +34,7 @@ class MapKernel {
 
  private:
   void compute_row(const MapBox& box);
-  void compute_point();
+  void record_point(std::size_t i, std::uint64_t offset, std::uint64_t points);
 
   const Study& study_;
   const Grid& grid_;
@@ -49,10 +49,10 @@ class MapKernel {
   TileRecord record_;
   std::vector<char> known_;           // of each point of the tile: its values are those of the earlier result
   std::vector<std::uint64_t> index_;  // of the row's first point
-  std::vector<double> parameters_;    // SI
-  std::vector<double> point_;         // its variables
-  std::vector<double> own_compared_;  // of the study's response, those that are compared
-  std::string reason_;                // why it failed; empty if it did not
+  std::vector<std::uint64_t> offsets_;  // of the points of the row that are computed
+  std::vector<double> parameters_;      // SI
+  std::vector<double> point_;           // its variables
+  std::vector<double> own_compared_;    // of the study's response, those that are compared
 };
 
 }  // namespace frahm::studies

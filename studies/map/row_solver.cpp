@@ -1,5 +1,6 @@
 #include "studies/map/row_solver.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "solvers/mechanics/linear_system.hpp"
@@ -16,63 +17,54 @@ std::vector<double> values_of_failure(std::span<const periodic::Quantity> quanti
   return values;
 }
 
+periodic::Path path_of(const Study& study) {
+  return study.sweep() != nullptr && study.sweep()->output.general_path ? periodic::Path::general
+                                                                        : periodic::Path::fastest;
+}
+
 }  // namespace
 
 RowSolver::RowSolver(const Study& study, const mechanics::Network& network, StudyValues values,
-                     std::vector<periodic::Quantity> quantities, bool matrices_change)
+                     std::vector<periodic::Quantity> quantities)
     : parameters_(study.parameters),
       values_(std::move(values)),
       missing_(values_of_failure(quantities)),
-      matrices_change_(matrices_change),
-      response_(network, std::move(quantities)),
-      point_(missing_.size()) {}
+      response_(network, std::move(quantities), path_of(study)) {}
 
-void RowSolver::begin_row() {
-  matrices_set_ = false;
-  turn();
+void RowSolver::add_point(std::span<double> parameters) {
+  if (points_ == numbers_.size()) numbers_.emplace_back();
+  evaluate(values_, parameters_, parameters, numbers_[points_++]);
 }
 
-void RowSolver::set_parameters(std::span<double> parameters) {
-  evaluate(values_, parameters_, parameters, numbers_);
+void RowSolver::solve() {
+  found_.resize(points_);
+  row_.resize(points_ * missing_.size());
+  response_.solve_row(std::span(numbers_).first(points_), found_, row_);
+  for (std::size_t i = 0; i < points_; ++i) {
+    const auto place = row_.begin() + static_cast<std::ptrdiff_t>(i * missing_.size());
+    if (found_[i].status == periodic::Status::not_computed) std::ranges::copy(missing_, place);
+    // What is unbounded is no failure.
+    if (found_[i].status == periodic::Status::unbounded) found_[i].reason.clear();
+  }
 }
 
-std::span<const double> RowSolver::solve(std::string& reason) {
-  reason.clear();
-  turn_where_frequency_does();
+std::span<const double> RowSolver::quantities(std::size_t i) const {
+  return std::span(row_).subspan(i * missing_.size(), missing_.size());
+}
+
+std::span<const double> RowSolver::solve_alone(std::span<double> parameters) {
+  numbers_.resize(std::max<std::size_t>(numbers_.size(), 1));
+  evaluate(values_, parameters_, parameters, numbers_[0]);
   try {
-    set_point();
-  } catch (const mechanics::MechanicsError& error) {
-    reason = error.what();
-    matrices_set_ = false;
+    response_.set_values(numbers_[0]);
+  } catch (const mechanics::MechanicsError&) {
     return missing_;
   }
-  const periodic::ResponseSummary& summary = response_.solve();
-  if (summary.status == periodic::Status::failed) reason = summary.reason;
-  response_.quantities(point_);
-  return point_;
-}
-
-// Along a row the solver extrapolates over the frequency, which must change in one direction: with axes that
-// advance together it may turn back or pause, and without a frequency axis it is constant.
-void RowSolver::turn_where_frequency_does() {
-  const double step = numbers_.omega - omega_;
-  const bool onwards = points_onwards_ == 1 ? step != 0.0 : step * direction_ > 0.0;
-  if (points_onwards_ == 0 || !onwards) {
-    response_.begin_row();
-    points_onwards_ = 0;
-  }
-  direction_ = step;
-  omega_ = numbers_.omega;
-  ++points_onwards_;
-}
-
-void RowSolver::set_point() {
-  if (matrices_set_ && !matrices_change_) {
-    response_.set_forcing(numbers_);
-  } else {
-    response_.set_values(numbers_);
-    matrices_set_ = true;
-  }
+  response_.begin_row();
+  response_.solve();
+  row_.resize(std::max(row_.size(), missing_.size()));
+  response_.quantities(std::span(row_).first(missing_.size()));
+  return std::span(row_).first(missing_.size());
 }
 
 }  // namespace frahm::studies

@@ -10,41 +10,41 @@
 
 namespace frahm::studies {
 
-// Responses of one network along the rows of a map, each starting from those before it. A point without one
-// fails with a reason; it never ends the work.
+// Responses of one network along the rows of a map. A point without one fails with a reason; it never ends the
+// work.
 class RowSolver {
  public:
-  // study: whose parameters the values read; must outlive the solver. matrices_change: masses or elements
-  // change along a row.
+  // study: whose parameters the values read; must outlive the solver.
   RowSolver(const Study& study, const mechanics::Network& network, StudyValues values,
-            std::vector<periodic::Quantity> quantities, bool matrices_change);
+            std::vector<periodic::Quantity> quantities);
 
   void forget() { response_.forget(); }  // all earlier points
-  void begin_row();                      // of element values
-  // The next point starts from the first one of the row or stretch of frequencies in hand.
-  void turn() { points_onwards_ = 0; }
-  // Completes the parameters (SI) and sets the network's values at the point.
-  void set_parameters(std::span<double> parameters);
-  // The quantities of that point; `reason` says why it fails, empty if it does not.
-  std::span<const double> solve(std::string& reason);
-  // The stretches of its orbit, if it has one (PeriodicResponse::stretches).
+  void begin_row() { points_ = 0; }
+  // The next point of the row: completes its parameters (SI) and keeps its values.
+  void add_point(std::span<double> parameters);
+  // Solves the row.
+  void solve();
+  // Of point i of the row: its quantities; and why it fails, empty if it does not.
+  std::span<const double> quantities(std::size_t i) const;
+  const std::string& reason(std::size_t i) const { return found_[i].reason; }
+  periodic::Way way(std::size_t i) const { return found_[i].way; }
+
+  // Solves one point by shooting; then the stretches of its orbit, if it has one
+  // (PeriodicResponse::stretches).
+  std::span<const double> solve_alone(std::span<double> parameters);
   std::vector<periodic::Stretch> stretches() const { return response_.stretches(); }
 
  private:
-  void set_point();
-  void turn_where_frequency_does();
-
   const Parameters& parameters_;
   StudyValues values_;
   std::vector<double> missing_;  // of each quantity: its value at a point that failed before it was solved
-  bool matrices_change_;
   periodic::PeriodicResponse response_;
-  bool matrices_set_ = false;         // to the row's
-  std::uint64_t points_onwards_ = 0;  // with the frequency going one way
-  double omega_ = 0.0;                // of the last of them [rad/s]
-  double direction_ = 0.0;            // the step to it
-  mechanics::NetworkValues numbers_;
-  std::vector<double> point_;
+
+  // Of the row in hand; their memory is used again by the next.
+  std::size_t points_ = 0;
+  std::vector<mechanics::NetworkValues> numbers_;
+  std::vector<periodic::ResponseSummary> found_;
+  std::vector<double> row_;
 };
 
 }  // namespace frahm::studies

@@ -71,12 +71,14 @@ void add_comparison(const Study& study, std::vector<double> parameters,
     const auto place = std::find(quantities.begin(), quantities.end(), compared) - quantities.begin();
     own.push_back(report.quantities[static_cast<std::size_t>(place)].value);
   }
-  RowSolver other(study, compared_network(study), compared_values(study), compared_quantities(study), true);
-  other.set_parameters(parameters);
+  RowSolver other(study, compared_network(study), compared_values(study), compared_quantities(study));
+  other.begin_row();
+  other.add_point(parameters);
+  other.solve();
   const std::vector<periodic::QuantityDescription> variables = compared_variables(study);
   std::vector<double> values(variables.size());
-  std::string reason;
-  compare(own, other.solve(reason), values);
+  const std::string& reason = other.reason(0);
+  compare(own, other.quantities(0), values);
   for (std::size_t i = 0; i < values.size(); ++i) report.quantities.push_back({variables[i], values[i]});
   if (report.reason.empty() && !reason.empty()) report.reason = fmt::format("compared: {}", reason);
 }

@@ -149,8 +149,9 @@ void read_output(const StudyContext& context, const TomlValue& root, Study& stud
   const TomlEntry* entry = find_entry(root, "output");
   if (!entry) return;
   const TomlSection section(context.source, entry->value, "[output]",
-                            {"quantities", "precision", "borders", "orbits", "resonances"});
+                            {"quantities", "precision", "path", "borders", "orbits", "resonances"});
   read_quantities(section, study.sweep()->output);
+  study.sweep()->output.general_path = section.choice_or("path", {"fastest", "general"}) == "general";
   study.sweep()->output.single_precision = section.choice_or("precision", {"double", "single"}) == "single";
   read_borders(section, study);
   read_orbits(context, section, study);

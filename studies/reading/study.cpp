@@ -113,8 +113,7 @@ void find_frequency_dimension(Study& study) {
     return std::find(matrices.begin(), matrices.end(), d) != matrices.end();
   };
   const auto still = std::find_if_not(moving.rbegin(), moving.rend(), moves_matrices);
-  study.sweep()->values_depend_on_frequency = still == moving.rend();
-  study.sweep()->frequency_dimension = study.sweep()->values_depend_on_frequency ? moving.back() : *still;
+  study.sweep()->frequency_dimension = still == moving.rend() ? moving.back() : *still;
 }
 
 // An identification by a formula needs no system.

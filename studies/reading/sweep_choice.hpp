@@ -51,6 +51,7 @@ struct OutputChoice {
   Quantities quantities = Quantities::standard;
   std::vector<Name> names;  // of Quantities::listed, then not empty; not checked here
   bool single_precision = false;
+  bool general_path = false;                    // every orbit by shooting, also where nothing sticks
   bool borders = false;                         // whether borders of regimes are solved; exact law only
   std::vector<std::vector<Assignment>> orbits;  // points whose time histories are recorded
   std::vector<std::size_t> resonances;          // masses whose resonance is sought along the frequency axis
@@ -76,10 +77,6 @@ struct SweepChoice {
   // The dimension along which the excitation frequency changes, which runs innermost in the computation; if
   // there are several, the last one along which the masses and elements stay the same, else the last.
   std::optional<std::size_t> frequency_dimension;
-
-  // Whether some mass or element changes along that dimension: its matrices are then rebuilt at each
-  // frequency.
-  bool values_depend_on_frequency = false;
 
   // The values that are expressions of parameters.
   std::vector<const StudyValue*> values() const;

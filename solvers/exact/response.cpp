@@ -1,0 +1,56 @@
+#include "solvers/exact/response.hpp"
+
+#include "solvers/mechanics/linear_system.hpp"
+#include "solvers/orbits/orbit.hpp"
+
+namespace frahm::periodic {
+
+bool have_same_elements(const mechanics::NetworkValues& a, const mechanics::NetworkValues& b) {
+  return a.mass == b.mass && a.element == b.element && a.second == b.second;
+}
+
+// The solver extrapolates over the frequency, which must change in one direction: where it turns back or pauses, a
+// new row begins.
+void ResponseSolver::solve_rest(std::span<const mechanics::NetworkValues> points,
+                                std::span<ResponseSummary> found, std::span<double> out) {
+  const std::size_t quantities = points.empty() ? 0 : out.size() / points.size();
+  std::size_t points_onwards = 0;
+  double omega = 0.0, direction = 0.0;
+  has_last_ = false;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (found[i].status != Status::not_computed) continue;
+    const double step = points[i].omega - omega;
+    const bool onwards = points_onwards == 1 ? step != 0.0 : step * direction > 0.0;
+    if (points_onwards == 0 || !onwards) {
+      begin_row();
+      points_onwards = 0;
+    }
+    direction = step;
+    omega = points[i].omega;
+    ++points_onwards;
+    found[i] = solve_next(points[i]);
+    if (found[i].status != Status::not_computed) this->quantities(out.subspan(i * quantities, quantities));
+  }
+}
+
+// Status not_computed, with the reason, where the values cannot be set.
+const ResponseSummary& ResponseSolver::solve_next(const mechanics::NetworkValues& values) {
+  try {
+    if (has_last_ && have_same_elements(values, last_)) {
+      set_forcing(values);
+    } else {
+      has_last_ = false;
+      set_values(values);
+    }
+  } catch (const mechanics::MechanicsError& error) {
+    has_last_ = false;
+    refused_ = {};
+    refused_.reason = error.what();
+    return refused_;
+  }
+  last_ = values;
+  has_last_ = true;
+  return solve();
+}
+
+}  // namespace frahm::periodic

@@ -1,0 +1,122 @@
+#pragma once
+
+#include "solvers/nonstop/sweep.hpp"
+
+// The extremes of the traces, over the steps that the sweep has kept: stationary points solved, and both limits
+// where the friction turns.
+namespace {
+
+struct Extreme {
+  Lanes value, phase;
+};
+
+// The larger of two candidates; of equal ones (to 1e-12) the earlier.
+FRAHM_INLINE void consider(Extreme& best, Mask where, Lanes value, Lanes phase) {
+  constexpr double kEqual = 1e-12;
+  const Lanes tie = kEqual * abs(value);
+  const Mask larger = value > best.value + tie;
+  const Mask earlier = ~(value < best.value - tie) & (phase < best.phase);
+  best.phase = select(where & (larger | earlier), phase, best.phase);
+  best.value = select(where & (value > best.value), value, best.value);
+}
+
+// The stationary point of a trace near `place` within a step, by Newton's method on its slope; its value.
+inline Lanes stationary_value(const Work& w, int form, int step, Lanes h, Lanes level, Lanes& place) {
+  constexpr int kMostIterations = 6;
+  constexpr double kSmall = 1e-6;  // of a step [rad], the error of the value is its cube
+  const Complex* zeta = w.zeta_at + step * w.modes;
+  const Complex* osc = w.osc_at + step * w.orders;
+  const Complex* c = complex_view(w.pack.form_modal) + form * w.modes;
+  const Complex* X = w.phasor + form * w.orders;
+  Lanes x = lanes(0.0), correction = lanes(0.0);
+  for (int i = 0; i < kMostIterations; ++i) {
+    x = level;
+    Lanes d = lanes(0.0), dd = lanes(0.0);
+    for (int s = 0; s < w.modes; ++s) {
+      Complex part = zeta[s] * exponential({place * w.rate[s].re, place * w.rate[s].im});
+      part = c[s] * part;
+      x += part.re;
+      part = part * w.rate[s];
+      d += part.re;
+      dd += real_part(part, w.rate[s]);
+    }
+    for (int k = 0; k < w.orders; ++k) {
+      const double n = w.shape.order[k];
+      const Complex part = X[k] * (osc[k] * turn(place * n));
+      x += part.re;
+      d = d - n * part.im;
+      dd = dd - (n * n) * part.re;
+    }
+    const Lanes step_to = -d / dd, to = max(min(place + step_to, h), lanes(0.0));
+    correction = to - place;
+    // Quadratic from here: x + d c + dd c^2 / 2.
+    x += correction * (d + 0.5 * dd * correction);
+    place = to;
+    if (!any(abs(correction) > kSmall)) break;
+  }
+  return x;
+}
+
+// The largest value of `side` times a trace; side 0: of its magnitude.
+inline Extreme largest(const Work& w, int t, double side) {
+  const int T = w.shape.traces, form = w.shape.first_trace() + t;
+  Extreme best{lanes(-1e300), lanes(0.0)};
+  const auto facing = [&](const Lanes* kept) {
+    return side != 0.0 ? lanes(side) : select(kept[0] + kept[2] < 0.0, lanes(-1.0), lanes(1.0));
+  };
+  const auto phase_of = [&](Lanes phase, Lanes faced) {
+    const Lanes shifted = side == 0.0 ? select(faced < 0.0, phase + kPi, phase) : phase;
+    const Lanes turns = floor(shifted * (0.5 / kPi));
+    return shifted - turns * (2.0 * kPi);
+  };
+  for (int step = 0; step < w.steps; ++step) {
+    const Lanes* kept = w.left + (step * T + t) * 5;
+    const Lanes h = w.length[step], f = facing(kept);
+    consider(best, h > 0.0, f * kept[0], phase_of(w.phase_at[step], f));
+    consider(best, h > 0.0, f * kept[2], phase_of(w.phase_at[step] + h, f));
+  }
+  for (int step = 0; step < w.steps; ++step) {
+    const Lanes* kept = w.left + (step * T + t) * 5;
+    const Lanes h = w.length[step], f = facing(kept);
+    const Lanes x0 = f * kept[0], d0 = f * kept[1] * h, x1 = f * kept[2], d1 = f * kept[3] * h;
+    // Bernstein coefficients as in the proof; the fourth derivative adds less than the slack.
+    const Lanes b1 = x0 + d0 * (1.0 / 3.0), b2 = x1 - d1 * (1.0 / 3.0);
+    const Lanes slack = 0.02 * (abs(d0) + abs(d1));
+    const Lanes highest = max(max(0.25 * x0 + 0.75 * b1, 0.5 * (b1 + b2) + slack), 0.75 * b2 + 0.25 * x1);
+    // The derivative of the cubic Hermite interpolant in s: d0 + 2 q s + 3 r s^2; its falling zero.
+    const Lanes rise = x1 - x0, q = 3.0 * rise - 2.0 * d0 - d1, r = d0 + d1 - 2.0 * rise;
+    const Lanes under = q * q - 3.0 * r * d0;
+    const Mask may = (h > 0.0) & (highest > best.value + 1e-14 * abs(best.value)) & ~(under < lanes(0.0));
+    if (!any(may)) continue;
+    // The falling zero of d0 + 2 q s + 3 r s^2 is (-q - root) / (3 r) = d0 / (root - q).
+    const Lanes root = sqrt(max(under, lanes(0.0)));
+    const Lanes falling = select(q < lanes(0.0), d0 / (root - q), (-q - root) / (3.0 * r));
+    const Mask inside = may & (falling > 0.0) & (falling < lanes(1.0));
+    if (!any(inside)) continue;
+    Lanes place = select(inside, falling * h, 0.0);
+    const Lanes x = f * stationary_value(w, form, step, h, kept[4], place);
+    consider(best, inside, x, phase_of(w.phase_at[step] + place, f));
+  }
+  return best;
+}
+
+// In the lanes told.
+inline void tell_extremes(const Work& w, Mask told) {
+  for (int t = 0; t < w.shape.traces; ++t) {
+    const auto tell = [&](double* array, Lanes x) { view(array)[t] = select(told, x, view(array)[t]); };
+    if (w.shape.half_period) {
+      const Extreme most = largest(w, t, 0.0);
+      tell(w.pack.most, most.value);
+      tell(w.pack.least, -most.value);
+      tell(w.pack.most_at, most.phase);
+      continue;
+    }
+    const Extreme most = largest(w, t, 1.0), least = largest(w, t, -1.0);
+    tell(w.pack.most, most.value);
+    tell(w.pack.least, -least.value);
+    tell(w.pack.most_at, most.phase);
+    tell(w.pack.least_at, least.phase);
+  }
+}
+
+}  // namespace

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "solvers/nonstop/pack.hpp"
+
+// Non-stop orbits from their reversal phases, eight points at once.
+namespace frahm::periodic::nonstop {
+
+// Solves a pack. workspace: of workspace_size() doubles, aligned as 64 bytes.
+using Solve = void(const Pack& pack, double* workspace);
+
+// One source, compiled for several instruction sets; all give the same bytes.
+struct Kernel {
+  const char* name;  // "x86-64-v3"
+  bool runs_here;
+  Solve* solve;
+};
+
+std::span<const Kernel> kernels();  // the fastest last
+const Kernel& fastest_kernel();     // that runs here
+
+// Points with more reversals, or that take more steps, are not solved.
+inline constexpr int kMostReversals = 32;
+inline constexpr int kMostSteps = 256;
+
+std::size_t workspace_size(const Shape& shape);
+
+}  // namespace frahm::periodic::nonstop

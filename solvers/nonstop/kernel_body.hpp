@@ -1,0 +1,85 @@
+#pragma once
+
+// The kernel, included by one source for each instruction set, which defines FRAHM_KERNEL as its name.
+#include "solvers/nonstop/extremes.hpp"
+#include "solvers/nonstop/stability.hpp"
+
+namespace {
+
+// The results of the lanes told.
+inline void tell(const Work& w, const Passage& passage, Mask told) {
+  const double omega_spans = w.shape.half_period ? 2.0 : 1.0;
+  const Lanes seconds = omega_spans / *view(w.pack.omega);
+  const auto tell_one = [&](double* array, int i, Lanes x) { view(array)[i] = select(told, x, view(array)[i]); };
+  tell_one(w.pack.is_found, 0, lanes(1.0));
+  tell_one(w.pack.newton_iterations, 0, w.iterations);
+  tell_one(w.pack.reversals, 0, lanes(w.reversals));
+  tell_one(w.pack.margin, 0, min(passage.at_reversals, passage.between));
+  tell_one(w.pack.residual, 0, passage.residual);
+  for (int p = 0; p < w.shape.products; ++p) tell_one(w.pack.integral, p, seconds * w.integral[p]);
+  for (int p = 0; p < w.shape.powers; ++p) {
+    tell_one(w.pack.work, p, seconds * w.work[p]);
+    tell_one(w.pack.work_size, p, seconds * w.work_size[p]);
+  }
+  for (int j = 0; j < w.contacts; ++j) {
+    tell_one(w.pack.slid, j, omega_spans * w.slid[j]);
+    tell_one(w.pack.contact_reversals, j, omega_spans * w.contact_reversals[j]);
+  }
+  tell_extremes(w, told);
+}
+
+// Lanes whose proof failed by so little that its steps may be to blame.
+inline Mask is_close(const Passage& passage) {
+  constexpr double kClose = -0.1;
+  return (passage.at_reversals > kSafe) & (passage.between > kClose) & ~(passage.between > kSafe);
+}
+
+inline void solve_group(Work& w, Mask group) {
+  constexpr double kFine = 4.0;
+  sort_reversals(w);
+  Passage passage = sweep(w, group, 1.0);
+  Mask again = group & ~passage.proved & is_close(passage);
+  for (int trial = 0; trial < 2; ++trial) {
+    if (any(passage.proved)) {
+      tell(w, passage, passage.proved);
+      if (w.shape.is_judged) judge(w, passage.proved);
+    }
+    if (trial == 1 || !any(again)) return;
+    passage = sweep(w, again, kFine);
+  }
+}
+
+void solve(const Pack& pack, double* workspace) {
+  Arena arena(workspace);
+  Work w(pack, arena);
+  *view(pack.is_found) = lanes(0.0);
+  Mask left = set_rates(w);
+  respond_to_forcing(w);
+  find_phasors(w);
+  find_jumps(w);
+  guess_reversals(w);
+  // Lanes with reversals alike go together.
+  for (int lane = 0; lane < kLanes && any(left); ++lane) {
+    Lanes is_left = select(left, lanes(1.0), 0.0);
+    if (at(is_left, lane) == 0.0) continue;
+    const Mask group = lay_out_like(w, lane, left);
+    Lanes one = lanes(0.0);
+    at(one, lane) = 1.0;
+    left = left & ~group & ~(one > 0.0);
+    const Mask found = find_reversals(w, group);
+    if (any(found)) solve_group(w, found);
+  }
+}
+
+}  // namespace
+
+namespace frahm::periodic::nonstop {
+
+#define FRAHM_JOINED(a, b) a##b
+#define FRAHM_NAME(a, b) FRAHM_JOINED(a, b)
+
+void FRAHM_NAME(solve_, FRAHM_KERNEL)(const Pack& pack, double* workspace) {
+  solve(pack, workspace);
+}
+
+}  // namespace frahm::periodic::nonstop

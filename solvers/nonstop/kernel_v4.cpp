@@ -1,0 +1,4 @@
+#if defined(__x86_64__)
+#define FRAHM_KERNEL v4
+#include "solvers/nonstop/kernel_body.hpp"
+#endif

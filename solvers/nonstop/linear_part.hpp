@@ -1,0 +1,111 @@
+#pragma once
+
+#include "solvers/nonstop/work.hpp"
+
+// The response with all contacts sliding, without friction, and what friction adds to it a reversal.
+namespace {
+
+// e^z
+FRAHM_INLINE Complex exponential(Complex z) {
+  return exp(z.re) * turn(z.im);
+}
+
+FRAHM_INLINE Complex load(const double* array, int index) {
+  return complex_view(array)[index];
+}
+
+// sum_s Re(factor_s coordinate_s)
+FRAHM_INLINE Lanes real_sum(int count, const Complex* factor, const Complex* coordinate) {
+  Lanes sum = lanes(0.0);
+  for (int i = 0; i < count; ++i) sum += real_part(factor[i], coordinate[i]);
+  return sum;
+}
+
+// E_s = exp(lambda_s span); after it the motion repeats with its sign, so that what a reversal leaves in a mode
+// adds up to 1 / (1 - sign E_s) of itself. False in lanes at an undamped resonance, where none is left.
+inline Mask set_rates(Work& w) {
+  constexpr double kResonance = 1e-6, kLargest = 1e5;
+  const Lanes omega = *view(w.pack.omega);
+  Mask usable = *view(w.pack.is_there) > 0.5;
+  for (int s = 0; s < w.modes; ++s) {
+    const Complex lambda = load(w.pack.lambda, s);
+    w.rate[s] = {lambda.re / omega, lambda.im / omega};
+    w.rate_size[s] = modulus(w.rate[s]);
+    const Complex E = exponential({w.span * w.rate[s].re, w.span * w.rate[s].im});
+    const Complex left = {1.0 - w.sign * E.re, -w.sign * E.im};
+    const Lanes size = modulus(left);
+    usable = usable & (size > kResonance) & (w.rate_size[s] < lanes(kLargest));
+    w.closure[s] = Complex{lanes(1.0), lanes(0.0)} / left;
+  }
+  return usable;
+}
+
+// (i n omega - lambda_s) eta_s = drive_s of each harmonic, and the same with the conjugate mode.
+inline void respond_to_forcing(Work& w) {
+  const Lanes omega = *view(w.pack.omega);
+  for (int k = 0; k < w.orders; ++k) {
+    w.harmonic_size[k] = lanes(0.0);
+    const Lanes rate = omega * w.shape.order[k];
+    for (int s = 0; s < w.modes; ++s) {
+      const Complex lambda = load(w.pack.lambda, s);
+      const int i = k * w.modes + s;
+      w.response[i] = load(w.pack.drive, i) / Complex{-lambda.re, rate - lambda.im};
+      w.conjugate_response[i] = load(w.pack.conjugate_drive, i) / Complex{-lambda.re, rate + lambda.im};
+      w.harmonic_size[k] +=
+          view(w.pack.mode_norm)[s] * (modulus(w.response[i]) + modulus(w.conjugate_response[i]));
+    }
+  }
+}
+
+// A form c . y + direct has the amplitude sum_s (c_s eta_s + conj(c_s) eta'_s) + direct.
+inline void find_phasors(Work& w) {
+  for (int form = 0; form < w.shape.forms(); ++form) {
+    for (int k = 0; k < w.orders; ++k) {
+      Complex sum = load(w.pack.form_direct, form * w.orders + k);
+      for (int s = 0; s < w.modes; ++s) {
+        const Complex c = load(w.pack.form_modal, form * w.modes + s);
+        sum += c * w.response[k * w.modes + s];
+        sum += conjugate(c) * w.conjugate_response[k * w.modes + s];
+      }
+      w.phasor[form * w.orders + k] = sum;
+    }
+  }
+  const int sloped = w.shape.first_integrated();
+  for (int form = 0; form < sloped; ++form) {
+    for (int s = 0; s < w.modes; ++s) {
+      w.slope_modal[form * w.modes + s] = load(w.pack.form_modal, form * w.modes + s) * w.rate[s];
+    }
+    for (int k = 0; k < w.orders; ++k) {
+      const Complex X = w.phasor[form * w.orders + k];
+      const double n = w.shape.order[k];
+      w.slope_phasor[form * w.orders + k] = {-n * X.im, n * X.re};
+    }
+  }
+  for (int i = 0; i < w.contacts; ++i) {
+    w.speed[i] = lanes(0.0);
+    for (int k = 0; k < w.orders; ++k) w.speed[i] += modulus(w.phasor[i * w.orders + k]);
+  }
+}
+
+// eta_s' = lambda_s eta_s - F push_s sigma: with the direction sigma of a contact held, eta_s would rest at
+// F push_s sigma / lambda_s. Where sigma turns from -1 to +1 this moves by 2 F push_s / lambda_s, and zeta_s, the
+// distance from it, by as much the other way; it dies out as exp(lambda_s t). Velocities are owed to zeta alone.
+inline void find_jumps(Work& w) {
+  for (int j = 0; j < w.contacts; ++j) {
+    const Lanes twice = -2.0 * view(w.pack.limit)[j];
+    for (int s = 0; s < w.modes; ++s) {
+      const int i = j * w.modes + s;
+      w.jump[i] = twice * (load(w.pack.push, i) / load(w.pack.lambda, s));
+    }
+  }
+  for (int i = 0; i < w.contacts; ++i) {
+    for (int j = 0; j < w.contacts; ++j) {
+      for (int s = 0; s < w.modes; ++s) {
+        w.own[(i * w.contacts + j) * w.modes + s] =
+            load(w.pack.form_modal, i * w.modes + s) * (w.jump[j * w.modes + s] * w.closure[s]);
+      }
+    }
+  }
+}
+
+}  // namespace

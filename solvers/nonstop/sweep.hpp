@@ -1,0 +1,301 @@
+#pragma once
+
+#include "solvers/nonstop/reversals.hpp"
+
+// One passage along the orbit: the proof that nothing sticks, and everything that is measured on the way.
+namespace {
+
+constexpr int kNodes = 5;  // Gauss and Legendre's, on [0, 1] (Abramowitz and Stegun, table 25.4)
+constexpr double kNodeAt[kNodes] = {0.046910077030668, 0.2307653449471585, 0.5, 0.7692346550528415,
+                                    0.953089922969332};
+constexpr double kNodeWeight[kNodes] = {0.11846344252809455, 0.23931433524968324, 0.28444444444444444,
+                                        0.23931433524968324, 0.11846344252809455};
+
+constexpr double kSafe = 1e-7;  // a margin that is certainly not grazing
+
+// What the sweep finds of all lanes.
+struct Passage {
+  Mask proved;      // nothing sticks
+  Lanes at_reversals;  // least relative acceleration there, on either side
+  Lanes between;    // least coefficient of the proof, relative
+  Lanes residual;   // [sqrt(J)]
+};
+
+FRAHM_INLINE Lanes value(const Work& w, int form, const Complex* zeta, const Complex* osc) {
+  return real_sum(w.modes, complex_view(w.pack.form_modal) + form * w.modes, zeta) +
+         real_sum(w.orders, w.phasor + form * w.orders, osc);
+}
+// By the phase.
+FRAHM_INLINE Lanes slope(const Work& w, int form, const Complex* zeta, const Complex* osc) {
+  return real_sum(w.modes, w.slope_modal + form * w.modes, zeta) +
+         real_sum(w.orders, w.slope_phasor + form * w.orders, osc);
+}
+
+// zeta just after the first reversal, and the direction of every contact from there: that of its last reversal.
+inline void start_sweep(Work& w) {
+  const int R = w.reversals;
+  const Lanes start = R > 0 ? w.sorted_phase[0] : lanes(0.0);
+  for (int s = 0; s < w.modes; ++s) w.zeta[s] = {lanes(0.0), lanes(0.0)};
+  for (int j = 0; j < w.contacts; ++j) w.direction[j] = lanes(0.0);
+  for (int e = 0; e < R; ++e) {
+    // The first one has just happened; the others did so before the span began, with its sign.
+    const Lanes since = e == 0 ? lanes(0.0) : start - w.sorted_phase[e] + w.span;
+    const Lanes turned = e == 0 ? w.sorted_turn[e] : w.sign * w.sorted_turn[e];
+    for (int s = 0; s < w.modes; ++s) {
+      Complex jump = {lanes(0.0), lanes(0.0)};
+      for (int j = 0; j < w.contacts; ++j) {
+        const Mask own = w.sorted_contact[e] == j;
+        jump = select(own, w.jump[j * w.modes + s], jump);
+      }
+      Complex left = turned * (jump * w.closure[s]);
+      if (e > 0) left = left * exponential({since * w.rate[s].re, since * w.rate[s].im});
+      w.zeta[s] += left;
+    }
+  }
+  // In order of time: those from before the span, then the first.
+  for (int e = 1; e <= R; ++e) {
+    const int p = e % R;
+    const Lanes turned = p == 0 ? w.sorted_turn[0] : w.sign * w.sorted_turn[p];
+    for (int j = 0; j < w.contacts; ++j)
+      w.direction[j] = select(w.sorted_contact[p] == j, turned, w.direction[j]);
+  }
+  for (int s = 0; s < w.modes; ++s) w.first_zeta[s] = w.zeta[s];
+  for (int j = 0; j < w.contacts; ++j) w.first_direction[j] = w.direction[j];
+}
+
+// How fast the motion varies within the segment: the rates of modes and harmonics, weighted by the fourth root
+// of their share in its amplitude of energy, as a norm of order 8. Slight fast modes cost few steps so.
+inline Lanes fastest_rate(const Work& w) {
+  Lanes total = lanes(1e-300);
+  for (int s = 0; s < w.modes; ++s) total += modulus(w.zeta[s]) * view(w.pack.mode_norm)[s];
+  for (int k = 0; k < w.orders; ++k) total += w.harmonic_size[k];
+  const auto weighted = [&](Lanes size, Lanes rate) {
+    const Lanes r2 = rate * rate, r4 = r2 * r2;
+    return sqrt(size / total) * (r4 * r4);
+  };
+  Lanes sum = lanes(0.0);
+  for (int s = 0; s < w.modes; ++s)
+    sum += weighted(modulus(w.zeta[s]) * view(w.pack.mode_norm)[s], w.rate_size[s]);
+  for (int k = 0; k < w.orders; ++k) sum += weighted(w.harmonic_size[k], lanes(w.shape.order[k]));
+  return sqrt(sqrt(sqrt(sum)));
+}
+
+// Whether a velocity stays positive over a step of length h: the Bernstein coefficients of the quartic that the
+// cubic Hermite interpolant, less what it can be wrong by, is at least. |error| <= B t^2 (h-t)^2 / 24 lowers the
+// middle coefficient alone, by B h^4 / 144. v: at both ends, exactly zero where the contact reverses; a: its
+// slopes. Returns the least coefficient that is not zero by itself.
+FRAHM_INLINE Lanes least_coefficient(Lanes v0, Lanes a0, Lanes v1, Lanes a1, Lanes h, Lanes error, Mask starts,
+                                     Mask ends) {
+  const Lanes b1 = v0 + a0 * h * (1.0 / 3.0), b2 = v1 - a1 * h * (1.0 / 3.0);
+  const Lanes c1 = 0.25 * v0 + 0.75 * b1, c2 = 0.5 * (b1 + b2) - error, c3 = 0.75 * b2 + 0.25 * v1;
+  Lanes least = min(min(c1, c2), c3);
+  least = select(starts, least, min(least, v0));
+  return select(ends, least, min(least, v1));
+}
+
+// Bound of a form's fourth derivative over the segment that begins at zeta.
+FRAHM_INLINE Lanes fourth_derivative(const Work& w, int form) {
+  Lanes sum = lanes(0.0);
+  for (int s = 0; s < w.modes; ++s) {
+    const Lanes r2 = w.rate_size[s] * w.rate_size[s];
+    sum += modulus(load(w.pack.form_modal, form * w.modes + s)) * modulus(w.zeta[s]) * (r2 * r2);
+  }
+  for (int k = 0; k < w.orders; ++k) {
+    const double n = w.shape.order[k];
+    sum += modulus(w.phasor[form * w.orders + k]) * (n * n * n * n);
+  }
+  return sum;
+}
+
+inline void set_levels(Work& w) {
+  for (int form = 0; form < w.shape.forms(); ++form) {
+    w.level[form] = view(w.pack.form_constant)[form];
+    for (int j = 0; j < w.contacts; ++j)
+      w.level[form] += view(w.pack.form_friction)[form * w.contacts + j] * w.direction[j];
+  }
+}
+
+inline void set_factors(Work& w, Lanes h) {
+  for (int s = 0; s < w.modes; ++s) w.step_factor[s] = exponential({h * w.rate[s].re, h * w.rate[s].im});
+  for (int k = 0; k < w.orders; ++k) w.osc_factor[k] = turn(h * w.shape.order[k]);
+  if (w.shape.integrated == 0) return;
+  for (int i = 0; i < kNodes; ++i) {
+    const Lanes t = h * kNodeAt[i];
+    for (int s = 0; s < w.modes; ++s)
+      w.node_factor[i * w.modes + s] = exponential({t * w.rate[s].re, t * w.rate[s].im});
+    for (int k = 0; k < w.orders; ++k) w.node_osc[i * w.orders + k] = turn(t * w.shape.order[k]);
+  }
+}
+
+// Adds a step to all integrals; h is zero in lanes without it.
+inline void integrate_step(Work& w, Lanes h) {
+  const int first = w.shape.first_integrated();
+  for (int i = 0; i < kNodes; ++i) {
+    const Lanes weight = h * kNodeWeight[i];
+    for (int s = 0; s < w.modes; ++s) w.at_node[s] = w.zeta[s] * w.node_factor[i * w.modes + s];
+    for (int k = 0; k < w.orders; ++k) w.osc_at_node[k] = w.osc[k] * w.node_osc[i * w.orders + k];
+    for (int f = 0; f < w.shape.integrated; ++f)
+      w.form_value[f] = value(w, first + f, w.at_node, w.osc_at_node) + w.level[first + f];
+    for (int p = 0; p < w.shape.products; ++p) {
+      const Product& product = w.shape.product[p];
+      const Lanes a = weight * w.form_value[product.a];
+      if (product.b >= 0) {
+        w.integral[p] += a * w.form_value[product.b];
+      } else if (product.b == -1) {
+        w.integral[p] += a;
+      } else {
+        const Complex& u = w.osc_at_node[(-2 - product.b) / 2];
+        w.integral[p] += a * (product.b % 2 == 0 ? u.re : u.im);
+      }
+    }
+    for (int p = 0; p < w.shape.powers; ++p) {
+      const Product& power = w.shape.power[p];
+      const Lanes work = weight * (w.form_value[power.a] * w.form_value[power.b]);
+      w.work[p] += work;
+      w.work_size[p] += abs(work);
+    }
+  }
+}
+
+// What the search of extremes needs of a step, in the lanes that take it.
+inline void keep_step(Work& w, Mask taken, Lanes phase, Lanes h, bool first) {
+  const int step = w.steps, T = w.shape.traces;
+  w.phase_at[step] = phase;
+  w.length[step] = select(taken, h, 0.0);
+  for (int s = 0; s < w.modes; ++s) w.zeta_at[step * w.modes + s] = w.zeta[s];
+  for (int k = 0; k < w.orders; ++k) w.osc_at[step * w.orders + k] = w.osc[k];
+  for (int t = 0; t < T; ++t) {
+    const int form = w.shape.first_trace() + t;
+    Lanes* kept = w.left + (step * T + t) * 5;
+    if (first) {
+      w.x0[t] = value(w, form, w.zeta, w.osc) + w.level[form];
+      w.d0[t] = slope(w, form, w.zeta, w.osc);
+    }
+    const Lanes x1 = value(w, form, w.next_zeta, w.next_osc) + w.level[form];
+    const Lanes d1 = slope(w, form, w.next_zeta, w.next_osc);
+    kept[0] = w.x0[t];
+    kept[1] = w.d0[t];
+    kept[2] = x1;
+    kept[3] = d1;
+    kept[4] = w.level[form];
+    w.x0[t] = x1;
+    w.d0[t] = d1;
+  }
+}
+
+// The reversal that ends a segment: what it misses zero by, how far its contact has come, and its jump.
+// Its direction is `turned`.
+inline void take_reversal(Work& w, int p, Lanes turned, Mask sound, Passage& passage) {
+  const Lanes omega = *view(w.pack.omega);
+  Lanes v = lanes(0.0), a = lanes(0.0), force = v, speed = v, push_norm = v;
+  for (int j = 0; j < w.contacts; ++j) {
+    const Mask own = w.sorted_contact[p] == j;
+    v = select(own, w.v0[j], v);
+    a = select(own, w.a0[j], a);
+    force = select(own, view(w.pack.limit)[j], force);
+    speed = select(own, w.speed[j], speed);
+    push_norm = select(own, view(w.pack.push_norm)[j], push_norm);
+    if (w.shape.asks_strokes) {
+      const int form = w.contacts + j;
+      const Lanes u = value(w, form, w.zeta, w.osc) + w.level[form];
+      // F |du| over the span adds up to -2 turn u over the reversals.
+      w.slid[j] += select(own & sound, -2.0 * turned * u, 0.0);
+      w.contact_reversals[j] += select(own, lanes(1.0), 0.0);
+    }
+    for (int s = 0; s < w.modes; ++s)
+      w.zeta[s] += select(own, turned, 0.0) * w.jump[j * w.modes + s];
+    w.direction[j] = select(own, turned, w.direction[j]);
+  }
+  // A velocity v is a delay v / (omega a), after which friction acts by 2 F the other way.
+  passage.residual += 2.0 * force * push_norm * abs(v / (omega * max(abs(a), lanes(1e-300))));
+  passage.at_reversals = min(passage.at_reversals, turned * a / speed);
+  w.slope_before[p] = a;
+}
+
+// Sweeps the orbit in the lanes of the group. fineness: factor of the number of steps.
+inline Passage sweep(Work& w, Mask group, double fineness) {
+  constexpr double kStep = 0.45, kCoarseStep = 0.8;  // of the fastest rate's radian
+  constexpr double kShortest = 1e-6;                 // between two reversals [rad]
+  constexpr double kClosed = 1e-9;
+  const int R = w.reversals, segments = R > 0 ? R : 1;
+  const double longest = (w.shape.integrated > 0 ? kStep : kCoarseStep) / fineness;
+  Passage passage{group, lanes(1.0), lanes(1.0), lanes(0.0)};
+  for (int p = 0; p < w.shape.products; ++p) w.integral[p] = lanes(0.0);
+  for (int p = 0; p < w.shape.powers; ++p) w.work[p] = w.work_size[p] = lanes(0.0);
+  for (int j = 0; j < w.contacts; ++j)
+    w.slid[j] = w.contact_reversals[j] = lanes(0.0);
+  w.steps = 0;
+  start_sweep(w);
+  for (int p = 0; p < segments; ++p) {
+    const bool is_last = p + 1 == segments;
+    const int next = is_last ? 0 : p + 1;
+    const Lanes start = R > 0 ? w.sorted_phase[p] : lanes(0.0);
+    const Lanes length = is_last ? (R > 0 ? w.sorted_phase[0] : lanes(0.0)) + w.span - start
+                                 : w.sorted_phase[next] - start;
+    passage.proved = passage.proved & (length > kShortest);
+    w.segment_length[p] = length;
+    const Lanes count = max(floor(length * fastest_rate(w) / longest) + 1.0, lanes(2.0));
+    passage.proved = passage.proved & (count + w.steps < lanes(kMostSteps));
+    if (!any(passage.proved)) return passage;
+    const Lanes h = length / count;
+    set_factors(w, h);
+    set_levels(w);
+    Lanes most_steps = select(passage.proved, count, 0.0);
+    int steps = 0;
+    for (int lane = 0; lane < kLanes; ++lane)
+      if (at(most_steps, lane) > steps) steps = static_cast<int>(at(most_steps, lane));
+    if (w.steps + steps > kMostSteps) {
+      passage.proved = none();
+      return passage;
+    }
+    for (int k = 0; k < w.orders; ++k) w.osc[k] = turn(start * w.shape.order[k]);
+    // The slopes are bounded from the segment's start on, as every mode decays.
+    for (int j = 0; j < w.contacts; ++j) {
+      const Mask reversed = R > 0 ? w.sorted_contact[p] == j : none();
+      w.v0[j] = select(reversed, lanes(0.0), value(w, j, w.zeta, w.osc));
+      w.a0[j] = slope(w, j, w.zeta, w.osc);
+      w.error[j] = fourth_derivative(w, j) * ((h * h) * (h * h)) * (1.0 / 144.0);
+      if (R > 0) {
+        const Lanes after = w.direction[j] * w.a0[j] / w.speed[j];
+        passage.at_reversals = select(reversed, min(passage.at_reversals, after), passage.at_reversals);
+      }
+    }
+    for (int k = 0; k < steps; ++k) {
+      const Mask taken = count > lanes(k);
+      const Mask ends_segment = taken & ~(count > lanes(k + 1.0));
+      for (int s = 0; s < w.modes; ++s) w.next_zeta[s] = w.zeta[s] * w.step_factor[s];
+      for (int i = 0; i < w.orders; ++i) w.next_osc[i] = w.osc[i] * w.osc_factor[i];
+      for (int j = 0; j < w.contacts; ++j) {
+        const Mask rubs = view(w.pack.limit)[j] > 0.0;
+        const Lanes v = value(w, j, w.next_zeta, w.next_osc), a = slope(w, j, w.next_zeta, w.next_osc);
+        const Mask starts = k == 0 && R > 0 ? w.sorted_contact[p] == j : none();
+        const Mask ends = R > 0 ? ends_segment & (w.sorted_contact[next] == j) : none();
+        const Lanes d = w.direction[j];
+        const Lanes at_end = select(ends, lanes(0.0), v);
+        const Lanes least = least_coefficient(d * w.v0[j], d * w.a0[j], d * at_end, d * a, h, w.error[j],
+                                              starts, ends) /
+                            w.speed[j];
+        passage.between = select(taken & rubs, min(passage.between, least), passage.between);
+        w.v0[j] = select(taken, v, w.v0[j]);
+        w.a0[j] = select(taken, a, w.a0[j]);
+      }
+      if (w.shape.traces > 0) keep_step(w, taken, start + h * k, h, k == 0);
+      ++w.steps;
+      if (w.shape.integrated > 0) integrate_step(w, select(taken, h, 0.0));
+      for (int s = 0; s < w.modes; ++s) w.zeta[s] = select(taken, w.next_zeta[s], w.zeta[s]);
+      for (int i = 0; i < w.orders; ++i) w.osc[i] = select(taken, w.next_osc[i], w.osc[i]);
+    }
+    if (R > 0) take_reversal(w, next, is_last ? w.sign * w.sorted_turn[0] : w.sorted_turn[next],
+                             passage.proved, passage);
+  }
+  Lanes missed = lanes(0.0), size = lanes(1e-300);
+  for (int s = 0; s < w.modes; ++s) {
+    const Complex end = {w.sign * w.zeta[s].re, w.sign * w.zeta[s].im};
+    missed += modulus(end - w.first_zeta[s]) * view(w.pack.mode_norm)[s];
+    size += modulus(w.first_zeta[s]) * view(w.pack.mode_norm)[s];
+  }
+  passage.proved = passage.proved & (passage.at_reversals > kSafe) & (passage.between > kSafe) & ~(missed > kClosed * size);
+  return passage;
+}
+
+}  // namespace
