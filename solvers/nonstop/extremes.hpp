@@ -21,7 +21,8 @@ FRAHM_INLINE void consider(Extreme& best, Mask where, Lanes value, Lanes phase) 
 }
 
 // The stationary point of a trace near `place` within a step, by Newton's method on its slope; its value.
-inline Lanes stationary_value(const Work& w, int form, int step, Lanes h, Lanes level, Lanes& place) {
+template <class W>
+inline Lanes stationary_value(const W& w, int form, int step, Lanes h, Lanes level, Lanes& place) {
   constexpr int kMostIterations = 6;
   constexpr double kSmall = 1e-6;  // of a step [rad], the error of the value is its cube
   const Complex* zeta = w.zeta_at + step * w.modes;
@@ -58,7 +59,8 @@ inline Lanes stationary_value(const Work& w, int form, int step, Lanes h, Lanes 
 }
 
 // The largest value of `side` times a trace; side 0: of its magnitude.
-inline Extreme largest(const Work& w, int t, double side) {
+template <class W>
+inline Extreme largest(const W& w, int t, double side) {
   const int T = w.shape.traces, form = w.shape.first_trace() + t;
   Extreme best{lanes(-1e300), lanes(0.0)};
   const auto facing = [&](const Lanes* kept) {
@@ -101,7 +103,8 @@ inline Extreme largest(const Work& w, int t, double side) {
 }
 
 // In the lanes told.
-inline void tell_extremes(const Work& w, Mask told) {
+template <class W>
+inline void tell_extremes(const W& w, Mask told) {
   for (int t = 0; t < w.shape.traces; ++t) {
     const auto tell = [&](double* array, Lanes x) { view(array)[t] = select(told, x, view(array)[t]); };
     if (w.shape.half_period) {

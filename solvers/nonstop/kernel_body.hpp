@@ -7,7 +7,8 @@
 namespace {
 
 // The results of the lanes told.
-inline void tell(const Work& w, const Passage& passage, Mask told) {
+template <class W>
+inline void tell(const W& w, const Passage& passage, Mask told) {
   const double omega_spans = w.shape.half_period ? 2.0 : 1.0;
   const Lanes seconds = omega_spans / *view(w.pack.omega);
   const auto tell_one = [&](double* array, int i, Lanes x) { view(array)[i] = select(told, x, view(array)[i]); };
@@ -34,7 +35,8 @@ inline Mask is_close(const Passage& passage) {
   return (passage.at_reversals > kSafe) & (passage.between > kClose) & ~(passage.between > kSafe);
 }
 
-inline void solve_group(Work& w, Mask group) {
+template <class W>
+inline void solve_group(W& w, Mask group) {
   constexpr double kFine = 4.0;
   sort_reversals(w);
   Passage passage = sweep(w, group, 1.0);
@@ -49,9 +51,10 @@ inline void solve_group(Work& w, Mask group) {
   }
 }
 
+template <class C>
 void solve(const Pack& pack, double* workspace) {
   Arena arena(workspace);
-  Work w(pack, arena);
+  Work<C> w(pack, arena);
   *view(pack.is_found) = lanes(0.0);
   Mask left = set_rates(w);
   respond_to_forcing(w);
@@ -71,6 +74,18 @@ void solve(const Pack& pack, double* workspace) {
   }
 }
 
+// The sizes that most maps have are compiled apart, in the sets that most processors run; the operations, and so the
+// bytes, are the same.
+void solve_by_size(const Pack& pack, double* workspace) {
+#if defined(__AVX2__)
+  const Shape& shape = *pack.shape;
+  if (Counts<1, 1, 1>::fit(shape)) return solve<Counts<1, 1, 1>>(pack, workspace);
+  if (Counts<2, 1, 1>::fit(shape)) return solve<Counts<2, 1, 1>>(pack, workspace);
+  if (Counts<2, 1, 2>::fit(shape)) return solve<Counts<2, 1, 2>>(pack, workspace);
+#endif
+  solve<AnyCounts>(pack, workspace);
+}
+
 }  // namespace
 
 namespace frahm::periodic::nonstop {
@@ -79,7 +94,7 @@ namespace frahm::periodic::nonstop {
 #define FRAHM_NAME(a, b) FRAHM_JOINED(a, b)
 
 void FRAHM_NAME(solve_, FRAHM_KERNEL)(const Pack& pack, double* workspace) {
-  solve(pack, workspace);
+  solve_by_size(pack, workspace);
 }
 
 }  // namespace frahm::periodic::nonstop

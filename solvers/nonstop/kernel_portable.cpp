@@ -8,7 +8,7 @@ std::size_t workspace_size(const Shape& shape) {
   Pack pack;
   pack.shape = &shape;
   Arena arena(nullptr);
-  const Work work(pack, arena);
+  const Work<AnyCounts> work(pack, arena);
   return arena.used();
 }
 

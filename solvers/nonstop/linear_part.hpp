@@ -23,7 +23,8 @@ FRAHM_INLINE Lanes real_sum(int count, const Complex* factor, const Complex* coo
 
 // E_s = exp(lambda_s span); after it the motion repeats with its sign, so that what a reversal leaves in a mode
 // adds up to 1 / (1 - sign E_s) of itself. False in lanes at an undamped resonance, where none is left.
-inline Mask set_rates(Work& w) {
+template <class W>
+inline Mask set_rates(W& w) {
   constexpr double kResonance = 1e-6, kLargest = 1e5;
   const Lanes omega = *view(w.pack.omega);
   Mask usable = *view(w.pack.is_there) > 0.5;
@@ -32,6 +33,7 @@ inline Mask set_rates(Work& w) {
     w.rate[s] = {lambda.re / omega, lambda.im / omega};
     w.rate_size[s] = modulus(w.rate[s]);
     const Complex E = exponential({w.span * w.rate[s].re, w.span * w.rate[s].im});
+    w.over_span[s] = E;
     const Complex left = {1.0 - w.sign * E.re, -w.sign * E.im};
     const Lanes size = modulus(left);
     usable = usable & (size > kResonance) & (w.rate_size[s] < lanes(kLargest));
@@ -40,17 +42,40 @@ inline Mask set_rates(Work& w) {
   return usable;
 }
 
+// (c_0 + c_1 d/dt + c_2 d^2/dt^2) of an input's harmonic
+template <class Factor>
+FRAHM_INLINE Complex acted(const Factor* c, Lanes rate, Complex input) {
+  if constexpr (sizeof(Factor) == sizeof(Complex)) {
+    const Complex by = {c[0].re - rate * (c[1].im + rate * c[2].re), c[0].im + rate * (c[1].re - rate * c[2].im)};
+    return by * input;
+  } else {
+    return Complex{c[0] - rate * rate * c[2], rate * c[1]} * input;
+  }
+}
+FRAHM_INLINE Complex acted_conjugate(const Complex* c, Lanes rate, Complex input) {
+  const Complex conjugates[3] = {conjugate(c[0]), conjugate(c[1]), conjugate(c[2])};
+  return acted(conjugates, rate, input);
+}
+
 // (i n omega - lambda_s) eta_s = drive_s of each harmonic, and the same with the conjugate mode.
-inline void respond_to_forcing(Work& w) {
+template <class W>
+inline void respond_to_forcing(W& w) {
   const Lanes omega = *view(w.pack.omega);
   for (int k = 0; k < w.orders; ++k) {
     w.harmonic_size[k] = lanes(0.0);
     const Lanes rate = omega * w.shape.order[k];
     for (int s = 0; s < w.modes; ++s) {
       const Complex lambda = load(w.pack.lambda, s);
+      Complex drive = {lanes(0.0), lanes(0.0)}, by_conjugate = drive;
+      for (int i = 0; i < w.inputs; ++i) {
+        const Complex* c = complex_view(w.pack.mode_input) + (s * w.inputs + i) * 3;
+        const Complex input = load(w.pack.input, i * w.orders + k);
+        drive += acted(c, rate, input);
+        if (w.shape.is_pair[s]) by_conjugate += acted_conjugate(c, rate, input);
+      }
       const int i = k * w.modes + s;
-      w.response[i] = load(w.pack.drive, i) / Complex{-lambda.re, rate - lambda.im};
-      w.conjugate_response[i] = load(w.pack.conjugate_drive, i) / Complex{-lambda.re, rate + lambda.im};
+      w.response[i] = drive / Complex{-lambda.re, rate - lambda.im};
+      w.conjugate_response[i] = by_conjugate / Complex{-lambda.re, rate + lambda.im};
       w.harmonic_size[k] +=
           view(w.pack.mode_norm)[s] * (modulus(w.response[i]) + modulus(w.conjugate_response[i]));
     }
@@ -58,16 +83,30 @@ inline void respond_to_forcing(Work& w) {
 }
 
 // A form c . y + direct has the amplitude sum_s (c_s eta_s + conj(c_s) eta'_s) + direct.
-inline void find_phasors(Work& w) {
+template <class W>
+inline void find_phasors(W& w) {
+  const Lanes omega = *view(w.pack.omega);
   for (int form = 0; form < w.shape.forms(); ++form) {
     for (int k = 0; k < w.orders; ++k) {
-      Complex sum = load(w.pack.form_direct, form * w.orders + k);
+      Complex sum = {lanes(0.0), lanes(0.0)};
       for (int s = 0; s < w.modes; ++s) {
         const Complex c = load(w.pack.form_modal, form * w.modes + s);
         sum += c * w.response[k * w.modes + s];
         sum += conjugate(c) * w.conjugate_response[k * w.modes + s];
       }
+      for (int i = 0; w.shape.is_direct[form] && i < w.inputs; ++i) {
+        sum += acted(view(w.pack.form_input) + (form * w.inputs + i) * 3, omega * w.shape.order[k],
+                     load(w.pack.input, i * w.orders + k));
+      }
       w.phasor[form * w.orders + k] = sum;
+    }
+    w.constant[form] = lanes(0.0);
+    for (int i = 0; i < w.inputs; ++i)
+      w.constant[form] += view(w.pack.form_constant_input)[form * w.inputs + i] * view(w.pack.constant_input)[i];
+    for (int j = 0; j < w.contacts; ++j) {
+      const int i = form * w.contacts + j;
+      w.friction[i] =
+          view(w.pack.form_friction)[i] * view(w.pack.limit)[j] + view(w.pack.form_own_friction)[i];
     }
   }
   const int sloped = w.shape.first_integrated();
@@ -90,7 +129,8 @@ inline void find_phasors(Work& w) {
 // eta_s' = lambda_s eta_s - F push_s sigma: with the direction sigma of a contact held, eta_s would rest at
 // F push_s sigma / lambda_s. Where sigma turns from -1 to +1 this moves by 2 F push_s / lambda_s, and zeta_s, the
 // distance from it, by as much the other way; it dies out as exp(lambda_s t). Velocities are owed to zeta alone.
-inline void find_jumps(Work& w) {
+template <class W>
+inline void find_jumps(W& w) {
   for (int j = 0; j < w.contacts; ++j) {
     const Lanes twice = -2.0 * view(w.pack.limit)[j];
     for (int s = 0; s < w.modes; ++s) {

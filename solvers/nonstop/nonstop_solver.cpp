@@ -49,17 +49,25 @@ NonstopSolver::NonstopSolver(const mechanics::Assembly& assembly, const std::vec
     : assembly_(assembly), request_(values_of(quantities, assembly)) {
   measured_.assembly = &assembly_;
   measured_.traces = &request_.traces;
+  for (std::size_t e = 0; e < assembly.network().elements.size(); ++e) {
+    if (!mechanics::has_contact(assembly.network().elements[e])) elements_in_matrices_.push_back(e);
+  }
+  for (std::size_t i = 0; i < assembly.network().masses.size(); ++i) {
+    const bool is_driven = std::ranges::any_of(assembly.network().excitations, [&](const auto& excitation) {
+      return excitation.kind == mechanics::ExcitationKind::force && excitation.node == i;
+    });
+    if (is_driven) driven_masses_.push_back(static_cast<Eigen::Index>(i));
+  }
 }
 
 // As values_[0], but for friction, forcing and a frequency on which no matrix depends.
 bool NonstopSolver::shares_matrices(const mechanics::NetworkValues& values) const {
   const mechanics::NetworkValues& first = values_[0];
-  const auto& elements = assembly_.network().elements;
   if (values.mass != first.mass || values.second != first.second ||
       values.element.size() != first.element.size())
     return false;
-  for (std::size_t e = 0; e < elements.size(); ++e) {
-    if (!mechanics::has_contact(elements[e]) && values.element[e] != first.element[e]) return false;
+  for (const std::size_t e : elements_in_matrices_) {
+    if (values.element[e] != first.element[e]) return false;
   }
   if (!assembly_.matrices_depend_on_frequency()) return true;
   return values.hysteretic_omega == first.hysteretic_omega &&
@@ -80,14 +88,16 @@ bool NonstopSolver::set_point(int lane, const mechanics::NetworkValues& values) 
   mechanics::LinearSystem& system = systems_[size(lane)];
   mechanics::NetworkValues& last = values_[size(lane)];
   try {
-    if (last.element != values.element) assembly_.set_values(values, system);
+    if (last.element != values.element) {
+      assembly_.set_values(values, system);
+      last = values;
+    }
     assembly_.set_forcing(values, system);
   } catch (const mechanics::MechanicsError&) {
     last = {};
     if (lane == 0) has_modes_ = false;
     return false;
   }
-  last = values;
   return true;
 }
 
@@ -100,6 +110,9 @@ bool NonstopSolver::set_matrices() {
   K_inverse_ = algebra::inverse(system.K);
   left_force_ = modes_.left.middleCols(system.masses(), system.masses()) * M_inverse_;
   left_internal_ = modes_.left.rightCols(system.internal_forces());
+  fastest_rate_ = modes_.lambda.cwiseAbs().maxCoeff();
+  displacement_of_energy_ = std::sqrt(2.0 * K_inverse_.diagonal().maxCoeff());
+  friction_norm_ = (0.5 * (system.W.transpose() * K_inverse_ * system.W).diagonal()).cwiseSqrt();
   if (request_.needs.modes) modes_of(system, measured_.natural_frequency, measured_.modal_damping);
   lay_out_shape();
   set_forms();
@@ -187,13 +200,8 @@ void NonstopSolver::set_forms() {
     forms_.push_back(std::move(velocity));
   };
   if (request_.needs.input) {
-    for (std::size_t i = 0; i < network.masses.size(); ++i) {
-      const bool is_driven = std::ranges::any_of(network.excitations, [&](const auto& excitation) {
-        return excitation.kind == mechanics::ExcitationKind::force && excitation.node == i;
-      });
-      const auto mass = static_cast<Eigen::Index>(i);
-      if (is_driven) add_power(forms.applied_force(mass), forms.state(system.masses() + mass));
-    }
+    for (const Eigen::Index mass : driven_masses_)
+      add_power(forms.applied_force(mass), forms.state(system.masses() + mass));
     for (std::size_t i = 0; i < network.prescribed.size(); ++i) {
       const mechanics::Node node{mechanics::NodeKind::prescribed, i};
       add_power(forms.node_force(node, system.coefficients),
@@ -206,23 +214,23 @@ void NonstopSolver::set_forms() {
   shape_.product = products_.data();
   shape_.power = powers_.data();
 
-  // With the directions of the contacts held, friction moves the state by -K^-1 w_j F_j sigma_j.
-  const Eigen::MatrixXd yielding = -K_inverse_ * system.W;
+  shape_.inputs = static_cast<int>(driven_masses_.size() + network.prescribed.size());
   is_direct_.clear();
-  friction_of_form_.resize(static_cast<Eigen::Index>(forms_.size()), system.contacts());
+  forms_with_friction_.clear();
   for (std::size_t f = 0; f < forms_.size(); ++f) {
     const Form& form = forms_[f];
-    friction_of_form_.row(static_cast<Eigen::Index>(f)) =
-        form.contact.transpose() + form.state.head(system.masses()).transpose() * yielding;
     is_direct_.push_back(!(form.motion.isZero(0.0) && form.velocity.isZero(0.0) &&
                            form.acceleration.isZero(0.0) && form.force.isZero(0.0) &&
                            form.applied.isZero(0.0)));
+    if (!form.element.isZero(0.0)) forms_with_friction_.push_back(f);
   }
+  shape_.is_direct = reinterpret_cast<const bool*>(is_direct_.data());
 }
 
 void NonstopSolver::lay_out_pack() {
   const auto M = size(shape_.modes), D = size(shape_.states), m = size(shape_.contacts),
-             H = size(shape_.orders), F = size(shape_.forms()), T = size(shape_.traces);
+             H = size(shape_.orders), I = size(shape_.inputs), F = size(shape_.forms()),
+             T = size(shape_.traces);
   struct Part {
     double** array;
     std::size_t values;
@@ -234,13 +242,14 @@ void NonstopSolver::lay_out_pack() {
                         {&pack_.push, 2 * m * M},
                         {&pack_.push_norm, m},
                         {&pack_.limit, m},
-                        {&pack_.drive, 2 * H * M},
-                        {&pack_.conjugate_drive, 2 * H * M},
-                        {&pack_.constant_drive, 2 * M},
+                        {&pack_.input, 2 * I * H},
+                        {&pack_.constant_input, I},
+                        {&pack_.mode_input, 6 * M * I},
                         {&pack_.form_modal, 2 * F * M},
-                        {&pack_.form_direct, 2 * F * H},
+                        {&pack_.form_input, 3 * F * I},
+                        {&pack_.form_constant_input, F * I},
                         {&pack_.form_friction, F * m},
-                        {&pack_.form_constant, F},
+                        {&pack_.form_own_friction, F * m},
                         {&pack_.to_energy, D * D},
                         {&pack_.from_energy, D * D},
                         {&pack_.is_found, 1},
@@ -298,10 +307,68 @@ void NonstopSolver::share_matrices() {
     const double compliance = system.W.col(j).dot(M_inverse_ * system.W.col(j));
     share(pack_.push_norm, size(j), std::sqrt(0.5 * compliance));
   }
+  share_inputs(share);
+  // With the directions of the contacts held, friction moves the state by -K^-1 w_j F_j sigma_j.
+  const Eigen::MatrixXd yielding = -K_inverse_ * system.W;
+  const auto contacts = size(system.contacts());
+  for (std::size_t f = 0; f < forms_.size(); ++f) {
+    for (std::size_t j = 0; j < contacts; ++j) {
+      const auto contact = static_cast<Eigen::Index>(j);
+      share(pack_.form_friction, f * contacts + j,
+            forms_[f].contact[contact] + forms_[f].state.head(system.masses()).dot(yielding.col(contact)));
+    }
+  }
   for (Eigen::Index i = 0; i < modes_.to_energy.size(); ++i) {
     const Eigen::Index row = i / shape_.states, column = i % shape_.states;
     share(pack_.to_energy, size(i), modes_.to_energy(row, column));
     share(pack_.from_energy, size(i), modes_.from_energy(row, column));
+  }
+}
+
+// How inputs, their rates and the rates of these act on modes and forms, by
+// f = f_applied - (K_s y + C_s y' + M_s y'') and the internal forces' k p^T y'.
+template <class Share>
+void NonstopSolver::share_inputs(const Share& share) {
+  const mechanics::LinearSystem& system = systems_[0];
+  const auto modes = size(modes_.modes()), inputs = size(shape_.inputs);
+  const auto give_input = [&](std::size_t input, const Eigen::MatrixXd& force, Eigen::Index support) {
+    // force: n x 3, of the input and its rates.  support: number of the one that moves, -1: none.
+    for (std::size_t s = 0; s < modes; ++s) {
+      const auto mode = static_cast<Eigen::Index>(s);
+      Eigen::RowVectorXcd on = left_force_.row(mode) * force;
+      if (support >= 0) {
+        for (Eigen::Index i = 0; i < system.internal_forces(); ++i)
+          on[1] += left_internal_(mode, i) * system.internal_stiffness[i] * system.D_support(support, i);
+      }
+      for (Eigen::Index rate = 0; rate < 3; ++rate) {
+        share(pack_.mode_input, (s * inputs + input) * 3 + size(rate),
+              complex<double>((modes_.is_pair[s] != 0 ? 0.5 : 1.0) * on[rate]));
+      }
+    }
+    for (std::size_t f = 0; f < forms_.size(); ++f) {
+      const Form& form = forms_[f];
+      Eigen::RowVector3d on = form.force.transpose() * force;
+      if (support >= 0) {
+        on += Eigen::RowVector3d(form.motion[support], form.velocity[support], form.acceleration[support]);
+      } else {
+        on += form.applied.transpose() * force;
+      }
+      for (Eigen::Index rate = 0; rate < 3; ++rate)
+        share(pack_.form_input, (f * inputs + input) * 3 + size(rate), on[rate]);
+      share(pack_.form_constant_input, f * inputs + input,
+            on[0] + form.state.head(system.masses()).dot(K_inverse_ * force.col(0)));
+    }
+  };
+  std::size_t input = 0;
+  for (const Eigen::Index mass : driven_masses_) {
+    Eigen::MatrixXd force = Eigen::MatrixXd::Zero(system.masses(), 3);
+    force(mass, 0) = 1.0;
+    give_input(input++, force, -1);
+  }
+  for (Eigen::Index p = 0; p < system.constant_motion.size(); ++p) {
+    Eigen::MatrixXd force(system.masses(), 3);
+    force << -system.K_support.col(p), -system.C_support.col(p), -system.M_support.col(p);
+    give_input(input++, force, p);
   }
 }
 
@@ -313,74 +380,32 @@ void NonstopSolver::solve(int count) {
   kernel_->solve(pack_, workspace_);
 }
 
+// Inputs: the outside forces on the masses that are driven, then the motions of the supports.
 void NonstopSolver::set_lane(int of, int lane) {
   const mechanics::LinearSystem& system = systems_[size(of)];
+  const auto orders = system.orders.size(), contacts = size(system.contacts());
   give(pack_.omega, 0, lane, system.omega);
   for (Eigen::Index j = 0; j < system.contacts(); ++j) give(pack_.limit, size(j), lane, system.limit[j]);
-  set_drive(system, lane);
-  for (std::size_t f = 0; f < forms_.size(); ++f) set_form(system, lane, f);
-}
-
-// The forcing (0; M^-1 f; k p^T i Omega Y) in modal coordinates.
-void NonstopSolver::set_drive(const mechanics::LinearSystem& system, int lane) {
-  const auto modes = size(modes_.modes());
-  for (std::size_t s = 0; s < modes; ++s) {
-    const auto mode = static_cast<Eigen::Index>(s);
-    for (std::size_t k = 0; k < system.orders.size(); ++k) {
-      const auto order = static_cast<Eigen::Index>(k);
-      const complex<double> i_rate(0.0, system.orders[k] * system.omega);
-      complex<double> drive = 0.0, conjugate = 0.0;
-      const auto add = [&](complex<double> left, complex<double> force) {
-        drive += left * force;
-        conjugate += std::conj(left) * force;
-      };
-      for (Eigen::Index i = 0; i < system.masses(); ++i)
-        add(left_force_(mode, i), system.force(i, order));
-      for (Eigen::Index i = 0; i < system.internal_forces(); ++i) {
-        add(left_internal_(mode, i), system.internal_stiffness[i] * i_rate *
-                                         system.D_support.col(i).dot(system.motion.col(order)));
-      }
-      // Half of each, as `left` is twice the eigenvector of a pair, of which the real part is taken.
-      const bool is_pair = modes_.is_pair[s] != 0;
-      give(pack_.drive, k * modes + s, lane, is_pair ? 0.5 * drive : drive);
-      give(pack_.conjugate_drive, k * modes + s, lane, is_pair ? 0.5 * conjugate : complex<double>(0.0));
+  std::size_t input = 0;
+  const auto give_input = [&](double constant, const auto& amplitudes) {
+    give(pack_.constant_input, input, lane, constant);
+    for (std::size_t k = 0; k < orders; ++k)
+      give(pack_.input, input * orders + k, lane, amplitudes[static_cast<Eigen::Index>(k)]);
+    ++input;
+  };
+  for (const Eigen::Index mass : driven_masses_)
+    give_input(system.constant_applied_force[mass], system.applied_force.row(mass));
+  for (Eigen::Index p = 0; p < system.constant_motion.size(); ++p)
+    give_input(system.constant_motion[p], system.motion.row(p));
+  for (const std::size_t f : forms_with_friction_) {
+    const Form& form = forms_[f];
+    for (std::size_t j = 0; j < contacts; ++j) give(pack_.form_own_friction, f * contacts + j, lane, 0.0);
+    for (Eigen::Index e = 0; e < form.element.size(); ++e) {
+      if (form.element[e] == 0.0) continue;
+      const mechanics::ContactShare& share = assembly_.shares()[size(e)];
+      pack_.form_own_friction[(f * contacts + share.contact) * kLanes + size(lane)] +=
+          form.element[e] * share.orientation * system.coefficients[size(e)].friction;
     }
-    give(pack_.constant_drive, s, lane,
-         complex<double>(left_force_.row(mode) * system.constant_force.cast<complex<double>>()));
-  }
-}
-
-void NonstopSolver::set_form(const mechanics::LinearSystem& system, int lane, std::size_t f) {
-  const Form& form = forms_[f];
-  const auto contacts = size(system.contacts()), orders = system.orders.size();
-  for (std::size_t j = 0; j < contacts; ++j) {
-    const auto contact = static_cast<Eigen::Index>(j);
-    give(pack_.form_friction, f * contacts + j, lane,
-         friction_of_form_(static_cast<Eigen::Index>(f), contact) * system.limit[contact]);
-  }
-  for (Eigen::Index e = 0; e < form.element.size(); ++e) {
-    if (form.element[e] == 0.0) continue;
-    const mechanics::ContactShare& share = assembly_.shares()[size(e)];
-    const double force = form.element[e] * share.orientation * system.coefficients[size(e)].friction;
-    pack_.form_friction[(f * contacts + share.contact) * kLanes + size(lane)] += force;
-  }
-  if (is_direct_[f] == 0 && system.constant_force.isZero(0.0)) return;
-  double constant = form.state.head(system.masses()).dot(K_inverse_ * system.constant_force) +
-                    form.force.dot(system.constant_force) + form.applied.dot(system.constant_applied_force) +
-                    form.motion.dot(system.constant_motion);
-  give(pack_.form_constant, f, lane, constant);
-  for (std::size_t k = 0; k < orders; ++k) {
-    const auto order = static_cast<Eigen::Index>(k);
-    const complex<double> i_rate(0.0, system.orders[k] * system.omega);
-    complex<double> direct = 0.0;
-    for (Eigen::Index p = 0; p < form.motion.size(); ++p) {
-      direct += (form.motion[p] + i_rate * (form.velocity[p] + i_rate * form.acceleration[p])) *
-                system.motion(p, order);
-    }
-    for (Eigen::Index i = 0; i < form.force.size(); ++i) {
-      direct += form.force[i] * system.force(i, order) + form.applied[i] * system.applied_force(i, order);
-    }
-    give(pack_.form_direct, f * orders + k, lane, direct);
   }
 }
 
@@ -397,8 +422,10 @@ double NonstopSolver::static_norm(const mechanics::LinearSystem& system) const {
   double sum = system.constant_force.dot(K_inverse_ * system.constant_force);
   for (Eigen::Index k = 0; k < system.force.cols(); ++k) {
     for (Eigen::Index i = 0; i < K_inverse_.rows(); ++i) {
-      for (Eigen::Index j = 0; j < K_inverse_.cols(); ++j)
-        sum += K_inverse_(i, j) * (std::conj(system.force(i, k)) * system.force(j, k)).real();
+      for (Eigen::Index j = 0; j < K_inverse_.cols(); ++j) {
+        sum += K_inverse_(i, j) * (system.force(i, k).real() * system.force(j, k).real() +
+                                   system.force(i, k).imag() * system.force(j, k).imag());
+      }
     }
   }
   return std::sqrt(0.5 * sum);
@@ -490,16 +517,14 @@ double NonstopSolver::error_bound(int lane) const {
   const mechanics::LinearSystem& system = systems_[size(lane)];
   const double contraction = told(pack_.contraction, 0, lane), margin = told(pack_.margin, 0, lane);
   const double scale = std::max(told(pack_.state_norm, 0, lane), measured_.static_norm);
-  double friction = 0.0;
-  for (Eigen::Index j = 0; j < system.contacts(); ++j)
-    friction += system.limit[j] * std::sqrt(0.5 * system.W.col(j).dot(K_inverse_ * system.W.col(j)));
-  const double radians = modes_.lambda.cwiseAbs().maxCoeff() * measured_.period;
+  const double friction = system.limit.dot(friction_norm_);
+  const double radians = fastest_rate_ * measured_.period;
   const double operations =
       modes_.condition * (16.0 + 2.0 * radians) + 16.0 * told(pack_.reversals, 0, lane);
   const double rounding = std::numeric_limits<double>::epsilon() * operations * (scale + friction);
   const double ball = (told(pack_.residual, 0, lane) + rounding) / (1.0 - contraction);
   const bool holds = contraction < 1.0 && ball < 0.1 * margin * scale;
-  return holds ? ball * std::sqrt(2.0 * K_inverse_.diagonal().maxCoeff()) : kNone;
+  return holds ? ball * displacement_of_energy_ : kNone;
 }
 
 }  // namespace frahm::periodic::nonstop

@@ -49,10 +49,10 @@ class NonstopSolver {
   void lay_out_shape();
   void lay_out_pack();
   void share_matrices();
+  template <class Share>
+  void share_inputs(const Share& share);
   void set_forms();
   void set_lane(int of, int lane);
-  void set_drive(const mechanics::LinearSystem& system, int lane);
-  void set_form(const mechanics::LinearSystem& system, int lane, std::size_t form);
   void measure(int lane);
   void set_motion(const mechanics::LinearSystem& system);
   double error_bound(int lane) const;
@@ -77,8 +77,13 @@ class NonstopSolver {
   bool has_modes_ = false;
   std::vector<Form> forms_;              // in the order of Shape
   std::vector<char> is_direct_;          // of each form: whether it has parts outside the state
-  Eigen::MatrixXd friction_of_form_;     // forms x contacts, of F_j sigma_j, static part included
+  std::vector<std::size_t> forms_with_friction_;  // of single elements
+  std::vector<Eigen::Index> driven_masses_;
+  std::vector<std::size_t> elements_in_matrices_;
   Eigen::MatrixXd K_inverse_, M_inverse_;
+  Eigen::VectorXd friction_norm_;  // energy norm of the static response to a unit force of each contact
+  double fastest_rate_ = 0.0;            // of the modes [1/s]
+  double displacement_of_energy_ = 0.0;  // largest displacement [m] of a unit of the energy norm
   Eigen::MatrixXcd left_force_, left_internal_;  // left * (0; M^-1; 0), left * (0; 0; I)
 
   struct Entry {

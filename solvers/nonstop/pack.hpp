@@ -23,6 +23,7 @@ struct Shape {
   int states = 0;  // 2 for each pair, 1 for each real mode
   int contacts = 0;
   int orders = 0;
+  int inputs = 0;  // outside forces on masses, and motions of supports
   int traces = 0;
   int integrated = 0;
   int products = 0;
@@ -32,6 +33,7 @@ struct Shape {
   bool asks_strokes = false;  // of the contacts
   bool is_judged = false;     // state, residual, multipliers and contraction
   const bool* is_pair = nullptr;        // of each mode: whether it stands for a conjugate pair
+  const bool* is_direct = nullptr;      // of each form: whether inputs act on it directly
   const int* order = nullptr;           // of each harmonic
   const Product* product = nullptr;     // of integrated forms, counted from the first of these
   const Product* power = nullptr;       // a force and the velocity it works at
@@ -53,13 +55,15 @@ struct Pack {
   double* push = nullptr;             // [contacts][modes] complex: a contact's unit force in modal coordinates [1/(N s)]
   double* push_norm = nullptr;        // [contacts] its energy norm [sqrt(J)/(N s)]
   double* limit = nullptr;            // [contacts] friction force [N]
-  double* drive = nullptr;            // [orders][modes] complex: the forcing in modal coordinates [1/s]
-  double* conjugate_drive = nullptr;  // [orders][modes] complex: in those of the conjugate mode; 0 of a real mode
-  double* constant_drive = nullptr;   // [modes] complex: of the constant forcing
-  double* form_modal = nullptr;       // [forms][modes] complex: factors of the modal coordinates
-  double* form_direct = nullptr;      // [forms][orders] complex: amplitudes that do not go through the state
-  double* form_friction = nullptr;    // [forms][contacts]: of the direction of each contact, its static part included
-  double* form_constant = nullptr;    // [forms]
+  double* input = nullptr;           // [inputs][orders] complex amplitudes of what drives [N or m]
+  double* constant_input = nullptr;  // [inputs] its constant part
+  double* mode_input = nullptr;      // [modes][inputs][3] complex: of an input, its rate and the rate of that, in modal
+                                     // coordinates; half of it of a pair
+  double* form_modal = nullptr;      // [forms][modes] complex: factors of the modal coordinates
+  double* form_input = nullptr;      // [forms][inputs][3] of inputs and rates that do not go through the state
+  double* form_constant_input = nullptr;  // [forms][inputs] of the constant part, that by the state included
+  double* form_friction = nullptr;        // [forms][contacts] of F sigma of a contact, that by the state included
+  double* form_own_friction = nullptr;    // [forms][contacts] of sigma: friction of single elements
   double* to_energy = nullptr;        // [states][states] real modal coordinates to those of the energy norm
   double* from_energy = nullptr;      // [states][states] its inverse
 

@@ -18,7 +18,8 @@ inline Lanes rough_angle(Complex z) {
 
 // Where one harmonic drives: Re(V e^{i phase}) crosses zero upwards at phase_0 = -pi/2 - arg V, and friction
 // delays that by asin of its own share of the velocity.
-inline void guess_single(Work& w) {
+template <class W>
+inline void guess_single(W& w) {
   for (int j = 0; j < w.contacts; ++j) {
     const Mask rubs = view(w.pack.limit)[j] > 0.0;
     w.count[j] = select(rubs, lanes(w.shape.half_period ? 1.0 : 2.0), lanes(0.0));
@@ -46,7 +47,8 @@ inline void tabulate_turns(int count, double* cosine, double* sine) {
 }
 
 // Notes a sign change in the lanes that have one, by the secant.
-inline void note_reversal(Work& w, int j, Mask changes, Lanes v, Lanes place) {
+template <class W>
+inline void note_reversal(W& w, int j, Mask changes, Lanes v, Lanes place) {
   Lanes changed = select(changes, lanes(1.0), 0.0);
   for (int lane = 0; lane < kLanes; ++lane) {
     if (at(changed, lane) == 0.0) continue;
@@ -59,7 +61,8 @@ inline void note_reversal(Work& w, int j, Mask changes, Lanes v, Lanes place) {
 }
 
 // Several harmonics: the sign changes of the velocity without friction, on a grid. Lanes differ in their number.
-inline void guess_from_samples(Work& w) {
+template <class W>
+inline void guess_from_samples(W& w) {
   const int turn_samples = w.shape.samples(), samples = turn_samples / (w.shape.half_period ? 2 : 1);
   tabulate_turns(turn_samples, w.cosine, w.sine);
   for (int j = 0; j < w.contacts; ++j) {
@@ -82,7 +85,8 @@ inline void guess_from_samples(Work& w) {
   }
 }
 
-inline void guess_reversals(Work& w) {
+template <class W>
+inline void guess_reversals(W& w) {
   if (w.orders == 1 && w.shape.order[0] == 1)
     guess_single(w);
   else
@@ -90,7 +94,8 @@ inline void guess_reversals(Work& w) {
 }
 
 // Lanes with as many reversals of each contact as this one; lays them out contact after contact.
-inline Mask lay_out_like(Work& w, int lane, Mask among) {
+template <class W>
+inline Mask lay_out_like(W& w, int lane, Mask among) {
   w.reversals = 0;
   for (int j = 0; j < w.contacts; ++j) {
     const double count = at(w.count[j], lane);
@@ -115,7 +120,8 @@ inline Mask lay_out_like(Work& w, int lane, Mask among) {
 struct Folded {
   Lanes phase, sign;
 };
-FRAHM_INLINE Folded folded(const Work& w, Lanes phase) {
+template <class W>
+FRAHM_INLINE Folded folded(const W& w, Lanes phase) {
   const Lanes spans = floor(phase * (1.0 / w.span));
   Lanes inside = phase - spans * w.span;
   inside = min(max(inside, lanes(0.0)), lanes(w.span));
@@ -124,8 +130,27 @@ FRAHM_INLINE Folded folded(const Work& w, Lanes phase) {
   return {inside, select(odd, lanes(-1.0), lanes(1.0))};
 }
 
+// Adds what reversal e owes to another, which happened since[s] = exp(rate_s theta) ago, with the sign of the spans
+// between.
+template <class W>
+inline void add_influence(W& w, int e, int other, Lanes sign) {
+  const int R = w.reversals;
+  const Complex* own = w.own + (w.contact[e] * w.contacts + w.contact[other]) * w.modes;
+  Lanes speed = lanes(0.0), slope = lanes(0.0);
+  for (int s = 0; s < w.modes; ++s) {
+    const Complex left = own[s] * w.since[s];
+    speed += left.re;
+    slope += real_part(left, w.rate[s]);
+  }
+  const Lanes factor = sign * w.turn[other];
+  w.defect[e] += factor * speed;
+  w.jacobian[e * R + e] += factor * slope;
+  w.jacobian[e * R + other] = -(factor * slope);
+}
+
 // Velocities at the reversals, and their derivatives by the phases of all.
-inline void set_equations(Work& w) {
+template <class W>
+inline void set_equations(W& w) {
   const int R = w.reversals;
   for (int e = 0; e < R; ++e) {
     const int i = w.contact[e];
@@ -135,35 +160,30 @@ inline void set_equations(Work& w) {
       v += real_part(w.phasor[i * w.orders + k], u);
       a += real_part(w.slope_phasor[i * w.orders + k], u);
     }
-    for (int other = 0; other < R; ++other) {
-      const Complex* own = w.own + (i * w.contacts + w.contact[other]) * w.modes;
-      if (other == e) {
-        Lanes at_once = lanes(0.0);
-        for (int s = 0; s < w.modes; ++s) at_once += own[s].re;
-        v += w.turn[e] * at_once;
-        continue;
-      }
-      const Folded since = folded(w, w.phase[e] - w.phase[other]);
-      Lanes speed = lanes(0.0), slope = lanes(0.0);
-      for (int s = 0; s < w.modes; ++s) {
-        const Complex left =
-            own[s] * exponential({since.phase * w.rate[s].re, since.phase * w.rate[s].im});
-        speed += left.re;
-        slope += real_part(left, w.rate[s]);
-      }
-      const Lanes factor = since.sign * w.turn[other];
-      v += factor * speed;
-      a += factor * slope;
-      w.jacobian[e * R + other] = -(factor * slope);
-    }
+    const Complex* own = w.own + (i * w.contacts + i) * w.modes;
+    for (int s = 0; s < w.modes; ++s) v += w.turn[e] * own[s].re;
     w.defect[e] = v;
     w.jacobian[e * R + e] = a;
+  }
+  // What two reversals owe each other: theta after one, span - theta after the other, exp(rate (span - theta)) =
+  // E / exp(rate theta).
+  for (int e = 0; e < R; ++e) {
+    for (int other = e + 1; other < R; ++other) {
+      const Folded since = folded(w, w.phase[e] - w.phase[other]);
+      for (int s = 0; s < w.modes; ++s)
+        w.since[s] = exponential({since.phase * w.rate[s].re, since.phase * w.rate[s].im});
+      add_influence(w, e, other, since.sign);
+      for (int s = 0; s < w.modes; ++s) w.since[s] = w.over_span[s] / w.since[s];
+      // The other one follows by span - theta, a span later by its own sign.
+      add_influence(w, other, e, w.sign * since.sign);
+    }
   }
 }
 
 // Gauss's elimination, the diagonal as pivots: a reversal's own acceleration outweighs what others add, or the
 // search fails and the point is another solver's. Leaves the solution in `defect`.
-inline void eliminate(Work& w) {
+template <class W>
+inline void eliminate(W& w) {
   const int R = w.reversals;
   Lanes* A = w.jacobian;
   for (int p = 0; p < R; ++p) {
@@ -183,7 +203,8 @@ inline void eliminate(Work& w) {
 
 // Newton's method; a lane stops once its step is so small that the next would be rounding. Returns the lanes
 // that did.
-inline Mask find_reversals(Work& w, Mask lanes_of_group) {
+template <class W>
+inline Mask find_reversals(W& w, Mask lanes_of_group) {
   constexpr int kMostIterations = 12;
   constexpr double kSmall = 1e-8, kLargest = 1.0;  // of a step [rad]
   Mask going = lanes_of_group;
@@ -205,7 +226,8 @@ inline Mask find_reversals(Work& w, Mask lanes_of_group) {
 }
 
 // The reversals in order of phase within the span, each lane for itself, by exchanges of neighbours.
-inline void sort_reversals(Work& w) {
+template <class W>
+inline void sort_reversals(W& w) {
   const int R = w.reversals;
   for (int e = 0; e < R; ++e) {
     const Folded place = folded(w, w.phase[e]);

@@ -7,7 +7,8 @@
 namespace {
 
 // rows: of the real modal coordinates (a, b) of each mode, of which the motion is Re(vector (a + i b)).
-inline void flow_rows(const Work& w, Lanes length, Lanes* rows, int columns) {
+template <class W>
+inline void flow_rows(const W& w, Lanes length, Lanes* rows, int columns) {
   int row = 0;
   for (int s = 0; s < w.modes; ++s) {
     if (!w.shape.is_pair[s]) {
@@ -27,8 +28,9 @@ inline void flow_rows(const Work& w, Lanes length, Lanes* rows, int columns) {
 }
 
 // A reversal at u' = 0 with the acceleration a before it: dz+ = dz- - (2 turn F / a) b (w^T dz-), b = M^-1 w.
-inline void cross_reversal(Work& w, int p) {
-  const int D = w.shape.states;
+template <class W>
+inline void cross_reversal(W& w, int p) {
+  const int D = w.states;
   const Lanes acceleration = *view(w.pack.omega) * w.slope_before[p];
   const Lanes turned = select(acceleration > 0.0, lanes(1.0), lanes(-1.0));
   for (int row = 0; row < D; ++row) w.turned_push[row] = w.velocity_of[row] = lanes(0.0);
@@ -56,8 +58,9 @@ inline void cross_reversal(Work& w, int p) {
   }
 }
 
-inline void differentiate_map(Work& w) {
-  const int D = w.shape.states, R = w.reversals;
+template <class W>
+inline void differentiate_map(W& w) {
+  const int D = w.states, R = w.reversals;
   for (int i = 0; i < D * D; ++i) w.flow[i] = lanes(i / D == i % D ? 1.0 : 0.0);
   if (R == 0) return flow_rows(w, lanes(w.span), w.flow, D);
   const Lanes half = 0.5 * w.segment_length[0];
@@ -68,8 +71,10 @@ inline void differentiate_map(Work& w) {
   }
 }
 
-// result = a b, all D x D
-inline void multiply(int D, const Lanes* a, const Lanes* b, Lanes* result) {
+// result = a b, all of the size of the states
+template <class W>
+inline void multiply(const W& w, const Lanes* a, const Lanes* b, Lanes* result) {
+  const int D = w.states;
   for (int i = 0; i < D; ++i) {
     for (int j = 0; j < D; ++j) {
       Lanes sum = a[i * D] * b[j];
@@ -82,7 +87,9 @@ inline void multiply(int D, const Lanes* a, const Lanes* b, Lanes* result) {
 // The largest modulus of the eigenvalues of A, which is overwritten: of A^m, m = 2^k, two eigenvalues of largest
 // modulus have the trace and half of trace^2 - trace(A^2m) as their sum and product. What others add dies out as
 // m grows, and the m-th root leaves 1/m of it. Ends when `accuracy` is reached in every lane.
-inline Lanes largest_modulus(int D, Lanes* A, Lanes* scratch, double accuracy) {
+template <class W>
+inline Lanes largest_modulus(const W& w, Lanes* A, Lanes* scratch, double accuracy) {
+  const int D = w.states;
   constexpr int kMostSquarings = 40;
   Lanes exponent = lanes(0.0), estimate = lanes(1e300);
   Mask going = estimate > 0.0;
@@ -93,7 +100,7 @@ inline Lanes largest_modulus(int D, Lanes* A, Lanes* scratch, double accuracy) {
     const Lanes inverse = 1.0 / size;
     for (int i = 0; i < D * D; ++i) A[i] = A[i] * inverse;
     exponent = exponent + share * log(size);
-    multiply(D, A, A, scratch);
+    multiply(w, A, A, scratch);
     Lanes trace = lanes(0.0), trace_of_square = lanes(0.0);
     for (int i = 0; i < D; ++i) {
       trace += A[i * D + i];
@@ -116,7 +123,8 @@ inline Lanes largest_modulus(int D, Lanes* A, Lanes* scratch, double accuracy) {
 
 // Modal coordinates amid the first segment: what the reversals left, the harmonics, and the rest positions under
 // friction and constant forces.
-inline void find_state(Work& w, Lanes section) {
+template <class W>
+inline void find_state(W& w, Lanes section) {
   const Lanes half = 0.5 * w.segment_length[0];
   for (int s = 0; s < w.modes; ++s) {
     const Complex lambda = load(w.pack.lambda, s);
@@ -126,7 +134,11 @@ inline void find_state(Work& w, Lanes section) {
       sum += w.response[k * w.modes + s] * u;
       sum += conjugate(w.conjugate_response[k * w.modes + s] * u);
     }
-    Complex force = load(w.pack.constant_drive, s);
+    Complex force = {lanes(0.0), lanes(0.0)};
+    for (int i = 0; i < w.inputs; ++i) {
+      const double both = w.shape.is_pair[s] ? 2.0 : 1.0;
+      force += (both * view(w.pack.constant_input)[i]) * load(w.pack.mode_input, (s * w.inputs + i) * 3);
+    }
     for (int j = 0; j < w.contacts; ++j) {
       const Complex push = load(w.pack.push, j * w.modes + s);
       force = force - (w.first_direction[j] * view(w.pack.limit)[j]) * push;
@@ -137,8 +149,9 @@ inline void find_state(Work& w, Lanes section) {
   }
 }
 
-inline Lanes norm_of_state(const Work& w) {
-  const int D = w.shape.states;
+template <class W>
+inline Lanes norm_of_state(const W& w) {
+  const int D = w.states;
   Lanes sum = lanes(0.0);
   for (int row = 0; row < D; ++row) {
     Lanes x = lanes(0.0);
@@ -153,8 +166,9 @@ inline Lanes norm_of_state(const Work& w) {
 }
 
 // Tells state, multipliers and contraction, in the lanes told.
-inline void judge(Work& w, Mask told) {
-  const int D = w.shape.states;
+template <class W>
+inline void judge(W& w, Mask told) {
+  const int D = w.states;
   const auto tell = [&](double* array, Lanes x) { *view(array) = select(told, x, *view(array)); };
   const Lanes section =
       (w.reversals > 0 ? w.sorted_phase[0] : lanes(0.0)) + 0.5 * w.segment_length[0];
@@ -169,11 +183,11 @@ inline void judge(Work& w, Mask told) {
 
   differentiate_map(w);
   for (int i = 0; i < D * D; ++i) w.square[i] = w.flow[i];
-  const Lanes radius = largest_modulus(D, w.square, w.scratch, 1e-14);
+  const Lanes radius = largest_modulus(w, w.square, w.scratch, 1e-14);
   tell(w.pack.multiplier, w.shape.half_period ? radius * radius : radius);
 
-  multiply(D, view(w.pack.to_energy), w.flow, w.scratch);
-  multiply(D, w.scratch, view(w.pack.from_energy), w.flow);
+  multiply(w, view(w.pack.to_energy), w.flow, w.scratch);
+  multiply(w, w.scratch, view(w.pack.from_energy), w.flow);
   for (int i = 0; i < D; ++i) {
     for (int j = 0; j < D; ++j) {
       Lanes sum = lanes(0.0);
@@ -181,7 +195,7 @@ inline void judge(Work& w, Mask told) {
       w.square[i * D + j] = sum;
     }
   }
-  tell(w.pack.contraction, sqrt(largest_modulus(D, w.square, w.scratch, 1e-10)));
+  tell(w.pack.contraction, sqrt(largest_modulus(w, w.square, w.scratch, 1e-7)));
 }
 
 }  // namespace

@@ -42,20 +42,46 @@ class Arena {
   unsigned long used_ = 0;
 };
 
-struct Work {
+// Counts that are known as the program runs, or as it is compiled: then short loops are unrolled.
+struct AnyCounts {
+  explicit AnyCounts(const Shape& shape)
+      : modes(shape.modes), states(shape.states), orders(shape.orders), contacts(shape.contacts) {}
+  const int modes, states, orders, contacts;
+};
+// M modes, conjugate pairs all of them.
+template <int M, int H, int C>
+struct Counts {
+  explicit Counts(const Shape&) {}
+  static bool fit(const Shape& shape) {
+    return shape.modes == M && shape.states == 2 * M && shape.orders == H && shape.contacts == C;
+  }
+  static constexpr int modes = M, states = 2 * M, orders = H, contacts = C;
+};
+
+template <class C>
+struct Work : C {
+  using C::contacts;
+  using C::modes;
+  using C::orders;
+  using C::states;
+
   const Shape& shape;
   const Pack& pack;
-  const int modes, orders, contacts;
+  const int inputs;
   const double span;  // the period, or half of it
   const double sign;  // of the motion after it
 
   // Of the linear part.
   Complex* rate;            // [modes] lambda / omega
   Lanes* rate_size;         // [modes] its modulus
+  Complex* over_span;       // [modes] exp(rate span)
+  Complex* since;           // [modes]
   Complex* closure;         // [modes] 1 / (1 - sign exp(rate span))
   Complex* response;        // [orders][modes] modal response to the forcing ...
   Complex* conjugate_response;  // ... and the conjugate mode's
   Complex* phasor;          // [forms][orders]
+  Lanes* constant;          // [forms]
+  Lanes* friction;          // [forms][contacts] of the direction of each contact
   Complex* slope_modal;     // [forms before the integrated][modes]: of the form's derivative by the phase
   Complex* slope_phasor;    // [forms before the integrated][orders]
   Complex* jump;            // [contacts][modes] by which friction that turns up moves modal coordinates
@@ -123,20 +149,23 @@ struct Work {
   Lanes* velocity_of;     // [states]
 
   Work(const Pack& given, Arena& arena)
-      : shape(*given.shape),
+      : C(*given.shape),
+        shape(*given.shape),
         pack(given),
-        modes(shape.modes),
-        orders(shape.orders),
-        contacts(shape.contacts),
+        inputs(shape.inputs),
         span(shape.half_period ? kPi : 2.0 * kPi),
         sign(shape.half_period ? -1.0 : 1.0) {
     const int M = modes, H = orders, m = contacts, R = kMostReversals, sloped = 2 * m + shape.traces;
     rate = arena.take<Complex>(M);
     rate_size = arena.take<Lanes>(M);
+    over_span = arena.take<Complex>(M);
+    since = arena.take<Complex>(M);
     closure = arena.take<Complex>(M);
     response = arena.take<Complex>(H * M);
     conjugate_response = arena.take<Complex>(H * M);
     phasor = arena.take<Complex>(shape.forms() * H);
+    constant = arena.take<Lanes>(shape.forms());
+    friction = arena.take<Lanes>(shape.forms() * m);
     slope_modal = arena.take<Complex>(sloped * M);
     slope_phasor = arena.take<Complex>(sloped * H);
     jump = arena.take<Complex>(m * M);
@@ -163,8 +192,8 @@ struct Work {
     next_osc = arena.take<Complex>(H);
     step_factor = arena.take<Complex>(M);
     osc_factor = arena.take<Complex>(H);
-    node_factor = arena.take<Complex>(5 * M);
-    node_osc = arena.take<Complex>(5 * H);
+    node_factor = arena.take<Complex>(6 * M);
+    node_osc = arena.take<Complex>(6 * H);
     at_node = arena.take<Complex>(M);
     osc_at_node = arena.take<Complex>(H);
     form_value = arena.take<Lanes>(shape.integrated);
@@ -186,7 +215,7 @@ struct Work {
     phase_at = arena.take<Lanes>(kMostSteps);
     length = arena.take<Lanes>(kMostSteps);
     left = arena.take<Lanes>(kMostSteps * shape.traces * 5);
-    const int D = shape.states;
+    const int D = states;
     flow = arena.take<Lanes>(D * D);
     square = arena.take<Lanes>(D * D);
     scratch = arena.take<Lanes>(D * D);
