@@ -172,7 +172,8 @@ void NonstopSolver::lay_out_shape() {
   shape_.orders = static_cast<int>(system.orders.size());
   shape_.traces = static_cast<int>(request_.traces.size());
   shape_.half_period = system.odd_forcing;
-  shape_.asks_strokes = request_.needs.energies || request_.needs.histories;
+  shape_.asks_strokes =
+      request_.needs.energies || request_.needs.histories || asks(request_, Measure::events);
   shape_.is_judged = request_.needs.stability || request_.needs.energies || asks(request_, Measure::residual);
   shape_.is_pair = reinterpret_cast<const bool*>(is_pair_.data());
   shape_.order = systems_[0].orders.data();
@@ -435,13 +436,12 @@ double NonstopSolver::static_norm(const mechanics::LinearSystem& system) const {
 void NonstopSolver::measure(int lane) {
   const mechanics::LinearSystem& system = systems_[size(lane)];
   Measured& m = measured_;
-  const double spans = shape_.half_period ? 2.0 : 1.0;
   m.system = &system;
   m.period = 2.0 * std::numbers::pi / system.omega;
   m.half_period = shape_.half_period;
   m.status = Status::ok;
   m.newton_iterations = static_cast<int>(told(pack_.newton_iterations, 0, lane));
-  m.events = static_cast<int>(spans * told(pack_.reversals, 0, lane));
+  m.events = 0;
   m.extremes.resize(request_.traces.size());
   for (std::size_t t = 0; t < m.extremes.size(); ++t) {
     Extremes& x = m.extremes[t];
@@ -455,6 +455,7 @@ void NonstopSolver::measure(int lane) {
   for (std::size_t j = 0; j < m.histories.size(); ++j) {
     m.histories[j] = {};
     m.histories[j].reversals = static_cast<int>(told(pack_.contact_reversals, j, lane));
+    m.events += m.histories[j].reversals;
     m.histories[j].sliding_distance = told(pack_.slid, j, lane);
   }
   if (shape_.is_judged) {

@@ -30,7 +30,7 @@ struct Shape {
   int powers = 0;
   bool half_period = false;   // x(t + T/2) = -x(t)
   bool asks_phases = false;   // of the extremes
-  bool asks_strokes = false;  // of the contacts
+  bool asks_strokes = false;  // and reversals of the contacts
   bool is_judged = false;     // state, residual, multipliers and contraction
   const bool* is_pair = nullptr;        // of each mode: whether it stands for a conjugate pair
   const bool* is_direct = nullptr;      // of each form: whether inputs act on it directly
@@ -70,7 +70,7 @@ struct Pack {
   // Told.
   double* is_found = nullptr;     // 1: nothing sticks, proved; 0: all below is void
   double* newton_iterations = nullptr;
-  double* reversals = nullptr;    // of all contacts over the period or half of it
+  double* reversals = nullptr;    // against friction, over the period or half of it
   double* margin = nullptr;       // least relative distance of the proof from failing
   double* most = nullptr;         // [traces] largest value over a period; in a half period the largest magnitude
   double* least = nullptr;        // [traces]

@@ -289,6 +289,10 @@ inline Passage sweep(W& w, Mask group, double fineness) {
                                               starts, ends) /
                             w.speed[j];
         passage.between = select(taken & rubs, min(passage.between, least), passage.between);
+        if (w.shape.asks_strokes) {  // without friction a contact reverses as it likes
+          const Mask reverses = taken & ~rubs & (((v > 0.0) & ~(w.v0[j] > 0.0)) | (~(v > 0.0) & (w.v0[j] > 0.0)));
+          w.contact_reversals[j] += select(reverses, lanes(1.0), 0.0);
+        }
         w.v0[j] = select(taken, v, w.v0[j]);
         w.a0[j] = select(taken, a, w.a0[j]);
       }
