@@ -28,6 +28,12 @@ std::string csv(const periodic::History& history, bool dimensionless) {
   return text + "\n";
 }
 
+// General, if the command or the study asks for it.
+periodic::Path path_of(const Study& study, periodic::Path asked) {
+  const bool general = study.sweep() != nullptr && study.sweep()->output.general_path;
+  return general ? periodic::Path::general : asked;
+}
+
 }  // namespace
 
 int point_command(const PointOptions& options, std::ostream& out) {
@@ -45,7 +51,8 @@ int point_command(const PointOptions& options, std::ostream& out) {
   set_crank_orders_at(study, parameters);
   if (options.history) check_output_is_not_input(*options.history, options.study);
   const PointReport report =
-      tell_point(study, parameters, options.history ? intervals_a_period + 1 : 0, options.gradient);
+      tell_point(study, parameters, path_of(study, options.path), options.history ? intervals_a_period + 1 : 0,
+                 options.gradient);
   options.json ? print_point_json(study, report, out) : print_point(study, report, out);
   if (report.status == "failed") return exit_code::some_failed;
   if (options.history && !report.history) {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "solvers/exact/response.hpp"
+
 namespace frahm::studies {
 
 struct PointOptions {
@@ -15,6 +17,7 @@ struct PointOptions {
   std::vector<std::string> set = {};  // applied to the study before
   // CSV file of the time history; "-" is refused, as `out` has the report.
   std::optional<std::filesystem::path> history = {};
+  periodic::Path path = periodic::Path::fastest;
   bool gradient = false;  // derivatives too: exact, by differences, and their deviation
   bool json = false;      // the report as one JSON object
 };

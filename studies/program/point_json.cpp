@@ -79,6 +79,7 @@ void print_point_json(const Study& study, const PointReport& report, std::ostrea
   json["residual"] = report.residual;
   json["newton_iterations"] = report.newton_iterations;
   json["passages"] = report.passages;
+  json["found_by"] = way_name(report.way);
   for (const PointReport::QuantityValue& quantity : report.quantities) {
     json["quantities"][quantity.description.name] = quantity_json(quantity);
   }

@@ -33,9 +33,10 @@ std::vector<std::string> friction_elements(const mechanics::Network& network) {
 }
 
 periodic::PeriodicResponse response_of(const Study& study,
-                                       const std::vector<periodic::Quantity>& quantities) {
+                                       const std::vector<periodic::Quantity>& quantities,
+                                       periodic::Path path) {
   try {
-    return {study.network, quantities};
+    return {study.network, quantities, path};
   } catch (const mechanics::MechanicsError& error) {
     throw StudyError(rules::not_computed, "{}", study.source.name + ": " + error.what());
   }
@@ -50,16 +51,32 @@ void describe_all(const Study& study, const std::vector<periodic::Quantity>& qua
   }
 }
 
-// Solves a response whose values are set.
-void solve(periodic::PeriodicResponse& response, PointReport& report) {
-  const periodic::ResponseSummary& summary = response.solve();
+// False where the values cannot be set; the report has the reason.
+bool solve(periodic::PeriodicResponse& response, const mechanics::NetworkValues& values, PointReport& report) {
+  periodic::ResponseSummary summary;
+  std::vector<double> found(report.quantities.size());
+  response.solve_row({&values, 1}, {&summary, 1}, found);
   report.reason = summary.reason;
+  if (summary.status == periodic::Status::not_computed) {
+    report.residual = kNone;
+    return false;
+  }
+  report.way = summary.way;
   report.residual = summary.residual;
   report.newton_iterations = summary.newton_iterations;
   report.passages = summary.passages;
-  std::vector<double> values(report.quantities.size());
-  response.quantities(values);
-  for (std::size_t i = 0; i < values.size(); ++i) report.quantities[i].value = values[i];
+  for (std::size_t i = 0; i < found.size(); ++i) report.quantities[i].value = found[i];
+  return true;
+}
+
+// Its motion, from an orbit of its own.
+void add_motion(periodic::PeriodicResponse& response, const mechanics::NetworkValues& values,
+                std::size_t history_samples, PointReport& report) {
+  response.forget();
+  response.set_values(values);
+  if (response.solve().status == periodic::Status::failed) return;
+  report.stretches = response.stretches();
+  if (history_samples > 0) report.history = response.history(periodic::phases_of_a_period(history_samples));
 }
 
 // Adds the study's comparison at the point. parameters: complete.
@@ -92,8 +109,8 @@ std::string status_of(const PointReport& report) {
 
 }  // namespace
 
-PointReport tell_point(const Study& study, std::vector<double> parameters, std::size_t history_samples,
-                       bool gradient) {
+PointReport tell_point(const Study& study, std::vector<double> parameters, periodic::Path path,
+                       std::size_t history_samples, bool gradient) {
   PointReport report;
   mechanics::NetworkValues values;
   evaluate(study.values, study.parameters, parameters, values);
@@ -102,27 +119,22 @@ PointReport tell_point(const Study& study, std::vector<double> parameters, std::
   const std::vector<periodic::Quantity> quantities = periodic::all_quantities(study.network);
   describe_all(study, quantities, report);
 
-  periodic::PeriodicResponse response = response_of(study, quantities);
-  try {
-    response.set_values(values);
-  } catch (const mechanics::MechanicsError& error) {
-    // As in a map, such a point has failed.
-    report.reason = error.what();
-    report.residual = kNone;
-    report.status = status_of(report);
+  periodic::PeriodicResponse response = response_of(study, quantities, path);
+  const bool is_set = solve(response, values, report);
+  report.status = status_of(report);
+  if (!is_set) {  // as in a map, such a point has failed
     if (gradient) report.gradient = PointGradient{"there is no response", {}, {}};
     return report;
   }
   report.modes = modes_at_point(study, values);
-  solve(response, report);
-  report.status = status_of(report);
   add_comparison(study, parameters, quantities, report);
-  if (report.status == "ok" || report.status == "grazing") {
-    report.stretches = response.stretches();
-    if (history_samples > 0) report.history = response.history(periodic::phases_of_a_period(history_samples));
-  }
+  if (report.status == "ok" || report.status == "grazing") add_motion(response, values, history_samples, report);
   if (gradient) report.gradient = gradient_at(study, parameters);
   return report;
+}
+
+const char* way_name(periodic::Way way) {
+  return way == periodic::Way::reversal_phases ? "reversal phases" : "shooting";
 }
 
 std::string flag_meaning(const periodic::QuantityDescription& description, double value) {

@@ -30,6 +30,7 @@ struct PointReport {
   std::string reason;                 // why there is no response; else empty
   double residual = 0.0;              // 1
   int newton_iterations = 0;
+  periodic::Way way{};                         // how the orbit was found
   int passages = 0;                            // of the flow that the search took
   std::vector<QuantityValue> quantities;       // all_quantities, and those of a comparison
   std::vector<std::string> friction_elements;  // in the order of Stretch::contacts
@@ -39,13 +40,16 @@ struct PointReport {
   std::optional<PointGradient> gradient;       // if asked for
 };
 
-// Solves a point from nothing known. parameters: SI values of all parameters, complete.
+// Solves a point from nothing known, as a map does. parameters: SI values of all parameters, complete.
+// path: the ways that are tried.
 // history_samples: of the time history, both ends of the period included; 0: none is wanted. gradient: exact
 // derivatives, beside differences, are wanted.
 // Throws StudyError for a network that cannot move at any values.
-PointReport tell_point(const Study& study, std::vector<double> parameters, std::size_t history_samples,
-                       bool gradient);
+PointReport tell_point(const Study& study, std::vector<double> parameters, periodic::Path path,
+                       std::size_t history_samples, bool gradient);
 
+// "reversal phases" or "shooting".
+const char* way_name(periodic::Way way);
 // The value of a flag in words: "one_stop"; "" for a value that is no flag.
 std::string flag_meaning(const periodic::QuantityDescription& description, double value);
 // Whether a quantity has a value at the point: not NaN, and no count of -1.

@@ -25,10 +25,15 @@ void print_heading(const Study& study, const PointReport& report, std::ostream& 
   fmt::print(out, "\nstatus {}", report.status);
   if (!report.reason.empty()) fmt::print(out, ": {}", report.reason);
   fmt::print(out, "\n");
-  if (!std::isnan(report.residual)) {
-    fmt::print(out, "residual {:.2g} after {} Newton steps, {} passages of the flow\n", report.residual,
-               report.newton_iterations, report.passages);
+  if (std::isnan(report.residual)) {
+    fmt::print(out, "\n");
+    return;
   }
+  fmt::print(out, "residual {:.2g} after {} Newton steps", report.residual, report.newton_iterations);
+  if (report.way == periodic::Way::reversal_phases)
+    fmt::print(out, " on the reversal phases; nothing sticks, proved\n");
+  else
+    fmt::print(out, ", {} passages of the flow\n", report.passages);
   fmt::print(out, "\n");
 }
 
