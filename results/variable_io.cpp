@@ -19,6 +19,9 @@ void describe_flags(hdf5::Dataset& dataset, const Variable& variable) {
   dataset.write_text("flag_meanings", meanings);
 }
 
+// The convention of netCDF for values that were rounded to so many bits ("BitRound"); they are plain numbers.
+constexpr const char* kRounded = "_QuantizeBitRoundNumberOfSignificantBits";
+
 std::vector<Flag> described_flags(const hdf5::Dataset& dataset) {
   const auto values = dataset.numbers("flag_values");
   const auto meanings = dataset.text("flag_meanings");
@@ -39,6 +42,10 @@ void describe(hdf5::Dataset& dataset, const Variable& variable, bool missing) {
   if (!variable.unit.empty()) dataset.write_text("units", variable.unit);
   dataset.write_text("long_name", variable.long_name);
   if (variable.type == Type::flag) describe_flags(dataset, variable);
+  if (variable.significant_bits > 0) {
+    const double bits = variable.significant_bits;
+    dataset.write_numbers(kRounded, {.name = variable.name, .type = Type::int32}, {&bits, 1});
+  }
   if (missing && is_float(variable.type)) {
     const double value = missing_value(variable.type);
     dataset.write_numbers("_FillValue", variable, {&value, 1});
@@ -57,6 +64,7 @@ Variable described(const hdf5::Dataset& dataset) {
   const auto unit = dataset.text("units");
   if (!unit) throw StoreError(dataset.where(), "must have units", "");
   variable.unit = *unit;
+  if (const auto bits = dataset.numbers(kRounded)) variable.significant_bits = static_cast<int>(bits->at(0));
   return variable;
 }
 

@@ -7,6 +7,7 @@
 
 #include "studies/map/comparison.hpp"
 #include "studies/map/known_points.hpp"
+#include "studies/map/output_quantities.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -29,6 +30,7 @@ MapKernel::MapKernel(const Study& study, const Grid& grid, std::vector<periodic:
       grid_(grid),
       earlier_(earlier),
       quantities_(quantities.size()),
+      digits_(study, output_variables(study, quantities)),
       own_(study, study.network, study.values, asked_for(study, quantities)),
       parameters_(study.parameters.nominal()),
       point_(quantities.size()) {
@@ -102,6 +104,7 @@ void MapKernel::record_point(std::size_t i, std::uint64_t offset, std::uint64_t 
     if (reason.empty() && !other_->reason(i).empty())
       reason = fmt::format("compared: {}", other_->reason(i));
   }
+  digits_.round(point_);
   for (std::size_t q = 0; q < point_.size(); ++q) record_.values[q * points + offset] = point_[q];
   if (!reason.empty()) record_.failed.push_back({offset, std::move(reason)});
 }

@@ -8,6 +8,7 @@
 #include "engine/bytes.hpp"
 #include "studies/map/border_search.hpp"
 #include "studies/map/grid.hpp"
+#include "studies/map/known_digits.hpp"
 #include "studies/map/row_solver.hpp"
 #include "studies/map/tile_record.hpp"
 #include "studies/reading/study.hpp"
@@ -41,6 +42,7 @@ class MapKernel {
   KnownPoints* earlier_;
   std::size_t quantities_;             // of the study's own record
   std::vector<std::size_t> compared_;  // index of each compared quantity among those solved for
+  KnownDigits digits_;
   RowSolver own_;
   std::optional<RowSolver> other_;
   std::optional<BorderSearch> border_search_;

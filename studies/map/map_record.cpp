@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "studies/map/known_digits.hpp"
+
 namespace frahm::studies {
 namespace {
 
@@ -39,9 +41,11 @@ std::vector<results::Axis> axes_of(const Study& study) {
 results::Variable variable_of(const Study& study, const periodic::QuantityDescription& description) {
   results::Variable variable{
       .name = description.name, .unit = description.unit, .long_name = description.long_name};
+  variable.significant_bits = bits_of(study, description);
   if (description.kind == periodic::QuantityKind::count) variable.type = results::Type::int32;
   if (description.kind == periodic::QuantityKind::real && study.sweep()->output.single_precision) {
     variable.type = results::Type::float32;
+    if (variable.significant_bits > diagnostic_bits) variable.significant_bits = 0;  // more than it holds
   }
   if (description.kind == periodic::QuantityKind::flag) {
     variable.type = results::Type::flag;

@@ -152,7 +152,9 @@ void read_output(const StudyContext& context, const TomlValue& root, Study& stud
                             {"quantities", "precision", "path", "borders", "orbits", "resonances"});
   read_quantities(section, study.sweep()->output);
   study.sweep()->output.general_path = section.choice_or("path", {"fastest", "general"}) == "general";
-  study.sweep()->output.single_precision = section.choice_or("precision", {"double", "single"}) == "single";
+  const auto precision = section.choice_or("precision", {"double", "single", "full"});
+  study.sweep()->output.single_precision = precision == "single";
+  study.sweep()->output.full_precision = precision == "full";
   read_borders(section, study);
   read_orbits(context, section, study);
   read_resonances(context, section, study);

@@ -50,7 +50,7 @@ struct OutputChoice {
 
   Quantities quantities = Quantities::standard;
   std::vector<Name> names;  // of Quantities::listed, then not empty; not checked here
-  bool single_precision = false;
+  bool single_precision = false, full_precision = false;  // neither: double, to the digits that are known
   bool general_path = false;                    // every orbit by shooting, also where nothing sticks
   bool borders = false;                         // whether borders of regimes are solved; exact law only
   std::vector<std::vector<Assignment>> orbits;  // points whose time histories are recorded

@@ -10,7 +10,7 @@ namespace frahm::studies {
 namespace {
 
 // Raised with every change of the solvers that changes a result by more than the last bits.
-constexpr int solver_version = 4;
+constexpr int solver_version = 5;
 
 // The text that is hashed: a line for each item, every number in its shortest exact form.
 class CanonicalText {
@@ -195,7 +195,11 @@ void add_identification(const Study& study, CanonicalText& text) {
 std::string physics_hash(const Study& study, std::span<const periodic::Quantity> quantities) {
   CanonicalText text;
   text.line("solver {}", solver_version);
-  text.line("precision {}", study.sweep() && study.sweep()->output.single_precision ? "single" : "double");
+  if (study.sweep()) {
+    const OutputChoice& output = study.sweep()->output;
+    text.line("precision {}", output.single_precision ? "single" : output.full_precision ? "full" : "double");
+    if (output.general_path) text.line("path general");
+  }
   text.line("units {}", study.dimensionless ? "dimensionless" : "SI");
   add_parameters(study, text);
   add_network(study, text);
