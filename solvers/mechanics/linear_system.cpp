@@ -183,6 +183,18 @@ void Assembly::set_values(const NetworkValues& values, LinearSystem& system) con
                             "some motion is held by no spring, or a negative stiffness is too large");
 }
 
+void Assembly::set_friction(const NetworkValues& values, LinearSystem& system) const {
+  check_values(values);
+  system.limit.setZero();
+  for (std::size_t e = 0; e < network_.elements.size(); ++e) {
+    if (!has_contact(network_.elements[e])) continue;
+    const Added<double> added =
+        kind_of(network_.elements[e]).adds(values.element[e], second_value(values, e), 0.0);
+    system.coefficients[e].friction = added.limit;
+    system.limit[static_cast<Eigen::Index>(shares_[e].contact)] += added.limit;
+  }
+}
+
 // R cos(omega t + phase - pi/2) + sum_m even[m] cos(2 m (omega t + phase))
 void Assembly::add_crank(const Excitation& excitation, const ExcitationValue& value,
                          LinearSystem& system) const {

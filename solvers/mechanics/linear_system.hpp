@@ -92,6 +92,9 @@ class Assembly {
   // Throws MechanicsError where a value is out of range or M or K is not positive definite.
   void set_values(const NetworkValues& values, LinearSystem& system) const;
 
+  // The friction of contacts alone, where nothing else has changed since set_values.
+  void set_friction(const NetworkValues& values, LinearSystem& system) const;
+
   // Excitation values and omega -> forcing; `system` must hold the matrices of the same values.
   void set_forcing(const NetworkValues& values, LinearSystem& system) const;
 

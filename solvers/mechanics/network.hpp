@@ -68,6 +68,8 @@ struct ExcitationValue {
   double amplitude = 0.0;  // [N] for a force, [m] for a motion; radius [m] of a crank
   double phase = 0.0;      // [rad]
   double rod = 0.0;        // length [m] of a crank's rod, > amplitude
+
+  friend bool operator==(const ExcitationValue&, const ExcitationValue&) = default;
 };
 
 // The numbers of a network at one point of a map, in the order of the lists in `Network`.

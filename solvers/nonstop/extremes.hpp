@@ -10,13 +10,16 @@ struct Extreme {
   Lanes value, phase;
 };
 
-// The larger of two candidates; of equal ones (to 1e-12) the earlier.
-FRAHM_INLINE void consider(Extreme& best, Mask where, Lanes value, Lanes phase) {
-  constexpr double kEqual = 1e-12;
-  const Lanes tie = kEqual * abs(value);
-  const Mask larger = value > best.value + tie;
-  const Mask earlier = ~(value < best.value - tie) & (phase < best.phase);
-  best.phase = select(where & (larger | earlier), phase, best.phase);
+// The larger of two candidates; if phases are asked for, of equal ones (to 1e-12) the earlier.
+template <class W>
+FRAHM_INLINE void consider(const W& w, Extreme& best, Mask where, Lanes value, Lanes phase) {
+  if (w.shape.asks_phases) {
+    constexpr double kEqual = 1e-12;
+    const Lanes tie = kEqual * abs(value);
+    const Mask larger = value > best.value + tie;
+    const Mask earlier = ~(value < best.value - tie) & (phase < best.phase);
+    best.phase = select(where & (larger | earlier), phase, best.phase);
+  }
   best.value = select(where & (value > best.value), value, best.value);
 }
 
@@ -67,6 +70,7 @@ inline Extreme largest(const W& w, int t, double side) {
     return side != 0.0 ? lanes(side) : select(kept[0] + kept[2] < 0.0, lanes(-1.0), lanes(1.0));
   };
   const auto phase_of = [&](Lanes phase, Lanes faced) {
+    if (!w.shape.asks_phases) return phase;
     const Lanes shifted = side == 0.0 ? select(faced < 0.0, phase + kPi, phase) : phase;
     const Lanes turns = floor(shifted * (0.5 / kPi));
     return shifted - turns * (2.0 * kPi);
@@ -74,8 +78,8 @@ inline Extreme largest(const W& w, int t, double side) {
   for (int step = 0; step < w.steps; ++step) {
     const Lanes* kept = w.left + (step * T + t) * 5;
     const Lanes h = w.length[step], f = facing(kept);
-    consider(best, h > 0.0, f * kept[0], phase_of(w.phase_at[step], f));
-    consider(best, h > 0.0, f * kept[2], phase_of(w.phase_at[step] + h, f));
+    consider(w, best, h > 0.0, f * kept[0], phase_of(w.phase_at[step], f));
+    consider(w, best, h > 0.0, f * kept[2], phase_of(w.phase_at[step] + h, f));
   }
   for (int step = 0; step < w.steps; ++step) {
     const Lanes* kept = w.left + (step * T + t) * 5;
@@ -97,7 +101,7 @@ inline Extreme largest(const W& w, int t, double side) {
     if (!any(inside)) continue;
     Lanes place = select(inside, falling * h, 0.0);
     const Lanes x = f * stationary_value(w, form, step, h, kept[4], place);
-    consider(best, inside, x, phase_of(w.phase_at[step] + place, f));
+    consider(w, best, inside, x, phase_of(w.phase_at[step] + place, f));
   }
   return best;
 }

@@ -5,10 +5,10 @@
 
 #include "solvers/nonstop/pack.hpp"
 
-// Non-stop orbits from their reversal phases, eight points at once.
+// Non-stop orbits from their reversal phases, kLanes points at once.
 namespace frahm::periodic::nonstop {
 
-// Solves a pack. workspace: of workspace_size() doubles, aligned as 64 bytes.
+// Solves a pack. workspace: of workspace_size() doubles, aligned as kLanes doubles.
 using Solve = void(const Pack& pack, double* workspace);
 
 // One source, compiled for several instruction sets; all give the same bytes.

@@ -1,6 +1,7 @@
 #pragma once
 
-// Eight doubles side by side, and what the kernel needs of them. This file is compiled once for each
+// Sixteen doubles side by side, and what the kernel needs of them: enough for two registers of the widest set, so that
+// one works while the other waits. This file is compiled once for each
 // instruction set (solvers/CMakeLists.txt), so everything in it is local to the source that includes it, and
 // nothing of any library is used that a linker might merge between sources.
 //
@@ -40,8 +41,8 @@ struct MaskOf<kNative> {
   Bits v;
 };
 
-using Lanes = Of<8>;
-using Mask = MaskOf<8>;
+using Lanes = Of<16>;
+using Mask = MaskOf<16>;
 
 template <int N>
 FRAHM_INLINE Of<N> all(double x) {
@@ -51,7 +52,7 @@ FRAHM_INLINE Of<N> all(double x) {
     return {all<N / 2>(x), all<N / 2>(x)};
 }
 FRAHM_INLINE Lanes lanes(double x) {
-  return all<8>(x);
+  return all<16>(x);
 }
 
 #define FRAHM_BINARY(op)                                     \
@@ -139,11 +140,22 @@ FRAHM_INLINE Of<N> select(MaskOf<N> where, Of<N> yes, double no) {
   return select(where, yes, all<N>(no));
 }
 
+template <int N>
+FRAHM_INLINE MaskOf<kNative> joined(MaskOf<N> mask) {
+  if constexpr (N == kNative)
+    return mask;
+  else
+    return joined(mask.low) | joined(mask.high);
+}
 FRAHM_INLINE bool any(const Mask& mask) {
-  const long long* bits = reinterpret_cast<const long long*>(&mask);
-  long long found = 0;
-  for (int i = 0; i < 8; ++i) found |= bits[i];
-  return found != 0;
+  const Bits bits = joined(mask).v;
+#if defined(__AVX512F__)
+  return __builtin_ia32_ptestmq512(bits, bits, 0xff) != 0;
+#elif defined(__AVX__)
+  return __builtin_ia32_movmskpd256((Doubles)bits) != 0;
+#else
+  return (bits[0] | bits[1]) != 0;
+#endif
 }
 FRAHM_INLINE Mask none() {
   const Lanes zero = lanes(0.0);
@@ -256,6 +268,10 @@ FRAHM_INLINE Complex select(Mask where, Complex yes, Complex no) {
 }
 FRAHM_INLINE Lanes modulus(Complex a) {
   return sqrt(a.re * a.re + a.im * a.im);
+}
+// Within a factor of sqrt(2) above the modulus, without its root.
+FRAHM_INLINE Lanes size_of(Complex a) {
+  return abs(a.re) + abs(a.im);
 }
 // Re(a b)
 FRAHM_INLINE Lanes real_part(Complex a, Complex b) {

@@ -31,11 +31,11 @@ inline Mask set_rates(W& w) {
   for (int s = 0; s < w.modes; ++s) {
     const Complex lambda = load(w.pack.lambda, s);
     w.rate[s] = {lambda.re / omega, lambda.im / omega};
-    w.rate_size[s] = modulus(w.rate[s]);
+    w.rate_size[s] = size_of(w.rate[s]);
     const Complex E = exponential({w.span * w.rate[s].re, w.span * w.rate[s].im});
     w.over_span[s] = E;
     const Complex left = {1.0 - w.sign * E.re, -w.sign * E.im};
-    const Lanes size = modulus(left);
+    const Lanes size = size_of(left);
     usable = usable & (size > kResonance) & (w.rate_size[s] < lanes(kLargest));
     w.closure[s] = Complex{lanes(1.0), lanes(0.0)} / left;
   }
@@ -77,7 +77,7 @@ inline void respond_to_forcing(W& w) {
       w.response[i] = drive / Complex{-lambda.re, rate - lambda.im};
       w.conjugate_response[i] = by_conjugate / Complex{-lambda.re, rate + lambda.im};
       w.harmonic_size[k] +=
-          view(w.pack.mode_norm)[s] * (modulus(w.response[i]) + modulus(w.conjugate_response[i]));
+          view(w.pack.mode_norm)[s] * (size_of(w.response[i]) + size_of(w.conjugate_response[i]));
     }
   }
 }
@@ -122,7 +122,7 @@ inline void find_phasors(W& w) {
   }
   for (int i = 0; i < w.contacts; ++i) {
     w.speed[i] = lanes(0.0);
-    for (int k = 0; k < w.orders; ++k) w.speed[i] += modulus(w.phasor[i * w.orders + k]);
+    for (int k = 0; k < w.orders; ++k) w.speed[i] += size_of(w.phasor[i * w.orders + k]);
   }
 }
 

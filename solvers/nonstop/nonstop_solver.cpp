@@ -81,16 +81,23 @@ bool NonstopSolver::set_row(std::span<const mechanics::NetworkValues> points) {
     if (!set_point(0, points[0])) return false;
     has_modes_ = set_matrices();
   }
-  return has_modes_ && std::ranges::all_of(points, [&](const auto& values) { return shares_matrices(values); });
+  // The first two points and the last tell whether the row is worth the modes; set_point() looks at all.
+  return has_modes_ && shares_matrices(points[points.size() > 1 ? 1 : 0]) && shares_matrices(points.back());
 }
 
 bool NonstopSolver::set_point(int lane, const mechanics::NetworkValues& values) {
   mechanics::LinearSystem& system = systems_[size(lane)];
   mechanics::NetworkValues& last = values_[size(lane)];
+  if (has_modes_ && !shares_matrices(values)) return false;
   try {
-    if (last.element != values.element) {
+    if (last.element.empty()) {
       assembly_.set_values(values, system);
-      last = values;
+    } else if (last.element != values.element) {
+      assembly_.set_friction(values, system);
+    } else if (!needs_forces_ && last.excitation == values.excitation && values.omega > 0.0 &&
+               std::isfinite(values.omega)) {
+      system.omega = values.omega;  // inputs are as they were, and nothing else is asked for
+      return true;
     }
     assembly_.set_forcing(values, system);
   } catch (const mechanics::MechanicsError&) {
@@ -98,6 +105,7 @@ bool NonstopSolver::set_point(int lane, const mechanics::NetworkValues& values) 
     if (lane == 0) has_modes_ = false;
     return false;
   }
+  last = values;
   return true;
 }
 
@@ -110,6 +118,7 @@ bool NonstopSolver::set_matrices() {
   K_inverse_ = algebra::inverse(system.K);
   left_force_ = modes_.left.middleCols(system.masses(), system.masses()) * M_inverse_;
   left_internal_ = modes_.left.rightCols(system.internal_forces());
+  needs_forces_ = request_.needs.stability || request_.needs.integrals || asks(request_, Measure::residual);
   fastest_rate_ = modes_.lambda.cwiseAbs().maxCoeff();
   displacement_of_energy_ = std::sqrt(2.0 * K_inverse_.diagonal().maxCoeff());
   friction_norm_ = (0.5 * (system.W.transpose() * K_inverse_ * system.W).diagonal()).cwiseSqrt();
@@ -172,6 +181,7 @@ void NonstopSolver::lay_out_shape() {
   shape_.orders = static_cast<int>(system.orders.size());
   shape_.traces = static_cast<int>(request_.traces.size());
   shape_.half_period = system.odd_forcing;
+  shape_.asks_phases = std::ranges::any_of(request_.uses, &TraceUse::instant);
   shape_.asks_strokes =
       request_.needs.energies || request_.needs.histories || asks(request_, Measure::events);
   shape_.is_judged = request_.needs.stability || request_.needs.energies || asks(request_, Measure::residual);
@@ -447,6 +457,7 @@ void NonstopSolver::measure(int lane) {
     Extremes& x = m.extremes[t];
     x.most = told(pack_.most, t, lane);
     x.least = told(pack_.least, t, lane);
+    if (!shape_.asks_phases) continue;
     x.most_phase = whole_turns_removed(told(pack_.most_at, t, lane));
     x.least_phase = whole_turns_removed(shape_.half_period ? x.most_phase + std::numbers::pi
                                                            : told(pack_.least_at, t, lane));

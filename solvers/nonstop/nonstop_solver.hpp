@@ -27,10 +27,10 @@ class NonstopSolver {
   // Whether it can serve the network at all: its contacts slide or stick, with no spring of their own.
   static bool serves(const mechanics::Assembly& assembly);
 
-  // Takes the matrices of a row's points. False if they change along it, but for friction limits; if their modes are
-  // too close to each other; or if the values are refused.
+  // Takes the matrices of a row's points. False if they change from its first points on, but for friction limits; if
+  // their modes are too close to each other; or if the values are refused.
   bool set_row(std::span<const mechanics::NetworkValues> points);
-  // Puts a point of that row into a lane; false if its values are refused.
+  // Puts a point of that row into a lane; false if its values are refused, or its matrices are others.
   bool set_point(int lane, const mechanics::NetworkValues& values);
 
   // Solves the points in the first `count` lanes.
@@ -75,6 +75,7 @@ class NonstopSolver {
   std::array<mechanics::NetworkValues, kLanes> values_;  // of these systems
   SlidingModes modes_;                                   // of values_[0], once has_modes_
   bool has_modes_ = false;
+  bool needs_forces_ = false;  // some quantity follows from the forces that drive, beside the motion
   std::vector<Form> forms_;              // in the order of Shape
   std::vector<char> is_direct_;          // of each form: whether it has parts outside the state
   std::vector<std::size_t> forms_with_friction_;  // of single elements

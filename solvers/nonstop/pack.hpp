@@ -7,7 +7,7 @@
 // A value is kLanes doubles, one a lane; a complex value is two of these, real parts first.
 namespace frahm::periodic::nonstop {
 
-inline constexpr int kLanes = 8;
+inline constexpr int kLanes = 16;
 
 // An integral over a period of a product of two forms.
 struct Product {

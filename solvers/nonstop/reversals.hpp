@@ -25,7 +25,7 @@ inline void guess_single(W& w) {
     w.count[j] = select(rubs, lanes(w.shape.half_period ? 1.0 : 2.0), lanes(0.0));
     Lanes own = lanes(0.0);
     for (int s = 0; s < w.modes; ++s) own += w.own[(j * w.contacts + j) * w.modes + s].re;
-    const Lanes c = min(max(-own / max(w.speed[j], lanes(1e-300)), lanes(-0.95)), lanes(0.95)), c2 = c * c;
+    const Lanes c = min(max(-own / max(modulus(w.phasor[j * w.orders]), lanes(1e-300)), lanes(-0.95)), lanes(0.95)), c2 = c * c;
     const Lanes delay = c * (1.0 + c2 * (1.0 / 6.0 + c2 * (0.075 + c2 * 0.12)));
     w.guess[j * kMostReversals] = delay - 0.5 * kPi - rough_angle(w.phasor[j * w.orders]);
     w.guess_turn[j] = lanes(1.0);
@@ -206,7 +206,7 @@ inline void eliminate(W& w) {
 template <class W>
 inline Mask find_reversals(W& w, Mask lanes_of_group) {
   constexpr int kMostIterations = 12;
-  constexpr double kSmall = 1e-8, kLargest = 1.0;  // of a step [rad]
+  constexpr double kSmall = 1e-7, kLargest = 1.0;  // of a step [rad]
   Mask going = lanes_of_group;
   Lanes iterations = lanes(0.0);
   for (int i = 0; i < kMostIterations && w.reversals > 0 && any(going); ++i) {

@@ -73,7 +73,7 @@ inline void start_sweep(W& w) {
 template <class W>
 inline Lanes fastest_rate(const W& w) {
   Lanes total = lanes(1e-300);
-  for (int s = 0; s < w.modes; ++s) total += modulus(w.zeta[s]) * view(w.pack.mode_norm)[s];
+  for (int s = 0; s < w.modes; ++s) total += size_of(w.zeta[s]) * view(w.pack.mode_norm)[s];
   for (int k = 0; k < w.orders; ++k) total += w.harmonic_size[k];
   const auto weighted = [&](Lanes size, Lanes rate) {
     const Lanes r2 = rate * rate, r4 = r2 * r2;
@@ -81,7 +81,7 @@ inline Lanes fastest_rate(const W& w) {
   };
   Lanes sum = lanes(0.0);
   for (int s = 0; s < w.modes; ++s)
-    sum += weighted(modulus(w.zeta[s]) * view(w.pack.mode_norm)[s], w.rate_size[s]);
+    sum += weighted(size_of(w.zeta[s]) * view(w.pack.mode_norm)[s], w.rate_size[s]);
   for (int k = 0; k < w.orders; ++k) sum += weighted(w.harmonic_size[k], lanes(w.shape.order[k]));
   return sqrt(sqrt(sqrt(sum)));
 }
@@ -105,11 +105,11 @@ FRAHM_INLINE Lanes fourth_derivative(const W& w, int form) {
   Lanes sum = lanes(0.0);
   for (int s = 0; s < w.modes; ++s) {
     const Lanes r2 = w.rate_size[s] * w.rate_size[s];
-    sum += modulus(load(w.pack.form_modal, form * w.modes + s)) * modulus(w.zeta[s]) * (r2 * r2);
+    sum += size_of(load(w.pack.form_modal, form * w.modes + s)) * size_of(w.zeta[s]) * (r2 * r2);
   }
   for (int k = 0; k < w.orders; ++k) {
     const double n = w.shape.order[k];
-    sum += modulus(w.phasor[form * w.orders + k]) * (n * n * n * n);
+    sum += size_of(w.phasor[form * w.orders + k]) * (n * n * n * n);
   }
   return sum;
 }
@@ -128,11 +128,19 @@ inline void set_factors(W& w, Lanes h) {
   for (int s = 0; s < w.modes; ++s) w.step_factor[s] = exponential({h * w.rate[s].re, h * w.rate[s].im});
   for (int k = 0; k < w.orders; ++k) w.osc_factor[k] = turn(h * w.shape.order[k]);
   if (w.shape.integrated == 0) return;
-  for (int i = 0; i < kNodes; ++i) {
+  for (int i = 0; i < kNodes / 2; ++i) {
     const Lanes t = h * kNodeAt[i];
     for (int s = 0; s < w.modes; ++s)
       w.node_factor[i * w.modes + s] = exponential({t * w.rate[s].re, t * w.rate[s].im});
     for (int k = 0; k < w.orders; ++k) w.node_osc[i * w.orders + k] = turn(t * w.shape.order[k]);
+  }
+  // The nodes lie symmetrically: exp(rate (h - t)) = exp(rate h) / exp(rate t).
+  for (int i = kNodes / 2; i < kNodes; ++i) {
+    const int mirror = kNodes - 1 - i;
+    for (int s = 0; s < w.modes; ++s)
+      w.node_factor[i * w.modes + s] = w.step_factor[s] / w.node_factor[mirror * w.modes + s];
+    for (int k = 0; k < w.orders; ++k)
+      w.node_osc[i * w.orders + k] = w.osc_factor[k] * conjugate(w.node_osc[mirror * w.orders + k]);
   }
 }
 
@@ -227,11 +235,11 @@ inline void take_reversal(W& w, int p, Lanes turned, Mask sound, Passage& passag
 // Sweeps the orbit in the lanes of the group. fineness: factor of the number of steps.
 template <class W>
 inline Passage sweep(W& w, Mask group, double fineness) {
-  constexpr double kStep = 0.75;  // of the fastest rate's radian
+  constexpr double kStep = 0.75, kCoarseStep = 1.0;  // of the fastest rate's radian; without integrals
   constexpr double kShortest = 1e-6;                 // between two reversals [rad]
   constexpr double kClosed = 1e-9;
   const int R = w.reversals, segments = R > 0 ? R : 1;
-  const double longest = kStep / fineness;
+  const double longest = (w.shape.integrated > 0 ? kStep : kCoarseStep) / fineness;
   Passage passage{group, lanes(1.0), lanes(1.0), lanes(0.0)};
   for (int p = 0; p < w.shape.products; ++p) w.integral[p] = lanes(0.0);
   for (int p = 0; p < w.shape.powers; ++p) w.work[p] = w.work_size[p] = lanes(0.0);
@@ -308,8 +316,8 @@ inline Passage sweep(W& w, Mask group, double fineness) {
   Lanes missed = lanes(0.0), size = lanes(1e-300);
   for (int s = 0; s < w.modes; ++s) {
     const Complex end = {w.sign * w.zeta[s].re, w.sign * w.zeta[s].im};
-    missed += modulus(end - w.first_zeta[s]) * view(w.pack.mode_norm)[s];
-    size += modulus(w.first_zeta[s]) * view(w.pack.mode_norm)[s];
+    missed += size_of(end - w.first_zeta[s]) * view(w.pack.mode_norm)[s];
+    size += size_of(w.first_zeta[s]) * view(w.pack.mode_norm)[s];
   }
   passage.proved = passage.proved & (passage.at_reversals > kSafe) & (passage.between > kSafe) & ~(missed > kClosed * size);
   return passage;

@@ -73,7 +73,7 @@ struct Work : C {
 
   // Of the linear part.
   Complex* rate;            // [modes] lambda / omega
-  Lanes* rate_size;         // [modes] its modulus
+  Lanes* rate_size;         // [modes] its size
   Complex* over_span;       // [modes] exp(rate span)
   Complex* since;           // [modes]
   Complex* closure;         // [modes] 1 / (1 - sign exp(rate span))
@@ -86,7 +86,7 @@ struct Work : C {
   Complex* slope_phasor;    // [forms before the integrated][orders]
   Complex* jump;            // [contacts][modes] by which friction that turns up moves modal coordinates
   Complex* own;             // [contacts][contacts][modes] velocity of a contact owed to a reversal of another
-  Lanes* speed;             // [contacts] sum of the velocity's harmonic amplitudes
+  Lanes* speed;             // [contacts] sum of the sizes of the velocity's harmonics
   Lanes* harmonic_size;     // [orders] bound of the energy norm
 
   // Reversals, a contact's in their order, contact after contact.
