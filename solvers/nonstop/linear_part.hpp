@@ -26,11 +26,11 @@ FRAHM_INLINE Lanes real_sum(int count, const Complex* factor, const Complex* coo
 template <class W>
 inline Mask set_rates(W& w) {
   constexpr double kResonance = 1e-6, kLargest = 1e5;
-  const Lanes omega = *view(w.pack.omega);
+  const Lanes per_radian = 1.0 / *view(w.pack.omega);
   Mask usable = *view(w.pack.is_there) > 0.5;
   for (int s = 0; s < w.modes; ++s) {
     const Complex lambda = load(w.pack.lambda, s);
-    w.rate[s] = {lambda.re / omega, lambda.im / omega};
+    w.rate[s] = per_radian * lambda;
     w.rate_size[s] = size_of(w.rate[s]);
     const Complex E = exponential({w.span * w.rate[s].re, w.span * w.rate[s].im});
     w.over_span[s] = E;
@@ -87,6 +87,7 @@ template <class W>
 inline void find_phasors(W& w) {
   const Lanes omega = *view(w.pack.omega);
   for (int form = 0; form < w.shape.forms(); ++form) {
+    if (w.is_unused(form)) continue;
     for (int k = 0; k < w.orders; ++k) {
       Complex sum = {lanes(0.0), lanes(0.0)};
       for (int s = 0; s < w.modes; ++s) {
@@ -111,6 +112,7 @@ inline void find_phasors(W& w) {
   }
   const int sloped = w.shape.first_integrated();
   for (int form = 0; form < sloped; ++form) {
+    if (w.is_displacement(form)) continue;
     for (int s = 0; s < w.modes; ++s) {
       w.slope_modal[form * w.modes + s] = load(w.pack.form_modal, form * w.modes + s) * w.rate[s];
     }
@@ -123,6 +125,7 @@ inline void find_phasors(W& w) {
   for (int i = 0; i < w.contacts; ++i) {
     w.speed[i] = lanes(0.0);
     for (int k = 0; k < w.orders; ++k) w.speed[i] += size_of(w.phasor[i * w.orders + k]);
+    w.per_speed[i] = 1.0 / w.speed[i];
   }
 }
 
@@ -132,10 +135,9 @@ inline void find_phasors(W& w) {
 template <class W>
 inline void find_jumps(W& w) {
   for (int j = 0; j < w.contacts; ++j) {
-    const Lanes twice = -2.0 * view(w.pack.limit)[j];
     for (int s = 0; s < w.modes; ++s) {
       const int i = j * w.modes + s;
-      w.jump[i] = twice * (load(w.pack.push, i) / load(w.pack.lambda, s));
+      w.jump[i] = view(w.pack.limit)[j] * load(w.pack.unit_jump, i);
     }
   }
   for (int i = 0; i < w.contacts; ++i) {

@@ -251,6 +251,7 @@ void NonstopSolver::lay_out_pack() {
                         {&pack_.lambda, 2 * M},
                         {&pack_.mode_norm, M},
                         {&pack_.push, 2 * m * M},
+                        {&pack_.unit_jump, 2 * m * M},
                         {&pack_.push_norm, m},
                         {&pack_.limit, m},
                         {&pack_.input, 2 * I * H},
@@ -307,8 +308,11 @@ void NonstopSolver::share_matrices() {
     const auto mode = static_cast<Eigen::Index>(s);
     share(pack_.lambda, s, modes_.lambda[mode]);
     share(pack_.mode_norm, s, modes_.norms[mode]);
-    for (Eigen::Index j = 0; j < system.contacts(); ++j)
-      share(pack_.push, size(j) * modes + s, complex<double>(left_force_.row(mode) * system.W.col(j)));
+    for (Eigen::Index j = 0; j < system.contacts(); ++j) {
+      const complex<double> push = left_force_.row(mode) * system.W.col(j);
+      share(pack_.push, size(j) * modes + s, push);
+      share(pack_.unit_jump, size(j) * modes + s, -2.0 * push / modes_.lambda[mode]);
+    }
     for (std::size_t f = 0; f < forms_.size(); ++f) {
       share(pack_.form_modal, f * modes + s,
             complex<double>(forms_[f].state.transpose() * modes_.vectors.col(mode)));

@@ -53,6 +53,7 @@ struct Pack {
   double* lambda = nullptr;           // [modes] complex [1/s]
   double* mode_norm = nullptr;        // [modes] energy norm of the mode's vector [sqrt(J)]
   double* push = nullptr;             // [contacts][modes] complex: a contact's unit force in modal coordinates [1/(N s)]
+  double* unit_jump = nullptr;        // [contacts][modes] complex: -2 push / lambda [1/N]
   double* push_norm = nullptr;        // [contacts] its energy norm [sqrt(J)/(N s)]
   double* limit = nullptr;            // [contacts] friction force [N]
   double* input = nullptr;           // [inputs][orders] complex amplitudes of what drives [N or m]

@@ -187,7 +187,7 @@ inline void eliminate(W& w) {
   const int R = w.reversals;
   Lanes* A = w.jacobian;
   for (int p = 0; p < R; ++p) {
-    const Lanes inverse = 1.0 / A[p * R + p];
+    const Lanes inverse = A[p * R + p] = 1.0 / A[p * R + p];
     for (int row = p + 1; row < R; ++row) {
       const Lanes factor = A[row * R + p] * inverse;
       for (int c = p + 1; c < R; ++c) A[row * R + c] = A[row * R + c] - factor * A[p * R + c];
@@ -197,7 +197,7 @@ inline void eliminate(W& w) {
   for (int p = R - 1; p >= 0; --p) {
     Lanes sum = w.defect[p];
     for (int c = p + 1; c < R; ++c) sum = sum - A[p * R + c] * w.defect[c];
-    w.defect[p] = sum / A[p * R + p];
+    w.defect[p] = sum * A[p * R + p];  // the inverse of the pivot stands there
   }
 }
 

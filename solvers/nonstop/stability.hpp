@@ -195,7 +195,7 @@ inline void judge(W& w, Mask told) {
       w.square[i * D + j] = sum;
     }
   }
-  tell(w.pack.contraction, sqrt(largest_modulus(w, w.square, w.scratch, 1e-7)));
+  tell(w.pack.contraction, sqrt(largest_modulus(w, w.square, w.scratch, 1e-6)));
 }
 
 }  // namespace

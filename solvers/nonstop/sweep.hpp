@@ -75,9 +75,10 @@ inline Lanes fastest_rate(const W& w) {
   Lanes total = lanes(1e-300);
   for (int s = 0; s < w.modes; ++s) total += size_of(w.zeta[s]) * view(w.pack.mode_norm)[s];
   for (int k = 0; k < w.orders; ++k) total += w.harmonic_size[k];
+  const Lanes per_total = 1.0 / total;
   const auto weighted = [&](Lanes size, Lanes rate) {
     const Lanes r2 = rate * rate, r4 = r2 * r2;
-    return sqrt(size / total) * (r4 * r4);
+    return sqrt(size * per_total) * (r4 * r4);
   };
   Lanes sum = lanes(0.0);
   for (int s = 0; s < w.modes; ++s)
@@ -116,7 +117,8 @@ FRAHM_INLINE Lanes fourth_derivative(const W& w, int form) {
 
 template <class W>
 inline void set_levels(W& w) {
-  for (int form = 0; form < w.shape.forms(); ++form) {
+  for (int form = w.contacts; form < w.shape.forms(); ++form) {  // velocities have none
+    if (w.is_unused(form)) continue;
     w.level[form] = w.constant[form];
     for (int j = 0; j < w.contacts; ++j)
       w.level[form] += w.friction[form * w.contacts + j] * w.direction[j];
@@ -207,13 +209,13 @@ inline void keep_step(W& w, Mask taken, Lanes phase, Lanes h, bool first) {
 template <class W>
 inline void take_reversal(W& w, int p, Lanes turned, Mask sound, Passage& passage) {
   const Lanes omega = *view(w.pack.omega);
-  Lanes v = lanes(0.0), a = lanes(0.0), force = v, speed = v, push_norm = v;
+  Lanes v = lanes(0.0), a = lanes(0.0), force = v, per_speed = v, push_norm = v;
   for (int j = 0; j < w.contacts; ++j) {
     const Mask own = w.sorted_contact[p] == j;
     v = select(own, w.v0[j], v);
     a = select(own, w.a0[j], a);
     force = select(own, view(w.pack.limit)[j], force);
-    speed = select(own, w.speed[j], speed);
+    per_speed = select(own, w.per_speed[j], per_speed);
     push_norm = select(own, view(w.pack.push_norm)[j], push_norm);
     if (w.shape.asks_strokes) {
       const int form = w.contacts + j;
@@ -228,7 +230,7 @@ inline void take_reversal(W& w, int p, Lanes turned, Mask sound, Passage& passag
   }
   // A velocity v is a delay v / (omega a), after which friction acts by 2 F the other way.
   passage.residual += 2.0 * force * push_norm * abs(v / (omega * max(abs(a), lanes(1e-300))));
-  passage.at_reversals = min(passage.at_reversals, turned * a / speed);
+  passage.at_reversals = min(passage.at_reversals, turned * a * per_speed);
   w.slope_before[p] = a;
 }
 
@@ -239,7 +241,7 @@ inline Passage sweep(W& w, Mask group, double fineness) {
   constexpr double kShortest = 1e-6;                 // between two reversals [rad]
   constexpr double kClosed = 1e-9;
   const int R = w.reversals, segments = R > 0 ? R : 1;
-  const double longest = (w.shape.integrated > 0 ? kStep : kCoarseStep) / fineness;
+  const double steps_a_radian = fineness / (w.shape.integrated > 0 ? kStep : kCoarseStep);
   Passage passage{group, lanes(1.0), lanes(1.0), lanes(0.0)};
   for (int p = 0; p < w.shape.products; ++p) w.integral[p] = lanes(0.0);
   for (int p = 0; p < w.shape.powers; ++p) w.work[p] = w.work_size[p] = lanes(0.0);
@@ -255,7 +257,7 @@ inline Passage sweep(W& w, Mask group, double fineness) {
                                  : w.sorted_phase[next] - start;
     passage.proved = passage.proved & (length > kShortest);
     w.segment_length[p] = length;
-    const Lanes count = max(floor(length * fastest_rate(w) / longest) + 1.0, lanes(2.0));
+    const Lanes count = max(floor(length * fastest_rate(w) * steps_a_radian) + 1.0, lanes(2.0));
     passage.proved = passage.proved & (count + w.steps < lanes(kMostSteps));
     if (!any(passage.proved)) return passage;
     const Lanes h = length / count;
@@ -277,7 +279,7 @@ inline Passage sweep(W& w, Mask group, double fineness) {
       w.a0[j] = slope(w, j, w.zeta, w.osc);
       w.error[j] = fourth_derivative(w, j) * ((h * h) * (h * h)) * (1.0 / 144.0);
       if (R > 0) {
-        const Lanes after = w.direction[j] * w.a0[j] / w.speed[j];
+        const Lanes after = w.direction[j] * w.a0[j] * w.per_speed[j];
         passage.at_reversals = select(reversed, min(passage.at_reversals, after), passage.at_reversals);
       }
     }
@@ -294,8 +296,8 @@ inline Passage sweep(W& w, Mask group, double fineness) {
         const Lanes d = w.direction[j];
         const Lanes at_end = select(ends, lanes(0.0), v);
         const Lanes least = least_coefficient(d * w.v0[j], d * w.a0[j], d * at_end, d * a, h, w.error[j],
-                                              starts, ends) /
-                            w.speed[j];
+                                              starts, ends) *
+                            w.per_speed[j];
         passage.between = select(taken & rubs, min(passage.between, least), passage.between);
         if (w.shape.asks_strokes) {  // without friction a contact reverses as it likes
           const Mask reverses = taken & ~rubs & (((v > 0.0) & ~(w.v0[j] > 0.0)) | (~(v > 0.0) & (w.v0[j] > 0.0)));

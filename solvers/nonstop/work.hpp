@@ -87,6 +87,7 @@ struct Work : C {
   Complex* jump;            // [contacts][modes] by which friction that turns up moves modal coordinates
   Complex* own;             // [contacts][contacts][modes] velocity of a contact owed to a reversal of another
   Lanes* speed;             // [contacts] sum of the sizes of the velocity's harmonics
+  Lanes* per_speed;         // [contacts] 1 / speed
   Lanes* harmonic_size;     // [orders] bound of the energy norm
 
   // Reversals, a contact's in their order, contact after contact.
@@ -148,6 +149,10 @@ struct Work : C {
   Lanes* turned_push;     // [states]
   Lanes* velocity_of;     // [states]
 
+  // Of the contacts, whose slopes nobody needs; and if their strokes are not asked for, nor do they.
+  bool is_displacement(int form) const { return form >= contacts && form < 2 * contacts; }
+  bool is_unused(int form) const { return !shape.asks_strokes && is_displacement(form); }
+
   Work(const Pack& given, Arena& arena)
       : C(*given.shape),
         shape(*given.shape),
@@ -171,6 +176,7 @@ struct Work : C {
     jump = arena.take<Complex>(m * M);
     own = arena.take<Complex>(m * m * M);
     speed = arena.take<Lanes>(m);
+    per_speed = arena.take<Lanes>(m);
     harmonic_size = arena.take<Lanes>(H);
     count = arena.take<Lanes>(m);
     guess = arena.take<Lanes>(m * R);
