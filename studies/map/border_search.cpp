@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 namespace frahm::studies {
@@ -55,12 +56,15 @@ BorderSearch::BorderSearch(const Study& study, const Grid& grid)
       solver_(study, study.network, study.values, regimes_of(study.network)),
       parameters_(study.parameters.nominal()) {}
 
-void BorderSearch::find(const MapBox& tile, std::vector<Border>& borders) {
+void BorderSearch::find(const MapBox& tile, std::span<const std::span<const double>> known,
+                        std::vector<Border>& borders) {
   tile_ = wide_ = tile;
   for (std::size_t d = 0; d < tile.start.size(); ++d) {
     if (tile.start[d] + tile.count[d] < grid_.shape[d]) ++wide_.count[d];
   }
-  find_regimes();
+  regimes_.assign(wide_.points() * elements_, Regime::not_computed);
+  if (!known.empty()) take_regimes(known);
+  find_regimes(known.empty());
   solver_.forget();
   const auto rows = grid_.row_dimensions();
   Index row = tile.start;
@@ -79,20 +83,31 @@ std::size_t BorderSearch::offset_of(const Index& index) const {
   return wide_.offset_of(index) * elements_;
 }
 
-void BorderSearch::find_regimes() {
-  regimes_.assign(wide_.points() * elements_, Regime::not_computed);
+void BorderSearch::take_regimes(std::span<const std::span<const double>> known) {
+  std::vector<std::size_t> all(tile_.start.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  Index index = tile_.start;
+  std::size_t point = 0;
+  do {
+    for (std::size_t e = 0; e < elements_; ++e)
+      regimes_[offset_of(index) + e] = static_cast<Regime>(known[e][point]);
+    ++point;
+  } while (next_point(tile_, all, index));
+}
+
+void BorderSearch::find_regimes(bool of_tile) {
   const auto rows = grid_.row_dimensions();
   Index row = wide_.start;
   do {
     // No edge of the tile ends beyond two faces at once.
     const auto beyond = std::ranges::count_if(rows, [&](std::size_t d) { return is_beyond(row, d); });
-    if (beyond <= 1) find_regimes_of_row(row);
+    if (beyond <= 1) find_regimes_of_row(row, of_tile);
   } while (next_point(wide_, rows, row));
 }
 
 // Finds the regimes of the row that begins at `index`, within the tile; then of the neighbour beyond, the
 // first point of the next tile, which starts without earlier orbits, as in that tile.
-void BorderSearch::find_regimes_of_row(Index index) {
+void BorderSearch::find_regimes_of_row(Index index, bool of_tile) {
   const std::size_t along = grid_.order.back();
   bool is_own = true;
   for (std::size_t d = 0; d < index.size(); ++d) {
@@ -100,7 +115,7 @@ void BorderSearch::find_regimes_of_row(Index index) {
     is_own = is_own && !is_beyond(index, d);
   }
   const std::uint64_t points = is_own ? wide_.count[along] : tile_.count[along];
-  find_regimes_of_stretch(index, 0, tile_.count[along]);
+  if (of_tile || !is_own) find_regimes_of_stretch(index, 0, tile_.count[along]);
   if (points > tile_.count[along]) find_regimes_of_stretch(index, tile_.count[along], points);
 }
 

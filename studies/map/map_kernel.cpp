@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "solvers/mechanics/element_table.hpp"
 #include "studies/map/comparison.hpp"
 #include "studies/map/known_points.hpp"
 #include "studies/map/output_quantities.hpp"
@@ -22,6 +23,19 @@ std::vector<periodic::Quantity> asked_for(const Study& study, std::vector<period
   return quantities;
 }
 
+// Index of each contact's regime among the quantities; empty unless all are there.
+std::vector<std::size_t> places_of_regimes(const mechanics::Network& network,
+                                           const std::vector<periodic::Quantity>& quantities) {
+  std::vector<std::size_t> places;
+  for (std::size_t e = 0; e < network.elements.size(); ++e) {
+    if (!mechanics::has_contact(network.elements[e])) continue;
+    const auto found = std::ranges::find(quantities, periodic::Quantity{periodic::Measure::regime, e});
+    if (found == quantities.end()) return {};
+    places.push_back(static_cast<std::size_t>(found - quantities.begin()));
+  }
+  return places;
+}
+
 }  // namespace
 
 MapKernel::MapKernel(const Study& study, const Grid& grid, std::vector<periodic::Quantity> quantities,
@@ -34,7 +48,10 @@ MapKernel::MapKernel(const Study& study, const Grid& grid, std::vector<periodic:
       own_(study, study.network, study.values, asked_for(study, quantities)),
       parameters_(study.parameters.nominal()),
       point_(quantities.size()) {
-  if (study.sweep()->output.borders) border_search_.emplace(study, grid);
+  if (study.sweep()->output.borders) {
+    border_search_.emplace(study, grid);
+    regimes_ = places_of_regimes(study.network, quantities);
+  }
   if (!study.sweep()->comparison) return;
   const std::vector<periodic::Quantity> asked = asked_for(study, std::move(quantities));
   for (const periodic::Quantity& compared : study.sweep()->comparison->quantities) {
@@ -65,9 +82,18 @@ void MapKernel::operator()(std::uint64_t tile, engine::Bytes& out) {
   } while (next_point(box, rows, index_));
   if (border_search_) {
     record_.borders.emplace();
-    border_search_->find(box, *record_.borders);
+    border_search_->find(box, regimes_of(box), *record_.borders);
   }
   encode(record_, out);
+}
+
+// Those of the tile as recorded, if all of it was computed here and all are recorded.
+std::vector<std::span<const double>> MapKernel::regimes_of(const MapBox& box) const {
+  if (regimes_.empty() || std::ranges::any_of(known_, [](char known) { return known != 0; })) return {};
+  std::vector<std::span<const double>> regimes;
+  for (const std::size_t quantity : regimes_)
+    regimes.push_back(std::span(record_.values).subspan(quantity * box.points(), box.points()));
+  return regimes;
 }
 
 // The points of the row that begins at index_, along the last dimension in the order of computation.

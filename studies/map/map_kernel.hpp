@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,7 @@ class MapKernel {
 
  private:
   void compute_row(const MapBox& box);
+  std::vector<std::span<const double>> regimes_of(const MapBox& box) const;
   void record_point(std::size_t i, std::uint64_t offset, std::uint64_t points);
 
   const Study& study_;
@@ -46,6 +48,7 @@ class MapKernel {
   RowSolver own_;
   std::optional<RowSolver> other_;
   std::optional<BorderSearch> border_search_;
+  std::vector<std::size_t> regimes_;  // index of each contact's regime among the quantities, for the borders
 
   // Workspace, of the tile, the row and the point in hand.
   TileRecord record_;

@@ -17,7 +17,6 @@ namespace {
 
 constexpr double kSame = 1e-10;         // of values, as difference() takes it
 constexpr double kSamePhase = 1e-6;     // of an element's phase lag [rad], which may be that of a slight motion
-constexpr double kSameMultiplier = 1e-9;  // the other way's error is log(condition) / 2^36
 
 struct Found {
   ResponseSummary summary;
@@ -55,7 +54,6 @@ RandomNetwork drawn(unsigned seed) {
 
 double tolerance_of(Measure measure) {
   if (measure == Measure::element_phase) return kSamePhase;
-  return measure == Measure::floquet_radius ? kSameMultiplier : kSame;
 }
 
 // Whether displacements are apart by no more than both ways say that they may be.
