@@ -53,7 +53,7 @@ RandomNetwork drawn(unsigned seed) {
 }
 
 double tolerance_of(Measure measure) {
-  if (measure == Measure::element_phase) return kSamePhase;
+  return measure == Measure::element_phase ? kSamePhase : kSame;
 }
 
 // Whether displacements are apart by no more than both ways say that they may be.
