@@ -205,6 +205,8 @@ TEST_CASE("quantities keep their places and orbits are in the units of their axe
                   "study.toml");
   CHECK(study.sweep()->output.quantities == OutputChoice::Quantities::listed);
   CHECK(study.sweep()->output.single_precision);
+  CHECK_FALSE(study.sweep()->output.full_precision);
+  CHECK_FALSE(study.sweep()->output.general_path);
   REQUIRE(study.sweep()->output.names.size() == 2);
   const auto& name = study.sweep()->output.names[1];
   CHECK_THAT(study.source.error_at(frahm::studies::rules::not_text, name.position, "{}", name.text).what(),
