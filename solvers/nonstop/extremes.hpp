@@ -7,20 +7,21 @@
 namespace {
 
 struct Extreme {
-  Lanes value, phase;
+  Lanes value;
+  Lanes reached, phase;  // the largest value that is reached somewhere, not held from before, and where
 };
 
-// The larger of two candidates; if phases are asked for, of equal ones (to 1e-12) the earlier.
+// The larger of two candidates; if phases are asked for, of equal ones (to 1e-12) the earlier that is reached.
 template <class W>
-FRAHM_INLINE void consider(const W& w, Extreme& best, Mask where, Lanes value, Lanes phase) {
-  if (w.shape.asks_phases) {
-    constexpr double kEqual = 1e-12;
-    const Lanes tie = kEqual * abs(value);
-    const Mask larger = value > best.value + tie;
-    const Mask earlier = ~(value < best.value - tie) & (phase < best.phase);
-    best.phase = select(where & (larger | earlier), phase, best.phase);
-  }
+FRAHM_INLINE void consider(const W& w, Extreme& best, Mask where, Mask reached, Lanes value, Lanes phase) {
   best.value = select(where & (value > best.value), value, best.value);
+  if (!w.shape.asks_phases) return;
+  constexpr double kEqual = 1e-12;
+  const Lanes tie = kEqual * abs(value);
+  const Mask larger = value > best.reached + tie;
+  const Mask earlier = ~(value < best.reached - tie) & (phase < best.phase);
+  best.phase = select(where & reached & (larger | earlier), phase, best.phase);
+  best.reached = select(where & reached & (value > best.reached), value, best.reached);
 }
 
 // The stationary point of a trace near `place` within a step, and its value: with the slope's own slopes there,
@@ -33,7 +34,7 @@ inline Lanes stationary_value(const W& w, int form, int step, Lanes h, Lanes lev
   const Complex* zeta = w.zeta_at + step * w.modes;
   const Complex* osc = w.osc_at + step * w.orders;
   const Complex* c = complex_view(w.pack.form_modal) + form * w.modes;
-  const Complex* X = w.phasor + form * w.orders;
+  const Complex* X = (w.is_rest_at[step] ? w.rest_phasor : w.phasor) + form * w.orders;
   Lanes x = lanes(0.0);
   for (int i = 0; i < kMostIterations; ++i) {
     x = level;
@@ -70,7 +71,7 @@ inline Lanes stationary_value(const W& w, int form, int step, Lanes h, Lanes lev
 template <class W>
 inline Extreme largest(const W& w, int t, double side) {
   const int T = w.shape.traces, form = w.shape.first_trace() + t;
-  Extreme best{lanes(-1e300), lanes(0.0)};
+  Extreme best{lanes(-1e300), lanes(-1e300), lanes(0.0)};
   const auto facing = [&](const Lanes* kept) {
     return side != 0.0 ? lanes(side) : select(kept[0] + kept[2] < 0.0, lanes(-1.0), lanes(1.0));
   };
@@ -83,8 +84,9 @@ inline Extreme largest(const W& w, int t, double side) {
   for (int step = 0; step < w.steps; ++step) {
     const Lanes* kept = w.left + (step * T + t) * 5;
     const Lanes h = w.length[step], f = facing(kept);
-    consider(w, best, h > 0.0, f * kept[0], phase_of(w.phase_at[step], f));
-    consider(w, best, h > 0.0, f * kept[2], phase_of(w.phase_at[step] + h, f));
+    const Mask moves = abs(kept[2] - kept[0]) > 1e-13 * abs(kept[2]);
+    consider(w, best, h > 0.0, none(), f * kept[0], lanes(0.0));
+    consider(w, best, h > 0.0, moves, f * kept[2], phase_of(w.phase_at[step] + h, f));
   }
   for (int step = 0; step < w.steps; ++step) {
     const Lanes* kept = w.left + (step * T + t) * 5;
@@ -102,11 +104,12 @@ inline Extreme largest(const W& w, int t, double side) {
     // The falling zero of d0 + 2 q s + 3 r s^2 is (-q - root) / (3 r) = d0 / (root - q).
     const Lanes root = sqrt(max(under, lanes(0.0)));
     const Lanes falling = select(q < lanes(0.0), d0 / (root - q), (-q - root) / (3.0 * r));
-    const Mask inside = may & (falling > 0.0) & (falling < lanes(1.0));
+    // A release begins with a slope of zero, which is no extreme that is reached.
+    const Mask inside = may & (falling > (w.is_release_at[step] ? 1e-4 : 0.0)) & (falling < lanes(1.0));
     if (!any(inside)) continue;
     Lanes place = select(inside, falling * h, 0.0);
     const Lanes x = f * stationary_value(w, form, step, h, kept[4], place);
-    consider(w, best, inside, x, phase_of(w.phase_at[step] + place, f));
+    consider(w, best, inside, inside, x, phase_of(w.phase_at[step] + place, f));
   }
   return best;
 }

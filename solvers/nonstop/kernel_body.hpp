@@ -1,8 +1,7 @@
 #pragma once
 
 // The kernel, included by one source for each instruction set, which defines FRAHM_KERNEL as its name.
-#include "solvers/nonstop/extremes.hpp"
-#include "solvers/nonstop/stability.hpp"
+#include "solvers/nonstop/one_stop.hpp"
 
 namespace {
 
@@ -51,12 +50,43 @@ inline void solve_group(W& w, Mask group) {
   }
 }
 
+template <class W>
+inline void solve_with_stops(W& w, Mask group) {
+  constexpr double kFine = 4.0;
+  if (!any(group)) return;
+  const OneStop held = hold_mass(w);
+  w.iterations = lanes(0.0);
+  w.reversals = 0;
+  const auto finish = [&](const Passage& passage, const OneStop& stop) {
+    if (!any(passage.proved)) return;
+    tell(w, passage, passage.proved);
+    *view(w.pack.slides) = select(passage.proved, stop.theta * (1.0 / kPi), *view(w.pack.slides));
+    if (w.shape.is_judged) judge_one_stop(w, stop, passage.proved);
+  };
+  Passage passage = sweep_stuck(w, held, group);
+  finish(passage, held);
+  group = group & ~passage.proved;
+  const OneStop stop = find_one_stop(w, held, group);
+  if (!any(stop.found)) return;
+  w.iterations = stop.iterations;
+  w.reversals = 2;  // a stop and a release
+  passage = sweep_one_stop(w, stop, 1.0);
+  const Mask again = stop.found & ~passage.proved & is_close(passage);
+  finish(passage, stop);
+  if (!any(again)) return;
+  passage = sweep_one_stop(w, stop, kFine);
+  passage.proved = passage.proved & again;
+  finish(passage, stop);
+}
+
 template <class C>
 void solve(const Pack& pack, double* workspace) {
   Arena arena(workspace);
   Work<C> w(pack, arena);
   *view(pack.is_found) = lanes(0.0);
+  *view(pack.slides) = lanes(1.0);
   Mask left = set_rates(w);
+  const Mask usable = left;
   respond_to_forcing(w);
   find_phasors(w);
   find_jumps(w);
@@ -72,6 +102,7 @@ void solve(const Pack& pack, double* workspace) {
     const Mask found = find_reversals(w, group);
     if (any(found)) solve_group(w, found);
   }
+  if (w.shape.may_stop_once) solve_with_stops(w, usable & ~(*view(pack.is_found) > 0.5) & (*view(pack.limit) > 0.0));
 }
 
 // The sizes that most maps have are compiled apart, in the sets that most processors run; the operations, and so the

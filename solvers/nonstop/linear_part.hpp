@@ -95,11 +95,13 @@ inline void find_phasors(W& w) {
         sum += c * w.response[k * w.modes + s];
         sum += conjugate(c) * w.conjugate_response[k * w.modes + s];
       }
+      Complex direct = {lanes(0.0), lanes(0.0)};
       for (int i = 0; w.shape.is_direct[form] && i < w.inputs; ++i) {
-        sum += acted(view(w.pack.form_input) + (form * w.inputs + i) * 3, omega * w.shape.order[k],
+        direct += acted(view(w.pack.form_input) + (form * w.inputs + i) * 3, omega * w.shape.order[k],
                      load(w.pack.input, i * w.orders + k));
       }
-      w.phasor[form * w.orders + k] = sum;
+      w.direct[form * w.orders + k] = direct;
+      w.phasor[form * w.orders + k] = sum + direct;
     }
     w.constant[form] = lanes(0.0);
     for (int i = 0; i < w.inputs; ++i)

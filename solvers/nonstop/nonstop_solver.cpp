@@ -184,6 +184,9 @@ void NonstopSolver::lay_out_shape() {
   shape_.asks_phases = std::ranges::any_of(request_.uses, &TraceUse::instant);
   shape_.asks_strokes =
       request_.needs.energies || request_.needs.histories || asks(request_, Measure::events);
+  shape_.may_stop_once = n == 1 && s == 0 && system.contacts() == 1 && system.odd_forcing &&
+                         system.orders.size() == 1 && system.orders[0] == 1 &&
+                         system.W_support.col(0).isZero(0.0);
   shape_.is_judged = request_.needs.stability || request_.needs.energies || asks(request_, Measure::residual);
   shape_.is_pair = reinterpret_cast<const bool*>(is_pair_.data());
   shape_.order = systems_[0].orders.data();
@@ -277,6 +280,7 @@ void NonstopSolver::lay_out_pack() {
                         {&pack_.work_size, size(shape_.powers)},
                         {&pack_.slid, m},
                         {&pack_.contact_reversals, m},
+                        {&pack_.slides, 1},
                         {&pack_.section, 1},
                         {&pack_.state, 2 * M},
                         {&pack_.state_norm, 1},
@@ -471,6 +475,11 @@ void NonstopSolver::measure(int lane) {
     m.histories[j] = {};
     m.histories[j].reversals = static_cast<int>(told(pack_.contact_reversals, j, lane));
     m.events += m.histories[j].reversals;
+    if (const double slides = told(pack_.slides, 0, lane); slides < 1.0) {
+      m.histories[j].stops = m.histories[j].reversals;  // one at each, or none where nothing moves
+      m.histories[j].stuck_fraction = 1.0 - slides;
+      m.events += m.histories[j].stops;  // with a release each
+    }
     m.histories[j].sliding_distance = told(pack_.slid, j, lane);
   }
   if (shape_.is_judged) {

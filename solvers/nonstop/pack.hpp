@@ -28,6 +28,7 @@ struct Shape {
   int integrated = 0;
   int products = 0;
   int powers = 0;
+  bool may_stop_once = false;  // one mass on springs and dampers, one contact to the ground, one order
   bool half_period = false;   // x(t + T/2) = -x(t)
   bool asks_phases = false;   // of the extremes
   bool asks_strokes = false;  // and reversals of the contacts
@@ -82,6 +83,7 @@ struct Pack {
   double* work_size = nullptr;    // [powers] of the power's magnitude
   double* slid = nullptr;         // [contacts] distance over a period [m]
   double* contact_reversals = nullptr;  // [contacts] in a period
+  double* slides = nullptr;             // share of the period; 1: nothing stops
   double* section = nullptr;      // phase at which the state is told [rad]
   double* state = nullptr;        // [modes] complex: modal coordinates there
   double* state_norm = nullptr;   // energy norm there [sqrt(J)]

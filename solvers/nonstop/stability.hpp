@@ -149,20 +149,27 @@ inline void find_state(W& w, Lanes section) {
   }
 }
 
-template <class W>
-inline Lanes norm_of_state(const W& w) {
+// Energy norm of a state.
+template <class W, class Coordinate>
+inline Lanes norm_of_coordinates(const W& w, const Coordinate& coordinate) {
   const int D = w.states;
   Lanes sum = lanes(0.0);
   for (int row = 0; row < D; ++row) {
     Lanes x = lanes(0.0);
-    int c = 0;
-    for (int s = 0; s < w.modes; ++s) {
-      x += view(w.pack.to_energy)[row * D + c++] * w.state[s].re;
-      if (w.shape.is_pair[s]) x += view(w.pack.to_energy)[row * D + c++] * w.state[s].im;
-    }
+    for (int c = 0; c < D; ++c) x += view(w.pack.to_energy)[row * D + c] * coordinate(c);
     sum += x * x;
   }
   return sqrt(0.5 * sum);
+}
+
+template <class W>
+inline Lanes norm_of_state(W& w) {
+  int c = 0;
+  for (int s = 0; s < w.modes; ++s) {
+    w.turned_push[c++] = w.state[s].re;
+    if (w.shape.is_pair[s]) w.turned_push[c++] = w.state[s].im;
+  }
+  return norm_of_coordinates(w, [&](int i) { return w.turned_push[i]; });
 }
 
 // Tells state, multipliers and contraction, in the lanes told.

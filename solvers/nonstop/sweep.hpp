@@ -26,13 +26,13 @@ struct Passage {
 template <class W>
 FRAHM_INLINE Lanes value(const W& w, int form, const Complex* zeta, const Complex* osc) {
   return real_sum(w.modes, complex_view(w.pack.form_modal) + form * w.modes, zeta) +
-         real_sum(w.orders, w.phasor + form * w.orders, osc);
+         real_sum(w.orders, w.phasors() + form * w.orders, osc);
 }
 // By the phase.
 template <class W>
 FRAHM_INLINE Lanes slope(const W& w, int form, const Complex* zeta, const Complex* osc) {
   return real_sum(w.modes, w.slope_modal + form * w.modes, zeta) +
-         real_sum(w.orders, w.slope_phasor + form * w.orders, osc);
+         real_sum(w.orders, w.slope_phasors() + form * w.orders, osc);
 }
 
 // zeta just after the first reversal, and the direction of every contact from there: that of its last reversal.
@@ -234,6 +234,15 @@ inline void take_reversal(W& w, int p, Lanes turned, Mask sound, Passage& passag
   w.slope_before[p] = a;
 }
 
+template <class W>
+inline void clear_measures(W& w) {
+  for (int p = 0; p < w.shape.products; ++p) w.integral[p] = lanes(0.0);
+  for (int p = 0; p < w.shape.powers; ++p) w.work[p] = w.work_size[p] = lanes(0.0);
+  for (int j = 0; j < w.contacts; ++j)
+    w.slid[j] = w.contact_reversals[j] = lanes(0.0);
+  w.steps = 0;
+}
+
 // Sweeps the orbit in the lanes of the group. fineness: factor of the number of steps.
 template <class W>
 inline Passage sweep(W& w, Mask group, double fineness) {
@@ -243,11 +252,8 @@ inline Passage sweep(W& w, Mask group, double fineness) {
   const int R = w.reversals, segments = R > 0 ? R : 1;
   const double steps_a_radian = fineness / (w.shape.integrated > 0 ? kStep : kCoarseStep);
   Passage passage{group, lanes(1.0), lanes(1.0), lanes(0.0)};
-  for (int p = 0; p < w.shape.products; ++p) w.integral[p] = lanes(0.0);
-  for (int p = 0; p < w.shape.powers; ++p) w.work[p] = w.work_size[p] = lanes(0.0);
-  for (int j = 0; j < w.contacts; ++j)
-    w.slid[j] = w.contact_reversals[j] = lanes(0.0);
-  w.steps = 0;
+  clear_measures(w);
+  w.rests = false;
   start_sweep(w);
   for (int p = 0; p < segments; ++p) {
     const bool is_last = p + 1 == segments;
@@ -307,6 +313,7 @@ inline Passage sweep(W& w, Mask group, double fineness) {
         w.a0[j] = select(taken, a, w.a0[j]);
       }
       if (w.shape.traces > 0) keep_step(w, taken, start + h * k, h, k == 0);
+      w.is_rest_at[w.steps] = w.is_release_at[w.steps] = false;
       ++w.steps;
       if (w.shape.integrated > 0) integrate_step(w, select(taken, h, 0.0));
       for (int s = 0; s < w.modes; ++s) w.zeta[s] = select(taken, w.next_zeta[s], w.zeta[s]);

@@ -138,7 +138,17 @@ struct Work : C {
   Lanes* phase_at;   // [steps]
   Lanes* length;     // [steps], 0 in lanes that have no such step
   Lanes* left;       // [steps][traces] value, slope at the left, value, slope at the right, level
+  bool is_rest_at[kMostSteps];     // [steps] whether the mass rests
+  bool is_release_at[kMostSteps];  // [steps] whether it begins to slide from rest
   int steps = 0;
+
+  // Of a mass at rest, one contact and one order (one_stop.hpp).
+  bool rests = false;
+  Complex* direct;       // [forms][orders] the part of the phasor that does not go through the state
+  Complex* rest_phasor;  // [forms]
+  Complex* rest_slope;   // [forms before the integrated]
+  const Complex* phasors() const { return rests ? rest_phasor : phasor; }
+  const Complex* slope_phasors() const { return rests ? rest_slope : slope_phasor; }
 
   // Stability.
   Lanes* flow;       // [states][states]
@@ -151,7 +161,9 @@ struct Work : C {
 
   // Of the contacts, whose slopes nobody needs; and if their strokes are not asked for, nor do they.
   bool is_displacement(int form) const { return form >= contacts && form < 2 * contacts; }
-  bool is_unused(int form) const { return !shape.asks_strokes && is_displacement(form); }
+  bool is_unused(int form) const {
+    return !shape.asks_strokes && !shape.may_stop_once && is_displacement(form);
+  }
 
   Work(const Pack& given, Arena& arena)
       : C(*given.shape),
@@ -169,6 +181,9 @@ struct Work : C {
     response = arena.take<Complex>(H * M);
     conjugate_response = arena.take<Complex>(H * M);
     phasor = arena.take<Complex>(shape.forms() * H);
+    direct = arena.take<Complex>(shape.forms() * H);
+    rest_phasor = arena.take<Complex>(shape.forms() * H);
+    rest_slope = arena.take<Complex>(sloped * H);
     constant = arena.take<Lanes>(shape.forms());
     friction = arena.take<Lanes>(shape.forms() * m);
     slope_modal = arena.take<Complex>(sloped * M);

@@ -1,0 +1,339 @@
+#pragma once
+
+#include "solvers/nonstop/extremes.hpp"
+#include "solvers/nonstop/stability.hpp"
+
+// One mass that stops once in each half of the period, or never moves, under one harmonic. It rests at -u, is released at the phase p
+// where the force on it has grown to F, slides for theta to +u, and rests there until p + pi, when all repeats with the
+// opposite sign. At the release velocity and acceleration are zero, so the transient there is linear in the harmonic's
+// amplitude; so is then the velocity at the end, Re(G(theta) e^{ip}) = 0, which gives p. One equation is left, in
+// theta: that it ends as far on the one side as it began on the other.
+namespace {
+
+// Two real modal coordinates, real and imaginary part of a pair or those of two real modes, as factors of a form.
+struct Row {
+  Lanes first, second;
+};
+template <class W>
+FRAHM_INLINE Row row_of(const W& w, const Complex* factor) {
+  if (w.modes == 1) return {factor[0].re, -factor[0].im};
+  return {factor[0].re, factor[1].re};
+}
+
+struct OneStop {
+  Mask found;
+  Lanes theta, release;    // [rad]
+  Lanes rest;              // u [m]
+  Lanes missed;            // by which it ends elsewhere [m]
+  Lanes iterations;
+  Row start;               // modal coordinates at the release
+  Row unit;                // those of a unit of displacement at rest
+  Complex drive;           // amplitude of the acceleration that the forcing gives the mass at rest, by the phase
+  Lanes spring;            // K / M / omega: of that which its spring gives
+  Lanes friction;          // A_F: of that which friction gives
+};
+
+// What varies with theta: G and K, whose parts across G give the equation, and their derivatives.
+struct StopEquation {
+  Complex G, dG, K, dK;
+};
+
+template <class W>
+struct StopProblem {
+  Complex V, Q;               // harmonic velocity and displacement
+  Complex first, second;      // modal coordinates at the release, Re(. e^{ip})
+  Complex jerk;               // of the velocity's second derivative there
+  Row displacement;           // factors of the displacement
+  Lanes level;                // its part under friction
+
+  explicit StopProblem(const W& w) {
+    V = w.phasor[0];
+    Q = w.phasor[1];
+    level = w.constant[1] + w.friction[1];
+    const Row v = row_of(w, complex_view(w.pack.form_modal)), a = row_of(w, w.slope_modal);
+    displacement = row_of(w, complex_view(w.pack.form_modal) + w.modes);
+    // v . coordinates = -V, a . coordinates = -i V
+    const Lanes inverse = 1.0 / (v.first * a.second - v.second * a.first);
+    const Complex iV = {-V.im, V.re};
+    first = inverse * (v.second * iV - a.second * V);
+    second = inverse * (a.first * V - v.first * iV);
+    Complex bent[2];
+    for (int s = 0; s < w.modes; ++s) bent[s] = w.slope_modal[s] * w.rate[s];
+    const Row b = row_of(w, bent);
+    jerk = b.first * first + b.second * second - V;
+  }
+
+  StopEquation at(const W& w, Lanes theta) const {
+    Complex velocity[2], slope[2], shift[2];
+    for (int s = 0; s < w.modes; ++s) {
+      const Complex e = exponential({theta * w.rate[s].re, theta * w.rate[s].im});
+      velocity[s] = load(w.pack.form_modal, s) * e;
+      slope[s] = w.slope_modal[s] * e;
+      shift[s] = load(w.pack.form_modal, w.modes + s) * e;
+    }
+    const Complex turned = turn(theta), next = {-turned.im, turned.re};
+    const Row v = row_of(w, velocity), a = row_of(w, slope), u = row_of(w, shift);
+    const Lanes per_omega = 1.0 / *view(w.pack.omega);
+    StopEquation e;
+    e.G = V * turned + v.first * first + v.second * second;
+    e.dG = V * next + a.first * first + a.second * second;
+    e.K = Q * turned + Q + (u.first + displacement.first) * first + (u.second + displacement.second) * second;
+    e.dK = per_omega * e.G;  // the slope of a displacement is the velocity
+    return e;
+  }
+
+  // e^{ip}, across G, to the side on which the velocity grows.
+  Complex release_at(const StopEquation& e) const {
+    const Lanes inverse = 1.0 / max(modulus(e.G), lanes(1e-300));
+    const Complex across = {inverse * e.G.im, inverse * e.G.re};  // i conj(G) / |G|
+    return select(real_part(jerk, across) < 0.0, Complex{-across.re, -across.im}, across);
+  }
+};
+
+// Re(K e^{ip}) + 2 level, the distance by which the slide ends beyond the other side.
+template <class W>
+inline Lanes distance_missed(const W& w, const StopProblem<W>& problem, Lanes theta, Lanes* slope) {
+  const StopEquation e = problem.at(w, theta);
+  const Complex u = problem.release_at(e);
+  if (slope != nullptr) {
+    // Re(G e^{ip}) = 0 turns p by dp = -Re(dG e^{ip}) / Re(i G e^{ip}).
+    const Lanes dp = real_part(e.dG, u) / (e.G * u).im;
+    *slope = real_part(e.dK, u) - dp * (e.K * u).im;
+  }
+  return real_part(e.K, u) + 2.0 * problem.level;
+}
+
+// The mass at rest: what forcing, spring and friction would accelerate it by.
+template <class W>
+inline OneStop hold_mass(const W& w) {
+  OneStop stop{};
+  const Row u = row_of(w, complex_view(w.pack.form_modal) + w.modes), v = row_of(w, complex_view(w.pack.form_modal));
+  const Lanes inverse = 1.0 / (u.first * v.second - u.second * v.first);
+  stop.unit = {inverse * v.second, -inverse * v.first};
+  // lambda^2 + (C/M) lambda + K/M has the modes as roots.
+  const Lanes omega = *view(w.pack.omega);
+  const Complex one = w.rate[0], other = w.modes == 1 ? conjugate(one) : w.rate[w.modes - 1];
+  const Lanes damping = -(one.re + other.re);   // C/M/omega
+  stop.spring = omega * real_part(one, other);  // K/M/omega
+  const Complex V = w.phasor[0];
+  stop.drive = Complex{-V.im, V.re} + stop.spring * w.phasor[1] + damping * V;
+  stop.friction = -(stop.spring * w.friction[1]);  // F moves the rest position by F/K
+  stop.rest = stop.theta = stop.release = stop.missed = stop.iterations = lanes(0.0);
+  return stop;
+}
+
+// The longest slide that serves, on a grid, and by Newton's method within its interval.
+template <class W>
+inline OneStop find_one_stop(const W& w, OneStop stop, Mask group) {
+  constexpr int kIntervals = 12, kMostIterations = 12;
+  const StopProblem<W> problem(w);
+  Lanes low = lanes(0.0), high = lanes(0.0), theta = lanes(0.0);
+  Mask bracketed = none();
+  Lanes before = distance_missed(w, problem, lanes(kPi), nullptr), above = lanes(kPi);
+  for (int i = kIntervals - 1; i >= 0; --i) {
+    const Lanes place = lanes(kPi * (i + 0.3) / kIntervals);
+    const Lanes here = distance_missed(w, problem, place, nullptr);
+    const Mask changes = group & ~bracketed & (((here > 0.0) & ~(before > 0.0)) | (~(here > 0.0) & (before > 0.0)));
+    low = select(changes, place, low);
+    high = select(changes, above, high);
+    theta = select(changes, place + (above - place) * (here / (here - before)), theta);
+    bracketed = bracketed | changes;
+    before = here;
+    above = place;
+    if (!any(group & ~bracketed)) break;
+  }
+  Mask going = bracketed;
+  stop.iterations = lanes(0.0);
+  for (int i = 0; i < kMostIterations && any(going); ++i) {
+    Lanes slope;
+    const Lanes missed = distance_missed(w, problem, theta, &slope);
+    const Lanes to = max(min(theta - missed / slope, high), low);
+    const Lanes step = abs(to - theta);
+    theta = select(going, to, theta);
+    stop.iterations = select(going, stop.iterations + 1.0, stop.iterations);
+    going = going & ~(step < lanes(1e-7));
+  }
+  stop.found = bracketed & ~going;
+  stop.theta = theta;
+
+  const StopEquation e = problem.at(w, theta);
+  const Complex u = problem.release_at(e);
+  stop.missed = real_part(e.K, u) + 2.0 * problem.level;
+  // The angle of u: a rough one, and the sine of what it lacks.
+  const Lanes rough = rough_angle(u);
+  const Lanes lack = (u * conjugate(turn(rough))).im;
+  stop.release = rough + lack * (1.0 + (1.0 / 6.0) * (lack * lack));
+  stop.start = {real_part(problem.first, u), real_part(problem.second, u)};
+  const Row d = problem.displacement;
+  stop.rest = -(real_part(problem.Q, u) + d.first * stop.start.first + d.second * stop.start.second + problem.level);
+  return stop;
+}
+
+template <class W>
+FRAHM_INLINE void set_coordinates(const W& w, const Row& row, Complex* zeta) {
+  if (w.modes == 1) {
+    zeta[0] = {row.first, row.second};
+    return;
+  }
+  zeta[0] = {row.first, lanes(0.0)};
+  zeta[w.modes - 1] = {row.second, lanes(0.0)};
+}
+
+FRAHM_INLINE Lanes without_rounding(Lanes difference, Lanes size) {
+  return select(abs(difference) > 1e-13 * size, difference, 0.0);
+}
+
+// Forms at rest: the state is held at u and the contact carries F (1 + (a + ...)) as the forcing asks, a harmonic.
+template <class W>
+inline void set_rest_forms(W& w, const OneStop& stop) {
+  const Lanes per_friction = 1.0 / stop.friction;
+  for (int form = 1; form < w.shape.forms(); ++form) {
+    const Row c = row_of(w, complex_view(w.pack.form_modal) + form * w.modes);
+    const Lanes one = c.first * stop.unit.first, other = c.second * stop.unit.second;
+    const Lanes of_rest = without_rounding(one + other, abs(one) + abs(other));
+    // What cancels but for rounding is nothing: a mass at rest has no velocity.
+    const Lanes by_rest = of_rest * w.friction[1];
+    const Lanes of_friction = without_rounding(w.friction[form] - by_rest, abs(w.friction[form]) + abs(by_rest));
+    const Complex by_friction = (of_friction * per_friction) * stop.drive, direct = w.direct[form];
+    const Lanes size = size_of(by_friction) + size_of(direct);
+    const Complex X = {without_rounding(by_friction.re + direct.re, size),
+                       without_rounding(by_friction.im + direct.im, size)};
+    w.rest_phasor[form] = X;
+    if (form < w.shape.first_integrated()) w.rest_slope[form] = {-X.im, X.re};
+    w.level[form] =
+        w.constant[form] + of_rest * stop.rest - of_friction * per_friction * stop.spring * stop.rest;
+  }
+}
+
+// The number of steps of a stretch, in the lanes of the group the largest.
+template <class W>
+inline int steps_of(Mask group, Lanes count) {
+  Lanes most = select(group, count, 0.0);
+  int steps = 0;
+  for (int lane = 0; lane < kLanes; ++lane)
+    if (at(most, lane) > steps) steps = static_cast<int>(at(most, lane));
+  return steps;
+}
+
+// One step of a stretch: measures it, and goes on.
+template <class W>
+inline void take_step(W& w, Mask taken, Lanes phase, Lanes h, bool first) {
+  if (w.shape.traces > 0) keep_step(w, taken, phase, h, first);
+  w.is_rest_at[w.steps] = w.rests;
+  w.is_release_at[w.steps] = first && !w.rests;
+  ++w.steps;
+  if (w.shape.integrated > 0) integrate_step(w, select(taken, h, 0.0));
+  for (int s = 0; s < w.modes; ++s) w.zeta[s] = select(taken, w.next_zeta[s], w.zeta[s]);
+  w.osc[0] = select(taken, w.next_osc[0], w.osc[0]);
+}
+
+// The slide: the velocity stays positive between two zeros.
+template <class W>
+inline void sweep_slide(W& w, const OneStop& stop, double steps_a_radian, Passage& passage) {
+  w.direction[0] = lanes(1.0);
+  set_levels(w);
+  w.rests = false;
+  set_coordinates(w, stop.start, w.zeta);
+  w.osc[0] = turn(stop.release);
+  const Lanes count = max(floor(stop.theta * fastest_rate(w) * steps_a_radian) + 1.0, lanes(2.0));
+  passage.proved = passage.proved & (count < lanes(kMostSteps / 2));
+  const Lanes h = stop.theta / count;
+  set_factors(w, h);
+  const Lanes error = fourth_derivative(w, 0) * ((h * h) * (h * h)) * (1.0 / 144.0);
+  const int steps = steps_of<W>(passage.proved, count);
+  w.v0[0] = w.a0[0] = lanes(0.0);
+  for (int k = 0; k < steps; ++k) {
+    const Mask taken = count > lanes(k), ends = taken & ~(count > lanes(k + 1.0));
+    w.next_zeta[0] = w.zeta[0] * w.step_factor[0];
+    if (w.modes == 2) w.next_zeta[1] = w.zeta[1] * w.step_factor[1];
+    w.next_osc[0] = w.osc[0] * w.osc_factor[0];
+    const Lanes v = value(w, 0, w.next_zeta, w.next_osc), a = slope(w, 0, w.next_zeta, w.next_osc);
+    Lanes least = least_coefficient(w.v0[0], w.a0[0], select(ends, lanes(0.0), v), a, h, error, none(), ends);
+    if (k == 0) {  // velocity and acceleration begin from zero: c0 = c1 = 0
+      const Lanes end = select(ends, lanes(0.0), v), b2 = end - a * h * (1.0 / 3.0);
+      least = min(0.5 * b2 - error, 0.75 * b2 + 0.25 * end);
+      least = select(ends, least, min(least, v));
+    }
+    passage.between = select(taken, min(passage.between, least * w.per_speed[0]), passage.between);
+    passage.at_reversals =
+        select(ends, min(passage.at_reversals, -(a * w.per_speed[0])), passage.at_reversals);
+    w.v0[0] = select(taken, v, w.v0[0]);
+    w.a0[0] = select(taken, a, w.a0[0]);
+    take_step(w, taken, stop.release + h * k, h, k == 0);
+  }
+}
+
+// The rest: the force that the mass asks of the contact stays within its limit, until it reaches it at the end.
+template <class W>
+inline void sweep_rest(W& w, const OneStop& stop, double steps_a_radian, Passage& passage) {
+  const Lanes length = kPi - stop.theta, start = stop.release + stop.theta;
+  const Lanes count = max(floor(length * steps_a_radian) + 1.0, lanes(2.0)), h = length / count;
+  set_rest_forms(w, stop);
+  w.rests = true;
+  for (int s = 0; s < w.modes; ++s) w.zeta[s] = {lanes(0.0), lanes(0.0)};
+  w.osc[0] = turn(start);
+  set_factors(w, h);
+  const Lanes scale = 1.0 / (modulus(stop.drive) + stop.friction);
+  const Lanes error = modulus(stop.drive) * ((h * h) * (h * h)) * (1.0 / 144.0);
+  const Lanes held = -(stop.spring * stop.rest);
+  const auto pull = [&](Complex u) { return real_part(stop.drive, u) + held; };
+  const auto rate = [&](Complex u) { return -(stop.drive * u).im; };
+  const int steps = steps_of<W>(passage.proved, count);
+  for (int k = 0; k < steps; ++k) {
+    const Mask taken = count > lanes(k), ends = taken & ~(count > lanes(k + 1.0));
+    for (int s = 0; s < w.modes; ++s) w.next_zeta[s] = w.zeta[s];
+    w.next_osc[0] = w.osc[0] * w.osc_factor[0];
+    const Lanes p0 = pull(w.osc[0]), p1 = pull(w.next_osc[0]), d0 = rate(w.osc[0]), d1 = rate(w.next_osc[0]);
+    // Room to either limit.
+    const Lanes ahead = least_coefficient(stop.friction - p0, -d0, stop.friction - p1, -d1, h, error, none(), none());
+    const Lanes behind = least_coefficient(stop.friction + p0, d0, select(ends, lanes(0.0), stop.friction + p1), d1, h,
+                                           error, none(), ends);
+    passage.between = select(taken, min(passage.between, min(ahead, behind) * scale), passage.between);
+    take_step(w, taken, start + h * k, h, k == 0);
+  }
+}
+
+// Nothing moves: the forcing stays below the limit by itself. In the lanes where it does.
+template <class W>
+inline Passage sweep_stuck(W& w, const OneStop& held, Mask group) {
+  const Lanes room = (held.friction - modulus(held.drive)) / held.friction;
+  Passage passage{group & (room > kSafe), lanes(1.0), room, lanes(0.0)};
+  clear_measures(w);
+  if (any(passage.proved)) sweep_rest(w, held, 1.0 / 0.75, passage);
+  passage.between = room;
+  passage.proved = group & (room > kSafe);
+  return passage;
+}
+
+template <class W>
+inline Passage sweep_one_stop(W& w, const OneStop& stop, double fineness) {
+  const double steps_a_radian = fineness / 0.75;
+  Passage passage{stop.found, lanes(1.0), lanes(1.0), lanes(0.0)};
+  passage.proved = passage.proved & (stop.theta > 1e-3) & (lanes(kPi) - stop.theta > 1e-6) & (stop.rest > 0.0);
+  clear_measures(w);
+  sweep_slide(w, stop, steps_a_radian, passage);
+  if (any(passage.proved)) sweep_rest(w, stop, steps_a_radian, passage);
+  w.slid[0] = 2.0 * stop.rest;
+  w.contact_reversals[0] = lanes(1.0);
+  passage.residual = abs(stop.missed) * norm_of_coordinates(w, [&](int i) { return i == 0 ? stop.unit.first : stop.unit.second; });
+  passage.proved = passage.proved & (passage.at_reversals > kSafe) & (passage.between > kSafe);
+  return passage;
+}
+
+// State and multiplier amid the rest: a shift of the position there grows by what the slide leaves of it.
+template <class W>
+inline void judge_one_stop(W& w, const OneStop& stop, Mask told) {
+  const auto tell = [&](double* array, Lanes x) { *view(array) = select(told, x, *view(array)); };
+  Complex zeta[2], left[2];
+  set_coordinates(w, stop.unit, zeta);
+  for (int s = 0; s < w.modes; ++s)
+    left[s] = zeta[s] * exponential({stop.theta * w.rate[s].re, stop.theta * w.rate[s].im});
+  const Lanes slid = abs(real_sum(w.modes, complex_view(w.pack.form_modal) + w.modes, left));
+  const Lanes grows = select(stop.theta > 0.0, slid, 0.0);  // of what can move
+  tell(w.pack.contraction, grows);
+  tell(w.pack.multiplier, grows * grows);
+  tell(w.pack.state_norm, stop.rest * norm_of_coordinates(w, [&](int i) { return i == 0 ? stop.unit.first : stop.unit.second; }));
+  tell(w.pack.section, stop.release + 0.5 * (stop.theta + kPi));
+}
+
+}  // namespace
