@@ -1,5 +1,7 @@
 #include "solvers/exact/response.hpp"
 
+#include <algorithm>
+
 #include "solvers/mechanics/linear_system.hpp"
 #include "solvers/orbits/orbit.hpp"
 
@@ -9,16 +11,33 @@ bool have_same_elements(const mechanics::NetworkValues& a, const mechanics::Netw
   return a.mass == b.mass && a.element == b.element && a.second == b.second;
 }
 
-// The solver extrapolates over the frequency, which must change in one direction: where it turns back or pauses, a
-// new row begins.
+// Where one of them fails, the whole row is solved so, each point from the one before: the start that the failed point
+// lacks.
 void ResponseSolver::solve_rest(std::span<const mechanics::NetworkValues> points,
                                 std::span<ResponseSummary> found, std::span<double> out) {
+  std::vector<char> is_rest(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) is_rest[i] = found[i].status == Status::not_computed ? 1 : 0;
+  std::vector<char> wanted = is_rest;
+  solve_along(points, wanted, is_rest, found, out);
+  if (std::ranges::count(is_rest, 1) == static_cast<std::ptrdiff_t>(points.size())) return;
+  std::ranges::fill(wanted, 0);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    wanted[i] = is_rest[i] != 0 && found[i].status == Status::failed ? 1 : 0;
+  if (std::ranges::count(wanted, 1) == 0) return;
+  solve_along(points, wanted, std::vector<char>(points.size(), 1), found, out);
+}
+
+// Solves those of a row that are solved, one after the other, and tells those that are told. The solver extrapolates
+// over the frequency, which must change in one direction: where it turns back or pauses, a new row begins.
+void ResponseSolver::solve_along(std::span<const mechanics::NetworkValues> points,
+                                 const std::vector<char>& told, const std::vector<char>& solved,
+                                 std::span<ResponseSummary> found, std::span<double> out) {
   const std::size_t quantities = points.empty() ? 0 : out.size() / points.size();
   std::size_t points_onwards = 0;
   double omega = 0.0, direction = 0.0;
   has_last_ = false;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (found[i].status != Status::not_computed) continue;
+    if (solved[i] == 0) continue;
     const double step = points[i].omega - omega;
     const bool onwards = points_onwards == 1 ? step != 0.0 : step * direction > 0.0;
     if (points_onwards == 0 || !onwards) {
@@ -28,8 +47,10 @@ void ResponseSolver::solve_rest(std::span<const mechanics::NetworkValues> points
     direction = step;
     omega = points[i].omega;
     ++points_onwards;
-    found[i] = solve_next(points[i]);
-    if (found[i].status != Status::not_computed) this->quantities(out.subspan(i * quantities, quantities));
+    const ResponseSummary& summary = solve_next(points[i]);
+    if (told[i] == 0) continue;
+    found[i] = summary;
+    if (summary.status != Status::not_computed) this->quantities(out.subspan(i * quantities, quantities));
   }
 }
 

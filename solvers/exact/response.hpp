@@ -101,6 +101,8 @@ class ResponseSolver {
                   std::span<double> out);
 
  private:
+  void solve_along(std::span<const mechanics::NetworkValues> points, const std::vector<char>& told,
+                   const std::vector<char>& solved, std::span<ResponseSummary> found, std::span<double> out);
   const ResponseSummary& solve_next(const mechanics::NetworkValues& values);
 
   mechanics::NetworkValues last_;  // of solve_rest()

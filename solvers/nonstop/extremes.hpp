@@ -24,114 +24,171 @@ FRAHM_INLINE void consider(const W& w, Extreme& best, Mask where, Mask reached, 
   best.reached = select(where & reached & (value > best.reached), value, best.reached);
 }
 
-// The stationary point of a trace near `place` within a step, and its value: with the slope's own slopes there,
-// d + e c + f c^2 / 2 = 0 is solved for the correction c, again where it is not slight.
+// A trace within a step of the sweep.
 template <class W>
-inline Lanes stationary_value(const W& w, int form, int step, Lanes h, Lanes level, Lanes& place) {
-  constexpr int kMostIterations = 6;
-  // [rad]; the error of the value is its fourth power over 24, that of the phase its third.
-  const double slight = w.shape.asks_phases ? 1e-5 : 1e-3;
-  const Complex* zeta = w.zeta_at + step * w.modes;
-  const Complex* osc = w.osc_at + step * w.orders;
-  const Complex* c = complex_view(w.pack.form_modal) + form * w.modes;
-  const Complex* X = (w.is_rest_at[step] ? w.rest_phasor : w.phasor) + form * w.orders;
-  Lanes x = lanes(0.0);
-  for (int i = 0; i < kMostIterations; ++i) {
-    x = level;
-    Lanes d = lanes(0.0), e = lanes(0.0), f = lanes(0.0);
+struct TraceStep {
+  const W& w;
+  int form, step;
+  Lanes level, facing;  // +1, or -1 where the least value is sought
+
+  struct Slopes {
+    Lanes value, d, e, f;  // and the first three derivatives
+  };
+  Slopes at(Lanes place) const {
+    const Complex* zeta = w.zeta_at + step * w.modes;
+    const Complex* osc = w.osc_at + step * w.orders;
+    const Complex* c = complex_view(w.pack.form_modal) + form * w.modes;
+    const Complex* X = (w.is_rest_at[step] ? w.rest_phasor : w.phasor) + form * w.orders;
+    Slopes x{level, lanes(0.0), lanes(0.0), lanes(0.0)};
     for (int s = 0; s < w.modes; ++s) {
       Complex part = c[s] * (zeta[s] * exponential({place * w.rate[s].re, place * w.rate[s].im}));
-      x += part.re;
+      x.value += part.re;
       part = part * w.rate[s];
-      d += part.re;
+      x.d += part.re;
       part = part * w.rate[s];
-      e += part.re;
-      f += real_part(part, w.rate[s]);
+      x.e += part.re;
+      x.f += real_part(part, w.rate[s]);
     }
     for (int k = 0; k < w.orders; ++k) {
       const double n = w.shape.order[k];
       const Complex part = X[k] * (osc[k] * turn(place * n));
-      x += part.re;
-      d = d - n * part.im;
-      e = e - (n * n) * part.re;
-      f += (n * n * n) * part.im;
+      x.value += part.re;
+      x.d = x.d - n * part.im;
+      x.e = x.e - (n * n) * part.re;
+      x.f += (n * n * n) * part.im;
     }
-    // Halley's step; within the step of the sweep.
+    return {facing * x.value, facing * x.d, facing * x.e, facing * x.f};
+  }
+};
+
+// A part of a step: value and slope at both ends, and what a cubic through them can be wrong by (least_coefficient()).
+struct Part {
+  Lanes from, to;
+  Lanes x0, d0, x1, d1, error;
+};
+
+// The stationary point near `place`, within the part, and its value: with the slope's own slopes there,
+// d + e c + f c^2 / 2 = 0 is solved for the correction c, again where it is not slight.
+template <class W>
+inline Lanes stationary_value(const TraceStep<W>& trace, const Part& part, Lanes& place) {
+  constexpr int kMostIterations = 6;
+  // [rad]; the error of the value is its fourth power over 24, that of the phase its third.
+  const double slight = trace.w.shape.asks_phases ? 1e-5 : 1e-3;
+  Lanes value = lanes(0.0);
+  for (int i = 0; i < kMostIterations; ++i) {
+    const auto [x, d, e, f] = trace.at(place);
     const Lanes newton = -d / e;
-    const Lanes full = newton / (1.0 + 0.5 * newton * (f / e));
-    const Lanes correction = max(min(full, h - place), -place);
-    x += correction * (d + correction * (0.5 * e + correction * ((1.0 / 6.0) * f)));
+    const Lanes full = newton / (1.0 + 0.5 * newton * (f / e));  // Halley's step
+    const Lanes correction = max(min(full, part.to - place), part.from - place);
+    value = x + correction * (d + correction * (0.5 * e + correction * ((1.0 / 6.0) * f)));
     place = place + correction;
     if (!any(abs(correction) > slight)) break;
   }
-  return x;
+  return value;
 }
 
-// The largest value of `side` times a trace; side 0: of its magnitude.
+// The phase at which the trace itself, not its opposite, has the value: half a period later for that.
 template <class W>
-inline Extreme largest(const W& w, int t, double side) {
-  const int T = w.shape.traces, form = w.shape.first_trace() + t;
-  Extreme best{lanes(-1e300), lanes(-1e300), lanes(0.0)};
-  const auto facing = [&](const Lanes* kept) {
-    return side != 0.0 ? lanes(side) : select(kept[0] + kept[2] < 0.0, lanes(-1.0), lanes(1.0));
+FRAHM_INLINE Lanes side_phase(const TraceStep<W>& trace, Lanes phase) {
+  if (!trace.w.shape.asks_phases) return phase;
+  const Lanes shifted =
+      trace.w.shape.half_period ? select(trace.facing < 0.0, phase + kPi, phase) : phase;
+  return shifted - floor(shifted * (0.5 / kPi)) * (2.0 * kPi);
+}
+
+// Searches a part for values above the best, in the lanes where there may be any: Bernstein coefficients bound it. Where
+// the cubic has a maximum within, that of the trace is solved and the parts beside it are looked at again; where it has
+// none, the part is halved. Returns the lanes in which neither ends.
+template <class W>
+inline Mask search_part(const TraceStep<W>& trace, const Part& part, Mask among, int depth, Extreme& best) {
+  constexpr int kDeepest = 6;
+  constexpr double kEqual = 3e-13;
+  const Lanes h = part.to - part.from, d0 = part.d0 * h, d1 = part.d1 * h;
+  const Lanes b1 = part.x0 + d0 * (1.0 / 3.0), b2 = part.x1 - d1 * (1.0 / 3.0);
+  const Lanes highest =
+      max(max(0.25 * part.x0 + 0.75 * b1, 0.5 * (b1 + b2) + part.error), 0.75 * b2 + 0.25 * part.x1);
+  const Mask may = among & (h > 0.0) & (highest > best.value + kEqual * abs(best.value));
+  if (!any(may)) return none();
+  if (depth == kDeepest) return may;
+  // The slope of the cubic in s: d0 + 2 q s + 3 r s^2. Its falling zero is (-q - root) / (3 r) = d0 / (root - q).
+  const Lanes rise = part.x1 - part.x0, q = 3.0 * rise - 2.0 * d0 - d1, r = d0 + d1 - 2.0 * rise;
+  const Lanes under = q * q - 3.0 * r * d0, root = sqrt(max(under, lanes(0.0)));
+  const Lanes falling = select(q < lanes(0.0), d0 / (root - q), (-q - root) / (3.0 * r));
+  // A release begins with a slope of zero, which is no extreme that is reached; it leaves it slowly, so that parts
+  // beside it are cut short.
+  const bool is_release = trace.w.is_release_at[trace.step];
+  const double first = is_release ? 1e-4 : 0.0;
+  const Mask inside = may & ~(under < lanes(0.0)) & (falling > first) & (falling < lanes(1.0));
+  const Lanes cut = is_release ? select(part.from > 0.0, lanes(0.5), 0.125) : lanes(0.5);
+  Lanes place = part.from + select(inside, falling, cut) * h;
+  Lanes value, slope = lanes(0.0);
+  if (any(inside)) {
+    value = stationary_value(trace, part, place);
+    const Mask reached = inside & (place > first);
+    const Lanes phase = trace.w.phase_at[trace.step] + place;
+    consider(trace.w, best, inside, reached, value, side_phase(trace, phase));
+  }
+  if (any(may & ~inside)) {
+    const auto middle = trace.at(place);
+    value = any(inside) ? select(inside, value, middle.value) : middle.value;
+    slope = select(inside, 0.0 * h, middle.d);
+  }
+  const auto shrunk = [&](Lanes length) {
+    const Lanes share = length / h, share2 = share * share;
+    return part.error * (share2 * share2);
   };
-  const auto phase_of = [&](Lanes phase, Lanes faced) {
-    if (!w.shape.asks_phases) return phase;
-    const Lanes shifted = side == 0.0 ? select(faced < 0.0, phase + kPi, phase) : phase;
-    const Lanes turns = floor(shifted * (0.5 / kPi));
-    return shifted - turns * (2.0 * kPi);
+  const Part left{part.from, place, part.x0, part.d0, value, slope, shrunk(place - part.from)};
+  const Part right{place, part.to, value, slope, part.x1, part.d1, shrunk(part.to - place)};
+  return search_part(trace, left, may, depth + 1, best) | search_part(trace, right, may, depth + 1, best);
+}
+
+// The largest value of `side` times a trace; side 0: of its magnitude. unsure: lanes in which the search did not end.
+template <class W>
+inline Extreme largest(const W& w, int t, double side, Mask told, Mask& unsure) {
+  const int T = w.shape.traces;
+  Extreme best{lanes(-1e300), lanes(-1e300), lanes(0.0)};
+  const auto trace_in = [&](int step, const Lanes* kept) {
+    const Lanes facing = side != 0.0 ? lanes(side) : select(kept[0] + kept[2] < 0.0, lanes(-1.0), lanes(1.0));
+    return TraceStep<W>{w, w.shape.first_trace() + t, step, kept[4], facing};
   };
   for (int step = 0; step < w.steps; ++step) {
-    const Lanes* kept = w.left + (step * T + t) * 5;
-    const Lanes h = w.length[step], f = facing(kept);
+    const Lanes* kept = w.left + (step * T + t) * 6;
+    const Lanes h = w.length[step];
+    const auto trace = trace_in(step, kept);
     const Mask moves = abs(kept[2] - kept[0]) > 1e-13 * abs(kept[2]);
-    consider(w, best, h > 0.0, none(), f * kept[0], lanes(0.0));
-    consider(w, best, h > 0.0, moves, f * kept[2], phase_of(w.phase_at[step] + h, f));
+    consider(w, best, h > 0.0, none(), trace.facing * kept[0], lanes(0.0));
+    consider(w, best, h > 0.0, moves, trace.facing * kept[2], side_phase(trace, w.phase_at[step] + h));
   }
   for (int step = 0; step < w.steps; ++step) {
-    const Lanes* kept = w.left + (step * T + t) * 5;
-    const Lanes h = w.length[step], f = facing(kept);
-    const Lanes x0 = f * kept[0], d0 = f * kept[1] * h, x1 = f * kept[2], d1 = f * kept[3] * h;
-    // Bernstein coefficients as in the proof; the fourth derivative adds less than the slack.
-    const Lanes b1 = x0 + d0 * (1.0 / 3.0), b2 = x1 - d1 * (1.0 / 3.0);
-    const Lanes slack = 0.02 * (abs(d0) + abs(d1));
-    const Lanes highest = max(max(0.25 * x0 + 0.75 * b1, 0.5 * (b1 + b2) + slack), 0.75 * b2 + 0.25 * x1);
-    // The derivative of the cubic Hermite interpolant in s: d0 + 2 q s + 3 r s^2; its falling zero.
-    const Lanes rise = x1 - x0, q = 3.0 * rise - 2.0 * d0 - d1, r = d0 + d1 - 2.0 * rise;
-    const Lanes under = q * q - 3.0 * r * d0;
-    const Mask may = (h > 0.0) & (highest > best.value + 1e-14 * abs(best.value)) & ~(under < lanes(0.0));
-    if (!any(may)) continue;
-    // The falling zero of d0 + 2 q s + 3 r s^2 is (-q - root) / (3 r) = d0 / (root - q).
-    const Lanes root = sqrt(max(under, lanes(0.0)));
-    const Lanes falling = select(q < lanes(0.0), d0 / (root - q), (-q - root) / (3.0 * r));
-    // A release begins with a slope of zero, which is no extreme that is reached.
-    const Mask inside = may & (falling > (w.is_release_at[step] ? 1e-4 : 0.0)) & (falling < lanes(1.0));
-    if (!any(inside)) continue;
-    Lanes place = select(inside, falling * h, 0.0);
-    const Lanes x = f * stationary_value(w, form, step, h, kept[4], place);
-    consider(w, best, inside, inside, x, phase_of(w.phase_at[step] + place, f));
+    const Lanes* kept = w.left + (step * T + t) * 6;
+    const auto trace = trace_in(step, kept);
+    const Lanes f = trace.facing;
+    const Part whole{lanes(0.0), w.length[step], f * kept[0], f * kept[1], f * kept[2], f * kept[3], kept[5]};
+    unsure = unsure | search_part(trace, whole, told, 0, best);
   }
   return best;
 }
 
-// In the lanes told.
+// In the lanes told. Returns those in which an extreme may be missed.
 template <class W>
-inline void tell_extremes(const W& w, Mask told) {
+inline Mask tell_extremes(const W& w, Mask told) {
+  Mask unsure = none();
   for (int t = 0; t < w.shape.traces; ++t) {
     const auto tell = [&](double* array, Lanes x) { view(array)[t] = select(told, x, view(array)[t]); };
     if (w.shape.half_period) {
-      const Extreme most = largest(w, t, 0.0);
+      const Extreme most = largest(w, t, 0.0, told, unsure);
       tell(w.pack.most, most.value);
       tell(w.pack.least, -most.value);
       tell(w.pack.most_at, most.phase);
       continue;
     }
-    const Extreme most = largest(w, t, 1.0), least = largest(w, t, -1.0);
+    const Extreme most = largest(w, t, 1.0, told, unsure), least = largest(w, t, -1.0, told, unsure);
     tell(w.pack.most, most.value);
     tell(w.pack.least, -least.value);
     tell(w.pack.most_at, most.phase);
     tell(w.pack.least_at, least.phase);
   }
+  return unsure;
 }
 
 }  // namespace

@@ -11,7 +11,6 @@ inline void tell(const W& w, const Passage& passage, Mask told) {
   const double omega_spans = w.shape.half_period ? 2.0 : 1.0;
   const Lanes seconds = omega_spans / *view(w.pack.omega);
   const auto tell_one = [&](double* array, int i, Lanes x) { view(array)[i] = select(told, x, view(array)[i]); };
-  tell_one(w.pack.is_found, 0, lanes(1.0));
   tell_one(w.pack.newton_iterations, 0, w.iterations);
   tell_one(w.pack.reversals, 0, lanes(w.reversals));
   tell_one(w.pack.margin, 0, min(passage.at_reversals, passage.between));
@@ -25,7 +24,13 @@ inline void tell(const W& w, const Passage& passage, Mask told) {
     tell_one(w.pack.slid, j, omega_spans * w.slid[j]);
     tell_one(w.pack.contact_reversals, j, omega_spans * w.contact_reversals[j]);
   }
-  tell_extremes(w, told);
+  tell_one(w.pack.parts, 0, passage.parts);
+  const Mask unsure = tell_extremes(w, told);
+  Lanes sound = lanes(0.0);  // not a number, if anything told is none
+  for (int p = 0; p < w.shape.products; ++p) sound += 0.0 * view(w.pack.integral)[p];
+  for (int p = 0; p < w.shape.powers; ++p) sound += 0.0 * view(w.pack.work)[p];
+  for (int t = 0; t < w.shape.traces; ++t) sound += 0.0 * (view(w.pack.most)[t] + view(w.pack.least)[t]);
+  *view(w.pack.is_found) = select(told & ~unsure & (sound == 0.0), lanes(1.0), *view(w.pack.is_found));
 }
 
 // Lanes whose proof failed by so little that its steps may be to blame.

@@ -22,12 +22,16 @@ FRAHM_INLINE Lanes real_sum(int count, const Complex* factor, const Complex* coo
 }
 
 // E_s = exp(lambda_s span); after it the motion repeats with its sign, so that what a reversal leaves in a mode
-// adds up to 1 / (1 - sign E_s) of itself. False in lanes at an undamped resonance, where none is left.
+// adds up to 1 / (1 - sign E_s) of itself. False in lanes so near a resonance without
+// damping that digits would be lost.
 template <class W>
 inline Mask set_rates(W& w) {
-  constexpr double kResonance = 1e-6, kLargest = 1e5;
+  constexpr double kResonance = 1e-3, kLargest = 1e5;
   const Lanes per_radian = 1.0 / *view(w.pack.omega);
   Mask usable = *view(w.pack.is_there) > 0.5;
+  // Under several harmonics a frictionless contact may turn twice in a step, and its reversals would be miscounted.
+  for (int j = 0; w.shape.asks_strokes && w.orders > 1 && j < w.contacts; ++j)
+    usable = usable & (view(w.pack.limit)[j] > 0.0);
   for (int s = 0; s < w.modes; ++s) {
     const Complex lambda = load(w.pack.lambda, s);
     w.rate[s] = per_radian * lambda;

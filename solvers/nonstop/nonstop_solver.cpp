@@ -60,9 +60,9 @@ NonstopSolver::NonstopSolver(const mechanics::Assembly& assembly, const std::vec
   }
 }
 
-// As values_[0], but for friction, forcing and a frequency on which no matrix depends.
+// As the modes' own values, but for friction, forcing and a frequency on which no matrix depends.
 bool NonstopSolver::shares_matrices(const mechanics::NetworkValues& values) const {
-  const mechanics::NetworkValues& first = values_[0];
+  const mechanics::NetworkValues& first = modes_of_;
   if (values.mass != first.mass || values.second != first.second ||
       values.element.size() != first.element.size())
     return false;
@@ -79,6 +79,7 @@ bool NonstopSolver::set_row(std::span<const mechanics::NetworkValues> points) {
     has_modes_ = false;
     for (mechanics::NetworkValues& values : values_) values = {};
     if (!set_point(0, points[0])) return false;
+    modes_of_ = points[0];
     has_modes_ = set_matrices();
   }
   // The first two points and the last tell whether the row is worth the modes; set_point() looks at all.
@@ -102,7 +103,6 @@ bool NonstopSolver::set_point(int lane, const mechanics::NetworkValues& values) 
     assembly_.set_forcing(values, system);
   } catch (const mechanics::MechanicsError&) {
     last = {};
-    if (lane == 0) has_modes_ = false;
     return false;
   }
   last = values;
@@ -110,7 +110,7 @@ bool NonstopSolver::set_point(int lane, const mechanics::NetworkValues& values) 
 }
 
 bool NonstopSolver::set_matrices() {
-  constexpr double kIllConditioned = 1e4;
+  constexpr double kIllConditioned = 30.0;  // rounding grows as its square
   const mechanics::LinearSystem& system = systems_[0];
   modes_ = sliding_modes(system);
   if (!(modes_.condition < kIllConditioned)) return false;
@@ -285,6 +285,7 @@ void NonstopSolver::lay_out_pack() {
                         {&pack_.state, 2 * M},
                         {&pack_.state_norm, 1},
                         {&pack_.residual, 1},
+                        {&pack_.parts, 1},
                         {&pack_.multiplier, 1},
                         {&pack_.contraction, 1}};
   pack_.shape = &shape_;
@@ -431,7 +432,7 @@ void NonstopSolver::set_lane(int of, int lane) {
 bool NonstopSolver::quantities(int lane, std::span<double> out) {
   constexpr double kBalanced = 1e-9;
   measure(lane);
-  if (request_.needs.input && value::energy_balance(measured_, {}) > kBalanced) return false;
+  if (request_.needs.input && !(value::energy_balance(measured_, {}) <= kBalanced)) return false;
   tell_values(request_, measured_, out);
   return true;
 }
@@ -545,8 +546,8 @@ double NonstopSolver::error_bound(int lane) const {
   const double friction = system.limit.dot(friction_norm_);
   const double radians = fastest_rate_ * measured_.period;
   const double operations =
-      modes_.condition * (16.0 + 2.0 * radians) + 16.0 * told(pack_.reversals, 0, lane);
-  const double rounding = std::numeric_limits<double>::epsilon() * operations * (scale + friction);
+      modes_.condition * modes_.condition * (16.0 + 2.0 * radians) + 16.0 * told(pack_.reversals, 0, lane);
+  const double rounding = std::numeric_limits<double>::epsilon() * operations * (scale + friction + told(pack_.parts, 0, lane));
   const double ball = (told(pack_.residual, 0, lane) + rounding) / (1.0 - contraction);
   const bool holds = contraction < 1.0 && ball < 0.1 * margin * scale;
   return holds ? ball * displacement_of_energy_ : kNone;

@@ -73,7 +73,8 @@ class NonstopSolver {
   Request request_;
   std::array<mechanics::LinearSystem, kLanes> systems_;
   std::array<mechanics::NetworkValues, kLanes> values_;  // of these systems
-  SlidingModes modes_;                                   // of values_[0], once has_modes_
+  SlidingModes modes_;
+  mechanics::NetworkValues modes_of_;  // the values that the modes are of, once has_modes_
   bool has_modes_ = false;
   bool needs_forces_ = false;  // some quantity follows from the forces that drive, beside the motion
   std::vector<Form> forms_;              // in the order of Shape

@@ -297,7 +297,7 @@ inline void sweep_rest(W& w, const OneStop& stop, double steps_a_radian, Passage
 template <class W>
 inline Passage sweep_stuck(W& w, const OneStop& held, Mask group) {
   const Lanes room = (held.friction - modulus(held.drive)) / held.friction;
-  Passage passage{group & (room > kSafe), lanes(1.0), room, lanes(0.0)};
+  Passage passage{group & (room > kSafe), lanes(1.0), room, lanes(0.0), lanes(0.0)};
   clear_measures(w);
   if (any(passage.proved)) sweep_rest(w, held, 1.0 / 0.75, passage);
   passage.between = room;
@@ -308,13 +308,15 @@ inline Passage sweep_stuck(W& w, const OneStop& held, Mask group) {
 template <class W>
 inline Passage sweep_one_stop(W& w, const OneStop& stop, double fineness) {
   const double steps_a_radian = fineness / 0.75;
-  Passage passage{stop.found, lanes(1.0), lanes(1.0), lanes(0.0)};
+  Passage passage{stop.found, lanes(1.0), lanes(1.0), lanes(0.0), lanes(0.0)};
   passage.proved = passage.proved & (stop.theta > 1e-3) & (lanes(kPi) - stop.theta > 1e-6) & (stop.rest > 0.0);
   clear_measures(w);
   sweep_slide(w, stop, steps_a_radian, passage);
   if (any(passage.proved)) sweep_rest(w, stop, steps_a_radian, passage);
   w.slid[0] = 2.0 * stop.rest;
   w.contact_reversals[0] = lanes(1.0);
+  passage.parts = w.harmonic_size[0];
+  for (int s = 0; s < w.modes; ++s) passage.parts += view(w.pack.mode_norm)[s] * (abs(stop.start.first) + abs(stop.start.second));
   passage.residual = abs(stop.missed) * norm_of_coordinates(w, [&](int i) { return i == 0 ? stop.unit.first : stop.unit.second; });
   passage.proved = passage.proved & (passage.at_reversals > kSafe) & (passage.between > kSafe);
   return passage;

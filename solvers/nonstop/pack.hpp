@@ -88,6 +88,7 @@ struct Pack {
   double* state = nullptr;        // [modes] complex: modal coordinates there
   double* state_norm = nullptr;   // energy norm there [sqrt(J)]
   double* residual = nullptr;     // energy norm by which the motion misses itself after the period [sqrt(J)]
+  double* parts = nullptr;        // energy norms of what the motion is the sum of [sqrt(J)]
   double* multiplier = nullptr;   // largest modulus of the Floquet multipliers of a period
   double* contraction = nullptr;  // energy norm of the derivative of the map
 };

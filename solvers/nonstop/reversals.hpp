@@ -173,7 +173,12 @@ inline void set_equations(W& w) {
       for (int s = 0; s < w.modes; ++s)
         w.since[s] = exponential({since.phase * w.rate[s].re, since.phase * w.rate[s].im});
       add_influence(w, e, other, since.sign);
-      for (int s = 0; s < w.modes; ++s) w.since[s] = w.over_span[s] / w.since[s];
+      const Lanes rest = w.span - since.phase;
+      for (int s = 0; s < w.modes; ++s) {
+        w.since[s] = any(w.span * w.rate[s].re < lanes(kVanishing))
+                         ? exponential({rest * w.rate[s].re, rest * w.rate[s].im})
+                         : w.over_span[s] / w.since[s];
+      }
       // The other one follows by span - theta, a span later by its own sign.
       add_influence(w, other, e, w.sign * since.sign);
     }

@@ -21,6 +21,7 @@ struct Passage {
   Lanes at_reversals;  // least relative acceleration there, on either side
   Lanes between;    // least coefficient of the proof, relative
   Lanes residual;   // [sqrt(J)]
+  Lanes parts;      // energy norms of what the motion is the sum of [sqrt(J)]
 };
 
 template <class W>
@@ -110,7 +111,7 @@ FRAHM_INLINE Lanes fourth_derivative(const W& w, int form) {
   }
   for (int k = 0; k < w.orders; ++k) {
     const double n = w.shape.order[k];
-    sum += size_of(w.phasor[form * w.orders + k]) * (n * n * n * n);
+    sum += size_of(w.phasors()[form * w.orders + k]) * (n * n * n * n);
   }
   return sum;
 }
@@ -139,8 +140,12 @@ inline void set_factors(W& w, Lanes h) {
   // The nodes lie symmetrically: exp(rate (h - t)) = exp(rate h) / exp(rate t).
   for (int i = kNodes / 2; i < kNodes; ++i) {
     const int mirror = kNodes - 1 - i;
-    for (int s = 0; s < w.modes; ++s)
-      w.node_factor[i * w.modes + s] = w.step_factor[s] / w.node_factor[mirror * w.modes + s];
+    for (int s = 0; s < w.modes; ++s) {
+      w.node_factor[i * w.modes + s] =
+          any(h * w.rate[s].re < lanes(kVanishing))
+              ? exponential({h * kNodeAt[i] * w.rate[s].re, h * kNodeAt[i] * w.rate[s].im})
+              : w.step_factor[s] / w.node_factor[mirror * w.modes + s];
+    }
     for (int k = 0; k < w.orders; ++k)
       w.node_osc[i * w.orders + k] = w.osc_factor[k] * conjugate(w.node_osc[mirror * w.orders + k]);
   }
@@ -187,8 +192,9 @@ inline void keep_step(W& w, Mask taken, Lanes phase, Lanes h, bool first) {
   for (int k = 0; k < w.orders; ++k) w.osc_at[step * w.orders + k] = w.osc[k];
   for (int t = 0; t < T; ++t) {
     const int form = w.shape.first_trace() + t;
-    Lanes* kept = w.left + (step * T + t) * 5;
+    Lanes* kept = w.left + (step * T + t) * 6;
     if (first) {
+      w.bend[t] = fourth_derivative(w, form) * ((h * h) * (h * h)) * (1.0 / 144.0);
       w.x0[t] = value(w, form, w.zeta, w.osc) + w.level[form];
       w.d0[t] = slope(w, form, w.zeta, w.osc);
     }
@@ -199,6 +205,7 @@ inline void keep_step(W& w, Mask taken, Lanes phase, Lanes h, bool first) {
     kept[2] = x1;
     kept[3] = d1;
     kept[4] = w.level[form];
+    kept[5] = w.bend[t];
     w.x0[t] = x1;
     w.d0[t] = d1;
   }
@@ -228,8 +235,10 @@ inline void take_reversal(W& w, int p, Lanes turned, Mask sound, Passage& passag
       w.zeta[s] += select(own, turned, 0.0) * w.jump[j * w.modes + s];
     w.direction[j] = select(own, turned, w.direction[j]);
   }
-  // A velocity v is a delay v / (omega a), after which friction acts by 2 F the other way.
-  passage.residual += 2.0 * force * push_norm * abs(v / (omega * max(abs(a), lanes(1e-300))));
+  // A velocity v, or its rounding, is a delay v / (omega a), after which friction acts by 2 F the other way.
+  constexpr double kRounding = 1e-15;
+  const Lanes off = abs(v) + kRounding / max(per_speed, lanes(1e-300));
+  passage.residual += 2.0 * force * push_norm * (off / (omega * max(abs(a), lanes(1e-300))));
   passage.at_reversals = min(passage.at_reversals, turned * a * per_speed);
   w.slope_before[p] = a;
 }
@@ -239,8 +248,28 @@ inline void clear_measures(W& w) {
   for (int p = 0; p < w.shape.products; ++p) w.integral[p] = lanes(0.0);
   for (int p = 0; p < w.shape.powers; ++p) w.work[p] = w.work_size[p] = lanes(0.0);
   for (int j = 0; j < w.contacts; ++j)
-    w.slid[j] = w.contact_reversals[j] = lanes(0.0);
+    w.slid[j] = w.contact_reversals[j] = w.first_sign[j] = w.last_sign[j] = lanes(0.0);
   w.steps = 0;
+}
+
+// Counts a frictionless contact's changes of direction; a velocity of zero is of no direction.
+template <class W>
+inline void note_sign(W& w, int j, Mask where, Lanes v) {
+  const Mask moves = where & ((v > 0.0) | (v < lanes(0.0)));
+  const Lanes sign = select(v > 0.0, lanes(1.0), lanes(-1.0));
+  const Mask known = abs(w.last_sign[j]) > 0.5;
+  const Mask reverses = moves & known & ~(sign == w.last_sign[j]);
+  w.contact_reversals[j] += select(reverses, lanes(1.0), 0.0);
+  w.first_sign[j] = select(moves & ~known, sign, w.first_sign[j]);
+  w.last_sign[j] = select(moves, sign, w.last_sign[j]);
+}
+// The first direction comes again after the span, with its sign.
+template <class W>
+inline void close_signs(W& w) {
+  for (int j = 0; j < w.contacts; ++j) {
+    const Mask reverses = (abs(w.last_sign[j]) > 0.5) & ~(w.last_sign[j] == w.sign * w.first_sign[j]);
+    w.contact_reversals[j] += select(reverses & ~(view(w.pack.limit)[j] > 0.0), lanes(1.0), 0.0);
+  }
 }
 
 // Sweeps the orbit in the lanes of the group. fineness: factor of the number of steps.
@@ -251,7 +280,7 @@ inline Passage sweep(W& w, Mask group, double fineness) {
   constexpr double kClosed = 1e-9;
   const int R = w.reversals, segments = R > 0 ? R : 1;
   const double steps_a_radian = fineness / (w.shape.integrated > 0 ? kStep : kCoarseStep);
-  Passage passage{group, lanes(1.0), lanes(1.0), lanes(0.0)};
+  Passage passage{group, lanes(1.0), lanes(1.0), lanes(0.0), lanes(0.0)};
   clear_measures(w);
   w.rests = false;
   start_sweep(w);
@@ -306,8 +335,7 @@ inline Passage sweep(W& w, Mask group, double fineness) {
                             w.per_speed[j];
         passage.between = select(taken & rubs, min(passage.between, least), passage.between);
         if (w.shape.asks_strokes) {  // without friction a contact reverses as it likes
-          const Mask reverses = taken & ~rubs & (((v > 0.0) & ~(w.v0[j] > 0.0)) | (~(v > 0.0) & (w.v0[j] > 0.0)));
-          w.contact_reversals[j] += select(reverses, lanes(1.0), 0.0);
+          note_sign(w, j, taken & ~rubs, v);
         }
         w.v0[j] = select(taken, v, w.v0[j]);
         w.a0[j] = select(taken, a, w.a0[j]);
@@ -322,12 +350,15 @@ inline Passage sweep(W& w, Mask group, double fineness) {
     if (R > 0) take_reversal(w, next, is_last ? w.sign * w.sorted_turn[0] : w.sorted_turn[next],
                              passage.proved, passage);
   }
+  close_signs(w);
   Lanes missed = lanes(0.0), size = lanes(1e-300);
   for (int s = 0; s < w.modes; ++s) {
     const Complex end = {w.sign * w.zeta[s].re, w.sign * w.zeta[s].im};
     missed += size_of(end - w.first_zeta[s]) * view(w.pack.mode_norm)[s];
     size += size_of(w.first_zeta[s]) * view(w.pack.mode_norm)[s];
   }
+  for (int k = 0; k < w.orders; ++k) passage.parts += w.harmonic_size[k];
+  passage.parts += size;
   passage.proved = passage.proved & (passage.at_reversals > kSafe) & (passage.between > kSafe) & ~(missed > kClosed * size);
   return passage;
 }

@@ -13,6 +13,7 @@ using frahm::periodic::nonstop::Pack;
 using frahm::periodic::nonstop::Product;
 using frahm::periodic::nonstop::Shape;
 
+constexpr double kVanishing = -200.0;  // an exponent, of which the square is still a number
 constexpr double kPi = 3.141592653589793;
 
 FRAHM_INLINE const Lanes* view(const double* p) {
@@ -130,14 +131,15 @@ struct Work : C {
   Lanes* level;          // [forms] constant part in the segment
   Lanes *v0, *a0;        // [contacts] at the start of a step
   Lanes* error;          // [contacts] of the middle coefficient of the proof
-  Lanes *x0, *d0;        // [traces]
+  Lanes *x0, *d0, *bend;            // [traces] and the error of a cubic over a step
+  Lanes *first_sign, *last_sign;    // [contacts] of the velocity without friction, 0 before it moves
 
   // What the sweep leaves for the search of extremes.
   Complex* zeta_at;  // [steps][modes]
   Complex* osc_at;   // [steps][orders]
   Lanes* phase_at;   // [steps]
   Lanes* length;     // [steps], 0 in lanes that have no such step
-  Lanes* left;       // [steps][traces] value, slope at the left, value, slope at the right, level
+  Lanes* left;       // [steps][traces] value, slope at the left, value, slope at the right, level, error of a cubic
   bool is_rest_at[kMostSteps];     // [steps] whether the mass rests
   bool is_release_at[kMostSteps];  // [steps] whether it begins to slide from rest
   int steps = 0;
@@ -231,11 +233,14 @@ struct Work : C {
     error = arena.take<Lanes>(m);
     x0 = arena.take<Lanes>(shape.traces);
     d0 = arena.take<Lanes>(shape.traces);
+    bend = arena.take<Lanes>(shape.traces);
+    first_sign = arena.take<Lanes>(m);
+    last_sign = arena.take<Lanes>(m);
     zeta_at = arena.take<Complex>(kMostSteps * M);
     osc_at = arena.take<Complex>(kMostSteps * H);
     phase_at = arena.take<Lanes>(kMostSteps);
     length = arena.take<Lanes>(kMostSteps);
-    left = arena.take<Lanes>(kMostSteps * shape.traces * 5);
+    left = arena.take<Lanes>(kMostSteps * shape.traces * 6);
     const int D = states;
     flow = arena.take<Lanes>(D * D);
     square = arena.take<Lanes>(D * D);

@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "solvers/exact/response.hpp"
-
 namespace frahm::studies {
 
 struct PointOptions {
@@ -17,7 +15,7 @@ struct PointOptions {
   std::vector<std::string> set = {};  // applied to the study before
   // CSV file of the time history; "-" is refused, as `out` has the report.
   std::optional<std::filesystem::path> history = {};
-  periodic::Path path = periodic::Path::fastest;
+  std::string path = "fastest";  // or "general": every orbit by shooting
   bool gradient = false;  // derivatives too: exact, by differences, and their deviation
   bool json = false;      // the report as one JSON object
 };

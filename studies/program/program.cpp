@@ -202,13 +202,10 @@ void add_point(CLI::App& program, PointOptions& options, Action& action) {
   point->add_option("--history", options.history, "write the motion over one period to this CSV file");
   point->add_flag("--gradient", options.gradient,
                   "exact derivatives with respect to the parameters, beside central differences");
-  const std::map<std::string, periodic::Path> paths{{"fastest", periodic::Path::fastest},
-                                                    {"general", periodic::Path::general}};
   point
       ->add_option("--path", options.path,
                    "fastest: from the reversal phases where nothing sticks; general: by shooting, always")
-      ->transform(CLI::Transformer(paths))
-      ->type_name("PATH")
+      ->check(CLI::IsMember({"fastest", "general"}))
       ->take_last();
   point->add_flag("--json", options.json, "the report as one JSON object");
   point->callback([&] { action = [&](std::ostream& out) { return point_command(options, out); }; });
