@@ -69,8 +69,9 @@ struct Part {
 
 // The stationary point near `place`, within the part, and its value: with the slope's own slopes there,
 // d + e c + f c^2 / 2 = 0 is solved for the correction c, again where it is not slight.
+// A lane stops by itself: its value does not depend on the others.
 template <class W>
-inline Lanes stationary_value(const TraceStep<W>& trace, const Part& part, Lanes& place) {
+inline Lanes stationary_value(const TraceStep<W>& trace, const Part& part, Mask going, Lanes& place) {
   constexpr int kMostIterations = 6;
   // [rad]; the error of the value is its fourth power over 24, that of the phase its third.
   const double slight = trace.w.shape.asks_phases ? 1e-5 : 1e-3;
@@ -80,9 +81,11 @@ inline Lanes stationary_value(const TraceStep<W>& trace, const Part& part, Lanes
     const Lanes newton = -d / e;
     const Lanes full = newton / (1.0 + 0.5 * newton * (f / e));  // Halley's step
     const Lanes correction = max(min(full, part.to - place), part.from - place);
-    value = x + correction * (d + correction * (0.5 * e + correction * ((1.0 / 6.0) * f)));
-    place = place + correction;
-    if (!any(abs(correction) > slight)) break;
+    const Lanes corrected = x + correction * (d + correction * (0.5 * e + correction * ((1.0 / 6.0) * f)));
+    value = select(going, corrected, value);
+    place = select(going, place + correction, place);
+    going = going & (abs(correction) > slight);
+    if (!any(going)) break;
   }
   return value;
 }
@@ -123,7 +126,7 @@ inline Mask search_part(const TraceStep<W>& trace, const Part& part, Mask among,
   Lanes place = part.from + select(inside, falling, cut) * h;
   Lanes value, slope = lanes(0.0);
   if (any(inside)) {
-    value = stationary_value(trace, part, place);
+    value = stationary_value(trace, part, inside, place);
     const Mask reached = inside & (place > first);
     const Lanes phase = trace.w.phase_at[trace.step] + place;
     consider(trace.w, best, inside, reached, value, side_phase(trace, phase));

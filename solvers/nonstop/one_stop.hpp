@@ -125,7 +125,8 @@ inline OneStop hold_mass(const W& w) {
 // The longest slide that serves, on a grid, and by Newton's method within its interval.
 template <class W>
 inline OneStop find_one_stop(const W& w, OneStop stop, Mask group) {
-  constexpr int kIntervals = 12, kMostIterations = 12;
+  constexpr int kIntervals = 12, kMostIterations = 16;
+  constexpr double kSmall = 1e-11;  // of a step [rad]: the rest position is the difference of larger numbers
   const StopProblem<W> problem(w);
   Lanes low = lanes(0.0), high = lanes(0.0), theta = lanes(0.0);
   Mask bracketed = none();
@@ -151,7 +152,7 @@ inline OneStop find_one_stop(const W& w, OneStop stop, Mask group) {
     const Lanes step = abs(to - theta);
     theta = select(going, to, theta);
     stop.iterations = select(going, stop.iterations + 1.0, stop.iterations);
-    going = going & ~(step < lanes(1e-7));
+    going = going & ~(step < lanes(kSmall));
   }
   stop.found = bracketed & ~going;
   stop.theta = theta;

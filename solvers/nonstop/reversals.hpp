@@ -175,9 +175,11 @@ inline void set_equations(W& w) {
       add_influence(w, e, other, since.sign);
       const Lanes rest = w.span - since.phase;
       for (int s = 0; s < w.modes; ++s) {
-        w.since[s] = any(w.span * w.rate[s].re < lanes(kVanishing))
-                         ? exponential({rest * w.rate[s].re, rest * w.rate[s].im})
-                         : w.over_span[s] / w.since[s];
+        Complex next = w.over_span[s] / w.since[s];
+        const Mask vanishes = w.span * w.rate[s].re < lanes(kVanishing);
+        if (any(vanishes))
+          next = select(vanishes, exponential({rest * w.rate[s].re, rest * w.rate[s].im}), next);
+        w.since[s] = next;
       }
       // The other one follows by span - theta, a span later by its own sign.
       add_influence(w, other, e, w.sign * since.sign);

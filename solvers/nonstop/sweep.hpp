@@ -141,10 +141,12 @@ inline void set_factors(W& w, Lanes h) {
   for (int i = kNodes / 2; i < kNodes; ++i) {
     const int mirror = kNodes - 1 - i;
     for (int s = 0; s < w.modes; ++s) {
-      w.node_factor[i * w.modes + s] =
-          any(h * w.rate[s].re < lanes(kVanishing))
-              ? exponential({h * kNodeAt[i] * w.rate[s].re, h * kNodeAt[i] * w.rate[s].im})
-              : w.step_factor[s] / w.node_factor[mirror * w.modes + s];
+      Complex factor = w.step_factor[s] / w.node_factor[mirror * w.modes + s];
+      const Mask vanishes = h * w.rate[s].re < lanes(kVanishing);
+      const Lanes t = h * kNodeAt[i];
+      if (any(vanishes))
+        factor = select(vanishes, exponential({t * w.rate[s].re, t * w.rate[s].im}), factor);
+      w.node_factor[i * w.modes + s] = factor;
     }
     for (int k = 0; k < w.orders; ++k)
       w.node_osc[i * w.orders + k] = w.osc_factor[k] * conjugate(w.node_osc[mirror * w.orders + k]);
@@ -293,7 +295,7 @@ inline Passage sweep(W& w, Mask group, double fineness) {
     passage.proved = passage.proved & (length > kShortest);
     w.segment_length[p] = length;
     const Lanes count = max(floor(length * fastest_rate(w) * steps_a_radian) + 1.0, lanes(2.0));
-    passage.proved = passage.proved & (count + w.steps < lanes(kMostSteps));
+    passage.proved = passage.proved & (count < lanes(kMostSteps / segments));
     if (!any(passage.proved)) return passage;
     const Lanes h = length / count;
     set_factors(w, h);
@@ -302,10 +304,6 @@ inline Passage sweep(W& w, Mask group, double fineness) {
     int steps = 0;
     for (int lane = 0; lane < kLanes; ++lane)
       if (at(most_steps, lane) > steps) steps = static_cast<int>(at(most_steps, lane));
-    if (w.steps + steps > kMostSteps) {
-      passage.proved = none();
-      return passage;
-    }
     for (int k = 0; k < w.orders; ++k) w.osc[k] = turn(start * w.shape.order[k]);
     // The slopes are bounded from the segment's start on, as every mode decays.
     for (int j = 0; j < w.contacts; ++j) {
