@@ -10,7 +10,7 @@ namespace {
 
 ResponseSummary summary_of(const Measured& measured) {
   return {.status = measured.status,
-          .way = Way::reversal_phases,
+          .way = Way::event_phases,
           .reason = "",
           .residual = measured.residual,
           .newton_iterations = measured.newton_iterations,

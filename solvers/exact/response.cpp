@@ -11,12 +11,13 @@ bool have_same_elements(const mechanics::NetworkValues& a, const mechanics::Netw
   return a.mass == b.mass && a.element == b.element && a.second == b.second;
 }
 
-// Where one of them fails, the whole row is solved so, each point from the one before: the start that the failed point
-// lacks.
+// Where one of them fails, the whole row is solved so, each point from the one before: the start that the
+// failed point lacks.
 void ResponseSolver::solve_rest(std::span<const mechanics::NetworkValues> points,
                                 std::span<ResponseSummary> found, std::span<double> out) {
   std::vector<char> is_rest(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) is_rest[i] = found[i].status == Status::not_computed ? 1 : 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    is_rest[i] = found[i].status == Status::not_computed ? 1 : 0;
   std::vector<char> wanted = is_rest;
   solve_along(points, wanted, is_rest, found, out);
   if (std::ranges::count(is_rest, 1) == static_cast<std::ptrdiff_t>(points.size())) return;
@@ -27,8 +28,9 @@ void ResponseSolver::solve_rest(std::span<const mechanics::NetworkValues> points
   solve_along(points, wanted, std::vector<char>(points.size(), 1), found, out);
 }
 
-// Solves those of a row that are solved, one after the other, and tells those that are told. The solver extrapolates
-// over the frequency, which must change in one direction: where it turns back or pauses, a new row begins.
+// Solves those of a row that are solved, one after the other, and tells those that are told. The solver
+// extrapolates over the frequency, which must change in one direction: where it turns back or pauses, a new
+// row begins.
 void ResponseSolver::solve_along(std::span<const mechanics::NetworkValues> points,
                                  const std::vector<char>& told, const std::vector<char>& solved,
                                  std::span<ResponseSummary> found, std::span<double> out) {

@@ -13,9 +13,9 @@ namespace frahm::periodic {
 
 enum class Status;
 
-// How a response was found: from the phases at which its contacts reverse, nothing ever sticking (nonstop/); or by
-// shooting on its flow.
-enum class Way { shooting, reversal_phases };
+// How a response was found: from the phases of its events, where nothing sticks, or one mass stops once in
+// each half of the period or never moves (nonstop/); or by shooting on its flow.
+enum class Way { shooting, event_phases };
 
 // Which of them are tried. General: shooting alone.
 enum class Path { fastest, general };
@@ -110,7 +110,8 @@ class ResponseSolver {
   ResponseSummary refused_;
 };
 
-// Whether two points have the same masses and elements, and so the same matrices but for what depends on the frequency.
+// Whether two points have the same masses and elements, and so the same matrices but for what depends on the
+// frequency.
 bool have_same_elements(const mechanics::NetworkValues& a, const mechanics::NetworkValues& b);
 
 }  // namespace frahm::periodic

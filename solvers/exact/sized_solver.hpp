@@ -1,8 +1,8 @@
 #pragma once
 
+#include "solvers/exact/nonstop_row.hpp"
 #include "solvers/exact/orbit_search.hpp"
 #include "solvers/exact/response.hpp"
-#include "solvers/exact/nonstop_row.hpp"
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/orbits/phase.hpp"
 #include "solvers/quantities/gradient.hpp"

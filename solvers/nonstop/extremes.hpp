@@ -2,8 +2,8 @@
 
 #include "solvers/nonstop/sweep.hpp"
 
-// The extremes of the traces, over the steps that the sweep has kept: stationary points solved, and both limits
-// where the friction turns.
+// The extremes of the traces, over the steps that the sweep has kept: stationary points solved, and both
+// limits where the friction turns.
 namespace {
 
 struct Extreme {
@@ -11,7 +11,8 @@ struct Extreme {
   Lanes reached, phase;  // the largest value that is reached somewhere, not held from before, and where
 };
 
-// The larger of two candidates; if phases are asked for, of equal ones (to 1e-12) the earlier that is reached.
+// The larger of two candidates; if phases are asked for, of equal ones (to 1e-12) the earlier that is
+// reached.
 template <class W>
 FRAHM_INLINE void consider(const W& w, Extreme& best, Mask where, Mask reached, Lanes value, Lanes phase) {
   best.value = select(where & (value > best.value), value, best.value);
@@ -61,7 +62,8 @@ struct TraceStep {
   }
 };
 
-// A part of a step: value and slope at both ends, and what a cubic through them can be wrong by (least_coefficient()).
+// A part of a step: value and slope at both ends, and what a cubic through them can be wrong by
+// (least_coefficient()).
 struct Part {
   Lanes from, to;
   Lanes x0, d0, x1, d1, error;
@@ -94,14 +96,13 @@ inline Lanes stationary_value(const TraceStep<W>& trace, const Part& part, Mask 
 template <class W>
 FRAHM_INLINE Lanes side_phase(const TraceStep<W>& trace, Lanes phase) {
   if (!trace.w.shape.asks_phases) return phase;
-  const Lanes shifted =
-      trace.w.shape.half_period ? select(trace.facing < 0.0, phase + kPi, phase) : phase;
+  const Lanes shifted = trace.w.shape.half_period ? select(trace.facing < 0.0, phase + kPi, phase) : phase;
   return shifted - floor(shifted * (0.5 / kPi)) * (2.0 * kPi);
 }
 
-// Searches a part for values above the best, in the lanes where there may be any: Bernstein coefficients bound it. Where
-// the cubic has a maximum within, that of the trace is solved and the parts beside it are looked at again; where it has
-// none, the part is halved. Returns the lanes in which neither ends.
+// Searches a part for values above the best, in the lanes where there may be any: Bernstein coefficients
+// bound it. Where the cubic has a maximum within, that of the trace is solved and the parts beside it are
+// looked at again; where it has none, the part is halved. Returns the lanes in which neither ends.
 template <class W>
 inline Mask search_part(const TraceStep<W>& trace, const Part& part, Mask among, int depth, Extreme& best) {
   constexpr int kDeepest = 6;
@@ -113,12 +114,13 @@ inline Mask search_part(const TraceStep<W>& trace, const Part& part, Mask among,
   const Mask may = among & (h > 0.0) & (highest > best.value + kEqual * abs(best.value));
   if (!any(may)) return none();
   if (depth == kDeepest) return may;
-  // The slope of the cubic in s: d0 + 2 q s + 3 r s^2. Its falling zero is (-q - root) / (3 r) = d0 / (root - q).
+  // The slope of the cubic in s: d0 + 2 q s + 3 r s^2. Its falling zero is (-q - root) / (3 r) = d0 / (root -
+  // q).
   const Lanes rise = part.x1 - part.x0, q = 3.0 * rise - 2.0 * d0 - d1, r = d0 + d1 - 2.0 * rise;
   const Lanes under = q * q - 3.0 * r * d0, root = sqrt(max(under, lanes(0.0)));
   const Lanes falling = select(q < lanes(0.0), d0 / (root - q), (-q - root) / (3.0 * r));
-  // A release begins with a slope of zero, which is no extreme that is reached; it leaves it slowly, so that parts
-  // beside it are cut short.
+  // A release begins with a slope of zero, which is no extreme that is reached; it leaves it slowly, so that
+  // parts beside it are cut short.
   const bool is_release = trace.w.is_release_at[trace.step];
   const double first = is_release ? 1e-4 : 0.0;
   const Mask inside = may & ~(under < lanes(0.0)) & (falling > first) & (falling < lanes(1.0));
@@ -145,7 +147,8 @@ inline Mask search_part(const TraceStep<W>& trace, const Part& part, Mask among,
   return search_part(trace, left, may, depth + 1, best) | search_part(trace, right, may, depth + 1, best);
 }
 
-// The largest value of `side` times a trace; side 0: of its magnitude. unsure: lanes in which the search did not end.
+// The largest value of `side` times a trace; side 0: of its magnitude. unsure: lanes in which the search did
+// not end.
 template <class W>
 inline Extreme largest(const W& w, int t, double side, Mask told, Mask& unsure) {
   const int T = w.shape.traces;

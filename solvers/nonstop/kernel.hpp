@@ -5,7 +5,7 @@
 
 #include "solvers/nonstop/pack.hpp"
 
-// Non-stop orbits from their reversal phases, kLanes points at once.
+// Orbits from the phases of their events, kLanes points at once.
 namespace frahm::periodic::nonstop {
 
 // Solves a pack. workspace: of workspace_size() doubles, aligned as kLanes doubles.

@@ -10,7 +10,9 @@ template <class W>
 inline void tell(const W& w, const Passage& passage, Mask told) {
   const double omega_spans = w.shape.half_period ? 2.0 : 1.0;
   const Lanes seconds = omega_spans / *view(w.pack.omega);
-  const auto tell_one = [&](double* array, int i, Lanes x) { view(array)[i] = select(told, x, view(array)[i]); };
+  const auto tell_one = [&](double* array, int i, Lanes x) {
+    view(array)[i] = select(told, x, view(array)[i]);
+  };
   tell_one(w.pack.newton_iterations, 0, w.iterations);
   tell_one(w.pack.reversals, 0, lanes(w.reversals));
   tell_one(w.pack.margin, 0, min(passage.at_reversals, passage.between));
@@ -107,11 +109,12 @@ void solve(const Pack& pack, double* workspace) {
     const Mask found = find_reversals(w, group);
     if (any(found)) solve_group(w, found);
   }
-  if (w.shape.may_stop_once) solve_with_stops(w, usable & ~(*view(pack.is_found) > 0.5) & (*view(pack.limit) > 0.0));
+  if (w.shape.may_stop_once)
+    solve_with_stops(w, usable & ~(*view(pack.is_found) > 0.5) & (*view(pack.limit) > 0.0));
 }
 
-// The sizes that most maps have are compiled apart, in the sets that most processors run; the operations, and so the
-// bytes, are the same.
+// The sizes that most maps have are compiled apart, in the sets that most processors run; the operations, and
+// so the bytes, are the same.
 void solve_by_size(const Pack& pack, double* workspace) {
 #if defined(__AVX2__)
   const Shape& shape = *pack.shape;

@@ -13,9 +13,10 @@ std::span<const Kernel> kernels() {
   static const std::array<Kernel, 4> all{
       Kernel{"portable", true, solve_portable},
       Kernel{"x86-64-v2", __builtin_cpu_supports("sse4.2") != 0, solve_v2},
-      Kernel{"x86-64-v3",
-             __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2"),
-             solve_v3},
+      Kernel{
+          "x86-64-v3",
+          __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2"),
+          solve_v3},
       Kernel{"x86-64-v4",
              __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
                  __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&

@@ -1,9 +1,9 @@
 #pragma once
 
-// Sixteen doubles side by side, and what the kernel needs of them: enough for two registers of the widest set, so that
-// one works while the other waits. This file is compiled once for each
-// instruction set (solvers/CMakeLists.txt), so everything in it is local to the source that includes it, and
-// nothing of any library is used that a linker might merge between sources.
+// Sixteen doubles side by side, and what the kernel needs of them: enough for two registers of the widest
+// set, so that one works while the other waits. This file is compiled once for each instruction set
+// (solvers/CMakeLists.txt), so everything in it is local to the source that includes it, and nothing of any
+// library is used that a linker might merge between sources.
 //
 // Every lane goes through the same operations in the same order whatever the instruction set: sums are not
 // reassociated and no product is fused with a sum (-ffp-contract=off), which the oldest set does not have. So
@@ -55,21 +55,21 @@ FRAHM_INLINE Lanes lanes(double x) {
   return all<16>(x);
 }
 
-#define FRAHM_BINARY(op)                                     \
-  template <int N>                                           \
-  FRAHM_INLINE Of<N> operator op(Of<N> a, Of<N> b) {         \
-    if constexpr (N == kNative)                              \
-      return {a.v op b.v};                                   \
-    else                                                     \
-      return {a.low op b.low, a.high op b.high};             \
-  }                                                          \
-  template <int N>                                           \
-  FRAHM_INLINE Of<N> operator op(Of<N> a, double b) {        \
-    return a op all<N>(b);                                   \
-  }                                                          \
-  template <int N>                                           \
-  FRAHM_INLINE Of<N> operator op(double a, Of<N> b) {        \
-    return all<N>(a) op b;                                   \
+#define FRAHM_BINARY(op)                              \
+  template <int N>                                    \
+  FRAHM_INLINE Of<N> operator op(Of<N> a, Of<N> b) {  \
+    if constexpr (N == kNative)                       \
+      return {a.v op b.v};                            \
+    else                                              \
+      return {a.low op b.low, a.high op b.high};      \
+  }                                                   \
+  template <int N>                                    \
+  FRAHM_INLINE Of<N> operator op(Of<N> a, double b) { \
+    return a op all<N>(b);                            \
+  }                                                   \
+  template <int N>                                    \
+  FRAHM_INLINE Of<N> operator op(double a, Of<N> b) { \
+    return all<N>(a) op b;                            \
   }
 FRAHM_BINARY(+)
 FRAHM_BINARY(-)
@@ -89,17 +89,17 @@ FRAHM_INLINE Of<N>& operator+=(Of<N>& a, Of<N> b) {
   return a = a + b;
 }
 
-#define FRAHM_COMPARE(op)                                  \
-  template <int N>                                         \
-  FRAHM_INLINE MaskOf<N> operator op(Of<N> a, Of<N> b) {   \
-    if constexpr (N == kNative)                            \
-      return {(Bits)(a.v op b.v)};                         \
-    else                                                   \
-      return {a.low op b.low, a.high op b.high};           \
-  }                                                        \
-  template <int N>                                         \
-  FRAHM_INLINE MaskOf<N> operator op(Of<N> a, double b) {  \
-    return a op all<N>(b);                                 \
+#define FRAHM_COMPARE(op)                                 \
+  template <int N>                                        \
+  FRAHM_INLINE MaskOf<N> operator op(Of<N> a, Of<N> b) {  \
+    if constexpr (N == kNative)                           \
+      return {(Bits)(a.v op b.v)};                        \
+    else                                                  \
+      return {a.low op b.low, a.high op b.high};          \
+  }                                                       \
+  template <int N>                                        \
+  FRAHM_INLINE MaskOf<N> operator op(Of<N> a, double b) { \
+    return a op all<N>(b);                                \
   }
 FRAHM_COMPARE(<)
 FRAHM_COMPARE(>)

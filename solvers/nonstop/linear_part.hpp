@@ -21,15 +21,16 @@ FRAHM_INLINE Lanes real_sum(int count, const Complex* factor, const Complex* coo
   return sum;
 }
 
-// E_s = exp(lambda_s span); after it the motion repeats with its sign, so that what a reversal leaves in a mode
-// adds up to 1 / (1 - sign E_s) of itself. False in lanes so near a resonance without
-// damping that digits would be lost.
+// E_s = exp(lambda_s span); after it the motion repeats with its sign, so that what a reversal leaves in a
+// mode adds up to 1 / (1 - sign E_s) of itself. False in lanes so near a resonance without damping that
+// digits would be lost.
 template <class W>
 inline Mask set_rates(W& w) {
   constexpr double kResonance = 1e-3, kLargest = 1e5;
   const Lanes per_radian = 1.0 / *view(w.pack.omega);
   Mask usable = *view(w.pack.is_there) > 0.5;
-  // Under several harmonics a frictionless contact may turn twice in a step, and its reversals would be miscounted.
+  // Under several harmonics a frictionless contact may turn twice in a step, and its reversals would be
+  // miscounted.
   for (int j = 0; w.shape.asks_strokes && w.orders > 1 && j < w.contacts; ++j)
     usable = usable & (view(w.pack.limit)[j] > 0.0);
   for (int s = 0; s < w.modes; ++s) {
@@ -50,7 +51,8 @@ inline Mask set_rates(W& w) {
 template <class Factor>
 FRAHM_INLINE Complex acted(const Factor* c, Lanes rate, Complex input) {
   if constexpr (sizeof(Factor) == sizeof(Complex)) {
-    const Complex by = {c[0].re - rate * (c[1].im + rate * c[2].re), c[0].im + rate * (c[1].re - rate * c[2].im)};
+    const Complex by = {c[0].re - rate * (c[1].im + rate * c[2].re),
+                        c[0].im + rate * (c[1].re - rate * c[2].im)};
     return by * input;
   } else {
     return Complex{c[0] - rate * rate * c[2], rate * c[1]} * input;
@@ -102,14 +104,15 @@ inline void find_phasors(W& w) {
       Complex direct = {lanes(0.0), lanes(0.0)};
       for (int i = 0; w.shape.is_direct[form] && i < w.inputs; ++i) {
         direct += acted(view(w.pack.form_input) + (form * w.inputs + i) * 3, omega * w.shape.order[k],
-                     load(w.pack.input, i * w.orders + k));
+                        load(w.pack.input, i * w.orders + k));
       }
       w.direct[form * w.orders + k] = direct;
       w.phasor[form * w.orders + k] = sum + direct;
     }
     w.constant[form] = lanes(0.0);
     for (int i = 0; i < w.inputs; ++i)
-      w.constant[form] += view(w.pack.form_constant_input)[form * w.inputs + i] * view(w.pack.constant_input)[i];
+      w.constant[form] +=
+          view(w.pack.form_constant_input)[form * w.inputs + i] * view(w.pack.constant_input)[i];
     for (int j = 0; j < w.contacts; ++j) {
       const int i = form * w.contacts + j;
       w.friction[i] =
@@ -136,8 +139,9 @@ inline void find_phasors(W& w) {
 }
 
 // eta_s' = lambda_s eta_s - F push_s sigma: with the direction sigma of a contact held, eta_s would rest at
-// F push_s sigma / lambda_s. Where sigma turns from -1 to +1 this moves by 2 F push_s / lambda_s, and zeta_s, the
-// distance from it, by as much the other way; it dies out as exp(lambda_s t). Velocities are owed to zeta alone.
+// F push_s sigma / lambda_s. Where sigma turns from -1 to +1 this moves by 2 F push_s / lambda_s, and zeta_s,
+// the distance from it, by as much the other way; it dies out as exp(lambda_s t). Velocities are owed to zeta
+// alone.
 template <class W>
 inline void find_jumps(W& w) {
   for (int j = 0; j < w.contacts; ++j) {

@@ -146,7 +146,8 @@ void NonstopSolver::lay_out_shape() {
       return index;
     };
     const int a = place(row);
-    products_.push_back({a, column < oscillators ? place(column) : -1 - static_cast<int>(column - oscillators)});
+    products_.push_back(
+        {a, column < oscillators ? place(column) : -1 - static_cast<int>(column - oscillators)});
     entries_.push_back({row, column});
   };
   if (request_.needs.integrals) {
@@ -173,7 +174,6 @@ void NonstopSolver::lay_out_shape() {
     }
     for (Eigen::Index i = 0; i < s; ++i) add(2 * n + i, 2 * n + i);
   }
-  is_pair_.assign(modes_.is_pair.begin(), modes_.is_pair.end());
   shape_ = {};
   shape_.modes = static_cast<int>(modes_.modes());
   shape_.states = static_cast<int>(2 * n + s);
@@ -188,7 +188,7 @@ void NonstopSolver::lay_out_shape() {
                          system.orders.size() == 1 && system.orders[0] == 1 &&
                          system.W_support.col(0).isZero(0.0);
   shape_.is_judged = request_.needs.stability || request_.needs.energies || asks(request_, Measure::residual);
-  shape_.is_pair = reinterpret_cast<const bool*>(is_pair_.data());
+  shape_.is_pair = modes_.is_pair.data();
   shape_.order = systems_[0].orders.data();
 }
 
@@ -238,7 +238,7 @@ void NonstopSolver::set_forms() {
                            form.applied.isZero(0.0)));
     if (!form.element.isZero(0.0)) forms_with_friction_.push_back(f);
   }
-  shape_.is_direct = reinterpret_cast<const bool*>(is_direct_.data());
+  shape_.is_direct = is_direct_.data();
 }
 
 void NonstopSolver::lay_out_pack() {
@@ -537,8 +537,8 @@ void NonstopSolver::set_motion(const mechanics::LinearSystem& system) {
 }
 
 // As the certificate of any orbit (orbits/certificate.hpp): ||z - z*||_E <= (||r||_E + rounding) / (1 - L),
-// |x_n| <= sqrt(2 (K^-1)_nn) ||z||_E. Rounding grows with the number of radians of the fastest mode and by way of
-// the modes.
+// |x_n| <= sqrt(2 (K^-1)_nn) ||z||_E. Rounding grows with the number of radians of the fastest mode and by
+// way of the modes.
 double NonstopSolver::error_bound(int lane) const {
   const mechanics::LinearSystem& system = systems_[size(lane)];
   const double contraction = told(pack_.contraction, 0, lane), margin = told(pack_.margin, 0, lane);
@@ -547,7 +547,8 @@ double NonstopSolver::error_bound(int lane) const {
   const double radians = fastest_rate_ * measured_.period;
   const double operations =
       modes_.condition * modes_.condition * (16.0 + 2.0 * radians) + 16.0 * told(pack_.reversals, 0, lane);
-  const double rounding = std::numeric_limits<double>::epsilon() * operations * (scale + friction + told(pack_.parts, 0, lane));
+  const double rounding =
+      std::numeric_limits<double>::epsilon() * operations * (scale + friction + told(pack_.parts, 0, lane));
   const double ball = (told(pack_.residual, 0, lane) + rounding) / (1.0 - contraction);
   const bool holds = contraction < 1.0 && ball < 0.1 * margin * scale;
   return holds ? ball * displacement_of_energy_ : kNone;

@@ -13,10 +13,11 @@
 
 namespace frahm::periodic::nonstop {
 
-// Orbits of a network on which no contact ever sticks, up to kLanes of them side by side. Where nothing sticks
-// the response is linear but for the reversals, and these are one equation each, in their phases; the motion
-// between them and all its quantities are explicit (DESIGN: non-stop orbits). An orbit is proved not to stick,
-// with a margin; by uniqueness it then is the only one. A point that is not proved is left to another solver.
+// Orbits of a network on which no contact ever sticks, up to kLanes of them side by side. Where nothing
+// sticks the response is linear but for the reversals, and these are one equation each, in their phases; the
+// motion between them and all its quantities are explicit (DESIGN: non-stop orbits). An orbit is proved not
+// to stick, with a margin; by uniqueness it then is the only one. A point that is not proved is left to
+// another solver.
 //
 // The value of a point depends on nothing but its own values: not on its neighbours, nor on the processor.
 class NonstopSolver {
@@ -27,8 +28,8 @@ class NonstopSolver {
   // Whether it can serve the network at all: its contacts slide or stick, with no spring of their own.
   static bool serves(const mechanics::Assembly& assembly);
 
-  // Takes the matrices of a row's points. False if they change from its first points on, but for friction limits; if
-  // their modes are too close to each other; or if the values are refused.
+  // Takes the matrices of a row's points. False if they change from its first points on, but for friction
+  // limits; if their modes are too close to each other; or if the values are refused.
   bool set_row(std::span<const mechanics::NetworkValues> points);
   // Puts a point of that row into a lane; false if its values are refused, or its matrices are others.
   bool set_point(int lane, const mechanics::NetworkValues& values);
@@ -36,7 +37,8 @@ class NonstopSolver {
   // Solves the points in the first `count` lanes.
   void solve(int count);
   bool is_found(int lane) const { return told(pack_.is_found, 0, lane) != 0.0; }
-  // Of a point that is found: out[i] is quantity i. False if its energies do not balance; it then is not found.
+  // Of a point that is found: out[i] is quantity i. False if its energies do not balance; it then is not
+  // found.
   bool quantities(int lane, std::span<double> out);
   // Of the point whose quantities were taken last.
   const Measured& measured() const { return measured_; }
@@ -76,14 +78,14 @@ class NonstopSolver {
   SlidingModes modes_;
   mechanics::NetworkValues modes_of_;  // the values that the modes are of, once has_modes_
   bool has_modes_ = false;
-  bool needs_forces_ = false;  // some quantity follows from the forces that drive, beside the motion
-  std::vector<Form> forms_;              // in the order of Shape
-  std::vector<char> is_direct_;          // of each form: whether it has parts outside the state
+  bool needs_forces_ = false;    // some quantity follows from the forces that drive, beside the motion
+  std::vector<Form> forms_;      // in the order of Shape
+  std::vector<char> is_direct_;  // of each form: whether it has parts outside the state
   std::vector<std::size_t> forms_with_friction_;  // of single elements
   std::vector<Eigen::Index> driven_masses_;
   std::vector<std::size_t> elements_in_matrices_;
   Eigen::MatrixXd K_inverse_, M_inverse_;
-  Eigen::VectorXd friction_norm_;  // energy norm of the static response to a unit force of each contact
+  Eigen::VectorXd friction_norm_;        // energy norm of the static response to a unit force of each contact
   double fastest_rate_ = 0.0;            // of the modes [1/s]
   double displacement_of_energy_ = 0.0;  // largest displacement [m] of a unit of the energy norm
   Eigen::MatrixXcd left_force_, left_internal_;  // left * (0; M^-1; 0), left * (0; 0; I)
@@ -94,7 +96,6 @@ class NonstopSolver {
   std::vector<Eigen::Index> integrated_states_;
   std::vector<Product> products_, powers_;
   std::vector<Entry> entries_;  // of each product
-  std::vector<char> is_pair_;
   Shape shape_;
   Pack pack_;
   std::vector<double> buffer_;

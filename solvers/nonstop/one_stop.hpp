@@ -3,14 +3,16 @@
 #include "solvers/nonstop/extremes.hpp"
 #include "solvers/nonstop/stability.hpp"
 
-// One mass that stops once in each half of the period, or never moves, under one harmonic. It rests at -u, is released at the phase p
-// where the force on it has grown to F, slides for theta to +u, and rests there until p + pi, when all repeats with the
-// opposite sign. At the release velocity and acceleration are zero, so the transient there is linear in the harmonic's
-// amplitude; so is then the velocity at the end, Re(G(theta) e^{ip}) = 0, which gives p. One equation is left, in
-// theta: that it ends as far on the one side as it began on the other.
+// One mass that stops once in each half of the period, or never moves, under one harmonic. It rests at -u, is
+// released at the phase p where the force on it has grown to F, slides for theta to +u, and rests there until
+// p + pi, when all repeats with the opposite sign. At the release velocity and acceleration are zero, so the
+// transient there is linear in the harmonic's amplitude; so is then the velocity at the end, Re(G(theta)
+// e^{ip}) = 0, which gives p. One equation is left, in theta: that it ends as far on the one side as it began
+// on the other.
 namespace {
 
-// Two real modal coordinates, real and imaginary part of a pair or those of two real modes, as factors of a form.
+// Two real modal coordinates, real and imaginary part of a pair or those of two real modes, as factors of a
+// form.
 struct Row {
   Lanes first, second;
 };
@@ -22,15 +24,15 @@ FRAHM_INLINE Row row_of(const W& w, const Complex* factor) {
 
 struct OneStop {
   Mask found;
-  Lanes theta, release;    // [rad]
-  Lanes rest;              // u [m]
-  Lanes missed;            // by which it ends elsewhere [m]
+  Lanes theta, release;  // [rad]
+  Lanes rest;            // u [m]
+  Lanes missed;          // by which it ends elsewhere [m]
   Lanes iterations;
-  Row start;               // modal coordinates at the release
-  Row unit;                // those of a unit of displacement at rest
-  Complex drive;           // amplitude of the acceleration that the forcing gives the mass at rest, by the phase
-  Lanes spring;            // K / M / omega: of that which its spring gives
-  Lanes friction;          // A_F: of that which friction gives
+  Row start;       // modal coordinates at the release
+  Row unit;        // those of a unit of displacement at rest
+  Complex drive;   // amplitude of the acceleration that the forcing gives the mass at rest, by the phase
+  Lanes spring;    // K / M / omega: of that which its spring gives
+  Lanes friction;  // A_F: of that which friction gives
 };
 
 // What varies with theta: G and K, whose parts across G give the equation, and their derivatives.
@@ -40,11 +42,11 @@ struct StopEquation {
 
 template <class W>
 struct StopProblem {
-  Complex V, Q;               // harmonic velocity and displacement
-  Complex first, second;      // modal coordinates at the release, Re(. e^{ip})
-  Complex jerk;               // of the velocity's second derivative there
-  Row displacement;           // factors of the displacement
-  Lanes level;                // its part under friction
+  Complex V, Q;           // harmonic velocity and displacement
+  Complex first, second;  // modal coordinates at the release, Re(. e^{ip})
+  Complex jerk;           // of the velocity's second derivative there
+  Row displacement;       // factors of the displacement
+  Lanes level;            // its part under friction
 
   explicit StopProblem(const W& w) {
     V = w.phasor[0];
@@ -107,7 +109,8 @@ inline Lanes distance_missed(const W& w, const StopProblem<W>& problem, Lanes th
 template <class W>
 inline OneStop hold_mass(const W& w) {
   OneStop stop{};
-  const Row u = row_of(w, complex_view(w.pack.form_modal) + w.modes), v = row_of(w, complex_view(w.pack.form_modal));
+  const Row u = row_of(w, complex_view(w.pack.form_modal) + w.modes),
+            v = row_of(w, complex_view(w.pack.form_modal));
   const Lanes inverse = 1.0 / (u.first * v.second - u.second * v.first);
   stop.unit = {inverse * v.second, -inverse * v.first};
   // lambda^2 + (C/M) lambda + K/M has the modes as roots.
@@ -134,7 +137,8 @@ inline OneStop find_one_stop(const W& w, OneStop stop, Mask group) {
   for (int i = kIntervals - 1; i >= 0; --i) {
     const Lanes place = lanes(kPi * (i + 0.3) / kIntervals);
     const Lanes here = distance_missed(w, problem, place, nullptr);
-    const Mask changes = group & ~bracketed & (((here > 0.0) & ~(before > 0.0)) | (~(here > 0.0) & (before > 0.0)));
+    const Mask changes =
+        group & ~bracketed & (((here > 0.0) & ~(before > 0.0)) | (~(here > 0.0) & (before > 0.0)));
     low = select(changes, place, low);
     high = select(changes, above, high);
     theta = select(changes, place + (above - place) * (here / (here - before)), theta);
@@ -166,7 +170,8 @@ inline OneStop find_one_stop(const W& w, OneStop stop, Mask group) {
   stop.release = rough + lack * (1.0 + (1.0 / 6.0) * (lack * lack));
   stop.start = {real_part(problem.first, u), real_part(problem.second, u)};
   const Row d = problem.displacement;
-  stop.rest = -(real_part(problem.Q, u) + d.first * stop.start.first + d.second * stop.start.second + problem.level);
+  stop.rest =
+      -(real_part(problem.Q, u) + d.first * stop.start.first + d.second * stop.start.second + problem.level);
   return stop;
 }
 
@@ -184,7 +189,8 @@ FRAHM_INLINE Lanes without_rounding(Lanes difference, Lanes size) {
   return select(abs(difference) > 1e-13 * size, difference, 0.0);
 }
 
-// Forms at rest: the state is held at u and the contact carries F (1 + (a + ...)) as the forcing asks, a harmonic.
+// Forms at rest: the state is held at u and the contact carries F (1 + (a + ...)) as the forcing asks, a
+// harmonic.
 template <class W>
 inline void set_rest_forms(W& w, const OneStop& stop) {
   const Lanes per_friction = 1.0 / stop.friction;
@@ -194,7 +200,8 @@ inline void set_rest_forms(W& w, const OneStop& stop) {
     const Lanes of_rest = without_rounding(one + other, abs(one) + abs(other));
     // What cancels but for rounding is nothing: a mass at rest has no velocity.
     const Lanes by_rest = of_rest * w.friction[1];
-    const Lanes of_friction = without_rounding(w.friction[form] - by_rest, abs(w.friction[form]) + abs(by_rest));
+    const Lanes of_friction =
+        without_rounding(w.friction[form] - by_rest, abs(w.friction[form]) + abs(by_rest));
     const Complex by_friction = (of_friction * per_friction) * stop.drive, direct = w.direct[form];
     const Lanes size = size_of(by_friction) + size_of(direct);
     const Complex X = {without_rounding(by_friction.re + direct.re, size),
@@ -264,7 +271,8 @@ inline void sweep_slide(W& w, const OneStop& stop, double steps_a_radian, Passag
   }
 }
 
-// The rest: the force that the mass asks of the contact stays within its limit, until it reaches it at the end.
+// The rest: the force that the mass asks of the contact stays within its limit, until it reaches it at the
+// end.
 template <class W>
 inline void sweep_rest(W& w, const OneStop& stop, double steps_a_radian, Passage& passage) {
   const Lanes length = kPi - stop.theta, start = stop.release + stop.theta;
@@ -286,9 +294,10 @@ inline void sweep_rest(W& w, const OneStop& stop, double steps_a_radian, Passage
     w.next_osc[0] = w.osc[0] * w.osc_factor[0];
     const Lanes p0 = pull(w.osc[0]), p1 = pull(w.next_osc[0]), d0 = rate(w.osc[0]), d1 = rate(w.next_osc[0]);
     // Room to either limit.
-    const Lanes ahead = least_coefficient(stop.friction - p0, -d0, stop.friction - p1, -d1, h, error, none(), none());
-    const Lanes behind = least_coefficient(stop.friction + p0, d0, select(ends, lanes(0.0), stop.friction + p1), d1, h,
-                                           error, none(), ends);
+    const Lanes ahead =
+        least_coefficient(stop.friction - p0, -d0, stop.friction - p1, -d1, h, error, none(), none());
+    const Lanes behind = least_coefficient(
+        stop.friction + p0, d0, select(ends, lanes(0.0), stop.friction + p1), d1, h, error, none(), ends);
     passage.between = select(taken, min(passage.between, min(ahead, behind) * scale), passage.between);
     take_step(w, taken, start + h * k, h, k == 0);
   }
@@ -310,15 +319,19 @@ template <class W>
 inline Passage sweep_one_stop(W& w, const OneStop& stop, double fineness) {
   const double steps_a_radian = fineness / 0.75;
   Passage passage{stop.found, lanes(1.0), lanes(1.0), lanes(0.0), lanes(0.0)};
-  passage.proved = passage.proved & (stop.theta > 1e-3) & (lanes(kPi) - stop.theta > 1e-6) & (stop.rest > 0.0);
+  passage.proved =
+      passage.proved & (stop.theta > 1e-3) & (lanes(kPi) - stop.theta > 1e-6) & (stop.rest > 0.0);
   clear_measures(w);
   sweep_slide(w, stop, steps_a_radian, passage);
   if (any(passage.proved)) sweep_rest(w, stop, steps_a_radian, passage);
   w.slid[0] = 2.0 * stop.rest;
   w.contact_reversals[0] = lanes(1.0);
   passage.parts = w.harmonic_size[0];
-  for (int s = 0; s < w.modes; ++s) passage.parts += view(w.pack.mode_norm)[s] * (abs(stop.start.first) + abs(stop.start.second));
-  passage.residual = abs(stop.missed) * norm_of_coordinates(w, [&](int i) { return i == 0 ? stop.unit.first : stop.unit.second; });
+  for (int s = 0; s < w.modes; ++s)
+    passage.parts += view(w.pack.mode_norm)[s] * (abs(stop.start.first) + abs(stop.start.second));
+  passage.residual = abs(stop.missed) * norm_of_coordinates(w, [&](int i) {
+                       return i == 0 ? stop.unit.first : stop.unit.second;
+                     });
   passage.proved = passage.proved & (passage.at_reversals > kSafe) & (passage.between > kSafe);
   return passage;
 }
@@ -335,7 +348,9 @@ inline void judge_one_stop(W& w, const OneStop& stop, Mask told) {
   const Lanes grows = select(stop.theta > 0.0, slid, 0.0);  // of what can move
   tell(w.pack.contraction, grows);
   tell(w.pack.multiplier, grows * grows);
-  tell(w.pack.state_norm, stop.rest * norm_of_coordinates(w, [&](int i) { return i == 0 ? stop.unit.first : stop.unit.second; }));
+  tell(w.pack.state_norm, stop.rest * norm_of_coordinates(w, [&](int i) {
+                            return i == 0 ? stop.unit.first : stop.unit.second;
+                          }));
   tell(w.pack.section, stop.release + 0.5 * (stop.theta + kPi));
 }
 

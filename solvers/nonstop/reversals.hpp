@@ -2,8 +2,8 @@
 
 #include "solvers/nonstop/linear_part.hpp"
 
-// The reversals of an orbit on which nothing sticks: one equation for each, that the contact's velocity is zero
-// there, in as many phases.
+// The reversals of an orbit on which nothing sticks: one equation for each, that the contact's velocity is
+// zero there, in as many phases.
 namespace {
 
 // An angle between -pi and pi to 1e-5, to start from (Abramowitz and Stegun 4.4.49).
@@ -25,7 +25,9 @@ inline void guess_single(W& w) {
     w.count[j] = select(rubs, lanes(w.shape.half_period ? 1.0 : 2.0), lanes(0.0));
     Lanes own = lanes(0.0);
     for (int s = 0; s < w.modes; ++s) own += w.own[(j * w.contacts + j) * w.modes + s].re;
-    const Lanes c = min(max(-own / max(modulus(w.phasor[j * w.orders]), lanes(1e-300)), lanes(-0.95)), lanes(0.95)), c2 = c * c;
+    const Lanes c = min(max(-own / max(modulus(w.phasor[j * w.orders]), lanes(1e-300)), lanes(-0.95)),
+                        lanes(0.95)),
+                c2 = c * c;
     const Lanes delay = c * (1.0 + c2 * (1.0 / 6.0 + c2 * (0.075 + c2 * 0.12)));
     w.guess[j * kMostReversals] = delay - 0.5 * kPi - rough_angle(w.phasor[j * w.orders]);
     w.guess_turn[j] = lanes(1.0);
@@ -60,7 +62,8 @@ inline void note_reversal(W& w, int j, Mask changes, Lanes v, Lanes place) {
   }
 }
 
-// Several harmonics: the sign changes of the velocity without friction, on a grid. Lanes differ in their number.
+// Several harmonics: the sign changes of the velocity without friction, on a grid. Lanes differ in their
+// number.
 template <class W>
 inline void guess_from_samples(W& w) {
   const int turn_samples = w.shape.samples(), samples = turn_samples / (w.shape.half_period ? 2 : 1);
@@ -130,8 +133,8 @@ FRAHM_INLINE Folded folded(const W& w, Lanes phase) {
   return {inside, select(odd, lanes(-1.0), lanes(1.0))};
 }
 
-// Adds what reversal e owes to another, which happened since[s] = exp(rate_s theta) ago, with the sign of the spans
-// between.
+// Adds what reversal e owes to another, which happened since[s] = exp(rate_s theta) ago, with the sign of the
+// spans between.
 template <class W>
 inline void add_influence(W& w, int e, int other, Lanes sign) {
   const int R = w.reversals;
@@ -165,8 +168,8 @@ inline void set_equations(W& w) {
     w.defect[e] = v;
     w.jacobian[e * R + e] = a;
   }
-  // What two reversals owe each other: theta after one, span - theta after the other, exp(rate (span - theta)) =
-  // E / exp(rate theta).
+  // What two reversals owe each other: theta after one, span - theta after the other, exp(rate (span -
+  // theta)) = E / exp(rate theta).
   for (int e = 0; e < R; ++e) {
     for (int other = e + 1; other < R; ++other) {
       const Folded since = folded(w, w.phase[e] - w.phase[other]);
@@ -187,8 +190,8 @@ inline void set_equations(W& w) {
   }
 }
 
-// Gauss's elimination, the diagonal as pivots: a reversal's own acceleration outweighs what others add, or the
-// search fails and the point is another solver's. Leaves the solution in `defect`.
+// Gauss's elimination, the diagonal as pivots: a reversal's own acceleration outweighs what others add, or
+// the search fails and the point is another solver's. Leaves the solution in `defect`.
 template <class W>
 inline void eliminate(W& w) {
   const int R = w.reversals;

@@ -2,8 +2,9 @@
 
 #include "solvers/nonstop/sweep.hpp"
 
-// The state at a section amid the first segment, and the derivative of the map from there: flows of the modes,
-// and at each reversal a change of rank one (saltation). Its largest multiplier and its norm in energy.
+// The state at a section amid the first segment, and the derivative of the map from there: flows of the
+// modes, and at each reversal a change of rank one (saltation). Its largest multiplier and its norm in
+// energy.
 namespace {
 
 // rows: of the real modal coordinates (a, b) of each mode, of which the motion is Re(vector (a + i b)).
@@ -53,8 +54,7 @@ inline void cross_reversal(W& w, int p) {
   for (int c = 0; c < D; ++c) {
     Lanes along = lanes(0.0);
     for (int row = 0; row < D; ++row) along += w.velocity_of[row] * w.flow[row * D + c];
-    for (int row = 0; row < D; ++row)
-      w.flow[row * D + c] = w.flow[row * D + c] - w.turned_push[row] * along;
+    for (int row = 0; row < D; ++row) w.flow[row * D + c] = w.flow[row * D + c] - w.turned_push[row] * along;
   }
 }
 
@@ -84,9 +84,9 @@ inline void multiply(const W& w, const Lanes* a, const Lanes* b, Lanes* result) 
   }
 }
 
-// The largest modulus of the eigenvalues of A, which is overwritten: of A^m, m = 2^k, two eigenvalues of largest
-// modulus have the trace and half of trace^2 - trace(A^2m) as their sum and product. What others add dies out as
-// m grows, and the m-th root leaves 1/m of it. Ends when `accuracy` is reached in every lane.
+// The largest modulus of the eigenvalues of A, which is overwritten: of A^m, m = 2^k, two eigenvalues of
+// largest modulus have the trace and half of trace^2 - trace(A^2m) as their sum and product. What others add
+// dies out as m grows, and the m-th root leaves 1/m of it. Ends when `accuracy` is reached in every lane.
 template <class W>
 inline Lanes largest_modulus(const W& w, Lanes* A, Lanes* scratch, double accuracy) {
   const int D = w.states;
@@ -121,8 +121,8 @@ inline Lanes largest_modulus(const W& w, Lanes* A, Lanes* scratch, double accura
   return exp(estimate);
 }
 
-// Modal coordinates amid the first segment: what the reversals left, the harmonics, and the rest positions under
-// friction and constant forces.
+// Modal coordinates amid the first segment: what the reversals left, the harmonics, and the rest positions
+// under friction and constant forces.
 template <class W>
 inline void find_state(W& w, Lanes section) {
   const Lanes half = 0.5 * w.segment_length[0];
@@ -177,8 +177,7 @@ template <class W>
 inline void judge(W& w, Mask told) {
   const int D = w.states;
   const auto tell = [&](double* array, Lanes x) { *view(array) = select(told, x, *view(array)); };
-  const Lanes section =
-      (w.reversals > 0 ? w.sorted_phase[0] : lanes(0.0)) + 0.5 * w.segment_length[0];
+  const Lanes section = (w.reversals > 0 ? w.sorted_phase[0] : lanes(0.0)) + 0.5 * w.segment_length[0];
   find_state(w, section);
   tell(w.pack.section, section);
   for (int s = 0; s < w.modes; ++s) {

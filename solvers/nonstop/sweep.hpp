@@ -5,23 +5,23 @@
 // One passage along the orbit: the proof that nothing sticks, and everything that is measured on the way.
 namespace {
 
-// Six-point Gauss-Legendre nodes and weights on [0, 1] (Abramowitz and Stegun, table 25.4): over a step the error is
-// below 5e-14 of the integrand's scale.
+// Six-point Gauss-Legendre nodes and weights on [0, 1] (Abramowitz and Stegun, table 25.4): over a step the
+// error is below 5e-14 of the integrand's scale.
 constexpr int kNodes = 6;
 constexpr double kNodeAt[kNodes] = {0.03376524289842397, 0.16939530676686774, 0.3806904069584015,
                                     0.6193095930415985,  0.8306046932331323,  0.966234757101576};
-constexpr double kNodeWeight[kNodes] = {0.08566224618958517, 0.1803807865240693,  0.23395696728634552,
+constexpr double kNodeWeight[kNodes] = {0.08566224618958517, 0.1803807865240693, 0.23395696728634552,
                                         0.23395696728634552, 0.1803807865240693, 0.08566224618958517};
 
 constexpr double kSafe = 1e-7;  // a margin that is certainly not grazing
 
 // What the sweep finds of all lanes.
 struct Passage {
-  Mask proved;      // nothing sticks
+  Mask proved;         // nothing sticks
   Lanes at_reversals;  // least relative acceleration there, on either side
-  Lanes between;    // least coefficient of the proof, relative
-  Lanes residual;   // [sqrt(J)]
-  Lanes parts;      // energy norms of what the motion is the sum of [sqrt(J)]
+  Lanes between;       // least coefficient of the proof, relative
+  Lanes residual;      // [sqrt(J)]
+  Lanes parts;         // energy norms of what the motion is the sum of [sqrt(J)]
 };
 
 template <class W>
@@ -36,7 +36,8 @@ FRAHM_INLINE Lanes slope(const W& w, int form, const Complex* zeta, const Comple
          real_sum(w.orders, w.slope_phasors() + form * w.orders, osc);
 }
 
-// zeta just after the first reversal, and the direction of every contact from there: that of its last reversal.
+// zeta just after the first reversal, and the direction of every contact from there: that of its last
+// reversal.
 template <class W>
 inline void start_sweep(W& w) {
   const int R = w.reversals;
@@ -69,8 +70,8 @@ inline void start_sweep(W& w) {
   for (int j = 0; j < w.contacts; ++j) w.first_direction[j] = w.direction[j];
 }
 
-// How fast the motion varies within the segment: the rates of modes and harmonics, weighted by the fourth root
-// of their share in its amplitude of energy, as a norm of order 8. Slight fast modes cost few steps so.
+// How fast the motion varies within the segment: the rates of modes and harmonics, weighted by the fourth
+// root of their share in its amplitude of energy, as a norm of order 8. Slight fast modes cost few steps so.
 template <class W>
 inline Lanes fastest_rate(const W& w) {
   Lanes total = lanes(1e-300);
@@ -88,12 +89,12 @@ inline Lanes fastest_rate(const W& w) {
   return sqrt(sqrt(sqrt(sum)));
 }
 
-// Whether a velocity stays positive over a step of length h: the Bernstein coefficients of the quartic that the
-// cubic Hermite interpolant, less what it can be wrong by, is at least. |error| <= B t^2 (h-t)^2 / 24 lowers the
-// middle coefficient alone, by B h^4 / 144. v: at both ends, exactly zero where the contact reverses; a: its
-// slopes. Returns the least coefficient that is not zero by itself.
-FRAHM_INLINE Lanes least_coefficient(Lanes v0, Lanes a0, Lanes v1, Lanes a1, Lanes h, Lanes error, Mask starts,
-                                     Mask ends) {
+// Whether a velocity stays positive over a step of length h: the Bernstein coefficients of the quartic that
+// the cubic Hermite interpolant, less what it can be wrong by, is at least. |error| <= B t^2 (h-t)^2 / 24
+// lowers the middle coefficient alone, by B h^4 / 144. v: at both ends, exactly zero where the contact
+// reverses; a: its slopes. Returns the least coefficient that is not zero by itself.
+FRAHM_INLINE Lanes least_coefficient(Lanes v0, Lanes a0, Lanes v1, Lanes a1, Lanes h, Lanes error,
+                                     Mask starts, Mask ends) {
   const Lanes b1 = v0 + a0 * h * (1.0 / 3.0), b2 = v1 - a1 * h * (1.0 / 3.0);
   const Lanes c1 = 0.25 * v0 + 0.75 * b1, c2 = 0.5 * (b1 + b2) - error, c3 = 0.75 * b2 + 0.25 * v1;
   Lanes least = min(min(c1, c2), c3);
@@ -121,8 +122,7 @@ inline void set_levels(W& w) {
   for (int form = w.contacts; form < w.shape.forms(); ++form) {  // velocities have none
     if (w.is_unused(form)) continue;
     w.level[form] = w.constant[form];
-    for (int j = 0; j < w.contacts; ++j)
-      w.level[form] += w.friction[form * w.contacts + j] * w.direction[j];
+    for (int j = 0; j < w.contacts; ++j) w.level[form] += w.friction[form * w.contacts + j] * w.direction[j];
   }
 }
 
@@ -144,8 +144,7 @@ inline void set_factors(W& w, Lanes h) {
       Complex factor = w.step_factor[s] / w.node_factor[mirror * w.modes + s];
       const Mask vanishes = h * w.rate[s].re < lanes(kVanishing);
       const Lanes t = h * kNodeAt[i];
-      if (any(vanishes))
-        factor = select(vanishes, exponential({t * w.rate[s].re, t * w.rate[s].im}), factor);
+      if (any(vanishes)) factor = select(vanishes, exponential({t * w.rate[s].re, t * w.rate[s].im}), factor);
       w.node_factor[i * w.modes + s] = factor;
     }
     for (int k = 0; k < w.orders; ++k)
@@ -233,8 +232,7 @@ inline void take_reversal(W& w, int p, Lanes turned, Mask sound, Passage& passag
       w.slid[j] += select(own & sound, -2.0 * turned * u, 0.0);
       w.contact_reversals[j] += select(own, lanes(1.0), 0.0);
     }
-    for (int s = 0; s < w.modes; ++s)
-      w.zeta[s] += select(own, turned, 0.0) * w.jump[j * w.modes + s];
+    for (int s = 0; s < w.modes; ++s) w.zeta[s] += select(own, turned, 0.0) * w.jump[j * w.modes + s];
     w.direction[j] = select(own, turned, w.direction[j]);
   }
   // A velocity v, or its rounding, is a delay v / (omega a), after which friction acts by 2 F the other way.
@@ -290,8 +288,8 @@ inline Passage sweep(W& w, Mask group, double fineness) {
     const bool is_last = p + 1 == segments;
     const int next = is_last ? 0 : p + 1;
     const Lanes start = R > 0 ? w.sorted_phase[p] : lanes(0.0);
-    const Lanes length = is_last ? (R > 0 ? w.sorted_phase[0] : lanes(0.0)) + w.span - start
-                                 : w.sorted_phase[next] - start;
+    const Lanes length =
+        is_last ? (R > 0 ? w.sorted_phase[0] : lanes(0.0)) + w.span - start : w.sorted_phase[next] - start;
     passage.proved = passage.proved & (length > kShortest);
     w.segment_length[p] = length;
     const Lanes count = max(floor(length * fastest_rate(w) * steps_a_radian) + 1.0, lanes(2.0));
@@ -328,9 +326,9 @@ inline Passage sweep(W& w, Mask group, double fineness) {
         const Mask ends = R > 0 ? ends_segment & (w.sorted_contact[next] == j) : none();
         const Lanes d = w.direction[j];
         const Lanes at_end = select(ends, lanes(0.0), v);
-        const Lanes least = least_coefficient(d * w.v0[j], d * w.a0[j], d * at_end, d * a, h, w.error[j],
-                                              starts, ends) *
-                            w.per_speed[j];
+        const Lanes least =
+            least_coefficient(d * w.v0[j], d * w.a0[j], d * at_end, d * a, h, w.error[j], starts, ends) *
+            w.per_speed[j];
         passage.between = select(taken & rubs, min(passage.between, least), passage.between);
         if (w.shape.asks_strokes) {  // without friction a contact reverses as it likes
           note_sign(w, j, taken & ~rubs, v);
@@ -345,8 +343,9 @@ inline Passage sweep(W& w, Mask group, double fineness) {
       for (int s = 0; s < w.modes; ++s) w.zeta[s] = select(taken, w.next_zeta[s], w.zeta[s]);
       for (int i = 0; i < w.orders; ++i) w.osc[i] = select(taken, w.next_osc[i], w.osc[i]);
     }
-    if (R > 0) take_reversal(w, next, is_last ? w.sign * w.sorted_turn[0] : w.sorted_turn[next],
-                             passage.proved, passage);
+    if (R > 0)
+      take_reversal(w, next, is_last ? w.sign * w.sorted_turn[0] : w.sorted_turn[next], passage.proved,
+                    passage);
   }
   close_signs(w);
   Lanes missed = lanes(0.0), size = lanes(1e-300);
@@ -357,7 +356,8 @@ inline Passage sweep(W& w, Mask group, double fineness) {
   }
   for (int k = 0; k < w.orders; ++k) passage.parts += w.harmonic_size[k];
   passage.parts += size;
-  passage.proved = passage.proved & (passage.at_reversals > kSafe) & (passage.between > kSafe) & ~(missed > kClosed * size);
+  passage.proved = passage.proved & (passage.at_reversals > kSafe) & (passage.between > kSafe) &
+                   ~(missed > kClosed * size);
   return passage;
 }
 

@@ -73,31 +73,31 @@ struct Work : C {
   const double sign;  // of the motion after it
 
   // Of the linear part.
-  Complex* rate;            // [modes] lambda / omega
-  Lanes* rate_size;         // [modes] its size
-  Complex* over_span;       // [modes] exp(rate span)
-  Complex* since;           // [modes]
-  Complex* closure;         // [modes] 1 / (1 - sign exp(rate span))
-  Complex* response;        // [orders][modes] modal response to the forcing ...
+  Complex* rate;                // [modes] lambda / omega
+  Lanes* rate_size;             // [modes] its size
+  Complex* over_span;           // [modes] exp(rate span)
+  Complex* since;               // [modes]
+  Complex* closure;             // [modes] 1 / (1 - sign exp(rate span))
+  Complex* response;            // [orders][modes] modal response to the forcing ...
   Complex* conjugate_response;  // ... and the conjugate mode's
-  Complex* phasor;          // [forms][orders]
-  Lanes* constant;          // [forms]
-  Lanes* friction;          // [forms][contacts] of the direction of each contact
-  Complex* slope_modal;     // [forms before the integrated][modes]: of the form's derivative by the phase
-  Complex* slope_phasor;    // [forms before the integrated][orders]
-  Complex* jump;            // [contacts][modes] by which friction that turns up moves modal coordinates
-  Complex* own;             // [contacts][contacts][modes] velocity of a contact owed to a reversal of another
-  Lanes* speed;             // [contacts] sum of the sizes of the velocity's harmonics
-  Lanes* per_speed;         // [contacts] 1 / speed
-  Lanes* harmonic_size;     // [orders] bound of the energy norm
+  Complex* phasor;              // [forms][orders]
+  Lanes* constant;              // [forms]
+  Lanes* friction;              // [forms][contacts] of the direction of each contact
+  Complex* slope_modal;         // [forms before the integrated][modes]: of the form's derivative by the phase
+  Complex* slope_phasor;        // [forms before the integrated][orders]
+  Complex* jump;                // [contacts][modes] by which friction that turns up moves modal coordinates
+  Complex* own;          // [contacts][contacts][modes] velocity of a contact owed to a reversal of another
+  Lanes* speed;          // [contacts] sum of the sizes of the velocity's harmonics
+  Lanes* per_speed;      // [contacts] 1 / speed
+  Lanes* harmonic_size;  // [orders] bound of the energy norm
 
   // Reversals, a contact's in their order, contact after contact.
-  Lanes* count;       // [contacts] of reversals
-  Lanes* guess;       // [contacts][kMostReversals]
-  Lanes* guess_turn;  // [contacts] direction of the first
-  double *cosine, *sine;  // [samples] over a turn
-  Lanes* phase;       // [reversals]
-  Lanes* turn;        // +1: from then on it slides forward
+  Lanes* count;                 // [contacts] of reversals
+  Lanes* guess;                 // [contacts][kMostReversals]
+  Lanes* guess_turn;            // [contacts] direction of the first
+  double *cosine, *sine;        // [samples] over a turn
+  Lanes* phase;                 // [reversals]
+  Lanes* turn;                  // +1: from then on it slides forward
   int contact[kMostReversals];  // of each reversal
   int reversals = 0;            // of the lanes in hand
   Lanes iterations;             // of Newton's method
@@ -111,26 +111,26 @@ struct Work : C {
   Lanes* jacobian;  // [reversals][reversals]
 
   // The sweep.
-  Complex* zeta;       // [modes] what the reversals leave of the modal coordinates
+  Complex* zeta;  // [modes] what the reversals leave of the modal coordinates
   Complex* next_zeta;
   Complex* first_zeta;
-  Complex* osc;        // [orders]
+  Complex* osc;  // [orders]
   Complex* next_osc;
-  Complex* step_factor;  // [modes]
-  Complex* osc_factor;   // [orders]
-  Complex* node_factor;  // [nodes][modes]
-  Complex* node_osc;     // [nodes][orders]
-  Complex* at_node;      // [modes]
-  Complex* osc_at_node;  // [orders]
-  Lanes* form_value;     // [integrated]
-  Lanes* integral;       // [products]
-  Lanes *work, *work_size;           // [powers]
-  Lanes *slid, *contact_reversals;   // [contacts]
-  Lanes* direction;        // [contacts] +1 or -1
-  Lanes* first_direction;  // [contacts] in the first segment
-  Lanes* level;          // [forms] constant part in the segment
-  Lanes *v0, *a0;        // [contacts] at the start of a step
-  Lanes* error;          // [contacts] of the middle coefficient of the proof
+  Complex* step_factor;             // [modes]
+  Complex* osc_factor;              // [orders]
+  Complex* node_factor;             // [nodes][modes]
+  Complex* node_osc;                // [nodes][orders]
+  Complex* at_node;                 // [modes]
+  Complex* osc_at_node;             // [orders]
+  Lanes* form_value;                // [integrated]
+  Lanes* integral;                  // [products]
+  Lanes *work, *work_size;          // [powers]
+  Lanes *slid, *contact_reversals;  // [contacts]
+  Lanes* direction;                 // [contacts] +1 or -1
+  Lanes* first_direction;           // [contacts] in the first segment
+  Lanes* level;                     // [forms] constant part in the segment
+  Lanes *v0, *a0;                   // [contacts] at the start of a step
+  Lanes* error;                     // [contacts] of the middle coefficient of the proof
   Lanes *x0, *d0, *bend;            // [traces] and the error of a cubic over a step
   Lanes *first_sign, *last_sign;    // [contacts] of the velocity without friction, 0 before it moves
 
@@ -139,7 +139,8 @@ struct Work : C {
   Complex* osc_at;   // [steps][orders]
   Lanes* phase_at;   // [steps]
   Lanes* length;     // [steps], 0 in lanes that have no such step
-  Lanes* left;       // [steps][traces] value, slope at the left, value, slope at the right, level, error of a cubic
+  Lanes*
+      left;  // [steps][traces] value, slope at the left, value, slope at the right, level, error of a cubic
   bool is_rest_at[kMostSteps];     // [steps] whether the mass rests
   bool is_release_at[kMostSteps];  // [steps] whether it begins to slide from rest
   int steps = 0;
@@ -153,9 +154,9 @@ struct Work : C {
   const Complex* slope_phasors() const { return rests ? rest_slope : slope_phasor; }
 
   // Stability.
-  Lanes* flow;       // [states][states]
-  Lanes* square;     // [states][states]
-  Lanes* scratch;    // [states][states]
+  Lanes* flow;            // [states][states]
+  Lanes* square;          // [states][states]
+  Lanes* scratch;         // [states][states]
   Lanes* segment_length;  // [reversals]
   Complex* state;         // [modes] at the section
   Lanes* turned_push;     // [states]

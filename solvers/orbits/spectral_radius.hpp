@@ -10,9 +10,9 @@ inline double larger_root(double half_sum, double under, double product) {
   return under < 0.0 ? std::sqrt(product) : std::abs(half_sum) + std::sqrt(under);
 }
 
-// The largest modulus of the eigenvalues of a square matrix, by A^m, m = 2^squarings: two eigenvalues of largest modulus
-// have its trace and half of trace^2 - trace(A^2m) as their sum and product. No iteration can fail; the error is 1/m of
-// what the others add to these, log(their number) / m at most.
+// The largest modulus of the eigenvalues of a square matrix, by A^m, m = 2^squarings: two eigenvalues of
+// largest modulus have its trace and half of trace^2 - trace(A^2m) as their sum and product. No iteration can
+// fail; the error is 1/m of what the others add to these, log(their number) / m at most.
 template <class Square>
 double spectral_radius(Square A, int squarings = 36) {
   if constexpr (Square::RowsAtCompileTime == 2) {

@@ -29,11 +29,12 @@ class PeriodicResponse {
   PeriodicResponse(PeriodicResponse&&) noexcept;
   PeriodicResponse& operator=(PeriodicResponse&&) noexcept;
 
-  // Solves the points of a row, most often along the frequency. Where the masses and elements are the same at all of
-  // them, but for friction limits, orbits on which nothing sticks are found from their reversal phases, with no use
-  // of other points; the others by shooting, each from those before it.
-  // found: of each point; status not_computed, with the reason, where its values cannot be set, and failed where
-  // the search failed.  out: points x quantities, as quantities() gives them.  Never throws.
+  // Solves the points of a row, most often along the frequency. Where the masses and elements are the same at
+  // all of them, but for friction limits, orbits on which nothing sticks (or one mass stops once in each half
+  // of the period) are found from the phases of their events, with no use of other points; the others by
+  // shooting, each from those before it. found: of each point; status not_computed, with the reason, where
+  // its values cannot be set, and failed where the search failed.  out: points x quantities, as quantities()
+  // gives them.  Never throws.
   void solve_row(std::span<const mechanics::NetworkValues> points, std::span<ResponseSummary> found,
                  std::span<double> out);
 

@@ -15,17 +15,18 @@ namespace frahm::studies {
 // Finds where the regimes of the Coulomb elements change between neighbouring points of a map. For one
 // thread; each has its own.
 //
-// An edge between two neighbours belongs to the tile of its lower one. The regimes at the neighbours beyond its upper
-// faces are solved here, each row without earlier orbits, and so are those of the tile where they are not given. So the
-// borders of a tile depend on the study alone, and both tiles that meet at a point see the same regime there.
+// An edge between two neighbours belongs to the tile of its lower one. The regimes at the neighbours beyond
+// its upper faces are solved here, each row without earlier orbits, and so are those of the tile where they
+// are not given. So the borders of a tile depend on the study alone, and both tiles that meet at a point see
+// the same regime there.
 class BorderSearch {
  public:
   // study, grid: must outlive this.  The elements follow the exact law.
   BorderSearch(const Study& study, const Grid& grid);
 
   // Appends the borders on the edges of a tile: those of one row of the tile after the other, in a row along
-  // one dimension after the other.  known: the regimes of each element with a contact at all points of the tile, one
-  // element after the other, as they are recorded; or empty, for points that are taken over.
+  // one dimension after the other.  known: the regimes of each element with a contact at all points of the
+  // tile, one element after the other, as they are recorded; or empty, for points that are taken over.
   void find(const MapBox& tile, std::span<const std::span<const double>> known, std::vector<Border>& borders);
 
  private:

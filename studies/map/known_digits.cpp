@@ -29,9 +29,8 @@ KnownDigits::KnownDigits(const Study& study, const std::vector<periodic::Quantit
   for (std::size_t i = 0; i < variables.size(); ++i) {
     bits_.push_back(bits_of(study, variables[i]));
     if (variables[i].name == "error_bound") error_bound_ = i;
-    const bool is_peak = std::ranges::any_of(study.network.masses, [&](const std::string& mass) {
-      return variables[i].name == mass + "_peak";
-    });
+    const bool is_peak = std::ranges::any_of(
+        study.network.masses, [&](const std::string& mass) { return variables[i].name == mass + "_peak"; });
     if (is_peak) peaks_.push_back(i);
   }
 }
@@ -44,7 +43,8 @@ void KnownDigits::round(std::span<double> point) const {
   }
 }
 
-// 2^-bits is below the bound over the largest peak, and rounding to the nearest is off by a quarter of that at most.
+// 2^-bits is below the bound over the largest peak, and rounding to the nearest is off by a quarter of that
+// at most.
 int KnownDigits::supported_bits(std::span<const double> point) const {
   if (error_bound_ == point.size()) return most_bits;
   double peak = 0.0;

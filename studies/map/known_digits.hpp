@@ -9,15 +9,16 @@
 
 namespace frahm::studies {
 
-// Significant bits (of 52 behind the first) that a record keeps: what lies below the error bound of a point is noise
-// that takes space and time. A residual, an error bound or an energy balance says an order of magnitude.
+// Significant bits (of 52 behind the first) that a record keeps: what lies below the error bound of a point
+// is noise that takes space and time. A residual, an error bound or an energy balance says an order of
+// magnitude.
 inline constexpr int most_bits = 48, least_bits = 40, diagnostic_bits = 10;
 
 // The bits that a variable keeps at most; 0: all.  It is real.
 int bits_of(const Study& study, const periodic::QuantityDescription& variable);
 
-// Rounds the variables of a point to the bits that its error bound supports: it adds less than a quarter of the
-// bound. As much as most_bits where no bound holds, or is recorded, or no peak that it is relative to.
+// Rounds the variables of a point to the bits that its error bound supports: it adds less than a quarter of
+// the bound. As much as most_bits where no bound holds, or is recorded, or no peak that it is relative to.
 class KnownDigits {
  public:
   // variables: of the record (output_variables()).

@@ -127,8 +127,7 @@ void MapKernel::record_point(std::size_t i, std::uint64_t offset, std::uint64_t 
   if (other_) {
     for (std::size_t c = 0; c < compared_.size(); ++c) own_compared_[c] = own[compared_[c]];
     compare(own_compared_, other_->quantities(i), std::span(point_).subspan(quantities_));
-    if (reason.empty() && !other_->reason(i).empty())
-      reason = fmt::format("compared: {}", other_->reason(i));
+    if (reason.empty() && !other_->reason(i).empty()) reason = fmt::format("compared: {}", other_->reason(i));
   }
   digits_.round(point_);
   for (std::size_t q = 0; q < point_.size(); ++q) record_.values[q * points + offset] = point_[q];

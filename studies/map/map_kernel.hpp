@@ -22,9 +22,9 @@ class KnownPoints;
 // response compared with it, and where regimes change. A point without a response fails with a reason; it
 // never ends the work. For one thread; each has its own.
 //
-// Each tile starts from nothing and goes through its rows in a fixed order, each orbit that needs a start starting
-// from those computed before it, so that the record of a tile depends on the tile alone, and on the earlier
-// result from which the map grows.
+// Each tile starts from nothing and goes through its rows in a fixed order, each orbit that needs a start
+// starting from those computed before it, so that the record of a tile depends on the tile alone, and on the
+// earlier result from which the map grows.
 class MapKernel {
  public:
   // study, grid, earlier: must outlive the kernel.  earlier: the points it has are not computed; may be null.

@@ -10,8 +10,8 @@
 
 namespace frahm::studies {
 
-// Responses of one network along the rows of a map. A point without one fails with a reason; it never ends the
-// work.
+// Responses of one network along the rows of a map. A point without one fails with a reason; it never ends
+// the work.
 class RowSolver {
  public:
   // study: whose parameters the values read; must outlive the solver.

@@ -32,8 +32,7 @@ std::vector<std::string> friction_elements(const mechanics::Network& network) {
   return names;
 }
 
-periodic::PeriodicResponse response_of(const Study& study,
-                                       const std::vector<periodic::Quantity>& quantities,
+periodic::PeriodicResponse response_of(const Study& study, const std::vector<periodic::Quantity>& quantities,
                                        periodic::Path path) {
   try {
     return {study.network, quantities, path};
@@ -52,7 +51,8 @@ void describe_all(const Study& study, const std::vector<periodic::Quantity>& qua
 }
 
 // False where the values cannot be set; the report has the reason.
-bool solve(periodic::PeriodicResponse& response, const mechanics::NetworkValues& values, PointReport& report) {
+bool solve(periodic::PeriodicResponse& response, const mechanics::NetworkValues& values,
+           PointReport& report) {
   periodic::ResponseSummary summary;
   std::vector<double> found(report.quantities.size());
   response.solve_row({&values, 1}, {&summary, 1}, found);
@@ -128,13 +128,14 @@ PointReport tell_point(const Study& study, std::vector<double> parameters, perio
   }
   report.modes = modes_at_point(study, values);
   add_comparison(study, parameters, quantities, report);
-  if (report.status == "ok" || report.status == "grazing") add_motion(response, values, history_samples, report);
+  if (report.status == "ok" || report.status == "grazing")
+    add_motion(response, values, history_samples, report);
   if (gradient) report.gradient = gradient_at(study, parameters);
   return report;
 }
 
 const char* way_name(periodic::Way way) {
-  return way == periodic::Way::reversal_phases ? "reversal phases" : "shooting";
+  return way == periodic::Way::event_phases ? "event phases" : "shooting";
 }
 
 std::string flag_meaning(const periodic::QuantityDescription& description, double value) {

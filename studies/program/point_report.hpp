@@ -48,7 +48,7 @@ struct PointReport {
 PointReport tell_point(const Study& study, std::vector<double> parameters, periodic::Path path,
                        std::size_t history_samples, bool gradient);
 
-// "reversal phases" or "shooting".
+// "event phases" or "shooting".
 const char* way_name(periodic::Way way);
 // The value of a flag in words: "one_stop"; "" for a value that is no flag.
 std::string flag_meaning(const periodic::QuantityDescription& description, double value);

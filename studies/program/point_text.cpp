@@ -30,8 +30,8 @@ void print_heading(const Study& study, const PointReport& report, std::ostream& 
     return;
   }
   fmt::print(out, "residual {:.2g} after {} Newton steps", report.residual, report.newton_iterations);
-  if (report.way == periodic::Way::reversal_phases)
-    fmt::print(out, " on the reversal phases; nothing sticks, proved\n");
+  if (report.way == periodic::Way::event_phases)
+    fmt::print(out, " on the phases of its events; proved that there are no others\n");
   else
     fmt::print(out, ", {} passages of the flow\n", report.passages);
   fmt::print(out, "\n");

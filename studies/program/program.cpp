@@ -204,7 +204,7 @@ void add_point(CLI::App& program, PointOptions& options, Action& action) {
                   "exact derivatives with respect to the parameters, beside central differences");
   point
       ->add_option("--path", options.path,
-                   "fastest: from the reversal phases where nothing sticks; general: by shooting, always")
+                   "fastest: from the phases of its events where that is proved; general: by shooting, always")
       ->check(CLI::IsMember({"fastest", "general"}))
       ->take_last();
   point->add_flag("--json", options.json, "the report as one JSON object");

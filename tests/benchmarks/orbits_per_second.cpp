@@ -1,10 +1,12 @@
-// What an orbit costs, in process CPU time of one thread, medians of five; as Markdown, to be kept with the machine,
-// the compiler, the date and the commit.
+// What an orbit costs, in process CPU time of one thread, medians of five; as Markdown, to be kept with the
+// machine, the compiler, the date and the commit.
 //
-//  - maps in memory, by shooting alone and the fastest way: microseconds an orbit with peaks and with the standard
+//  - maps in memory, by shooting alone and the fastest way: microseconds an orbit with peaks and with the
+//  standard
 //    quantities, and what share of the points and of the time is left to shooting
 //  - each instruction set that runs here
-//  - beside peers on the same points in the same run: Boost.odeint, loose and tight; shooting on the sensitivities of
+//  - beside peers on the same points in the same run: Boost.odeint, loose and tight; shooting on the
+//  sensitivities of
 //    CVODES (Frahm's arctan law of slope 1e5)
 //  - the exact derivatives of one peak by three parameters
 //
@@ -73,7 +75,8 @@ Timing time_rows(const Work& work, const std::vector<Quantity>& quantities, Path
   std::vector<periodic::ResponseSummary> found;
   Timing timing;
   for (int repetition = 0; repetition < repetitions; ++repetition) {
-    PeriodicResponse response(work.network, quantities, path), general(work.network, quantities, Path::general);
+    PeriodicResponse response(work.network, quantities, path),
+        general(work.network, quantities, Path::general);
     double spent = 0.0, left = 0.0;
     timing.by_shooting = 0;
     for (const auto& row : work.rows) {
@@ -173,8 +176,8 @@ void compare_peers(const Work& work, double (*peer_peak)(const NetworkValues&, c
     if (element.type == mechanics::ElementType::coulomb) element.law = mechanics::FrictionLaw::arctan;
   }
   PeriodicResponse exact(work.network, peak), shooting(smooth, peak);
-  Peer loose{"Boost.odeint dopri5 1e-3/1e-6, settled to 1e-4"}, tight{"Boost.odeint dopri5 1e-8, settled to 1e-8"},
-      cvodes{"CVODES shooting"};
+  Peer loose{"Boost.odeint dopri5 1e-3/1e-6, settled to 1e-4"},
+      tight{"Boost.odeint dopri5 1e-8, settled to 1e-8"}, cvodes{"CVODES shooting"};
   std::size_t points = 0;
   const auto timed = [](Peer& peer, double reference, const auto& solve) {
     const double start = cpu_seconds();
@@ -244,7 +247,8 @@ void time_gradients(const Work& work) {
 
 int main(int argc, char** argv) {
   const auto asked = [&](const char* option) {
-    return std::any_of(argv + 1, argv + argc, [&](const char* given) { return std::strcmp(given, option) == 0; });
+    return std::any_of(argv + 1, argv + argc,
+                       [&](const char* given) { return std::strcmp(given, option) == 0; });
   };
   const bool smoke = asked("--smoke");
   const int repetitions = smoke ? 1 : 5;
@@ -252,8 +256,10 @@ int main(int argc, char** argv) {
   fmt::print("{:%F}, g++ {}, {}\n\n", fmt::gmtime(std::time(nullptr)), __VERSION__,
              periodic::nonstop::fastest_kernel().name);
 
-  fmt::print("| map | points | us an orbit, peaks: shooting | fastest | ratio | standard: shooting | fastest | ratio "
-             "| points left to shooting | of the time (peaks) |\n|---|---|---|---|---|---|---|---|---|---|\n");
+  fmt::print(
+      "| map | points | us an orbit, peaks: shooting | fastest | ratio | standard: shooting | fastest | "
+      "ratio "
+      "| points left to shooting | of the time (peaks) |\n|---|---|---|---|---|---|---|---|---|---|\n");
   const Work small = whole(one_mass()), large = whole(rig(smoke ? 3 : 42));
   compare_ways(small, repetitions);
   compare_ways(whole(den_hartog()), repetitions);
@@ -273,8 +279,10 @@ int main(int argc, char** argv) {
   time_gradients(whole(rig(3)));
 
   if (asked("--no-peer")) return 0;
-  fmt::print("\n| map | peer | s a point | median error | largest | Frahm is so many times as fast |\n|---|---|---|---|---|"
-             "---|\n");
+  fmt::print(
+      "\n| map | peer | s a point | median error | largest | Frahm is so many times as fast "
+      "|\n|---|---|---|---|---|"
+      "---|\n");
   compare_peers(small, one_mass_peak, smoke ? 8 : 97);
   compare_peers(whole(rig(3)), rig_peak, smoke ? 8 : 97);
 }

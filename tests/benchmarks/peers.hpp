@@ -2,8 +2,9 @@
 
 #include "solvers/mechanics/network.hpp"
 
-// What is used instead today: integration of the smoothed law F (2/pi) arctan(1e5 v) to a steady state by Boost.odeint's
-// dopri5, until the peak changes by less than `settled` from one period to the next. Peak of the first mass.
+// What is used instead today: integration of the smoothed law F (2/pi) arctan(1e5 v) to a steady state by
+// Boost.odeint's dopri5, until the peak changes by less than `settled` from one period to the next. Peak of
+// the first mass.
 namespace frahm::benchmarks {
 
 struct PeerAccuracy {

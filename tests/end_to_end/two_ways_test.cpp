@@ -1,4 +1,4 @@
-// Shipped maps, whole, from reversal phases where nothing sticks, and by shooting alone.
+// Shipped maps, whole, from the phases of events where that serves, and by shooting alone.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -10,14 +10,16 @@ namespace {
 
 using runs::Map;
 
-constexpr double kSame = 1e-10;       // relative
-constexpr double kSamePhase = 1e-8;   // [rad]
-// Of a variable's largest value: below, relative to this part of it. An rms of short slides between long rests, the
-// difference of larger motions, has fewer digits by shooting (0.0013 in the regime map: 5e-10 off, from its phases 6e-13).
+constexpr double kSame = 1e-10;      // relative
+constexpr double kSamePhase = 1e-8;  // [rad]
+// Of a variable's largest value: below, relative to this part of it. An rms of short slides between long
+// rests, the difference of larger motions, has fewer digits by shooting (0.0013 in the regime map: 5e-10 off,
+// from its phases 6e-13).
 constexpr double kSlight = 1e-3;
 
 bool is_of_computation(const std::string& name) {
-  return name == "residual" || name == "error_bound" || name == "energy_balance" || name == "newton_iterations";
+  return name == "residual" || name == "error_bound" || name == "energy_balance" ||
+         name == "newton_iterations";
 }
 
 // Shares of 1, compared as such: the duration of a slight stop is as sensitive as a square root.
@@ -41,7 +43,8 @@ void check_same(const std::string& study) {
     const std::vector<double>& others = fastest[name];
     REQUIRE(values.size() == others.size());
     double largest = 0.0, worst = 0.0;
-    for (const double value : values) largest = std::isnan(value) ? largest : std::max(largest, std::abs(value));
+    for (const double value : values)
+      largest = std::isnan(value) ? largest : std::max(largest, std::abs(value));
     std::size_t missing = 0;
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (std::isnan(values[i]) != std::isnan(others[i])) ++missing;

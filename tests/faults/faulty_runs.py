@@ -40,9 +40,9 @@ orbits = [{ r = 0.9, f = 0.3272727272727272, zeta = 0.1 }]
 
 
 def larger_sweep(source):
-    """About a second of one processor, in 300 tiles."""
+    """About a second of one processor, in 300 tiles: every orbit by shooting."""
     with open(os.path.join(source, "studies", "classics", "den_hartog.toml")) as file:
-        return file.read().replace("points = 25", "points = 50")
+        return file.read().replace("points = 25", "points = 50") + '\n[output]\npath = "general"\n'
 
 
 def tuning_study(source):

@@ -1,8 +1,8 @@
+#include "solvers/nonstop/lanes.hpp"
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstddef>
-
-#include "solvers/nonstop/lanes.hpp"
 
 // The functions of eight numbers at once, beside those of the standard library.
 namespace {
@@ -29,7 +29,8 @@ TEST_CASE("exponential, turn, logarithm and root of lanes are right to rounding"
       of_exp = std::max(of_exp, std::abs(at(e, i) / std::exp(number) - 1.0));
       of_turn = std::max(of_turn, std::abs(at(u.re, i) - std::cos(number * 1000.0)));
       of_turn = std::max(of_turn, std::abs(at(u.im, i) - std::sin(number * 1000.0)));
-      of_log = std::max(of_log, std::abs(at(l, i) - std::log(size)) / std::max(1.0, std::abs(std::log(size))));
+      of_log =
+          std::max(of_log, std::abs(at(l, i) - std::log(size)) / std::max(1.0, std::abs(std::log(size))));
       of_root = std::max(of_root, std::abs(at(r, i) - std::sqrt(size)));
     }
   });

@@ -11,13 +11,13 @@
 #include "tests/known_answers/single_mass.hpp"
 #include "tests/solvers/nonstop/two_ways.hpp"
 
-// Orbits on which nothing sticks, from their reversal phases, beside the same by shooting.
+// Orbits from the phases of their events, beside the same by shooting.
 namespace frahm::periodic {
 namespace {
 
 using Catch::Matchers::WithinAbs;
-constexpr double kSame = 1e-10;         // of values, as difference() takes it
-constexpr double kSamePhase = 1e-6;     // of an element's phase lag [rad], which may be that of a slight motion
+constexpr double kSame = 1e-10;      // of values, as difference() takes it
+constexpr double kSamePhase = 1e-6;  // of an element's phase lag [rad], which may be that of a slight motion
 
 struct Found {
   ResponseSummary summary;
@@ -32,7 +32,8 @@ Found solved(const mechanics::Network& network, const mechanics::NetworkValues& 
   return found;
 }
 
-// Networks of 1 to 6 masses with 0 to 4 contacts, odd and even orders, tiny and huge friction, strong dampers.
+// Networks of 1 to 6 masses with 0 to 4 contacts, odd and even orders, tiny and huge friction, strong
+// dampers.
 RandomNetwork drawn(unsigned seed) {
   static const std::vector<std::vector<int>> orders{{1}, {1, 3}, {1, 2}, {0, 1}, {1}, {2, 3}, {1, 5}, {1}};
   std::mt19937 random(seed);
@@ -67,7 +68,8 @@ bool is_within_bounds(const std::vector<Quantity>& quantities, const Found& a, c
                       value_of(Measure::error_bound, 0, quantities, b.values);
 }
 
-TEST_CASE("random networks have the same non-stop orbits from their reversal phases as by shooting", "[slow]") {
+TEST_CASE("random networks have the same non-stop orbits from their reversal phases as by shooting",
+          "[slow]") {
   int non_stop = 0, from_phases = 0;
   for (unsigned seed = 0; seed < 4000; ++seed) {
     INFO("seed " << seed);
@@ -82,7 +84,7 @@ TEST_CASE("random networks have the same non-stop orbits from their reversal pha
         sticks = sticks || (quantities[i].measure == Measure::stuck_fraction && general.values[i] > 0.0);
       if (!sticks) ++non_stop;
     }
-    if (fastest.summary.way != Way::reversal_phases) continue;
+    if (fastest.summary.way != Way::event_phases) continue;
     ++from_phases;
     for (std::size_t i = 0; i < quantities.size(); ++i) {
       const Measure measure = quantities[i].measure;
@@ -105,7 +107,7 @@ TEST_CASE("an orbit from its reversal phases keeps within the error bounds of bo
     const Found general = solved(network.network, network.values, quantities, Path::general);
     const Found fastest = solved(network.network, network.values, quantities, Path::fastest);
     const double bound = value_of(Measure::error_bound, 0, quantities, general.values);
-    if (fastest.summary.way != Way::reversal_phases || std::isnan(bound)) continue;
+    if (fastest.summary.way != Way::event_phases || std::isnan(bound)) continue;
     INFO("seed " << seed);
     CHECK(std::isfinite(value_of(Measure::error_bound, 0, quantities, fastest.values)));
     CHECK(is_within_bounds(quantities, general, fastest));
@@ -123,12 +125,14 @@ TEST_CASE("one mass sticks from its reversal phases where it sticks by shooting,
       const mechanics::NetworkValues values = single_mass_values(r, 0.02, f);
       const Found general = solved(network, values, quantities, Path::general);
       const Found fastest = solved(network, values, quantities, Path::fastest);
-      const auto stops = [&](const Found& found) { return value_of(Measure::stops, 2, quantities, found.values); };
+      const auto stops = [&](const Found& found) {
+        return value_of(Measure::stops, 2, quantities, found.values);
+      };
       CHECK(stops(fastest) == stops(general));
       const double stuck = value_of(Measure::stuck_fraction, 2, quantities, general.values);
       CHECK_THAT(value_of(Measure::stuck_fraction, 2, quantities, fastest.values), WithinAbs(stuck, kSame));
       if (stuck == 0.0 && fastest.summary.way == Way::shooting) ++close;
-      if (fastest.summary.way == Way::reversal_phases) ++(stuck > 0.0 ? sticks : slides);
+      if (fastest.summary.way == Way::event_phases) ++(stuck > 0.0 ? sticks : slides);
     }
   }
   CHECK(close < 0.005 * slides);
@@ -170,7 +174,8 @@ TEST_CASE("every instruction set gives the same bytes") {
   for (const auto& values : of_kernel) {
     for (std::size_t i = 0; i < values.size(); ++i) {
       INFO(describe(quantities[i % quantities.size()], network, false).name);
-      const bool same = values[i] == of_kernel[0][i] || (std::isnan(values[i]) && std::isnan(of_kernel[0][i]));
+      const bool same =
+          values[i] == of_kernel[0][i] || (std::isnan(values[i]) && std::isnan(of_kernel[0][i]));
       CHECK(same);
     }
   }
@@ -185,7 +190,7 @@ TEST_CASE("a point of a row has the same values alone, and in any company") {
     std::vector<ResponseSummary> found(points.size());
     std::vector<double> values(points.size() * quantities.size());
     response.solve_row(points, found, values);
-    CHECK(std::ranges::all_of(found, [](const auto& point) { return point.way == Way::reversal_phases; }));
+    CHECK(std::ranges::all_of(found, [](const auto& point) { return point.way == Way::event_phases; }));
     return values;
   };
   const std::vector<double> forwards = solve(row);
@@ -232,7 +237,7 @@ TEST_CASE("a row whose friction changes has the orbits of its points") {
     const Found general = solved(network, row[i], quantities, Path::general);
     const auto first = values.begin() + static_cast<std::ptrdiff_t>(i * quantities.size());
     const std::vector<double> own(first, first + static_cast<std::ptrdiff_t>(quantities.size()));
-    CHECK(found[i].way == Way::reversal_phases);
+    CHECK(found[i].way == Way::event_phases);
     for (std::size_t q = 0; q < quantities.size(); ++q) {
       INFO(i << " " << describe(quantities[q], network, false).name);
       if (!is_of_computation(quantities[q].measure))

@@ -65,20 +65,19 @@ TEST_CASE("without a bound a value keeps 48 bits, a diagnostic always 10, a coun
   CHECK(value_of(plan, point, "energy_balance") == rounded(0.1, 10));
   CHECK(value_of(plan, point, "friction_stops") == 0.1);
   CHECK(value_of(plan, point, "friction_regime") == 0.1);
-  CHECK(value_of(plan, rounded_point(plan_of("[output]\nquantities = [\"main_peak\"]\n"), 0.0), "main_peak") ==
-        rounded(0.1, 48));
+  CHECK(value_of(plan, rounded_point(plan_of("[output]\nquantities = [\"main_peak\"]\n"), 0.0),
+                 "main_peak") == rounded(0.1, 48));
 }
 
 TEST_CASE("a study of full precision keeps every bit") {
   const MapPlan plan = plan_of("[output]\nprecision = \"full\"\n");
-  CHECK(rounded_point(plan, 1e-9) ==
-        [&] {
-          std::vector<double> point(plan.variables.size(), 0.1);
-          for (std::size_t i = 0; i < point.size(); ++i) {
-            if (plan.variables[i].name == "error_bound") point[i] = 1e-9;
-          }
-          return point;
-        }());
+  CHECK(rounded_point(plan, 1e-9) == [&] {
+    std::vector<double> point(plan.variables.size(), 0.1);
+    for (std::size_t i = 0; i < point.size(); ++i) {
+      if (plan.variables[i].name == "error_bound") point[i] = 1e-9;
+    }
+    return point;
+  }());
 }
 
 }  // namespace
