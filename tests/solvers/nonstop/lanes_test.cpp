@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-// The functions of eight numbers at once, beside those of the standard library.
+// The functions of sixteen numbers at once, beside those of the standard library.
 namespace {
 
 constexpr double kRounding = 4e-16;
