@@ -60,6 +60,8 @@ class NonstopSolver {
   double error_bound(int lane) const;
   double static_norm(const mechanics::LinearSystem& system) const;
 
+  bool asks(Measure measure) const;
+  static std::size_t size(Eigen::Index n) { return static_cast<std::size_t>(n); }
   static double told(const double* array, std::size_t index, int lane) {
     return array[index * kLanes + static_cast<std::size_t>(lane)];
   }

@@ -1,6 +1,7 @@
 #include "solvers/nonstop/sliding_forms.hpp"
 
 #include "solvers/algebra/solve.hpp"
+#include "solvers/mechanics/element_table.hpp"
 
 namespace frahm::periodic::nonstop {
 
