@@ -170,8 +170,6 @@ void NonstopSolver::lay_out_pack() {
                         {&pack_.slid, m},
                         {&pack_.contact_reversals, m},
                         {&pack_.slides, 1},
-                        {&pack_.section, 1},
-                        {&pack_.state, 2 * M},
                         {&pack_.state_norm, 1},
                         {&pack_.residual, 1},
                         {&pack_.parts, 1},

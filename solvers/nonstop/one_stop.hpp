@@ -336,7 +336,8 @@ inline Passage sweep_one_stop(W& w, const OneStop& stop, double fineness) {
   return passage;
 }
 
-// State and multiplier amid the rest: a shift of the position there grows by what the slide leaves of it.
+// Norm of the state and multiplier amid the rest: a shift of the position there grows by what the slide
+// leaves of it.
 template <class W>
 inline void judge_one_stop(W& w, const OneStop& stop, Mask told) {
   const auto tell = [&](double* array, Lanes x) { *view(array) = select(told, x, *view(array)); };
@@ -351,7 +352,6 @@ inline void judge_one_stop(W& w, const OneStop& stop, Mask told) {
   tell(w.pack.state_norm, stop.rest * norm_of_coordinates(w, [&](int i) {
                             return i == 0 ? stop.unit.first : stop.unit.second;
                           }));
-  tell(w.pack.section, stop.release + 0.5 * (stop.theta + kPi));
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ struct Shape {
   bool half_period = false;          // x(t + T/2) = -x(t)
   bool asks_phases = false;          // of the extremes
   bool asks_strokes = false;         // and reversals of the contacts
-  bool is_judged = false;            // state, residual, multipliers and contraction
+  bool is_judged = false;            // norm of the state, residual, multipliers and contraction
   const char* is_pair = nullptr;     // of each mode: whether it stands for a conjugate pair
   const char* is_direct = nullptr;   // of each form: whether inputs act on it directly
   const int* order = nullptr;        // of each harmonic
@@ -86,8 +86,6 @@ struct Pack {
   double* slid = nullptr;               // [contacts] distance over a period [m]
   double* contact_reversals = nullptr;  // [contacts] in a period
   double* slides = nullptr;             // share of the period; 1: nothing stops
-  double* section = nullptr;            // phase at which the state is told [rad]
-  double* state = nullptr;              // [modes] complex: modal coordinates there
   double* state_norm = nullptr;         // energy norm there [sqrt(J)]
   double* residual = nullptr;     // energy norm by which the motion misses itself after the period [sqrt(J)]
   double* parts = nullptr;        // energy norms of what the motion is the sum of [sqrt(J)]

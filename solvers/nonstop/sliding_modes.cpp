@@ -39,9 +39,9 @@ Eigen::MatrixXd energy_root(const mechanics::LinearSystem& system) {
 // In coordinates R y the undamped part of A is skew and its eigenvectors orthogonal.
 SlidingModes sliding_modes(const mechanics::LinearSystem& system) {
   SlidingModes result;
-  result.energy_root = energy_root(system);
-  const Eigen::MatrixXd back = algebra::inverse(result.energy_root);
-  const algebra::Spectrum spectrum = algebra::spectrum(result.energy_root * state_matrix(system) * back);
+  const Eigen::MatrixXd root = energy_root(system);
+  const Eigen::MatrixXd back = algebra::inverse(root);
+  const algebra::Spectrum spectrum = algebra::spectrum(root * state_matrix(system) * back);
   const Eigen::Index D = spectrum.values.size();
   Eigen::Index M = 0;
   for (Eigen::Index i = 0; i < D; ++i) M += spectrum.values[i].imag() >= 0.0 ? 1 : 0;
@@ -58,7 +58,7 @@ SlidingModes sliding_modes(const mechanics::LinearSystem& system) {
     result.lambda[mode] = spectrum.values[i];
     result.is_pair.push_back(is_pair ? 1 : 0);
     result.vectors.col(mode) = back * vector;
-    result.left.row(mode) = (is_pair ? 2.0 : 1.0) * (spectrum.inverse.row(i) * result.energy_root);
+    result.left.row(mode) = (is_pair ? 2.0 : 1.0) * (spectrum.inverse.row(i) * root);
     result.norms[mode] = std::sqrt(0.5) * vector.norm();
     result.to_energy.col(column++) = vector.real();
     if (is_pair) result.to_energy.col(column++) = -vector.imag();

@@ -18,7 +18,6 @@ struct SlidingModes {
   // Real modal coordinates (Re eta, Im eta of a pair, eta of a real mode) to coordinates whose length is
   // sqrt(2) times the energy norm, and back; D x D.
   Eigen::MatrixXd to_energy, from_energy;
-  Eigen::MatrixXd energy_root;  // R, y to those coordinates; D x D
   // How many times rounding grows by way of the modes; infinite where there are too few (critical damping).
   double condition = 0.0;
 

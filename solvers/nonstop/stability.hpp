@@ -172,19 +172,13 @@ inline Lanes norm_of_state(W& w) {
   return norm_of_coordinates(w, [&](int i) { return w.turned_push[i]; });
 }
 
-// Tells state, multipliers and contraction, in the lanes told.
+// Tells the norm of the state, multipliers and contraction, in the lanes told.
 template <class W>
 inline void judge(W& w, Mask told) {
   const int D = w.states;
   const auto tell = [&](double* array, Lanes x) { *view(array) = select(told, x, *view(array)); };
   const Lanes section = (w.reversals > 0 ? w.sorted_phase[0] : lanes(0.0)) + 0.5 * w.segment_length[0];
   find_state(w, section);
-  tell(w.pack.section, section);
-  for (int s = 0; s < w.modes; ++s) {
-    Lanes* state = view(w.pack.state) + 2 * s;
-    state[0] = select(told, w.state[s].re, state[0]);
-    state[1] = select(told, w.state[s].im, state[1]);
-  }
   tell(w.pack.state_norm, norm_of_state(w));
 
   differentiate_map(w);

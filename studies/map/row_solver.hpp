@@ -27,7 +27,6 @@ class RowSolver {
   // Of point i of the row: its quantities; and why it fails, empty if it does not.
   std::span<const double> quantities(std::size_t i) const;
   const std::string& reason(std::size_t i) const { return found_[i].reason; }
-  periodic::Way way(std::size_t i) const { return found_[i].way; }
 
   // Solves one point by shooting; then the stretches of its orbit, if it has one
   // (PeriodicResponse::stretches).

@@ -10,7 +10,7 @@
 //    CVODES (Frahm's arctan law of slope 1e5)
 //  - the exact derivatives of one peak by three parameters
 //
-//   benchmark_orbits            everything, some five minutes
+//   benchmark_orbits            everything, some two minutes
 //   benchmark_orbits --no-peer  Frahm only
 //   benchmark_orbits --smoke    a few points of each, to see that it works
 #include <fmt/chrono.h>
