@@ -119,17 +119,17 @@ inline Mask search_part(const TraceStep<W>& trace, const Part& part, Mask among,
   const Lanes rise = part.x1 - part.x0, q = 3.0 * rise - 2.0 * d0 - d1, r = d0 + d1 - 2.0 * rise;
   const Lanes under = q * q - 3.0 * r * d0, root = sqrt(max(under, lanes(0.0)));
   const Lanes falling = select(q < lanes(0.0), d0 / (root - q), (-q - root) / (3.0 * r));
-  // A release begins with a slope of zero, which is no extreme that is reached; it leaves it slowly, so that
-  // parts beside it are cut short.
+  // A release begins with a slope of zero, which is no extreme that is reached, and which the cubic, wrong by
+  // its error, crosses beside it: the part there is cut short until such a crossing is out of it.
   const bool is_release = trace.w.is_release_at[trace.step];
-  const double first = is_release ? 1e-4 : 0.0;
-  const Mask inside = may & ~(under < lanes(0.0)) & (falling > first) & (falling < lanes(1.0));
   const Lanes cut = is_release ? select(part.from > 0.0, lanes(0.5), 0.125) : lanes(0.5);
+  const Lanes first = is_release ? select(part.from > 0.0, lanes(0.0), 0.125) : lanes(0.0);
+  const Mask inside = may & ~(under < lanes(0.0)) & (falling > first) & (falling < lanes(1.0));
   Lanes place = part.from + select(inside, falling, cut) * h;
   Lanes value, slope = lanes(0.0);
   if (any(inside)) {
     value = stationary_value(trace, part, inside, place);
-    const Mask reached = inside & (place > first);
+    const Mask reached = inside & (place > (is_release ? 1e-4 : 0.0));
     const Lanes phase = trace.w.phase_at[trace.step] + place;
     consider(trace.w, best, inside, reached, value, side_phase(trace, phase));
   }

@@ -70,20 +70,25 @@ inline void solve_with_stops(W& w, Mask group) {
     *view(w.pack.slides) = select(passage.proved, stop.theta * (1.0 / kPi), *view(w.pack.slides));
     if (w.shape.is_judged) judge_one_stop(w, stop, passage.proved);
   };
-  Passage passage = sweep_stuck(w, held, group);
-  finish(passage, held);
-  group = group & ~passage.proved;
-  const OneStop stop = find_one_stop(w, held, group);
-  if (!any(stop.found)) return;
-  w.iterations = stop.iterations;
-  w.reversals = 2;  // a stop and a release
-  passage = sweep_one_stop(w, stop, 1.0);
-  const Mask again = stop.found & ~passage.proved & is_close(passage);
-  finish(passage, stop);
-  if (!any(again)) return;
-  passage = sweep_one_stop(w, stop, kFine);
-  passage.proved = passage.proved & again;
-  finish(passage, stop);
+  const Passage at_rest = sweep_stuck(w, held, group);
+  finish(at_rest, held);
+  group = group & ~at_rest.proved;
+  for (const int intervals : {kCoarseGrid, kFineGrid}) {
+    const OneStop stop = find_one_stop(w, held, group, intervals);
+    if (!any(stop.found)) continue;
+    w.iterations = stop.iterations;
+    w.reversals = 2;  // a stop and a release
+    Mask sought = stop.found;
+    for (const double fineness : {1.0, kFine}) {
+      Passage passage = sweep_one_stop(w, stop, fineness);
+      passage.proved = passage.proved & sought;
+      finish(passage, stop);
+      group = group & ~passage.proved;
+      sought = sought & ~passage.proved & is_close(passage);
+      if (!any(sought)) break;
+    }
+    if (!any(group)) return;
+  }
 }
 
 template <class C>

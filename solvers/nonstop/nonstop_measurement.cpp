@@ -42,7 +42,7 @@ void NonstopSolver::measure(int lane) {
   m.system = &system;
   m.period = 2.0 * std::numbers::pi / system.omega;
   m.half_period = shape_.half_period;
-  m.status = Status::ok;
+  m.status = told(pack_.margin, 0, lane) < kGrazing ? Status::grazing : Status::ok;
   m.newton_iterations = static_cast<int>(told(pack_.newton_iterations, 0, lane));
   m.events = 0;
   m.extremes.resize(request_.traces.size());

@@ -35,6 +35,18 @@ struct OneStop {
   Lanes friction;  // A_F: of that which friction gives
 };
 
+// What a slide leaves of each mode, and turns the harmonic by.
+struct Slide {
+  Complex left[2], turned;
+};
+template <class W>
+FRAHM_INLINE Slide slide_of(const W& w, Lanes theta) {
+  Slide slide;
+  for (int s = 0; s < w.modes; ++s) slide.left[s] = exponential({theta * w.rate[s].re, theta * w.rate[s].im});
+  slide.turned = turn(theta);
+  return slide;
+}
+
 // What varies with theta: G and K, whose parts across G give the equation, and their derivatives.
 struct StopEquation {
   Complex G, dG, K, dK;
@@ -65,15 +77,14 @@ struct StopProblem {
     jerk = b.first * first + b.second * second - V;
   }
 
-  StopEquation at(const W& w, Lanes theta) const {
+  StopEquation at(const W& w, const Slide& slide) const {
     Complex velocity[2], slope[2], shift[2];
     for (int s = 0; s < w.modes; ++s) {
-      const Complex e = exponential({theta * w.rate[s].re, theta * w.rate[s].im});
-      velocity[s] = load(w.pack.form_modal, s) * e;
-      slope[s] = w.slope_modal[s] * e;
-      shift[s] = load(w.pack.form_modal, w.modes + s) * e;
+      velocity[s] = load(w.pack.form_modal, s) * slide.left[s];
+      slope[s] = w.slope_modal[s] * slide.left[s];
+      shift[s] = load(w.pack.form_modal, w.modes + s) * slide.left[s];
     }
-    const Complex turned = turn(theta), next = {-turned.im, turned.re};
+    const Complex turned = slide.turned, next = {-turned.im, turned.re};
     const Row v = row_of(w, velocity), a = row_of(w, slope), u = row_of(w, shift);
     const Lanes per_omega = 1.0 / *view(w.pack.omega);
     StopEquation e;
@@ -90,20 +101,16 @@ struct StopProblem {
     const Complex across = {inverse * e.G.im, inverse * e.G.re};  // i conj(G) / |G|
     return select(real_part(jerk, across) < 0.0, Complex{-across.re, -across.im}, across);
   }
-};
 
-// Re(K e^{ip}) + 2 level, the distance by which the slide ends beyond the other side.
-template <class W>
-inline Lanes distance_missed(const W& w, const StopProblem<W>& problem, Lanes theta, Lanes* slope) {
-  const StopEquation e = problem.at(w, theta);
-  const Complex u = problem.release_at(e);
-  if (slope != nullptr) {
-    // Re(G e^{ip}) = 0 turns p by dp = -Re(dG e^{ip}) / Re(i G e^{ip}).
+  // Re(K e^{ip}) + 2 level, the distance by which the slide ends beyond the other side.
+  Lanes missed(const StopEquation& e) const { return real_part(e.K, release_at(e)) + 2.0 * level; }
+  // Its slope by theta. Re(G e^{ip}) = 0 turns p by dp = -Re(dG e^{ip}) / Re(i G e^{ip}).
+  Lanes slope(const StopEquation& e) const {
+    const Complex u = release_at(e);
     const Lanes dp = real_part(e.dG, u) / (e.G * u).im;
-    *slope = real_part(e.dK, u) - dp * (e.K * u).im;
+    return real_part(e.dK, u) - dp * (e.K * u).im;
   }
-  return real_part(e.K, u) + 2.0 * problem.level;
-}
+};
 
 // The mass at rest: what forcing, spring and friction would accelerate it by.
 template <class W>
@@ -125,45 +132,70 @@ inline OneStop hold_mass(const W& w) {
   return stop;
 }
 
-// The longest slide that serves, on a grid, and by Newton's method within its interval.
+// Intervals of the grid on which the length of the slide is sought, at first and where that did not serve.
+constexpr int kCoarseGrid = 12, kFineGrid = 48;
+
+// A slide that serves: between two places of a grid the distance missed changes its sign, and at those before
+// the velocity is positive; the longest of them.
+struct Bracket {
+  Mask found;
+  Lanes low, high, theta;
+};
 template <class W>
-inline OneStop find_one_stop(const W& w, OneStop stop, Mask group) {
-  constexpr int kIntervals = 12, kMostIterations = 16;
+inline Bracket bracket_slide(const W& w, const StopProblem<W>& problem, Mask group, int intervals) {
+  constexpr double kRough = 0.05;  // a sign is that at the end of an interval, not yet at the root
+  StopEquation grid[kFineGrid + 1];
+  const auto place = [&](int i) { return i == intervals ? kPi : kPi * (i + 0.3) / intervals; };
+  Slide slide = slide_of(w, lanes(place(0)));
+  const Slide onwards = slide_of(w, lanes(kPi / intervals));
+  for (int i = 0; i < intervals; ++i) {
+    grid[i] = problem.at(w, slide);
+    for (int s = 0; s < w.modes; ++s) slide.left[s] = slide.left[s] * onwards.left[s];
+    slide.turned = slide.turned * onwards.turned;
+  }
+  grid[intervals] = problem.at(w, slide_of(w, lanes(kPi)));
+  Bracket bracket{none(), lanes(0.0), lanes(0.0), lanes(0.0)};
+  Lanes here, after = problem.missed(grid[intervals]);
+  for (int i = intervals - 1; i >= 0; --i, after = here) {
+    here = problem.missed(grid[i]);
+    const Mask changes = ((here > 0.0) & ~(after > 0.0)) | (~(here > 0.0) & (after > 0.0));
+    Mask serves = group & ~bracket.found & changes;
+    if (!any(serves)) continue;
+    const Complex u = problem.release_at(grid[i]);
+    for (int before = 0; before < i; ++before)
+      serves = serves & (real_part(grid[before].G, u) > -kRough * modulus(grid[before].G));
+    bracket.low = select(serves, lanes(place(i)), bracket.low);
+    bracket.high = select(serves, lanes(place(i + 1)), bracket.high);
+    const Lanes secant = place(i) + (place(i + 1) - place(i)) * (here / (here - after));
+    bracket.theta = select(serves, secant, bracket.theta);
+    bracket.found = bracket.found | serves;
+  }
+  return bracket;
+}
+
+// By Newton's method within the bracket.
+template <class W>
+inline OneStop find_one_stop(const W& w, OneStop stop, Mask group, int intervals) {
+  constexpr int kMostIterations = 16;
   constexpr double kSmall = 1e-11;  // of a step [rad]: the rest position is the difference of larger numbers
   const StopProblem<W> problem(w);
-  Lanes low = lanes(0.0), high = lanes(0.0), theta = lanes(0.0);
-  Mask bracketed = none();
-  Lanes before = distance_missed(w, problem, lanes(kPi), nullptr), above = lanes(kPi);
-  for (int i = kIntervals - 1; i >= 0; --i) {
-    const Lanes place = lanes(kPi * (i + 0.3) / kIntervals);
-    const Lanes here = distance_missed(w, problem, place, nullptr);
-    const Mask changes =
-        group & ~bracketed & (((here > 0.0) & ~(before > 0.0)) | (~(here > 0.0) & (before > 0.0)));
-    low = select(changes, place, low);
-    high = select(changes, above, high);
-    theta = select(changes, place + (above - place) * (here / (here - before)), theta);
-    bracketed = bracketed | changes;
-    before = here;
-    above = place;
-    if (!any(group & ~bracketed)) break;
-  }
-  Mask going = bracketed;
+  const Bracket bracket = bracket_slide(w, problem, group, intervals);
+  Lanes theta = bracket.theta;
+  Mask going = bracket.found;
   stop.iterations = lanes(0.0);
   for (int i = 0; i < kMostIterations && any(going); ++i) {
-    Lanes slope;
-    const Lanes missed = distance_missed(w, problem, theta, &slope);
-    const Lanes to = max(min(theta - missed / slope, high), low);
-    const Lanes step = abs(to - theta);
-    theta = select(going, to, theta);
+    const StopEquation e = problem.at(w, slide_of(w, theta));
+    const Lanes step = problem.missed(e) / problem.slope(e);
+    theta = select(going, max(min(theta - step, bracket.high), bracket.low), theta);
     stop.iterations = select(going, stop.iterations + 1.0, stop.iterations);
-    going = going & ~(step < lanes(kSmall));
+    going = going & ~(abs(step) < lanes(kSmall));
   }
-  stop.found = bracketed & ~going;
+  stop.found = bracket.found & ~going;
   stop.theta = theta;
 
-  const StopEquation e = problem.at(w, theta);
+  const StopEquation e = problem.at(w, slide_of(w, theta));
   const Complex u = problem.release_at(e);
-  stop.missed = real_part(e.K, u) + 2.0 * problem.level;
+  stop.missed = problem.missed(e);
   // The angle of u: a rough one, and the sine of what it lacks.
   const Lanes rough = rough_angle(u);
   const Lanes lack = (u * conjugate(turn(rough))).im;
@@ -303,24 +335,28 @@ inline void sweep_rest(W& w, const OneStop& stop, double steps_a_radian, Passage
   }
 }
 
-// Nothing moves: the forcing stays below the limit by itself. In the lanes where it does.
+// Nothing moves: the forcing stays below the limit by itself, or just reaches it, where a tie goes to
+// sticking. In the lanes where it does.
 template <class W>
 inline Passage sweep_stuck(W& w, const OneStop& held, Mask group) {
+  constexpr double kTie = 1e-12;  // as events/tolerances.hpp has it
   const Lanes room = (held.friction - modulus(held.drive)) / held.friction;
-  Passage passage{group & (room > kSafe), lanes(1.0), room, lanes(0.0), lanes(0.0)};
+  const Mask holds = group & ((room > kSafe) | (abs(room) < lanes(kTie)));
+  Passage passage{holds, lanes(1.0), room, lanes(0.0), lanes(0.0)};
   clear_measures(w);
-  if (any(passage.proved)) sweep_rest(w, held, 1.0 / 0.75, passage);
+  if (any(holds)) sweep_rest(w, held, 1.0 / 0.75, passage);
   passage.between = room;
-  passage.proved = group & (room > kSafe);
+  passage.proved = holds;
   return passage;
 }
 
 template <class W>
 inline Passage sweep_one_stop(W& w, const OneStop& stop, double fineness) {
+  constexpr double kClosed = 1e-9;
   const double steps_a_radian = fineness / 0.75;
   Passage passage{stop.found, lanes(1.0), lanes(1.0), lanes(0.0), lanes(0.0)};
-  passage.proved =
-      passage.proved & (stop.theta > 1e-3) & (lanes(kPi) - stop.theta > 1e-6) & (stop.rest > 0.0);
+  passage.proved = passage.proved & (stop.theta > 1e-3) & (lanes(kPi) - stop.theta > 1e-6) &
+                   (stop.rest > 0.0) & (abs(stop.missed) < kClosed * stop.rest);
   clear_measures(w);
   sweep_slide(w, stop, steps_a_radian, passage);
   if (any(passage.proved)) sweep_rest(w, stop, steps_a_radian, passage);
