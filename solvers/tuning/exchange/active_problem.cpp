@@ -101,7 +101,7 @@ void ActiveProblem::start_at(std::span<const double> x) {
   double worst = 0.0;
   for (std::size_t i = 0; i < active_.size(); ++i) {
     if (curves_[active_[i].curve].of != CurveKind::Of::objective) continue;
-    if (responses_[i]->solve(x, active_[i].at, false) != TunedResponse::State::solved) continue;
+    if (responses_[i]->solve(x, active_[i].at, Derivatives::none) != TunedResponse::State::solved) continue;
     worst = std::max(worst, responses_[i]->value(BandCurve::larger));
   }
   const double size = worst > 0.0 ? worst : goal_.held > 0.0 ? goal_.held : 1.0;
@@ -132,7 +132,9 @@ double ActiveProblem::integral(std::span<const double> x, std::span<double> grad
   double sum = 0.0;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     BandCurve& curve = *node_responses_[i];
-    if (curve.solve(x, nodes_[i].at, !gradient.empty()) != TunedResponse::State::solved) return kNone;
+    if (curve.solve(x, nodes_[i].at, gradient.empty() ? Derivatives::none : Derivatives::all) !=
+        TunedResponse::State::solved)
+      return kNone;
     const double value = curve.value(BandCurve::larger), weight = nodes_[i].weight;
     const bool square = goal_.of == Goal::Of::mean_square;
     sum += weight * (square ? value * value : value);
@@ -196,9 +198,10 @@ std::size_t ActiveProblem::constrain_responses(std::span<const double> x, std::s
   for (std::size_t i = 0; i < active_.size(); ++i) {
     const ActivePoint& point = active_[i];
     BandCurve& curve = *responses_[i];
-    const bool solved = point.followed
-                            ? follow_maximum(curve, x, point.at, point.from, point.to, point.side)
-                            : curve.solve(x, point.at, !entries.empty()) == TunedResponse::State::solved;
+    const Derivatives derivatives = entries.empty() ? Derivatives::none : Derivatives::all;
+    const bool solved =
+        point.followed ? follow_maximum(curve, x, point.at, point.from, point.to, point.side, derivatives)
+                       : curve.solve(x, point.at, derivatives) == TunedResponse::State::solved;
     const bool epigraph = is_epigraph(point.curve);
     double& value = values[response_rows_.first + i];
     value = solved ? curve.value(point.side) - (epigraph ? x.back() : 0.0) : kNone;

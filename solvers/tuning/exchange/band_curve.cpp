@@ -27,9 +27,9 @@ BandCurve::BandCurve(const Task& task, const DesignSpace& space, const CurveKind
     constant_.emplace(task, space, kind.scenario, std::vector<Quantity>{kind.quantity}, effort);
 }
 
-TunedResponse::State BandCurve::solve(std::span<const double> x, double band, bool with_derivatives) {
+TunedResponse::State BandCurve::solve(std::span<const double> x, double band, Derivatives derivatives) {
   using Of = CurveKind::Of;
-  const TunedResponse::State state = response_.solve(x, band, with_derivatives);
+  const TunedResponse::State state = response_.solve(x, band, derivatives);
   reason_ = response_.reason();
   if (state != TunedResponse::State::solved) return state;
   if (!std::isfinite(response_.value(0))) {
@@ -57,15 +57,17 @@ TunedResponse::State BandCurve::solve(std::span<const double> x, double band, bo
       break;
     case Of::dominated: {
       // The constant design does not change, so its response at a frequency is computed once.
-      if (band != constant_band_ || (with_derivatives && !constant_has_derivatives_)) {
-        const TunedResponse::State of_constant = constant_->solve(kind_.constant, band, with_derivatives);
+      const bool with_slope = derivatives != Derivatives::none;
+      if (band != constant_band_ || (with_slope && !constant_has_slopes_)) {
+        const TunedResponse::State of_constant =
+            constant_->solve(kind_.constant, band, with_slope ? Derivatives::along_band : Derivatives::none);
         reason_ = constant_->reason();
         if (of_constant != TunedResponse::State::solved) return of_constant;
         constant_band_ = band;
-        constant_has_derivatives_ = with_derivatives;
+        constant_has_slopes_ = with_slope;
       }
       factor_ = 1.0 / constant_->value(0);
-      if (with_derivatives)
+      if (with_slope)
         factor_slope_ = -factor_ * factor_ * 0.5 * (constant_->slope_left(0) + constant_->slope_right(0));
       break;
     }

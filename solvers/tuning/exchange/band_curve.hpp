@@ -38,7 +38,7 @@ class BandCurve {
   // All must outlive the curve.
   BandCurve(const Task& task, const DesignSpace& space, const CurveKind& kind, Effort& effort);
 
-  TunedResponse::State solve(std::span<const double> x, double band, bool with_derivatives);
+  TunedResponse::State solve(std::span<const double> x, double band, Derivatives derivatives);
   const std::string& reason() const { return reason_; }
 
   // The larger side, or one of two (0: most, 1: least).
@@ -62,7 +62,7 @@ class BandCurve {
   TunedResponse response_;
   std::optional<TunedResponse> constant_;  // of `dominated`
   double constant_band_ = kNone;           // where it was solved last
-  bool constant_has_derivatives_ = false;
+  bool constant_has_slopes_ = false;
   double factor_ = 1.0, offset_ = 0.0;  // value = factor X + offset at the last point solved
   double factor_slope_ = 0.0;           // d factor / d band
   std::string reason_;

@@ -39,7 +39,7 @@ void BandScan::scan_curve(std::span<const double> x, std::size_t c, double floor
   BandCurve& curve = *responses_[c];
   const auto point_at = [&](double band) -> CurvePoint {
     if (stop_asked_()) return {band, kNone, kNone, kNone};
-    const auto state = curve.solve(x, band, true);
+    const auto state = curve.solve(x, band, Derivatives::along_band);
     if (state == TunedResponse::State::solved) {
       constexpr std::size_t side = BandCurve::larger;
       return {band, curve.value(side), curve.slope_left(side), curve.slope_right(side)};
@@ -55,7 +55,7 @@ void BandScan::scan_curve(std::span<const double> x, std::size_t c, double floor
   const BandMaxima found =
       find_band_maxima(point_at, places_of(task_, space_, curves_[c], x, kIntervals), floor, accuracy);
   for (const CurvePoint& maximum : found.maxima) {
-    const auto state = curve.solve(x, maximum.at, false);
+    const auto state = curve.solve(x, maximum.at, Derivatives::none);
     const std::size_t sides = state == TunedResponse::State::solved ? curve.sides() : 1;
     scan.maxima.push_back({c, maximum.at, maximum.value, sides});
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solvers/algebra/no_value.hpp"
+
 namespace frahm::tuning {
 namespace {
 
@@ -17,7 +19,7 @@ class Climb {
 
   // false: no response there
   bool ask(double at, Slope& slope) {
-    if (curve_.solve(x_, at, true) != TunedResponse::State::solved) return false;
+    if (curve_.solve(x_, at, Derivatives::along_band) != TunedResponse::State::solved) return false;
     slope = {at, 0.5 * (curve_.slope_left(side_) + curve_.slope_right(side_))};
     return std::isfinite(slope.value);
   }
@@ -37,23 +39,22 @@ double secant(const Slope& a, const Slope& b) {
   return b.at - b.value * (b.at - a.at) / (b.value - a.value);
 }
 
-}  // namespace
-
-bool follow_maximum(BandCurve& curve, std::span<const double> x, double near, double from, double to,
-                    std::size_t side) {
+// Leaves the curve solved at its maximum. Returns the maximum's place; NaN: no response.
+double climb_to_maximum(BandCurve& curve, std::span<const double> x, double near, double from, double to,
+                        std::size_t side) {
   constexpr int kMostSteps = 60;
   Climb climb(curve, x, side);
   // 1. Uphill from `near`, by longer and longer steps, until the slope turns: the maximum is between low and
   // high.
   Slope low, high;
-  if (!climb.ask(near, low)) return false;
+  if (!climb.ask(near, low)) return kNone;
   const double direction = low.value > 0.0 ? 1.0 : -1.0;
   double stride = 1e-4 * (to - from);
   for (bool turned = false; !turned; stride *= 4.0) {
-    if (low.value == 0.0) return true;
+    if (low.value == 0.0) return low.at;
     const double next = std::clamp(low.at + direction * stride, from, to);
-    if (next == low.at) return true;  // the end of the stretch is the highest
-    if (!climb.ask(next, high)) return false;
+    if (next == low.at) return low.at;  // the end of the stretch is the highest
+    if (!climb.ask(next, high)) return kNone;
     turned = high.value * direction <= 0.0;
     if (!turned) low = high;
   }
@@ -63,12 +64,21 @@ bool follow_maximum(BandCurve& curve, std::span<const double> x, double near, do
     double next = secant(before, last);
     const double inner = std::min(low.at, high.at), outer = std::max(low.at, high.at);
     if (!(next > inner && next < outer)) next = 0.5 * (inner + outer);
-    if (climb.is_top(last, next - last.at) || next == last.at) return true;
+    if (climb.is_top(last, next - last.at) || next == last.at) return last.at;
     before = last;
-    if (!climb.ask(next, last)) return false;
+    if (!climb.ask(next, last)) return kNone;
     (last.value * direction > 0.0 ? low : high) = last;
   }
-  return true;
+  return last.at;
+}
+
+}  // namespace
+
+bool follow_maximum(BandCurve& curve, std::span<const double> x, double near, double from, double to,
+                    std::size_t side, Derivatives derivatives) {
+  const double at = climb_to_maximum(curve, x, near, from, to, side);
+  if (std::isnan(at)) return false;
+  return derivatives != Derivatives::all || curve.solve(x, at, derivatives) == TunedResponse::State::solved;
 }
 
 }  // namespace frahm::tuning

@@ -11,6 +11,10 @@
 
 namespace frahm::tuning {
 
+// Which derivatives a response is solved with: none, by the band's parameter along the schedules, or that and
+// those by every design parameter.
+enum class Derivatives { none, along_band, all };
+
 struct Effort {
   std::uint64_t orbits = 0, gradients = 0;
 };
@@ -26,21 +30,18 @@ class TunedResponse {
   enum class State { solved, unbounded, failed };
   // Solves at the design x and a point of the band. If a derivative is needed and the orbit grazes, the orbit
   // at a frequency one part in 1e9 beside it is found instead.
-  State solve(std::span<const double> x, double band, bool with_derivatives);
+  State solve(std::span<const double> x, double band, Derivatives derivatives);
   const std::string& reason() const { return reason_; }  // of the last solve, if not solved
 
   double value(std::size_t quantity) const { return value_[quantity]; }
-  // d quantity / d parameter at the current point, the frequency and the other parameters held.
+  // d quantity / d parameter at the current point, the frequency and the other parameters held. Solved with
+  // all derivatives.
   double derivative(std::size_t quantity, std::size_t parameter) const {
     return derivative_[parameter * value_.size() + quantity];
   }
   // d quantity / d band along the schedules, on either side of a knot.
-  double slope_left(std::size_t quantity) const {
-    return slope(quantity, &DesignSpace::Interpolation::slope_left);
-  }
-  double slope_right(std::size_t quantity) const {
-    return slope(quantity, &DesignSpace::Interpolation::slope_right);
-  }
+  double slope_left(std::size_t quantity) const { return slope_[quantity].left; }
+  double slope_right(std::size_t quantity) const { return slope_[quantity].right; }
   // x(t + T/2) = -x(t): both sides of every peak are equal.
   bool is_symmetric() const { return is_symmetric_; }
   const mechanics::NetworkValues& values() const { return values_; }
@@ -49,8 +50,15 @@ class TunedResponse {
   }
 
  private:
-  State solve_at(std::span<const double> x, double band, bool with_derivatives);
+  State solve_at(std::span<const double> x, double band, Derivatives derivatives);
+  std::string differentiate(Derivatives derivatives);
+  bool is_smooth() const;
+  std::string differentiate_along_band();
   double slope(std::size_t quantity, double DesignSpace::Interpolation::*of_parameter) const;
+
+  struct Slopes {
+    double left = 0.0, right = 0.0;
+  };
 
   const Task& task_;
   const DesignSpace& space_;
@@ -62,6 +70,7 @@ class TunedResponse {
   std::vector<mechanics::NetworkValues> directions_;
   std::vector<DesignSpace::Interpolation> interpolations_;
   std::vector<double> at_, value_, derivative_;
+  std::vector<Slopes> slope_;  // of each quantity
   std::string reason_;
   bool is_symmetric_ = false, gradient_missing_ = false;
 };

@@ -79,7 +79,7 @@ class Assessor {
       BandCurve response(task_, tuning.space(), kind, effort_);
       std::vector<double>& value = result.value.emplace_back();
       for (const double at : band) {
-        const bool solved = response.solve(x, at, false) == TunedResponse::State::solved;
+        const bool solved = response.solve(x, at, Derivatives::none) == TunedResponse::State::solved;
         value.push_back(solved ? response.value(BandCurve::larger) : kNone);
       }
     }

@@ -185,7 +185,7 @@ class Report {
       if (kind.of != CurveKind::Of::objective) continue;
       BandCurve curve(task_, tuning_.space(), kind, effort_);
       Peak peak{.scenario = kind.scenario, .at = maximum.at, .value = maximum.value, .sensitivity = {}};
-      if (curve.solve(x_, maximum.at, true) == TunedResponse::State::solved) {
+      if (curve.solve(x_, maximum.at, Derivatives::all) == TunedResponse::State::solved) {
         for (std::size_t p = 0; p < tuning_.space().parameters(); ++p)
           peak.sensitivity.push_back(curve.derivative(BandCurve::larger, p));
       }
@@ -221,7 +221,7 @@ class Report {
       LimitState& state = optimum.limits[kind.limit];
       state.at = nearest.at;
       state.scenario = kind.scenario;
-      if (curve.solve(x_, nearest.at, false) == TunedResponse::State::solved)
+      if (curve.solve(x_, nearest.at, Derivatives::none) == TunedResponse::State::solved)
         state.value = curve.quantity(BandCurve::larger);
     }
     const Exchange::Step& step = stages_.decisive;
