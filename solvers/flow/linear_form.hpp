@@ -1,6 +1,7 @@
 #pragma once
 
 #include "solvers/flow/flow.hpp"
+#include "solvers/mechanics/element_forces.hpp"
 
 namespace frahm::periodic {
 
@@ -103,10 +104,7 @@ template <int N, int H>
 LinearForm<N, H> Forms<N, H>::element_force(std::size_t element, const mechanics::ElementCoefficients& law,
                                             const Mode<N, H>& mode) const {
   const mechanics::Incidence& at = assembly_.incidences()[element];
-  Form form = zero();
-  if (law.stiffness != 0.0) form.add(law.stiffness, displacement(at));
-  if (law.damping != 0.0) form.add(law.damping, velocity(at));
-  if (law.inertance != 0.0) form.add(law.inertance, acceleration(at, mode));
+  Form form = mechanics::smooth_force(*this, at, law, mode);
   if (law.internal >= 0) form.z[2 * at.w.size() + law.internal] += 1.0;
   if (law.friction == 0.0) return form;
   const mechanics::ContactShare& place = assembly_.shares()[element];
@@ -141,13 +139,7 @@ template <int N, int H>
 LinearForm<N, H> Forms<N, H>::node_force(const mechanics::Node& node,
                                          const std::vector<mechanics::ElementCoefficients>& coefficients,
                                          const Mode<N, H>& mode) const {
-  Form sum = zero();
-  const auto& elements = assembly_.network().elements;
-  for (std::size_t e = 0; e < elements.size(); ++e) {
-    if (elements[e].b == node) sum.add(+1.0, element_force(e, coefficients[e], mode));
-    if (elements[e].a == node) sum.add(-1.0, element_force(e, coefficients[e], mode));
-  }
-  return sum;
+  return mechanics::force_on_node(*this, assembly_.network(), node, coefficients, mode);
 }
 
 // Compiled once for each size, in flow_1_1.cpp and so on.

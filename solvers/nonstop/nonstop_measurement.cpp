@@ -92,12 +92,7 @@ void NonstopSolver::measure(int lane) {
     m.input_size += told(pack_.work_size, p, lane);
   }
   if (!request_.needs.energies) return;
-  m.friction_loss.assign(system.coefficients.size(), 0.0);
-  for (std::size_t e = 0; e < system.coefficients.size(); ++e) {
-    const double force = system.coefficients[e].friction;
-    if (force == 0.0) continue;
-    m.friction_loss[e] = force * m.histories[assembly_.shares()[e].contact].sliding_distance;
-  }
+  value::add_up_friction(m);
   value::add_up_losses(m);
 }
 

@@ -1,6 +1,7 @@
 #include "solvers/nonstop/sliding_forms.hpp"
 
 #include "solvers/algebra/solve.hpp"
+#include "solvers/mechanics/element_forces.hpp"
 #include "solvers/mechanics/element_table.hpp"
 
 namespace frahm::periodic::nonstop {
@@ -80,10 +81,7 @@ Form SlidingForms::acceleration(const mechanics::Incidence& at) const {
 
 Form SlidingForms::element_force(std::size_t element, const mechanics::ElementCoefficients& law) const {
   const mechanics::Incidence& at = assembly_.incidences()[element];
-  Form form = zero();
-  if (law.stiffness != 0.0) form.add(law.stiffness, displacement(at));
-  if (law.damping != 0.0) form.add(law.damping, velocity(at));
-  if (law.inertance != 0.0) form.add(law.inertance, acceleration(at));
+  Form form = mechanics::smooth_force(*this, at, law);
   if (law.internal >= 0) form.state[2 * system_.masses() + law.internal] += 1.0;
   if (mechanics::has_contact(assembly_.network().elements[element]))
     form.element[static_cast<Eigen::Index>(element)] = 1.0;
@@ -92,13 +90,7 @@ Form SlidingForms::element_force(std::size_t element, const mechanics::ElementCo
 
 Form SlidingForms::node_force(const mechanics::Node& node,
                               const std::vector<mechanics::ElementCoefficients>& coefficients) const {
-  Form sum = zero();
-  const auto& elements = assembly_.network().elements;
-  for (std::size_t e = 0; e < elements.size(); ++e) {
-    if (elements[e].b == node) sum.add(+1.0, element_force(e, coefficients[e]));
-    if (elements[e].a == node) sum.add(-1.0, element_force(e, coefficients[e]));
-  }
-  return sum;
+  return mechanics::force_on_node(*this, assembly_.network(), node, coefficients);
 }
 
 }  // namespace frahm::periodic::nonstop

@@ -71,10 +71,10 @@ inline Extremes mirrored(const Extremes& half) {
   whole.least = -whole.most;
   const double turned = whole_turns_removed(half.least_phase + std::numbers::pi);
   const double difference = half.most + half.least;  // most - |least|
-  if (std::abs(difference) <= kEqual * whole.most)
-    whole.most_phase = std::fmin(half.most_phase, turned);  // fmin: the one that is reached
-  else
-    whole.most_phase = difference > 0.0 ? half.most_phase : turned;
+  const double larger = difference > 0.0 ? half.most_phase : turned;
+  // fmin: the one that is reached. What is held from before the section is reached with the opposite sign.
+  const bool tied = std::abs(difference) <= kEqual * whole.most || std::isnan(larger);
+  whole.most_phase = tied ? std::fmin(half.most_phase, turned) : larger;
   whole.least_phase = whole_turns_removed(whole.most_phase + std::numbers::pi);
   return whole;
 }

@@ -57,12 +57,7 @@ void OrbitMeasurement<N, H>::measure(const Orbit<N, H>& orbit, const mechanics::
   if (needs.integrals) integrate(orbit, steps, needs.input, measured);
   if (needs.histories || needs.energies) follow_contacts(orbit, measured);
   if (!needs.energies) return;
-  measured.friction_loss.assign(system.coefficients.size(), 0.0);
-  for (std::size_t e = 0; e < system.coefficients.size(); ++e) {
-    const double force = system.coefficients[e].friction;
-    if (force == 0.0) continue;
-    measured.friction_loss[e] = force * measured.histories[assembly_.shares()[e].contact].sliding_distance;
-  }
+  value::add_up_friction(measured);
   value::add_up_losses(measured);
 }
 

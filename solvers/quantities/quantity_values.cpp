@@ -79,6 +79,15 @@ double square_of_velocity(const Measured& m, const mechanics::Incidence& at) {
   return sum;
 }
 
+void add_up_friction(Measured& m) {
+  m.friction_loss.assign(m.system->coefficients.size(), 0.0);
+  for (std::size_t e = 0; e < m.friction_loss.size(); ++e) {
+    const double force = m.system->coefficients[e].friction;
+    if (force != 0.0)
+      m.friction_loss[e] = force * m.histories[m.assembly->shares()[e].contact].sliding_distance;
+  }
+}
+
 void add_up_losses(Measured& m) {
   m.loss.resize(m.system->coefficients.size());
   m.dissipated = 0.0;

@@ -43,6 +43,8 @@ double integral(const mechanics::Incidence& at, const Eigen::MatrixXd& gram, con
 std::complex<double> reference_component(const Measured& measured, const mechanics::Incidence& at);
 // Integral over a period of (w^T v + p^T y')^2 [m^2/s].
 double square_of_velocity(const Measured& measured, const mechanics::Incidence& at);
+// Fills in what the friction of each element takes out: its force times the distance its contact has slid.
+void add_up_friction(Measured& measured);
 // Fills in what each element dissipates, and all together; from integrals and what friction takes out.
 void add_up_losses(Measured& measured);
 // If less than this is dissipated no element has a share [J]: where nothing moves, dampers dissipate the

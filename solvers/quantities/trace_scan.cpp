@@ -101,8 +101,7 @@ Extremes scan_extremes(std::span<const TraceStep> trace, double section, double 
                         [&](double value, double s) { collector.consider(value, step.start + s, true); });
     }
     if (step.ends_segment) {
-      const bool is_section = i + 1 == trace.size();
-      const bool reached = !is_held(step.right.value, at_segment_start) && !is_section;
+      const bool reached = !is_held(step.right.value, at_segment_start);
       collector.consider(step.right.value, step.start + step.length, reached);
     }
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "solvers/mechanics/element_forces.hpp"
 namespace frahm::smooth {
 
 Form Forms::zero() const {
@@ -36,10 +37,7 @@ Form Forms::acceleration(const mechanics::Incidence& at) const {
 
 Form Forms::element_force(std::size_t element, const mechanics::ElementCoefficients& law) const {
   const mechanics::Incidence& at = assembly_.incidences()[element];
-  Form form = zero();
-  if (law.stiffness != 0.0) form.add(law.stiffness, displacement(at));
-  if (law.damping != 0.0) form.add(law.damping, velocity(at));
-  if (law.inertance != 0.0) form.add(law.inertance, acceleration(at));
+  Form form = mechanics::smooth_force(*this, at, law);
   if (law.internal >= 0) form.z[2 * equation_.masses() + law.internal] += 1.0;
   const auto& rubbing = equation_.elements();
   const auto term = std::find(rubbing.begin(), rubbing.end(), element);
@@ -49,13 +47,7 @@ Form Forms::element_force(std::size_t element, const mechanics::ElementCoefficie
 
 Form Forms::node_force(const mechanics::Node& node,
                        const std::vector<mechanics::ElementCoefficients>& coefficients) const {
-  Form sum = zero();
-  const auto& elements = assembly_.network().elements;
-  for (std::size_t e = 0; e < elements.size(); ++e) {
-    if (elements[e].b == node) sum.add(+1.0, element_force(e, coefficients[e]));
-    if (elements[e].a == node) sum.add(-1.0, element_force(e, coefficients[e]));
-  }
-  return sum;
+  return mechanics::force_on_node(*this, assembly_.network(), node, coefficients);
 }
 
 Form Forms::applied_force(std::size_t mass) const {

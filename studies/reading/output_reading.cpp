@@ -152,9 +152,8 @@ void read_output(const StudyContext& context, const TomlValue& root, Study& stud
                             {"quantities", "precision", "path", "borders", "orbits", "resonances"});
   read_quantities(section, study.sweep()->output);
   study.sweep()->output.general_path = section.choice_or("path", {"fastest", "general"}) == "general";
-  const auto precision = section.choice_or("precision", {"double", "single", "full"});
-  study.sweep()->output.single_precision = precision == "single";
-  study.sweep()->output.full_precision = precision == "full";
+  const auto precision = std::ranges::find(precision_names, section.choice_or("precision", precision_names));
+  study.sweep()->output.precision = static_cast<Precision>(precision - precision_names.begin());
   read_borders(section, study);
   read_orbits(context, section, study);
   read_resonances(context, section, study);

@@ -41,6 +41,11 @@ struct DerivedCoordinate {
   std::size_t dimension = 0;  // index in SweepChoice::dimensions
 };
 
+// Of the values in the file: doubles with the digits that their error bound supports, floats, or doubles with
+// all digits.
+enum class Precision { known_digits, single, full };
+inline const std::vector<std::string> precision_names{"double", "single", "full"};
+
 struct OutputChoice {
   enum class Quantities { standard, all, listed };
   struct Name {
@@ -50,7 +55,7 @@ struct OutputChoice {
 
   Quantities quantities = Quantities::standard;
   std::vector<Name> names;  // of Quantities::listed, then not empty; not checked here
-  bool single_precision = false, full_precision = false;  // neither: double, to the digits that are known
+  Precision precision = Precision::known_digits;
   bool general_path = false;                    // every orbit by shooting, also where nothing sticks
   bool borders = false;                         // whether borders of regimes are solved; exact law only
   std::vector<std::vector<Assignment>> orbits;  // points whose time histories are recorded

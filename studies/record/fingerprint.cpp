@@ -197,7 +197,7 @@ std::string physics_hash(const Study& study, std::span<const periodic::Quantity>
   text.line("solver {}", solver_version);
   if (study.sweep()) {
     const OutputChoice& output = study.sweep()->output;
-    text.line("precision {}", output.single_precision ? "single" : output.full_precision ? "full" : "double");
+    text.line("precision {}", precision_names[static_cast<std::size_t>(output.precision)]);
     if (output.general_path) text.line("path general");
   }
   text.line("units {}", study.dimensionless ? "dimensionless" : "SI");

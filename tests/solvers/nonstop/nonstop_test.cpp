@@ -140,6 +140,63 @@ TEST_CASE("one mass sticks from its reversal phases where it sticks by shooting,
   CHECK(slides > 500);
 }
 
+// A row of frequencies of one mass.
+std::vector<mechanics::NetworkValues> single_mass_row(double zeta, double f) {
+  std::vector<mechanics::NetworkValues> row;
+  for (double r = 0.1001; r < 2.0; r += 0.0095) row.push_back(single_mass_values(r, zeta, f));
+  return row;
+}
+
+TEST_CASE("Den Hartog's map: of all points one in sixteen at most is left to shooting, and each closes") {
+  const mechanics::Network network = single_mass();
+  const std::vector<Quantity> quantities{{Measure::peak, 0}, {Measure::residual}};
+  PeriodicResponse response(network, quantities);
+  int points = 0, shot = 0;
+  for (int i = 0; i <= 44; i += 4) {
+    const auto row = single_mass_row(0.0, 0.025 * i);
+    std::vector<ResponseSummary> found(row.size());
+    std::vector<double> values(row.size() * quantities.size());
+    response.solve_row(row, found, values);
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      INFO("r " << row[k].omega << ", f " << 0.025 * i);
+      CHECK(values[k * quantities.size() + 1] < 1e-12);
+      ++points;
+      if (found[k].way == Way::shooting) ++shot;
+    }
+  }
+  CHECK(16 * shot < points);
+}
+
+TEST_CASE("a mass that the force only just cannot move rests, and grazes, both ways") {
+  const mechanics::Network network = single_mass();
+  const std::vector<Quantity> quantities = all_quantities(network);
+  const mechanics::NetworkValues values = single_mass_values(0.7, 0.02, 1.0);
+  for (const Path path : {Path::general, Path::fastest}) {
+    const Found found = solved(network, values, quantities, path);
+    CHECK(found.summary.status == Status::grazing);
+    CHECK(value_of(Measure::stuck_fraction, 2, quantities, found.values) == 1.0);
+    CHECK(value_of(Measure::peak, 0, quantities, found.values) == 0.0);
+  }
+  CHECK(solved(network, values, quantities, Path::fastest).summary.way == Way::event_phases);
+}
+
+// In a row an orbit by shooting begins where the one before did, which may be at a stop.
+TEST_CASE("the phase of a peak at a stop is the same both ways, wherever the orbit begins") {
+  constexpr double kSamePeakPhase = 1e-9;  // [rad]
+  const mechanics::Network network = single_mass();
+  const std::vector<Quantity> quantities{{Measure::peak_phase, 0}};
+  const auto row = single_mass_row(0.001, 0.9);
+  std::vector<ResponseSummary> found(row.size());
+  std::vector<double> general(row.size()), fastest(row.size());
+  PeriodicResponse(network, quantities, Path::general).solve_row(row, found, general);
+  PeriodicResponse(network, quantities).solve_row(row, found, fastest);
+  for (std::size_t k = 0; k < row.size(); ++k) {
+    INFO("r " << row[k].omega);
+    // Half a period later the peak is as high on the other side.
+    CHECK_THAT(std::remainder(general[k] - fastest[k], std::numbers::pi), WithinAbs(0.0, kSamePeakPhase));
+  }
+}
+
 // The rig's map: a row of frequencies.
 std::vector<mechanics::NetworkValues> rig_row(double I, double share) {
   std::vector<mechanics::NetworkValues> row;

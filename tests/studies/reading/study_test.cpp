@@ -204,8 +204,7 @@ TEST_CASE("quantities keep their places and orbits are in the units of their axe
                       "orbits = [{ omega = 2, I = 6 }, { omega = { value = 60, unit = \"rpm\" } }]\n",
                   "study.toml");
   CHECK(study.sweep()->output.quantities == OutputChoice::Quantities::listed);
-  CHECK(study.sweep()->output.single_precision);
-  CHECK_FALSE(study.sweep()->output.full_precision);
+  CHECK(study.sweep()->output.precision == Precision::single);
   CHECK_FALSE(study.sweep()->output.general_path);
   REQUIRE(study.sweep()->output.names.size() == 2);
   const auto& name = study.sweep()->output.names[1];
