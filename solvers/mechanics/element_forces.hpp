@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "solvers/mechanics/linear_system.hpp"
+
+// Forces of elements as linear forms, of whatever the motion is given by: `Forms` makes the forms of an
+// incidence's displacement, velocity and acceleration, the latter in a mode where it depends on one.
+namespace frahm::mechanics {
+
+// k u + c u' + b u'' [N] of an element, without its friction.
+template <class Forms, class... Mode>
+auto smooth_force(const Forms& forms, const Incidence& at, const ElementCoefficients& law,
+                  const Mode&... mode) {
+  auto form = forms.zero();
+  if (law.stiffness != 0.0) form.add(law.stiffness, forms.displacement(at));
+  if (law.damping != 0.0) form.add(law.damping, forms.velocity(at));
+  if (law.inertance != 0.0) form.add(law.inertance, forms.acceleration(at, mode...));
+  return form;
+}
+
+// The force [N] that drives `node` (ground or prescribed): the sum that all elements need there.
+template <class Forms, class... Mode>
+auto force_on_node(const Forms& forms, const Network& network, const Node& node,
+                   const std::vector<ElementCoefficients>& coefficients, const Mode&... mode) {
+  auto sum = forms.zero();
+  for (std::size_t e = 0; e < network.elements.size(); ++e) {
+    if (network.elements[e].b == node) sum.add(+1.0, forms.element_force(e, coefficients[e], mode...));
+    if (network.elements[e].a == node) sum.add(-1.0, forms.element_force(e, coefficients[e], mode...));
+  }
+  return sum;
+}
+
+}  // namespace frahm::mechanics
