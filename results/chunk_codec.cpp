@@ -8,7 +8,8 @@
 namespace frahm::results {
 Bytes encode_chunk(std::span<const std::byte> chunk, std::size_t element_size) {
   constexpr std::size_t checksum_size = 4;
-  Bytes encoded = deflated(shuffled(chunk, element_size), element_size, checksum_size);
+  constexpr int level = 1;
+  Bytes encoded = deflated(shuffled(chunk, element_size), level, checksum_size);
   const std::size_t size = encoded.size() - checksum_size;
   const std::uint32_t checksum = fletcher32({encoded.data(), size});
   std::memcpy(encoded.data() + size, &checksum, checksum_size);

@@ -1,10 +1,10 @@
 #include "results/deflate.hpp"
 
 #include <fmt/core.h>
-#include <isa-l/igzip_lib.h>
+#include <libdeflate.h>
 
-#include <array>
 #include <memory>
+#include <new>
 #include <stdexcept>
 
 namespace frahm::results {
@@ -18,9 +18,8 @@ void shuffle(std::span<const std::byte> elements, std::span<std::byte> shuffled)
   }
 }
 
-struct Compressor {
-  isal_zstream stream;
-  std::array<std::uint8_t, ISAL_DEF_LVL1_DEFAULT> workspace;
+struct FreeCompressor {
+  void operator()(libdeflate_compressor* compressor) const { libdeflate_free_compressor(compressor); }
 };
 
 }  // namespace
@@ -42,31 +41,15 @@ Bytes shuffled(std::span<const std::byte> elements, std::size_t element_size) {
   }
 }
 
-Bytes deflated(std::span<const std::byte> data, std::size_t planes, std::size_t spare) {
-  constexpr std::size_t kHeaders = 1024;  // more than what the blocks of a plane add, and the stream's own
-  const auto compressor = std::make_unique<Compressor>();  // zeros: what is left over never matters
-  isal_zstream& stream = compressor->stream;
-  isal_deflate_init(&stream);
-  stream.level = 1;
-  stream.level_buf = compressor->workspace.data();
-  stream.level_buf_size = static_cast<std::uint32_t>(compressor->workspace.size());
-  stream.gzip_flag = IGZIP_ZLIB;
-  stream.flush = SYNC_FLUSH;
-  Bytes out(data.size() + data.size() / 64 + kHeaders * (planes + 1) + spare);
-  stream.next_out = reinterpret_cast<std::uint8_t*>(out.data());
-  stream.avail_out = static_cast<std::uint32_t>(out.size() - spare);
-  const std::size_t size = data.size() / planes;
-  for (std::size_t p = 0; p < planes; ++p) {
-    // The library reads through this pointer only.
-    stream.next_in = reinterpret_cast<std::uint8_t*>(const_cast<std::byte*>(data.data() + p * size));
-    stream.avail_in = static_cast<std::uint32_t>(size);
-    stream.end_of_stream = p + 1 == planes ? 1 : 0;
-    if (const int status = isal_deflate(&stream); status != COMP_OK || stream.avail_in != 0)
-      throw std::logic_error(fmt::format("isal_deflate of {} bytes returned {}", size, status));
-  }
-  if (stream.internal_state.state != ZSTATE_END)
+Bytes deflated(std::span<const std::byte> data, int level, std::size_t spare) {
+  const std::unique_ptr<libdeflate_compressor, FreeCompressor> compressor(libdeflate_alloc_compressor(level));
+  if (!compressor) throw std::bad_alloc();
+  Bytes out(libdeflate_zlib_compress_bound(compressor.get(), data.size()) + spare);
+  const std::size_t size =
+      libdeflate_zlib_compress(compressor.get(), data.data(), data.size(), out.data(), out.size() - spare);
+  if (size == 0)
     throw std::logic_error(fmt::format("{} bytes do not compress into their bound", data.size()));
-  out.resize(stream.total_out + spare);
+  out.resize(size + spare);
   return out;
 }
 

@@ -28,7 +28,7 @@ string(STRIP "${flags}" flags)
 set(libraries
   "Eigen ${Eigen3_VERSION}" "Boost ${Boost_VERSION}" "SUNDIALS ${SUNDIALS_VERSION}"
   "Ipopt ${IPOPT_VERSION}" "NLopt ${NLOPT_VERSION}" "HDF5 ${HDF5_VERSION}"
-  "ISA-L ${ISAL_VERSION}" "xxHash ${XXHASH_VERSION}"
+  "ISA-L ${ISAL_VERSION}" "libdeflate ${DEFLATE_VERSION}" "xxHash ${XXHASH_VERSION}"
   "UDUNITS ${UDUNITS2_PACKAGE_VERSION}" "toml++ ${tomlplusplus_VERSION}" "CLI11 ${CLI11_VERSION}"
   "JSON for Modern C++ ${nlohmann_json_VERSION}" "fmt ${fmt_VERSION}" "OpenMP ${OpenMP_CXX_VERSION}")
 list(JOIN libraries "|" libraries)

@@ -113,7 +113,7 @@ TEST_CASE("each foreign library is known to one file, and to no header") {
       {"udunits2", {"studies/reading/units.cpp"}},
       {"isa-l/crc", {"engine/checksum.cpp"}},
       {"mpi", {"engine/mpi.cpp"}},
-      {"isa-l/igzip.*", {"results/deflate.cpp"}},
+      {"libdeflate", {"results/deflate.cpp"}},
       {"cvodes|nvector|sundials|sunlinsol|sunmatrix", {"solvers/smooth/cvodes.cpp"}},
       {"boost/math",
        {"solvers/identification/half_power.cpp", "solvers/identification/identification.cpp",

@@ -16,7 +16,7 @@ TEST_CASE("The program knows how it was built") {
   CHECK(std::regex_match(facts.version, std::regex(R"(\d+\.\d+\.\d+)")));
   CHECK(std::regex_match(facts.commit, std::regex("unknown|[0-9a-f]{40}(-dirty)?")));
   CHECK(std::regex_search(facts.compiler, std::regex(R"([A-Za-z]+ \d+\.\d+)")));
-  REQUIRE(facts.libraries.size() == 14);
+  REQUIRE(facts.libraries.size() == 15);
   for (const std::string& library : facts.libraries) {
     INFO(library);
     CHECK(std::regex_search(library, std::regex(R"(^\S.* \d+\.\d+)")));
