@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "studies/map/comparison.hpp"
+#include "studies/map/orbit_cost.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -14,11 +14,8 @@ struct TileSizes {
   std::uint64_t longest_row;  // longer ones are cut
   std::uint64_t least, most;
 };
-// Smaller tiles would waste warm starts; the largest is some 20 ms of work, for fine steps of progress and
-// resume.
-constexpr TileSizes exact_tiles{.longest_row = 4000, .least = 256, .most = 2048};
-// Orbits of the arctan law take some 20 ms each and start from the exact ones, which are found beside them.
-constexpr TileSizes arctan_tiles{.longest_row = 64, .least = 16, .most = 64};
+// Smaller tiles would waste warm starts.
+constexpr TileSizes cheap_tiles{.longest_row = 4000, .least = 256, .most = 2048};
 constexpr std::uint64_t tiles_wanted = 128;               // of a small map, for the threads to share
 constexpr std::uint64_t chunk_points_wanted = 128 * 128;  // 128 KiB of doubles
 
@@ -40,6 +37,16 @@ std::uint64_t even_extent(std::uint64_t size, std::uint64_t most) {
     if (pieces(size, extent) * extent < pieces(size, best) * best) best = extent;
   }
   return best;
+}
+
+// A tile is some tenths of a second of work at most, so that all threads have some, progress moves and a stop
+// is obeyed soon.
+TileSizes sizes_of(const Study& study) {
+  constexpr double kMostSeconds = 0.25;
+  const double affordable = std::max(1.0, kMostSeconds / predicted_orbit_seconds(study));
+  if (affordable >= static_cast<double>(cheap_tiles.most)) return cheap_tiles;
+  const auto most = static_cast<std::uint64_t>(affordable);
+  return {.longest_row = most, .least = std::min(most, cheap_tiles.least), .most = most};
 }
 
 void cut_into_tiles(const TileSizes& sizes, Grid& grid) {
@@ -134,7 +141,7 @@ Grid grid_of(const Study& study) {
     if (d != row) grid.order.push_back(d);
   }
   grid.order.push_back(row);
-  cut_into_tiles(meets_arctan_law(study) ? arctan_tiles : exact_tiles, grid);
+  cut_into_tiles(sizes_of(study), grid);
   join_into_chunks(grid);
   return grid;
 }

@@ -51,7 +51,8 @@ struct Grid {
 };
 
 // A tile holds whole rows, as many as make a few hundred to two thousand points; rows longer than 4000 are
-// cut.
+// cut. Where a point takes more than a tenth of a millisecond (orbit_cost.hpp), it holds fewer points, of a
+// part of a row.
 Grid grid_of(const Study& study);
 
 // The values of a derived coordinate along its dimension.

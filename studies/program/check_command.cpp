@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "engine/progress.hpp"
+#include "engine/team.hpp"
 #include "solvers/mechanics/linear_system.hpp"
 #include "studies/identification/identification_record.hpp"
 #include "studies/map/map_plan.hpp"
@@ -42,13 +43,18 @@ void print_grid(const Study& study, const Grid& grid, std::ostream& out) {
   fmt::print(out, "\ntiles   {} of {} points\n", grid.tiles(), grid.box(0).points());
 }
 
-void print_prediction(const Grid& grid, const MapSample& sample, int threads, std::ostream& out) {
+// A thread computes whole tiles, so that some threads may wait for the last.
+void print_prediction(const Grid& grid, const MapSample& sample, int most_threads, std::ostream& out) {
   const double share = static_cast<double>(grid.points()) / static_cast<double>(sample.points);
+  const int threads = engine::team_size(most_threads, grid.tiles());
+  const std::uint64_t turns =
+      (grid.tiles() + static_cast<std::uint64_t>(threads) - 1) / static_cast<std::uint64_t>(threads);
+  const double seconds =
+      sample.seconds * share * static_cast<double>(turns) / static_cast<double>(grid.tiles());
   const double rate = static_cast<double>(sample.points) / sample.seconds;
   fmt::print(out,
              "time    about {} on {} thread{} of this machine ({:.3g} orbits/s on one, from {} points)\n",
-             engine::readable_time(sample.seconds * share / threads), threads, threads == 1 ? "" : "s", rate,
-             sample.points);
+             engine::readable_time(seconds), threads, threads == 1 ? "" : "s", rate, sample.points);
   fmt::print(out, "file    about {} ({} before compression)\n",
              readable_size(static_cast<double>(sample.stored_bytes) * share),
              readable_size(static_cast<double>(sample.raw_bytes) * share));
@@ -218,8 +224,10 @@ int check_command(const CheckOptions& options, std::ostream& out) {
       sample.seconds * static_cast<double>(plan.grid.points()) / static_cast<double>(sample.points);
   const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 
-  fmt::print(out, "{} is a valid study{}{}\n\n", study.source.name, study.title.empty() ? "" : ": ",
-             study.title);
+  const bool has_none = sample.failed == sample.points;
+  fmt::print(out, "{} {}{}{}\n\n", study.source.name,
+             has_none ? "can be read, but none of the points tried has a response" : "is a valid study",
+             study.title.empty() ? "" : ": ", study.title);
   print_grid(study, plan.grid, out);
   print_prediction(plan.grid, sample, options.threads > 0 ? options.threads : processors, out);
   print_array(options, plan, "map", core_seconds, out);
@@ -228,7 +236,7 @@ int check_command(const CheckOptions& options, std::ostream& out) {
                      out);
   }
   print_first_modes(study, plan.grid, out);
-  return exit_code::done;
+  return has_none ? exit_code::some_failed : exit_code::done;
 }
 
 }  // namespace frahm::studies

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
+#include <utility>
 
 #include "studies/reading/network_reading.hpp"
 #include "studies/reading/spelling.hpp"
@@ -24,8 +26,8 @@ const std::vector<std::string> excitation_keys{"frequency", "reference_order", "
 
 // A component's keys, with those of the other profile, so that the message can be about the profile.
 const std::vector<std::string> force_keys{"on", "node", "profile", "amplitude", "order", "phase"};
-const std::vector<std::string> motion_keys{"node",  "profile", "amplitude", "order",
-                                           "phase", "crank",   "rod",       "taylor_order"};
+const std::vector<std::string> motion_keys{"node",  "profile", "amplitude", "velocity", "acceleration",
+                                           "order", "phase",   "crank",     "rod",      "taylor_order"};
 
 int read_order(const TomlSection& section, const std::string& key, std::int64_t least) {
   const std::int64_t order = section.integer_or(key, 1);
@@ -41,7 +43,7 @@ enum class Profile { harmonic, crank };
 Profile read_profile(const TomlSection& section, const std::vector<std::string>& profiles) {
   const bool crank = section.choice_or("profile", profiles) == "crank";
   if (crank) {
-    for (const char* key : {"amplitude", "order"}) {
+    for (const char* key : {"amplitude", "velocity", "acceleration", "order"}) {
       if (section.find(key))
         section.fail(rules::key_without_use, key, "belongs to the profile \"harmonic\", not to \"crank\"");
     }
@@ -54,14 +56,50 @@ Profile read_profile(const TomlSection& section, const std::vector<std::string>&
   return Profile::harmonic;
 }
 
+// The amplitude of a motion is that of its displacement, velocity or acceleration.
+std::string key_of_amplitude(const TomlSection& section) {
+  std::string given;
+  for (const char* key : {"amplitude", "velocity", "acceleration"}) {
+    if (!section.find(key)) continue;
+    if (!given.empty())
+      section.fail(rules::one_of_two_keys, key, "the motion is given by its {} already",
+                   given == "amplitude" ? "displacement, the key \"amplitude\"" : given);
+    given = key;
+  }
+  return given.empty() ? "amplitude" : given;
+}
+
+// v cos(w t + p) is the velocity of  v/w cos(w t + p - pi/2), a cos(w t + p) the acceleration of
+// a/w^2 cos(w t + p + pi), w = order x frequency.
+void read_rate(NetworkReading& reading, const TomlSection& section, const std::string& key, int order,
+               StudyValue& amplitude, StudyValue& phase) {
+  const bool is_velocity = key == "velocity";
+  if (order == 0)
+    section.fail(rules::key_without_use, key, "a motion of order 0 is constant; it has a displacement alone");
+  amplitude = read_value(reading, section, key, is_velocity ? Quantity::speed : Quantity::acceleration,
+                         Range::finite);
+  const Expression rate = Expression(order) * reading.result.values.omega.expression;
+  amplitude.expression = is_velocity ? amplitude.expression / rate : amplitude.expression / rate / rate;
+  amplitude.quantity = Quantity::length;
+  constexpr double pi = std::numbers::pi;
+  phase.expression = phase.expression + Expression(is_velocity ? -0.5 * pi : pi);
+}
+
 void read_component(NetworkReading& reading, const TomlSection& section, Excitation component) {
   auto& [network, values] = reading.result;
   const bool is_force = component.kind == ExcitationKind::force;
   component.order = read_order(section, "order", 0);
   network.excitations.push_back(component);
-  values.amplitude.push_back(read_value(reading, section, "amplitude",
-                                        is_force ? Quantity::force : Quantity::length, Range::finite));
-  values.phase.push_back(read_value(reading, section, "phase", Quantity::angle, Range::finite, 0.0));
+  const std::string key = is_force ? "amplitude" : key_of_amplitude(section);
+  StudyValue amplitude, phase = read_value(reading, section, "phase", Quantity::angle, Range::finite, 0.0);
+  if (key == "amplitude") {
+    amplitude =
+        read_value(reading, section, key, is_force ? Quantity::force : Quantity::length, Range::finite);
+  } else {
+    read_rate(reading, section, key, component.order, amplitude, phase);
+  }
+  values.amplitude.push_back(std::move(amplitude));
+  values.phase.push_back(std::move(phase));
   values.rod.push_back({});
 }
 

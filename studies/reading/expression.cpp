@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <numbers>
 #include <system_error>
 
@@ -230,7 +231,7 @@ class ExpressionParser {
 
   // Emission. An operation on constants alone is done now: its operands are the last instructions.
   void push(Expression::Instruction instruction, std::size_t where) {
-    if (++stack_ > Expression::stack_size) fail(rules::wrong_expression, where, "nested too deeply");
+    if (++stack_ > Expression::most_operands) fail(rules::wrong_expression, where, "nested too deeply");
     result_.program_.push_back(instruction);
   }
 
@@ -277,6 +278,16 @@ Expression::Expression(double value) : program_{{Operation::constant, 0, value}}
 
 Expression Expression::parse(std::string_view text, std::span<const std::string> names) {
   return ExpressionParser(text, names).parse();
+}
+
+Expression Expression::joined(const Expression& a, const Expression& b, Operation operation) {
+  Expression result = a;
+  result.program_.insert(result.program_.end(), b.program_.begin(), b.program_.end());
+  result.program_.push_back({operation, 0, 0.0});
+  result.reads_.clear();
+  std::ranges::set_union(a.reads_, b.reads_, std::back_inserter(result.reads_));
+  if (!result.is_constant()) return result;
+  return Expression(result.evaluate(std::span<const double>()));
 }
 
 std::optional<std::size_t> Expression::sole_parameter() const {

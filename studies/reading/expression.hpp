@@ -46,6 +46,17 @@ class Expression {
   template <class Number>
   Number evaluate(std::span<const Number> parameters) const;
 
+  // Both of the same names.
+  friend Expression operator+(const Expression& a, const Expression& b) {
+    return joined(a, b, Operation::add);
+  }
+  friend Expression operator*(const Expression& a, const Expression& b) {
+    return joined(a, b, Operation::multiply);
+  }
+  friend Expression operator/(const Expression& a, const Expression& b) {
+    return joined(a, b, Operation::divide);
+  }
+
   bool is_constant() const { return reads_.empty(); }
 
   // Indices of the parameters read, ascending.
@@ -89,9 +100,11 @@ class Expression {
     std::uint32_t parameter;  // index, of Operation::parameter
     double constant;          // value, of Operation::constant
   };
-  static constexpr std::size_t stack_size = 32;  // the parser refuses longer programs
+  static constexpr std::size_t most_operands = 32;  // that wait for an operation: the parser refuses more
+  static constexpr std::size_t stack_size = most_operands + 2;  // with those of which two are joined
 
   Expression() = default;
+  static Expression joined(const Expression& a, const Expression& b, Operation operation);
 
   template <class Number>
   static Number constant(double value);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "studies/reading/readable_file.hpp"
+#include "studies/reading/repetition.hpp"
 #include "studies/reading/spelling.hpp"
 #include "studies/reading/study_reading.hpp"
 
@@ -143,7 +144,7 @@ Study parse_study(std::string text, const std::filesystem::path& name, DataFiles
   Study study;
   if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
   study.source = {name.string(), std::move(text)};
-  const TomlValue root = read_toml(study.source);
+  const TomlValue root = with_repetitions(study.source, read_toml(study.source));
   check_top_keys(study.source, root);
   read_heading(root, study);
   check_sections_of_kind(study, root);

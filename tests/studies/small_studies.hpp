@@ -30,4 +30,25 @@ inline std::string axis_of(const std::string& parameter, const std::string& valu
   return "[[axis]]\nparameter = \"" + parameter + "\"\nvalues = " + values + "\n" + more;
 }
 
+// A chain of unit masses from the ground, with friction in every so many storeys, over so many frequencies.
+inline std::string building(int storeys, int every, int frequencies) {
+  std::string text =
+      "[study]\nschema = 1\nkind = \"sweep\"\nunits = \"dimensionless\"\n[parameters]\nr = 0.1\n";
+  for (int i = 1; i <= storeys; ++i) {
+    const std::string floor = "floor" + std::to_string(i);
+    const std::string below = i == 1 ? "ground" : "floor" + std::to_string(i - 1);
+    const auto element = [&](const std::string& type, const std::string& value) {
+      text += "[[element]]\nname = \"" + type + std::to_string(i) + "\"\ntype = \"" + type +
+              "\"\nbetween = [\"" + below + "\", \"" + floor + "\"]\n" + value + "\n";
+    };
+    text += "[[mass]]\nname = \"" + floor + "\"\nmass = 1\n";
+    element("spring", "stiffness = 1");
+    element("damper", "damping = 0.02");
+    if (i % every == 0) element("coulomb", "force = 0.01");
+  }
+  text += "[excitation]\nfrequency = \"r\"\n[[excitation.force]]\non = \"floor" + std::to_string(storeys) +
+          "\"\namplitude = 0.1\n";
+  return text + axis("r", 0.02, 0.2, frequencies);
+}
+
 }  // namespace small_studies

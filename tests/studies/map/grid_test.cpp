@@ -106,8 +106,20 @@ TEST_CASE("a map that meets the arctan law is cut into small tiles, as its point
                       small_studies::axis("r", 0.5, 1.5, 41) + "[compare]\nlaw = \"arctan\"\nslope = 1e3\n",
                   "small.toml");
   const Grid grid = grid_of(study);
-  CHECK(grid.tile == std::vector<std::uint64_t>{1, 41});
-  CHECK(grid.tiles() == 10);
+  CHECK(grid.tile == std::vector<std::uint64_t>{1, 7});
+  CHECK(grid.tiles() == 10 * 6);
+}
+
+TEST_CASE("a row of a building's frequencies is cut, so that every core has some of it") {
+  const auto points_of_tile = [](int storeys) {
+    const Grid grid = grid_of(parse_study(small_studies::building(storeys, 3, 200), "building.toml"));
+    CHECK(grid.points() == 200);
+    return grid.tile[0];
+  };
+  CHECK(points_of_tile(2) == 200);
+  CHECK(points_of_tile(20) < 50);
+  CHECK(points_of_tile(40) < 5);
+  CHECK(points_of_tile(60) == 1);
 }
 
 }  // namespace

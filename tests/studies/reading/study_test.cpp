@@ -115,6 +115,31 @@ TEST_CASE("a study of two frequencies has its orders and the lowest as reference
   CHECK(read_study(study_path("cheng_zu_even")).network.excitations[1].order == 2);
 }
 
+TEST_CASE("a support's motion given by its velocity or acceleration is that of its displacement") {
+  const auto excitation_of = [](const std::string& motion) {
+    const Study study = parse_study(
+        heading +
+            "[parameters]\nomega = { value = 3, unit = \"rad/s\" }\na0 = { value = 0.1, unit = \"m/s^2\" }\n"
+            "[[mass]]\nname = \"main\"\nmass = 2\n"
+            "[[element]]\nname = \"spring\"\ntype = \"spring\"\nbetween = [\"quake\", \"main\"]\nstiffness = "
+            "8\n"
+            "[excitation]\nfrequency = \"omega\"\n[[excitation.motion]]\nnode = \"quake\"\n" +
+            motion + "\n[[axis]]\nparameter = \"omega\"\nunit = \"rad/s\"\nfrom = 1\nto = 5\npoints = 5\n",
+        "motion.toml");
+    frahm::mechanics::NetworkValues values;
+    std::vector<double> parameters = study.parameters.nominal();
+    evaluate(study.values, study.parameters, parameters, values);
+    return values.excitation.at(0);
+  };
+  constexpr double pi = std::numbers::pi;
+  const auto of_velocity = excitation_of("velocity = { value = 0.6, unit = \"cm/s\" }\norder = 2");
+  CHECK(of_velocity.amplitude == Approx(0.006 / (2 * 3)).epsilon(rounding));
+  CHECK(of_velocity.phase == Approx(-pi / 2).epsilon(rounding));
+  const auto of_acceleration = excitation_of("acceleration = \"2*a0\"\nphase = 0.3");
+  CHECK(of_acceleration.amplitude == Approx(0.2 / (3 * 3)).epsilon(rounding));
+  CHECK(of_acceleration.phase == Approx(0.3 + pi).epsilon(rounding));
+}
+
 TEST_CASE("an axis runs linearly, by ratios or over given values, ends exact") {
   const Study study =
       parse_study(heading + "[parameters]\nomega = 1\na = 1\nb = 1\n" + oscillator +
