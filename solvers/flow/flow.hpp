@@ -130,6 +130,7 @@ class Flow {
 
  private:
   void scale_matrices(const mechanics::LinearSystem& system);
+  void bound_tables();
   void set_oscillation(double omega);
   std::size_t configuration_index(ContactMask stuck);
 

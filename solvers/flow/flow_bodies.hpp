@@ -93,8 +93,19 @@ void Flow<N, H>::set_forcing(const mechanics::LinearSystem& system) {
   }
   static_norm_ = std::sqrt(static_norm_);
 
+  bound_tables();
   for (Configuration<N, H>& configuration : configurations_) configuration.has_forcing = false;
   modes_.clear();
+}
+
+// Configurations are kept for the next frequency as long as their series take little memory: with many
+// contacts each orbit meets new ones.
+template <int N, int H>
+void Flow<N, H>::bound_tables() {
+  constexpr Eigen::Index kMostDoubles = 8 << 20;  // 64 MB
+  const Eigen::Index states = equations_.states();
+  const Eigen::Index of_each = kTerms * states * (states + equations_.oscillators() + equations_.contacts());
+  if (static_cast<Eigen::Index>(configurations_.size()) * of_each > kMostDoubles) configurations_.clear();
 }
 
 // The oscillators of the forcing over a step, cos and sin of order_k omega h, and their Taylor polynomials.
