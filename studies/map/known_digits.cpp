@@ -18,7 +18,8 @@ double rounded(double x, int bits) {
 }
 
 int bits_of(const Study& study, const periodic::QuantityDescription& variable) {
-  if (variable.kind != periodic::QuantityKind::real || study.sweep()->output.precision == Precision::full) return 0;
+  if (variable.kind != periodic::QuantityKind::real || study.sweep()->output.precision == Precision::full)
+    return 0;
   const bool is_diagnostic =
       variable.name == "residual" || variable.name == "error_bound" || variable.name == "energy_balance";
   return is_diagnostic ? diagnostic_bits : most_bits;

@@ -43,7 +43,8 @@ results::Variable variable_of(const Study& study, const periodic::QuantityDescri
       .name = description.name, .unit = description.unit, .long_name = description.long_name};
   variable.significant_bits = bits_of(study, description);
   if (description.kind == periodic::QuantityKind::count) variable.type = results::Type::int32;
-  if (description.kind == periodic::QuantityKind::real && study.sweep()->output.precision == Precision::single) {
+  if (description.kind == periodic::QuantityKind::real &&
+      study.sweep()->output.precision == Precision::single) {
     variable.type = results::Type::float32;
     if (variable.significant_bits > diagnostic_bits) variable.significant_bits = 0;  // more than it holds
   }

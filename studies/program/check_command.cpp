@@ -225,9 +225,12 @@ int check_command(const CheckOptions& options, std::ostream& out) {
   const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 
   const bool has_none = sample.failed == sample.points;
-  fmt::print(out, "{} {}{}{}\n\n", study.source.name,
-             has_none ? "can be read, but none of the points tried has a response" : "is a valid study",
-             study.title.empty() ? "" : ": ", study.title);
+  if (has_none) {
+    fmt::print(out, "{} can be read, but none of the points tried has a response\n\n", study.source.name);
+  } else {
+    fmt::print(out, "{} is a valid study{}{}\n\n", study.source.name, study.title.empty() ? "" : ": ",
+               study.title);
+  }
   print_grid(study, plan.grid, out);
   print_prediction(plan.grid, sample, options.threads > 0 ? options.threads : processors, out);
   print_array(options, plan, "map", core_seconds, out);

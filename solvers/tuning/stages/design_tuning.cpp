@@ -167,7 +167,8 @@ std::vector<double> DesignTuning::place_by_place(const std::vector<double>& star
         double least = kInfinity, best = x[variable];
         for (int i = 0; i <= kTried; ++i) {
           x[variable] = parameter.lower + (parameter.upper - parameter.lower) * i / kTried;
-          if (curve.solve(x, parameter.schedule->knots[k], Derivatives::none) != TunedResponse::State::solved) continue;
+          if (curve.solve(x, parameter.schedule->knots[k], Derivatives::none) != TunedResponse::State::solved)
+            continue;
           if (curve.value(BandCurve::larger) >= least) continue;
           least = curve.value(BandCurve::larger);
           best = x[variable];

@@ -1,11 +1,15 @@
 #include "studies/program/check_command.hpp"
 
 #include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
 #include <sstream>
 #include <string>
 
 #include "studies/map/map_sample.hpp"
 #include "studies/reading/settings.hpp"
+#include "tests/results/temporary_directory.hpp"
+#include "tests/studies/small_studies.hpp"
 #include "tests/study_path.hpp"
 
 namespace {
@@ -66,6 +70,18 @@ TEST_CASE("A sample of a map is at least a tile and at most the map") {
   CHECK(all.stored_bytes > 0);
   CHECK(all.stored_bytes < all.raw_bytes);
   CHECK(all.failed == 0);
+}
+
+TEST_CASE("Checking a study of which nothing is computed ends like a run of failed points, and says why") {
+  const TemporaryDirectory folder;
+  const std::filesystem::path path = folder / "slow.toml";
+  std::ofstream(path) << small_studies::oscillator() << small_studies::axis_of("r", "[1e-8, 2e-8]");
+  std::ostringstream out;
+  CHECK(check_command({.study = path, .set = {}, .threads = 1}, out) == 3);
+  const std::string text = out.str();
+  INFO(text);
+  CHECK(has(text, "slow.toml can be read, but none of the points tried has a response\n"));
+  CHECK(has(text, "failed  2 of the 2 points tried, the first at r=1e-08: the excitation is too slow"));
 }
 
 TEST_CASE("Points that fail in a sample are counted and the first is named") {
