@@ -20,11 +20,15 @@ struct Event {
   double side = 1.0;
 };
 
+// Whether the tangent of a passage is followed: of a large system it takes most of the time.
+enum class Tangent { none, followed };
+
 // The flow over a stretch of time from one state.
 template <int N, int H>
 struct Passage {
   typename Sizes<N, H>::State end;
   typename Sizes<N, H>::StateSquare tangent;  // d end / d start, product of flow and saltation matrices
+  bool has_tangent = false;                   // it was followed
   std::vector<Segment<N, H>> segments;
   std::vector<Event> changes;  // between the segments, one fewer than segments
   int events = 0;              // stops, releases and reversals, also those without a change of mode

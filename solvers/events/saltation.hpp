@@ -4,6 +4,16 @@
 
 namespace frahm::periodic {
 
+// A contact that comes to rest slowly is close to another outcome.
+template <int N, int H>
+void note_arrivals(const Flow<N, H>& flow, ContactMask arrived, const Instant<N, H>& before,
+                   Workspace<N, H>& w) {
+  for (Eigen::Index j = 0; j < flow.equations().contacts(); ++j) {
+    if (contains(arrived, j))
+      w.note_margin(std::abs(flow.sliding_speed(before, j).slope) / (kStepRate * w.speed_scale[j]));
+  }
+}
+
 // The tangent across an event at which a guard g(z, t) reaches zero with the slope g', the fields f before
 // and after (Leine and Nijmeijer, Dynamics and Bifurcations of Non-Smooth Mechanical Systems, 2004, ch. 7):
 //   dz+ = dz- + (f+ - f-) (grad g dz-) / g'
@@ -17,7 +27,8 @@ namespace frahm::periodic {
 // before: the event's instant seen from inside the mode before it; w.left: from inside the mode after.
 template <int N, int H>
 void saltate(const Flow<N, H>& flow, ContactMask arrived, ContactMask released, const Instant<N, H>& before,
-             const Mode<N, H>& mode_before, Workspace<N, H>& w, typename Sizes<N, H>::StateSquare& tangent) {
+             const Mode<N, H>& mode_before, const Workspace<N, H>& w,
+             typename Sizes<N, H>::StateSquare& tangent) {
   using S = Sizes<N, H>;
   const StepEquations<N, H>& eq = flow.equations();
   const Mode<N, H>& mode = flow.mode(w.mode);
@@ -32,7 +43,6 @@ void saltate(const Flow<N, H>& flow, ContactMask arrived, ContactMask released, 
   for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
     if (!contains(arrived, j)) continue;
     const double slope = flow.sliding_speed(before, j).slope;
-    w.note_margin(std::abs(slope) / (kStepRate * w.speed_scale[j]));
     if (slope == 0.0 || !eq.holds(j)) continue;
     const Earlier its_earlier = eq.W.col(j).transpose() * tangent.middleRows(n, n) / slope;
     if (is_first) earlier = its_earlier;
@@ -42,7 +52,9 @@ void saltate(const Flow<N, H>& flow, ContactMask arrived, ContactMask released, 
       // Its force's jump, with what the contacts that stuck before then take up.
       const double after =
           contains(mode.stuck, j) ? flow.stuck_force(w.left, mode, j).value : mode.friction[j];
-      change = flow.configuration(mode_before).Af.col(j) * (after - mode_before.friction[j]);
+      typename S::Contacts jump = S::Contacts::Zero(eq.contacts());
+      jump[j] = after - mode_before.friction[j];
+      change = flow.configuration(mode_before).pull_of_friction(eq, jump);
     }
     correction += change * its_earlier;
     left -= change;

@@ -18,18 +18,21 @@ class Walk {
   // The flow from state z at `phase` (omega t) [rad] over `length` steps. held: contacts that stick
   // regardless of their force, to test whether they stick throughout.
   void pass(const typename S::State& z, double phase, double length, Passage<N, H>& passage,
-            ContactMask held = 0);
+            Tangent tangent = Tangent::followed, ContactMask held = 0);
 
  private:
   void enter(const typename S::State& z, double phase, Passage<N, H>& passage);
+  void begin_tangent(Passage<N, H>& passage) const;
   bool starts_at_limit(Eigen::Index contact, double speed);
-  void take_step();
+  void take_step(Passage<N, H>& passage);
+  void move_tangent(double steps, Passage<N, H>& passage);
+  void catch_up(Passage<N, H>& passage);
   void advance(double fraction, Passage<N, H>& passage);
   void pass_event(const GuardEvent& event, double phase, Passage<N, H>& passage);
   void note_change(const GuardEvent& event, const Instant<N, H>& before, const Mode<N, H>& mode_before,
                    Passage<N, H>& passage);
   void open_segment(Passage<N, H>& passage);
-  void begin_segment(Passage<N, H>& passage);
+  void share_forces_again(Passage<N, H>& passage);
 
   Flow<N, H>& flow_;
   Workspace<N, H> w_;

@@ -10,15 +10,15 @@ namespace frahm::periodic {
 
 template <int N, int H>
 void Walk<N, H>::pass(const typename S::State& z, double phase, double length, Passage<N, H>& passage,
-                      ContactMask held) {
+                      Tangent tangent, ContactMask held) {
   constexpr int kMostEvents = 20000;
+  passage.has_tangent = tangent == Tangent::followed;
   w_.held = held;
   enter(z, phase, passage);
   int at_this_instant = 0;
   while (passage.failure == nullptr) {
-    if (share_again(flow_, w_)) begin_segment(passage);
-    flow_.step(w_.left, flow_.mode(w_.mode), w_.right);
-    w_.expanded = false;
+    share_forces_again(passage);
+    w_.expanded = flow_.step(w_.left, flow_.mode(w_.mode), w_.right, w_.expansion);
     const GuardEvent event = first_event(flow_, w_);
     const double room = length - w_.clock;
     if (event.at < room && event.at <= 1.0) {
@@ -30,12 +30,12 @@ void Walk<N, H>::pass(const typename S::State& z, double phase, double length, P
       if (w_.undecided) passage.failure = "the friction forces of contacts at rest were not found";
     } else if (room <= 1.0) {
       advance(room, passage);
+      catch_up(passage);
       passage.segments.back().length = length - passage.segments.back().start;
       break;
     } else {
       at_this_instant = 0;
-      passage.tangent = (flow_.configuration(flow_.mode(w_.mode)).E * passage.tangent).eval();
-      take_step();
+      take_step(passage);
     }
   }
   passage.end = w_.left.z;
@@ -43,9 +43,12 @@ void Walk<N, H>::pass(const typename S::State& z, double phase, double length, P
   if (!passage.end.allFinite()) passage.failure = "the state is not finite";
 }
 
-// The motion continues unchanged with other shares of the forces, in a new segment.
+// Where idle contacts share the forces again the motion continues unchanged, in a new segment.
 template <int N, int H>
-void Walk<N, H>::begin_segment(Passage<N, H>& passage) {
+void Walk<N, H>::share_forces_again(Passage<N, H>& passage) {
+  if (flow_.configuration(flow_.mode(w_.mode)).idle == 0) return;
+  catch_up(passage);
+  if (!share_again(flow_, w_)) return;
   passage.segments.back().length = w_.clock - passage.segments.back().start;
   if (passage.segments.back().length == 0.0)
     passage.segments.pop_back();
@@ -55,7 +58,8 @@ void Walk<N, H>::begin_segment(Passage<N, H>& passage) {
 }
 
 template <int N, int H>
-void Walk<N, H>::take_step() {
+void Walk<N, H>::take_step(Passage<N, H>& passage) {
+  move_tangent(1.0, passage);
   w_.left = w_.right;
   w_.clock += 1.0;
   w_.fresh = w_.just_released = 0;
@@ -66,11 +70,10 @@ void Walk<N, H>::open_segment(Passage<N, H>& passage) {
   passage.segments.push_back({w_.clock, 0.0, w_.mode, w_.left.z});
 }
 
-// The mode at the start of a passage, and the tangent that keeps its stuck contacts stuck.
+// The mode at the start of a passage.
 template <int N, int H>
 void Walk<N, H>::enter(const typename S::State& z, double phase, Passage<N, H>& passage) {
   const StepEquations<N, H>& eq = flow_.equations();
-  const Eigen::Index n = eq.masses();
   passage.segments.clear();
   passage.changes.clear();
   passage.events = 0;
@@ -79,6 +82,7 @@ void Walk<N, H>::enter(const typename S::State& z, double phase, Passage<N, H>& 
   w_.margin = 1.0;
   w_.undecided = false;
   w_.fresh = w_.just_released = 0;
+  w_.behind = 0.0;
   set_scales(flow_, z, w_);
 
   w_.mode = flow_.mode_index(0, 0);
@@ -100,8 +104,17 @@ void Walk<N, H>::enter(const typename S::State& z, double phase, Passage<N, H>& 
   settle_mode(flow_, w_);
 
   passage.starts_at_event = w_.fresh != 0;
+  if (passage.has_tangent) begin_tangent(passage);
+  open_segment(passage);
+}
+
+// The tangent that keeps the stuck contacts stuck.
+template <int N, int H>
+void Walk<N, H>::begin_tangent(Passage<N, H>& passage) const {
+  const StepEquations<N, H>& eq = flow_.equations();
+  const Eigen::Index n = eq.masses();
   passage.tangent.setIdentity(eq.states(), eq.states());
-  passage.tangent.block(n, n, n, n) = flow_.configuration(flow_.mode(w_.mode)).P;
+  passage.tangent.block(n, n, n, n) = flow_.configuration(flow_.mode(w_.mode)).projector(eq);
   if constexpr (S::kInternal != 0) {
     for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
       const bool stays = !eq.holds(j) && !contains(flow_.mode(w_.mode).stuck, j);
@@ -109,7 +122,6 @@ void Walk<N, H>::enter(const typename S::State& z, double phase, Passage<N, H>& 
       if (stays) passage.tangent(2 * n + internal, 2 * n + internal) = 0.0;
     }
   }
-  open_segment(passage);
 }
 
 // Whether contact j, whose force is a state, starts sliding: its force is at the limit, in the direction of
@@ -132,17 +144,22 @@ void Walk<N, H>::advance(double fraction, Passage<N, H>& passage) {
   Flow<N, H>::evaluate(w_.expand(flow_), fraction, w_.left.z);
   w_.clock += fraction;
 
-  // The tangent moves with the homogeneous flow.
-  const Configuration<N, H>& configuration = flow_.configuration(flow_.mode(w_.mode));
-  const Polynomial power = powers(fraction);
-  const Eigen::Index size = passage.tangent.rows();
-  typename S::StateSquare flow(size, size);
-  for (Eigen::Index column = 0; column < size; ++column) {
-    const Eigen::Map<const typename S::StatePolynomials> series(configuration.series_z.col(column).data(),
-                                                                kTerms, size);
-    flow.col(column).noalias() = series.transpose() * power;
-  }
-  passage.tangent = (flow * passage.tangent).eval();
+  move_tangent(fraction, passage);
+}
+
+// The tangent moves with the homogeneous flow: that of a small system step by step, that of a large one once
+// for each segment.
+template <int N, int H>
+void Walk<N, H>::move_tangent(double steps, Passage<N, H>& passage) {
+  if (!passage.has_tangent) return;
+  w_.behind += steps;
+  if (!flow_.equations().is_large()) catch_up(passage);
+}
+
+template <int N, int H>
+void Walk<N, H>::catch_up(Passage<N, H>& passage) {
+  if (w_.behind > 0.0) flow_.move_tangent(flow_.mode(w_.mode), w_.behind, passage.tangent);
+  w_.behind = 0.0;
 }
 
 template <int N, int H>
@@ -152,6 +169,7 @@ void Walk<N, H>::pass_event(const GuardEvent& event, double phase, Passage<N, H>
     advance(event.at, passage);
     w_.fresh = w_.just_released = 0;
   }
+  catch_up(passage);
   const std::size_t mode_before = w_.mode;
   flow_.instant_at(typename S::State(w_.left.z), phase + w_.clock * flow_.fundamental_rate(),
                    flow_.mode(mode_before), w_.left);
@@ -171,7 +189,9 @@ void Walk<N, H>::pass_event(const GuardEvent& event, double phase, Passage<N, H>
 
   // 3. Carry the tangent across.
   const ContactMask released = flow_.mode(mode_before).stuck & ~flow_.mode(w_.mode).stuck;
-  saltate(flow_, arrived, released, before, flow_.mode(mode_before), w_, passage.tangent);
+  note_arrivals(flow_, arrived, before, w_);
+  if (passage.has_tangent)
+    saltate(flow_, arrived, released, before, flow_.mode(mode_before), w_, passage.tangent);
 
   // 4. Record the change and begin the next segment. Events at one instant are one change.
   note_change(event, before, flow_.mode(mode_before), passage);

@@ -206,7 +206,7 @@ typename OrbitSearch<N, H>::Shift OrbitSearch<N, H>::settle_rest_position(Orbit<
   // the shifted state.
   const bool stood_at_limit = orbit.status == Status::grazing && shift.verdict == RestShift::Verdict::inside;
   const bool breaks_limit =
-      flow_.has_loops() && std::ranges::any_of(stuck_forces(eq.holding, orbit), &StuckForce::breaks_limit);
+      eq.has_loops && std::ranges::any_of(stuck_forces(eq.holding, orbit), &StuckForce::breaks_limit);
   if (stood_at_limit || breaks_limit) {
     shooting_.find(orbit);
     if (!orbit.is_found()) return Shift::none;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "solvers/exact/nonstop_row.hpp"
 #include "solvers/exact/orbit_search.hpp"
 #include "solvers/exact/response.hpp"
@@ -59,12 +61,14 @@ class SizedSolver final : public ResponseSolver {
   }
 
   const char* gradient(std::span<const mechanics::NetworkValues> directions, std::span<double> out) override {
+    follow_tangent(flow_, orbit_);
     return gradient_.evaluate(orbit_, system_, values_, directions, out);
   }
   const char* why_no_derivative(std::size_t quantity) const override { return gradient_.why_none(quantity); }
 
   const char* observe(std::span<const double> times, std::span<const Observed> observed,
                       std::span<const mechanics::NetworkValues> directions, ObservedMotion& out) override {
+    follow_tangent(flow_, orbit_);
     OrbitObservation<N, H> observation(flow_, observed);
     return observation.observe(orbit_, assembly_, system_, values_, directions, times, out);
   }

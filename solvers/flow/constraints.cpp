@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "solvers/algebra/shortest_solution.hpp"
+#include "solvers/algebra/solve.hpp"
 #include "solvers/algebra/symmetric_modes.hpp"
 
 namespace frahm::periodic {
@@ -44,6 +45,17 @@ Eigen::MatrixXd weighted_pseudo_inverse(const Eigen::MatrixXd& G, const Eigen::V
   if (kept.size() == 1) result(kept[0], kept[0]) = 1.0 / G(kept[0], kept[0]);
   if (kept.size() > 1) result(kept, kept) = pseudo_inverse_of(G(kept, kept), weight(kept));
   return result;
+}
+
+void set_inverse(const Eigen::MatrixXd& G, ContactMask contacts, Eigen::Ref<Eigen::MatrixXd> inverse) {
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index j = 0; j < G.rows(); ++j) {
+    if (contains(contacts, j)) kept.push_back(j);
+  }
+  const auto size = static_cast<Eigen::Index>(kept.size());
+  inverse.setZero();
+  inverse(kept, kept) =
+      algebra::solve_positive(G(kept, kept), Eigen::MatrixXd(Eigen::MatrixXd::Identity(size, size)));
 }
 
 }  // namespace frahm::periodic

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "solvers/flow/sizes.hpp"
+#include "solvers/flow/sparse_system.hpp"
 #include "solvers/mechanics/linear_system.hpp"
 
 namespace frahm::periodic {
@@ -38,8 +39,10 @@ struct StepEquations {
   typename S::VectorByOscillators force;                              // f(t) = force * u(t) [N]
   typename S::VectorByOscillators applied_force;  // the part of it that acts on the masses from outside
   typename S::SupportsByOscillators motion, motion_velocity,
-      motion_acceleration;         // y(t) of the prescribed nodes
-  typename S::VectorByContacts W;  // n x m
+      motion_acceleration;             // y(t) of the prescribed nodes
+  typename S::VectorByContacts W, MW;  // directions of the contacts, M^-1 W (n x m)
+  typename S::ContactSquare mobility;  // G = W^T M^-1 W
+  bool has_loops = false;              // the directions of contacts depend on one another
   typename S::ContactsByOscillators support_velocity,
       support_acceleration;               // p_j^T y'(t), p_j^T y''(t), m rows
   typename S::Contacts limit;             // [N]
@@ -53,9 +56,14 @@ struct StepEquations {
   // cos + i sin of each harmonic at phase 0. Empty: 1, as in every motion except one with a measured
   // excitation.
   std::vector<std::complex<double>> oscillators_at_zero;
+  SparseSystem sparse;  // of a large system
 
   Eigen::Index masses() const { return M.rows(); }
   Eigen::Index contacts() const { return limit.size(); }
+  // Whether Taylor series come from the equation itself (SparseSystem), not from tables of each
+  // configuration.
+  bool is_large() const { return !S::is_fixed && masses() >= kFromMasses; }
+  static constexpr Eigen::Index kFromMasses = 8;  // as fast both ways there
   // Whether contact j holds its velocity at zero while it sticks; otherwise its force is a state.
   bool holds(Eigen::Index j) const { return contains(holding, j); }
   Eigen::Index internal_forces() const { return internal_stiffness.size(); }
@@ -85,6 +93,18 @@ struct StepEquations {
       u[1 + 2 * i] = turned.real();
       u[2 + 2 * i] = turned.imag();
     }
+  }
+
+  // (K q, M v, s / k): its product with another state is twice the energy norm's.
+  template <class AnyState>
+  typename S::State weighted_by_energy(const AnyState& z) const {
+    const Eigen::Index n = masses();
+    typename S::State weighted(states());
+    weighted.head(n) = K * z.head(n);
+    weighted.segment(n, n) = M * z.segment(n, n);
+    if constexpr (S::kInternal != 0)
+      weighted.tail(internal_forces()) = z.tail(internal_forces()).array() / internal_stiffness.array();
+    return weighted;
   }
 
   // The energy norm of a state, sqrt((v^T M v + q^T K q + sum s^2 / k) / 2)  [sqrt(J)]. No two motions under

@@ -22,10 +22,11 @@ struct Mode {
   ContactMask stuck = 0, positive = 0;  // positive: sliding with w^T q' > 0
   std::size_t configuration = 0;
   typename Sizes<N, H>::Contacts friction;     // sigma_j F_j of contacts that slide; 0 if a state [N]
-  typename Sizes<N, H>::Vector acceleration;   // Af * friction
-  typename Sizes<N, H>::State step;            // Ef * friction
-  typename Sizes<N, H>::Series series;         // series_f * friction
-  typename Sizes<N, H>::Contacts stuck_force;  // Lf * friction
+  typename Sizes<N, H>::Vector acceleration;   // due to it
+  typename Sizes<N, H>::Contacts stuck_force;  // of the stuck contacts, due to it [N]
+  // Of a small system: Ef * friction, series_f * friction (StepTables).
+  typename Sizes<N, H>::State step;
+  typename Sizes<N, H>::Series series;
 
   double sign(Eigen::Index contact) const { return contains(positive, contact) ? 1.0 : -1.0; }
 };
@@ -86,7 +87,6 @@ class Flow {
   const std::vector<int>& orders() const { return orders_; }
   double fundamental_rate() const { return fundamental_rate_; }  // omega h [rad a step]
   bool moving_support() const { return moving_support_; }        // some contact rubs on a prescribed node
-  bool has_loops() const { return has_loops_; }  // the directions of contacts depend on one another
   // The energy norm of the static response to the excitation's amplitudes [sqrt(J)].
   double static_norm() const { return static_norm_; }
   // The scale of residuals and errors of a state z [sqrt(J)].
@@ -106,20 +106,23 @@ class Flow {
     return contains(mode.stuck, contact) || is_idle;
   }
   // Maps velocities to those that keep these contacts stuck, orthogonally in the norm of M.
-  const typename S::Square& keeping_stuck(ContactMask contacts) {
-    return configurations_[configuration_index(contacts)].P;
+  typename S::Square keeping_stuck(ContactMask contacts) {
+    return configurations_[configuration_index(contacts)].projector(equations_);
   }
   // z with velocities at which these contacts are at rest at `phase`.
   typename S::State brought_to_rest(const typename S::State& z, double phase, ContactMask contacts);
 
   void instant_at(const typename S::State& z, double phase, const Mode<N, H>& mode, Instant<N, H>& at) const;
   void accelerate(const Mode<N, H>& mode, Instant<N, H>& at) const;
-  // `to` = `from` one step later in the same mode.
-  void step(const Instant<N, H>& from, const Mode<N, H>& mode, Instant<N, H>& to) const;
+  // `to` = `from` one step later in the same mode. True: this took the expansion over the step, of a large
+  // system, which x now has.
+  bool step(const Instant<N, H>& from, const Mode<N, H>& mode, Instant<N, H>& to, Expansion<N, H>& x) const;
   void expand(const Instant<N, H>& at, const Mode<N, H>& mode, Expansion<N, H>& expansion) const;
   static void evaluate(const Expansion<N, H>& expansion, double s, typename S::State& z) {
     z.noalias() = expansion.z.transpose() * powers(s);
   }
+  // Columns of states moved on by `steps` of the homogeneous flow of a mode.
+  void move_tangent(const Mode<N, H>& mode, double steps, typename S::StateSquare& tangent) const;
   // The state `elapsed` steps after the start of a segment of a passage that began at phase `section`.
   typename S::State state_within(const Segment<N, H>& segment, double section, double elapsed) const;
 
@@ -129,6 +132,9 @@ class Flow {
   ValueAndSlope stuck_force(const Instant<N, H>& at, const Mode<N, H>& mode, Eigen::Index contact) const;
 
  private:
+  void turn_oscillators(const Instant<N, H>& from, Instant<N, H>& to) const;
+  void expand_oscillators(const Instant<N, H>& at, Expansion<N, H>& x) const;
+  void expand_by_recurrence(const Instant<N, H>& at, const Mode<N, H>& mode, Expansion<N, H>& x) const;
   void scale_matrices(const mechanics::LinearSystem& system);
   void bound_tables();
   void set_oscillation(double omega);
@@ -145,7 +151,6 @@ class Flow {
   double static_norm_ = 0.0;
   bool matrices_changed_ = true;
   bool moving_support_ = false;
-  bool has_loops_ = false;
 };
 
 // The sizes that are known at compile time are instantiated in flow/flow_*.cpp, each in its own file.

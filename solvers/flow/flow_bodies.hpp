@@ -53,13 +53,16 @@ void Flow<N, H>::scale_matrices(const mechanics::LinearSystem& system) {
   eq.W = system.W;
   eq.limit = system.limit;
   set_laws(system, eq);
-  has_loops_ = holds_in_loops(eq);
+  eq.has_loops = holds_in_loops(eq);
   eq.D = system.D;
   eq.internal_stiffness = system.internal_stiffness;
   eq.internal_rate = h * system.internal_rate;
-  const Eigen::Index m = system.contacts();
-  eq.compliance.resize(m);
-  for (Eigen::Index j = 0; j < m; ++j) eq.compliance[j] = eq.W.col(j).dot(eq.M_inverse * eq.W.col(j));
+  eq.MW = eq.M_inverse * eq.W;
+  eq.mobility = eq.W.transpose() * eq.MW;
+  eq.compliance = eq.mobility.diagonal();
+  if constexpr (!S::is_fixed) {
+    if (eq.is_large()) eq.sparse.set(eq.M_inverse, eq.K, eq.C, eq.D, eq.W, eq.internal_rate);
+  }
   configurations_.clear();
 }
 
@@ -98,13 +101,15 @@ void Flow<N, H>::set_forcing(const mechanics::LinearSystem& system) {
   modes_.clear();
 }
 
-// Configurations are kept for the next frequency as long as their series take little memory: with many
-// contacts each orbit meets new ones.
+// Configurations are kept for the next frequency as long as they take little memory: with many contacts each
+// orbit meets new ones.
 template <int N, int H>
 void Flow<N, H>::bound_tables() {
   constexpr Eigen::Index kMostDoubles = 8 << 20;  // 64 MB
   const Eigen::Index states = equations_.states();
-  const Eigen::Index of_each = kTerms * states * (states + equations_.oscillators() + equations_.contacts());
+  const Eigen::Index of_each =
+      equations_.is_large() ? equations_.contacts() * (2 * states + 3 * equations_.contacts())
+                            : kTerms * states * (states + equations_.oscillators() + equations_.contacts());
   if (static_cast<Eigen::Index>(configurations_.size()) * of_each > kMostDoubles) configurations_.clear();
 }
 
@@ -161,11 +166,51 @@ std::size_t Flow<N, H>::mode_index(ContactMask stuck, ContactMask positive) {
     const bool slides = equations_.holds(j) && !contains(stuck, j);
     mode.friction[j] = slides ? mode.sign(j) * equations_.limit[j] : 0.0;
   }
-  mode.acceleration.noalias() = configuration.Af.lazyProduct(mode.friction);
-  mode.step.noalias() = configuration.Ef.lazyProduct(mode.friction);
-  mode.series.noalias() = configuration.series_f.lazyProduct(mode.friction);
-  mode.stuck_force.noalias() = configuration.Lf.lazyProduct(mode.friction);
+  mode.acceleration = configuration.pull_of_friction(equations_, mode.friction);
+  mode.stuck_force = configuration.stuck_force_of_friction(equations_, mode.friction);
+  if (!equations_.is_large()) {
+    mode.step.noalias() = configuration.tables.Ef.lazyProduct(mode.friction);
+    mode.series.noalias() = configuration.tables.series_f.lazyProduct(mode.friction);
+  }
   return modes_.size() - 1;
+}
+
+// Coefficient k + 1 of the series is the derivative of coefficient k over k + 1.
+template <int N, int H>
+void Flow<N, H>::expand_by_recurrence(const Instant<N, H>& at, const Mode<N, H>& mode,
+                                      Expansion<N, H>& x) const {
+  const StepEquations<N, H>& eq = equations_;
+  const Configuration<N, H>& c = configurations_[mode.configuration];
+  const Eigen::Index n = eq.masses(), internal = eq.internal_forces();
+  typename S::Vector a(n);
+  typename S::Internal ds(internal);
+  typename S::State z = at.z;
+  for (int k = 0;; ++k) {
+    x.z.row(k) = z.transpose();
+    if (k + 1 == kTerms) break;
+    pull(eq.sparse, c.held, z.data(), z.data() + n, z.data() + 2 * n, a.data(), ds.data());
+    a.noalias() += c.Au.lazyProduct(x.u.row(k).transpose());
+    if (k == 0) a += mode.acceleration;
+    const double share = 1.0 / (k + 1.0);
+    z.head(n) = z.segment(n, n) * share;
+    z.segment(n, n) = a * share;
+    if constexpr (S::kInternal != 0) {
+      ds.noalias() += c.internal_drive * x.u.row(k).transpose();
+      z.tail(internal) = ds * share;
+    }
+  }
+}
+
+template <int N, int H>
+void Flow<N, H>::move_tangent(const Mode<N, H>& mode, double steps, typename S::StateSquare& tangent) const {
+  const Configuration<N, H>& configuration = configurations_[mode.configuration];
+  if constexpr (!S::is_fixed) {
+    if (equations_.is_large()) return propagate(equations_.sparse, configuration.held, steps, tangent);
+  }
+  if (steps == 1.0)
+    tangent = (configuration.tables.E * tangent).eval();
+  else
+    configuration.tables.move_by_fraction(steps, tangent);
 }
 
 template <int N, int H>
@@ -174,11 +219,11 @@ typename Sizes<N, H>::State Flow<N, H>::state_within(const Segment<N, H>& segmen
   const Mode<N, H>& mode = modes_[segment.mode];
   Instant<N, H> at, next;
   instant_at(segment.z, section + segment.start * fundamental_rate_, mode, at);
+  Expansion<N, H> x;
   for (; elapsed >= 1.0; elapsed -= 1.0) {
-    step(at, mode, next);
+    step(at, mode, next, x);
     at = next;
   }
-  Expansion<N, H> x;
   expand(at, mode, x);
   typename S::State z;
   evaluate(x, elapsed, z);

@@ -91,9 +91,7 @@ LinearForm<N, H> Forms<N, H>::acceleration(const mechanics::Incidence& at, const
   const double per_second_squared = 1.0 / (eq.step * eq.step);
   const typename S::Vector w = at.w * per_second_squared;
   Form form = zero();
-  form.z.head(w.size()) = c.Aq.transpose() * w;
-  form.z.segment(w.size(), w.size()) = c.Av.transpose() * w;
-  if constexpr (S::kInternal != 0) form.z.tail(eq.internal_forces()) = c.As.transpose() * w;
+  form.z = c.pull_form(eq, w);
   form.u = c.Au.transpose() * w;
   form.u[0] += w.dot(mode.acceleration);
   if (at.p.size() > 0) form.u += eq.motion_acceleration.transpose() * at.p * per_second_squared;

@@ -8,6 +8,7 @@
 namespace frahm::periodic {
 
 using ContactMask = std::uint64_t;  // bit j: contact j
+inline constexpr int kMostContacts = 64;
 inline bool contains(ContactMask mask, Eigen::Index contact) {
   return (mask >> contact) & 1U;
 }

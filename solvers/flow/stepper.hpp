@@ -21,29 +21,44 @@ inline void Flow<N, H>::instant_at(const typename S::State& z, double phase, con
   accelerate(mode, at);
 }
 
-// q'' = Aq q + Av v + As s + Au u + Af phi;  s' = spring (D^T v + p^T y') - rate s
+// q'' = -P M^-1 (K q + C v + D s + W phi) + Au u;  s' = spring (D^T v + p^T y') - rate s
 template <int N, int H>
 inline void Flow<N, H>::accelerate(const Mode<N, H>& mode, Instant<N, H>& at) const {
   const Eigen::Index n = equations_.masses();
   const Configuration<N, H>& configuration = configurations_[mode.configuration];
-  at.a.noalias() = configuration.Aq * at.z.head(n) + configuration.Av * at.z.segment(n, n);
+  const auto q = at.z.head(n), v = at.z.segment(n, n);
+  const auto s = at.z.tail(equations_.internal_forces());
+  at.a = configuration.pull(equations_, q, v, s);
   at.a.noalias() += configuration.Au * at.u;
   at.a += mode.acceleration;
   if constexpr (S::kInternal != 0) {
-    const auto s = at.z.tail(equations_.internal_forces());
-    at.a += configuration.As * s;
-    at.ds = configuration.internal_rates(equations_, at.z.segment(n, n), s);
+    at.ds = configuration.internal_rates(equations_, v, s);
     at.ds += configuration.internal_drive * at.u;
   }
 }
 
 template <int N, int H>
-inline void Flow<N, H>::step(const Instant<N, H>& from, const Mode<N, H>& mode, Instant<N, H>& to) const {
+inline bool Flow<N, H>::step(const Instant<N, H>& from, const Mode<N, H>& mode, Instant<N, H>& to,
+                             Expansion<N, H>& x) const {
+  const bool is_large = equations_.is_large();
+  if (is_large) {
+    expand(from, mode, x);
+    to.z = x.z.colwise().sum().transpose();
+  } else {
+    const StepTables<N, H>& tables = configurations_[mode.configuration].tables;
+    to.z.noalias() = tables.E * from.z;
+    to.z.noalias() += tables.Eu * from.u;
+    to.z += mode.step;
+  }
+  turn_oscillators(from, to);
+  accelerate(mode, to);
+  return is_large;
+}
+
+// u and u' one step later.
+template <int N, int H>
+inline void Flow<N, H>::turn_oscillators(const Instant<N, H>& from, Instant<N, H>& to) const {
   const StepEquations<N, H>& eq = equations_;
-  const Configuration<N, H>& configuration = configurations_[mode.configuration];
-  to.z.noalias() = configuration.E * from.z;
-  to.z.noalias() += configuration.Eu * from.u;
-  to.z += mode.step;
   to.u.resize(eq.oscillators());
   to.du.resize(eq.oscillators());
   to.u[0] = 1.0;
@@ -57,18 +72,24 @@ inline void Flow<N, H>::step(const Instant<N, H>& from, const Mode<N, H>& mode, 
     to.du[1 + 2 * k] = -eq.phase_rate[k] * to.u[2 + 2 * k];
     to.du[2 + 2 * k] = eq.phase_rate[k] * to.u[1 + 2 * k];
   }
-  accelerate(mode, to);
 }
 
 template <int N, int H>
 inline void Flow<N, H>::expand(const Instant<N, H>& at, const Mode<N, H>& mode, Expansion<N, H>& x) const {
   const StepEquations<N, H>& eq = equations_;
-  const Configuration<N, H>& configuration = configurations_[mode.configuration];
+  expand_oscillators(at, x);
   x.z.resize(kTerms, eq.states());
+  if (eq.is_large()) return expand_by_recurrence(at, mode, x);
+  const StepTables<N, H>& tables = configurations_[mode.configuration].tables;
   Eigen::Map<typename S::Series> series(x.z.data(), x.z.size());
-  series.noalias() = configuration.series_z * at.z;
-  series.noalias() += configuration.series_u * at.u;
+  series.noalias() = tables.series_z * at.z;
+  series.noalias() += tables.series_u * at.u;
   series += mode.series;
+}
+
+template <int N, int H>
+inline void Flow<N, H>::expand_oscillators(const Instant<N, H>& at, Expansion<N, H>& x) const {
+  const StepEquations<N, H>& eq = equations_;
   x.u.resize(kTerms, eq.oscillators());
   x.u.col(0).setZero();
   x.u(0, 0) = 1.0;

@@ -7,6 +7,7 @@
 #include "solvers/algebra/no_value.hpp"
 #include "solvers/orbits/orbit.hpp"
 #include "solvers/orbits/rest_directions.hpp"
+#include "solvers/orbits/shooting.hpp"
 #include "solvers/orbits/spectral_radius.hpp"
 
 // The certificate of an orbit: Floquet multipliers, contraction in the energy norm, and the error bound that
@@ -69,6 +70,7 @@ double static_forces(const Flow<N, H>& flow, const Orbit<N, H>& orbit) {
 template <int N, int H>
 void judge_stability(Flow<N, H>& flow, Orbit<N, H>& orbit) {
   const StepEquations<N, H>& eq = flow.equations();
+  follow_tangent(flow, orbit);
   const auto moving = moving_part(flow, orbit.passage.tangent, orbit.stuck_throughout);
   orbit.contraction = energy_operator_norm<N, H>(eq, moving);
   orbit.floquet_radius = spectral_radius(moving);

@@ -21,6 +21,7 @@ class Continuation {
 
   // Discards all known orbits: the next search starts from the linear response without friction.
   void forget() {
+    shooting_.forget();
     begin_row();
     has_row_start_ = false;
     section_ = 0.0;

@@ -3,11 +3,14 @@
 #include <Eigen/Core>
 
 #include "solvers/events/walk.hpp"
+#include "solvers/orbits/broyden.hpp"
 #include "solvers/orbits/orbit.hpp"
 
 // The periodic orbit as a fixed point of the period map g, by Newton's method on g(z) - z = 0 with the exact
-// derivative of g. If a Newton step reduces the residual too little, the map itself is applied: under
-// monotone laws it expands no distance in the energy norm, so the search converges if the map contracts.
+// derivative of g. Of a large system that derivative is kept and corrected, and computed only where its steps
+// no longer serve (Broyden). If a Newton step reduces the residual too little, the map itself is applied:
+// under monotone laws it expands no distance in the energy norm, so the search converges if the map
+// contracts.
 namespace frahm::periodic {
 
 struct ShootingOptions {
@@ -42,14 +45,21 @@ class Shooting {
   // Starts from the state orbit.z at orbit.section; orbit.half_period selects the map. Fills the rest of
   // `orbit`. held: contacts that stick regardless of their force.
   void find(Orbit<N, H>& orbit, ContactMask held = 0);
+  // The next search has no derivative of an earlier one.
+  void forget() { kept_.forget(); }
 
  private:
   enum class Verdict { go_on, converged, gave_up };
 
-  void apply_map(Trial<N, H>& trial);
+  void apply_map(Trial<N, H>& trial, Tangent tangent = Tangent::followed);
   Verdict judge();
-  bool propose_newton_step();
-  bool try_candidate();
+  bool take_newton_step();
+  bool take_kept_step();
+  bool wants_derivative(double left) const;
+  bool keep_derivative();
+  typename S::StateSquare newton_matrix();
+  bool propose(const typename S::State& step);
+  bool try_candidate(Tangent tangent, double pays);
   void march(int maps);
   void start_at_rest();
   bool is_resolved(const typename S::State& z) const;
@@ -63,8 +73,25 @@ class Shooting {
   double section_ = 0.0, sign_ = 1.0, length_ = 0.0;
   ContactMask held_ = 0;
   int newton_iterations_ = 0, passages_ = 0;
+  Tangent tangent_ = Tangent::followed;  // of the passages of this search
+  // Of a large system: the derivative that is kept, and where it was taken.
+  struct KeptAt {
+    double section = 0.0, sign = 0.0, step = 0.0;
+    ContactMask stuck_throughout = 0;
+    friend bool operator==(const KeptAt&, const KeptAt&) = default;
+  };
+  Broyden kept_;
+  KeptAt kept_at_;
   Trial<N, H> current_, candidate_;
 };
+
+// The tangent of an orbit's passage, where the search did not need it.
+template <int N, int H>
+void follow_tangent(Flow<N, H>& flow, Orbit<N, H>& orbit) {
+  if (orbit.passage.has_tangent || !orbit.is_found()) return;
+  const double period = flow.equations().period;
+  Walk<N, H>(flow).pass(orbit.z, orbit.section, orbit.half_period ? 0.5 * period : period, orbit.passage);
+}
 
 extern template class Shooting<1, 1>;
 extern template class Shooting<1, 2>;

@@ -41,7 +41,7 @@ class OrbitSteps {
         else
           step.left = steps_[count_ - 2].right;
         if (step.length == 1.0) {
-          flow_.step(step.left, mode, step.right);
+          step.expanded = flow_.step(step.left, mode, step.right, step.expansion);
         } else {
           expand(step);
           Flow<N, H>::evaluate(step.expansion, step.length, z);

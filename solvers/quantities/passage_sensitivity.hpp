@@ -143,13 +143,11 @@ void PassageSensitivity<N, H>::expand(const OrbitStep<N, H>& step, const typenam
   for (int k = 0; k < kTerms; ++k) {
     p.row(k).head(n) = q.transpose();
     p.row(k).segment(n, n) = v.transpose();
-    a.noalias() = c.Aq * q;
-    a.noalias() += c.Av * v;
+    a = c.pull(eq, q, v, s);
     a += drive.row(k).transpose();
     const double share = 1.0 / (k + 1.0);
     if constexpr (S::kInternal != 0) {
       p.row(k).tail(internal) = s.transpose();
-      a += c.As * s;
       ds = c.internal_rates(eq, v, s);
       s = (ds + internal_drive.row(k).transpose()) * share;
     }
@@ -234,8 +232,8 @@ InstantDerivative<N, H> PassageSensitivity<N, H>::at(std::size_t i, double s, co
   const ModeDerivative<N, H>& d = modes_[step.mode];
   InstantDerivative<N, H> result;
   result.z = polynomials_[i].transpose() * powers(s);
-  result.a = c.Aq * result.z.head(n) + c.Av * result.z.segment(n, n);
-  if constexpr (S::kInternal != 0) result.a += c.As * result.z.tail(flow_.equations().internal_forces());
+  result.a = c.pull(flow_.equations(), result.z.head(n), result.z.segment(n, n),
+                    result.z.tail(flow_.equations().internal_forces()));
   result.a += d.acceleration_z * at.z + d.acceleration_u * at.u;
   return result;
 }

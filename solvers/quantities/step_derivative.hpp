@@ -84,9 +84,7 @@ void ModeDerivative<N, H>::set(const Flow<N, H>& flow, const Mode<N, H>& mode,
   Eigen::Matrix<double, N, S::kState> r_z = decltype(r_z)::Zero(n, eq.states());
   r_z.leftCols(n) = -by.K;
   r_z.middleCols(n, n) = -by.C;
-  r_z.leftCols(n).noalias() -= by.M * c.Aq;
-  r_z.middleCols(n, n).noalias() -= by.M * c.Av;
-  if constexpr (S::kInternal != 0) r_z.rightCols(eq.internal_forces()).noalias() -= by.M * c.As;
+  r_z.noalias() -= by.M * c.pull_by_state(eq);
   typename S::VectorByOscillators r_u = by.force;
   r_u.noalias() -= by.M * c.Au;
   r_u.col(0).noalias() -= by.M * mode.acceleration;
@@ -94,7 +92,7 @@ void ModeDerivative<N, H>::set(const Flow<N, H>& flow, const Mode<N, H>& mode,
     if (eq.holds(j) && !contains(mode.stuck, j)) r_u.col(0) -= (mode.sign(j) * by.limit[j]) * eq.W.col(j);
   }
 
-  const typename S::Square mobility = c.P * eq.M_inverse;
+  const typename S::Square mobility = c.projector(eq) * eq.M_inverse;
   acceleration_z.noalias() = mobility * r_z;
   acceleration_u.noalias() = mobility * r_u;
   force_z.setZero(m, eq.states());

@@ -78,7 +78,7 @@ bool MotionSensitivity::advance(double time, double phase, double longest) {
 bool MotionSensitivity::pass(double length, double phase) {
   stretch_.section = phase;
   passage_start_ = time_;
-  walk_.pass(z_, phase, length, stretch_.passage);
+  walk_.pass(z_, phase, length, stretch_.passage, periodic::Tangent::none);
   steps_taken_ += length;
   failure_ = stretch_.passage.failure;
   if (failure_ != nullptr) return false;
@@ -172,7 +172,7 @@ bool MotionSensitivity::is_at_rest() const {
   const auto& eq = flow_.equations();
   const Index harmonics = eq.force.cols() - 1;
   return begun_ && eq.internal_forces() == 0 && eq.force.rightCols(harmonics).isZero(0.0) &&
-         eq.motion.rightCols(harmonics).isZero(0.0) && flow_.configuration(ending_.mode).P.isZero(0.0);
+         eq.motion.rightCols(harmonics).isZero(0.0) && flow_.configuration(ending_.mode).holds_all(eq);
 }
 
 void MotionSensitivity::finish() {

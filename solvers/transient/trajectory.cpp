@@ -132,7 +132,7 @@ bool Trajectory::can_last(double duration) {
 
 bool Trajectory::pass(double length, double phase) {
   stretch_.section = phase;
-  walk_.pass(z_, phase, length, stretch_.passage);
+  walk_.pass(z_, phase, length, stretch_.passage, periodic::Tangent::none);
   steps_taken_ += length;
   failure_ = stretch_.passage.failure;
   if (failure_ != nullptr) return false;

@@ -1,0 +1,57 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "solvers/orbits/orbit.hpp"
+#include "solvers/response/periodic_response.hpp"
+#include "tests/benchmarks/works.hpp"
+
+// The search for an orbit of a large system keeps the derivative of the period map from orbit to orbit. What
+// it finds does not depend on that.
+namespace frahm::periodic {
+namespace {
+
+constexpr double kSame = 1e-9;  // of a peak: residuals of 1e-12 over 1 - contraction
+
+TEST_CASE("A row of a building with stops has the orbits that its points have alone") {
+  benchmarks::Work work = benchmarks::shear_building(10, 3);
+  std::vector<mechanics::NetworkValues> row;
+  for (std::size_t i = 0; i < work.rows[0].size(); i += 10) row.push_back(work.rows[0][i]);
+  for (mechanics::NetworkValues& values : row) {
+    for (std::size_t e = 0; e < work.network.elements.size(); ++e) {
+      if (mechanics::has_contact(work.network.elements[e])) values.element[e] *= 5.0;
+    }
+  }
+  const std::vector<Quantity> quantities = standard_quantities(work.network);
+  const auto solve = [&](std::span<const mechanics::NetworkValues> points,
+                         std::vector<ResponseSummary>& found) {
+    PeriodicResponse response(work.network, quantities, Path::general);
+    std::vector<double> out(points.size() * quantities.size());
+    found.resize(points.size());
+    response.solve_row(points, found, out);
+    return out;
+  };
+  std::vector<ResponseSummary> along, alone;
+  const std::vector<double> out = solve(row, along);
+  int with_stops = 0, kept = 0;
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    const std::vector<double> own = solve({&row[i], 1}, alone);
+    INFO("omega " << row[i].omega);
+    REQUIRE(along[i].status == Status::ok);
+    REQUIRE(alone[0].status == Status::ok);
+    for (std::size_t q = 0; q < quantities.size(); ++q) {
+      const double value = out[i * quantities.size() + q];
+      if (quantities[q].measure == Measure::stops) {
+        CHECK(value == own[q]);
+        with_stops += value > 0.0;
+      }
+      if (quantities[q].measure == Measure::peak || quantities[q].measure == Measure::floquet_radius)
+        CHECK(std::abs(value - own[q]) < kSame * std::abs(own[q]));
+    }
+    kept += along[i].passages < alone[0].passages;
+  }
+  CHECK(with_stops > 20);
+  CHECK(kept > 10);
+}
+
+}  // namespace
+}  // namespace frahm::periodic
