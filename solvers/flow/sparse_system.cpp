@@ -43,15 +43,13 @@ template <class Number>
   for (std::size_t i = 0; i < n; ++i) a[i] -= row_times(system.contacts, i, lambda);
 }
 
+// a = -M^-1 (K q + C v)
 template <class Number>
-[[gnu::always_inline]] inline void pull_numbers(const SparseSystem& system, const HeldContacts& held,
-                                                const Number* q, const Number* v, const Number* s,
-                                                Number* work, Number* a, Number* ds) {
-  const auto n = static_cast<std::size_t>(system.masses());
-  const auto internal = static_cast<std::size_t>(system.internal_forces());
+[[gnu::always_inline]] inline void pull_by_entries(const SparseSystem& system, const Number* q,
+                                                   const Number* v, Number* a) {
   const SparseRows& K = system.stiffness;  // C has the same entries
   const double* c = system.damping.data();
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i + 1 < K.start.size(); ++i) {
     Number sum{};
     for (int e = K.start[i]; e < K.start[i + 1]; ++e) {
       const auto entry = static_cast<std::size_t>(e);
@@ -59,6 +57,29 @@ template <class Number>
     }
     a[i] = -sum;
   }
+}
+
+template <class Number>
+[[gnu::always_inline]] inline void pull_by_columns(const SparseSystem& system, const Number* q,
+                                                   const Number* v, Number* a) {
+  const auto n = static_cast<std::size_t>(system.masses());
+  const double *k = system.full_stiffness.data(), *c = system.full_damping.data();
+  std::fill_n(a, n, Number{});
+  for (std::size_t j = 0; j < n; ++j, k += n, c += n) {
+    for (std::size_t i = 0; i < n; ++i) a[i] -= k[i] * q[j] + c[i] * v[j];
+  }
+}
+
+template <class Number>
+[[gnu::always_inline]] inline void pull_numbers(const SparseSystem& system, const HeldContacts& held,
+                                                const Number* q, const Number* v, const Number* s,
+                                                Number* work, Number* a, Number* ds) {
+  const auto n = static_cast<std::size_t>(system.masses());
+  const auto internal = static_cast<std::size_t>(system.internal_forces());
+  if (system.is_full())
+    pull_by_columns(system, q, v, a);
+  else
+    pull_by_entries(system, q, v, a);
   for (std::size_t i = 0; internal > 0 && i < n; ++i) a[i] -= row_times(system.internal, i, s);
   for (std::size_t i = 0; i < internal; ++i) {
     const auto row = static_cast<Eigen::Index>(i);
@@ -124,6 +145,10 @@ void SparseSystem::set(const Eigen::MatrixXd& M_inverse, const Eigen::MatrixXd& 
   const Eigen::MatrixXd MK = M_inverse * K, MC = M_inverse * C;
   stiffness = SparseRows::of(MK, &MC);
   damping = SparseRows::of(MC, &MK).value;
+  constexpr double kFull = 0.25;  // of all entries: from there on whole columns take less time
+  const bool full = static_cast<double>(damping.size()) > kFull * static_cast<double>(MK.size());
+  full_stiffness = full ? MK : Eigen::MatrixXd();
+  full_damping = full ? MC : Eigen::MatrixXd();
   internal = SparseRows::of(M_inverse * D);
   contacts = SparseRows::of(MW);
   directions = SparseRows::of(W.transpose());

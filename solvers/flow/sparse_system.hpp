@@ -32,6 +32,10 @@ struct SparseSystem {
 
   void set(const Eigen::MatrixXd& M_inverse, const Eigen::MatrixXd& K, const Eigen::MatrixXd& C,
            const Eigen::MatrixXd& D, const Eigen::MatrixXd& W, const Eigen::VectorXd& rate);
+  // Where damping by modes or imported matrices leave few zeros:
+  bool is_full() const { return full_stiffness.size() > 0; }
+  Eigen::MatrixXd full_stiffness, full_damping;  // M^-1 K, M^-1 C
+
   Eigen::Index masses() const { return stiffness.rows(); }
   Eigen::Index internal_forces() const { return stretch.rows(); }
 };
