@@ -20,6 +20,18 @@ struct Node {
   friend bool operator==(const Node&, const Node&) = default;
 };
 
+// A node's share in a combination of coordinates.
+struct Share {
+  Node node;
+  double factor = 1.0;  // [1], or [m/rad] of a rotation in a length
+
+  friend bool operator==(const Share&, const Share&) = default;
+};
+
+// A combination of coordinates: u = sum of factor x displacement of the node. Ground moves nothing, but takes
+// force.
+using Direction = std::vector<Share>;
+
 // Force of an element on its relative displacement u = q_b - q_a and relative velocity v = u':
 //   spring      k u                          value = stiffness k [N/m]
 //   damper      c v                          value = damping c [N s/m]

@@ -25,6 +25,16 @@ struct StudyValue {
   Position position;
 };
 
+// A combination of coordinates as the study gives it: `along = { roof = 1, wheel = "-r" }`. Its factors are
+// part of the topology: they are the same at every point of a study.
+struct StudyDirection {
+  std::vector<mechanics::Node> nodes{};  // each once
+  std::vector<StudyValue> factors{};     // of each node, not zero
+  Position position;
+
+  bool is_given() const { return !nodes.empty(); }
+};
+
 // All numbers of a network, in the order of mechanics::NetworkValues.
 struct StudyValues {
   StudyValue omega;
