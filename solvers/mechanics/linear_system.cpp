@@ -7,8 +7,11 @@
 #include <numbers>
 #include <sstream>
 
+#include "solvers/algebra/no_value.hpp"
+#include "solvers/algebra/shortest_solution.hpp"
 #include "solvers/mechanics/crank.hpp"
 #include "solvers/mechanics/element_table.hpp"
+#include "solvers/mechanics/rotation.hpp"
 
 namespace frahm::mechanics {
 namespace {
@@ -41,12 +44,10 @@ void require_positive_definite(const Eigen::MatrixXd& matrix, const std::string&
 Incidence incidence(const Network& network, const Element& element) {
   Incidence result{Eigen::VectorXd::Zero(static_cast<Eigen::Index>(network.masses.size())),
                    Eigen::VectorXd::Zero(static_cast<Eigen::Index>(network.prescribed.size()))};
-  const auto add = [&](const Node& node, double sign) {
-    if (node.kind == NodeKind::mass) result.w[static_cast<Eigen::Index>(node.index)] += sign;
-    if (node.kind == NodeKind::prescribed) result.p[static_cast<Eigen::Index>(node.index)] += sign;
-  };
-  add(element.b, +1.0);
-  add(element.a, -1.0);
+  for (const auto& [node, factor] : element.along) {
+    if (node.kind == NodeKind::mass) result.w[static_cast<Eigen::Index>(node.index)] += factor;
+    if (node.kind == NodeKind::prescribed) result.p[static_cast<Eigen::Index>(node.index)] += factor;
+  }
   return result;
 }
 
@@ -64,17 +65,18 @@ Assembly::Assembly(const Network& network)
   }
   depends_on_frequency_ = frequency_dependent_element(network_) != nullptr;
   place_orders();
+  weigh_support_force();
 }
 
-// Elements between the same two nodes share a contact where their law merges.
+// Elements along the same direction share a contact where their law merges.
 void Assembly::place_in_contact(std::size_t e) {
-  const Element& element = network_.elements[e];
-  const laws::Law* law = kind_of(element).law;
+  const laws::Law* law = kind_of(network_.elements[e]).law;
+  const Incidence& own = incidences_[e];
   for (std::size_t other = 0; law->merges && other < e; ++other) {
-    const Element& first = network_.elements[other];
-    const bool alike = first.a == element.a && first.b == element.b;
-    const bool opposite = first.a == element.b && first.b == element.a;
-    if (kind_of(first).law != law || !(alike || opposite)) continue;
+    const Incidence& first = incidences_[other];
+    const bool alike = first.w == own.w && first.p == own.p;
+    const bool opposite = first.w == -own.w && first.p == -own.p;
+    if (kind_of(network_.elements[other]).law != law || !(alike || opposite)) continue;
     shares_[e].contact = shares_[other].contact;
     shares_[e].orientation = alike ? shares_[other].orientation : -shares_[other].orientation;
     return;
@@ -99,10 +101,36 @@ void Assembly::place_orders() {
   orders_.erase(std::unique(orders_.begin(), orders_.end()), orders_.end());
 }
 
+// The shortest change of c from `counted` with which c^T w_e = -s_e; between two nodes there is none to make.
+void Assembly::weigh_support_force() {
+  const auto n = static_cast<Eigen::Index>(network_.masses.size());
+  const auto m = static_cast<Eigen::Index>(network_.elements.size());
+  const bool takes_torque = ground_takes_torque(network_);
+  support_force_.counted.resize(n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    support_force_.counted[i] = rotates(network_, static_cast<std::size_t>(i)) == takes_torque ? 1.0 : 0.0;
+  Eigen::MatrixXd A(m, n);
+  Eigen::VectorXd on_supports(m);
+  for (Eigen::Index e = 0; e < m; ++e) {
+    const auto& [w, p] = incidences_[static_cast<std::size_t>(e)];
+    const Element& element = network_.elements[static_cast<std::size_t>(e)];
+    A.row(e) = w.transpose();
+    on_supports[e] = share_in_force(element, Node{}, takes_torque) + (takes_torque ? 0.0 : p.sum());
+  }
+  constexpr double kRounding = 1e-12;
+  const Eigen::VectorXd missing = -on_supports - A * support_force_.counted;
+  support_force_.c = support_force_.counted;
+  if (missing.isZero(0.0)) return;
+  const Eigen::VectorXd change = algebra::shortest_solution(A, missing);
+  support_force_.c += change;
+  if ((A * change - missing).norm() > kRounding * missing.norm()) support_force_.c.setConstant(kNone);
+}
+
 void Assembly::check_values(const NetworkValues& values) const {
   for (std::size_t i = 0; i < network_.masses.size(); ++i) {
     if (!(values.mass[i] >= 0.0 && std::isfinite(values.mass[i]))) {
-      refuse("mass of '" + network_.masses[i] + "'", values.mass[i], "must be finite and not negative");
+      refuse((rotates(network_, i) ? "inertia of '" : "mass of '") + network_.masses[i] + "'", values.mass[i],
+             "must be finite and not negative");
     }
   }
   for (std::size_t e = 0; e < network_.elements.size(); ++e) {
@@ -137,6 +165,7 @@ void Assembly::set_values(const NetworkValues& values, LinearSystem& system) con
   system.orders = orders_;
   system.reference_order = network_.reference_order;
   system.odd_forcing = odd_forcing_;
+  system.support_force = support_force_;
   system.mass = Eigen::Map<const Eigen::VectorXd>(values.mass.data(), n);
   system.M.diagonal() = system.mass;
 

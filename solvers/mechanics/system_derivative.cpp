@@ -16,6 +16,7 @@ void resize(const LinearSystem& system, const NetworkValues& direction, LinearSy
   d.omega = direction.omega;
   d.orders = system.orders;
   d.reference_order = system.reference_order;
+  d.support_force = system.support_force;
   d.mass = Eigen::Map<const Eigen::VectorXd>(direction.mass.data(), n);
   d.M.setZero(n, n);
   d.C.setZero(n, n);

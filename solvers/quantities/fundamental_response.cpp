@@ -23,6 +23,14 @@ Eigen::VectorXcd static_solution(const mechanics::LinearSystem& system, const Ei
   return displacement;
 }
 
+// What of forces on the masses counts as applied, and what of it the supports take.
+std::complex<double> counted(const mechanics::LinearSystem& system, const Eigen::VectorXcd& forces) {
+  return system.support_force.counted.cast<std::complex<double>>().dot(forces);
+}
+std::complex<double> taken(const mechanics::LinearSystem& system, const Eigen::VectorXcd& forces) {
+  return system.support_force.c.cast<std::complex<double>>().dot(forces);
+}
+
 }  // namespace
 
 Eigen::Index reference_column(const mechanics::LinearSystem& system) {
@@ -62,27 +70,25 @@ double support_amplitude_derivative(const mechanics::LinearSystem& system,
 }
 
 double force_transmissibility(const mechanics::LinearSystem& system, const Eigen::VectorXcd& X) {
-  const std::complex<double> applied = system.applied_force.col(reference_column(system)).sum();
+  const Eigen::VectorXcd applied = system.applied_force.col(reference_column(system));
   const double rate = system.reference_order * system.omega;
-  // What acts on the supports is P - sum_i m_i x_i'', at the reference order P + (n omega)^2 sum_i m_i X_i.
-  const std::complex<double> on_supports =
-      applied + rate * rate * system.mass.cast<std::complex<double>>().dot(X);
-  return ratio(std::abs(on_supports), std::abs(applied));
+  // c^T (P - m q''), at the reference order c^T (P + (n omega)^2 m X)
+  const Eigen::VectorXcd forces = applied + rate * rate * system.mass.cwiseProduct(X);
+  return ratio(std::abs(taken(system, forces)), std::abs(counted(system, applied)));
 }
 
 double force_transmissibility_derivative(const mechanics::LinearSystem& system,
                                          const mechanics::LinearSystem& by, const Eigen::VectorXcd& X,
                                          const Eigen::VectorXcd& X_by) {
   const Eigen::Index column = reference_column(system);
-  const std::complex<double> applied = system.applied_force.col(column).sum();
-  const std::complex<double> applied_by = by.applied_force.col(column).sum();
   const double n = system.reference_order, rate = n * system.omega;
-  const Eigen::VectorXcd mass = system.mass.cast<std::complex<double>>();
-  const std::complex<double> moved = mass.dot(X);
-  const std::complex<double> moved_by = mass.dot(X_by) + by.mass.cast<std::complex<double>>().dot(X);
-  const std::complex<double> on_supports = applied + rate * rate * moved;
+  const Eigen::VectorXcd force = system.applied_force.col(column), force_by = by.applied_force.col(column);
+  const Eigen::VectorXcd moved = system.mass.cwiseProduct(X);
+  const Eigen::VectorXcd moved_by = system.mass.cwiseProduct(X_by) + by.mass.cwiseProduct(X);
+  const std::complex<double> applied = counted(system, force), applied_by = counted(system, force_by);
+  const std::complex<double> on_supports = taken(system, force + rate * rate * moved);
   const std::complex<double> on_supports_by =
-      applied_by + rate * rate * moved_by + 2.0 * rate * n * by.omega * moved;
+      taken(system, force_by + rate * rate * moved_by + 2.0 * rate * n * by.omega * moved);
   const double above = std::abs(on_supports), below = std::abs(applied);
   return modulus_derivative(on_supports, on_supports_by) / below -
          above / (below * below) * modulus_derivative(applied, applied_by);

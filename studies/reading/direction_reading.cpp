@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solvers/mechanics/rotation.hpp"
+#include "studies/reading/factor_dimension.hpp"
 #include "studies/reading/network_reading.hpp"
 #include "studies/reading/spelling.hpp"
 
@@ -19,33 +21,94 @@ constexpr std::string_view factor_must_stay =
     "a factor is the same throughout a study; write a study for each value, or run this one again with "
     "--set";
 
-// The factor of a unit to SI: of a number, a length, or a length per radian.
-double si_factor_of_share(const StudyContext& context, const std::string& where, const Unit& unit,
-                          Position position) {
-  const bool is_number = unit.exponents == std::array{0, 0, 0} && unit.radians == 0;
-  const bool is_length = unit.exponents == std::array{1, 0, 0} && (unit.radians == 0 || unit.radians == -1);
-  if (!unit.foreign && (is_number || is_length)) return unit.scale;
-  throw context.source.error_at(rules::wrong_dimension, position,
-                                "{}: the unit \"{}\" is that of {}, but a number or a length per radian is "
-                                "expected (such as 1, m or mm)",
-                                where, unit.text, dimension_name(unit));
+// A factor while it is read.
+struct Factor {
+  StudyValue value;
+  FactorDimension dimension = FactorDimension::unknown;
+};
+
+[[noreturn]] void refuse_dimension(const StudyContext& context, const std::string& where, Position position,
+                                   const std::string& found) {
+  throw context.source.error_at(
+      rules::wrong_dimension, position,
+      "{}: {}, but a factor is a number or a length per radian (such as 1, m or mm)", where, found);
 }
 
-StudyValue read_factor(const StudyContext& context, const Parameters& parameters, const std::string& where,
-                       const TomlValue& value) {
-  StudyValue factor{.where = where, .position = value.position};
+Factor read_factor(const StudyContext& context, const Parameters& parameters, const std::string& where,
+                   const TomlValue& value) {
+  Factor factor;
+  factor.value.where = where;
+  factor.value.position = value.position;
   if (value.as<std::string>()) {
-    factor.expression = read_expression(context, parameters, where, value);
+    factor.value.expression = read_expression(context, parameters, where, value);
+    const auto dimension = dimension_of(factor.value.expression, parameters);
+    if (!dimension)
+      refuse_dimension(context, where, value.position, "the units of its parameters make another dimension");
+    factor.dimension = *dimension;
     return factor;
   }
   const NumberWithUnit number = read_number_with_unit(context, where, value);
-  const double to_si =
-      number.unit ? si_factor_of_share(context, where, *number.unit, number.unit_position) : 1.0;
-  factor.expression = Expression(number.value * to_si);
+  if (number.unit) {
+    const auto dimension = dimension_of(*number.unit);
+    if (!dimension) {
+      refuse_dimension(
+          context, where, number.unit_position,
+          fmt::format("the unit \"{}\" is that of {}", number.unit->text, dimension_name(*number.unit)));
+    }
+    factor.dimension = *dimension;
+  }
+  factor.value.expression = Expression(number.value * (number.unit ? number.unit->scale : 1.0));
   return factor;
 }
 
-// The names of number parameters that change within the study, and what changes them.
+// Whether the combination is an angle: where no coordinate in it is a length. A translation is one, but over
+// a length; a rotation is none, but times a length.
+bool is_angle(const StudyContext& context, const mechanics::Network& network, const std::vector<Node>& nodes,
+              const std::vector<Factor>& factors) {
+  const auto turns = [&](std::size_t i) {
+    return nodes[i].kind == NodeKind::mass && mechanics::rotates(network, nodes[i].index);
+  };
+  bool angle = true;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (nodes[i].kind == NodeKind::ground) continue;
+    const FactorDimension dimension = factors[i].dimension;
+    angle =
+        angle && (turns(i) ? dimension != FactorDimension::length : dimension == FactorDimension::per_length);
+  }
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (nodes[i].kind == NodeKind::ground || factors[i].dimension == FactorDimension::unknown) continue;
+    const FactorDimension fits = turns(i) == angle ? FactorDimension::number
+                                 : angle           ? FactorDimension::per_length
+                                                   : FactorDimension::length;
+    if (factors[i].dimension == fits) continue;
+    throw context.source.error_at(rules::wrong_dimension, factors[i].value.position,
+                                  "{}: with this factor it is not {} like the rest; a {} is taken times {}",
+                                  factors[i].value.where, angle ? "an angle" : "a length",
+                                  turns(i) ? "rotation" : "translation",
+                                  fits == FactorDimension::number   ? "a number"
+                                  : fits == FactorDimension::length ? "a radius (m, mm)"
+                                                                    : "a number per length (1/m)");
+  }
+  return angle;
+}
+
+// The node of a share, which no share before it has.
+Node read_node(const StudyContext& context, const mechanics::Network& network, const TomlSection& section,
+               const TomlEntry& share, const std::vector<Node>& before) {
+  const auto fail = [&](Rule rule, const std::string& problem) {
+    throw context.source.error_at(rule, share.position, "{}: {}: {}", section.where(), key_of_direction,
+                                  problem);
+  };
+  const auto node = find_node(network, share.key);
+  if (!node)
+    fail(rules::unknown_name,
+         fmt::format("no node is called \"{}\"{}", share.key, suggestion(share.key, node_names(network))));
+  if (std::ranges::find(before, *node) != before.end())
+    fail(rules::given_twice, fmt::format("\"{}\" is given twice", share.key));
+  return *node;
+}
+
+// A number parameter that changes within the study, and by what.
 struct Change {
   std::size_t parameter = 0;
   std::string by;
@@ -91,28 +154,21 @@ StudyDirection read_direction(const StudyContext& context, const Parameters& par
   if (!shares || shares->empty())
     section.fail(rules::wrong_type, key_of_direction,
                  "nodes with their factors are expected: along = {{ roof = 1, ground = -1 }}");
-  StudyDirection along{.position = table.position};
+  StudyDirection along;
+  along.position = table.position;
+  std::vector<Factor> factors;
   for (const TomlEntry& share : *shares) {
-    const auto node = find_node(network, share.key);
-    if (!node) {
-      throw context.source.error_at(rules::unknown_name, share.position, "{}: {}: no node is called \"{}\"{}",
-                                    section.where(), key_of_direction, share.key,
-                                    suggestion(share.key, node_names(network)));
-    }
-    if (std::ranges::find(along.nodes, *node) != along.nodes.end()) {
-      throw context.source.error_at(rules::given_twice, share.position, "{}: {}: \"{}\" is given twice",
-                                    section.where(), key_of_direction, share.key);
-    }
-    along.nodes.push_back(*node);
-    along.factors.push_back(
-        read_factor(context, parameters,
-                    fmt::format("{}: {}: {}", section.where(), key_of_direction, share.key), share.value));
+    along.nodes.push_back(read_node(context, network, section, share, along.nodes));
+    const std::string where = fmt::format("{}: {}: {}", section.where(), key_of_direction, share.key);
+    factors.push_back(read_factor(context, parameters, where, share.value));
+    along.factors.push_back(factors.back().value);
   }
   const bool moves =
       std::ranges::any_of(along.nodes, [](const Node& node) { return node.kind == NodeKind::mass; });
   if (!moves)
     section.fail(rules::wrong_node, key_of_direction,
                  "a lever with no moving end: none of its nodes is a mass");
+  along.rotational = is_angle(context, network, along.nodes, factors);
   return along;
 }
 
@@ -144,6 +200,16 @@ void check_direction_at(const Study& study, const StudyDirection& along, std::sp
                                 "{}: is {:.6g}, but {:.6g} here{}; {}", factor.where, before, here,
                                 origin.empty() ? "" : fmt::format(" ({})", origin), factor_must_stay);
   }
+}
+
+void set_directions(Study& study) {
+  bool any = false;
+  for (std::size_t e = 0; e < study.values.along.size(); ++e) {
+    if (!study.values.along[e].is_given()) continue;
+    study.network.elements[e].along = direction_of(study, study.values.along[e]);
+    any = true;
+  }
+  if (any) check_combinations_are_held(study);
 }
 
 }  // namespace frahm::studies

@@ -6,7 +6,8 @@ namespace frahm::studies {
 
 // `along = { roof = 1, wheel = "-r", ground = -1 }` of a section: a combination of the nodes of a network,
 // each once, at least one of them a mass. A factor is a number, { value, unit } of a length per radian, or an
-// expression of parameters. Throws StudyError.
+// expression of parameters; with the units of its factors it is a displacement [m], or an angle [rad] where
+// only rotations take part and no factor is a length. Throws StudyError.
 StudyDirection read_direction(const StudyContext& context, const Parameters& parameters,
                               const mechanics::Network& network, const TomlSection& section);
 

@@ -30,6 +30,7 @@ struct StudyValue {
 struct StudyDirection {
   std::vector<mechanics::Node> nodes{};  // each once
   std::vector<StudyValue> factors{};     // of each node, not zero
+  bool rotational = false;               // u is an angle
   Position position;
 
   bool is_given() const { return !nodes.empty(); }
@@ -39,8 +40,9 @@ struct StudyDirection {
 struct StudyValues {
   StudyValue omega;
   std::vector<StudyValue> mass, element, amplitude, phase;
-  std::vector<StudyValue> second;  // of each element, the constant 0 where it has none
-  std::vector<StudyValue> rod;     // of each excitation, the constant 0 where it is no crank
+  std::vector<StudyValue> second;     // of each element, the constant 0 where it has none
+  std::vector<StudyValue> rod;        // of each excitation, the constant 0 where it is no crank
+  std::vector<StudyDirection> along;  // of each element, not given where it is between two nodes
 
   // All but the frequency.
   std::array<const std::vector<StudyValue>*, 6> lists() const {
