@@ -101,29 +101,38 @@ void Assembly::place_orders() {
   orders_.erase(std::unique(orders_.begin(), orders_.end()), orders_.end());
 }
 
-// The shortest change of c from `counted` with which c^T w_e = -s_e; between two nodes there is none to make.
+// c is the shortest change from `counted` that does; between two nodes there is none to make.
 void Assembly::weigh_support_force() {
   const auto n = static_cast<Eigen::Index>(network_.masses.size());
   const auto m = static_cast<Eigen::Index>(network_.elements.size());
   const bool takes_torque = ground_takes_torque(network_);
-  support_force_.counted.resize(n);
+  auto& [counted, c, excess] = support_force_;
+  counted.resize(n);
   for (Eigen::Index i = 0; i < n; ++i)
-    support_force_.counted[i] = rotates(network_, static_cast<std::size_t>(i)) == takes_torque ? 1.0 : 0.0;
-  Eigen::MatrixXd A(m, n);
-  Eigen::VectorXd on_supports(m);
+    counted[i] = rotates(network_, static_cast<std::size_t>(i)) == takes_torque ? 1.0 : 0.0;
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(m, n);
+  Eigen::VectorXd missing = Eigen::VectorXd::Zero(m);
+  excess.setZero(m);
   for (Eigen::Index e = 0; e < m; ++e) {
     const auto& [w, p] = incidences_[static_cast<std::size_t>(e)];
     const Element& element = network_.elements[static_cast<std::size_t>(e)];
+    excess[e] = share_in_force(element, Node{}, takes_torque) + (takes_torque ? 0.0 : p.sum());
+    if (kind_of(element).is_inertia_alone()) continue;
     A.row(e) = w.transpose();
-    on_supports[e] = share_in_force(element, Node{}, takes_torque) + (takes_torque ? 0.0 : p.sum());
+    missing[e] = -excess[e] - w.dot(counted);
+    excess[e] = 0.0;
   }
-  constexpr double kRounding = 1e-12;
-  const Eigen::VectorXd missing = -on_supports - A * support_force_.counted;
-  support_force_.c = support_force_.counted;
-  if (missing.isZero(0.0)) return;
-  const Eigen::VectorXd change = algebra::shortest_solution(A, missing);
-  support_force_.c += change;
-  if ((A * change - missing).norm() > kRounding * missing.norm()) support_force_.c.setConstant(kNone);
+  c = counted;
+  if (!missing.isZero(0.0)) {
+    constexpr double kRounding = 1e-12;
+    const Eigen::VectorXd change = algebra::shortest_solution(A, missing);
+    c += change;
+    if ((A * change - missing).norm() > kRounding * missing.norm()) c.setConstant(kNone);
+  }
+  for (Eigen::Index e = 0; e < m; ++e) {
+    const Element& element = network_.elements[static_cast<std::size_t>(e)];
+    if (kind_of(element).is_inertia_alone()) excess[e] += c.dot(incidences_[static_cast<std::size_t>(e)].w);
+  }
 }
 
 void Assembly::check_values(const NetworkValues& values) const {
@@ -165,9 +174,11 @@ void Assembly::set_values(const NetworkValues& values, LinearSystem& system) con
   system.orders = orders_;
   system.reference_order = network_.reference_order;
   system.odd_forcing = odd_forcing_;
-  system.support_force = support_force_;
   system.mass = Eigen::Map<const Eigen::VectorXd>(values.mass.data(), n);
   system.M.diagonal() = system.mass;
+  system.support_force = support_force_;
+  system.felt_inertia = support_force_.c.cwiseProduct(system.mass).transpose();
+  system.felt_inertia_support.setZero(p);
 
   const double omega_h =
       values.hysteretic_omega > 0.0 ? values.hysteretic_omega : network_.reference_order * values.omega;
@@ -192,6 +203,10 @@ void Assembly::set_values(const NetworkValues& values, LinearSystem& system) con
     add(system.K, system.K_support, at, added.stiffness);
     add(system.C, system.C_support, at, added.damping);
     add(system.M, system.M_support, at, added.inertance);
+    if (const double excess = support_force_.excess[static_cast<Eigen::Index>(e)]; excess != 0.0) {
+      system.felt_inertia += excess * added.inertance * at.w.transpose();
+      system.felt_inertia_support += excess * added.inertance * at.p.transpose();
+    }
     if (has_contact(network_.elements[e])) {
       const auto contact = static_cast<Eigen::Index>(shares_[e].contact);
       system.W.col(contact) = shares_[e].orientation * at.w;

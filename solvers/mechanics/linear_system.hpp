@@ -23,12 +23,14 @@ struct Incidence {
 };
 Incidence incidence(const Network& network, const Element& element);
 
-// The force on all supports together, of the forces P on the masses: c^T (P - m q''), with c^T w_e = -(the
-// element's factors at the supports, summed) of every element. Between two nodes c = 1. It counts forces or
-// torques, not both.
+// The force on all supports together: of each element its force times -s_e, s_e the sum of its factors there.
+// With c^T w_e = -s_e of every element but inerters it is c^T (P - M q'' - M_support y'') less s_e times the
+// inerters' forces, P the forces on the masses; so c = 1 where all elements are between two nodes. It adds up
+// forces or torques, not both.
 struct SupportForce {
   Eigen::VectorXd counted;  // 1 of a mass on which a force counts (a torque, where the ground takes those), 0
   Eigen::VectorXd c;        // NaN where the motion of the masses does not tell what the supports take
+  Eigen::VectorXd excess;   // c^T w_e + s_e of each element, of an inerter; else 0
 };
 
 // The part of an element with a law in a contact. Elements of a law that merges, along the same direction,
@@ -84,6 +86,7 @@ struct LinearSystem {
   Eigen::VectorXd constant_motion;         // y_0 [m], size p
   Eigen::MatrixXcd motion;                 // column k is Y_k [m]
   SupportForce support_force;
+  Eigen::RowVectorXd felt_inertia, felt_inertia_support;  // its parts by -q'' and by -y''
 
   Eigen::Index masses() const { return M.rows(); }
   Eigen::Index contacts() const { return limit.size(); }

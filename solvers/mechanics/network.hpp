@@ -71,7 +71,8 @@ struct Element {
   ElementType type = ElementType::spring;
   Direction along;  // its displacement u; each node once
   FrictionLaw law = FrictionLaw::exact;
-  bool rotational = false;  // u is an angle
+  bool rotational = false;     // u is an angle
+  bool twists_ground = false;  // its factor there is of an angle: what the ground takes of it is a torque
 };
 
 enum class ExcitationKind {

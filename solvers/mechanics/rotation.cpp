@@ -24,14 +24,14 @@ bool ground_takes_torque(const Network& network) {
   bool torque = false;
   for (const Element& element : network.elements) {
     if (!stands_on_ground(element)) continue;
-    if (!element.rotational) return false;
+    if (!element.twists_ground) return false;
     torque = true;
   }
   return torque;
 }
 
 double share_in_force(const Element& element, const Node& node, bool takes_torque) {
-  if (node.kind == NodeKind::ground && element.rotational != takes_torque) return 0.0;
+  if (node.kind == NodeKind::ground && element.twists_ground != takes_torque) return 0.0;
   const auto share = std::ranges::find(element.along, node, &Share::node);
   return share == element.along.end() ? 0.0 : share->factor;
 }

@@ -9,7 +9,7 @@ namespace frahm::mechanics {
 
 bool rotates(const Network& network, std::size_t mass);
 
-// Whether what the elements exert on the ground is a torque: where no translational element stands on it.
+// Whether what the elements exert on the ground is a torque: where none pushes it, and some twist it.
 bool ground_takes_torque(const Network& network);
 
 // The share of an element's force in the force that `node` (ground or prescribed) takes, 0 where it takes

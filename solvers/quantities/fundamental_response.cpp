@@ -23,12 +23,15 @@ Eigen::VectorXcd static_solution(const mechanics::LinearSystem& system, const Ei
   return displacement;
 }
 
-// What of forces on the masses counts as applied, and what of it the supports take.
-std::complex<double> counted(const mechanics::LinearSystem& system, const Eigen::VectorXcd& forces) {
-  return system.support_force.counted.cast<std::complex<double>>().dot(forces);
+// The sum of a vector's entries by their weights; dot() would take a conjugate.
+std::complex<double> sum(const Eigen::VectorXd& weights, const Eigen::VectorXcd& of) {
+  return weights.cwiseProduct(of).sum();
 }
-std::complex<double> taken(const mechanics::LinearSystem& system, const Eigen::VectorXcd& forces) {
-  return system.support_force.c.cast<std::complex<double>>().dot(forces);
+
+// The inertia forces that the supports feel, over (n omega)^2.
+std::complex<double> inertia_felt(const mechanics::LinearSystem& system, const Eigen::VectorXcd& X,
+                                  const Eigen::VectorXcd& Y) {
+  return sum(system.felt_inertia.transpose(), X) + sum(system.felt_inertia_support.transpose(), Y);
 }
 
 }  // namespace
@@ -69,12 +72,14 @@ double support_amplitude_derivative(const mechanics::LinearSystem& system,
   return modulus_derivative(system.motion(support, column), by.motion(support, column));
 }
 
+// c^T (P - M q'') and so on (SupportForce), at the reference order with q'' = -(n omega)^2 X.
 double force_transmissibility(const mechanics::LinearSystem& system, const Eigen::VectorXcd& X) {
-  const Eigen::VectorXcd applied = system.applied_force.col(reference_column(system));
+  const Eigen::Index column = reference_column(system);
+  const Eigen::VectorXcd force = system.applied_force.col(column);
   const double rate = system.reference_order * system.omega;
-  // c^T (P - m q''), at the reference order c^T (P + (n omega)^2 m X)
-  const Eigen::VectorXcd forces = applied + rate * rate * system.mass.cwiseProduct(X);
-  return ratio(std::abs(taken(system, forces)), std::abs(counted(system, applied)));
+  const std::complex<double> on_supports =
+      sum(system.support_force.c, force) + rate * rate * inertia_felt(system, X, system.motion.col(column));
+  return ratio(std::abs(on_supports), std::abs(sum(system.support_force.counted, force)));
 }
 
 double force_transmissibility_derivative(const mechanics::LinearSystem& system,
@@ -82,13 +87,15 @@ double force_transmissibility_derivative(const mechanics::LinearSystem& system,
                                          const Eigen::VectorXcd& X_by) {
   const Eigen::Index column = reference_column(system);
   const double n = system.reference_order, rate = n * system.omega;
+  const auto& [counted, c, excess] = system.support_force;
   const Eigen::VectorXcd force = system.applied_force.col(column), force_by = by.applied_force.col(column);
-  const Eigen::VectorXcd moved = system.mass.cwiseProduct(X);
-  const Eigen::VectorXcd moved_by = system.mass.cwiseProduct(X_by) + by.mass.cwiseProduct(X);
-  const std::complex<double> applied = counted(system, force), applied_by = counted(system, force_by);
-  const std::complex<double> on_supports = taken(system, force + rate * rate * moved);
+  const Eigen::VectorXcd Y = system.motion.col(column), Y_by = by.motion.col(column);
+  const std::complex<double> moved = inertia_felt(system, X, Y);
+  const std::complex<double> moved_by = inertia_felt(system, X_by, Y_by) + inertia_felt(by, X, Y);
+  const std::complex<double> applied = sum(counted, force), applied_by = sum(counted, force_by);
+  const std::complex<double> on_supports = sum(c, force) + rate * rate * moved;
   const std::complex<double> on_supports_by =
-      taken(system, force_by + rate * rate * moved_by + 2.0 * rate * n * by.omega * moved);
+      sum(c, force_by) + rate * rate * moved_by + 2.0 * rate * n * by.omega * moved;
   const double above = std::abs(on_supports), below = std::abs(applied);
   return modulus_derivative(on_supports, on_supports_by) / below -
          above / (below * below) * modulus_derivative(applied, applied_by);

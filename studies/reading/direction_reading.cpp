@@ -92,6 +92,14 @@ bool is_angle(const StudyContext& context, const mechanics::Network& network, co
   return angle;
 }
 
+// An angle takes the ground for an angle, but over a length; a length, times one.
+bool twists_ground(bool angle, const std::vector<Node>& nodes, const std::vector<Factor>& factors) {
+  const auto ground = std::ranges::find(nodes, Node{});
+  if (ground == nodes.end()) return angle;
+  const FactorDimension dimension = factors[static_cast<std::size_t>(ground - nodes.begin())].dimension;
+  return angle ? dimension != FactorDimension::per_length : dimension == FactorDimension::length;
+}
+
 // The node of a share, which no share before it has.
 Node read_node(const StudyContext& context, const mechanics::Network& network, const TomlSection& section,
                const TomlEntry& share, const std::vector<Node>& before) {
@@ -169,6 +177,7 @@ StudyDirection read_direction(const StudyContext& context, const Parameters& par
     section.fail(rules::wrong_node, key_of_direction,
                  "a lever with no moving end: none of its nodes is a mass");
   along.rotational = is_angle(context, network, along.nodes, factors);
+  along.twists_ground = twists_ground(along.rotational, along.nodes, factors);
   return along;
 }
 

@@ -191,6 +191,7 @@ void read_element(NetworkReading& reading, const TomlValue& table, std::size_t n
   if (kind.law != nullptr) check_one_law(reading, section, kind, law);
   mechanics::Element element{name, kind.type, std::move(direction), law};
   element.rotational = rotational;
+  element.twists_ground = given.is_given() ? given.twists_ground : rotational;
   reading.result.network.elements.push_back(element);
   const auto read = [&](const ValueKey& value) {
     return read_value(reading, section, value.key, quantity_of(value.dimension, rotational), value.range);

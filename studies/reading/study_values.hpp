@@ -31,6 +31,7 @@ struct StudyDirection {
   std::vector<mechanics::Node> nodes{};  // each once
   std::vector<StudyValue> factors{};     // of each node, not zero
   bool rotational = false;               // u is an angle
+  bool twists_ground = false;            // as in mechanics::Element
   Position position;
 
   bool is_given() const { return !nodes.empty(); }

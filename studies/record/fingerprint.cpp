@@ -61,11 +61,11 @@ std::string node_text(const mechanics::Node& node) {
 }
 
 // Two nodes as ever: files of earlier versions know them so.
-std::string direction_text(const mechanics::Direction& along) {
-  if (mechanics::is_between_two_nodes(along))
-    return fmt::format("{} {}", node_text(along[0].node), node_text(along[1].node));
-  std::string text = "along";
-  for (const auto& [node, factor] : along) text += fmt::format(" {} {}", node_text(node), factor);
+std::string direction_text(const mechanics::Element& element) {
+  if (const auto& ends = element.along; mechanics::is_between_two_nodes(ends))
+    return fmt::format("{} {}", node_text(ends[0].node), node_text(ends[1].node));
+  std::string text = fmt::format("along rotational {} twists {}", element.rotational, element.twists_ground);
+  for (const auto& [node, factor] : element.along) text += fmt::format(" {} {}", node_text(node), factor);
   return text;
 }
 
@@ -82,7 +82,7 @@ void add_network(const Study& study, CanonicalText& text) {
   for (std::size_t i = 0; i < network.elements.size(); ++i) {
     const mechanics::Element& element = network.elements[i];
     text.line("element {} {} {} {} {} {}", element.name, static_cast<int>(element.type),
-              direction_text(element.along), value(values.element[i]), static_cast<int>(element.law),
+              direction_text(element), value(values.element[i]), static_cast<int>(element.law),
               value(values.second[i]));
   }
   text.line("frequency {}", value(values.omega));
