@@ -49,6 +49,8 @@ struct StudyValues {
   std::array<const std::vector<StudyValue>*, 6> lists() const {
     return {&mass, &element, &second, &amplitude, &phase, &rod};
   }
+  // Indices of the parameters that the factors of directions read.
+  std::vector<std::size_t> read_by_factors() const;
 };
 
 // The numbers of the network at one point of the map.
