@@ -20,6 +20,13 @@ double machine(Complex s, Complex rack) {
   return std::abs(P / (M * s * s + K + link * rack / (link + rack)));
 }
 
+// Of a report's line on one quantity.
+std::string line_of(const std::string& report, const std::string& name) {
+  const std::size_t at = report.find("\n" + name + " ");
+  REQUIRE(at != std::string::npos);
+  return report.substr(at + 1, report.find('\n', at + 1) - at - 1);
+}
+
 TEST_CASE("rack_and_pinion.toml: without friction the machines move as complex numbers say") {
   const runs::Map map = runs::run_study(runs::reduced("rack_and_pinion", {}));
   const auto& hertz = map.coordinate("f");
@@ -41,15 +48,18 @@ TEST_CASE(
     "rack_and_pinion.toml: the flywheel does as the ideal inerter but for the teeth, with friction too") {
   const runs::Map map = runs::run_study(runs::reduced("rack_and_pinion", {{"f", 41}}));
   constexpr double of_teeth = 2e-3;  // b omega^2 over their stiffness is 6e-4 at 13 Hz
+  // Where friction all but holds the flywheel, the teeth yield as much as it turns.
+  constexpr double least_angle = 2e-5, least_energy = 1e-6;  // [rad], [J]; of 0.3 rad and 0.1 J
   const double bearing = ratio / r;  // turns of the flywheel by the rack's way [rad/m]
   for (std::size_t i = 0; i < map["machine_amplitude"].size(); ++i) {
     INFO("point " << i);
     CHECK(map["status"][i] == 1.0);
     CHECK_THAT(map["machine_amplitude"][i], Catch::WithinRel(map["ideal_machine_amplitude"][i], of_teeth));
     CHECK_THAT(map["flywheel_amplitude"][i],
-               Catch::WithinRel(bearing * map["ideal_rack_amplitude"][i], of_teeth));
+               Catch::WithinRel(bearing * map["ideal_rack_amplitude"][i], of_teeth) ||
+                   Catch::WithinAbs(bearing * map["ideal_rack_amplitude"][i], least_angle));
     CHECK_THAT(map["bearing_energy"][i], Catch::WithinRel(map["ideal_friction_energy"][i], 2.0 * of_teeth) ||
-                                             Catch::WithinAbs(0.0, 1e-9));
+                                             Catch::WithinAbs(map["ideal_friction_energy"][i], least_energy));
   }
 }
 
@@ -58,11 +68,7 @@ TEST_CASE("rack_and_pinion.toml: the flywheel's figures are in rad and N m, the 
   const runs::Outcome outcome = runs::frahm(
       {"point", folder.write("study.toml", runs::reduced("rack_and_pinion", {})), "--at", "T=0.05,f=8 Hz"});
   CHECK(outcome.code == 0);
-  const auto line = [&](const std::string& name) {
-    const std::size_t at = outcome.out.find(name + " ");
-    REQUIRE(at != std::string::npos);
-    return outcome.out.substr(at, outcome.out.find('\n', at) - at);
-  };
+  const auto line = [&](const std::string& name) { return line_of(outcome.out, name); };
   CHECK_THAT(line("flywheel_peak"), Catch::Contains("rad"));
   CHECK_THAT(line("bearing_force_peak"), Catch::Contains("N m"));
   CHECK_THAT(line("rack_peak"), !Catch::Contains("rad"));
@@ -76,8 +82,7 @@ TEST_CASE("rack_and_pinion.toml: another radius is another study, which --set ma
   const auto peak = [&](const std::string& set) {
     const runs::Outcome outcome = runs::frahm({"point", study, "--at", "T=0,f=8 Hz", "--set", set});
     CHECK(outcome.code == 0);
-    const std::size_t at = outcome.out.find(" machine_peak ");
-    return outcome.out.substr(at, outcome.out.find('\n', at) - at);
+    return line_of(outcome.out, "machine_peak");
   };
   CHECK(peak("r=10 mm,J=2 kg cm2") == peak("r=20 mm,J=8 kg cm2"));
   CHECK(peak("r=10 mm,J=8 kg cm2") != peak("r=20 mm,J=8 kg cm2"));
