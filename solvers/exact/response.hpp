@@ -3,9 +3,11 @@
 #include <numbers>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "solvers/mechanics/network.hpp"
+#include "solvers/mechanics/rotation.hpp"
 #include "solvers/quantities/observed_motion.hpp"
 
 // A summary of a periodic response, and the interface of its solvers.
@@ -49,17 +51,21 @@ struct History {
   // mass.
   static History of(const mechanics::Network& network) {
     History history;
-    const auto add_column = [&](const std::string& name, const char* unit) {
+    const auto add_column = [&](const std::string& name, std::string_view unit) {
       history.names.push_back(name);
-      history.units.push_back(unit);
+      history.units.emplace_back(unit);
       history.columns.emplace_back();
     };
-    for (const std::string& mass : network.masses) {
-      add_column(mass + "_displacement", "m");
-      add_column(mass + "_velocity", "m s-1");
+    const auto add_of_mass = [&](std::size_t mass, const char* what, const char* unit) {
+      add_column(network.masses[mass] + what, mechanics::unit_of_mass(network, mass, unit));
+    };
+    for (std::size_t i = 0; i < network.masses.size(); ++i) {
+      add_of_mass(i, "_displacement", "m");
+      add_of_mass(i, "_velocity", "m s-1");
     }
-    for (const auto& element : network.elements) add_column(element.name + "_force", "N");
-    for (const std::string& mass : network.masses) add_column(mass + "_acceleration", "m s-2");
+    for (const auto& element : network.elements)
+      add_column(element.name + "_force", mechanics::unit_of_element(element, "N"));
+    for (std::size_t i = 0; i < network.masses.size(); ++i) add_of_mass(i, "_acceleration", "m s-2");
     return history;
   }
 };

@@ -3,10 +3,12 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "solvers/algebra/no_value.hpp"
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/linear_system.hpp"
+#include "solvers/mechanics/rotation.hpp"
 
 namespace frahm::identification {
 
@@ -247,7 +249,9 @@ std::vector<FittedRecord> Misfit::fitted(const VectorXd& p) {
     for (std::size_t c = 0; c < of.channels.size(); ++c) {
       const auto column = motion.values.col(static_cast<Index>(c));
       const Channel& channel = of.channels[c];
-      fit.series.push_back({channel.name, kUnits[static_cast<int>(channel.signal)], channel.values,
+      const std::string_view unit =
+          mechanics::unit_of_mass(task_.network, channel.mass, kUnits[static_cast<int>(channel.signal)]);
+      fit.series.push_back({channel.name, std::string(unit), channel.values,
                             std::vector<double>(column.begin(), column.end())});
     }
     fit.nrmse = nrmse(fit.series);

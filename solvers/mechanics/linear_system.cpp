@@ -9,6 +9,7 @@
 
 #include "solvers/mechanics/crank.hpp"
 #include "solvers/mechanics/element_table.hpp"
+#include "solvers/mechanics/rotation.hpp"
 
 namespace frahm::mechanics {
 namespace {
@@ -41,12 +42,10 @@ void require_positive_definite(const Eigen::MatrixXd& matrix, const std::string&
 Incidence incidence(const Network& network, const Element& element) {
   Incidence result{Eigen::VectorXd::Zero(static_cast<Eigen::Index>(network.masses.size())),
                    Eigen::VectorXd::Zero(static_cast<Eigen::Index>(network.prescribed.size()))};
-  const auto add = [&](const Node& node, double sign) {
-    if (node.kind == NodeKind::mass) result.w[static_cast<Eigen::Index>(node.index)] += sign;
-    if (node.kind == NodeKind::prescribed) result.p[static_cast<Eigen::Index>(node.index)] += sign;
-  };
-  add(element.b, +1.0);
-  add(element.a, -1.0);
+  for (const auto& [node, factor] : element.along) {
+    if (node.kind == NodeKind::mass) result.w[static_cast<Eigen::Index>(node.index)] += factor;
+    if (node.kind == NodeKind::prescribed) result.p[static_cast<Eigen::Index>(node.index)] += factor;
+  }
   return result;
 }
 
@@ -64,17 +63,18 @@ Assembly::Assembly(const Network& network)
   }
   depends_on_frequency_ = frequency_dependent_element(network_) != nullptr;
   place_orders();
+  weigh_support_force();
 }
 
-// Elements between the same two nodes share a contact where their law merges.
+// Elements along the same direction share a contact where their law merges.
 void Assembly::place_in_contact(std::size_t e) {
-  const Element& element = network_.elements[e];
-  const laws::Law* law = kind_of(element).law;
+  const laws::Law* law = kind_of(network_.elements[e]).law;
+  const Incidence& own = incidences_[e];
   for (std::size_t other = 0; law->merges && other < e; ++other) {
-    const Element& first = network_.elements[other];
-    const bool alike = first.a == element.a && first.b == element.b;
-    const bool opposite = first.a == element.b && first.b == element.a;
-    if (kind_of(first).law != law || !(alike || opposite)) continue;
+    const Incidence& first = incidences_[other];
+    const bool alike = first.w == own.w && first.p == own.p;
+    const bool opposite = first.w == -own.w && first.p == -own.p;
+    if (kind_of(network_.elements[other]).law != law || !(alike || opposite)) continue;
     shares_[e].contact = shares_[other].contact;
     shares_[e].orientation = alike ? shares_[other].orientation : -shares_[other].orientation;
     return;
@@ -102,7 +102,8 @@ void Assembly::place_orders() {
 void Assembly::check_values(const NetworkValues& values) const {
   for (std::size_t i = 0; i < network_.masses.size(); ++i) {
     if (!(values.mass[i] >= 0.0 && std::isfinite(values.mass[i]))) {
-      refuse("mass of '" + network_.masses[i] + "'", values.mass[i], "must be finite and not negative");
+      refuse((rotates(network_, i) ? "inertia of '" : "mass of '") + network_.masses[i] + "'", values.mass[i],
+             "must be finite and not negative");
     }
   }
   for (std::size_t e = 0; e < network_.elements.size(); ++e) {
@@ -139,6 +140,9 @@ void Assembly::set_values(const NetworkValues& values, LinearSystem& system) con
   system.odd_forcing = odd_forcing_;
   system.mass = Eigen::Map<const Eigen::VectorXd>(values.mass.data(), n);
   system.M.diagonal() = system.mass;
+  system.support_force = support_force_;
+  system.felt_inertia = support_force_.c.cwiseProduct(system.mass).transpose();
+  system.felt_inertia_support.setZero(p);
 
   const double omega_h =
       values.hysteretic_omega > 0.0 ? values.hysteretic_omega : network_.reference_order * values.omega;
@@ -163,6 +167,10 @@ void Assembly::set_values(const NetworkValues& values, LinearSystem& system) con
     add(system.K, system.K_support, at, added.stiffness);
     add(system.C, system.C_support, at, added.damping);
     add(system.M, system.M_support, at, added.inertance);
+    if (const double excess = support_force_.excess[static_cast<Eigen::Index>(e)]; excess != 0.0) {
+      system.felt_inertia += excess * added.inertance * at.w.transpose();
+      system.felt_inertia_support += excess * added.inertance * at.p.transpose();
+    }
     if (has_contact(network_.elements[e])) {
       const auto contact = static_cast<Eigen::Index>(shares_[e].contact);
       system.W.col(contact) = shares_[e].orientation * at.w;

@@ -16,14 +16,24 @@ class MechanicsError : public std::runtime_error {
 };
 
 // How an element acts: u = w^T q + p^T y, with q the displacements of the masses and y those of the
-// prescribed nodes. +1 at node b, -1 at node a.
+// prescribed nodes: the factors of its direction.
 struct Incidence {
   Eigen::VectorXd w;  // size n
   Eigen::VectorXd p;  // size of Network::prescribed
 };
 Incidence incidence(const Network& network, const Element& element);
 
-// The part of an element with a law in a contact. Elements of a law that merges, between the same two nodes,
+// The force on all supports together: of each element its force times -s_e, s_e the sum of its factors there.
+// With c^T w_e = -s_e of every element but inerters it is c^T (P - M q'' - M_support y'') less s_e times the
+// inerters' forces, P the forces on the masses; so c = 1 where all elements are between two nodes. It adds up
+// forces or torques, not both.
+struct SupportForce {
+  Eigen::VectorXd counted;  // 1 of a mass on which a force counts (a torque, where the ground takes those), 0
+  Eigen::VectorXd c;        // NaN where the motion of the masses does not tell what the supports take
+  Eigen::VectorXd excess;   // c^T w_e + s_e of each element, of an inerter; else 0
+};
+
+// The part of an element with a law in a contact. Elements of a law that merges, along the same direction,
 // act as one contact, whose limit is the sum of theirs; each carries the share F_j / sum F of its force.
 struct ContactShare {
   std::size_t contact = 0;  // index of the contact
@@ -55,7 +65,7 @@ struct ElementCoefficients {
 // p x s.
 struct LinearSystem {
   double omega = 0.0;    // [rad/s]
-  Eigen::VectorXd mass;  // of the nodes, without inerters [kg]
+  Eigen::VectorXd mass;  // of the nodes, without inerters [kg], of a rotation [kg m2]
   Eigen::MatrixXd M, C, K;
   Eigen::MatrixXd M_support, C_support, K_support;  // blocks that couple masses to prescribed nodes
   Eigen::MatrixXd W, W_support;                     // directions of the contacts
@@ -75,6 +85,8 @@ struct LinearSystem {
   Eigen::MatrixXcd applied_force;          // the part of f_k that does
   Eigen::VectorXd constant_motion;         // y_0 [m], size p
   Eigen::MatrixXcd motion;                 // column k is Y_k [m]
+  SupportForce support_force;
+  Eigen::RowVectorXd felt_inertia, felt_inertia_support;  // its parts by -q'' and by -y''
 
   Eigen::Index masses() const { return M.rows(); }
   Eigen::Index contacts() const { return limit.size(); }
@@ -109,6 +121,7 @@ class Assembly {
  private:
   void place_in_contact(std::size_t element);
   void place_orders();
+  void weigh_support_force();
   void check_values(const NetworkValues& values) const;
   void add_crank(const Excitation& excitation, const ExcitationValue& value, LinearSystem& system) const;
 
@@ -119,6 +132,7 @@ class Assembly {
   std::vector<const laws::Law*> contact_laws_;
   std::vector<Eigen::Index> contact_internal_;
   std::vector<int> orders_;
+  SupportForce support_force_;
   bool odd_forcing_ = true, depends_on_frequency_ = false;
   std::size_t internal_forces_ = 0;
 };

@@ -3,9 +3,11 @@
 #include <array>
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
-// A mechanical system as a network: masses, elements between two nodes, and an excitation.
+// A mechanical system as a network: masses, elements along combinations of their coordinates, and an
+// excitation. A mass may be a moment of inertia: its displacement is then an angle.
 //
 // Topology (`Network`) and numbers (`NetworkValues`) are apart, because a map over parameters changes the
 // numbers at every point and the topology never.
@@ -20,7 +22,30 @@ struct Node {
   friend bool operator==(const Node&, const Node&) = default;
 };
 
-// Force of an element on its relative displacement u = q_b - q_a and relative velocity v = u':
+// A node's share in a combination of coordinates.
+struct Share {
+  Node node;
+  double factor = 1.0;  // [1], or [m/rad] of a rotation in a length
+
+  friend bool operator==(const Share&, const Share&) = default;
+};
+
+// A combination of coordinates: u = sum of factor x displacement of the node. Ground moves nothing, but takes
+// force.
+using Direction = std::vector<Share>;
+
+// u = q_b - q_a
+inline Direction between(Node a, Node b) {
+  return {{a, -1.0}, {b, +1.0}};
+}
+
+inline bool is_between_two_nodes(const Direction& u) {
+  return u.size() == 2 && u[0].factor == -1.0 && u[1].factor == 1.0;
+}
+
+// Force of an element on its displacement u (of two nodes the relative one, q_b - q_a) and velocity v = u';
+// it acts on each node by its factor. Of a rotational element u is in rad, k in N m/rad, c in N m s/rad, b in
+// kg m2 and F in N m:
 //   spring      k u                          value = stiffness k [N/m]
 //   damper      c v                          value = damping c [N s/m]
 //   inerter     b v'                         value = inertance b [kg]
@@ -35,14 +60,23 @@ enum class ElementType { spring, damper, inerter, coulomb, hysteretic, maxwell, 
 enum class FrictionLaw { exact, arctan };
 
 struct Element {
+  Element() = default;
+  Element(std::string given_name, ElementType kind, Direction direction,
+          FrictionLaw friction = FrictionLaw::exact)
+      : name(std::move(given_name)), type(kind), along(std::move(direction)), law(friction) {}
+  Element(std::string given_name, ElementType kind, Node a, Node b, FrictionLaw friction = FrictionLaw::exact)
+      : Element(std::move(given_name), kind, between(a, b), friction) {}
+
   std::string name;
   ElementType type = ElementType::spring;
-  Node a, b;
+  Direction along;  // its displacement u; each node once
   FrictionLaw law = FrictionLaw::exact;
+  bool rotational = false;     // u is an angle
+  bool twists_ground = false;  // its factor there is of an angle: what the ground takes of it is a torque
 };
 
 enum class ExcitationKind {
-  force,   // P cos(order omega t + phase) on a mass [N]
+  force,   // P cos(order omega t + phase) on a mass [N], on a rotation [N m]
   motion,  // displacement A cos(order omega t + phase) of a prescribed node [m]
   crank,   // displacement of a prescribed node by a crank that turns with omega t + phase (crank.hpp)
 };
@@ -61,11 +95,12 @@ struct Network {
   std::vector<std::string> prescribed;  // names of the nodes of prescribed motion
   std::vector<Element> elements;
   std::vector<Excitation> excitations;
-  int reference_order = 1;  // the harmonic of which phases are taken
+  int reference_order = 1;       // the harmonic of which phases are taken
+  std::vector<bool> rotation{};  // of each mass: it is a moment of inertia; may be empty where none is
 };
 
 struct ExcitationValue {
-  double amplitude = 0.0;  // [N] for a force, [m] for a motion; radius [m] of a crank
+  double amplitude = 0.0;  // [N] for a force ([N m] on a rotation), [m] for a motion; radius [m] of a crank
   double phase = 0.0;      // [rad]
   double rod = 0.0;        // length [m] of a crank's rod, > amplitude
 
@@ -74,8 +109,9 @@ struct ExcitationValue {
 
 // The numbers of a network at one point of a map, in the order of the lists in `Network`.
 struct NetworkValues {
-  double omega = 0.0;           // fundamental angular frequency [rad/s], > 0
-  std::vector<double> mass;     // [kg], >= 0 (zero where an inerter keeps the mass matrix definite)
+  double omega = 0.0;  // fundamental angular frequency [rad/s], > 0
+  // [kg], [kg m2] of a rotation, >= 0 (zero where an inerter keeps the mass matrix definite)
+  std::vector<double> mass;
   std::vector<double> element;  // stiffness, damping, inertance or force of each element (see ElementType)
   std::vector<ExcitationValue> excitation;  // of each excitation component
   std::vector<double> second{};   // of each element, 0 where it has none; may be empty where none has one

@@ -32,6 +32,9 @@ void resize(const LinearSystem& system, const NetworkValues& direction, LinearSy
   d.force.setZero(n, system.force.cols());
   d.motion.setZero(p, system.motion.cols());
   d.M.diagonal() = d.mass;
+  d.support_force = system.support_force;
+  d.felt_inertia = d.support_force.c.cwiseProduct(d.mass).transpose();
+  d.felt_inertia_support.setZero(p);
 }
 
 void differentiate_elements(const Assembly& assembly, const NetworkValues& values,
@@ -62,6 +65,10 @@ void differentiate_elements(const Assembly& assembly, const NetworkValues& value
     add(d.K, d.K_support, at, added.stiffness.derivative);
     add(d.C, d.C_support, at, added.damping.derivative);
     add(d.M, d.M_support, at, added.inertance.derivative);
+    if (const double excess = d.support_force.excess[static_cast<Eigen::Index>(e)]; excess != 0.0) {
+      d.felt_inertia += excess * added.inertance.derivative * at.w.transpose();
+      d.felt_inertia_support += excess * added.inertance.derivative * at.p.transpose();
+    }
     if (has_contact(element))
       d.limit[static_cast<Eigen::Index>(assembly.shares()[e].contact)] += added.limit.derivative;
     if (internal >= 0) {

@@ -23,6 +23,17 @@ Eigen::VectorXcd static_solution(const mechanics::LinearSystem& system, const Ei
   return displacement;
 }
 
+// The sum of a vector's entries by their weights; dot() would take a conjugate.
+std::complex<double> sum(const Eigen::VectorXd& weights, const Eigen::VectorXcd& of) {
+  return weights.cwiseProduct(of).sum();
+}
+
+// The inertia forces that the supports feel, over (n omega)^2.
+std::complex<double> inertia_felt(const mechanics::LinearSystem& system, const Eigen::VectorXcd& X,
+                                  const Eigen::VectorXcd& Y) {
+  return sum(system.felt_inertia.transpose(), X) + sum(system.felt_inertia_support.transpose(), Y);
+}
+
 }  // namespace
 
 Eigen::Index reference_column(const mechanics::LinearSystem& system) {
@@ -61,28 +72,30 @@ double support_amplitude_derivative(const mechanics::LinearSystem& system,
   return modulus_derivative(system.motion(support, column), by.motion(support, column));
 }
 
+// c^T (P - M q'') and so on (SupportForce), at the reference order with q'' = -(n omega)^2 X.
 double force_transmissibility(const mechanics::LinearSystem& system, const Eigen::VectorXcd& X) {
-  const std::complex<double> applied = system.applied_force.col(reference_column(system)).sum();
+  const Eigen::Index column = reference_column(system);
+  const Eigen::VectorXcd force = system.applied_force.col(column);
   const double rate = system.reference_order * system.omega;
-  // What acts on the supports is P - sum_i m_i x_i'', at the reference order P + (n omega)^2 sum_i m_i X_i.
   const std::complex<double> on_supports =
-      applied + rate * rate * system.mass.cast<std::complex<double>>().dot(X);
-  return ratio(std::abs(on_supports), std::abs(applied));
+      sum(system.support_force.c, force) + rate * rate * inertia_felt(system, X, system.motion.col(column));
+  return ratio(std::abs(on_supports), std::abs(sum(system.support_force.counted, force)));
 }
 
 double force_transmissibility_derivative(const mechanics::LinearSystem& system,
                                          const mechanics::LinearSystem& by, const Eigen::VectorXcd& X,
                                          const Eigen::VectorXcd& X_by) {
   const Eigen::Index column = reference_column(system);
-  const std::complex<double> applied = system.applied_force.col(column).sum();
-  const std::complex<double> applied_by = by.applied_force.col(column).sum();
   const double n = system.reference_order, rate = n * system.omega;
-  const Eigen::VectorXcd mass = system.mass.cast<std::complex<double>>();
-  const std::complex<double> moved = mass.dot(X);
-  const std::complex<double> moved_by = mass.dot(X_by) + by.mass.cast<std::complex<double>>().dot(X);
-  const std::complex<double> on_supports = applied + rate * rate * moved;
+  const auto& [counted, c, excess] = system.support_force;
+  const Eigen::VectorXcd force = system.applied_force.col(column), force_by = by.applied_force.col(column);
+  const Eigen::VectorXcd Y = system.motion.col(column), Y_by = by.motion.col(column);
+  const std::complex<double> moved = inertia_felt(system, X, Y);
+  const std::complex<double> moved_by = inertia_felt(system, X_by, Y_by) + inertia_felt(by, X, Y);
+  const std::complex<double> applied = sum(counted, force), applied_by = sum(counted, force_by);
+  const std::complex<double> on_supports = sum(c, force) + rate * rate * moved;
   const std::complex<double> on_supports_by =
-      applied_by + rate * rate * moved_by + 2.0 * rate * n * by.omega * moved;
+      sum(c, force_by) + rate * rate * moved_by + 2.0 * rate * n * by.omega * moved;
   const double above = std::abs(on_supports), below = std::abs(applied);
   return modulus_derivative(on_supports, on_supports_by) / below -
          above / (below * below) * modulus_derivative(applied, applied_by);

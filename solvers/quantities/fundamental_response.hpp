@@ -19,7 +19,8 @@ Eigen::VectorXd static_displacement(const mechanics::LinearSystem& system);
 double support_amplitude(const mechanics::LinearSystem& system);
 
 // Amplitude of the force on all supports together over that of the applied forces, at the reference order;
-// NaN where no force is applied.  X: components [m] of the masses' displacements at that order.
+// NaN where no force is applied, and where the masses' motion does not tell what the supports take
+// (SupportForce). X: components [m] of the masses' displacements at that order.
 double force_transmissibility(const mechanics::LinearSystem& system, const Eigen::VectorXcd& X);
 
 // Derivatives of the three above along `by`, the derivative of the system (mechanics/system_derivative.hpp),

@@ -1,5 +1,7 @@
 #include "solvers/quantities/instant_motion.hpp"
 
+#include "solvers/mechanics/rotation.hpp"
+
 namespace frahm::periodic {
 namespace {
 
@@ -48,10 +50,11 @@ class Forces {
 
   double at_node(const mechanics::Node& node) const {
     double sum = 0.0;
-    const auto& elements = assembly_.network().elements;
-    for (std::size_t e = 0; e < elements.size(); ++e) {
-      if (elements[e].b == node) sum += of_element(e);
-      if (elements[e].a == node) sum -= of_element(e);
+    const mechanics::Network& network = assembly_.network();
+    const bool takes_torque = mechanics::ground_takes_torque(network);
+    for (std::size_t e = 0; e < network.elements.size(); ++e) {
+      const double share = mechanics::share_in_force(network.elements[e], node, takes_torque);
+      if (share != 0.0) sum += share * of_element(e);
     }
     return sum;
   }

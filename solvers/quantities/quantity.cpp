@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string_view>
 
 #include "solvers/algebra/no_value.hpp"
 #include "solvers/mechanics/element_table.hpp"
+#include "solvers/mechanics/rotation.hpp"
 #include "solvers/quantities/quantity_table.hpp"
 
 namespace frahm::periodic {
@@ -68,6 +70,27 @@ std::string name_of(const QuantityRow& row, std::size_t index, const Network& ne
   return joined(owner_name(row.owner, index, network), row.suffix);
 }
 
+std::string unit_of(const QuantityRow& row, std::size_t index, const Network& network) {
+  const bool all_rotate = std::ranges::all_of(network.rotation, std::identity{}) && !network.rotation.empty();
+  switch (row.owner) {
+    case Owner::mass:
+      if (row.measure == Measure::transmissibility && mechanics::rotates(network, index)) return "rad m-1";
+      return std::string(mechanics::unit_of_mass(network, index, row.unit));
+    case Owner::element:
+    case Owner::contact:
+      return std::string(mechanics::unit_of_element(network.elements[index], row.unit));
+    case Owner::support:
+      return std::string(index == 0 && mechanics::ground_takes_torque(network)
+                             ? mechanics::unit_of_rotation(row.unit)
+                             : row.unit);
+    case Owner::point:
+      return std::string(all_rotate ? mechanics::unit_of_rotation(row.unit) : row.unit);
+    case Owner::mode:
+      break;
+  }
+  return row.unit;
+}
+
 // The indices of the owners that have a quantity in the standard record.
 std::vector<std::size_t> owners(StandardOf of, const Network& network) {
   std::vector<std::size_t> result;
@@ -101,7 +124,7 @@ QuantityDescription describe(const Quantity& quantity, const Network& network, b
   const QuantityRow& row = row_of(quantity.measure);
   QuantityDescription result;
   result.name = name_of(row, quantity.index, network);
-  result.unit = dimensionless && !is_angle(quantity.measure) ? "1" : row.unit;
+  result.unit = dimensionless && !is_angle(quantity.measure) ? "1" : unit_of(row, quantity.index, network);
   result.long_name = row.meaning;
   if (const auto braces = result.long_name.find("{}"); braces != std::string::npos) {
     result.long_name.replace(braces, 2, owner_name(row.owner, quantity.index, network));

@@ -56,7 +56,7 @@ class Distance {
       return false;  // a step too far: the solver takes a shorter one
     }
     const double m = system_.M(0, 0), c = system_.C(0, 0), k = system_.K(0, 0);
-    const double f = system_.limit.size() > 0 ? system_.limit.sum() : 0.0;
+    const double f = on_mass(system_.limit);
     const double omega = std::sqrt(k / m), zeta = 0.5 * c / std::sqrt(k * m);
     residuals.resize(3);
     residuals << std::log(omega / wanted_.natural_frequency), zeta - wanted_.damping_ratio,
@@ -69,7 +69,7 @@ class Distance {
       mechanics::differentiate(assembly_, model.values, derivatives[static_cast<std::size_t>(i)].values,
                                system_, by);
       const double dm = by.M(0, 0), dc = by.C(0, 0), dk = by.K(0, 0);
-      const double df = by.limit.size() > 0 ? by.limit.sum() : 0.0;
+      const double df = on_mass(by.limit);
       jacobian->col(i) << 0.5 * (dk / k - dm / m),
           0.5 * dc / std::sqrt(k * m) - 0.5 * zeta * (dk / k + dm / m), (df - f * dk / k) / (k * largest_);
     }
@@ -77,6 +77,11 @@ class Distance {
   }
 
  private:
+  // What friction of these limits on the contacts makes on the mass, through levers too.
+  double on_mass(const Eigen::VectorXd& limits) const {
+    return system_.W.row(0).cwiseAbs().dot(limits.transpose());
+  }
+
   const GreyBoxTask& task_;
   std::size_t record_;
   Wanted wanted_;

@@ -122,7 +122,8 @@ double moving_force(const Study& study, const mechanics::NetworkValues& values) 
   if (!(unexcited.hysteretic_omega > 0.0)) unexcited.hysteretic_omega = 1.0;
   assembly.set_values(unexcited, system);
   const double compliance = system.K.inverse()(0, 0);
-  return std::max(1e-3 / compliance, 4.0 * system.limit.sum());
+  const Eigen::VectorXd arms = system.W.cwiseAbs().colwise().maxCoeff().transpose();  // 1 without levers
+  return std::max(1e-3 / compliance, 4.0 * arms.dot(system.limit));
 }
 
 // Puts a harmonic force on the first mass of a system that has no excitation except measured ones.

@@ -3,8 +3,10 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <complex>
+#include <string_view>
 
 #include "solvers/mechanics/linear_system.hpp"
+#include "solvers/mechanics/rotation.hpp"
 #include "solvers/orbits/orbit.hpp"
 #include "solvers/response/periodic_response.hpp"
 #include "studies/map/map_record.hpp"
@@ -90,22 +92,30 @@ KeptOrbit keep_orbit(const MapPlan& plan, const std::vector<Assignment>& point) 
 // Names and units of the samples, which a point without an orbit does not provide.
 std::vector<results::Variable> sample_variables(const Study& study) {
   std::vector<results::Variable> variables;
-  const auto add = [&](const std::string& name, const char* unit, const std::string& long_name) {
-    variables.push_back({.name = name, .unit = study.dimensionless ? "1" : unit, .long_name = long_name});
+  const mechanics::Network& network = study.network;
+  const auto add = [&](const std::string& name, std::string_view unit, const std::string& long_name) {
+    variables.push_back(
+        {.name = name, .unit = study.dimensionless ? "1" : std::string(unit), .long_name = long_name});
   };
   add("time", "s", "time within the period, from omega t = 0");
-  for (const std::string& mass : study.network.masses) {
-    add(mass + "_displacement", "m", "displacement of " + mass);
-    add(mass + "_velocity", "m s-1", "velocity of " + mass);
+  const auto add_of_mass = [&](std::size_t mass, const char* unit, const std::string& what) {
+    const std::string& name = network.masses[mass];
+    add(name + "_" + what, mechanics::unit_of_mass(network, mass, unit), what + " of " + name);
+  };
+  const auto add_of_element = [&](const mechanics::Element& element, const char* suffix, const char* unit,
+                                  const std::string& what) {
+    add(element.name + suffix, mechanics::unit_of_element(element, unit), what + " " + element.name);
+  };
+  for (std::size_t i = 0; i < network.masses.size(); ++i) {
+    add_of_mass(i, "m", "displacement");
+    add_of_mass(i, "m s-1", "velocity");
   }
-  for (const auto& element : study.network.elements)
-    add(element.name + "_force", "N", "force of " + element.name);
-  for (const std::string& mass : study.network.masses)
-    add(mass + "_acceleration", "m s-2", "acceleration of " + mass);
-  for (const auto& element : study.network.elements) {
+  for (const auto& element : network.elements) add_of_element(element, "_force", "N", "force of");
+  for (std::size_t i = 0; i < network.masses.size(); ++i) add_of_mass(i, "m s-2", "acceleration");
+  for (const auto& element : network.elements) {
     if (!mechanics::has_contact(element)) continue;
-    add(element.name + "_displacement", "m", "relative displacement across " + element.name);
-    add(element.name + "_sliding_velocity", "m s-1", "relative velocity across " + element.name);
+    add_of_element(element, "_displacement", "m", "relative displacement across");
+    add_of_element(element, "_sliding_velocity", "m s-1", "relative velocity across");
   }
   return variables;
 }

@@ -7,6 +7,7 @@
 
 #include "solvers/algebra/no_value.hpp"
 #include "solvers/mechanics/linear_system.hpp"
+#include "solvers/mechanics/rotation.hpp"
 #include "solvers/orbits/orbit.hpp"
 #include "solvers/response/periodic_response.hpp"
 #include "solvers/response/resonance_peak.hpp"
@@ -106,7 +107,8 @@ std::vector<results::Variable> row_variables(const Study& study, std::size_t fre
   for (const std::size_t mass : study.sweep()->output.resonances) {
     const std::string& name = study.network.masses[mass];
     add(name + "_resonance_frequency", "rad s-1", "angular frequency at which " + name + " moves most");
-    add(name + "_resonance_amplitude", "m", "amplitude of " + name + " at the reference order there");
+    add(name + "_resonance_amplitude", std::string(mechanics::unit_of_mass(study.network, mass, "m")),
+        "amplitude of " + name + " at the reference order there");
     add(name + "_half_power_low", "rad s-1", "below it, where the amplitude is 1/sqrt(2) of that");
     add(name + "_half_power_high", "rad s-1", "above it, where the amplitude is 1/sqrt(2) of that");
     add(name + "_half_power_damping", "1", "(high - low) / (2 resonance frequency)");

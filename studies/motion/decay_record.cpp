@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <ostream>
+#include <string_view>
 
 #include "solvers/mechanics/linear_system.hpp"
 #include "solvers/mechanics/modes.hpp"
+#include "solvers/mechanics/rotation.hpp"
 #include "solvers/response/periodic_response.hpp"
 #include "studies/motion/energy_columns.hpp"
 #include "studies/motion/motion_columns.hpp"
@@ -99,6 +101,7 @@ std::vector<results::Column> decay_columns(const Study& study, const FreeDecay& 
   for (const auto& mass : decay.masses) rows = std::max(rows, mass.extrema.size());
   for (std::size_t i = 0; i < decay.masses.size(); ++i) {
     const std::string& name = study.network.masses[i];
+    const std::string_view unit = mechanics::unit_of_mass(study.network, i, "m");
     std::vector<double> times, values;
     for (const Extremum& extremum : decay.masses[i].extrema) {
       times.push_back(extremum.time);
@@ -106,11 +109,11 @@ std::vector<results::Column> decay_columns(const Study& study, const FreeDecay& 
     }
     columns.add(name + "_extremum_time", "s", "times at which the velocity of " + name + " is zero",
                 "extremum", times, rows);
-    columns.add(name + "_extremum", "m", "displacement of " + name + " at its extrema", "extremum", values,
+    columns.add(name + "_extremum", unit, "displacement of " + name + " at its extrema", "extremum", values,
                 rows);
     columns.add(name + "_log_decrement", "1", "ln abs(x_i / x_(i+2)) of the extrema of " + name, "extremum",
                 decay.masses[i].log_decrement, rows);
-    columns.add_number(name + "_rest", "m", "displacement at which " + name + " rests, or to which it tends",
+    columns.add_number(name + "_rest", unit, "displacement at which " + name + " rests, or to which it tends",
                        decay.masses[i].rest);
   }
   columns.add_number("stop_time", "s", "time from which nothing moves any more", decay.stop_time);
@@ -127,15 +130,16 @@ void print_decay(const Study& study, const FreeDecay& decay, std::ostream& out) 
   fmt::print(out, "free decay: {}\n", ending(study, decay));
   for (std::size_t i = 0; i < decay.masses.size(); ++i) {
     const auto& [extrema, decrement, rest] = decay.masses[i];
+    const std::string_view unit = mechanics::unit_of_mass(study.network, i, "m");
     fmt::print(out, "\n{}: {} {}", study.network.masses[i], extrema.size(),
                extrema.size() == 1 ? "extremum" : "extrema");
     if (!std::isnan(rest)) {
       const char* stopped = std::isnan(decay.stop_time) ? "will rest at" : "rests at";
       fmt::print(out, ", {} {:.10g}{}", decay.end == DecayEnd::at_rest ? stopped : "tends to", rest,
-                 study.dimensionless ? "" : " m");
+                 study.dimensionless ? "" : fmt::format(" {}", unit));
     }
     fmt::print(out, "\n{:>6}{:>18}{:>18}{:>16}\n", "", study.dimensionless ? "time" : "time [s]",
-               study.dimensionless ? "extremum" : "extremum [m]", "log decrement");
+               study.dimensionless ? "extremum" : fmt::format("extremum [{}]", unit), "log decrement");
     for (std::size_t k = 0; k < std::min(most_rows, extrema.size()); ++k) {
       fmt::print(out, "{:>6}{:>18.10g}{:>18.10g}", k, extrema[k].time, extrema[k].displacement);
       fmt::print(out, "{}\n", std::isnan(decrement[k]) ? "" : fmt::format("{:>16.8g}", decrement[k]));

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "solvers/mechanics/modes.hpp"
+#include "solvers/mechanics/rotation.hpp"
 #include "solvers/orbits/orbit.hpp"
 #include "solvers/response/periodic_response.hpp"
 #include "studies/motion/motion_record.hpp"
@@ -60,9 +61,12 @@ std::vector<MeasuredColumn> columns_of(const Study& study, const transient::Samp
   std::vector<MeasuredColumn> columns;
   for (std::size_t i = 0; i < study.network.masses.size(); ++i) {
     const std::string& mass = study.network.masses[i];
-    columns.push_back({mass + "_displacement", "m", samples.displacement[i]});
-    columns.push_back({mass + "_velocity", "m s-1", samples.velocity[i]});
-    columns.push_back({mass + "_acceleration", "m s-2", samples.acceleration[i]});
+    const auto unit = [&](const char* linear) {
+      return std::string(mechanics::unit_of_mass(study.network, i, linear));
+    };
+    columns.push_back({mass + "_displacement", unit("m"), samples.displacement[i]});
+    columns.push_back({mass + "_velocity", unit("m s-1"), samples.velocity[i]});
+    columns.push_back({mass + "_acceleration", unit("m s-2"), samples.acceleration[i]});
   }
   return columns;
 }

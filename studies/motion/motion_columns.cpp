@@ -4,19 +4,20 @@
 
 #include "solvers/algebra/no_value.hpp"
 #include "solvers/mechanics/element_table.hpp"
+#include "solvers/mechanics/rotation.hpp"
 
 namespace frahm::studies {
 
-void MotionColumns::add(const std::string& name, const char* unit, const std::string& long_name,
+void MotionColumns::add(const std::string& name, std::string_view unit, const std::string& long_name,
                         const std::string& dimension, std::vector<double> values, std::size_t size) {
   values.resize(std::max(size, values.size()), kNone);
-  const bool bare = study_.dimensionless && std::string(unit) != "rad";
-  columns_.push_back({.variable = {.name = name, .unit = bare ? "1" : unit, .long_name = long_name},
+  const std::string written(study_.dimensionless && unit != "rad" ? "1" : unit);
+  columns_.push_back({.variable = {.name = name, .unit = written, .long_name = long_name},
                       .dimension = dimension,
                       .values = std::move(values)});
 }
 
-void MotionColumns::add_number(const std::string& name, const char* unit, const std::string& long_name,
+void MotionColumns::add_number(const std::string& name, std::string_view unit, const std::string& long_name,
                                double value) {
   add(name, unit, long_name, "", {value});
 }
@@ -25,8 +26,9 @@ void MotionColumns::add_samples(const transient::Samples& samples) {
   add("time", "s", "time since the initial values", "time", samples.time);
   for (std::size_t i = 0; i < study_.network.masses.size(); ++i) {
     const std::string& mass = study_.network.masses[i];
-    add(mass + "_displacement", "m", "displacement of " + mass, "time", samples.displacement[i]);
-    add(mass + "_velocity", "m s-1", "velocity of " + mass, "time", samples.velocity[i]);
+    const auto unit = [&](const char* linear) { return mechanics::unit_of_mass(study_.network, i, linear); };
+    add(mass + "_displacement", unit("m"), "displacement of " + mass, "time", samples.displacement[i]);
+    add(mass + "_velocity", unit("m s-1"), "velocity of " + mass, "time", samples.velocity[i]);
   }
   for (std::size_t e = 0; e < study_.network.elements.size(); ++e) {
     if (!mechanics::kind_of(study_.network.elements[e]).dissipates) continue;

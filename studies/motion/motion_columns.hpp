@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "results/layout.hpp"
@@ -15,9 +16,9 @@ class MotionColumns {
   explicit MotionColumns(const Study& study) : study_(study) {}
 
   // dimension: "" for a single number.  values: padded with NaN to `size`.
-  void add(const std::string& name, const char* unit, const std::string& long_name,
+  void add(const std::string& name, std::string_view unit, const std::string& long_name,
            const std::string& dimension, std::vector<double> values, std::size_t size = 0);
-  void add_number(const std::string& name, const char* unit, const std::string& long_name, double value);
+  void add_number(const std::string& name, std::string_view unit, const std::string& long_name, double value);
 
   // Adds time and, along it, each mass's displacement and velocity and each element's dissipated energy.
   void add_samples(const transient::Samples& samples);

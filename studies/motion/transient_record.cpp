@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <ostream>
+#include <string_view>
 
 #include "solvers/mechanics/linear_system.hpp"
+#include "solvers/mechanics/rotation.hpp"
 #include "studies/motion/energy_columns.hpp"
 #include "studies/motion/motion_columns.hpp"
 #include "studies/motion/motion_record.hpp"
@@ -76,18 +79,26 @@ ForcedMotion solve_transient(const Study& study, const transient::Watch& watch) 
   }
 }
 
+// Of what takes every mass: [m], or [rad] where all rotate.
+std::string_view unit_of_all(const Study& study) {
+  std::size_t i = 0;
+  while (mechanics::rotates(study.network, i)) ++i;
+  return i == study.network.masses.size() ? "rad" : "m";
+}
+
 std::vector<results::Column> transient_columns(const Study& study, const ForcedMotion& motion) {
   MotionColumns columns(study);
   columns.add_samples(motion.history);
   if (study.transient()->sweep_to) {
     columns.add("frequency", "rad s-1", "angular frequency of the excitation", "time", motion.frequency);
-    columns.add_number("discretisation_error", "m",
+    columns.add_number("discretisation_error", unit_of_all(study),
                        "largest change of any displacement when the stairs of the run-up were last halved",
                        motion.discretisation_error);
   }
   for (std::size_t i = 0; i < motion.peaks.size(); ++i) {
     const std::string& name = study.network.masses[i];
-    columns.add_number(name + "_peak", "m", "largest displacement of " + name + ", either way",
+    columns.add_number(name + "_peak", mechanics::unit_of_mass(study.network, i, "m"),
+                       "largest displacement of " + name + ", either way",
                        std::abs(motion.peaks[i].displacement));
     columns.add_number(name + "_peak_time", "s", "time of the largest displacement of " + name,
                        motion.peaks[i].time);
@@ -110,10 +121,17 @@ std::vector<results::Column> transient_columns(const Study& study, const ForcedM
 
 void print_transient(const Study& study, const ForcedMotion& motion, std::ostream& out) {
   const bool si = !study.dimensionless;
-  fmt::print(out, "{:<16}{:>18}{:>18}\n", "", si ? "peak [m]" : "peak", si ? "at [s]" : "at");
+  const bool some_rotate = std::ranges::any_of(study.network.rotation, std::identity{});
+  fmt::print(out, "{:<16}{:>18}{:>18}\n", "",
+             !si           ? "peak"
+             : some_rotate ? "peak [SI]"
+                           : "peak [m]",
+             si ? "at [s]" : "at");
   for (std::size_t i = 0; i < motion.peaks.size(); ++i) {
-    fmt::print(out, "{:<16}{:>18.10g}{:>18.10g}\n", study.network.masses[i],
-               std::abs(motion.peaks[i].displacement), motion.peaks[i].time);
+    const std::string_view unit =
+        si && some_rotate ? mechanics::unit_of_mass(study.network, i, "m") : std::string_view();
+    fmt::print(out, "{:<16}{:>18.10g}{:>18.10g}{:>6}\n", study.network.masses[i],
+               std::abs(motion.peaks[i].displacement), motion.peaks[i].time, unit);
   }
   for (const auto& [name, stops] : stops_of_elements(study, motion)) {
     fmt::print(out, "{}: {} stop{}", name, stops.size(), stops.size() == 1 ? "" : "s");

@@ -12,6 +12,7 @@
 #include "engine/progress.hpp"
 #include "engine/team.hpp"
 #include "solvers/mechanics/linear_system.hpp"
+#include "solvers/mechanics/rotation.hpp"
 #include "studies/identification/identification_record.hpp"
 #include "studies/map/map_plan.hpp"
 #include "studies/map/map_sample.hpp"
@@ -128,8 +129,12 @@ int check_motion(const Study& study, std::ostream& out) {
     print_transient_choice(study, out);
   }
   for (std::size_t i = 0; i < initial.displacement.size(); ++i) {
+    const bool turns = mechanics::rotates(study.network, i);
+    const auto unit = [&](const char* linear, const char* angular) {
+      return study.dimensionless ? "" : turns ? angular : linear;
+    };
     fmt::print(out, "initial    {}: {:.6g}{}, {:.6g}{}\n", study.network.masses[i], initial.displacement[i],
-               study.dimensionless ? "" : " m", initial.velocity[i], study.dimensionless ? "" : " m/s");
+               unit(" m", " rad"), initial.velocity[i], unit(" m/s", " rad/s"));
   }
   fmt::print(out, "samples    {}\n\n", study.motion()->samples);
   try {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -12,6 +13,7 @@
 #include <string_view>
 
 #include "results/map_reader.hpp"
+#include "solvers/mechanics/rotation.hpp"
 #include "studies/motion/measurements.hpp"
 #include "studies/program/whole_file.hpp"
 #include "studies/reading/settings.hpp"
@@ -69,10 +71,22 @@ std::uint64_t seed_of(const std::string& text) {
                    "--seed \"{}\": must be a whole number from 0 to 18446744073709551615", text);
 }
 
-Quantity quantity_of(std::string_view column) {
-  if (column.ends_with("_velocity")) return Quantity::speed;
-  if (column.ends_with("_acceleration")) return Quantity::acceleration;
-  return column.ends_with("_force") ? Quantity::force : Quantity::length;
+bool is_of_rotation(const mechanics::Network& network, std::string_view owner) {
+  const auto of_element = [&](const mechanics::Element& each) {
+    return each.name == owner && each.rotational;
+  };
+  const auto mass = std::ranges::find(network.masses, owner) - network.masses.begin();
+  return mechanics::rotates(network, static_cast<std::size_t>(mass)) ||
+         std::ranges::any_of(network.elements, of_element);
+}
+
+Quantity quantity_of(const Study& study, std::string_view column) {
+  const bool rotation = is_of_rotation(study.network, column.substr(0, column.rfind('_')));
+  if (column.ends_with("_velocity")) return rotation ? Quantity::angular_frequency : Quantity::speed;
+  if (column.ends_with("_acceleration"))
+    return rotation ? Quantity::angular_acceleration : Quantity::acceleration;
+  if (column.ends_with("_force")) return rotation ? Quantity::torque : Quantity::force;
+  return rotation ? Quantity::angle : Quantity::length;
 }
 
 // A share of each column, or an amount in a unit that all columns can have.
@@ -89,10 +103,12 @@ SensorNoise noise_of(const Study& study, const DataOptions& options) {
                      "--noise \"{}\": has no unit; write a share such as 1%, or an amount such as \"0.1 mm\"",
                      options.noise);
   }
-  const Quantity first = options.columns.empty() ? Quantity::length : quantity_of(options.columns.front());
+  const Quantity first =
+      quantity_of(study, options.columns.empty() ? study.network.masses.front() + "_displacement"
+                                                 : options.columns.front());
   noise.absolute = si_amount(study, "--noise", options.noise, first);
   for (const std::string& column : options.columns)
-    si_amount(study, "--noise", options.noise, quantity_of(column));
+    si_amount(study, "--noise", options.noise, quantity_of(study, column));
   return noise;
 }
 

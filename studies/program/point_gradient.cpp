@@ -5,7 +5,8 @@
 namespace frahm::studies {
 namespace {
 
-// The number parameters that masses, elements, excitation and frequency depend on, ascending.
+// The number parameters that masses, elements, excitation and frequency depend on, ascending; not those of
+// factors, which are part of the topology.
 std::vector<std::size_t> inputs_of_network(const Study& study) {
   std::vector<std::size_t> reads = study.values.omega.expression.reads();
   for (const std::vector<StudyValue>* list : study.values.lists()) {
@@ -16,7 +17,10 @@ std::vector<std::size_t> inputs_of_network(const Study& study) {
   }
   std::sort(reads.begin(), reads.end());
   reads.erase(std::unique(reads.begin(), reads.end()), reads.end());
-  return study.parameters.inputs_of(reads);
+  std::vector<std::size_t> inputs = study.parameters.inputs_of(reads);
+  const auto of_factors = study.parameters.inputs_of(study.values.read_by_factors());
+  std::erase_if(inputs, [&](std::size_t i) { return std::ranges::binary_search(of_factors, i); });
+  return inputs;
 }
 
 mechanics::NetworkValues values_at(const Study& study, std::vector<double> parameters) {

@@ -10,7 +10,8 @@
 namespace frahm::studies {
 
 // The derivatives of the differentiable standard quantities by each number parameter on which the network
-// depends; by the excitation frequency itself if no parameter sets it.
+// depends, but for those in factors of directions; by the excitation frequency itself if no parameter sets
+// it.
 struct PointGradient {
   struct By {
     std::string parameter;

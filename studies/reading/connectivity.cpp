@@ -1,8 +1,11 @@
 #include <fmt/format.h>
 
+#include <Eigen/Core>
 #include <numeric>
 
+#include "solvers/algebra/null_space.hpp"
 #include "solvers/mechanics/element_table.hpp"
+#include "solvers/mechanics/linear_system.hpp"
 #include "studies/reading/spelling.hpp"
 #include "studies/reading/study_reading.hpp"
 
@@ -26,6 +29,13 @@ class Union {
   std::vector<std::size_t> parent_;
 };
 
+// Whether the element holds masses in position; not with a stiffness of 0.
+bool holds(const mechanics::Element& element, const StudyValue& stiffness) {
+  const bool absent =
+      stiffness.expression.is_constant() && stiffness.expression.evaluate(std::span<const double>{}) == 0.0;
+  return mechanics::kind_of(element).holds && !absent;
+}
+
 }  // namespace
 
 void check_masses_are_held(const StudyContext& context, const NetworkOfStudy& system,
@@ -38,9 +48,10 @@ void check_masses_are_held(const StudyContext& context, const NetworkOfStudy& sy
   Union sets(held + 1);
   for (std::size_t i = 0; i < network.elements.size(); ++i) {
     const auto& element = network.elements[i];
-    const Expression& stiffness = system.values.element[i].expression;
-    const bool absent = stiffness.is_constant() && stiffness.evaluate(std::span<const double>{}) == 0.0;
-    if (mechanics::kind_of(element).holds && !absent) sets.join(set_of(element.a), set_of(element.b));
+    if (!holds(element, system.values.element[i])) continue;
+    for (const auto& [node, factor] : element.along) sets.join(set_of(node), set_of(element.along[0].node));
+    // What a lever holds depends on its factors: check_combinations_are_held().
+    if (!mechanics::is_between_two_nodes(element.along)) sets.join(held, set_of(element.along[0].node));
   }
   for (std::size_t i = 0; i < held; ++i) {
     if (sets.root(i) == sets.root(held)) continue;
@@ -55,6 +66,35 @@ void check_masses_are_held(const StudyContext& context, const NetworkOfStudy& sy
         floating.size() == 1 ? "mass" : "the masses", listed(floating, " and "),
         floating.size() == 1 ? "s" : "");
   }
+}
+
+// Motions q of the masses that strain no spring, w^T q = 0.
+void check_combinations_are_held(const Study& study) {
+  const mechanics::Network& network = study.network;
+  std::vector<Eigen::VectorXd> springs;
+  for (std::size_t e = 0; e < network.elements.size(); ++e) {
+    if (holds(network.elements[e], study.values.element[e]))
+      springs.push_back(mechanics::incidence(network, network.elements[e]).w);
+  }
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(springs.size()),
+                                            static_cast<Eigen::Index>(network.masses.size()));
+  for (std::size_t i = 0; i < springs.size(); ++i)
+    A.row(static_cast<Eigen::Index>(i)) = springs[i].normalized();
+  const Eigen::MatrixXd free = algebra::null_space(A);
+  if (free.cols() == 0) return;
+  constexpr double rounding = 1e-9;
+  std::vector<std::string> floating;
+  const StudyValue* first = nullptr;
+  for (std::size_t i = 0; i < network.masses.size(); ++i) {
+    if (free.row(static_cast<Eigen::Index>(i)).norm() < rounding) continue;
+    floating.push_back(fmt::format("\"{}\"", network.masses[i]));
+    if (!first) first = &study.values.mass[i];
+  }
+  throw study.source.error_at(
+      rules::floating_mass, first->position,
+      "{}: {} can move together without straining any spring, so the stiffness matrix is "
+      "not positive definite; each needs one more spring",
+      first->where, listed(floating, " and "));
 }
 
 }  // namespace frahm::studies

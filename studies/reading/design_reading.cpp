@@ -198,7 +198,9 @@ std::size_t read_each(TuneReading& reading, const std::string& path, const Read&
 }  // namespace
 
 bool network_depends_on(const Study& study, std::size_t parameter) {
-  std::vector<std::size_t> reads = study.values.omega.expression.reads();
+  std::vector<std::size_t> reads = study.values.read_by_factors();  // refused in the end, by direction_of()
+  reads.insert(reads.end(), study.values.omega.expression.reads().begin(),
+               study.values.omega.expression.reads().end());
   for (const auto* list : study.values.lists()) {
     for (const StudyValue& value : *list)
       reads.insert(reads.end(), value.expression.reads().begin(), value.expression.reads().end());

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "solvers/mechanics/rotation.hpp"
 #include "studies/reading/network_reading.hpp"
 #include "studies/reading/spelling.hpp"
 
@@ -93,8 +94,9 @@ void read_component(NetworkReading& reading, const TomlSection& section, Excitat
   const std::string key = is_force ? "amplitude" : key_of_amplitude(section);
   StudyValue amplitude, phase = read_value(reading, section, "phase", Quantity::angle, Range::finite, 0.0);
   if (key == "amplitude") {
-    amplitude =
-        read_value(reading, section, key, is_force ? Quantity::force : Quantity::length, Range::finite);
+    const bool is_torque = is_force && mechanics::rotates(network, component.node);
+    const Quantity quantity = is_torque ? Quantity::torque : is_force ? Quantity::force : Quantity::length;
+    amplitude = read_value(reading, section, key, quantity, Range::finite);
   } else {
     read_rate(reading, section, key, component.order, amplitude, phase);
   }

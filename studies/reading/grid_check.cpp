@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "solvers/mechanics/crank.hpp"
+#include "studies/reading/direction_reading.hpp"
 #include "studies/reading/study_reading.hpp"
 
 namespace frahm::studies {
@@ -213,6 +214,7 @@ void check_point(const Study& study, std::span<double> parameters, std::string_v
     checked.origin = origin;
     check(study, checked, parameters);
   }
+  for (const StudyDirection& along : study.values.along) check_direction_at(study, along, parameters, origin);
 }
 
 void check_grid(const Study& study) {

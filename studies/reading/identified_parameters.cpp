@@ -74,6 +74,8 @@ bool system_depends_on(const Study& study, std::size_t parameter) {
       if (reads(study, value, parameter)) return true;
     }
   }
+  const auto of_factors = study.parameters.inputs_of(study.values.read_by_factors());
+  if (std::ranges::find(of_factors, parameter) != of_factors.end()) return true;  // refused by direction_of()
   return std::ranges::any_of(study.initial(), [&](const InitialValues& of_mass) {
     return reads(study, of_mass.displacement, parameter) || reads(study, of_mass.velocity, parameter);
   });

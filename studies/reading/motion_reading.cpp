@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "solvers/mechanics/rotation.hpp"
 #include "studies/reading/network_reading.hpp"
 #include "studies/reading/spelling.hpp"
 
@@ -40,8 +41,11 @@ InitialValues read_initial_values(NetworkReading& reading, const TomlValue& tabl
   }
   if (!section.find("displacement") && !section.find("velocity"))
     section.fail_here(rules::one_of_two_keys, "a displacement, a velocity or both are needed");
-  return {node->index, read_value(reading, section, "displacement", Quantity::length, Range::finite, 0.0),
-          read_value(reading, section, "velocity", Quantity::speed, Range::finite, 0.0)};
+  const bool turns = mechanics::rotates(network, node->index);
+  const Quantity displacement = turns ? Quantity::angle : Quantity::length;
+  const Quantity velocity = turns ? Quantity::angular_frequency : Quantity::speed;
+  return {node->index, read_value(reading, section, "displacement", displacement, Range::finite, 0.0),
+          read_value(reading, section, "velocity", velocity, Range::finite, 0.0)};
 }
 
 std::vector<InitialValues> read_initial(NetworkReading& reading, const TomlValue& root) {

@@ -43,6 +43,9 @@ std::optional<StudyValue> read_optional(NetworkReading& reading, const TomlSecti
                                         const std::string& key, Quantity quantity,
                                         Range range = Range::positive);
 
+// An [[element]], after the masses and the nodes of prescribed motion. number: from 1.
+void read_element(NetworkReading& reading, const TomlValue& table, std::size_t number);
+
 // [[excitation.motion]] names the nodes of prescribed motion, so it comes before the elements. [excitation]
 // with its forces and the frequency comes after the masses. Constant forces alone are refused unless
 // constant_will_do: they cause no periodic motion, but a suddenly applied load causes a transient.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "solvers/mechanics/rotation.hpp"
 #include "studies/reading/spelling.hpp"
 
 namespace frahm::studies {
@@ -82,12 +83,17 @@ std::vector<RecordForm> added_mass_forms() {
 
 std::vector<RecordForm> grey_box_forms(const mechanics::Network& network) {
   std::vector<Role> roles;
-  for (const std::string& mass : network.masses) {
-    roles.push_back(optional(mass + "_displacement", Quantity::length));
-    roles.push_back(optional(mass + "_velocity", Quantity::speed));
-    roles.push_back(optional(mass + "_acceleration", Quantity::acceleration));
+  for (std::size_t i = 0; i < network.masses.size(); ++i) {
+    const std::string& mass = network.masses[i];
+    const bool turns = mechanics::rotates(network, i);
+    roles.push_back(optional(mass + "_displacement", turns ? Quantity::angle : Quantity::length));
+    roles.push_back(optional(mass + "_velocity", turns ? Quantity::angular_frequency : Quantity::speed));
+    roles.push_back(
+        optional(mass + "_acceleration", turns ? Quantity::angular_acceleration : Quantity::acceleration));
   }
-  for (const std::string& mass : network.masses) roles.push_back(optional(mass + "_force", Quantity::force));
+  for (std::size_t i = 0; i < network.masses.size(); ++i)
+    roles.push_back(optional(network.masses[i] + "_force",
+                             mechanics::rotates(network, i) ? Quantity::torque : Quantity::force));
   for (const std::string& support : network.prescribed)
     roles.push_back(optional(support + "_displacement", Quantity::length));
   return {trace(std::move(roles))};

@@ -125,6 +125,7 @@ bool has_system(const TomlValue& root) {
 
 // Checks that every value is valid wherever the study goes.
 void check_whole(Study& study) {
+  set_directions(study);
   check_grid(study);
   set_crank_orders(study);
   if (study.tune()) check_tuning(study);

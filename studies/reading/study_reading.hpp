@@ -71,6 +71,12 @@ void refuse_smooth_friction(const Study& study);
 // masses: their positions in the study.
 void check_masses_are_held(const StudyContext& context, const NetworkOfStudy& system,
                            const std::vector<Position>& masses);
+// The same where levers hold them, whose factors are settled.
+void check_combinations_are_held(const Study& study);
+
+// Gives each element `along` a combination its factors, once units are converted and all that may change is
+// read. Refuses factors that change within the study, and masses that no spring holds through levers.
+void set_directions(Study& study);
 
 // [[axis]], [[coordinate]], [output] and [report] into the choice of a sweep.
 void read_axes(const StudyContext& context, const TomlValue& root, Study& study);

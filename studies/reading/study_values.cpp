@@ -23,6 +23,15 @@ void fill(const StudyValues& values, std::span<const Number> parameters, Part pa
 
 }  // namespace
 
+std::vector<std::size_t> StudyValues::read_by_factors() const {
+  std::vector<std::size_t> reads;
+  for (const StudyDirection& direction : along) {
+    for (const StudyValue& factor : direction.factors)
+      reads.insert(reads.end(), factor.expression.reads().begin(), factor.expression.reads().end());
+  }
+  return reads;
+}
+
 void evaluate(const StudyValues& values, const Parameters& definitions, std::span<double> parameters,
               mechanics::NetworkValues& out) {
   definitions.complete(parameters);

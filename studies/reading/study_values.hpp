@@ -25,17 +25,32 @@ struct StudyValue {
   Position position;
 };
 
+// A combination of coordinates as the study gives it: `along = { roof = 1, wheel = "-r" }`. Its factors are
+// part of the topology: they are the same at every point of a study.
+struct StudyDirection {
+  std::vector<mechanics::Node> nodes{};  // each once
+  std::vector<StudyValue> factors{};     // of each node, not zero
+  bool rotational = false;               // u is an angle
+  bool twists_ground = false;            // as in mechanics::Element
+  Position position;
+
+  bool is_given() const { return !nodes.empty(); }
+};
+
 // All numbers of a network, in the order of mechanics::NetworkValues.
 struct StudyValues {
   StudyValue omega;
   std::vector<StudyValue> mass, element, amplitude, phase;
-  std::vector<StudyValue> second;  // of each element, the constant 0 where it has none
-  std::vector<StudyValue> rod;     // of each excitation, the constant 0 where it is no crank
+  std::vector<StudyValue> second;     // of each element, the constant 0 where it has none
+  std::vector<StudyValue> rod;        // of each excitation, the constant 0 where it is no crank
+  std::vector<StudyDirection> along;  // of each element, not given where it is between two nodes
 
   // All but the frequency.
   std::array<const std::vector<StudyValue>*, 6> lists() const {
     return {&mass, &element, &second, &amplitude, &phase, &rod};
   }
+  // Indices of the parameters that the factors of directions read.
+  std::vector<std::size_t> read_by_factors() const;
 };
 
 // The numbers of the network at one point of the map.

@@ -18,7 +18,7 @@ struct QuantityEntry {
 };
 
 // In the order of Quantity.
-constexpr std::array<QuantityEntry, 15> quantities{{
+constexpr std::array<QuantityEntry, 20> quantities{{
     {"a pure number", "1", "1", "1 or %", {0, 0, 0}},
     {"a length", "m", "m", "m, mm or um", {1, 0, 0}},
     {"a mass", "kg", "kg", "kg, g or t", {0, 1, 0}},
@@ -34,6 +34,11 @@ constexpr std::array<QuantityEntry, 15> quantities{{
     {"an angular acceleration", "rad s-2", "rad/s2", "rad/s2, rpm/s or Hz/s", {0, 0, -2}},
     {"an acceleration", "m s-2", "m/s2", "m/s2 or mm/s2", {1, 0, -2}},
     {"an energy", "J", "J", "J, mJ or N m", {2, 1, -2}},
+    {"a moment of inertia", "kg m2", "kg m2", "kg m2 or g cm2", {2, 1, 0}},
+    {"a torque", "N m", "N m", "N m, N mm or kN m", {2, 1, -2}},
+    {"a torsional stiffness", "N m rad-1", "N m/rad", "N m/rad, N m or N m/degree", {2, 1, -2}},
+    {"a torsional damping", "N m s rad-1", "N m s/rad", "N m s/rad or N m s", {2, 1, -1}},
+    {"an inverse angular speed", "s rad-1", "s/rad", "s/rad or s", {0, 0, 1}},
 }};
 
 const QuantityEntry& entry(Quantity quantity) {
@@ -46,7 +51,9 @@ bool has_dimension(const Unit& unit, Quantity quantity) {
       quantity == Quantity::angular_acceleration) {
     return unit.radians == 0 || unit.radians == 1;
   }
-  return unit.radians == 0;
+  const bool by_angle = quantity == Quantity::torsional_stiffness ||
+                        quantity == Quantity::torsional_damping || quantity == Quantity::inverse_rate;
+  return unit.radians == 0 || (by_angle && unit.radians == -1);
 }
 
 // A unit as the visitor of UDUNITS reads it; proportional = false for temperatures, logarithms and dates.

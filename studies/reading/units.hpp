@@ -27,6 +27,11 @@ enum class Quantity {
   angular_acceleration,  // rad/s2
   acceleration,          // m/s2
   energy,                // J
+  inertia,               // kg m2
+  torque,                // N m
+  torsional_stiffness,   // N m/rad
+  torsional_damping,     // N m s/rad
+  inverse_rate,          // s/rad
 };
 
 std::string_view quantity_name(Quantity quantity);    // with its article: "a stiffness"

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "solvers/mechanics/rotation.hpp"
+
 namespace frahm::studies {
 namespace {
 
@@ -58,20 +60,30 @@ std::string node_text(const mechanics::Node& node) {
   return fmt::format("{}:{}", static_cast<int>(node.kind), node.index);
 }
 
+// Two nodes as ever: files of earlier versions know them so.
+std::string direction_text(const mechanics::Element& element) {
+  if (const auto& ends = element.along; mechanics::is_between_two_nodes(ends))
+    return fmt::format("{} {}", node_text(ends[0].node), node_text(ends[1].node));
+  std::string text = fmt::format("along rotational {} twists {}", element.rotational, element.twists_ground);
+  for (const auto& [node, factor] : element.along) text += fmt::format(" {} {}", node_text(node), factor);
+  return text;
+}
+
 void add_network(const Study& study, CanonicalText& text) {
   const mechanics::Network& network = study.network;
   const StudyValues& values = study.values;
   const auto names = study.parameters.names();
   const auto value = [&](const StudyValue& each) { return each.expression.canonical_text(names); };
   for (std::size_t i = 0; i < network.masses.size(); ++i) {
-    text.line("mass {} {}", network.masses[i], value(values.mass[i]));
+    text.line("{} {} {}", mechanics::rotates(network, i) ? "inertia" : "mass", network.masses[i],
+              value(values.mass[i]));
   }
   text.line("prescribed {}", fmt::join(network.prescribed, " "));
   for (std::size_t i = 0; i < network.elements.size(); ++i) {
     const mechanics::Element& element = network.elements[i];
-    text.line("element {} {} {} {} {} {} {}", element.name, static_cast<int>(element.type),
-              node_text(element.a), node_text(element.b), value(values.element[i]),
-              static_cast<int>(element.law), value(values.second[i]));
+    text.line("element {} {} {} {} {} {}", element.name, static_cast<int>(element.type),
+              direction_text(element), value(values.element[i]), static_cast<int>(element.law),
+              value(values.second[i]));
   }
   text.line("frequency {}", value(values.omega));
   for (std::size_t i = 0; i < network.excitations.size(); ++i) {

@@ -106,9 +106,11 @@ Change shuffled(const Case& original) {
   };
   for (std::size_t e = 0; e < elements.size(); ++e) {
     Element element = network.elements[elements[e]];
-    element.a = moved(element.a);
-    element.b = moved(element.b);
-    if (e % 2 == 0) std::swap(element.a, element.b);
+    for (auto& [node, factor] : element.along) {
+      node = moved(node);
+      if (e % 2 == 0) factor = -factor;
+    }
+    if (e % 2 == 0) std::ranges::reverse(element.along);
     to.network.elements[e] = element;
     to.values.element[e] = original.values.element[elements[e]];
     to.values.second[e] = original.values.second[elements[e]];
@@ -163,6 +165,24 @@ Change orders_multiplied(const Case& original) {
   return change;
 }
 
+// A mass that no force drives, behind a gear: q = ratio x the new coordinate, so that all act on it by a
+// lever.
+void add_geared(const Case& original, double ratio, std::vector<Change>& changes) {
+  const Network& network = original.network;
+  const std::size_t mass = original.seed % network.masses.size();
+  const auto drives = [&](const Excitation& x) { return x.kind == ExcitationKind::force && x.node == mass; };
+  if (std::ranges::any_of(network.excitations, drives)) return;
+  Change change{"geared", original, {}};
+  change.without = network.masses[mass];
+  change.changed.values.mass[mass] *= ratio * ratio;
+  for (Element& element : change.changed.network.elements) {
+    for (auto& [node, factor] : element.along) {
+      if (node == Node{NodeKind::mass, mass}) factor *= ratio;
+    }
+  }
+  changes.push_back(std::move(change));
+}
+
 }  // namespace
 
 std::vector<Change> changes_of(const Case& original) {
@@ -179,6 +199,7 @@ std::vector<Change> changes_of(const Case& original) {
                               later(original, 2.6),
                               orders_multiplied(original)};
   add_splits(original, changes);
+  add_geared(original, -2.5, changes);
   return changes;
 }
 

@@ -14,7 +14,7 @@ struct Change {
   Factors factors;           // of the numbers
   double periods = 1.0;      // of the old motion in one period of the new
   double sign = 1.0;         // of displacements
-  std::string without = {};  // the element whose own figures are not compared
+  std::string without = {};  // the element or mass whose own figures are not compared
 };
 
 std::vector<Change> changes_of(const Case& original);

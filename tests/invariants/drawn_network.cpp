@@ -153,7 +153,7 @@ class Drawing {
     for (std::size_t e = 0; e < case_.network.elements.size(); ++e) {
       const Element& element = case_.network.elements[e];
       double per_mass = 0.0;
-      for (const Node& node : {element.a, element.b})
+      for (const auto& [node, factor] : element.along)
         per_mass += node.kind == NodeKind::mass ? 1.0 / case_.values.mass[node.index] : 0.0;
       const double value = case_.values.element[e], second = case_.values.second[e];
       if (element.type == ElementType::damper) fastest = std::max(fastest, value * per_mass);

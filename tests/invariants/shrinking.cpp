@@ -35,7 +35,8 @@ void drop_excitation(Case& c, std::size_t k) {
 void drop_mass(Case& c, std::size_t i) {
   const Node gone{NodeKind::mass, i};
   for (std::size_t e = c.network.elements.size(); e-- > 0;) {
-    if (c.network.elements[e].a == gone || c.network.elements[e].b == gone) drop_element(c, e);
+    const Direction& along = c.network.elements[e].along;
+    if (std::ranges::find(along, gone, &Share::node) != along.end()) drop_element(c, e);
   }
   const auto acts_on = [](const Excitation& x, std::size_t mass) {
     return x.kind == ExcitationKind::force && x.node == mass;
@@ -49,8 +50,7 @@ void drop_mass(Case& c, std::size_t i) {
     if (node.kind == NodeKind::mass && node.index > i) --node.index;
   };
   for (Element& element : c.network.elements) {
-    close_up(element.a);
-    close_up(element.b);
+    for (Share& share : element.along) close_up(share.node);
   }
   for (Excitation& x : c.network.excitations) {
     if (x.kind == ExcitationKind::force && x.node > i) --x.node;

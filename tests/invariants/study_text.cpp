@@ -43,13 +43,22 @@ std::string number(double x) {
   return fmt::format("{:#}", x);
 }
 
+std::string direction_text(const Network& network, const Direction& along) {
+  if (is_between_two_nodes(along))
+    return fmt::format("between = [\"{}\", \"{}\"]", node_name(network, along[0].node),
+                       node_name(network, along[1].node));
+  std::string shares;
+  for (const auto& [node, factor] : along)
+    shares += fmt::format("{}{} = {}", shares.empty() ? "" : ", ", node_name(network, node), number(factor));
+  return fmt::format("along = {{ {} }}", shares);
+}
+
 std::string element_text(const Case& c, std::size_t e) {
   const Element& element = c.network.elements[e];
   const Keys keys = keys_of(element.type);
   std::string text =
-      fmt::format("[[element]]\nname = \"{}\"\ntype = \"{}\"\nbetween = [\"{}\", \"{}\"]\n{} = {}\n",
-                  element.name, keys.type, node_name(c.network, element.a), node_name(c.network, element.b),
-                  keys.first, number(c.values.element[e]));
+      fmt::format("[[element]]\nname = \"{}\"\ntype = \"{}\"\n{}\n{} = {}\n", element.name, keys.type,
+                  direction_text(c.network, element.along), keys.first, number(c.values.element[e]));
   if (keys.second != nullptr) text += fmt::format("{} = {}\n", keys.second, number(c.values.second[e]));
   return text;
 }

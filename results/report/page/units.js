@@ -88,6 +88,17 @@ export function axisUnit(unit, ends) {
   return { factor: factor * 10 ** -power, text: `\u00d710${superscript(power)}${text ? ` ${text}` : ""}` };
 }
 
+// The items by the unit that each has, in groups that a figure can draw on one axis: an angle is no length.
+export function groupedByUnit(items, unitOf) {
+  const groups = new Map();
+  for (const item of items) {
+    const unit = unitOf(item);
+    if (!groups.has(unit)) groups.set(unit, []);
+    groups.get(unit).push(item);
+  }
+  return [...groups].map(([unit, members]) => ({ unit, members }));
+}
+
 // "peak of main (mm)".
 export function withUnit(text, unit) {
   return unit ? `${text} (${unit})` : text;

@@ -4,8 +4,10 @@
 #include <numbers>
 #include <sstream>
 
+#include "solvers/algebra/shortest_solution.hpp"
 #include "solvers/algebra/solve.hpp"
 #include "solvers/mechanics/element_table.hpp"
+#include "solvers/mechanics/rotation.hpp"
 #include "solvers/tuning/variance/lyapunov.hpp"
 
 namespace frahm::tuning {
@@ -54,17 +56,41 @@ Variance::Variance(const mechanics::Network& network, const Noise& noise, const 
     throw MechanicsError("element '" + unfit->name + "' is " + mechanics::kind_of(*unfit).name +
                          ": the variance under white noise is that of linear elements with constant values");
   }
+  find_drifting_motion();
   check_drift();
   if (!(noise.intensity > 0.0 && std::isfinite(noise.intensity))) {
     throw MechanicsError("the intensity of the noise must be finite and positive");
   }
 }
 
-// Coefficient of the moving support's displacement in the relative displacement of an element, in coordinates
-// relative to that support: not 0 where the element joins the ground or another support. (A force leaves
+// The motion r of the masses that follows the support's unit displacement. What is held between two nodes
+// moves by 1; levers move their ends so that they are not strained either: w^T r + p = 0.
+void Variance::find_drifting_motion() {
+  const mechanics::Network& network = assembly_.network();
+  drifting_ = VectorXd::Ones(Index(network.masses.size()));
+  if (noise_.kind == NoiseKind::force_on) return;
+  for (std::size_t i = 0; i < network.masses.size(); ++i)
+    if (mechanics::rotates(network, i)) drifting_[Index(i)] = 0.0;
+  MatrixXd A = MatrixXd::Zero(Index(network.elements.size()), drifting_.size());
+  VectorXd strain = VectorXd::Zero(A.rows());
+  for (std::size_t e = 0; e < network.elements.size(); ++e) {
+    if (!mechanics::kind_of(network.elements[e]).holds) continue;
+    A.row(Index(e)) = assembly_.incidences()[e].w.transpose();
+    if (!mechanics::is_between_two_nodes(network.elements[e].along))
+      strain[Index(e)] = drift(assembly_.incidences()[e]);
+  }
+  if (!strain.isZero(0.0)) drifting_ -= algebra::shortest_solution(A, strain);
+}
+
+// Coefficient of the moving support's displacement in the displacement of an element, in coordinates relative
+// to the motion that follows it: not 0 where the element joins the ground or another support. (A force leaves
 // every support at rest: no drift.)
 double Variance::drift(const Incidence& at) const {
-  return noise_.kind == NoiseKind::force_on ? 0.0 : at.w.sum() + at.p[Index(noise_.node)];
+  if (noise_.kind == NoiseKind::force_on) return 0.0;
+  const double own = at.w.dot(drifting_), support = at.p[Index(noise_.node)];
+  constexpr double kRounding = 1e-12;
+  const double size = at.w.cwiseProduct(drifting_).cwiseAbs().sum() + std::abs(support);
+  return std::abs(own + support) > kRounding * size ? own + support : 0.0;
 }
 
 void Variance::check_drift() const {
@@ -87,11 +113,11 @@ Variance::State Variance::state(const NetworkValues& values) const {
   const Index n = system.masses(), s = system.internal_forces();
   result.M_inverse = algebra::solve_positive(system.M, MatrixXd(MatrixXd::Identity(n, n)));
 
-  // b = e_mass, or with q = x + 1 y and y'' = w:  b = -(M 1 + M_support e_node)
+  // b = e_mass, or with q = x + r y and y'' = w:  b = -(M r + M_support e_node)
   if (noise_.kind == NoiseKind::force_on) {
     result.b = VectorXd::Unit(n, Index(noise_.node));
   } else {
-    result.b = -(system.M.rowwise().sum() + system.M_support.col(Index(noise_.node)));
+    result.b = -(system.M * drifting_ + system.M_support.col(Index(noise_.node)));
   }
 
   // v' = -M^-1 (K q + C v + D s) + M^-1 b w,   s_e' = k_e d_e^T v - (k_e/c_e) s_e
@@ -163,7 +189,7 @@ Variance::Gradient Variance::gradient(const State& at, const NetworkValues& valu
   Gradient by{std::vector<double>(network.masses.size()), std::vector<double>(network.elements.size()),
               std::vector<double>(network.elements.size())};
   for (Index i = 0; i < n; ++i) {
-    by.mass[std::size_t(i)] = by_inertia(i, i) - (moved ? by_b[i] : 0.0);
+    by.mass[std::size_t(i)] = by_inertia(i, i) - (moved ? by_b[i] * drifting_[i] : 0.0);
   }
   for (std::size_t e = 0; e < network.elements.size(); ++e) {
     const Incidence& incidence = assembly_.incidences()[e];

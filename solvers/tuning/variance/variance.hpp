@@ -10,7 +10,7 @@
 namespace frahm::tuning {
 
 enum class NoisyKind {
-  displacement,  // of a mass, relative to the moving support under NoiseKind::acceleration_of
+  displacement,  // of a mass, under NoiseKind::acceleration_of relative to that which follows the support
   stroke,        // relative displacement of an element's ends
 };
 
@@ -46,6 +46,7 @@ class Variance {
   struct State;     // the equation z' = A z + B w at some values
   struct Gradient;  // derivatives by every value
 
+  void find_drifting_motion();
   void check_drift() const;
   State state(const mechanics::NetworkValues& values) const;
   Gradient gradient(const State& state, const mechanics::NetworkValues& values, const Eigen::MatrixXd& P,
@@ -55,6 +56,7 @@ class Variance {
   mechanics::Assembly assembly_;
   Noise noise_;
   NoisyQuantity measure_;
+  Eigen::VectorXd drifting_;  // displacements of the masses that follow the support's slowly, by its own
 };
 
 }  // namespace frahm::tuning

@@ -5,6 +5,7 @@ import { powerText, powerTicks } from "../../../results/report/page/figures/powe
 import { wrapped } from "../../../results/report/page/figures/text_lines.js";
 import {
   axisUnit,
+  groupedByUnit,
   numberText,
   quantityText,
   shareText,
@@ -65,4 +66,17 @@ test("a linear axis has a power of ten before its unit where its numbers would h
   assert.deepEqual(axisUnit("J", [0, 2.5e-13]), { factor: 1e15, text: "×10⁻¹⁵ J" });
   assert.equal(axisUnit("J", [0, 5e12]).text, "×10¹² J");
   assert.deepEqual(axisUnit("J", [0, 0.25]), { factor: 1000, text: "mJ" });
+});
+
+test("what has different units is drawn on different axes, in the order in which it comes", () => {
+  const named = (name, unit) => ({ name, unit });
+  const items = [named("machine", "m"), named("flywheel", "rad"), named("rack", "m")];
+  const groups = groupedByUnit(items, ({ unit }) => unit);
+  assert.deepEqual(
+    groups.map(({ unit, members }) => [unit, members.map(({ name }) => name)]),
+    [
+      ["m", ["machine", "rack"]],
+      ["rad", ["flywheel"]],
+    ],
+  );
 });

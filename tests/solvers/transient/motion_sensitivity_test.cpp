@@ -114,7 +114,8 @@ Eigen::MatrixXi contact_states(const Case& of, const Model& model, const Eigen::
     for (std::size_t e = 0; e < of.network.elements.size(); ++e) {
       const auto& element = of.network.elements[e];
       if (element.type != ElementType::coulomb) continue;
-      const double v = velocity_of(element.b) - velocity_of(element.a);
+      double v = 0.0;
+      for (const auto& [node, factor] : element.along) v += factor * velocity_of(node);
       constexpr double kSticks = 1e-12;  // [m/s], of motions of 1
       states(k, static_cast<Eigen::Index>(e)) = v > kSticks ? 1 : v < -kSticks ? -1 : 0;
     }

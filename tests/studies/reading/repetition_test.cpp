@@ -37,8 +37,8 @@ TEST_CASE("a repeated table is read as if it were written out") {
       "repeated.toml");
   CHECK(study.network.masses == std::vector<std::string>{"floor1", "floor2", "floor3"});
   CHECK(names_of_elements(study) == std::vector<std::string>{"columns1", "columns2", "columns3"});
-  CHECK(study.network.elements[2].a.index == 1);
-  CHECK(study.network.elements[2].b.index == 2);
+  CHECK(study.network.elements[2].along[0].node.index == 1);
+  CHECK(study.network.elements[2].along[1].node.index == 2);
   frahm::mechanics::NetworkValues values;
   std::vector<double> parameters = study.parameters.nominal();
   evaluate(study.values, study.parameters, parameters, values);

@@ -60,8 +60,8 @@ TEST_CASE("the rig atlas is the network and the grid of its file") {
   CHECK(rig.network.prescribed == std::vector<std::string>{"exciter"});
   REQUIRE(rig.network.elements.size() == 8);
   CHECK(rig.network.elements[1].name == "drive");
-  CHECK(rig.network.elements[1].a == Node{NodeKind::prescribed, 0});
-  CHECK(rig.network.elements[1].b == Node{NodeKind::mass, 0});
+  CHECK(rig.network.elements[1].along[0].node == Node{NodeKind::prescribed, 0});
+  CHECK(rig.network.elements[1].along[1].node == Node{NodeKind::mass, 0});
   CHECK(rig.network.elements[6].type == ElementType::inerter);
   REQUIRE(rig.network.excitations.size() == 1);
   CHECK(rig.network.excitations[0].kind == ExcitationKind::motion);

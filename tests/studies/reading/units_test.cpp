@@ -91,9 +91,25 @@ TEST_CASE("a unit of the wrong dimension is named with its dimension and what wa
   CHECK_THAT(complaint_about("rad", Quantity::number), Catch::Contains("an angle, but a pure number"));
   CHECK_THAT(complaint_about("Hz", Quantity::angle), Catch::Contains("an angular frequency, but an angle"));
   CHECK_THAT(complaint_about("degC", Quantity::mass), Catch::Contains("not proportional"));
-  CHECK_THAT(complaint_about("kg m2", Quantity::mass),
-             Catch::Contains("that of a quantity in m2 kg, but a mass"));
+  CHECK_THAT(complaint_about("kg m3", Quantity::mass),
+             Catch::Contains("that of a quantity in m3 kg, but a mass"));
   CHECK_THAT(complaint_about("K", Quantity::stiffness), Catch::Contains("a temperature"));
+}
+
+TEST_CASE("quantities of rotations are written with the radian or without it, and by degrees") {
+  const double degree = std::numbers::pi / 180.0;
+  check_si("N m/rad", Quantity::torsional_stiffness, 1.0);
+  check_si("N m", Quantity::torsional_stiffness, 1.0);
+  check_si("N m/degree", Quantity::torsional_stiffness, 1.0 / degree);
+  check_si("N m s/rad", Quantity::torsional_damping, 1.0);
+  check_si("N mm s", Quantity::torsional_damping, 1e-3);
+  check_si("kg cm2", Quantity::inertia, 1e-4);
+  check_si("kN m", Quantity::torque, 1e3);
+  check_si("s/rad", Quantity::inverse_rate, 1.0);
+  CHECK_THAT(complaint_about("N m rad", Quantity::torsional_stiffness),
+             Catch::Contains("a torsional stiffness"));
+  CHECK_THAT(complaint_about("N m/rad", Quantity::energy), Catch::Contains("that of a torsional stiffness"));
+  CHECK_THAT(complaint_about("kg m2", Quantity::mass), Catch::Contains("that of a moment of inertia"));
 }
 
 TEST_CASE("a unit is not inverted to make it fit, as UDUNITS would") {

@@ -52,6 +52,15 @@ TEST_CASE("whatever changes a number changes the physics") {
   CHECK(of(base + "[output]\nquantities = \"all\"\n").physics != of(base).physics);
 }
 
+TEST_CASE("a lever's factors are physics, and a combination of two nodes is the element between them") {
+  const std::string ends = "between = [\"ground\", \"main\"]\nstiffness";
+  CHECK(of(with(base, ends, "along = { ground = -1, main = 1 }\nstiffness")) == of(base));
+  const auto lever = of(with(base, ends, "along = { ground = -2, main = 2 }\nstiffness"));
+  CHECK(lever.physics != of(base).physics);
+  CHECK(of(with(base, ends, "along = { ground = -3, main = 2 }\nstiffness")).physics != lever.physics);
+  CHECK(of(with(base, "mass = 1", "inertia = 1")).physics != of(base).physics);
+}
+
 TEST_CASE("other values on an axis are another grid of the same physics") {
   const std::string finer = oscillator() + axis("f", 0, 1, 6) + axis("r", 0.1, 2, 11);
   CHECK(of(finer).physics == of(base).physics);

@@ -1,7 +1,7 @@
 // Histories of a motion, its turning points, phase portraits, decrements, and where its energy goes.
 import { decrementsEndEarly, envelope, isOneMode, isRounding, samplingOf, stretch } from "../motion.js";
 import { approachOf, restText } from "../motion_words.js";
-import { shareText, quantityText, words } from "../units.js";
+import { groupedByUnit, shareText, quantityText, words } from "../units.js";
 import { barFigure } from "./bar_figure.js";
 import { lineFigure, style } from "./line_figure.js";
 import { lineColours } from "./frame.js";
@@ -63,6 +63,16 @@ function historyLines(motion, quantity, { from, to } = { from: 0, to: motion.tim
   }));
 }
 
+// The motion with the masses that can share an axis, once for each unit of displacement.
+function partsByUnit(motion) {
+  const moving = motion.masses.filter(({ displacement }) => displacement);
+  return groupedByUnit(moving, ({ displacement }) => displacement.unit).map(({ unit, members }) => ({
+    ...motion,
+    masses: members,
+    suffix: unit === "rad" && members.length < moving.length ? "_of_rotations" : "",
+  }));
+}
+
 function titleOf(motion, quantity) {
   const shown = motion.masses.filter((mass) => mass[quantity]);
   const [one, many] =
@@ -75,7 +85,7 @@ const unitOf = (motion, quantity) => motion.masses.find((mass) => mass[quantity]
 function historyFigure(motion, quantity) {
   const displacement = quantity === "displacement";
   return lineFigure({
-    name: quantity,
+    name: `${quantity}${motion.suffix}`,
     title: titleOf(motion, quantity),
     ratio: displacement ? 0.45 : undefined,
     x: { ...timeAxis(motion), ...(Number.isFinite(motion.stopTime) ? { tight: false, zero: true } : {}) },
@@ -109,7 +119,7 @@ function cyclesFigures(motion) {
       { x } = lines[0];
     return [
       lineFigure({
-        name: `displacement_${end}_cycles`,
+        name: `displacement_${end}_cycles${motion.suffix}`,
         title: `The ${end} cycles`,
         caption: "",
         x: timeAxis(motion),
@@ -318,13 +328,16 @@ export function motionFigureParts(motion) {
   const { masses, time, frequency, energies } = motion;
   const { sparse } = samplingOf(motion);
   const histories = time && masses.some(({ displacement }) => displacement);
+  const parts = partsByUnit(motion);
   return {
     histories: histories
       ? [
-          historyFigure(motion, "displacement"),
-          ...(sparse ? [] : cyclesFigures(motion)),
+          ...parts.map((part) => historyFigure(part, "displacement")),
+          ...(sparse ? [] : parts.flatMap(cyclesFigures)),
           ...(frequency ? [runFigure(motion), frequencyFigure(motion)] : []),
-          ...(masses.some(({ velocity }) => velocity) ? [historyFigure(motion, "velocity")] : []),
+          ...parts
+            .filter((part) => part.masses.some(({ velocity }) => velocity))
+            .map((part) => historyFigure(part, "velocity")),
           ...masses
             .filter(({ displacement, velocity }) => !sparse && displacement && velocity)
             .map(portraitFigure),

@@ -1,6 +1,6 @@
 // Figures of a recorded orbit: time history, phase portrait, friction-force loop.
 import { coordinateText } from "../axes.js";
-import { shownUnit, withUnit, words } from "../units.js";
+import { groupedByUnit, shownUnit, withUnit, words } from "../units.js";
 import { curve, dots, drawFrame, grid, lineColours, roomFor } from "./frame.js";
 
 // The samples of orbit k (a ragged group: those from row_start[k] up to the next), as name -> {unit, values}.
@@ -84,24 +84,33 @@ const columnsOf = (samples, names) =>
 export function orbitFigures(samples, label, suffix) {
   if (!samples.get("time")?.values.length) return [];
   const masses = massesOf(samples);
-  const displacements = masses.map((mass) => `${mass}_displacement`);
-  const figures = [
-    {
-      name: `orbit_history${suffix}`,
-      title: "Displacements over one period",
-      caption: label,
-      draw: (canvas) => traces(canvas, samples, displacements, "displacement", "_displacement"),
-      table: () => columnsOf(samples, ["time", ...displacements]),
-    },
-  ];
-  const forces = contactsOf(samples).map((contact) => `${contact}_force`);
-  if (forces.length) {
+  const unitOf = (name) => samples.get(name).unit;
+  const figures = [];
+  for (const { unit, members } of groupedByUnit(
+    masses.map((mass) => `${mass}_displacement`),
+    unitOf,
+  )) {
+    const turns = unit === "rad";
     figures.push({
-      name: `orbit_friction${suffix}`,
-      title: "Friction forces over one period",
+      name: `orbit_${turns ? "rotations" : "history"}${suffix}`,
+      title: `${turns ? "Rotations" : "Displacements"} over one period`,
       caption: label,
-      draw: (canvas) => traces(canvas, samples, forces, "friction force", "_force"),
-      table: () => columnsOf(samples, ["time", ...forces]),
+      draw: (canvas) =>
+        traces(canvas, samples, members, turns ? "rotation" : "displacement", "_displacement"),
+      table: () => columnsOf(samples, ["time", ...members]),
+    });
+  }
+  for (const { unit, members } of groupedByUnit(
+    contactsOf(samples).map((contact) => `${contact}_force`),
+    unitOf,
+  )) {
+    const word = unit === "N m" ? "torque" : "force";
+    figures.push({
+      name: `orbit_friction${unit === "N m" ? "_torque" : ""}${suffix}`,
+      title: `Friction ${word}s over one period`,
+      caption: label,
+      draw: (canvas) => traces(canvas, samples, members, `friction ${word}`, "_force"),
+      table: () => columnsOf(samples, ["time", ...members]),
     });
   }
   for (const mass of masses) {

@@ -64,7 +64,7 @@ TEST_CASE("one mass under white noise has the variance pi S0 / (c k), or pi S0 m
 
   Network moved = fixed;
   moved.prescribed = {"base"};
-  for (Element& element : moved.elements) element.a = base;
+  for (Element& element : moved.elements) element.along[0].node = base;
   const Variance of_base(moved, {NoiseKind::acceleration_of, 0, intensity}, {NoisyKind::stroke, 0});
   CHECK_THAT(of_base.mean_square(values), WithinRel(pi * intensity * m * m / (c * k), kExact));
 }
@@ -351,7 +351,7 @@ TEST_CASE("a variance that is infinite, or of no linear system, is refused by na
   CHECK_THROWS_WITH(Variance(standing, acceleration, {}),
                     Contains("'suspension'") && Contains("'base' drifts"));
   Network partly = moved;
-  partly.elements[3].a = ground;  // the inerter alone may stand on the ground
+  partly.elements[3].along[0].node = ground;  // the inerter alone may stand on the ground
   CHECK_NOTHROW(Variance(partly, acceleration, {}).mean_square(tmd_values(0.1, 0.1, 0.9, 0.1)));
   CHECK_THROWS_WITH(Variance(partly, acceleration, {NoisyKind::stroke, 3}), Contains("'inerter'"));
   CHECK_THROWS_WITH(Variance(moved, force, {}).mean_square(tmd_values(0.1, 0.0, 0.9, 0.0)),
