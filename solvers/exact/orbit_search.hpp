@@ -193,7 +193,8 @@ template <int N, int H>
 typename OrbitSearch<N, H>::Shift OrbitSearch<N, H>::settle_rest_position(Orbit<N, H>& orbit) {
   const StepEquations<N, H>& eq = flow_.equations();
   const std::vector<StuckForce> forces = stuck_forces(orbit.stuck_throughout, orbit);
-  integrals_.integrate(steps_, flow_, orbit.half_period, [](const auto&, auto& powers) { powers.clear(); });
+  integrals_.integrate(steps_, flow_, orbit.half_period, {},
+                       [](const auto&, auto& powers) { powers.clear(); });
   const double period = eq.period * eq.step;
   const Eigen::VectorXd mean = integrals_.gram().col(eq.states()).head(eq.states()) / period;
   const RestDirections rest = rest_directions(eq, orbit.stuck_throughout);

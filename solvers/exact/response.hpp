@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "solvers/mechanics/coordinates.hpp"
 #include "solvers/mechanics/network.hpp"
 #include "solvers/mechanics/rotation.hpp"
 #include "solvers/quantities/observed_motion.hpp"
@@ -48,7 +49,7 @@ struct History {
   std::vector<std::vector<double>> columns;
 
   // Without samples: displacement and velocity of each mass, force of each element, acceleration of each
-  // mass.
+  // mass; displacement, velocity and acceleration of each signal.
   static History of(const mechanics::Network& network) {
     History history;
     const auto add_column = [&](const std::string& name, std::string_view unit) {
@@ -56,16 +57,21 @@ struct History {
       history.units.emplace_back(unit);
       history.columns.emplace_back();
     };
-    const auto add_of_mass = [&](std::size_t mass, const char* what, const char* unit) {
-      add_column(network.masses[mass] + what, mechanics::unit_of_mass(network, mass, unit));
+    const auto add_of_coordinate = [&](std::size_t i, const char* what, const char* unit) {
+      add_column(mechanics::coordinate_name(network, i) + what, mechanics::coordinate_unit(network, i, unit));
     };
     for (std::size_t i = 0; i < network.masses.size(); ++i) {
-      add_of_mass(i, "_displacement", "m");
-      add_of_mass(i, "_velocity", "m s-1");
+      add_of_coordinate(i, "_displacement", "m");
+      add_of_coordinate(i, "_velocity", "m s-1");
     }
     for (const auto& element : network.elements)
       add_column(element.name + "_force", mechanics::unit_of_element(element, "N"));
-    for (std::size_t i = 0; i < network.masses.size(); ++i) add_of_mass(i, "_acceleration", "m s-2");
+    for (std::size_t i = 0; i < network.masses.size(); ++i) add_of_coordinate(i, "_acceleration", "m s-2");
+    for (std::size_t i = network.masses.size(); i < mechanics::coordinate_count(network); ++i) {
+      add_of_coordinate(i, "_displacement", "m");
+      add_of_coordinate(i, "_velocity", "m s-1");
+      add_of_coordinate(i, "_acceleration", "m s-2");
+    }
     return history;
   }
 };

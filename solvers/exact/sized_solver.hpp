@@ -5,6 +5,7 @@
 #include "solvers/exact/nonstop_row.hpp"
 #include "solvers/exact/orbit_search.hpp"
 #include "solvers/exact/response.hpp"
+#include "solvers/mechanics/coordinates.hpp"
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/orbits/phase.hpp"
 #include "solvers/quantities/gradient.hpp"
@@ -135,6 +136,7 @@ History SizedSolver<N, H>::history(std::span<const double> phases) {
   const auto& network = assembly_.network();
   History result = History::of(network);
   const Forms<N, H> forms(assembly_, flow_);
+  const std::vector<mechanics::Incidence> signals = mechanics::signal_incidences(network);
   const Eigen::Index n = flow_.equations().masses();
   const double step = flow_.equations().step;
   for (const double phase : phases) {
@@ -159,6 +161,11 @@ History SizedSolver<N, H>::history(std::span<const double> phases) {
     }
     for (Eigen::Index mass = 0; mass < n; ++mass)
       result.columns[column++].push_back(sign * instant.a[mass] / (step * step));
+    for (const mechanics::Incidence& signal : signals) {
+      for (const LinearForm<N, H>& form :
+           {forms.displacement(signal), forms.velocity(signal), forms.acceleration(signal, mode)})
+        result.columns[column++].push_back(sign * form.at(instant).value);
+    }
   }
   return result;
 }

@@ -23,6 +23,12 @@ struct LinearForm {
 
   Polynomial polynomial(const Expansion<N, H>& x) const { return x.z * z + x.u * u; }
 
+  // y: state and oscillators, one after the other.
+  template <class Joined>
+  double value(const Joined& y) const {
+    return z.dot(y.head(z.size())) + u.dot(y.segment(z.size(), u.size()));
+  }
+
   LinearForm& add(double factor, const LinearForm& other) {
     z += factor * other.z;
     u += factor * other.u;

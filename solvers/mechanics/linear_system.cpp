@@ -39,14 +39,18 @@ void require_positive_definite(const Eigen::MatrixXd& matrix, const std::string&
 
 }  // namespace
 
-Incidence incidence(const Network& network, const Element& element) {
+Incidence incidence(const Network& network, const Direction& u) {
   Incidence result{Eigen::VectorXd::Zero(static_cast<Eigen::Index>(network.masses.size())),
                    Eigen::VectorXd::Zero(static_cast<Eigen::Index>(network.prescribed.size()))};
-  for (const auto& [node, factor] : element.along) {
+  for (const auto& [node, factor] : u) {
     if (node.kind == NodeKind::mass) result.w[static_cast<Eigen::Index>(node.index)] += factor;
     if (node.kind == NodeKind::prescribed) result.p[static_cast<Eigen::Index>(node.index)] += factor;
   }
   return result;
+}
+
+Incidence incidence(const Network& network, const Element& element) {
+  return incidence(network, element.along);
 }
 
 Assembly::Assembly(const Network& network)

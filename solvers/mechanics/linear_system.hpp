@@ -21,6 +21,7 @@ struct Incidence {
   Eigen::VectorXd w;  // size n
   Eigen::VectorXd p;  // size of Network::prescribed
 };
+Incidence incidence(const Network& network, const Direction& u);
 Incidence incidence(const Network& network, const Element& element);
 
 // The force on all supports together: of each element its force times -s_e, s_e the sum of its factors there.

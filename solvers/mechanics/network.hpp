@@ -90,6 +90,13 @@ struct Excitation {
   int taylor_order = 0;  // of a crank: 1, 2 or 4 cuts its Taylor series in crank/rod there; 0: exact
 };
 
+// A combination of coordinates that is reported as a mass is: a drift, a displacement relative to the base.
+struct Signal {
+  std::string name;
+  Direction along{};
+  bool rotational = false;  // it is an angle
+};
+
 struct Network {
   std::vector<std::string> masses;      // names of the moving nodes
   std::vector<std::string> prescribed;  // names of the nodes of prescribed motion
@@ -97,6 +104,7 @@ struct Network {
   std::vector<Excitation> excitations;
   int reference_order = 1;       // the harmonic of which phases are taken
   std::vector<bool> rotation{};  // of each mass: it is a moment of inertia; may be empty where none is
+  std::vector<Signal> signals{};
 };
 
 struct ExcitationValue {

@@ -3,6 +3,7 @@
 #include <complex>
 #include <cstdint>
 
+#include "solvers/mechanics/coordinates.hpp"
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/nonstop/nonstop_solver.hpp"
 #include "solvers/quantities/fundamental_response.hpp"
@@ -25,26 +26,29 @@ void NonstopSolver::lay_out_shape() {
   const mechanics::LinearSystem& system = systems_[0];
   const mechanics::Network& network = assembly_.network();
   const Eigen::Index n = system.masses(), s = system.internal_forces(), oscillators = 2 * n + s;
+  const Eigen::Index signals = oscillators + 1 + 2 * static_cast<Eigen::Index>(system.orders.size());
   products_.clear();
   entries_.clear();
-  integrated_states_.clear();
+  integrated_.clear();
   const auto add = [&](Eigen::Index row, Eigen::Index column) {
-    const auto place = [&](Eigen::Index state) {
-      const auto found = std::ranges::find(integrated_states_, state);
-      const auto index = static_cast<int>(found - integrated_states_.begin());
-      if (found == integrated_states_.end()) integrated_states_.push_back(state);
+    const auto place = [&](Eigen::Index of) {
+      const auto found = std::ranges::find(integrated_, of);
+      const auto index = static_cast<int>(found - integrated_.begin());
+      if (found == integrated_.end()) integrated_.push_back(of);
       return index;
     };
     const int a = place(row);
-    products_.push_back(
-        {a, column < oscillators ? place(column) : -1 - static_cast<int>(column - oscillators)});
+    const bool is_oscillator = column >= oscillators && column < signals;
+    products_.push_back({a, is_oscillator ? -1 - static_cast<int>(column - oscillators) : place(column)});
     entries_.push_back({row, column});
   };
   if (request_.needs.integrals) {
     const Eigen::Index reference = oscillators + 1 + 2 * reference_column(system);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      for (const Eigen::Index column : {i, oscillators, reference, reference + 1}) add(i, column);
-    }
+    const auto add_row = [&](Eigen::Index row) {
+      for (const Eigen::Index column : {row, oscillators, reference, reference + 1}) add(row, column);
+    };
+    for (Eigen::Index i = 0; i < n; ++i) add_row(i);
+    for (std::size_t i = 0; i < network.signals.size(); ++i) add_row(signals + static_cast<Eigen::Index>(i));
   }
   if (request_.needs.energies) {
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -94,7 +98,7 @@ void NonstopSolver::set_forms() {
   }
   for (const Trace& trace : request_.traces) forms_.push_back(form_of(trace, forms, system.coefficients));
   const std::size_t first = forms_.size();
-  for (const Eigen::Index state : integrated_states_) forms_.push_back(forms.state(state));
+  for (const Eigen::Index row : integrated_) forms_.push_back(integrated_form(forms, row));
   powers_.clear();
   const auto add_power = [&](Form force, Form velocity) {
     const auto index = static_cast<int>(forms_.size() - first);
@@ -128,6 +132,16 @@ void NonstopSolver::set_forms() {
     if (!form.element.isZero(0.0)) forms_with_friction_.push_back(f);
   }
   shape_.is_direct = is_direct_.data();
+}
+
+// A state itself, or the displacement of a signal.
+Form NonstopSolver::integrated_form(const SlidingForms& forms, Eigen::Index row) const {
+  const mechanics::LinearSystem& system = systems_[0];
+  const Eigen::Index states = 2 * system.masses() + system.internal_forces();
+  if (row < states) return forms.state(row);
+  const Eigen::Index signals = states + 1 + 2 * static_cast<Eigen::Index>(system.orders.size());
+  return forms.displacement(
+      mechanics::coordinate_incidence(assembly_.network(), size(system.masses() + row - signals)));
 }
 
 void NonstopSolver::lay_out_pack() {

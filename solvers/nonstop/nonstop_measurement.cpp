@@ -77,7 +77,9 @@ void NonstopSolver::measure(int lane) {
   if (request_.needs.integrals) {
     const Eigen::Index first = m.oscillators();
     const auto oscillators = static_cast<Eigen::Index>(1 + 2 * system.orders.size());
-    m.gram.setZero(first + oscillators, first + oscillators);
+    const Eigen::Index rows =
+        first + oscillators + static_cast<Eigen::Index>(assembly_.network().signals.size());
+    m.gram.setZero(rows, rows);
     for (std::size_t p = 0; p < entries_.size(); ++p) {
       const double integral = told(pack_.integral, p, lane);
       m.gram(entries_[p].row, entries_[p].column) = m.gram(entries_[p].column, entries_[p].row) = integral;

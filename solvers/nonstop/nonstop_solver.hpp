@@ -54,6 +54,7 @@ class NonstopSolver {
   template <class Share>
   void share_inputs(const Share& share);
   void set_forms();
+  Form integrated_form(const SlidingForms& forms, Eigen::Index row) const;
   void set_lane(int of, int lane);
   void measure(int lane);
   void set_motion(const mechanics::LinearSystem& system);
@@ -95,7 +96,7 @@ class NonstopSolver {
   struct Entry {
     Eigen::Index row = 0, column = 0;  // of the Gram matrix that a product is
   };
-  std::vector<Eigen::Index> integrated_states_;
+  std::vector<Eigen::Index> integrated_;  // rows of the Gram matrix: states and signals
   std::vector<Product> products_, powers_;
   std::vector<Entry> entries_;  // of each product
   Shape shape_;

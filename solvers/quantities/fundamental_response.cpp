@@ -34,6 +34,24 @@ std::complex<double> inertia_felt(const mechanics::LinearSystem& system, const E
   return sum(system.felt_inertia.transpose(), X) + sum(system.felt_inertia_support.transpose(), Y);
 }
 
+// w^T q + p^T Y; zero where the terms cancel each other but for rounding.
+std::complex<double> along(const mechanics::Incidence& at, const Eigen::VectorXcd& q,
+                           const Eigen::VectorXcd& Y) {
+  constexpr double kRounding = 1e-13;
+  std::complex<double> sum = 0.0;
+  double size = 0.0;
+  const auto add = [&](const Eigen::VectorXd& factors, const Eigen::VectorXcd& amplitudes) {
+    for (Eigen::Index i = 0; i < factors.size(); ++i) {
+      if (factors[i] == 0.0) continue;
+      sum += factors[i] * amplitudes[i];
+      size += std::abs(factors[i] * amplitudes[i]);
+    }
+  };
+  add(at.w, q);
+  add(at.p, Y);
+  return std::abs(sum) > kRounding * size ? sum : 0.0;
+}
+
 }  // namespace
 
 Eigen::Index reference_column(const mechanics::LinearSystem& system) {
@@ -41,22 +59,21 @@ Eigen::Index reference_column(const mechanics::LinearSystem& system) {
          system.orders.begin();
 }
 
-Eigen::VectorXd static_displacement(const mechanics::LinearSystem& system) {
-  return static_solution(system, static_load(system)).cwiseAbs();
+double static_displacement(const mechanics::LinearSystem& system, const mechanics::Incidence& at) {
+  return std::abs(
+      along(at, static_solution(system, static_load(system)), system.motion.col(reference_column(system))));
 }
 
-// K dx = d(f - K_support Y) - dK x
-Eigen::VectorXd static_displacement_derivative(const mechanics::LinearSystem& system,
-                                               const mechanics::LinearSystem& by) {
+// K dq = d(f - K_support Y) - dK q
+double static_displacement_derivative(const mechanics::LinearSystem& system,
+                                      const mechanics::LinearSystem& by, const mechanics::Incidence& at) {
   const Eigen::Index column = reference_column(system);
-  const Eigen::VectorXcd x = static_solution(system, static_load(system));
-  Eigen::VectorXcd load = by.applied_force.col(column) - by.K * x;
+  const Eigen::VectorXcd q = static_solution(system, static_load(system));
+  Eigen::VectorXcd load = by.applied_force.col(column) - by.K * q;
   if (system.motion.rows() > 0)
     load -= by.K_support * system.motion.col(column) + system.K_support * by.motion.col(column);
-  const Eigen::VectorXcd x_by = static_solution(system, load);
-  Eigen::VectorXd result(x.size());
-  for (Eigen::Index i = 0; i < x.size(); ++i) result[i] = modulus_derivative(x[i], x_by[i]);
-  return result;
+  return modulus_derivative(along(at, q, system.motion.col(column)),
+                            along(at, static_solution(system, load), by.motion.col(column)));
 }
 
 double support_amplitude(const mechanics::LinearSystem& system) {

@@ -11,9 +11,9 @@ namespace frahm::periodic {
 // Index of the reference order in LinearSystem::orders.
 Eigen::Index reference_column(const mechanics::LinearSystem& system);
 
-// |K^-1 (f - K_support Y)|: the displacements [m] of the masses under the reference order's amplitudes of
-// force and motion, applied quasi-statically.
-Eigen::VectorXd static_displacement(const mechanics::LinearSystem& system);
+// |w^T q + p^T Y| of a coordinate, q = K^-1 (f - K_support Y): its displacement [m] under the reference
+// order's amplitudes of force and motion, applied quasi-statically.
+double static_displacement(const mechanics::LinearSystem& system, const mechanics::Incidence& at);
 
 // Amplitude [m] at the reference order of the one support that moves at it; 0 where none or several do.
 double support_amplitude(const mechanics::LinearSystem& system);
@@ -25,8 +25,8 @@ double force_transmissibility(const mechanics::LinearSystem& system, const Eigen
 
 // Derivatives of the three above along `by`, the derivative of the system (mechanics/system_derivative.hpp),
 // and X_by, that of X.
-Eigen::VectorXd static_displacement_derivative(const mechanics::LinearSystem& system,
-                                               const mechanics::LinearSystem& by);
+double static_displacement_derivative(const mechanics::LinearSystem& system,
+                                      const mechanics::LinearSystem& by, const mechanics::Incidence& at);
 double support_amplitude_derivative(const mechanics::LinearSystem& system, const mechanics::LinearSystem& by);
 double force_transmissibility_derivative(const mechanics::LinearSystem& system,
                                          const mechanics::LinearSystem& by, const Eigen::VectorXcd& X,

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -38,11 +39,13 @@ class Integrals {
   using PowersOf = std::function<void(const Mode<N, H>&, std::vector<Power>&)>;
 
   // Over the orbit's steps. The orbit covers half a period if `half_period`, and all integrals are of the
-  // whole.
+  // whole. signals: forms that hold in every mode.
   void integrate(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow, bool half_period,
-                 const PowersOf& powers_of);
+                 std::span<const LinearForm<N, H>> signals, const PowersOf& powers_of);
 
-  const Gram& gram() const { return gram_; }         // [units of the state x s]
+  const Gram& gram() const { return gram_; }  // [units of the state x s]
+  // Of each signal a row: its products with the oscillators, and its square.
+  const Eigen::MatrixXd& signals() const { return signals_; }
   double input() const { return input_; }            // [J] in a period
   double input_size() const { return input_size_; }  // integral of |power| [J], to quadrature accuracy
 
@@ -58,6 +61,7 @@ class Integrals {
   static Eigen::Index padded(Eigen::Index size) { return S::is_fixed ? kPaddedSize : size; }
 
   Gram gram_;
+  Eigen::MatrixXd signals_;
   std::vector<Power> powers_;  // of the current mode
   std::vector<std::pair<Joined, Joined>> joined_powers_;
   double input_ = 0.0, input_size_ = 0.0;
@@ -65,7 +69,7 @@ class Integrals {
 
 template <int N, int H>
 void Integrals<N, H>::integrate(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow, bool half_period,
-                                const PowersOf& powers_of) {
+                                std::span<const LinearForm<N, H>> signals, const PowersOf& powers_of) {
   using Nodes = Eigen::Matrix<double, kTerms, kNodes>;
   using Samples = Eigen::Matrix<double, kPaddedSize, kNodes>;
   const StepEquations<N, H>& eq = flow.equations();
@@ -74,6 +78,8 @@ void Integrals<N, H>::integrate(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow,
   for (int i = 0; i < kNodes; ++i) full.col(i) = powers(kNodeAt[i]);
 
   Eigen::Matrix<double, kPaddedSize, kSize> gram = decltype(gram)::Zero(padded(size), size);
+  const auto count = static_cast<Eigen::Index>(signals.size());
+  signals_.setZero(count, eq.oscillators() + 1);
   input_ = input_size_ = 0.0;
   bool starts_segment = true;
   Samples y = Samples::Zero(padded(size), kNodes), weighted = y;
@@ -91,6 +97,14 @@ void Integrals<N, H>::integrate(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow,
     y.middleRows(eq.states(), eq.oscillators()) = x.u.transpose().lazyProduct(at);
     for (int i = 0; i < kNodes; ++i) weighted.col(i) = (step.length * kNodeWeight[i]) * y.col(i);
     gram += weighted.lazyProduct(y.topRows(size).transpose());
+    for (Eigen::Index s = 0; s < count; ++s) {
+      for (int i = 0; i < kNodes; ++i) {
+        const auto u = weighted.col(i).segment(eq.states(), eq.oscillators());
+        const double value = signals[static_cast<std::size_t>(s)].value(y.col(i));
+        signals_.row(s).head(eq.oscillators()) += value * u.transpose();
+        signals_(s, eq.oscillators()) += step.length * kNodeWeight[i] * value * value;
+      }
+    }
 
     Eigen::Matrix<double, 1, kNodes> power = Eigen::Matrix<double, 1, kNodes>::Zero();
     for (const auto& [force, velocity] : joined_powers_) {
@@ -103,6 +117,7 @@ void Integrals<N, H>::integrate(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow,
   }
   const double seconds = (half_period ? 2.0 : 1.0) * eq.step;
   gram_ = seconds * gram.topRows(size);
+  signals_ *= seconds;
   input_ *= seconds;
   input_size_ *= seconds;
 }

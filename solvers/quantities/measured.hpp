@@ -34,7 +34,9 @@ struct Measured {
   std::vector<Extremes> extremes;                  // of each trace
   std::vector<std::vector<Candidate>> candidates;  // of each trace, if derivatives are requested
 
-  Eigen::MatrixXd gram;                     // integral of y y^T over a period [units of y^2 x s]
+  // Integral of y y^T over a period [units of y^2 x s], y followed by the signals; of a signal its products
+  // with the oscillators and its square alone.
+  Eigen::MatrixXd gram;
   Eigen::MatrixXd motion, motion_velocity;  // of the prescribed nodes, rows on u [m], [m/s]
 
   std::vector<ContactHistory> histories;  // of each contact; none of a law that never sticks
@@ -57,11 +59,24 @@ struct Measured {
   Eigen::Index masses() const { return system->masses(); }
   // Where the oscillators begin in y: the constant, then cosine and sine of each order.
   Eigen::Index oscillators() const { return 2 * masses() + system->internal_forces(); }
+  // Where the signals begin in the Gram matrix.
+  Eigen::Index signals() const {
+    return oscillators() + 1 + 2 * static_cast<Eigen::Index>(system->orders.size());
+  }
+  // The row of a mass or a signal in the Gram matrix.
+  Eigen::Index row_of(const Asked& asked) const {
+    const auto coordinate = static_cast<Eigen::Index>(asked.quantity.index);
+    return coordinate < masses() ? coordinate : signals() + coordinate - masses();
+  }
   const Trace& trace(const Asked& asked) const { return (*traces)[asked.trace]; }
 };
 
 // Converts velocities from displacement per step, of `step` seconds, to displacement per second.
 void in_seconds(Eigen::Index masses, double step, Eigen::MatrixXd& gram);
+
+// Adds the rows and columns of signals to the integral of y y^T. products: a row for each signal, its
+// products with the oscillators, which y ends with, and last its square.
+void append_signals(const Eigen::MatrixXd& products, Eigen::MatrixXd& gram);
 
 // Derivatives a unit of the parameter: of a candidate's value [its unit] and of its instant as an angle omega
 // t [rad]; and the relative change of the state there.

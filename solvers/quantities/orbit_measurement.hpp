@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "solvers/mechanics/coordinates.hpp"
 #include "solvers/quantities/integrals.hpp"
 #include "solvers/quantities/quantity_table.hpp"
 #include "solvers/quantities/quantity_values.hpp"
@@ -16,7 +17,10 @@ class OrbitMeasurement {
 
   // Both must outlive the measurement.
   OrbitMeasurement(const mechanics::Assembly& assembly, const Flow<N, H>& flow)
-      : assembly_(assembly), flow_(flow), forms_(assembly, flow) {}
+      : assembly_(assembly),
+        flow_(flow),
+        forms_(assembly, flow),
+        signals_(mechanics::signal_incidences(assembly.network())) {}
 
   // steps: of the orbit, laid out.
   void measure(const Orbit<N, H>& orbit, const mechanics::LinearSystem& system, OrbitSteps<N, H>& steps,
@@ -34,6 +38,8 @@ class OrbitMeasurement {
   const mechanics::Assembly& assembly_;
   const Flow<N, H>& flow_;
   Forms<N, H> forms_;
+  std::vector<mechanics::Incidence> signals_;
+  std::vector<LinearForm<N, H>> signal_forms_;  // of the current forcing
   Integrals<N, H> integrals_;
   std::vector<ContactStretch> stretches_;
 };
@@ -66,12 +72,16 @@ void OrbitMeasurement<N, H>::integrate(const Orbit<N, H>& orbit, OrbitSteps<N, H
                                        Measured& measured) {
   const StepEquations<N, H>& eq = flow_.equations();
   const mechanics::LinearSystem& system = *measured.system;
-  integrals_.integrate(steps, flow_, orbit.half_period, [&](const Mode<N, H>& mode, Powers& powers) {
-    powers.clear();
-    if (with_input) list_powers(mode, system, powers);
-  });
+  signal_forms_.clear();
+  for (const mechanics::Incidence& at : signals_) signal_forms_.push_back(forms_.displacement(at));
+  integrals_.integrate(steps, flow_, orbit.half_period, signal_forms_,
+                       [&](const Mode<N, H>& mode, Powers& powers) {
+                         powers.clear();
+                         if (with_input) list_powers(mode, system, powers);
+                       });
   measured.gram = integrals_.gram();
   in_seconds(eq.masses(), eq.step, measured.gram);
+  append_signals(integrals_.signals(), measured.gram);
   measured.input = integrals_.input();
   measured.input_size = integrals_.input_size();
   measured.motion = eq.motion;

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "solvers/algebra/no_value.hpp"
+#include "solvers/mechanics/coordinates.hpp"
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/rotation.hpp"
 #include "solvers/quantities/quantity_table.hpp"
@@ -18,7 +19,7 @@ using mechanics::Network;
 std::string owner_name(Owner owner, std::size_t index, const Network& network) {
   switch (owner) {
     case Owner::mass:
-      return network.masses[index];
+      return mechanics::coordinate_name(network, index);
     case Owner::element:
     case Owner::contact:
       return network.elements[index].name;
@@ -35,6 +36,7 @@ std::string owner_name(Owner owner, std::size_t index, const Network& network) {
 std::size_t owner_count(Owner owner, const Network& network) {
   switch (owner) {
     case Owner::mass:
+      return mechanics::coordinate_count(network);
     case Owner::mode:
       return network.masses.size();
     case Owner::element:
@@ -74,8 +76,9 @@ std::string unit_of(const QuantityRow& row, std::size_t index, const Network& ne
   const bool all_rotate = std::ranges::all_of(network.rotation, std::identity{}) && !network.rotation.empty();
   switch (row.owner) {
     case Owner::mass:
-      if (row.measure == Measure::transmissibility && mechanics::rotates(network, index)) return "rad m-1";
-      return std::string(mechanics::unit_of_mass(network, index, row.unit));
+      if (row.measure == Measure::transmissibility && mechanics::coordinate_rotates(network, index))
+        return "rad m-1";
+      return std::string(mechanics::coordinate_unit(network, index, row.unit));
     case Owner::element:
     case Owner::contact:
       return std::string(mechanics::unit_of_element(network.elements[index], row.unit));
@@ -95,7 +98,7 @@ std::string unit_of(const QuantityRow& row, std::size_t index, const Network& ne
 std::vector<std::size_t> owners(StandardOf of, const Network& network) {
   std::vector<std::size_t> result;
   const std::size_t count = of == StandardOf::point    ? 1
-                            : of == StandardOf::masses ? network.masses.size()
+                            : of == StandardOf::masses ? mechanics::coordinate_count(network)
                                                        : network.elements.size();
   for (std::size_t i = 0; i < count; ++i) {
     if (of == StandardOf::springs && !mechanics::kind_of(network.elements[i]).stroke_is_standard) continue;

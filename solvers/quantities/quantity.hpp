@@ -11,7 +11,7 @@
 namespace frahm::periodic {
 
 enum class Measure {
-  // of a mass
+  // of a mass or a signal
   amplitude,
   peak,
   mean,
@@ -65,7 +65,8 @@ enum class Side { either, most, least };
 
 struct Quantity {
   Measure measure = Measure::status;
-  // Of the mass or element; of a mode from 0; for transmitted_force 0 = ground, 1 + s = prescribed node s.
+  // Of the coordinate (mechanics/coordinates.hpp) or element; of a mode from 0; for transmitted_force 0 =
+  // ground, 1 + s = prescribed node s.
   std::size_t index = 0;
   // Of peak, stroke, velocity_peak, acceleration_peak, force_peak, transmitted_force.
   Side side = Side::either;
@@ -94,13 +95,13 @@ QuantityDescription describe(const Quantity& quantity, const mechanics::Network&
 // an error_bound, as that of the integration is not one.
 std::vector<Quantity> all_quantities(const mechanics::Network& network);
 
-// Record of an atlas: peak, amplitude, mean, rms and phase of each mass; stroke of each spring; stops,
-// stuck fraction, regime and energy of each element with a contact; status, floquet_radius, energy_balance,
-// residual, error_bound, transmitted_force.
+// Record of an atlas: peak, amplitude, mean, rms and phase of each mass and signal; stroke of each spring;
+// stops, stuck fraction, regime and energy of each element with a contact; status, floquet_radius,
+// energy_balance, residual, error_bound, transmitted_force.
 std::vector<Quantity> standard_quantities(const mechanics::Network& network);
 
-// Whether the page of an atlas shows the quantity unasked: peaks of the masses, strokes of the springs, stops
-// and regimes, the shares of what dissipates, and the status.
+// Whether the page of an atlas shows the quantity unasked: peaks of masses and signals, strokes of the
+// springs, stops and regimes, the shares of what dissipates, and the status.
 bool is_shown(const Quantity& quantity, const mechanics::Network& network);
 // The same of a name whose network is not known: by its suffix, of any element.
 bool is_shown(const std::string& name);

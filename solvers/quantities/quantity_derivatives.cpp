@@ -5,6 +5,7 @@
 #include <complex>
 
 #include "solvers/algebra/no_value.hpp"
+#include "solvers/mechanics/coordinates.hpp"
 #include "solvers/quantities/fundamental_response.hpp"
 #include "solvers/quantities/quantity_values.hpp"
 
@@ -15,10 +16,6 @@ constexpr const char* kNoComponent = "there is no component at the reference ord
 
 Derivative none(const char* reason) {
   return {.why_none = reason};
-}
-
-Eigen::Index index_of(const Asked& asked) {
-  return static_cast<Eigen::Index>(asked.quantity.index);
 }
 
 // The candidates that are, or tie for, an extreme must agree; else the extreme has a kink.
@@ -161,16 +158,16 @@ Derivative peak_phase(const Measured& m, D d, const Asked& asked) {
 // G/T:  d = (dG - G dT/T) / T
 Derivative mean(const Measured& m, D d, const Asked& asked) {
   if (m.half_period) return {0.0};
-  const Eigen::Index mass = index_of(asked), one = m.oscillators();
-  return {(d.gram(mass, one) - d.log_period * m.gram(mass, one)) / m.period};
+  const Eigen::Index row = m.row_of(asked), one = m.oscillators();
+  return {(d.gram(row, one) - d.log_period * m.gram(row, one)) / m.period};
 }
 
 // sqrt(G/T):  d = (dG - G dT/T) / (2 T rms)
 Derivative rms(const Measured& m, D d, const Asked& asked) {
-  const Eigen::Index mass = index_of(asked);
-  const double square = m.gram(mass, mass);
+  const Eigen::Index row = m.row_of(asked);
+  const double square = m.gram(row, row);
   if (!(square > 0.0)) return none("nothing moves");
-  return {(d.gram(mass, mass) - d.log_period * square) / (2.0 * std::sqrt(square * m.period))};
+  return {(d.gram(row, row) - d.log_period * square) / (2.0 * std::sqrt(square * m.period))};
 }
 
 // The phase lag is -arg X:  d = -Im(conj(X) dX) / |X|^2
@@ -185,9 +182,9 @@ Derivative harmonic(const Measured& m, D d, const Asked& asked) {
 }
 
 Derivative magnification(const Measured& m, D d, const Asked& asked) {
-  const double below = static_displacement(*m.system)[index_of(asked)];
-  const double below_by =
-      below > 0.0 ? static_displacement_derivative(*m.system, *d.system)[index_of(asked)] : 0.0;
+  const mechanics::Incidence& at = m.trace(asked).at;
+  const double below = static_displacement(*m.system, at);
+  const double below_by = below > 0.0 ? static_displacement_derivative(*m.system, *d.system, at) : 0.0;
   return harmonic_over(m, d, asked, below, below_by);
 }
 
@@ -219,7 +216,8 @@ Derivative energy_input(const Measured&, D d, const Asked&) {
 Derivative force_transmissibility(const Measured& m, D d, const Asked&) {
   Eigen::VectorXcd X(m.masses()), X_by(m.masses());
   for (Eigen::Index mass = 0; mass < X.size(); ++mass) {
-    const mechanics::Incidence at = mass_incidence(m.assembly->network(), static_cast<std::size_t>(mass));
+    const mechanics::Incidence at =
+        mechanics::coordinate_incidence(m.assembly->network(), static_cast<std::size_t>(mass));
     const Component its = component(m, d, at);
     X[mass] = its.value;
     X_by[mass] = its.by;

@@ -8,7 +8,7 @@
 // their derivatives follow from that.
 namespace frahm::periodic {
 
-// The owner of a quantity; `support` is the ground or a prescribed node.
+// The owner of a quantity; `mass` is a mass or a signal, `support` the ground or a prescribed node.
 enum class Owner { mass, element, contact, point, mode, support };
 
 // Whether the standard record of an atlas has the quantity, and for which of its owners.

@@ -4,24 +4,21 @@
 #include <cmath>
 
 #include "solvers/algebra/no_value.hpp"
+#include "solvers/mechanics/coordinates.hpp"
 #include "solvers/quantities/fundamental_response.hpp"
 
 namespace frahm::periodic::value {
 namespace {
 
-Eigen::Index index_of(const Asked& asked) {
-  return static_cast<Eigen::Index>(asked.quantity.index);
-}
-
 bool has_no_reference(const Measured& m) {
   return m.half_period && m.system->reference_order % 2 == 0;
 }
 
-// X_n of a mass by itself.
-std::complex<double> reference_component(const Measured& m, Eigen::Index mass) {
+// X_n of a mass or signal by its row in the Gram matrix.
+std::complex<double> reference_component(const Measured& m, Eigen::Index row) {
   if (has_no_reference(m)) return 0.0;
   const Eigen::Index first = m.oscillators() + 1 + 2 * reference_column(*m.system);
-  return {2.0 / m.period * m.gram(mass, first), -2.0 / m.period * m.gram(mass, first + 1)};
+  return {2.0 / m.period * m.gram(row, first), -2.0 / m.period * m.gram(row, first + 1)};
 }
 
 // Integral of c v^2, of s^2 / c in a damper through which a force s runs, and friction's.
@@ -34,6 +31,10 @@ double loss(const Measured& m, std::size_t element) {
     energy += m.gram(row, row) / law.internal_damping;
   }
   return energy;
+}
+
+mechanics::Incidence coordinate_of(const Measured& m, const Asked& asked) {
+  return mechanics::coordinate_incidence(m.assembly->network(), asked.quantity.index);
 }
 
 const ContactHistory& history(const Measured& m, const Asked& asked) {
@@ -112,11 +113,12 @@ double peak_phase(const Measured& m, const Asked& asked) {
 }
 
 double mean(const Measured& m, const Asked& asked) {
-  return m.half_period ? 0.0 : m.gram(index_of(asked), m.oscillators()) / m.period;
+  return m.half_period ? 0.0 : m.gram(m.row_of(asked), m.oscillators()) / m.period;
 }
 
 double rms(const Measured& m, const Asked& asked) {
-  return std::sqrt(m.gram(index_of(asked), index_of(asked)) / m.period);
+  const Eigen::Index row = m.row_of(asked);
+  return std::sqrt(m.gram(row, row) / m.period);
 }
 
 // x_n = |X_n| cos(n omega t - phase); NaN where there is none.
@@ -127,11 +129,11 @@ double phase(const Measured& m, const Asked& asked) {
 }
 
 double harmonic(const Measured& m, const Asked& asked) {
-  return std::abs(reference_component(m, index_of(asked)));
+  return std::abs(reference_component(m, m.row_of(asked)));
 }
 
 double magnification(const Measured& m, const Asked& asked) {
-  return ratio(harmonic(m, asked), static_displacement(*m.system)[index_of(asked)]);
+  return ratio(harmonic(m, asked), static_displacement(*m.system, coordinate_of(m, asked)));
 }
 
 double transmissibility(const Measured& m, const Asked& asked) {

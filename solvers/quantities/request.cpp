@@ -1,5 +1,6 @@
 #include "solvers/quantities/request.hpp"
 
+#include "solvers/mechanics/coordinates.hpp"
 #include "solvers/quantities/quantity_derivatives.hpp"
 
 namespace frahm::periodic {
@@ -12,8 +13,8 @@ Trace trace_of(const QuantityRow& row, std::size_t index, const mechanics::Assem
     case TraceKind::displacement:
     case TraceKind::velocity:
     case TraceKind::acceleration:
-      trace.at =
-          row.owner == Owner::mass ? mass_incidence(assembly.network(), index) : assembly.incidences()[index];
+      trace.at = row.owner == Owner::mass ? mechanics::coordinate_incidence(assembly.network(), index)
+                                          : assembly.incidences()[index];
       break;
     case TraceKind::element_force:
       trace.element = index;

@@ -12,12 +12,6 @@ bool operator==(const Trace& a, const Trace& b) {
          a.node == b.node;
 }
 
-mechanics::Incidence mass_incidence(const mechanics::Network& network, std::size_t mass) {
-  return {Eigen::VectorXd::Unit(static_cast<Eigen::Index>(network.masses.size()),
-                                static_cast<Eigen::Index>(mass)),
-          Eigen::VectorXd::Zero(static_cast<Eigen::Index>(network.prescribed.size()))};
-}
-
 std::size_t place_of(Trace trace, std::vector<Trace>& traces) {
   const auto found = std::find(traces.begin(), traces.end(), trace);
   const auto index = static_cast<std::size_t>(found - traces.begin());

@@ -18,9 +18,6 @@ struct Trace {
 
 bool operator==(const Trace& a, const Trace& b);
 
-// Of a mass's own displacement.
-mechanics::Incidence mass_incidence(const mechanics::Network& network, std::size_t mass);
-
 // Index of the trace in `traces`; a new trace is added.
 std::size_t place_of(Trace trace, std::vector<Trace>& traces);
 

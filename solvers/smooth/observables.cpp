@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "solvers/mechanics/coordinates.hpp"
 #include "solvers/mechanics/modes.hpp"
 #include "solvers/quantities/quantity_values.hpp"
 
@@ -12,7 +13,8 @@ Observables::Observables(const mechanics::Assembly& assembly, Equation& equation
     : assembly_(assembly),
       equation_(equation),
       forms_(assembly, equation),
-      request_(periodic::values_of(quantities, assembly)) {}
+      request_(periodic::values_of(quantities, assembly)),
+      signals_(mechanics::signal_incidences(assembly.network())) {}
 
 void Observables::set_system(const mechanics::LinearSystem& system) {
   if (request_.needs.modes) periodic::modes_of(system, measured_.natural_frequency, measured_.modal_damping);
@@ -111,7 +113,8 @@ std::vector<std::pair<Form, Form>> Observables::powers() const {
   std::vector<std::pair<Form, Form>> result;
   const auto& network = assembly_.network();
   for (std::size_t i = 0; i < network.masses.size(); ++i) {
-    result.emplace_back(forms_.applied_force(i), forms_.velocity(periodic::mass_incidence(network, i)));
+    result.emplace_back(forms_.applied_force(i),
+                        forms_.velocity(mechanics::coordinate_incidence(network, i)));
   }
   for (std::size_t s = 0; s < network.prescribed.size(); ++s) {
     Form velocity = forms_.zero();
@@ -133,6 +136,11 @@ void Observables::integrate(const Orbit& orbit) {
   const auto inputs = powers();
   const std::vector<std::size_t>& rubbing = equation_.elements();
   measured_.gram.setZero(both, both);
+  std::vector<Form> signals;
+  for (const mechanics::Incidence& at : signals_) signals.push_back(forms_.displacement(at));
+  const Eigen::Index oscillators = equation_.oscillators();
+  Eigen::MatrixXd products =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(signals.size()), oscillators + 1);
   measured_.friction_loss.assign(assembly_.network().elements.size(), 0.0);
   measured_.input = measured_.input_size = 0.0;
   Eigen::VectorXd y(both);
@@ -146,6 +154,11 @@ void Observables::integrate(const Orbit& orbit) {
       equation_.look(t, state_, instant_);
       y << instant_.z, instant_.u;
       measured_.gram.noalias() += weight * y * y.transpose();
+      for (Eigen::Index s = 0; s < products.rows(); ++s) {
+        const double value = signals[static_cast<std::size_t>(s)].value(instant_);
+        products.row(s).head(oscillators) += weight * value * instant_.u.transpose();
+        products(s, oscillators) += weight * value * value;
+      }
       const Eigen::VectorXd& speeds = equation_.speeds(t, state_);
       for (Eigen::Index j = 0; j < speeds.size(); ++j)
         measured_.friction_loss[rubbing[static_cast<std::size_t>(j)]] +=
@@ -156,6 +169,7 @@ void Observables::integrate(const Orbit& orbit) {
       measured_.input_size += weight * std::abs(power);
     }
   }
+  periodic::append_signals(products, measured_.gram);
 }
 
 }  // namespace frahm::smooth

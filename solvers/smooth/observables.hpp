@@ -41,6 +41,7 @@ class Observables {
   Equation& equation_;
   Forms forms_;
   periodic::Request request_;
+  std::vector<mechanics::Incidence> signals_;
   periodic::Measured measured_;
 
   std::vector<Instant> joints_;  // of the current orbit: the instants between which the steps lie

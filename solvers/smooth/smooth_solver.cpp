@@ -6,6 +6,7 @@
 
 #include "solvers/algebra/no_value.hpp"
 #include "solvers/exact/exact_solver.hpp"
+#include "solvers/mechanics/coordinates.hpp"
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/undamped_resonance.hpp"
 #include "solvers/orbits/phase.hpp"
@@ -223,6 +224,9 @@ History SmoothSolver::history(std::span<const double> phases) {
   for (std::size_t e = 0; e < network.elements.size(); ++e) {
     element_forces.push_back(forms.element_force(e, system_.coefficients[e]));
   }
+  std::vector<Form> of_signals;
+  for (const mechanics::Incidence& at : mechanics::signal_incidences(network))
+    of_signals.insert(of_signals.end(), {forms.displacement(at), forms.velocity(at), forms.acceleration(at)});
   Instant instant;
   Eigen::VectorXd z;
   for (const double phase : phases) {
@@ -237,6 +241,7 @@ History SmoothSolver::history(std::span<const double> phases) {
     for (const Form& force : element_forces) result.columns[column++].push_back(force.value(instant));
     for (Eigen::Index mass = 0; mass < equation_.masses(); ++mass)
       result.columns[column++].push_back(instant.dz[equation_.masses() + mass]);
+    for (const Form& form : of_signals) result.columns[column++].push_back(form.value(instant));
   }
   return result;
 }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "solvers/algebra/no_value.hpp"
+#include "solvers/mechanics/coordinates.hpp"
 #include "solvers/transient/trajectory.hpp"
 
 namespace frahm::transient {
@@ -111,19 +112,19 @@ bool climb(Driven& driven, const Sweep& sweep, double until, int count) {
     const double start = tau * i;
     const double phase = std::remainder(sweep.phase(start) - lag, kTurn);
     driven.drive(sweep.frequency(start + 0.5 * tau), sweep.alpha, phase);
+    driven.trajectory.set_frequency(sweep.frequency(start), sweep.alpha);
     if (!driven.trajectory.advance(tau, phase)) return false;
   }
   driven.drive(sweep.frequency(until), 0.0, std::remainder(sweep.phase(until), kTurn));
   return true;
 }
 
-std::vector<Extremum> peaks_of(const Trajectory& trajectory, std::size_t masses,
-                               const InitialState& initial) {
-  std::vector<Extremum> peaks(masses);
-  for (std::size_t i = 0; i < masses; ++i) {
-    if (!initial.displacement.empty()) peaks[i] = {0.0, initial.displacement[i]};
+std::vector<Extremum> peaks_of(const Trajectory& trajectory, std::size_t coordinates) {
+  std::vector<Extremum> peaks(coordinates);
+  for (std::size_t i = 0; i < coordinates; ++i) {
+    peaks[i] = {0.0, trajectory.first_displacement(i)};
     std::vector<Extremum> candidates = trajectory.turning_points(i).extrema();
-    candidates.push_back({trajectory.time(), trajectory.displacements()[static_cast<Eigen::Index>(i)]});
+    candidates.push_back({trajectory.time(), trajectory.displacement(i)});
     for (const Extremum& candidate : candidates) {
       if (std::abs(candidate.displacement) > std::abs(peaks[i].displacement)) peaks[i] = candidate;
     }
@@ -162,16 +163,16 @@ ForcedMotion run(const Problem& problem, int stairs) {
   motion.energy = driven.trajectory.energy_budget();
   motion.history = driven.trajectory.samples();
   for (const double t : motion.history.time) motion.frequency.push_back(sweep.frequency(t));
-  motion.peaks = peaks_of(driven.trajectory, problem.assembly.network().masses.size(), problem.initial);
+  motion.peaks = peaks_of(driven.trajectory, mechanics::coordinate_count(problem.assembly.network()));
   for (std::size_t j = 0; j < problem.assembly.contacts(); ++j)
     motion.stops.push_back(driven.trajectory.stops(j));
   return motion;
 }
 
-// The largest change of a sample or a peak [m].
-double largest_change(const ForcedMotion& coarse, const ForcedMotion& fine) {
+// The largest change of a sample or a peak of a mass [m].
+double largest_change(const ForcedMotion& coarse, const ForcedMotion& fine, std::size_t masses) {
   double change = 0.0;
-  for (std::size_t i = 0; i < fine.peaks.size(); ++i) {
+  for (std::size_t i = 0; i < masses; ++i) {
     change = std::max(
         change, std::abs(std::abs(coarse.peaks[i].displacement) - std::abs(fine.peaks[i].displacement)));
     const auto &a = coarse.history.displacement[i], &b = fine.history.displacement[i];
@@ -180,9 +181,10 @@ double largest_change(const ForcedMotion& coarse, const ForcedMotion& fine) {
   return change;
 }
 
-double largest_peak(const ForcedMotion& motion) {
+double largest_peak(const ForcedMotion& motion, std::size_t masses) {
   double largest = 0.0;
-  for (const Extremum& peak : motion.peaks) largest = std::max(largest, std::abs(peak.displacement));
+  for (std::size_t i = 0; i < masses; ++i)
+    largest = std::max(largest, std::abs(motion.peaks[i].displacement));
   return largest;
 }
 
@@ -208,8 +210,9 @@ ForcedMotion forced_motion(const mechanics::Network& network, const ValuesAt& va
     stairs *= 2;
     ForcedMotion fine = run(problem, stairs);
     if (!fine.failure.empty()) return fine;
-    fine.discretisation_error = largest_change(coarse, fine);
-    if (fine.discretisation_error <= kRunUpTolerance * largest_peak(fine) || 2 * stairs > kMostStairs)
+    fine.discretisation_error = largest_change(coarse, fine, network.masses.size());
+    if (fine.discretisation_error <= kRunUpTolerance * largest_peak(fine, network.masses.size()) ||
+        2 * stairs > kMostStairs)
       return fine;
     coarse = std::move(fine);
   }

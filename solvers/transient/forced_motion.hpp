@@ -32,11 +32,11 @@ struct ForcedMotion {
   std::string failure;  // why the motion could not be completed; empty: it is complete
   Samples history;
   std::vector<double> frequency;         // at the history's times [rad/s]
-  std::vector<Extremum> peaks;           // of each mass, the largest |displacement|
+  std::vector<Extremum> peaks;           // of each mass, then of each signal, the largest |displacement|
   std::vector<std::vector<Stop>> stops;  // of each friction contact
   EnergyBudget energy;                   // to the duration
-  // Of a run-up: the largest change of any sample [m] when the stairs were last halved; NaN otherwise. The
-  // error that remains is a fraction of it, as halving divides it by four or more.
+  // Of a run-up: the largest change of any sample of a mass [m] when the stairs were last halved; NaN
+  // otherwise. The error that remains is a fraction of it, as halving divides it by four or more.
   double discretisation_error = 0.0;
   int stairs = 0;  // of a run-up
 };

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "solvers/algebra/no_value.hpp"
+#include "solvers/mechanics/coordinates.hpp"
 #include "solvers/mechanics/undamped_resonance.hpp"
 #include "solvers/quantities/observables.hpp"
 #include "solvers/transient/trajectory.hpp"
@@ -133,15 +134,16 @@ std::vector<double> log_decrements(const std::vector<Extremum>& extrema) {
   return result;
 }
 
-void tell_masses(const Trajectory& trajectory, bool tends_somewhere, FreeDecay& decay) {
-  const Eigen::VectorXd rest = trajectory.tends_to();
+void tell_masses(const mechanics::Network& network, const Trajectory& trajectory, bool tends_somewhere,
+                 FreeDecay& decay) {
+  const Eigen::VectorXd rest = trajectory.tends_to().head(static_cast<Eigen::Index>(network.masses.size()));
   for (std::size_t i = 0; i < decay.masses.size(); ++i) {
     DecayOfMass& mass = decay.masses[i];
     for (const Extremum& extremum : trajectory.turning_points(i).extrema()) {
       if (extremum.time <= decay.duration * (1.0 + 1e-12)) mass.extrema.push_back(extremum);
     }
     mass.log_decrement = log_decrements(mass.extrema);
-    mass.rest = tends_somewhere ? rest[static_cast<Eigen::Index>(i)] : kNone;
+    mass.rest = tends_somewhere ? mechanics::coordinate_incidence(network, i).w.dot(rest) : kNone;
   }
 }
 
@@ -164,7 +166,7 @@ FreeDecay free_decay(const mechanics::Network& network, mechanics::NetworkValues
   const Decaying decaying = set_up(assembly, values);
   FreeDecay decay;
   decay.hysteretic_omega = values.hysteretic_omega;
-  decay.masses.resize(network.masses.size());
+  decay.masses.resize(mechanics::coordinate_count(network));
 
   const bool given = options.duration > 0.0;
   Trajectory trajectory(assembly, sample_times(options.duration, given ? options.samples : 0), options.watch);
@@ -181,7 +183,7 @@ FreeDecay free_decay(const mechanics::Network& network, mechanics::NetworkValues
   const bool linear = assembly.contacts() == 0 || decaying.system.limit.isZero(0.0);
   const bool tends_somewhere =
       decay.end == DecayEnd::cut_off ? linear && decaying.all_damped : decay.end != DecayEnd::failed;
-  tell_masses(trajectory, tends_somewhere, decay);
+  tell_masses(network, trajectory, tends_somewhere, decay);
   if (options.samples == 0 || decay.end == DecayEnd::failed) return decay;
   trajectory.finish();
   decay.history =

@@ -41,13 +41,14 @@ enum class DecayEnd {
   failed,
 };
 
+// Of a mass or a signal.
 struct DecayOfMass {
   std::vector<Extremum> extrema;
   // ln |x_i / x_{i+2}|, a full cycle apart; NaN where there is no x_{i+2}, or one of the two is zero.
   // Viscous damping alone: 2 pi zeta/s, the same for all i. Friction makes it grow from cycle to cycle, as
   // it takes the same 4 x_f from each.
   std::vector<double> log_decrement;
-  // The position where the mass rests or to which it tends [m]. NaN: not known, as the motion failed or was
+  // The position where it rests or to which it tends [m]. NaN: not known, as the motion failed or was
   // cut off; but 0 for a motion cut off if all modes are damped and nothing else acts.
   double rest = 0.0;
 };
@@ -60,9 +61,9 @@ struct FreeDecay {
   // At the duration, relative to the start: the energy norm of the distance from where the motion tends to as
   // its contacts stick and slide then. NaN: nothing moved at the start.
   double remainder = 0.0;
-  double hysteretic_omega = 0.0;  // omega_h [rad/s] that was used
-  std::vector<DecayOfMass> masses;
-  EnergyBudget energy;  // to the duration; of one found at rest, until nothing changes any more
+  double hysteretic_omega = 0.0;    // omega_h [rad/s] that was used
+  std::vector<DecayOfMass> masses;  // then the signals
+  EnergyBudget energy;              // to the duration; of one found at rest, until nothing changes any more
   Samples history;
 };
 

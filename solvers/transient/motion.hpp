@@ -32,7 +32,8 @@ struct Stop {
 // States at given times, ascending.
 struct Samples {
   std::vector<double> time;  // [s]
-  // Of each mass, a value for each time: [m], [m/s], [m/s^2]; where the acceleration jumps, what it jumps to.
+  // Of each mass, then of each signal, a value for each time: [m], [m/s], [m/s^2]; where the acceleration
+  // jumps, what it jumps to.
   std::vector<std::vector<double>> displacement, velocity, acceleration;
   // By each element since t = 0 [J]; of those that never dissipate, no values.
   std::vector<std::vector<double>> dissipated;

@@ -8,6 +8,7 @@
 #include "solvers/algebra/no_value.hpp"
 #include "solvers/algebra/null_space.hpp"
 #include "solvers/algebra/solve.hpp"
+#include "solvers/mechanics/coordinates.hpp"
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/transient/step_limits.hpp"
 
@@ -52,7 +53,9 @@ Trajectory::Trajectory(const mechanics::Assembly& assembly, std::vector<double> 
       steps_(flow_),
       account_(assembly, flow_),
       held_since_(kNever),
-      turning_points_(assembly.network().masses.size()),
+      forms_(assembly, flow_),
+      signals_(mechanics::signal_incidences(assembly.network())),
+      turning_points_(mechanics::coordinate_count(assembly.network())),
       stops_(assembly.contacts()),
       watch_(std::move(watch)) {
   samples_.time = std::move(times);
@@ -76,10 +79,18 @@ void Trajectory::take_forcing(const mechanics::LinearSystem& system, double phas
   const double old_step = flow_.equations().step;
   flow_.set_forcing(system);
   account_.set_system(system);
+  forcing_omega_ = system.omega;
+  set_frequency(system.omega, 0.0);
   phase_ = phase;
   if (!has_started()) return;
   carry_over(old_step);
   account_.put_in(energy_now() - energy_before);
+}
+
+void Trajectory::set_frequency(double omega, double alpha) {
+  omega_ = omega;
+  alpha_ = alpha;
+  omega_since_ = time_;
 }
 
 void Trajectory::carry_over(double old_step) {
@@ -106,6 +117,7 @@ void Trajectory::start(const InitialState& initial) {
   set(initial.velocity, n, eq.step, "velocity");
   deceleration_.setZero(eq.contacts());
   acceleration_.setZero(n);
+  for (std::size_t i = 0; i < turning_points_.size(); ++i) first_displacements_.push_back(displacement(i));
   account_.open(energy_now());
 }
 
@@ -160,10 +172,28 @@ void Trajectory::follow(Step& step) {
          .velocity = x.z.col(n + i),
          .speed_scale = std::sqrt(2.0 * eq.M_inverse(i, i)) * energy_scale_});
   }
+  follow_signals(step, at);
   keep_samples(step, at);
   account_.follow(mode, x, step.length);
   for (Index j = 0; j < eq.contacts(); ++j) {
     if (!contains(mode.stuck, j)) deceleration_[j] = std::abs(flow_.sliding_speed(step.right, j).slope);
+  }
+}
+
+// Against the speed of a signal's masses at the motion's energy, and of its supports.
+void Trajectory::follow_signals(const Step& step, double at) {
+  const auto& eq = flow_.equations();
+  for (std::size_t i = 0; i < signals_.size(); ++i) {
+    const auto& [w, p] = signals_[i];
+    const double of_masses = std::sqrt(2.0 * w.dot(eq.M_inverse * w)) * energy_scale_;
+    const double of_supports = p.cwiseAbs().dot(eq.motion_velocity.cwiseAbs().rowwise().sum());
+    turning_points_[static_cast<std::size_t>(eq.masses()) + i].follow(
+        {.start = at,
+         .step = eq.step,
+         .length = step.length,
+         .displacement = forms_.displacement(signals_[i]).polynomial(step.expansion),
+         .velocity = eq.step * forms_.velocity(signals_[i]).polynomial(step.expansion),
+         .speed_scale = of_masses + of_supports});
   }
 }
 
@@ -213,14 +243,15 @@ void Trajectory::keep_samples(Step& step, double at) {
     const double s = std::max(0.0, (samples_.time[next_sample_] - at) / h);
     State z;
     Flow::evaluate(expansion, s, z);
-    keep_state(z, acceleration_in(expansion.z, flow_.equations().masses(), s),
+    const Oscillators u = expansion.u.transpose() * periodic::powers(s);
+    keep_state(z, acceleration_in(expansion.z, flow_.equations().masses(), s), u,
                account_.dissipated_within(flow_.mode(step.mode), expansion, s));
   }
   if (!samples_.time.empty())
     acceleration_ = acceleration_in(expansion.z, flow_.equations().masses(), step.length);
 }
 
-void Trajectory::keep_state(const State& z, const Eigen::VectorXd& acceleration,
+void Trajectory::keep_state(const State& z, const Eigen::VectorXd& acceleration, const Oscillators& u,
                             const std::vector<double>& dissipated) {
   const Index n = flow_.equations().masses();
   const double h = flow_.equations().step;
@@ -230,10 +261,46 @@ void Trajectory::keep_state(const State& z, const Eigen::VectorXd& acceleration,
     samples_.velocity[mass].push_back(z[n + i] / h);
     samples_.acceleration[mass].push_back(acceleration[i] / (h * h));
   }
+  keep_signals(z, acceleration, u);
   for (std::size_t e = 0; e < dissipated.size(); ++e) {
     if (mechanics::kind_of(assembly_.network().elements[e]).dissipates)
       samples_.dissipated[e].push_back(dissipated[e]);
   }
+}
+
+// w^T q + p^T y at the next sample. In a run-up, while the forcing has one frequency omega_f,
+//   y' = i k omega Y_k e^{i k phi},  y'' = (i k alpha - (k omega)^2) Y_k e^{i k phi}
+// with the true omega are omega/omega_f and (omega/omega_f)^2 times the forcing's, and alpha/omega_f y' more.
+void Trajectory::keep_signals(const State& z, const Eigen::VectorXd& acceleration, const Oscillators& u) {
+  const auto& eq = flow_.equations();
+  const Index n = eq.masses();
+  const double h = eq.step;
+  const double omega = omega_ + alpha_ * (samples_.time[next_sample_] - omega_since_);
+  const double faster = omega / forcing_omega_;
+  for (std::size_t i = 0; i < signals_.size(); ++i) {
+    const auto& [w, p] = signals_[i];
+    const std::size_t place = static_cast<std::size_t>(n) + i;
+    const double speed = p.dot(eq.motion_velocity * u) / h;  // of the forcing's support
+    const double rise = p.dot(eq.motion_acceleration * u) / (h * h);
+    samples_.displacement[place].push_back(w.dot(z.head(n)) + p.dot(eq.motion * u));
+    samples_.velocity[place].push_back(w.dot(z.segment(n, n)) / h + faster * speed);
+    samples_.acceleration[place].push_back(w.dot(acceleration) / (h * h) + faster * faster * rise +
+                                           alpha_ / forcing_omega_ * speed);
+  }
+}
+
+Trajectory::Oscillators Trajectory::oscillators_now() const {
+  Oscillators u(flow_.equations().oscillators());
+  flow_.equations().oscillators_at(phase_, flow_.orders(), u);
+  return u;
+}
+
+double Trajectory::displacement(std::size_t coordinate) const {
+  const auto& eq = flow_.equations();
+  const Index n = eq.masses(), place = static_cast<Index>(coordinate);
+  if (place < n) return z_[place];
+  const auto& [w, p] = signals_[coordinate - static_cast<std::size_t>(n)];
+  return w.dot(z_.head(n)) + p.dot(eq.motion * oscillators_now());
 }
 
 void Trajectory::come_to_rest() {
@@ -243,7 +310,7 @@ void Trajectory::come_to_rest() {
 
 void Trajectory::finish() {
   for (; next_sample_ < samples_.time.size(); ++next_sample_)
-    keep_state(z_, acceleration_, account_.dissipated());
+    keep_state(z_, acceleration_, oscillators_now(), account_.dissipated());
 }
 
 // With q = q_0 + B y, B the free directions, the forces balance along them:

@@ -14,7 +14,7 @@ namespace frahm::transient {
 using Flow = periodic::Flow<Eigen::Dynamic, Eigen::Dynamic>;
 
 // A motion from given initial values on the exact flow, passage after passage, with its records: the extrema
-// of each mass, the stops of each contact, the state at given times.
+// of each mass and signal, the stops of each contact, the state at given times.
 class Trajectory {
  public:
   // times: at which the state is recorded, ascending [s].  `assembly` must outlive the trajectory.
@@ -24,6 +24,10 @@ class Trajectory {
   // stay stuck (a support whose velocity jumps takes them along). phase: omega t of the fundamental now.
   void set_system(const mechanics::LinearSystem& system, double phase);
   void set_forcing(const mechanics::LinearSystem& system, double phase);
+
+  // The excitation's frequency now, and how fast it rises [rad/s], [rad/s^2]; the forcing has one for a
+  // while.
+  void set_frequency(double omega, double alpha);
 
   // To be called once, after set_system. Throws mechanics::MechanicsError for values that are not finite, out
   // of the range of InitialState, or not one for each mass.
@@ -44,8 +48,10 @@ class Trajectory {
   double time() const { return time_; }                   // [s]
   double step() const { return flow_.equations().step; }  // [s]
 
-  Eigen::VectorXd displacements() const { return z_.head(flow_.equations().masses()); }  // [m]
-  double energy_norm() const { return flow_.equations().energy_norm(z_); }               // [sqrt(J)]
+  // Of a mass or signal (mechanics/coordinates.hpp) now and at the start [m].
+  double displacement(std::size_t coordinate) const;
+  double first_displacement(std::size_t coordinate) const { return first_displacements_[coordinate]; }
+  double energy_norm() const { return flow_.equations().energy_norm(z_); }  // [sqrt(J)]
   // The energy norm of the state's distance from where its mode would come to rest [sqrt(J)].
   double distance_from_rest() const;
   bool friction_slides() const;              // some contact with friction slides now
@@ -57,13 +63,14 @@ class Trajectory {
   // displacements [m] first.
   Flow::S::State tends_to() const;
 
-  const TurningPoints& turning_points(std::size_t mass) const { return turning_points_[mass]; }
+  const TurningPoints& turning_points(std::size_t coordinate) const { return turning_points_[coordinate]; }
   const std::vector<Stop>& stops(std::size_t contact) const { return stops_[contact]; }
   const Samples& samples() const { return samples_; }
   EnergyBudget energy_budget() const { return account_.budget(energy_now()); }  // of the motion so far
 
  private:
   using State = typename Flow::S::State;
+  using Oscillators = typename Flow::S::Oscillators;
   using Step = periodic::OrbitStep<Eigen::Dynamic, Eigen::Dynamic>;
 
   bool has_started() const { return z_.size() > 0; }
@@ -72,10 +79,14 @@ class Trajectory {
   void carry_over(double old_step);
   bool pass(double length, double phase);
   void follow(Step& step);
+  void follow_signals(const Step& step, double at);
   void note_mode(const periodic::Mode<Eigen::Dynamic, Eigen::Dynamic>& mode, double at, const State& z);
   void find_free_directions();
   void keep_samples(Step& step, double at);
-  void keep_state(const State& z, const Eigen::VectorXd& acceleration, const std::vector<double>& dissipated);
+  void keep_state(const State& z, const Eigen::VectorXd& acceleration, const Oscillators& u,
+                  const std::vector<double>& dissipated);
+  void keep_signals(const State& z, const Eigen::VectorXd& acceleration, const Oscillators& u);
+  Oscillators oscillators_now() const;
   State resting_state(const State& z) const;
 
   const mechanics::Assembly& assembly_;
@@ -88,6 +99,8 @@ class Trajectory {
   double phase_ = 0.0;            // omega t of the fundamental where z_ is [rad]
   Eigen::VectorXd acceleration_;  // where z_ is [m a step^2]
   double time_ = 0.0;
+  double forcing_omega_ = 0.0;                            // of the forcing [rad/s]
+  double omega_ = 0.0, alpha_ = 0.0, omega_since_ = 0.0;  // true, its rise [rad/s^2], since [s]
   double steps_taken_ = 0.0;
   const char* failure_ = nullptr;
   double energy_scale_ = 0.0;  // [sqrt(J)] of the current passage
@@ -100,7 +113,10 @@ class Trajectory {
   State creeps_to_;    // [m]
   double held_since_;  // [s]
 
-  std::vector<TurningPoints> turning_points_;
+  periodic::Forms<Eigen::Dynamic, Eigen::Dynamic> forms_;
+  std::vector<mechanics::Incidence> signals_;
+  std::vector<TurningPoints> turning_points_;  // of each coordinate
+  std::vector<double> first_displacements_;    // of each coordinate [m]
   std::vector<std::vector<Stop>> stops_;
   std::size_t next_sample_ = 0;
   Samples samples_;

@@ -27,8 +27,9 @@ std::size_t create_borders(const MapPlan& plan, results::MapWriter& writer);
 // The row of a border in that group.  tile: the tile of the border.
 std::vector<double> border_row(const Study& study, const MapBox& tile, const Border& border);
 
-// Resonance and half-power frequencies of the masses that the study lists, solved for each point of the axes
-// other than the frequency, a curve of /resonance each; nothing if it lists none. Throws AssemblyStopped.
+// Resonance and half-power frequencies of the masses and signals that the study lists, solved for each point
+// of the axes other than the frequency, a curve of /resonance each; nothing if it lists none. Throws
+// AssemblyStopped.
 void write_resonances(const MapPlan& plan, const AssemblyOptions& options, results::MapWriter& writer);
 
 }  // namespace frahm::studies

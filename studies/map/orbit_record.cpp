@@ -5,7 +5,7 @@
 #include <complex>
 #include <string_view>
 
-#include "solvers/mechanics/linear_system.hpp"
+#include "solvers/mechanics/coordinates.hpp"
 #include "solvers/mechanics/rotation.hpp"
 #include "solvers/orbits/orbit.hpp"
 #include "solvers/response/periodic_response.hpp"
@@ -98,20 +98,25 @@ std::vector<results::Variable> sample_variables(const Study& study) {
         {.name = name, .unit = study.dimensionless ? "1" : std::string(unit), .long_name = long_name});
   };
   add("time", "s", "time within the period, from omega t = 0");
-  const auto add_of_mass = [&](std::size_t mass, const char* unit, const std::string& what) {
-    const std::string& name = network.masses[mass];
-    add(name + "_" + what, mechanics::unit_of_mass(network, mass, unit), what + " of " + name);
+  const auto add_of_coordinate = [&](std::size_t i, const char* unit, const std::string& what) {
+    const std::string& name = mechanics::coordinate_name(network, i);
+    add(name + "_" + what, mechanics::coordinate_unit(network, i, unit), what + " of " + name);
   };
   const auto add_of_element = [&](const mechanics::Element& element, const char* suffix, const char* unit,
                                   const std::string& what) {
     add(element.name + suffix, mechanics::unit_of_element(element, unit), what + " " + element.name);
   };
   for (std::size_t i = 0; i < network.masses.size(); ++i) {
-    add_of_mass(i, "m", "displacement");
-    add_of_mass(i, "m s-1", "velocity");
+    add_of_coordinate(i, "m", "displacement");
+    add_of_coordinate(i, "m s-1", "velocity");
   }
   for (const auto& element : network.elements) add_of_element(element, "_force", "N", "force of");
-  for (std::size_t i = 0; i < network.masses.size(); ++i) add_of_mass(i, "m s-2", "acceleration");
+  for (std::size_t i = 0; i < network.masses.size(); ++i) add_of_coordinate(i, "m s-2", "acceleration");
+  for (std::size_t i = network.masses.size(); i < mechanics::coordinate_count(network); ++i) {
+    add_of_coordinate(i, "m", "displacement");
+    add_of_coordinate(i, "m s-1", "velocity");
+    add_of_coordinate(i, "m s-2", "acceleration");
+  }
   for (const auto& element : network.elements) {
     if (!mechanics::has_contact(element)) continue;
     add_of_element(element, "_displacement", "m", "relative displacement across");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "solvers/mechanics/coordinates.hpp"
 #include "studies/map/comparison.hpp"
 #include "studies/reading/spelling.hpp"
 
@@ -73,7 +74,7 @@ std::vector<std::pair<std::string, std::string>> names_of_groups(const Study& st
   for (const std::size_t mass : study.sweep()->output.resonances) {
     for (const char* suffix : {"_resonance_frequency", "_resonance_amplitude", "_half_power_low",
                                "_half_power_high", "_half_power_damping"})
-      add(study.network.masses[mass] + suffix, "a variable of the resonances");
+      add(mechanics::coordinate_name(study.network, mass) + suffix, "a variable of the resonances");
   }
   return names;
 }

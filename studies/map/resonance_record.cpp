@@ -6,8 +6,7 @@
 #include <utility>
 
 #include "solvers/algebra/no_value.hpp"
-#include "solvers/mechanics/linear_system.hpp"
-#include "solvers/mechanics/rotation.hpp"
+#include "solvers/mechanics/coordinates.hpp"
 #include "solvers/orbits/orbit.hpp"
 #include "solvers/response/periodic_response.hpp"
 #include "solvers/response/resonance_peak.hpp"
@@ -20,8 +19,8 @@ namespace {
 constexpr double rounding = 1e-12;      // a smaller part of the motion counts as zero
 constexpr double least_motion = 1e-30;  // [m, or without dimension] rounding leaves a stuck mass 1e-47
 
-// Response curves of some masses along the frequency axis, the other parameters fixed: amplitudes at the
-// reference order over the axis's parameter.
+// Response curves of some masses and signals along the frequency axis, the other parameters fixed: amplitudes
+// at the reference order over the axis's parameter.
 class ResponseCurves {
  public:
   ResponseCurves(const Study& study, std::size_t parameter)
@@ -105,9 +104,9 @@ std::vector<results::Variable> row_variables(const Study& study, std::size_t fre
     }
   }
   for (const std::size_t mass : study.sweep()->output.resonances) {
-    const std::string& name = study.network.masses[mass];
+    const std::string& name = mechanics::coordinate_name(study.network, mass);
     add(name + "_resonance_frequency", "rad s-1", "angular frequency at which " + name + " moves most");
-    add(name + "_resonance_amplitude", std::string(mechanics::unit_of_mass(study.network, mass, "m")),
+    add(name + "_resonance_amplitude", std::string(mechanics::coordinate_unit(study.network, mass, "m")),
         "amplitude of " + name + " at the reference order there");
     add(name + "_half_power_low", "rad s-1", "below it, where the amplitude is 1/sqrt(2) of that");
     add(name + "_half_power_high", "rad s-1", "above it, where the amplitude is 1/sqrt(2) of that");

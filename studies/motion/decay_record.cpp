@@ -6,6 +6,7 @@
 #include <ostream>
 #include <string_view>
 
+#include "solvers/mechanics/coordinates.hpp"
 #include "solvers/mechanics/linear_system.hpp"
 #include "solvers/mechanics/modes.hpp"
 #include "solvers/mechanics/rotation.hpp"
@@ -100,8 +101,8 @@ std::vector<results::Column> decay_columns(const Study& study, const FreeDecay& 
   std::size_t rows = 1;
   for (const auto& mass : decay.masses) rows = std::max(rows, mass.extrema.size());
   for (std::size_t i = 0; i < decay.masses.size(); ++i) {
-    const std::string& name = study.network.masses[i];
-    const std::string_view unit = mechanics::unit_of_mass(study.network, i, "m");
+    const std::string& name = mechanics::coordinate_name(study.network, i);
+    const std::string_view unit = mechanics::coordinate_unit(study.network, i, "m");
     std::vector<double> times, values;
     for (const Extremum& extremum : decay.masses[i].extrema) {
       times.push_back(extremum.time);
@@ -130,8 +131,8 @@ void print_decay(const Study& study, const FreeDecay& decay, std::ostream& out) 
   fmt::print(out, "free decay: {}\n", ending(study, decay));
   for (std::size_t i = 0; i < decay.masses.size(); ++i) {
     const auto& [extrema, decrement, rest] = decay.masses[i];
-    const std::string_view unit = mechanics::unit_of_mass(study.network, i, "m");
-    fmt::print(out, "\n{}: {} {}", study.network.masses[i], extrema.size(),
+    const std::string_view unit = mechanics::coordinate_unit(study.network, i, "m");
+    fmt::print(out, "\n{}: {} {}", mechanics::coordinate_name(study.network, i), extrema.size(),
                extrema.size() == 1 ? "extremum" : "extrema");
     if (!std::isnan(rest)) {
       const char* stopped = std::isnan(decay.stop_time) ? "will rest at" : "rests at";

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "solvers/mechanics/coordinates.hpp"
 #include "solvers/mechanics/modes.hpp"
 #include "solvers/mechanics/rotation.hpp"
 #include "solvers/orbits/orbit.hpp"
@@ -59,14 +60,14 @@ std::vector<double> sample_times_of(const Study& study, double duration, double 
 // All columns that a motion has.
 std::vector<MeasuredColumn> columns_of(const Study& study, const transient::Samples& samples) {
   std::vector<MeasuredColumn> columns;
-  for (std::size_t i = 0; i < study.network.masses.size(); ++i) {
-    const std::string& mass = study.network.masses[i];
+  for (std::size_t i = 0; i < mechanics::coordinate_count(study.network); ++i) {
+    const std::string& name = mechanics::coordinate_name(study.network, i);
     const auto unit = [&](const char* linear) {
-      return std::string(mechanics::unit_of_mass(study.network, i, linear));
+      return std::string(mechanics::coordinate_unit(study.network, i, linear));
     };
-    columns.push_back({mass + "_displacement", unit("m"), samples.displacement[i]});
-    columns.push_back({mass + "_velocity", unit("m s-1"), samples.velocity[i]});
-    columns.push_back({mass + "_acceleration", unit("m s-2"), samples.acceleration[i]});
+    columns.push_back({name + "_displacement", unit("m"), samples.displacement[i]});
+    columns.push_back({name + "_velocity", unit("m s-1"), samples.velocity[i]});
+    columns.push_back({name + "_acceleration", unit("m s-2"), samples.acceleration[i]});
   }
   return columns;
 }

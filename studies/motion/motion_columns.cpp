@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "solvers/algebra/no_value.hpp"
+#include "solvers/mechanics/coordinates.hpp"
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/rotation.hpp"
 
@@ -24,11 +25,15 @@ void MotionColumns::add_number(const std::string& name, std::string_view unit, c
 
 void MotionColumns::add_samples(const transient::Samples& samples) {
   add("time", "s", "time since the initial values", "time", samples.time);
-  for (std::size_t i = 0; i < study_.network.masses.size(); ++i) {
-    const std::string& mass = study_.network.masses[i];
-    const auto unit = [&](const char* linear) { return mechanics::unit_of_mass(study_.network, i, linear); };
-    add(mass + "_displacement", unit("m"), "displacement of " + mass, "time", samples.displacement[i]);
-    add(mass + "_velocity", unit("m s-1"), "velocity of " + mass, "time", samples.velocity[i]);
+  for (std::size_t i = 0; i < mechanics::coordinate_count(study_.network); ++i) {
+    const std::string& name = mechanics::coordinate_name(study_.network, i);
+    const auto unit = [&](const char* linear) {
+      return mechanics::coordinate_unit(study_.network, i, linear);
+    };
+    add(name + "_displacement", unit("m"), "displacement of " + name, "time", samples.displacement[i]);
+    add(name + "_velocity", unit("m s-1"), "velocity of " + name, "time", samples.velocity[i]);
+    if (i >= study_.network.masses.size())
+      add(name + "_acceleration", unit("m s-2"), "acceleration of " + name, "time", samples.acceleration[i]);
   }
   for (std::size_t e = 0; e < study_.network.elements.size(); ++e) {
     if (!mechanics::kind_of(study_.network.elements[e]).dissipates) continue;

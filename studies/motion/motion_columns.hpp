@@ -20,7 +20,8 @@ class MotionColumns {
            const std::string& dimension, std::vector<double> values, std::size_t size = 0);
   void add_number(const std::string& name, std::string_view unit, const std::string& long_name, double value);
 
-  // Adds time and, along it, each mass's displacement and velocity and each element's dissipated energy.
+  // Adds time and, along it, displacement and velocity of each mass and signal, the signal's acceleration
+  // too, and each element's dissipated energy.
   void add_samples(const transient::Samples& samples);
 
   std::vector<results::Column> take() { return std::move(columns_); }

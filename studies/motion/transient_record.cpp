@@ -7,6 +7,7 @@
 #include <ostream>
 #include <string_view>
 
+#include "solvers/mechanics/coordinates.hpp"
 #include "solvers/mechanics/linear_system.hpp"
 #include "solvers/mechanics/rotation.hpp"
 #include "studies/motion/energy_columns.hpp"
@@ -96,8 +97,8 @@ std::vector<results::Column> transient_columns(const Study& study, const ForcedM
                        motion.discretisation_error);
   }
   for (std::size_t i = 0; i < motion.peaks.size(); ++i) {
-    const std::string& name = study.network.masses[i];
-    columns.add_number(name + "_peak", mechanics::unit_of_mass(study.network, i, "m"),
+    const std::string& name = mechanics::coordinate_name(study.network, i);
+    columns.add_number(name + "_peak", mechanics::coordinate_unit(study.network, i, "m"),
                        "largest displacement of " + name + ", either way",
                        std::abs(motion.peaks[i].displacement));
     columns.add_number(name + "_peak_time", "s", "time of the largest displacement of " + name,
@@ -129,8 +130,8 @@ void print_transient(const Study& study, const ForcedMotion& motion, std::ostrea
              si ? "at [s]" : "at");
   for (std::size_t i = 0; i < motion.peaks.size(); ++i) {
     const std::string_view unit =
-        si && some_rotate ? mechanics::unit_of_mass(study.network, i, "m") : std::string_view();
-    fmt::print(out, "{:<16}{:>18.10g}{:>18.10g}{:>6}\n", study.network.masses[i],
+        si && some_rotate ? mechanics::coordinate_unit(study.network, i, "m") : std::string_view();
+    fmt::print(out, "{:<16}{:>18.10g}{:>18.10g}{:>6}\n", mechanics::coordinate_name(study.network, i),
                std::abs(motion.peaks[i].displacement), motion.peaks[i].time, unit);
   }
   for (const auto& [name, stops] : stops_of_elements(study, motion)) {

@@ -214,7 +214,9 @@ void check_point(const Study& study, std::span<double> parameters, std::string_v
     checked.origin = origin;
     check(study, checked, parameters);
   }
-  for (const StudyDirection& along : study.values.along) check_direction_at(study, along, parameters, origin);
+  for (const auto* directions : {&study.values.along, &study.values.signals}) {
+    for (const StudyDirection& along : *directions) check_direction_at(study, along, parameters, origin);
+  }
 }
 
 void check_grid(const Study& study) {

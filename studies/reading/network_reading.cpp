@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "studies/reading/signal_reading.hpp"
 #include "studies/reading/spelling.hpp"
 
 namespace frahm::studies {
@@ -67,7 +68,7 @@ void take_name(NetworkReading& reading, const TomlSection& section, const std::s
   for (const auto& taken : reading.names) {
     if (taken.name != name) continue;
     section.fail(rules::name_taken, "name",
-                 "the name is taken by {}; nodes and elements need different names", taken.owner);
+                 "the name is taken by {}; nodes, elements and signals need different names", taken.owner);
   }
   reading.names.push_back({name, owner});
 }
@@ -155,6 +156,7 @@ NetworkOfStudy read_network(const StudyContext& context, const TomlValue& root, 
     read_excitation(reading, excitation->value, kind == StudyKind::transient || kind == StudyKind::identify);
     check_every_motion_is_felt(reading, excitation->value);
   }
+  read_signals(reading, root);
   check_masses_are_held(context, reading.result, reading.masses);
   return std::move(reading.result);
 }

@@ -17,7 +17,7 @@ struct NetworkReading {
   Parameters& parameters;
   NetworkOfStudy result;
 
-  // A name in use and its owner: `mass "main"`. Nodes and elements share one set of names.
+  // A name in use and its owner: `mass "main"`. Nodes, elements and signals share one set of names.
   struct TakenName {
     std::string name, owner;
   };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "solvers/mechanics/coordinates.hpp"
 #include "studies/reading/spelling.hpp"
 #include "studies/reading/study_reading.hpp"
 
@@ -94,15 +95,16 @@ void read_resonances(const StudyContext& context, const TomlSection& section, St
   const auto* names = value->as<TomlArray>();
   if (!names) section.fail(rules::wrong_type, "resonances", "expected an array of masses such as [\"main\"]");
   const std::string where = fmt::format("{}: resonances", section.where());
-  const auto& masses = study.network.masses;
+  const std::vector<std::string> coordinates = mechanics::coordinate_names(study.network);
   for (const TomlValue& item : *names) {
     const std::string name = read_text(context.source, where, item);
-    const auto mass = std::find(masses.begin(), masses.end(), name);
-    if (mass == masses.end()) {
-      throw context.source.error_at(rules::unknown_name, item.position, "{}: no mass is called \"{}\"{}",
-                                    where, name, suggestion(name, masses));
+    const auto found = std::find(coordinates.begin(), coordinates.end(), name);
+    if (found == coordinates.end()) {
+      throw context.source.error_at(rules::unknown_name, item.position,
+                                    "{}: no mass or signal is called \"{}\"{}", where, name,
+                                    suggestion(name, coordinates));
     }
-    const auto index = static_cast<std::size_t>(mass - masses.begin());
+    const auto index = static_cast<std::size_t>(found - coordinates.begin());
     auto& chosen = study.sweep()->output.resonances;
     if (std::find(chosen.begin(), chosen.end(), index) != chosen.end())
       throw context.source.error_at(rules::given_twice, item.position, "{}: \"{}\" appears twice", where,
@@ -149,7 +151,7 @@ void read_output(const StudyContext& context, const TomlValue& root, Study& stud
   const TomlEntry* entry = find_entry(root, "output");
   if (!entry) return;
   const TomlSection section(context.source, entry->value, "[output]",
-                            {"quantities", "precision", "path", "borders", "orbits", "resonances"});
+                            {"quantities", "precision", "path", "borders", "orbits", "resonances", "signal"});
   read_quantities(section, study.sweep()->output);
   study.sweep()->output.general_path = section.choice_or("path", {"fastest", "general"}) == "general";
   const auto precision = std::ranges::find(precision_names, section.choice_or("precision", precision_names));

@@ -8,6 +8,7 @@
 
 #include "studies/reading/readable_file.hpp"
 #include "studies/reading/repetition.hpp"
+#include "studies/reading/signal_reading.hpp"
 #include "studies/reading/spelling.hpp"
 #include "studies/reading/study_reading.hpp"
 
@@ -62,10 +63,19 @@ std::string why_without(StudyKind kind, const std::string& section) {
   return "; it is for kind = " + listed(owners, " or ");
 }
 
+// Of its [output] a study that is no map has the signals alone.
+bool may_have_signals(StudyKind kind) {
+  return kind != StudyKind::identify;
+}
+
 // Refuses sections of other kinds of study, which would have no effect here.
 void check_sections_of_kind(const Study& study, const TomlValue& root) {
   for (const TomlEntry& entry : *root.as<TomlTable>()) {
     if (contains(sections(study.kind()), entry.key)) continue;
+    if (entry.key == "output" && may_have_signals(study.kind()) && entry.value.as<TomlTable>()) {
+      check_output_has_signals_alone(study, entry, why_without(study.kind(), entry.key));
+      continue;
+    }
     throw study.source.error_at(rules::other_kind, entry.position, "the section \"{}\" is not part of {}{}",
                                 entry.key, kind_noun(study.kind()), why_without(study.kind(), entry.key));
   }
@@ -126,6 +136,7 @@ bool has_system(const TomlValue& root) {
 // Checks that every value is valid wherever the study goes.
 void check_whole(Study& study) {
   set_directions(study);
+  set_signals(study);
   check_grid(study);
   set_crank_orders(study);
   if (study.tune()) check_tuning(study);

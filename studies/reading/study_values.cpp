@@ -25,9 +25,11 @@ void fill(const StudyValues& values, std::span<const Number> parameters, Part pa
 
 std::vector<std::size_t> StudyValues::read_by_factors() const {
   std::vector<std::size_t> reads;
-  for (const StudyDirection& direction : along) {
-    for (const StudyValue& factor : direction.factors)
-      reads.insert(reads.end(), factor.expression.reads().begin(), factor.expression.reads().end());
+  for (const auto* directions : {&along, &signals}) {
+    for (const StudyDirection& direction : *directions) {
+      for (const StudyValue& factor : direction.factors)
+        reads.insert(reads.end(), factor.expression.reads().begin(), factor.expression.reads().end());
+    }
   }
   return reads;
 }

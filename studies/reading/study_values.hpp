@@ -37,13 +37,14 @@ struct StudyDirection {
   bool is_given() const { return !nodes.empty(); }
 };
 
-// All numbers of a network, in the order of mechanics::NetworkValues.
+// All numbers of a network, in the order of mechanics::NetworkValues, and the directions of its signals.
 struct StudyValues {
   StudyValue omega;
   std::vector<StudyValue> mass, element, amplitude, phase;
   std::vector<StudyValue> second;     // of each element, the constant 0 where it has none
   std::vector<StudyValue> rod;        // of each excitation, the constant 0 where it is no crank
   std::vector<StudyDirection> along;  // of each element, not given where it is between two nodes
+  std::vector<StudyDirection> signals{};
 
   // All but the frequency.
   std::array<const std::vector<StudyValue>*, 6> lists() const {

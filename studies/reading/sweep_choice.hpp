@@ -59,7 +59,7 @@ struct OutputChoice {
   bool general_path = false;                    // every orbit by shooting, also where nothing sticks
   bool borders = false;                         // whether borders of regimes are solved; exact law only
   std::vector<std::vector<Assignment>> orbits;  // points whose time histories are recorded
-  std::vector<std::size_t> resonances;          // masses whose resonance is sought along the frequency axis
+  std::vector<std::size_t> resonances;  // coordinates whose resonance is sought along the frequency axis
 };
 
 // A second response at the same points: another friction law, or the cranks' motion cut at another order.

@@ -93,6 +93,11 @@ void add_network(const Study& study, CanonicalText& text) {
               excitation.taylor_order, excitation.even_orders);
   }
   text.line("reference order {}", network.reference_order);
+  for (const mechanics::Signal& signal : network.signals) {
+    text.line("signal {} rotational {}", signal.name, signal.rotational);
+    for (const mechanics::Share& share : signal.along)
+      text.line("share {} {}", node_text(share.node), share.factor);
+  }
 }
 
 // The properties that distinguish decays or transients of the same network.

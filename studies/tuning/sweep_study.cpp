@@ -84,7 +84,8 @@ void set_parameters(const StoredTuning& stored, const std::string& stem, TomlTab
   }
 }
 
-TomlValue output_of(const Study& study) {
+// What the tuning gave, on the band of the sweep; the signals among it are the tuning's own.
+TomlValue output_of(const Study& study, const TomlEntry* output) {
   std::vector<std::string> names{study.tune()->quantity_name};
   for (const LimitChoice& limit : study.tune()->limits) names.push_back(limit.name);
   if (study.tune()->trade_off) names.push_back(study.tune()->trade_off->name);
@@ -93,7 +94,9 @@ TomlValue output_of(const Study& study) {
   for (auto name = names.begin(); name != names.end(); ++name) {
     if (std::find(names.begin(), name, *name) == name) list.push_back(toml_string(*name));
   }
-  return {{}, TomlTable{{"quantities", {}, {{}, std::move(list)}}}};
+  TomlTable table{{"quantities", {}, {{}, std::move(list)}}};
+  if (output) table.push_back(*find_entry(output->value, "signal"));
+  return {{}, std::move(table)};
 }
 
 }  // namespace
@@ -117,7 +120,9 @@ SweepStudy sweep_study(const StoredTuning& stored, const std::string& stem) {
   add_scenario_axes(study, axes);
   axes.push_back(axis_of(study, study.tune()->band->parameter, stored.band, ""));
   sections.push_back({"axis", {}, {{}, std::move(axes)}});
-  sections.push_back({"output", {}, output_of(study)});
+  TomlValue output = output_of(study, find_entry(root, "output"));
+  std::erase_if(sections, [](const TomlEntry& entry) { return entry.key == "output"; });
+  sections.push_back({"output", {}, std::move(output)});
   sweep.text = fmt::format("{}\n{}", sweep_mark, toml_text(root));
   return sweep;
 }

@@ -6,6 +6,7 @@
 
 #include "solvers/algebra/shortest_solution.hpp"
 #include "solvers/algebra/solve.hpp"
+#include "solvers/mechanics/coordinates.hpp"
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/rotation.hpp"
 #include "solvers/tuning/variance/lyapunov.hpp"
@@ -131,9 +132,9 @@ Variance::State Variance::state(const NetworkValues& values) const {
   A.block(2 * n, 2 * n, s, s).diagonal() = -system.internal_rate;
   VectorXd B = VectorXd::Zero(2 * n + s), h = VectorXd::Zero(2 * n + s);
   B.segment(n, n) = Mi * result.b;
-  const auto index = Index(measure_.index);
-  h.head(n) = measure_.kind == NoisyKind::displacement ? VectorXd(VectorXd::Unit(n, index))
-                                                       : assembly_.incidences()[measure_.index].w;
+  h.head(n) = measure_.kind == NoisyKind::displacement
+                  ? mechanics::coordinate_incidence(assembly_.network(), measure_.index).w
+                  : assembly_.incidences()[measure_.index].w;
 
   result.scale.resize(2 * n + s);
   result.scale << system.K.diagonal().cwiseSqrt().cwiseInverse(),

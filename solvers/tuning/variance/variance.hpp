@@ -10,13 +10,14 @@
 namespace frahm::tuning {
 
 enum class NoisyKind {
-  displacement,  // of a mass, under NoiseKind::acceleration_of relative to that which follows the support
+  displacement,  // of a coordinate, under NoiseKind::acceleration_of relative to that which follows the
+                 // support
   stroke,        // relative displacement of an element's ends
 };
 
 struct NoisyQuantity {
   NoisyKind kind = NoisyKind::displacement;
-  std::size_t index = 0;  // into Network::masses or Network::elements
+  std::size_t index = 0;  // of the coordinate (mechanics/coordinates.hpp) or into Network::elements
 };
 
 // Stationary mean square of one quantity [m^2] of a linear network under white noise; the network's own
