@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "solvers/mechanics/linear_system.hpp"
+#include "solvers/mechanics/structural_damping.hpp"
 
 // Forces of elements as linear forms, of whatever the motion is given by: `Forms` makes the forms of an
 // incidence's displacement, velocity and acceleration, the latter in a mode where it depends on one.
@@ -19,15 +19,17 @@ auto smooth_force(const Forms& forms, const Incidence& at, const ElementCoeffici
   return form;
 }
 
-// The force [N] that drives `node` (ground or prescribed): the sum that all elements need there.
+// The force [N] that drives `node` (ground or prescribed): the sum that all elements need there, and the
+// damping of the structure.
 template <class Forms, class... Mode>
-auto force_on_node(const Forms& forms, const Network& network, const Node& node,
-                   const std::vector<ElementCoefficients>& coefficients, const Mode&... mode) {
+auto force_on_node(const Forms& forms, const Network& network, const Node& node, const LinearSystem& system,
+                   const Mode&... mode) {
   auto sum = forms.zero();
   for (std::size_t e = 0; e < network.elements.size(); ++e) {
-    if (network.elements[e].b == node) sum.add(+1.0, forms.element_force(e, coefficients[e], mode...));
-    if (network.elements[e].a == node) sum.add(-1.0, forms.element_force(e, coefficients[e], mode...));
+    if (network.elements[e].b == node) sum.add(+1.0, forms.element_force(e, system.coefficients[e], mode...));
+    if (network.elements[e].a == node) sum.add(-1.0, forms.element_force(e, system.coefficients[e], mode...));
   }
+  if (system.structural_damping.size() > 0) sum.add(+1.0, forms.velocity(structural_reaction(system, node)));
   return sum;
 }
 

@@ -64,9 +64,9 @@ double support_amplitude_derivative(const mechanics::LinearSystem& system,
 double force_transmissibility(const mechanics::LinearSystem& system, const Eigen::VectorXcd& X) {
   const std::complex<double> applied = system.applied_force.col(reference_column(system)).sum();
   const double rate = system.reference_order * system.omega;
-  // What acts on the supports is P - sum_i m_i x_i'', at the reference order P + (n omega)^2 sum_i m_i X_i.
-  const std::complex<double> on_supports =
-      applied + rate * rate * system.mass.cast<std::complex<double>>().dot(X);
+  // What acts on the supports is P - sum_i m_i x_i'', at the reference order P + (n omega)^2 sum_i m_i X_i;
+  // with matrices sum_ij m_ij X_j, as of displacements in one direction.
+  const std::complex<double> on_supports = applied + rate * rate * (system.mass * X).sum();
   return ratio(std::abs(on_supports), std::abs(applied));
 }
 
@@ -77,9 +77,8 @@ double force_transmissibility_derivative(const mechanics::LinearSystem& system,
   const std::complex<double> applied = system.applied_force.col(column).sum();
   const std::complex<double> applied_by = by.applied_force.col(column).sum();
   const double n = system.reference_order, rate = n * system.omega;
-  const Eigen::VectorXcd mass = system.mass.cast<std::complex<double>>();
-  const std::complex<double> moved = mass.dot(X);
-  const std::complex<double> moved_by = mass.dot(X_by) + by.mass.cast<std::complex<double>>().dot(X);
+  const std::complex<double> moved = (system.mass * X).sum();
+  const std::complex<double> moved_by = (system.mass * X_by).sum() + (by.mass * X).sum();
   const std::complex<double> on_supports = applied + rate * rate * moved;
   const std::complex<double> on_supports_by =
       applied_by + rate * rate * moved_by + 2.0 * rate * n * by.omega * moved;

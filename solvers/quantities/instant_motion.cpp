@@ -1,5 +1,7 @@
 #include "solvers/quantities/instant_motion.hpp"
 
+#include "solvers/mechanics/structural_damping.hpp"
+
 namespace frahm::periodic {
 namespace {
 
@@ -53,7 +55,10 @@ class Forces {
       if (elements[e].b == node) sum += of_element(e);
       if (elements[e].a == node) sum -= of_element(e);
     }
-    return sum;
+    if (system_.structural_damping.size() == 0) return sum;
+    // d(S_node v) = dS_node v + S_node dv
+    return sum + velocity(mechanics::structural_reaction(system_, node), motion_).by +
+           velocity(mechanics::structural_reaction(by_, node), motion_).value;
   }
 
  private:

@@ -42,6 +42,10 @@ void check_masses_are_held(const StudyContext& context, const NetworkOfStudy& sy
     const bool absent = stiffness.is_constant() && stiffness.evaluate(std::span<const double>{}) == 0.0;
     if (mechanics::kind_of(element).holds && !absent) sets.join(set_of(element.a), set_of(element.b));
   }
+  // Whether matrices hold their nodes, the check of the whole stiffness matrix tells.
+  for (const mechanics::MatrixPart& part : network.matrices) {
+    for (const std::size_t node : part.nodes) sets.join(node, held);
+  }
   for (std::size_t i = 0; i < held; ++i) {
     if (sets.root(i) == sets.root(held)) continue;
     std::vector<std::string> floating;

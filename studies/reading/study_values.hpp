@@ -29,12 +29,13 @@ struct StudyValue {
 struct StudyValues {
   StudyValue omega;
   std::vector<StudyValue> mass, element, amplitude, phase;
-  std::vector<StudyValue> second;  // of each element, the constant 0 where it has none
-  std::vector<StudyValue> rod;     // of each excitation, the constant 0 where it is no crank
+  std::vector<StudyValue> second;   // of each element, the constant 0 where it has none
+  std::vector<StudyValue> rod;      // of each excitation, the constant 0 where it is no crank
+  std::vector<StudyValue> damping;  // of the structure: modal ratios, or the two of rayleigh
 
   // All but the frequency.
-  std::array<const std::vector<StudyValue>*, 6> lists() const {
-    return {&mass, &element, &second, &amplitude, &phase, &rod};
+  std::array<const std::vector<StudyValue>*, 7> lists() const {
+    return {&mass, &element, &second, &amplitude, &phase, &rod, &damping};
   }
 };
 

@@ -18,7 +18,7 @@ struct QuantityEntry {
 };
 
 // In the order of Quantity.
-constexpr std::array<QuantityEntry, 15> quantities{{
+constexpr std::array<QuantityEntry, 16> quantities{{
     {"a pure number", "1", "1", "1 or %", {0, 0, 0}},
     {"a length", "m", "m", "m, mm or um", {1, 0, 0}},
     {"a mass", "kg", "kg", "kg, g or t", {0, 1, 0}},
@@ -34,6 +34,7 @@ constexpr std::array<QuantityEntry, 15> quantities{{
     {"an angular acceleration", "rad s-2", "rad/s2", "rad/s2, rpm/s or Hz/s", {0, 0, -2}},
     {"an acceleration", "m s-2", "m/s2", "m/s2 or mm/s2", {1, 0, -2}},
     {"an energy", "J", "J", "J, mJ or N m", {2, 1, -2}},
+    {"a rate", "s-1", "1/s", "1/s or 1/min", {0, 0, -1}},
 }};
 
 const QuantityEntry& entry(Quantity quantity) {

@@ -27,6 +27,7 @@ enum class Quantity {
   angular_acceleration,  // rad/s2
   acceleration,          // m/s2
   energy,                // J
+  rate,                  // 1/s, of a decay: no cycles
 };
 
 std::string_view quantity_name(Quantity quantity);    // with its article: "a stiffness"

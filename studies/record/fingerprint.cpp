@@ -58,6 +58,13 @@ std::string node_text(const mechanics::Node& node) {
   return fmt::format("{}:{}", static_cast<int>(node.kind), node.index);
 }
 
+// Of the numbers of a matrix.
+std::string digest(const Eigen::MatrixXd& matrix) {
+  const XXH128_hash_t hash =
+      XXH3_128bits(matrix.data(), static_cast<std::size_t>(matrix.size()) * sizeof(double));
+  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
 void add_network(const Study& study, CanonicalText& text) {
   const mechanics::Network& network = study.network;
   const StudyValues& values = study.values;
@@ -81,6 +88,12 @@ void add_network(const Study& study, CanonicalText& text) {
               excitation.taylor_order, excitation.even_orders);
   }
   text.line("reference order {}", network.reference_order);
+  if (network.damping != mechanics::DampingModel::none)
+    text.line("damping {}", static_cast<int>(network.damping));
+  for (const StudyValue& each : values.damping) text.line("damping value {}", value(each));
+  for (const mechanics::MatrixPart& part : network.matrices)
+    text.line("matrices {} {} {} {} {}", part.name, fmt::join(part.nodes, " "), digest(part.mass),
+              digest(part.stiffness), digest(part.damping));
 }
 
 // The properties that distinguish decays or transients of the same network.
