@@ -99,7 +99,7 @@ void write_csv(const std::filesystem::path& path, const Eigen::MatrixXd& matrix)
 
 // Three storeys with dampers and an absorber on top; friction in two of them. The first three are given by
 // elements or by their matrices.
-const std::string heading = "[study]\nschema = 1\nkind = \"sweep\"\n[parameters]\nF = 0.3\n";
+const std::string heading = "[study]\nschema = 1\nkind = \"sweep\"\n[parameters]\nF = 0.3\nr = 1.7\n";
 const std::string storeys = R"(
 [[mass]]
 repeat = { i = [1, 3] }
@@ -134,10 +134,13 @@ inertance = 0.5
 )";
 const std::string driven = R"(
 [excitation]
-frequency = 1.7
+frequency = "r"
 [[excitation.force]]
 on = "u3"
 amplitude = 1
+[[axis]]
+parameter = "r"
+values = [1.0, 2.0]
 )";
 const std::string rest = R"(
 [[mass]]
