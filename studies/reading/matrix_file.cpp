@@ -18,8 +18,8 @@ Eigen::MatrixXd read_csv_matrix(const std::filesystem::path& path, const std::st
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::vector<std::string>& cells = rows[i].cells;
     if (cells.size() != columns)
-      throw StudyError(rules::wrong_row, "{}:{}: has {} numbers, the first row has {}", name, rows[i].line,
-                       cells.size(), columns);
+      throw StudyError(rules::wrong_row, "{}:{}: the row is of length {}, the first one of length {}", name,
+                       rows[i].line, cells.size(), columns);
     for (std::size_t j = 0; j < columns; ++j) {
       const auto value = cell_number(cells[j]);
       if (!value || !std::isfinite(*value))
