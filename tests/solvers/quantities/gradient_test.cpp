@@ -163,7 +163,7 @@ TEST_CASE("So are those of random networks with damping of the structure, by its
     RandomNetwork drawn = random_network({.masses = 2 + static_cast<int>(trial % 2),
                                           .contacts = static_cast<int>(trial % 3),
                                           .shaken = trial % 2 == 0,
-                                          .largest_friction = 0.5},
+                                          .largest_friction = 0.1},
                                          random);
     const bool is_modal = trial % 3 != 1;
     drawn.network.damping = is_modal ? mechanics::DampingModel::modal : mechanics::DampingModel::rayleigh;
