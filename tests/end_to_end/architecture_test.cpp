@@ -111,6 +111,7 @@ TEST_CASE("each foreign library is known to one file, and to no header") {
       {"toml\\+\\+|toml", {"studies/reading/toml_reading.cpp"}},
       {"CLI", {"studies/program/program.cpp"}},
       {"udunits2", {"studies/reading/units.cpp"}},
+      {"suitesparse/cholmod", {"studies/reading/matrix_market.cpp"}},
       {"isa-l/crc", {"engine/checksum.cpp"}},
       {"mpi", {"engine/mpi.cpp"}},
       {"libdeflate", {"results/deflate.cpp"}},
