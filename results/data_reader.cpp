@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "results/store_error.hpp"
@@ -33,11 +34,13 @@ std::vector<std::string> parts_of(const std::string& path) {
                    names.empty() ? "it is empty" : "there are " + known);
 }
 
-void check_form(const hdf5::Dataset& dataset) {
+void check_form(const hdf5::Dataset& dataset, std::size_t needed) {
   if (!dataset.is_numeric()) throw StoreError(dataset.where(), "must be numbers", "");
   const std::size_t dimensions = dataset.shape().size();
-  if (dimensions != 1)
-    throw StoreError(dataset.where(), fmt::format("has {} dimensions: must have one", dimensions), "");
+  if (dimensions != needed)
+    throw StoreError(dataset.where(),
+                     fmt::format("has {} dimensions: must have {}", dimensions, needed == 1 ? "one" : "two"),
+                     "");
   for (const char* packing : {"scale_factor", "add_offset"}) {
     if (dataset.numbers(packing))
       throw StoreError(dataset.where(), fmt::format("is packed by {}: must be plain numbers", packing), "");
@@ -48,7 +51,7 @@ void check_form(const hdf5::Dataset& dataset) {
 
 DataReader::DataReader(const std::filesystem::path& path) : file_(hdf5::File::open(path)) {}
 
-DataColumn DataReader::read(const std::string& dataset) const {
+hdf5::Dataset DataReader::find(const std::string& dataset, std::size_t dimensions) const {
   const std::vector<std::string> parts = parts_of(dataset);
   hdf5::Group group = file_.root();
   if (parts.empty()) throw StoreError(group.where(), "is a group: a dataset is needed", "");
@@ -57,18 +60,29 @@ DataColumn DataReader::read(const std::string& dataset) const {
     group = group.group(parts[i]);
   }
   if (!group.has_dataset(parts.back())) fail_missing(group, parts.back());
-  const hdf5::Dataset found = group.dataset(parts.back());
-  check_form(found);
-  DataColumn column;
+  hdf5::Dataset found = group.dataset(parts.back());
+  check_form(found, dimensions);
+  return found;
+}
+
+std::vector<double> DataReader::numbers_of(const hdf5::Dataset& dataset) {
+  const Shape shape = dataset.shape();
+  if (std::ranges::find(shape, 0U) != shape.end()) return {};
+  std::vector<double> values = dataset.read(Shape(shape.size(), 0), shape);
+  if (const auto missing = dataset.numbers("_FillValue"); missing && missing->size() == 1)
+    std::ranges::replace(values, missing->front(), std::numeric_limits<double>::quiet_NaN());
+  return values;
+}
+
+DataColumn DataReader::read(const std::string& dataset) const {
+  const hdf5::Dataset found = find(dataset, 1);
+  return {numbers_of(found), found.text("units")};
+}
+
+DataMatrix DataReader::read_matrix(const std::string& dataset) const {
+  const hdf5::Dataset found = find(dataset, 2);
   const Shape shape = found.shape();
-  if (shape.front() > 0) column.values = found.read(Shape{0}, shape);
-  column.unit = found.text("units");
-  if (const auto missing = found.numbers("_FillValue"); missing && missing->size() == 1) {
-    for (double& value : column.values) {
-      if (value == missing->front()) value = std::numeric_limits<double>::quiet_NaN();
-    }
-  }
-  return column;
+  return {shape[0], shape[1], numbers_of(found)};
 }
 
 }  // namespace frahm::results

@@ -15,7 +15,14 @@ struct DataColumn {
   std::optional<std::string> unit;  // the attribute "units"
 };
 
-// Reads columns of numbers from any HDF5 or netCDF-4 file, written by frahm or by another program.
+// A matrix of numbers, row after row.
+struct DataMatrix {
+  std::size_t rows = 0, columns = 0;
+  std::vector<double> values;
+};
+
+// Reads columns and matrices of numbers from any HDF5 or netCDF-4 file, written by frahm or by another
+// program.
 class DataReader {
  public:
   // Throws StoreError if it cannot be opened.
@@ -25,8 +32,13 @@ class DataReader {
   // _FillValue become NaN. Throws StoreError if it does not exist (the message lists what does), has another
   // shape or type, is packed by scale_factor or add_offset, or is damaged.
   DataColumn read(const std::string& dataset) const;
+  // The same of a dataset of two dimensions.
+  DataMatrix read_matrix(const std::string& dataset) const;
 
  private:
+  hdf5::Dataset find(const std::string& dataset, std::size_t dimensions) const;
+  static std::vector<double> numbers_of(const hdf5::Dataset& dataset);
+
   hdf5::File file_;
 };
 

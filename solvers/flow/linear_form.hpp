@@ -59,8 +59,7 @@ class Forms {
   Form stuck_contact_force(Eigen::Index contact, const Mode<N, H>& mode) const;
 
   // The force [N] that drives `node` (ground or prescribed): the sum that all elements need there.
-  Form node_force(const mechanics::Node& node,
-                  const std::vector<mechanics::ElementCoefficients>& coefficients,
+  Form node_force(const mechanics::Node& node, const mechanics::LinearSystem& system,
                   const Mode<N, H>& mode) const;
 
   Form zero() const {
@@ -140,10 +139,9 @@ LinearForm<N, H> Forms<N, H>::stuck_contact_force(Eigen::Index contact, const Mo
 }
 
 template <int N, int H>
-LinearForm<N, H> Forms<N, H>::node_force(const mechanics::Node& node,
-                                         const std::vector<mechanics::ElementCoefficients>& coefficients,
+LinearForm<N, H> Forms<N, H>::node_force(const mechanics::Node& node, const mechanics::LinearSystem& system,
                                          const Mode<N, H>& mode) const {
-  return mechanics::force_on_node(*this, assembly_.network(), node, coefficients, mode);
+  return mechanics::force_on_node(*this, assembly_.network(), node, system, mode);
 }
 
 // Compiled once for each size, in flow_1_1.cpp and so on.

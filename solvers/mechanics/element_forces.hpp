@@ -4,6 +4,7 @@
 
 #include "solvers/mechanics/linear_system.hpp"
 #include "solvers/mechanics/rotation.hpp"
+#include "solvers/mechanics/structural_damping.hpp"
 
 // Forces of elements as linear forms, of whatever the motion is given by: `Forms` makes the forms of an
 // incidence's displacement, velocity and acceleration, the latter in a mode where it depends on one.
@@ -21,16 +22,17 @@ auto smooth_force(const Forms& forms, const Incidence& at, const ElementCoeffici
 }
 
 // The force [N] that drives `node` (ground or prescribed): the sum that all elements need there, each by its
-// factor. (The ground of a network that only turns: a torque [N m].)
+// factor, and the damping of the structure. (The ground of a network that only turns: a torque [N m].)
 template <class Forms, class... Mode>
-auto force_on_node(const Forms& forms, const Network& network, const Node& node,
-                   const std::vector<ElementCoefficients>& coefficients, const Mode&... mode) {
+auto force_on_node(const Forms& forms, const Network& network, const Node& node, const LinearSystem& system,
+                   const Mode&... mode) {
   auto sum = forms.zero();
   const bool takes_torque = ground_takes_torque(network);
   for (std::size_t e = 0; e < network.elements.size(); ++e) {
     const double share = share_in_force(network.elements[e], node, takes_torque);
-    if (share != 0.0) sum.add(share, forms.element_force(e, coefficients[e], mode...));
+    if (share != 0.0) sum.add(share, forms.element_force(e, system.coefficients[e], mode...));
   }
+  if (system.structural_damping.size() > 0) sum.add(+1.0, forms.velocity(structural_reaction(system, node)));
   return sum;
 }
 

@@ -10,6 +10,7 @@
 #include "solvers/mechanics/crank.hpp"
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/rotation.hpp"
+#include "solvers/mechanics/structural_damping.hpp"
 
 namespace frahm::mechanics {
 namespace {
@@ -68,6 +69,25 @@ Assembly::Assembly(const Network& network)
   depends_on_frequency_ = frequency_dependent_element(network_) != nullptr;
   place_orders();
   weigh_support_force();
+  add_up_matrices();
+}
+
+void Assembly::add_up_matrices() {
+  const auto n = static_cast<Eigen::Index>(network_.masses.size());
+  const auto add = [&](const Eigen::MatrixXd& part, const std::vector<std::size_t>& nodes,
+                       Eigen::MatrixXd& sum) {
+    if (part.size() == 0) return;
+    if (sum.size() == 0) sum.setZero(n, n);
+    for (Eigen::Index i = 0; i < part.rows(); ++i)
+      for (Eigen::Index j = 0; j < part.cols(); ++j)
+        sum(static_cast<Eigen::Index>(nodes[static_cast<std::size_t>(i)]),
+            static_cast<Eigen::Index>(nodes[static_cast<std::size_t>(j)])) += part(i, j);
+  };
+  for (const MatrixPart& part : network_.matrices) {
+    add(part.mass, part.nodes, matrices_.mass);
+    add(part.damping, part.nodes, matrices_.damping);
+    add(part.stiffness, part.nodes, matrices_.stiffness);
+  }
 }
 
 // Elements along the same direction share a contact where their law merges.
@@ -116,6 +136,7 @@ void Assembly::check_values(const NetworkValues& values) const {
     if (const ValueKey& second = second_key(element); second.exists())
       check_value(second, element, second_value(values, e));
   }
+  check_structural_damping(network_, values.damping);
 }
 
 void Assembly::set_values(const NetworkValues& values, LinearSystem& system) const {
@@ -142,11 +163,14 @@ void Assembly::set_values(const NetworkValues& values, LinearSystem& system) con
   system.orders = orders_;
   system.reference_order = network_.reference_order;
   system.odd_forcing = odd_forcing_;
-  system.mass = Eigen::Map<const Eigen::VectorXd>(values.mass.data(), n);
-  system.M.diagonal() = system.mass;
+  system.mass.setZero(n, n);
+  system.mass.diagonal() = Eigen::Map<const Eigen::VectorXd>(values.mass.data(), n);
+  if (matrices_.mass.size() > 0) system.mass += matrices_.mass;
+  system.M = system.mass;
   system.support_force = support_force_;
-  system.felt_inertia = support_force_.c.cwiseProduct(system.mass).transpose();
+  system.felt_inertia = support_force_.c.transpose() * system.mass;
   system.felt_inertia_support.setZero(p);
+  if (matrices_.stiffness.size() > 0) system.K = matrices_.stiffness;
 
   const double omega_h =
       values.hysteretic_omega > 0.0 ? values.hysteretic_omega : network_.reference_order * values.omega;
@@ -193,6 +217,7 @@ void Assembly::set_values(const NetworkValues& values, LinearSystem& system) con
                             "series are one jenkins element");
   require_positive_definite(system.K, "stiffness",
                             "some motion is held by no spring, or a negative stiffness is too large");
+  set_structural_damping(*this, values.damping, system);
 }
 
 void Assembly::set_friction(const NetworkValues& values, LinearSystem& system) const {

@@ -66,15 +66,19 @@ struct ElementCoefficients {
 // p x s.
 struct LinearSystem {
   double omega = 0.0;    // [rad/s]
-  Eigen::VectorXd mass;  // of the nodes, without inerters [kg], of a rotation [kg m2]
+  Eigen::MatrixXd mass;  // of the nodes and of matrices, without inerters, n x n [kg], of rotations [kg m2]
   Eigen::MatrixXd M, C, K;
   Eigen::MatrixXd M_support, C_support, K_support;  // blocks that couple masses to prescribed nodes
-  Eigen::MatrixXd W, W_support;                     // directions of the contacts
-  Eigen::VectorXd limit;                            // F_j [N] of each contact
-  std::vector<const laws::Law*> law;                // of each contact
-  std::vector<Eigen::Index> contact_internal;       // index of each contact's internal force, -1: none
-  Eigen::MatrixXd D, D_support;                     // directions d_e, p_e of the internal forces
-  Eigen::VectorXd internal_stiffness;               // k_e [N/m]
+  // S of the damping of the structure as a whole, which C and C_support include; 0 x 0 where there is none:
+  // forces S v [N] on v = (velocities of the masses, the ground's, which is 0, those of the prescribed
+  // nodes), of which it dissipates v^T S v [W] (structural_damping.hpp).
+  Eigen::MatrixXd structural_damping;
+  Eigen::MatrixXd W, W_support;                   // directions of the contacts
+  Eigen::VectorXd limit;                          // F_j [N] of each contact
+  std::vector<const laws::Law*> law;              // of each contact
+  std::vector<Eigen::Index> contact_internal;     // index of each contact's internal force, -1: none
+  Eigen::MatrixXd D, D_support;                   // directions d_e, p_e of the internal forces
+  Eigen::VectorXd internal_stiffness;             // k_e [N/m]
   Eigen::VectorXd internal_rate;                  // k_e / c_e of a Maxwell element, 0 without a damper [1/s]
   std::vector<ElementCoefficients> coefficients;  // of each element
   std::vector<int> orders;                 // > 0, ascending: of the excitation, and the reference order
@@ -118,9 +122,12 @@ class Assembly {
   std::size_t contacts() const { return contact_laws_.size(); }
   std::size_t internal_forces() const { return internal_forces_; }
   bool matrices_depend_on_frequency() const { return depends_on_frequency_; }
+  // Sums of Network::matrices, n x n each; 0 x 0 where there are none.
+  const MatrixPart& matrices() const { return matrices_; }
 
  private:
   void place_in_contact(std::size_t element);
+  void add_up_matrices();
   void place_orders();
   void weigh_support_force();
   void check_values(const NetworkValues& values) const;
@@ -136,6 +143,7 @@ class Assembly {
   SupportForce support_force_;
   bool odd_forcing_ = true, depends_on_frequency_ = false;
   std::size_t internal_forces_ = 0;
+  MatrixPart matrices_;
 };
 
 }  // namespace frahm::mechanics

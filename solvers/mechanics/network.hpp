@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <string>
@@ -97,6 +98,20 @@ struct Signal {
   bool rotational = false;  // it is an angle
 };
 
+// Damping of the structure as a whole, beside that of elements (structural_damping.hpp).
+enum class DampingModel {
+  none,
+  modal,     // a ratio for each natural mode, in the order of their frequencies
+  rayleigh,  // a M + b K
+};
+
+// A part of the system that is given by its matrices, such as a reduced finite-element model.
+struct MatrixPart {
+  std::string name;
+  std::vector<std::size_t> nodes;            // of each row: index into Network::masses
+  Eigen::MatrixXd mass, damping, stiffness;  // [kg], [N s/m], [N/m]; damping: 0 x 0 where it has none
+};
+
 struct Network {
   std::vector<std::string> masses;      // names of the moving nodes
   std::vector<std::string> prescribed;  // names of the nodes of prescribed motion
@@ -105,6 +120,8 @@ struct Network {
   int reference_order = 1;       // the harmonic of which phases are taken
   std::vector<bool> rotation{};  // of each mass: it is a moment of inertia; may be empty where none is
   std::vector<Signal> signals{};
+  DampingModel damping = DampingModel::none;
+  std::vector<MatrixPart> matrices{};
 };
 
 struct ExcitationValue {
@@ -124,6 +141,8 @@ struct NetworkValues {
   std::vector<ExcitationValue> excitation;  // of each excitation component
   std::vector<double> second{};   // of each element, 0 where it has none; may be empty where none has one
   double hysteretic_omega = 0.0;  // omega_h [rad/s] of hysteretic elements; 0: reference order x omega
+  // modal: ratios [1] of the first modes, the last one of all higher modes too; rayleigh: a [1/s], b [s]
+  std::vector<double> damping{};
 };
 
 }  // namespace frahm::mechanics

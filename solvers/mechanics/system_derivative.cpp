@@ -7,6 +7,7 @@
 
 #include "solvers/mechanics/crank.hpp"
 #include "solvers/mechanics/element_table.hpp"
+#include "solvers/mechanics/structural_damping.hpp"
 
 namespace frahm::mechanics {
 namespace {
@@ -16,7 +17,8 @@ void resize(const LinearSystem& system, const NetworkValues& direction, LinearSy
   d.omega = direction.omega;
   d.orders = system.orders;
   d.reference_order = system.reference_order;
-  d.mass = Eigen::Map<const Eigen::VectorXd>(direction.mass.data(), n);
+  d.mass.setZero(n, n);
+  d.mass.diagonal() = Eigen::Map<const Eigen::VectorXd>(direction.mass.data(), n);
   d.M.setZero(n, n);
   d.C.setZero(n, n);
   d.K.setZero(n, n);
@@ -31,9 +33,9 @@ void resize(const LinearSystem& system, const NetworkValues& direction, LinearSy
   d.constant_motion.setZero(p);
   d.force.setZero(n, system.force.cols());
   d.motion.setZero(p, system.motion.cols());
-  d.M.diagonal() = d.mass;
+  d.M = d.mass;
   d.support_force = system.support_force;
-  d.felt_inertia = d.support_force.c.cwiseProduct(d.mass).transpose();
+  d.felt_inertia = d.support_force.c.transpose() * d.mass;
   d.felt_inertia_support.setZero(p);
 }
 
@@ -150,10 +152,17 @@ void differentiate_support_forces(const LinearSystem& system, LinearSystem& d) {
 
 }  // namespace
 
-void differentiate(const Assembly& assembly, const NetworkValues& values, const NetworkValues& direction,
-                   const LinearSystem& system, LinearSystem& derivative) {
+void differentiate_matrices(const Assembly& assembly, const NetworkValues& values,
+                            const NetworkValues& direction, const LinearSystem& system,
+                            LinearSystem& derivative) {
   resize(system, direction, derivative);
   differentiate_elements(assembly, values, direction, system, derivative);
+  differentiate_structural_damping(assembly, values, direction, system, derivative);
+}
+
+void differentiate(const Assembly& assembly, const NetworkValues& values, const NetworkValues& direction,
+                   const LinearSystem& system, LinearSystem& derivative) {
+  differentiate_matrices(assembly, values, direction, system, derivative);
   differentiate_excitation(assembly, values, direction, derivative);
   derivative.constant_applied_force = derivative.constant_force;
   derivative.applied_force = derivative.force;

@@ -8,9 +8,14 @@ namespace frahm::mechanics {
 // the derivative of that of `system`, laid out alike (its orders are copied; its W, D and laws, which no
 // value changes, are left empty).
 // values: those of which `assembly` made `system`.  direction: their derivative, .omega and .hysteretic_omega
-// included, in the layout of NetworkValues; an empty `second` means zeros. The series of a crank's even
-// orders is cut at the same order as that of the displacement.
+// included, in the layout of NetworkValues; an empty `second` or `damping` means zeros. The series of a
+// crank's even orders is cut at the same order as that of the displacement.
 void differentiate(const Assembly& assembly, const NetworkValues& values, const NetworkValues& direction,
                    const LinearSystem& system, LinearSystem& derivative);
+
+// The same of masses, elements and the structure's damping alone: nothing of the excitation is touched.
+void differentiate_matrices(const Assembly& assembly, const NetworkValues& values,
+                            const NetworkValues& direction, const LinearSystem& system,
+                            LinearSystem& derivative);
 
 }  // namespace frahm::mechanics

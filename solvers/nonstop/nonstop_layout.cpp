@@ -5,6 +5,7 @@
 
 #include "solvers/mechanics/coordinates.hpp"
 #include "solvers/mechanics/element_table.hpp"
+#include "solvers/mechanics/structural_damping.hpp"
 #include "solvers/nonstop/nonstop_solver.hpp"
 #include "solvers/quantities/fundamental_response.hpp"
 
@@ -68,6 +69,13 @@ void NonstopSolver::lay_out_shape() {
     }
     for (Eigen::Index i = 0; i < s; ++i) add(2 * n + i, 2 * n + i);
   }
+  // The squares of the rates of the structure's damping come after the entries.
+  structural_rates_.resize(0, 0);
+  if (request_.needs.energies) structural_rates_ = mechanics::structural_rates(system);
+  for (Eigen::Index r = 0; r < structural_rates_.rows(); ++r) {
+    const auto form = static_cast<int>(integrated_.size()) + static_cast<int>(r);
+    products_.push_back({form, form});
+  }
   shape_ = {};
   shape_.modes = static_cast<int>(modes_.modes());
   shape_.states = static_cast<int>(2 * n + s);
@@ -96,9 +104,11 @@ void NonstopSolver::set_forms() {
       forms_.push_back(is_velocity ? forms.velocity(at) : forms.displacement(at));
     }
   }
-  for (const Trace& trace : request_.traces) forms_.push_back(form_of(trace, forms, system.coefficients));
+  for (const Trace& trace : request_.traces) forms_.push_back(form_of(trace, forms, system));
   const std::size_t first = forms_.size();
   for (const Eigen::Index row : integrated_) forms_.push_back(integrated_form(forms, row));
+  for (Eigen::Index r = 0; r < structural_rates_.rows(); ++r)
+    forms_.push_back(forms.velocity(mechanics::structural_incidence(system, structural_rates_.row(r))));
   powers_.clear();
   const auto add_power = [&](Form force, Form velocity) {
     const auto index = static_cast<int>(forms_.size() - first);
@@ -111,8 +121,7 @@ void NonstopSolver::set_forms() {
       add_power(forms.applied_force(mass), forms.state(system.masses() + mass));
     for (std::size_t i = 0; i < network.prescribed.size(); ++i) {
       const mechanics::Node node{mechanics::NodeKind::prescribed, i};
-      add_power(forms.node_force(node, system.coefficients),
-                forms.support_velocity(static_cast<Eigen::Index>(i)));
+      add_power(forms.node_force(node, system), forms.support_velocity(static_cast<Eigen::Index>(i)));
     }
   }
   shape_.integrated = static_cast<int>(forms_.size() - first);

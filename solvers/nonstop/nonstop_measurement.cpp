@@ -95,6 +95,9 @@ void NonstopSolver::measure(int lane) {
   }
   if (!request_.needs.energies) return;
   value::add_up_friction(m);
+  m.structural_loss = 0.0;
+  for (std::size_t p = entries_.size(); p < products_.size(); ++p)
+    m.structural_loss += told(pack_.integral, p, lane);
   value::add_up_losses(m);
 }
 

@@ -38,7 +38,7 @@ NonstopSolver::NonstopSolver(const mechanics::Assembly& assembly, const std::vec
 // As the modes' own values, but for friction, forcing and a frequency on which no matrix depends.
 bool NonstopSolver::shares_matrices(const mechanics::NetworkValues& values) const {
   const mechanics::NetworkValues& first = modes_of_;
-  if (values.mass != first.mass || values.second != first.second ||
+  if (values.mass != first.mass || values.second != first.second || values.damping != first.damping ||
       values.element.size() != first.element.size())
     return false;
   for (const std::size_t e : elements_in_matrices_) {

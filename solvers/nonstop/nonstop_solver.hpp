@@ -98,7 +98,8 @@ class NonstopSolver {
   };
   std::vector<Eigen::Index> integrated_;  // rows of the Gram matrix: states and signals
   std::vector<Product> products_, powers_;
-  std::vector<Entry> entries_;  // of each product
+  std::vector<Entry> entries_;        // of the first products; the others are of structural_rates_
+  Eigen::MatrixXd structural_rates_;  // what the structure dissipates is the sum of their squares
   Shape shape_;
   Pack pack_;
   std::vector<double> buffer_;

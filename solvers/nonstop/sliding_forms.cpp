@@ -88,9 +88,8 @@ Form SlidingForms::element_force(std::size_t element, const mechanics::ElementCo
   return form;
 }
 
-Form SlidingForms::node_force(const mechanics::Node& node,
-                              const std::vector<mechanics::ElementCoefficients>& coefficients) const {
-  return mechanics::force_on_node(*this, assembly_.network(), node, coefficients);
+Form SlidingForms::node_force(const mechanics::Node& node, const mechanics::LinearSystem& system) const {
+  return mechanics::force_on_node(*this, assembly_.network(), node, system);
 }
 
 }  // namespace frahm::periodic::nonstop

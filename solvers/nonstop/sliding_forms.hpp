@@ -33,8 +33,7 @@ class SlidingForms {
   // Force [N] of an element.
   Form element_force(std::size_t element, const mechanics::ElementCoefficients& law) const;
   // The force [N] that drives `node` (ground or prescribed): the sum that all elements need there.
-  Form node_force(const mechanics::Node& node,
-                  const std::vector<mechanics::ElementCoefficients>& coefficients) const;
+  Form node_force(const mechanics::Node& node, const mechanics::LinearSystem& system) const;
   Form state(Eigen::Index i) const;  // y_i itself
   // Velocity of a prescribed node, and outside force on a mass.
   Form support_velocity(Eigen::Index node) const;

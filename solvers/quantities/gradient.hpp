@@ -109,7 +109,7 @@ void Gradient<N, H>::measure(const Orbit<N, H>& orbit, const mechanics::LinearSy
   instants_.resize(traces);
   for (std::size_t i = 0; i < traces; ++i) {
     traced_.look(steps_, flow_, [this, i](const Mode<N, H>& mode) {
-      return form_of(request_.traces[i], forms_, measured_.system->coefficients, mode);
+      return form_of(request_.traces[i], forms_, *measured_.system, mode);
     });
     measured_.extremes[i] = traced_.candidates(orbit.sign(), measured_.candidates[i]);
     place_instants(orbit, i);

@@ -1,6 +1,7 @@
 #include "solvers/quantities/instant_motion.hpp"
 
 #include "solvers/mechanics/rotation.hpp"
+#include "solvers/mechanics/structural_damping.hpp"
 
 namespace frahm::periodic {
 namespace {
@@ -56,7 +57,10 @@ class Forces {
       const double share = mechanics::share_in_force(network.elements[e], node, takes_torque);
       if (share != 0.0) sum += share * of_element(e);
     }
-    return sum;
+    if (system_.structural_damping.size() == 0) return sum;
+    // d(S_node v) = dS_node v + S_node dv
+    return sum + velocity(mechanics::structural_reaction(system_, node), motion_).by +
+           velocity(mechanics::structural_reaction(by_, node), motion_).value;
   }
 
  private:

@@ -42,7 +42,8 @@ struct Measured {
   std::vector<ContactHistory> histories;  // of each contact; none of a law that never sticks
   std::vector<double> friction_loss;      // of each element in a period [J]
   std::vector<double> loss;               // of each element in all
-  double dissipated = 0.0;                // by all elements [J] in a period
+  double structural_loss = 0.0;           // of the structure's damping
+  double dissipated = 0.0;                // in all [J] in a period
   double input = 0.0, input_size = 0.0;   // work of the excitation, integral of |its power| [J] in a period
 
   Status status{};
@@ -96,7 +97,7 @@ struct MeasuredDerivative {
   Eigen::MatrixXd gram, motion, motion_velocity;
   std::vector<ContactDerivative> contacts;
   std::vector<double> loss;
-  double dissipated = 0.0;
+  double structural_loss = 0.0, dissipated = 0.0;
   std::vector<double> natural_frequency, modal_damping;
 };
 

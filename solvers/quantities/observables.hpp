@@ -73,7 +73,7 @@ void Observables<N, H>::evaluate(const Orbit<N, H>& orbit, const mechanics::Line
   measured_.extremes.resize(request_.traces.size());
   for (std::size_t i = 0; i < request_.traces.size(); ++i) {
     traced_.look(steps_, flow_, [this, i](const Mode<N, H>& mode) {
-      return form_of(request_.traces[i], forms_, measured_.system->coefficients, mode);
+      return form_of(request_.traces[i], forms_, *measured_.system, mode);
     });
     const Extremes found = traced_.extremes(orbit.section);
     measured_.extremes[i] = orbit.half_period ? mirrored(found) : found;

@@ -64,6 +64,7 @@ void OrbitMeasurement<N, H>::measure(const Orbit<N, H>& orbit, const mechanics::
   if (needs.histories || needs.energies) follow_contacts(orbit, measured);
   if (!needs.energies) return;
   value::add_up_friction(measured);
+  measured.structural_loss = value::structural_loss(measured);
   value::add_up_losses(measured);
 }
 
@@ -102,7 +103,7 @@ void OrbitMeasurement<N, H>::list_powers(const Mode<N, H>& mode, const mechanics
   }
   for (Eigen::Index s = 0; s < eq.motion.rows(); ++s) {
     const mechanics::Node node{mechanics::NodeKind::prescribed, static_cast<std::size_t>(s)};
-    powers.push_back({forms_.node_force(node, system.coefficients, mode), forms_.zero()});
+    powers.push_back({forms_.node_force(node, system, mode), forms_.zero()});
     powers.back().velocity.u = eq.motion_velocity.row(s).transpose() / eq.step;
   }
 }

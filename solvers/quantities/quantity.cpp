@@ -9,6 +9,7 @@
 #include "solvers/mechanics/coordinates.hpp"
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/rotation.hpp"
+#include "solvers/mechanics/structural_damping.hpp"
 #include "solvers/quantities/quantity_table.hpp"
 
 namespace frahm::periodic {
@@ -28,6 +29,7 @@ std::string owner_name(Owner owner, std::size_t index, const Network& network) {
     case Owner::support:
       return index == 0 ? "ground" : network.prescribed[index - 1];
     case Owner::point:
+    case Owner::structure:
       break;
   }
   return "";
@@ -44,6 +46,8 @@ std::size_t owner_count(Owner owner, const Network& network) {
       return network.elements.size();
     case Owner::support:
       return 1 + network.prescribed.size();
+    case Owner::structure:
+      return mechanics::has_structural_damping(network) ? 1 : 0;
     case Owner::point:
       break;
   }
@@ -59,6 +63,7 @@ std::string joined(std::string first, const std::string& second) {
 std::string name_of(const QuantityRow& row, std::size_t index, const Network& network) {
   switch (row.owner) {
     case Owner::point:
+    case Owner::structure:
       return row.suffix;
     case Owner::mode:
       return joined(row.suffix, std::to_string(index + 1));
@@ -113,8 +118,9 @@ const QuantityRow* row_named(const std::string& name) {
   const QuantityRow* best = nullptr;
   for (const QuantityRow& row : quantity_table()) {
     const std::string_view suffix = row.suffix;
-    const bool is_own = row.owner == Owner::point && name == suffix;
-    const bool is_owned = row.owner != Owner::point && name.ends_with(joined("", row.suffix));
+    const bool stands_alone = row.owner == Owner::point || row.owner == Owner::structure;
+    const bool is_own = stands_alone && name == suffix;
+    const bool is_owned = !stands_alone && name.ends_with(joined("", row.suffix));
     if (!is_own && !is_owned) continue;
     if (best == nullptr || suffix.size() > std::string_view(best->suffix).size()) best = &row;
   }

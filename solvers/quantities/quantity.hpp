@@ -39,6 +39,8 @@ enum class Measure {
   floquet_radius,
   energy_input,
   energy_balance,
+  damping_energy,
+  damping_energy_share,
   transmitted_force,
   force_transmissibility,
   residual,

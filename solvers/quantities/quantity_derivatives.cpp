@@ -115,6 +115,19 @@ double loss(const Measured& m, D d, std::size_t e) {
   return by;
 }
 
+// d of the integral of v^T S v with v = F y:  tr(dS F G F^T + S F dG F^T + 2 S dF G F^T)
+double structural_loss(const Measured& m, D d) {
+  const Eigen::MatrixXd &S = m.system->structural_damping, &S_by = d.system->structural_damping;
+  if (S.size() == 0) return 0.0;
+  const Eigen::MatrixXd F = value::velocity_rows(m, m.motion_velocity);
+  const double by =
+      S_by.cwiseProduct(F * m.gram * F.transpose()).sum() + S.cwiseProduct(F * d.gram * F.transpose()).sum();
+  if (m.motion_velocity.rows() == 0) return by;
+  Eigen::MatrixXd F_by = value::velocity_rows(m, d.motion_velocity);
+  F_by.topRows(m.masses()).setZero();
+  return by + 2.0 * S.cwiseProduct(F_by * m.gram * F.transpose()).sum();
+}
+
 Derivative of_mode(double by) {
   return std::isnan(by) ? none("two modes have one frequency") : Derivative{by};
 }
@@ -123,7 +136,8 @@ Derivative of_mode(double by) {
 
 void add_up_losses(const Measured& m, MeasuredDerivative& d) {
   d.loss.resize(m.loss.size());
-  d.dissipated = 0.0;
+  d.structural_loss = structural_loss(m, d);
+  d.dissipated = d.structural_loss;
   for (std::size_t e = 0; e < d.loss.size(); ++e) d.dissipated += d.loss[e] = loss(m, d, e);
 }
 
@@ -202,6 +216,15 @@ Derivative energy_share(const Measured& m, D d, const Asked& asked) {
   if (!(m.dissipated > value::least_dissipation(m))) return none("nothing is dissipated");
   const std::size_t e = asked.quantity.index;
   return {(d.loss[e] - m.loss[e] / m.dissipated * d.dissipated) / m.dissipated};
+}
+
+Derivative damping_energy(const Measured&, D d, const Asked&) {
+  return {d.structural_loss};
+}
+
+Derivative damping_energy_share(const Measured& m, D d, const Asked&) {
+  if (!(m.dissipated > value::least_dissipation(m))) return none("nothing is dissipated");
+  return {(d.structural_loss - m.structural_loss / m.dissipated * d.dissipated) / m.dissipated};
 }
 
 Derivative stuck_fraction(const Measured& m, D d, const Asked& asked) {

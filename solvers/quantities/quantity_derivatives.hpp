@@ -19,6 +19,8 @@ Derivative magnification(const Measured&, D, const Asked&);
 Derivative transmissibility(const Measured&, D, const Asked&);
 Derivative energy(const Measured&, D, const Asked&);
 Derivative energy_share(const Measured&, D, const Asked&);
+Derivative damping_energy(const Measured&, D, const Asked&);
+Derivative damping_energy_share(const Measured&, D, const Asked&);
 Derivative stuck_fraction(const Measured&, D, const Asked&);
 Derivative energy_input(const Measured&, D, const Asked&);
 Derivative force_transmissibility(const Measured&, D, const Asked&);

@@ -8,8 +8,9 @@
 // their derivatives follow from that.
 namespace frahm::periodic {
 
-// The owner of a quantity; `mass` is a mass or a signal, `support` the ground or a prescribed node.
-enum class Owner { mass, element, contact, point, mode, support };
+// The owner of a quantity; `mass` is a mass or a signal, `support` the ground or a prescribed node, `structure`
+// the damping of the structure as a whole, where there is one.
+enum class Owner { mass, element, contact, point, mode, support, structure };
 
 // Whether the standard record of an atlas has the quantity, and for which of its owners.
 enum class StandardOf { none, masses, springs, contacts, point };

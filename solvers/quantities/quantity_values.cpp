@@ -91,8 +91,24 @@ void add_up_friction(Measured& m) {
 
 void add_up_losses(Measured& m) {
   m.loss.resize(m.system->coefficients.size());
-  m.dissipated = 0.0;
+  m.dissipated = m.structural_loss;
   for (std::size_t e = 0; e < m.loss.size(); ++e) m.dissipated += m.loss[e] = loss(m, e);
+}
+
+Eigen::MatrixXd velocity_rows(const Measured& m, const Eigen::MatrixXd& motion_velocity) {
+  const Eigen::Index n = m.masses(), p = motion_velocity.rows();
+  Eigen::MatrixXd F = Eigen::MatrixXd::Zero(n + 1 + p, m.gram.cols());
+  F.block(0, n, n, n).setIdentity();
+  if (p > 0) F.block(n + 1, m.oscillators(), p, motion_velocity.cols()) = motion_velocity;
+  return F;
+}
+
+// The integral of v^T S v.
+double structural_loss(const Measured& m) {
+  const Eigen::MatrixXd& S = m.system->structural_damping;
+  if (S.size() == 0) return 0.0;
+  const Eigen::MatrixXd F = velocity_rows(m, m.motion_velocity);
+  return S.cwiseProduct(F * m.gram * F.transpose()).sum();
 }
 
 double least_dissipation(const Measured& m) {
@@ -146,6 +162,14 @@ double energy(const Measured& m, const Asked& asked) {
 
 double energy_share(const Measured& m, const Asked& asked) {
   return m.dissipated > least_dissipation(m) ? energy(m, asked) / m.dissipated : 0.0;
+}
+
+double damping_energy(const Measured& m, const Asked&) {
+  return m.structural_loss;
+}
+
+double damping_energy_share(const Measured& m, const Asked&) {
+  return m.dissipated > least_dissipation(m) ? m.structural_loss / m.dissipated : 0.0;
 }
 
 double stops(const Measured& m, const Asked& asked) {

@@ -19,6 +19,8 @@ double magnification(const Measured&, const Asked&);
 double transmissibility(const Measured&, const Asked&);
 double energy(const Measured&, const Asked&);
 double energy_share(const Measured&, const Asked&);
+double damping_energy(const Measured&, const Asked&);
+double damping_energy_share(const Measured&, const Asked&);
 double stops(const Measured&, const Asked&);
 double reversals(const Measured&, const Asked&);
 double stuck_fraction(const Measured&, const Asked&);
@@ -45,7 +47,13 @@ std::complex<double> reference_component(const Measured& measured, const mechani
 double square_of_velocity(const Measured& measured, const mechanics::Incidence& at);
 // Fills in what the friction of each element takes out: its force times the distance its contact has slid.
 void add_up_friction(Measured& measured);
-// Fills in what each element dissipates, and all together; from integrals and what friction takes out.
+// F of the velocities of the masses, the ground and the prescribed nodes [m/s], F y, (n + 1 + p) rows.
+// motion_velocity: of the prescribed nodes, rows on the oscillators.
+Eigen::MatrixXd velocity_rows(const Measured& measured, const Eigen::MatrixXd& motion_velocity);
+// What the damping of the structure dissipates in a period [J], by the whole Gram matrix.
+double structural_loss(const Measured& measured);
+// Fills in what each element dissipates, and all together; from integrals, what friction takes out, and the
+// structure's loss.
 void add_up_losses(Measured& measured);
 // If less than this is dissipated no element has a share [J]: where nothing moves, dampers dissipate the
 // square of a rounding.

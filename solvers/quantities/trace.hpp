@@ -24,17 +24,17 @@ std::size_t place_of(Trace trace, std::vector<Trace>& traces);
 // The linear form of a trace by the forms of a law (flow/linear_form.hpp, smooth/forms.hpp). mode...: what
 // the law's accelerations and forces depend on beside the state.
 template <class Forms, class... Mode>
-auto form_of(const Trace& trace, const Forms& forms,
-             const std::vector<mechanics::ElementCoefficients>& coefficients, const Mode&... mode) {
+auto form_of(const Trace& trace, const Forms& forms, const mechanics::LinearSystem& system,
+             const Mode&... mode) {
   switch (trace.kind) {
     case TraceKind::velocity:
       return forms.velocity(trace.at);
     case TraceKind::acceleration:
       return forms.acceleration(trace.at, mode...);
     case TraceKind::element_force:
-      return forms.element_force(trace.element, coefficients[trace.element], mode...);
+      return forms.element_force(trace.element, system.coefficients[trace.element], mode...);
     case TraceKind::support_force:
-      return forms.node_force(trace.node, coefficients, mode...);
+      return forms.node_force(trace.node, system, mode...);
     case TraceKind::displacement:
       break;
   }

@@ -45,9 +45,8 @@ Form Forms::element_force(std::size_t element, const mechanics::ElementCoefficie
   return form;
 }
 
-Form Forms::node_force(const mechanics::Node& node,
-                       const std::vector<mechanics::ElementCoefficients>& coefficients) const {
-  return mechanics::force_on_node(*this, assembly_.network(), node, coefficients);
+Form Forms::node_force(const mechanics::Node& node, const mechanics::LinearSystem& system) const {
+  return mechanics::force_on_node(*this, assembly_.network(), node, system);
 }
 
 Form Forms::applied_force(std::size_t mass) const {

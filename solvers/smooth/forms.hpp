@@ -36,8 +36,7 @@ class Forms {
   // Force [N] of an element.
   Form element_force(std::size_t element, const mechanics::ElementCoefficients& law) const;
   // The force [N] that drives `node` (ground or prescribed): the sum that all elements need there.
-  Form node_force(const mechanics::Node& node,
-                  const std::vector<mechanics::ElementCoefficients>& coefficients) const;
+  Form node_force(const mechanics::Node& node, const mechanics::LinearSystem& system) const;
   // Outside force [N] on a mass.
   Form applied_force(std::size_t mass) const;
 

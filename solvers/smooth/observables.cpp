@@ -45,10 +45,13 @@ void Observables::measure(const Orbit& orbit, const mechanics::LinearSystem& sys
   measured_.motion = equation_.motion();
   measured_.motion_velocity = equation_.motion_velocity();
   if (request_.needs.integrals) integrate(orbit);
-  if (request_.needs.energies) periodic::value::add_up_losses(measured_);
+  if (request_.needs.energies) {
+    measured_.structural_loss = periodic::value::structural_loss(measured_);
+    periodic::value::add_up_losses(measured_);
+  }
   measured_.extremes.clear();
   for (const periodic::Trace& trace : request_.traces)
-    measured_.extremes.push_back(extremes_of(periodic::form_of(trace, forms_, system.coefficients), orbit));
+    measured_.extremes.push_back(extremes_of(periodic::form_of(trace, forms_, system), orbit));
 }
 
 void Observables::look_along(const Orbit& orbit) {
@@ -120,7 +123,7 @@ std::vector<std::pair<Form, Form>> Observables::powers() const {
     Form velocity = forms_.zero();
     velocity.u = equation_.motion_velocity().row(static_cast<Eigen::Index>(s)).transpose();
     const mechanics::Node node{mechanics::NodeKind::prescribed, s};
-    result.emplace_back(forms_.node_force(node, measured_.system->coefficients), velocity);
+    result.emplace_back(forms_.node_force(node, *measured_.system), velocity);
   }
   return result;
 }

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 
+#include "solvers/mechanics/structural_damping.hpp"
 #include "solvers/quantities/integrals.hpp"
 
 namespace frahm::transient {
@@ -18,12 +20,12 @@ EnergyAccount::EnergyAccount(const mechanics::Assembly& assembly, const Flow& fl
   for (Index i = 0; i < masses; ++i) {
     mass_incidences_.push_back({Eigen::VectorXd::Unit(masses, i), Eigen::VectorXd::Zero(supports)});
   }
-  total_.dissipated.assign(assembly.network().elements.size(), 0.0);
+  const bool damps = mechanics::has_structural_damping(assembly.network());
+  total_.dissipated.assign(assembly.network().elements.size() + (damps ? 1 : 0), 0.0);
 }
 
 void EnergyAccount::set_system(const mechanics::LinearSystem& system) {
-  mass_ = system.mass;
-  laws_ = system.coefficients;
+  system_ = system;
   forcing_ = std::max(forcing_, flow_.static_norm());
   prepared_ = false;
 }
@@ -37,14 +39,17 @@ double EnergyAccount::energy_of(const State& z, double phase) const {
     const double value = form.z.dot(z) + form.u.dot(u);
     return 0.5 * value * value;
   };
-  double energy = 0.5 * mass_.dot(z.segment(n, n).cwiseAbs2()) / (eq.step * eq.step);
-  for (std::size_t e = 0; e < laws_.size(); ++e) {
+  const auto laws = std::span(system_.coefficients);
+  const Eigen::VectorXd q = z.head(n), v = z.segment(n, n) / eq.step;
+  double energy = 0.5 * v.dot(system_.mass * v);
+  if (const Eigen::MatrixXd& K = assembly_.matrices().stiffness; K.size() > 0) energy += 0.5 * q.dot(K * q);
+  for (std::size_t e = 0; e < laws.size(); ++e) {
     const mechanics::Incidence& at = assembly_.incidences()[e];
-    if (laws_[e].stiffness != 0.0) energy += laws_[e].stiffness * half_square(forms_.displacement(at));
-    if (laws_[e].inertance != 0.0) energy += laws_[e].inertance * half_square(forms_.velocity(at));
-    if (laws_[e].internal < 0) continue;
-    const double force = z[2 * n + laws_[e].internal];
-    energy += 0.5 * force * force / eq.internal_stiffness[laws_[e].internal];
+    if (laws[e].stiffness != 0.0) energy += laws[e].stiffness * half_square(forms_.displacement(at));
+    if (laws[e].inertance != 0.0) energy += laws[e].inertance * half_square(forms_.velocity(at));
+    if (laws[e].internal < 0) continue;
+    const double force = z[2 * n + laws[e].internal];
+    energy += 0.5 * force * force / eq.internal_stiffness[laws[e].internal];
   }
   return energy;
 }
@@ -82,12 +87,13 @@ void EnergyAccount::prepare(const Mode& mode) {
   }
 }
 
-// The velocity of each element that damps or rubs, the force of each Maxwell element.
+// The velocity of each element that damps or rubs, the force of each Maxwell element, the rates of the
+// structure's damping.
 std::vector<EnergyAccount::Form> EnergyAccount::loss_forms() {
   std::vector<Form> forms;
   losses_.clear();
-  for (std::size_t e = 0; e < laws_.size(); ++e) {
-    const mechanics::ElementCoefficients& law = laws_[e];
+  for (std::size_t e = 0; e < system_.coefficients.size(); ++e) {
+    const mechanics::ElementCoefficients& law = system_.coefficients[e];
     if (law.damping != 0.0) {
       losses_.push_back({e, law.damping});
       forms.push_back(forms_.velocity(assembly_.incidences()[e]));
@@ -101,6 +107,11 @@ std::vector<EnergyAccount::Form> EnergyAccount::loss_forms() {
       losses_.push_back({e, law.friction, static_cast<Index>(assembly_.shares()[e].contact)});
       forms.push_back(forms_.velocity(assembly_.incidences()[e]));
     }
+  }
+  const Eigen::MatrixXd rates = mechanics::structural_rates(system_);
+  for (Index r = 0; r < rates.rows(); ++r) {
+    losses_.push_back({system_.coefficients.size(), 1.0});
+    forms.push_back(forms_.velocity(mechanics::structural_incidence(system_, rates.row(r))));
   }
   return forms;
 }
@@ -117,7 +128,7 @@ std::vector<EnergyAccount::Form> EnergyAccount::drive_forms(const Mode& mode) co
   }
   for (Index s = 0; s < eq.motion.rows(); ++s) {
     const mechanics::Node node{mechanics::NodeKind::prescribed, static_cast<std::size_t>(s)};
-    forms.push_back(forms_.node_force(node, laws_, mode));
+    forms.push_back(forms_.node_force(node, system_, mode));
     forms.push_back(forms_.zero());
     forms.back().u = eq.motion_velocity.row(s).transpose() / eq.step;
   }

@@ -10,6 +10,7 @@ namespace frahm::transient {
 
 // The energies of a motion on the exact flow, step after step: what each element dissipates,
 //   integral of c v^2 (damper, hysteretic), of s^2 / c (Maxwell), of F |v| (friction that slides),
+// what the damping of the structure does,
 // and the work of the excitation: of the outside forces on the masses, and of what drives each prescribed
 // node. Six-point Gauss-Legendre between the events, as of a periodic orbit (quantities/integrals.hpp).
 class EnergyAccount {
@@ -34,10 +35,10 @@ class EnergyAccount {
 
   // The first `length` of a step in this mode.
   void follow(const Mode& mode, const Expansion& step, double length);
-  // What each element will have dissipated at the end of that part of the step [J].
+  // What each element, and last the structure, will have dissipated at the end of that part of the step [J].
   std::vector<double> dissipated_within(const Mode& mode, const Expansion& step, double length);
 
-  const std::vector<double>& dissipated() const { return total_.dissipated; }  // by each element so far [J]
+  const std::vector<double>& dissipated() const { return total_.dissipated; }  // so far, likewise [J]
   EnergyBudget budget(double energy_now) const;
 
  private:
@@ -46,12 +47,12 @@ class EnergyAccount {
   // coefficient x^2, or coefficient |x| of the friction of a contact, with x the form in the row of its
   // index.
   struct Loss {
-    std::size_t element = 0;
+    std::size_t element = 0;  // the number of elements: of the structure
     double coefficient = 0.0;
     Eigen::Index contact = -1;  // -1: no friction
   };
   struct Energies {
-    std::vector<double> dissipated;        // [J] of each element
+    std::vector<double> dissipated;        // [J] of each element, and of the structure where it damps
     double input = 0.0, input_size = 0.0;  // integrals of the excitation's power and of its size [J]
   };
 
@@ -65,8 +66,7 @@ class EnergyAccount {
   periodic::Forms<Eigen::Dynamic, Eigen::Dynamic> forms_;
   std::vector<mechanics::Incidence> mass_incidences_;  // the displacement of each mass by itself
 
-  Eigen::VectorXd mass_;  // [kg]
-  std::vector<mechanics::ElementCoefficients> laws_;
+  mechanics::LinearSystem system_;
   double forcing_ = 0.0;  // largest energy norm of the static response so far [sqrt(J)]
 
   // The current mode: a row of z and u for each loss, then force and velocity of each drive.

@@ -35,7 +35,8 @@ struct Samples {
   // Of each mass, then of each signal, a value for each time: [m], [m/s], [m/s^2]; where the acceleration
   // jumps, what it jumps to.
   std::vector<std::vector<double>> displacement, velocity, acceleration;
-  // By each element since t = 0 [J]; of those that never dissipate, no values.
+  // By each element since t = 0 [J]; of those that never dissipate, no values. Last, where there is one, by
+  // the damping of the structure.
   std::vector<std::vector<double>> dissipated;
 };
 
@@ -49,8 +50,10 @@ struct EnergyBudget {
   // The error of the energy balance, relative to its largest term (for the input, the integral of the size of
   // its power); 0 where nothing moves.
   double balance = 0.0;
-  std::vector<double> dissipated = {};  // by each element [J], 0 of those that dissipate nothing
-  std::vector<double> share = {};       // of each element in all that is dissipated; 0 where nothing is
+  // By each element [J], 0 of those that dissipate nothing; last, where there is one, by the damping of the
+  // structure.
+  std::vector<double> dissipated = {};
+  std::vector<double> share = {};  // of each of them in all that is dissipated; 0 where nothing is
 };
 
 // Called every few hundred steps while a motion is followed; what it throws ends the motion and is passed on.

@@ -62,7 +62,7 @@ Trajectory::Trajectory(const mechanics::Assembly& assembly, std::vector<double> 
   samples_.displacement.resize(turning_points_.size());
   samples_.velocity.resize(turning_points_.size());
   samples_.acceleration.resize(turning_points_.size());
-  samples_.dissipated.resize(assembly.network().elements.size());
+  samples_.dissipated.resize(account_.dissipated().size());
 }
 
 void Trajectory::set_system(const mechanics::LinearSystem& system, double phase) {
@@ -263,7 +263,8 @@ void Trajectory::keep_state(const State& z, const Eigen::VectorXd& acceleration,
   }
   keep_signals(z, acceleration, u);
   for (std::size_t e = 0; e < dissipated.size(); ++e) {
-    if (mechanics::kind_of(assembly_.network().elements[e]).dissipates)
+    const auto& elements = assembly_.network().elements;
+    if (e == elements.size() || mechanics::kind_of(elements[e]).dissipates)
       samples_.dissipated[e].push_back(dissipated[e]);
   }
 }

@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "solvers/mechanics/element_table.hpp"
+#include "solvers/mechanics/structural_damping.hpp"
 #include "solvers/transient/energy_account.hpp"
 
 namespace frahm::studies {
@@ -18,6 +19,12 @@ void add_energies(const Study& study, const transient::EnergyBudget& energy, Mot
     columns.add_number(name + "_energy", "J", "energy dissipated by " + name, energy.dissipated[e]);
     columns.add_number(name + "_energy_share", "1", "share of " + name + " in the energy dissipated",
                        energy.share[e]);
+  }
+  if (mechanics::has_structural_damping(study.network)) {
+    columns.add_number("damping_energy", "J", "energy dissipated by the damping of the structure",
+                       energy.dissipated.back());
+    columns.add_number("damping_energy_share", "1",
+                       "share of the damping of the structure in the energy dissipated", energy.share.back());
   }
   columns.add_number("initial_energy", "J", "kinetic and potential energy at the start", energy.initial);
   columns.add_number("final_energy", "J", "kinetic and potential energy at the end", energy.final);
@@ -41,6 +48,9 @@ void print_energies(const Study& study, const transient::EnergyBudget& energy, s
     line("lost in " + elements[e].name, energy.dissipated[e],
          fmt::format("{:.2f} %", 100.0 * energy.share[e]));
   }
+  if (mechanics::has_structural_damping(study.network))
+    line("lost in the structure", energy.dissipated.back(),
+         fmt::format("{:.2f} %", 100.0 * energy.share.back()));
   line("at the end", energy.final, "");
   fmt::print(out, "the energies balance to {:.2g}\n", energy.balance);
 }

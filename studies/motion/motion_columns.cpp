@@ -6,6 +6,7 @@
 #include "solvers/mechanics/coordinates.hpp"
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/rotation.hpp"
+#include "solvers/mechanics/structural_damping.hpp"
 
 namespace frahm::studies {
 
@@ -41,6 +42,9 @@ void MotionColumns::add_samples(const transient::Samples& samples) {
     add(name + "_dissipated", "J", "energy dissipated by " + name + " until then", "time",
         samples.dissipated[e]);
   }
+  if (mechanics::has_structural_damping(study_.network))
+    add("damping_dissipated", "J", "energy dissipated by the damping of the structure until then", "time",
+        samples.dissipated.back());
 }
 
 }  // namespace frahm::studies

@@ -47,6 +47,7 @@ periodic::CheckedParameter by_frequency(const mechanics::NetworkValues& values) 
   checked.direction.mass.resize(values.mass.size());
   checked.direction.element.resize(values.element.size());
   checked.direction.second.resize(values.second.size());
+  checked.direction.damping.resize(values.damping.size());
   checked.direction.excitation.resize(values.excitation.size());
   checked.values_at = [values](double omega) {
     mechanics::NetworkValues changed = values;

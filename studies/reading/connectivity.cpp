@@ -53,6 +53,10 @@ void check_masses_are_held(const StudyContext& context, const NetworkOfStudy& sy
     // What a lever holds depends on its factors: check_combinations_are_held().
     if (!mechanics::is_between_two_nodes(element.along)) sets.join(held, set_of(element.along[0].node));
   }
+  // Whether matrices hold their nodes, the check of the whole stiffness matrix tells.
+  for (const mechanics::MatrixPart& part : network.matrices) {
+    for (const std::size_t node : part.nodes) sets.join(node, held);
+  }
   for (std::size_t i = 0; i < held; ++i) {
     if (sets.root(i) == sets.root(held)) continue;
     std::vector<std::string> floating;

@@ -63,6 +63,10 @@ void check_every_motion_is_felt(const NetworkReading& reading, const TomlValue& 
 
 }  // namespace
 
+void keep_name_of_damping(NetworkReading& reading) {
+  reading.names.push_back({"damping", "the damping of the structure"});
+}
+
 void take_name(NetworkReading& reading, const TomlSection& section, const std::string& name,
                const std::string& owner) {
   for (const auto& taken : reading.names) {
@@ -109,9 +113,14 @@ StudyValue read_value(NetworkReading& reading, const TomlSection& section, const
     section.fail_here(rules::missing_key, "the key \"{}\" is missing ({}{}{})", key, quantity_name(quantity),
                       pure ? "" : ", ", pure ? "" : written_si_unit(quantity));
   }
-  result.position = value->position;
-  if (value->as<std::string>()) {
-    result.expression = read_expression(reading.context, reading.parameters, result.where, *value);
+  return read_value_at(reading, result.where, *value, quantity, range);
+}
+
+StudyValue read_value_at(NetworkReading& reading, const std::string& where, const TomlValue& value,
+                         Quantity quantity, Range range) {
+  StudyValue result{.quantity = quantity, .range = range, .where = where, .position = value.position};
+  if (value.as<std::string>()) {
+    result.expression = read_expression(reading.context, reading.parameters, result.where, value);
     note_quantity(reading.parameters, result);
     if (quantity != Quantity::angular_frequency) return result;
     for (const std::size_t i : reading.parameters.inputs_of(result.expression.reads())) {
@@ -119,11 +128,12 @@ StudyValue read_value(NetworkReading& reading, const TomlSection& section, const
     }
     return result;
   }
-  const NumberWithUnit number = read_number_with_unit(reading.context, result.where, *value);
+  const NumberWithUnit number = read_number_with_unit(reading.context, result.where, value);
   try {
     result.expression = Expression(number.value * (number.unit ? si_factor(*number.unit, quantity) : 1.0));
   } catch (const UnitError& error) {
-    throw section.source().error_at(error.rule(), number.unit_position, "{}: {}", result.where, error.what());
+    throw reading.context.source.error_at(error.rule(), number.unit_position, "{}: {}", result.where,
+                                          error.what());
   }
   return result;
 }
@@ -134,17 +144,20 @@ std::optional<StudyValue> read_optional(NetworkReading& reading, const TomlSecti
   return read_value(reading, section, key, quantity, range);
 }
 
-NetworkOfStudy read_network(const StudyContext& context, const TomlValue& root, Parameters& parameters,
-                            StudyKind kind) {
+NetworkOfStudy read_network(const StudyContext& context, const TomlValue& root,
+                            const std::filesystem::path& folder, Parameters& parameters, StudyKind kind) {
   const TomlEntry* excitation = find_entry(root, "excitation");
   const bool is_forced = kind == StudyKind::identify ? excitation != nullptr : kind != StudyKind::decay;
   NetworkReading reading(context, parameters);
+  if (find_entry(root, "damping")) keep_name_of_damping(reading);
   std::size_t number = 0;
   for (const TomlValue* table : read_tables(context.source, root, "mass"))
     read_mass(reading, *table, ++number);
-  if (number == 0)
+  read_matrices(reading, root, folder);
+  if (reading.result.network.masses.empty())
     throw context.source.error_at(
-        rules::missing_section, root.position, "the study has no [[mass]]: nothing moves{}",
+        rules::missing_section, root.position,
+        "the study has no [[mass]] and no [[matrices]]: nothing moves{}",
         kind == StudyKind::identify ? "; leave out all of the system, or add its masses" : "");
   if (is_forced && !excitation)
     throw context.source.error_at(rules::missing_section, root.position, "the study has no [excitation]");
@@ -152,6 +165,7 @@ NetworkOfStudy read_network(const StudyContext& context, const TomlValue& root, 
   number = 0;
   for (const TomlValue* table : read_tables(context.source, root, "element"))
     read_element(reading, *table, ++number);
+  read_damping(reading, root);
   if (is_forced) {
     read_excitation(reading, excitation->value, kind == StudyKind::transient || kind == StudyKind::identify);
     check_every_motion_is_felt(reading, excitation->value);

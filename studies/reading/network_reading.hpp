@@ -25,6 +25,9 @@ struct NetworkReading {
   std::vector<Position> masses;  // of the tables of result.network.masses
 };
 
+// Keeps elements from the name "damping", which is that of the structure's energies in the record.
+void keep_name_of_damping(NetworkReading& reading);
+
 // Refuses a name already in use. key: of the name in the section.
 void take_name(NetworkReading& reading, const TomlSection& section, const std::string& name,
                const std::string& owner);
@@ -45,6 +48,15 @@ std::optional<StudyValue> read_optional(NetworkReading& reading, const TomlSecti
 
 // An [[element]], after the masses and the nodes of prescribed motion. number: from 1.
 void read_element(NetworkReading& reading, const TomlValue& table, std::size_t number);
+// The same of what stands at one place, by its name in messages: [damping]: rayleigh: a.
+StudyValue read_value_at(NetworkReading& reading, const std::string& where, const TomlValue& value,
+                         Quantity quantity, Range range);
+
+// [[matrices]]: its degrees of freedom become masses, without mass of their own. folder: of the files.
+void read_matrices(NetworkReading& reading, const TomlValue& root, const std::filesystem::path& folder);
+
+// [damping], if there is one, once all masses are there.
+void read_damping(NetworkReading& reading, const TomlValue& root);
 
 // [[excitation.motion]] names the nodes of prescribed motion, so it comes before the elements. [excitation]
 // with its forces and the frequency comes after the masses. Constant forces alone are refused unless

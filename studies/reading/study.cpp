@@ -20,13 +20,13 @@ constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // some editors be
 
 // The sections of each kind of study, in the order of StudyKind.
 const std::array<std::vector<std::string>, 5> sections_of_kind{
-    {{"study", "parameters", "mass", "element", "excitation", "axis", "coordinate", "output", "compare",
-      "report"},
-     {"study", "parameters", "mass", "element", "decay", "initial"},
-     {"study", "parameters", "mass", "element", "excitation", "transient", "initial"},
-     {"study", "parameters", "mass", "element", "excitation", "tune", "design", "constraint", "scenario",
-      "column"},
-     {"study", "parameters", "mass", "element", "excitation", "initial", "identify"}}};
+    {{"study", "parameters", "mass", "matrices", "element", "damping", "excitation", "axis", "coordinate",
+      "output", "compare", "report"},
+     {"study", "parameters", "mass", "matrices", "element", "damping", "decay", "initial"},
+     {"study", "parameters", "mass", "matrices", "element", "damping", "excitation", "transient", "initial"},
+     {"study", "parameters", "mass", "matrices", "element", "damping", "excitation", "tune", "design",
+      "constraint", "scenario", "column"},
+     {"study", "parameters", "mass", "matrices", "element", "damping", "excitation", "initial", "identify"}}};
 
 const std::vector<std::string>& sections(StudyKind kind) {
   return sections_of_kind[static_cast<std::size_t>(kind)];
@@ -102,13 +102,14 @@ void read_heading(const TomlValue& root, Study& study) {
   study.dimensionless = section.choice_or("units", {"SI", "dimensionless"}) == "dimensionless";
 }
 
-// The parameters that the masses and elements read.
+// The parameters that the masses, elements and the damping of the structure read.
 std::vector<std::size_t> read_by_matrices(const Study& study) {
   std::vector<std::size_t> reads;
   const auto add = [&](const StudyValue& value) {
     reads.insert(reads.end(), value.expression.reads().begin(), value.expression.reads().end());
   };
-  for (const auto* values : {&study.values.mass, &study.values.element, &study.values.second}) {
+  for (const auto* values :
+       {&study.values.mass, &study.values.element, &study.values.second, &study.values.damping}) {
     for (const StudyValue& value : *values) add(value);
   }
   if (mechanics::frequency_dependent_element(study.network)) add(study.values.omega);
@@ -129,8 +130,8 @@ void find_frequency_dimension(Study& study) {
 
 // An identification by a formula needs no system.
 bool has_system(const TomlValue& root) {
-  return find_entry(root, "mass") || find_entry(root, "element") || find_entry(root, "excitation") ||
-         find_entry(root, "initial");
+  return find_entry(root, "mass") || find_entry(root, "matrices") || find_entry(root, "element") ||
+         find_entry(root, "damping") || find_entry(root, "excitation") || find_entry(root, "initial");
 }
 
 // Checks that every value is valid wherever the study goes.
@@ -165,7 +166,7 @@ Study parse_study(std::string text, const std::filesystem::path& name, DataFiles
   const StudyContext context{study.source, units, study.dimensionless};
   study.parameters = read_parameters(context, root, name.parent_path());
   if (study.kind() != StudyKind::identify || has_system(root)) {
-    auto [network, values] = read_network(context, root, study.parameters, study.kind());
+    auto [network, values] = read_network(context, root, name.parent_path(), study.parameters, study.kind());
     study.network = std::move(network);
     study.values = std::move(values);
   }

@@ -32,9 +32,10 @@ struct NetworkOfStudy {
   StudyValues values;
 };
 
-// [[mass]], [[element]] and, if the kind of study has one, [excitation]. Sets the quantities of `parameters`.
-NetworkOfStudy read_network(const StudyContext& context, const TomlValue& root, Parameters& parameters,
-                            StudyKind kind);
+// [[mass]], [[matrices]], [[element]], [damping] and, if the kind of study has one, [excitation]. Sets the
+// quantities of `parameters`. folder: of the matrices.
+NetworkOfStudy read_network(const StudyContext& context, const TomlValue& root,
+                            const std::filesystem::path& folder, Parameters& parameters, StudyKind kind);
 
 // [decay], [transient] and [[initial]] into the study's choice, after the network, in the same way.
 void read_motion(const StudyContext& context, const TomlValue& root, Study& study);

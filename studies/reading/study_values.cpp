@@ -12,6 +12,8 @@ void fill(const StudyValues& values, std::span<const Number> parameters, Part pa
   out.element.resize(values.element.size());
   out.second.resize(values.second.size());
   for (std::size_t i = 0; i < out.second.size(); ++i) out.second[i] = at(values.second[i]);
+  out.damping.resize(values.damping.size());
+  for (std::size_t i = 0; i < out.damping.size(); ++i) out.damping[i] = at(values.damping[i]);
   out.excitation.resize(values.amplitude.size());
   out.omega = at(values.omega);
   for (std::size_t i = 0; i < out.mass.size(); ++i) out.mass[i] = at(values.mass[i]);

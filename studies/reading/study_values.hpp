@@ -45,10 +45,11 @@ struct StudyValues {
   std::vector<StudyValue> rod;        // of each excitation, the constant 0 where it is no crank
   std::vector<StudyDirection> along;  // of each element, not given where it is between two nodes
   std::vector<StudyDirection> signals{};
+  std::vector<StudyValue> damping;  // of the structure: modal ratios, or the two of rayleigh
 
   // All but the frequency.
-  std::array<const std::vector<StudyValue>*, 6> lists() const {
-    return {&mass, &element, &second, &amplitude, &phase, &rod};
+  std::array<const std::vector<StudyValue>*, 7> lists() const {
+    return {&mass, &element, &second, &amplitude, &phase, &rod, &damping};
   }
   // Indices of the parameters that the factors of directions read.
   std::vector<std::size_t> read_by_factors() const;

@@ -18,7 +18,7 @@ struct QuantityEntry {
 };
 
 // In the order of Quantity.
-constexpr std::array<QuantityEntry, 20> quantities{{
+constexpr std::array<QuantityEntry, 21> quantities{{
     {"a pure number", "1", "1", "1 or %", {0, 0, 0}},
     {"a length", "m", "m", "m, mm or um", {1, 0, 0}},
     {"a mass", "kg", "kg", "kg, g or t", {0, 1, 0}},
@@ -39,6 +39,7 @@ constexpr std::array<QuantityEntry, 20> quantities{{
     {"a torsional stiffness", "N m rad-1", "N m/rad", "N m/rad, N m or N m/degree", {2, 1, -2}},
     {"a torsional damping", "N m s rad-1", "N m s/rad", "N m s/rad or N m s", {2, 1, -1}},
     {"an inverse angular speed", "s rad-1", "s/rad", "s/rad or s", {0, 0, 1}},
+    {"a rate", "s-1", "1/s", "1/s or 1/min", {0, 0, -1}},
 }};
 
 const QuantityEntry& entry(Quantity quantity) {

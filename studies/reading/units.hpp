@@ -32,6 +32,7 @@ enum class Quantity {
   torsional_stiffness,   // N m/rad
   torsional_damping,     // N m s/rad
   inverse_rate,          // s/rad
+  rate,                  // 1/s, of a decay: no cycles
 };
 
 std::string_view quantity_name(Quantity quantity);    // with its article: "a stiffness"

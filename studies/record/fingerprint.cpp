@@ -67,6 +67,11 @@ std::string direction_text(const mechanics::Element& element) {
   std::string text = fmt::format("along rotational {} twists {}", element.rotational, element.twists_ground);
   for (const auto& [node, factor] : element.along) text += fmt::format(" {} {}", node_text(node), factor);
   return text;
+// Of the numbers of a matrix.
+std::string digest(const Eigen::MatrixXd& matrix) {
+  const XXH128_hash_t hash =
+      XXH3_128bits(matrix.data(), static_cast<std::size_t>(matrix.size()) * sizeof(double));
+  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
 
 void add_network(const Study& study, CanonicalText& text) {
@@ -98,6 +103,12 @@ void add_network(const Study& study, CanonicalText& text) {
     for (const mechanics::Share& share : signal.along)
       text.line("share {} {}", node_text(share.node), share.factor);
   }
+  if (network.damping != mechanics::DampingModel::none)
+    text.line("damping {}", static_cast<int>(network.damping));
+  for (const StudyValue& each : values.damping) text.line("damping value {}", value(each));
+  for (const mechanics::MatrixPart& part : network.matrices)
+    text.line("matrices {} {} {} {} {}", part.name, fmt::join(part.nodes, " "), digest(part.mass),
+              digest(part.stiffness), digest(part.damping));
 }
 
 // The properties that distinguish decays or transients of the same network.

@@ -19,6 +19,7 @@ inline mechanics::NetworkValues zero_direction(const mechanics::NetworkValues& v
   zero.mass.resize(values.mass.size());
   zero.element.resize(values.element.size());
   zero.second.resize(values.second.size());
+  zero.damping.resize(values.damping.size());
   zero.excitation.resize(values.excitation.size());
   return zero;
 }
@@ -53,6 +54,9 @@ inline std::vector<NamedParameter> all_parameters(const mechanics::Network& netw
     add(network.elements[e].name, [e](NetworkValues& v) -> double& { return v.element[e]; });
     if (e >= values.second.size()) continue;
     add(network.elements[e].name + " second", [e](NetworkValues& v) -> double& { return v.second[e]; });
+  }
+  for (std::size_t i = 0; i < values.damping.size(); ++i) {
+    add("damping " + std::to_string(i), [i](NetworkValues& v) -> double& { return v.damping[i]; });
   }
   for (std::size_t k = 0; k < values.excitation.size(); ++k) {
     const std::string name = "excitation " + std::to_string(k);

@@ -17,6 +17,7 @@ void add(const mechanics::NetworkValues& values, double factor, mechanics::Netwo
   add_list(values.mass, sum.mass);
   add_list(values.element, sum.element);
   add_list(values.second, sum.second);
+  add_list(values.damping, sum.damping);
   for (std::size_t i = 0; i < values.excitation.size(); ++i) {
     sum.excitation[i].amplitude += factor * values.excitation[i].amplitude;
     sum.excitation[i].phase += factor * values.excitation[i].phase;

@@ -9,6 +9,8 @@
 #include "solvers/mechanics/coordinates.hpp"
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/rotation.hpp"
+#include "solvers/mechanics/structural_damping.hpp"
+#include "solvers/mechanics/system_derivative.hpp"
 #include "solvers/tuning/variance/lyapunov.hpp"
 
 namespace frahm::tuning {
@@ -49,6 +51,7 @@ struct Variance::State {
 
 struct Variance::Gradient {
   std::vector<double> mass, element, second;
+  MatrixXd damping;  // by C
 };
 
 Variance::Variance(const mechanics::Network& network, const Noise& noise, const NoisyQuantity& measure)
@@ -96,6 +99,11 @@ double Variance::drift(const Incidence& at) const {
 
 void Variance::check_drift() const {
   const auto& elements = assembly_.network().elements;
+  if (noise_.kind != NoiseKind::force_on && !assembly_.network().matrices.empty()) {
+    throw MechanicsError("the matrices '" + assembly_.network().matrices.front().name +
+                         "' hold to the ground, from which '" + assembly_.network().prescribed[noise_.node] +
+                         "' drifts without limit under white noise of its acceleration");
+  }
   for (std::size_t e = 0; e < elements.size(); ++e) {
     if (drift(assembly_.incidences()[e]) == 0.0) continue;
     const bool measured = measure_.kind == NoisyKind::stroke && measure_.index == e;
@@ -164,6 +172,11 @@ double Variance::mean_square(const NetworkValues& values, const std::vector<Netw
   for (std::size_t k = 0; k < directions.size(); ++k) {
     slopes[k] = along(by.mass, directions[k].mass) + along(by.element, directions[k].element) +
                 along(by.second, directions[k].second);
+    if (!mechanics::has_structural_damping(assembly_.network())) continue;
+    mechanics::LinearSystem change;
+    mechanics::differentiate_matrices(assembly_, values, directions[k], at.system, change);
+    const Index n = at.system.masses();
+    slopes[k] += by.damping.cwiseProduct(change.structural_damping.topLeftCorner(n, n)).sum();
   }
   return result;
 }
@@ -188,7 +201,7 @@ Variance::Gradient Variance::gradient(const State& at, const NetworkValues& valu
   const bool moved = noise_.kind == NoiseKind::acceleration_of;
 
   Gradient by{std::vector<double>(network.masses.size()), std::vector<double>(network.elements.size()),
-              std::vector<double>(network.elements.size())};
+              std::vector<double>(network.elements.size()), by_damping};
   for (Index i = 0; i < n; ++i) {
     by.mass[std::size_t(i)] = by_inertia(i, i) - (moved ? by_b[i] * drifting_[i] : 0.0);
   }

@@ -38,8 +38,9 @@ class Variance {
   // Throws MechanicsError for a value out of range and where the mean square is infinite.
   double mean_square(const mechanics::NetworkValues& values) const;
 
-  // The same, and its derivatives along `directions`, each of which holds derivatives of mass, element and
-  // second (empty: 0). slopes: size of directions. Exact, by the adjoint equation A^T Q + Q A + h h^T = 0.
+  // The same, and its derivatives along `directions`, each of which holds derivatives of mass, element,
+  // second and damping (empty: 0; of a network with damping of its structure whole directions). slopes: size
+  // of directions. Exact, by the adjoint equation A^T Q + Q A + h h^T = 0.
   double mean_square(const mechanics::NetworkValues& values,
                      const std::vector<mechanics::NetworkValues>& directions, std::span<double> slopes) const;
 

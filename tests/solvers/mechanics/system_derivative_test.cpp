@@ -35,10 +35,10 @@ std::vector<double> numbers_of(const LinearSystem& system) {
     add(matrix.real());
     add(matrix.imag());
   };
-  for (const auto* matrix :
-       {&system.M, &system.C, &system.K, &system.M_support, &system.C_support, &system.K_support})
+  for (const auto* matrix : {&system.M, &system.C, &system.K, &system.M_support, &system.C_support,
+                             &system.K_support, &system.mass, &system.structural_damping})
     add(*matrix);
-  for (const auto* vector : {&system.mass, &system.limit, &system.internal_stiffness, &system.internal_rate,
+  for (const auto* vector : {&system.limit, &system.internal_stiffness, &system.internal_rate,
                              &system.constant_force, &system.constant_applied_force, &system.constant_motion})
     add(*vector);
   for (const auto* matrix : {&system.force, &system.applied_force, &system.motion}) add_both(*matrix);
@@ -87,6 +87,51 @@ TEST_CASE("The derivative of an assembled system is that of its differences, for
     INFO("trial " << trial);
     check_derivatives(drawn.network, drawn.values);
   }
+}
+
+TEST_CASE(
+    "So is that of a system with damping of its structure, modal or rayleigh, with a moving base or not") {
+  for (unsigned trial = 0; trial < 12; ++trial) {
+    std::mt19937 random(700U + trial);
+    auto drawn = random_network({.masses = 2 + static_cast<int>(trial % 3),
+                                 .contacts = 1,
+                                 .maxwell_elements = static_cast<int>(trial % 2),
+                                 .hysteretic = trial % 4 > 1,
+                                 .orders = {0, 1},
+                                 .shaken = trial % 3 > 0},
+                                random);
+    drawn.network.damping = trial % 4 == 0 ? DampingModel::rayleigh : DampingModel::modal;
+    drawn.values.damping = {0.03, 0.05};
+    if (trial % 4 == 1) drawn.values.damping = {0.04};
+    INFO("trial " << trial);
+    check_derivatives(drawn.network, drawn.values);
+  }
+}
+
+TEST_CASE("Modes of one frequency and one ratio have a derivative of their damping") {
+  // Two equal oscillators and a spring between them that grows from nothing: dC_d is that of the sum
+  // M sqrt(M^-1 K) of both, exact where divided differences would be 0/0.
+  const Node ground{}, a{NodeKind::mass, 0}, b{NodeKind::mass, 1};
+  const Network network{.masses = {"a", "b"},
+                        .prescribed = {},
+                        .elements = {{"ka", ElementType::spring, ground, a},
+                                     {"kb", ElementType::spring, ground, b},
+                                     {"joint", ElementType::spring, a, b}},
+                        .excitations = {{ExcitationKind::force, 0, 1}},
+                        .damping = DampingModel::modal};
+  const NetworkValues values{.omega = 1.0,
+                             .mass = {1.0, 1.0},
+                             .element = {4.0, 4.0, 0.0},
+                             .excitation = {{1.0, 0.0}},
+                             .damping = {0.05}};
+  const Assembly assembly(network);
+  NetworkValues direction = periodic::zero_direction(values);
+  direction.element[2] = 1.0;
+  LinearSystem derivative;
+  differentiate(assembly, values, direction, system_of(assembly, values), derivative);
+  // The modes are (1, 1) at 2 rad/s, and (1, -1) at sqrt(4 + 2 k): 2 zeta omega changes by 2 zeta / omega.
+  CHECK(derivative.C(0, 0) == Approx(0.05 / 2.0).epsilon(1e-13));
+  CHECK(derivative.C(0, 1) == Approx(-0.05 / 2.0).epsilon(1e-13));
 }
 
 TEST_CASE("So is that of a system shaken by a crank, exact or cut") {

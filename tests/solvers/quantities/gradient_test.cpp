@@ -156,6 +156,30 @@ TEST_CASE("So are those of random networks by every number they have", "[slow]")
   CHECK(undecided < compared / kDecided);
 }
 
+TEST_CASE("So are those of random networks with damping of the structure, by its ratios too") {
+  int with_gradient = 0, compared = 0, undecided = 0;
+  for (unsigned trial = 0; trial < 12; ++trial) {
+    std::mt19937 random(4000U + trial);
+    RandomNetwork drawn = random_network({.masses = 2 + static_cast<int>(trial % 2),
+                                          .contacts = static_cast<int>(trial % 3),
+                                          .shaken = trial % 2 == 0,
+                                          .largest_friction = 0.1},
+                                         random);
+    const bool is_modal = trial % 3 != 1;
+    drawn.network.damping = is_modal ? mechanics::DampingModel::modal : mechanics::DampingModel::rayleigh;
+    drawn.values.damping = {0.04, 0.07};
+    INFO("trial " << trial);
+    const std::vector<Quantity> quantities = all_quantities(drawn.network);
+    const Tally tally =
+        compare(drawn.network, drawn.values, all_parameters(drawn.network, drawn.values), quantities);
+    with_gradient += tally.has_gradient ? 1 : 0;
+    compared += tally.compared;
+    undecided += tally.undecided;
+  }
+  CHECK(with_gradient >= 11);
+  CHECK(undecided < compared / kDecided);
+}
+
 TEST_CASE("So are those of a mass shaken by a crank through a spring, by crank, rod and phase") {
   for (const int taylor_order : {0, 1, 2, 4}) {
     Network network = single_mass();

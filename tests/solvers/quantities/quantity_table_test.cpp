@@ -30,6 +30,7 @@ std::string name_on_page(const QuantityRow& row) {
       return "`" + suffix + "_<k>`";
     case Owner::support:
     case Owner::point:
+    case Owner::structure:
       break;
   }
   return "`" + suffix + "`";

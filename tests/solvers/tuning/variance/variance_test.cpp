@@ -69,6 +69,28 @@ TEST_CASE("one mass under white noise has the variance pi S0 / (c k), or pi S0 m
   CHECK_THAT(of_base.mean_square(values), WithinRel(pi * intensity * m * m / (c * k), kExact));
 }
 
+TEST_CASE("one mass with modal damping has the variance of one with its damper, and its exact derivatives") {
+  const double m = 3.0, k = 110.0, zeta = 0.04, intensity = 0.25, c = 2.0 * zeta * std::sqrt(k * m);
+  Network network{.masses = {"x"},
+                  .prescribed = {"base"},
+                  .elements = {{"spring", ElementType::spring, base, main_mass}},
+                  .excitations = {}};
+  network.damping = mechanics::DampingModel::modal;
+  NetworkValues values = numbers({m}, {k}, {0.0});
+  values.damping = {zeta};
+  const Variance of_base(network, {NoiseKind::acceleration_of, 0, intensity}, {NoisyKind::stroke, 0});
+  std::vector<NetworkValues> directions(3, numbers({0.0}, {0.0}, {0.0}));
+  for (NetworkValues& each : directions) each.damping = {0.0};
+  directions[0].mass[0] = directions[1].element[0] = directions[2].damping[0] = 1.0;
+  std::array<double, 3> slopes{};
+  const double variance = of_base.mean_square(values, directions, slopes);
+  // pi S0 m^2 / (c k) = pi S0 m^(3/2) / (2 zeta k^(3/2))
+  CHECK_THAT(variance, WithinRel(pi * intensity * m * m / (c * k), kExact));
+  CHECK_THAT(slopes[0], WithinRel(1.5 * variance / m, kExact));
+  CHECK_THAT(slopes[1], WithinRel(-1.5 * variance / k, kExact));
+  CHECK_THAT(slopes[2], WithinRel(-variance / zeta, kExact));
+}
+
 // Main mass on a spring, absorber with spring, damper and inerter; the inerter and the main spring stand on
 // `support`. Order of the elements: K, k, c, b.
 Network tuned_mass_damper(const Node& support) {
