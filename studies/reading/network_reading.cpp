@@ -243,7 +243,8 @@ StudyValue read_value(NetworkReading& reading, const TomlSection& section, const
   }
   result.position = value->position;
   if (value->as<std::string>()) {
-    result.expression = read_expression(reading.context, reading.parameters, result.where, *value);
+    result.expression =
+        read_expression(reading.context, reading.parameters, result.where, *value, wanted_by_key(quantity));
     note_quantity(reading.parameters, result);
     if (quantity != Quantity::angular_frequency) return result;
     for (const std::size_t i : reading.parameters.inputs_of(result.expression.reads())) {
