@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "studies/program/listing.hpp"
+
 namespace frahm::studies {
 
 struct CheckOptions {
@@ -14,6 +16,9 @@ struct CheckOptions {
   int threads = 0;                    // for the predicted time; 0: one on each processor
   std::uint64_t max_array = 0;        // tasks that an array of the cluster may have; 0: as Slurm here says
   int simulate_ranks = 0;             // so many ranks of `threads` threads (0: one); 0: no simulation
+  bool all = false;                   // every mode, of a large system too
+
+  Listing listing() const { return all ? Listing::whole : Listing::excerpt; }
 };
 
 // Validates a study and prints what its run needs: points and tiles, the time and size to expect, the line
