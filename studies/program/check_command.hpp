@@ -23,7 +23,8 @@ struct CheckOptions {
 
 // Validates a study and prints what its run needs: points and tiles, the time and size to expect, the line
 // that submits it as an array of tasks, and the linear modes at the first point of the grid. Computes rows of
-// the map for about a second to predict the time. Returns 0. Throws StudyError for any error in the study.
+// the map for about a second (four where a row takes long) to predict the time. Returns 0, or 3 where none of
+// them has a response. Throws StudyError for any error in the study.
 int check_command(const CheckOptions& options, std::ostream& out);
 
 }  // namespace frahm::studies
