@@ -21,8 +21,9 @@ struct MapSample {
   std::string failed_at, reason;   // of the first that failed; its point as --at takes it
 };
 
-// Computes tiles of the map until `seconds` have passed or all are done; at least one.
-// Throws mechanics::MechanicsError for a network that cannot move at any values.
+// Computes tiles of the map until `seconds` have passed or all are done; at least one, and of dear tiles
+// eight within four times `seconds`. Throws mechanics::MechanicsError for a network that cannot move at any
+// values.
 MapSample sample_map(const MapPlan& plan, double seconds);
 
 }  // namespace frahm::studies

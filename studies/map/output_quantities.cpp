@@ -79,17 +79,19 @@ std::vector<std::pair<std::string, std::string>> names_of_groups(const Study& st
   return names;
 }
 
-// A page can only show recorded quantities.
+// A page and a summary can only show recorded quantities.
 void check_report(const Study& study, const std::vector<periodic::QuantityDescription>& recorded) {
   std::vector<std::string> names;
   for (const periodic::QuantityDescription& quantity : recorded) names.push_back(quantity.name);
-  for (const OutputChoice::Name& name : study.sweep()->report_quantities) {
-    if (std::find(names.begin(), names.end(), name.text) != names.end()) continue;
+  const auto check = [&](const char* key, const OutputChoice::Name& name) {
+    if (std::find(names.begin(), names.end(), name.text) != names.end()) return;
     throw study.source.error_at(rules::unknown_name, name.position,
-                                "[report]: quantities: \"{}\" is not recorded by this study{}; [output] "
+                                "[report]: {}: \"{}\" is not recorded by this study{}; [output] "
                                 "quantities chooses what is",
-                                name.text, suggestion(name.text, names));
-  }
+                                key, name.text, suggestion(name.text, names));
+  };
+  for (const OutputChoice::Name& name : study.sweep()->report_quantities) check("quantities", name);
+  if (study.sweep()->headline) check("headline", *study.sweep()->headline);
 }
 
 }  // namespace
@@ -104,6 +106,11 @@ std::vector<periodic::Quantity> output_quantities(const Study& study) {
       break;
   }
   return periodic::standard_quantities(study.network);
+}
+
+std::string headline_of(const Study& study) {
+  const auto& headline = study.sweep()->headline;
+  return headline ? headline->text : study.network.masses.front() + "_peak";
 }
 
 std::vector<periodic::QuantityDescription> output_variables(

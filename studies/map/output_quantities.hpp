@@ -15,4 +15,7 @@ std::vector<periodic::Quantity> output_quantities(const Study& study);
 std::vector<periodic::QuantityDescription> output_variables(
     const Study& study, const std::vector<periodic::Quantity>& quantities);
 
+// The name of the quantity that summaries of a sweep tell: that of its headline, else the first mass's peak.
+std::string headline_of(const Study& study);
+
 }  // namespace frahm::studies

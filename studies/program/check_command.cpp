@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
-#include <thread>
 
 #include "engine/progress.hpp"
 #include "engine/team.hpp"
@@ -18,12 +17,11 @@
 #include "studies/map/map_sample.hpp"
 #include "studies/motion/motion_record.hpp"
 #include "studies/program/array_job.hpp"
+#include "studies/program/check_tuning.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/modes_table.hpp"
 #include "studies/program/rank_table.hpp"
 #include "studies/reading/settings.hpp"
-#include "studies/tuning/tuning_plan.hpp"
-#include "studies/tuning/tuning_table.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -45,9 +43,9 @@ void print_grid(const Study& study, const Grid& grid, std::ostream& out) {
 }
 
 // A thread computes whole tiles, so that some threads may wait for the last.
-void print_prediction(const Grid& grid, const MapSample& sample, int most_threads, std::ostream& out) {
+void print_prediction(const Grid& grid, const MapSample& sample, int wanted_threads, std::ostream& out) {
   const double share = static_cast<double>(grid.points()) / static_cast<double>(sample.points);
-  const int threads = engine::team_size(most_threads, grid.tiles());
+  const int threads = engine::team_size(wanted_threads, grid.tiles());
   const std::uint64_t turns =
       (grid.tiles() + static_cast<std::uint64_t>(threads) - 1) / static_cast<std::uint64_t>(threads);
   const double seconds =
@@ -76,7 +74,7 @@ void print_array(const CheckOptions& options, const StudyPlan& plan, const char*
                   out);
 }
 
-void print_first_modes(const Study& study, const Grid& grid, std::ostream& out) {
+void print_first_modes(const Study& study, const Grid& grid, Listing listing, std::ostream& out) {
   std::vector<double> parameters = study.parameters.nominal();
   for (std::size_t d = 0; d < study.sweep()->dimensions.size(); ++d)
     set_along(*study.sweep(), d, 0, parameters);
@@ -85,7 +83,7 @@ void print_first_modes(const Study& study, const Grid& grid, std::ostream& out) 
   const std::vector<std::uint64_t> first(grid.shape.size(), 0);
   fmt::print(out, "\nAt the first point of the grid, {}:\n", point_text(study, first));
   try {
-    print_modes(study, modes_at_point(study, values), out);
+    print_modes(study, modes_at_point(study, values), listing, out);
   } catch (const mechanics::MechanicsError& error) {
     fmt::print(out, "No modes: {}\n", error.what());
   }
@@ -118,7 +116,7 @@ void print_transient_choice(const Study& study, std::ostream& out) {
 }
 
 // Checks a decay or transient.
-int check_motion(const Study& study, std::ostream& out) {
+int check_motion(const Study& study, Listing listing, std::ostream& out) {
   const mechanics::NetworkValues values = motion_values(study);
   const transient::InitialState initial = initial_state(study);
   fmt::print(out, "{} is a valid study{}{}\n\n", study.source.name, study.title.empty() ? "" : ": ",
@@ -138,51 +136,10 @@ int check_motion(const Study& study, std::ostream& out) {
   }
   fmt::print(out, "samples    {}\n\n", study.motion()->samples);
   try {
-    print_modes(study, modes_at_point(study, values), out);
+    print_modes(study, modes_at_point(study, values), listing, out);
   } catch (const mechanics::MechanicsError& error) {
     throw StudyError(rules::not_computed, "{}", study.source.name + ": " + error.what());
   }
-  return exit_code::done;
-}
-
-void print_stated_modes(const Study& study, std::ostream& out) {
-  fmt::print(out, "As the study states it:\n");
-  std::vector<double> parameters = study.parameters.nominal();
-  mechanics::NetworkValues values;
-  evaluate(study.values, study.parameters, parameters, values);
-  try {
-    print_modes(study, modes_at_point(study, values), out);
-  } catch (const mechanics::MechanicsError& error) {
-    throw StudyError(rules::not_computed, "{}", study.source.name + ": " + error.what());
-  }
-}
-
-void print_design_range(const Study& study, const DesignChoice& design, std::ostream& out) {
-  const double factor = design.unit.si_factor;
-  const bool has_unit = !design.unit.text.empty() && design.unit.text != "1";
-  fmt::print(out, "{:<22}{:.6g} .. {:.6g}{}{}, from {:.6g}", study.parameters.list[design.parameter].name,
-             design.lower / factor, design.upper / factor, has_unit ? " " : "",
-             has_unit ? design.unit.text : "", study.parameters.nominal()[design.parameter] / factor);
-  if (design.is_scheduled()) fmt::print(out, ", scheduled at {} knots", design.knots.size());
-  fmt::print(out, "{}\n", design.rule ? ", beside a rule" : "");
-}
-
-// Checks a tuning.
-int check_tune(const CheckOptions& options, Study read, std::ostream& out) {
-  const StudyPlan plan = plan_tuning(std::move(read), options.set);
-  const Study& study = plan.study;
-  fmt::print(out, "{} is a valid study{}{}\n\n", study.source.name, study.title.empty() ? "" : ": ",
-             study.title);
-  print_task(study, out);
-  std::size_t variables = 0;
-  for (const DesignChoice& design : study.tune()->designs) {
-    print_design_range(study, design, out);
-    variables += design.is_scheduled() ? design.knots.size() : 1;
-  }
-  fmt::print(out, "{:<22}{}\n{:<22}{}\n{:<22}{}\n\n", "variables", variables, "limits",
-             study.tune()->limits.size() + (study.tune()->trade_off ? 1 : 0), "starts", plan.tiles);
-  print_stated_modes(study, out);
-  if (plan.tiles > 1) print_array(options, plan, "tuning", std::nullopt, out);
   return exit_code::done;
 }
 
@@ -195,7 +152,7 @@ int check_identification(const CheckOptions& options, Study read, std::ostream& 
   print_identification_choice(study, out);
   if (study.network.masses.empty()) return exit_code::done;
   fmt::print(out, "\n");
-  print_stated_modes(study, out);
+  print_stated_modes(study, options.listing(), out);
   return exit_code::done;
 }
 
@@ -218,16 +175,15 @@ int check_command(const CheckOptions& options, std::ostream& out) {
     throw StudyError(rules::other_kind, "{}",
                      options.study.string() + ": --simulate-ranks is for maps; this study is " +
                          std::string(kind_noun(read.kind())));
-  if (read.kind() == StudyKind::tune) return check_tune(options, std::move(read), out);
+  if (read.kind() == StudyKind::tune) return check_tuning(options, std::move(read), out);
   if (read.identify()) return check_identification(options, std::move(read), out);
-  if (read.kind() != StudyKind::sweep) return check_motion(read, out);
+  if (read.kind() != StudyKind::sweep) return check_motion(read, options.listing(), out);
   const MapPlan plan = plan_map(std::move(read), options.set);
   const double start_seconds = std::chrono::duration<double>(Clock::now() - start).count();
   const Study& study = plan.study;
   const MapSample sample = sample_of(plan, sample_seconds);
   const double core_seconds =
       sample.seconds * static_cast<double>(plan.grid.points()) / static_cast<double>(sample.points);
-  const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 
   const bool has_none = sample.failed == sample.points;
   if (has_none) {
@@ -237,13 +193,13 @@ int check_command(const CheckOptions& options, std::ostream& out) {
                study.title);
   }
   print_grid(study, plan.grid, out);
-  print_prediction(plan.grid, sample, options.threads > 0 ? options.threads : processors, out);
+  print_prediction(plan.grid, sample, options.threads, out);
   print_array(options, plan, "map", core_seconds, out);
   if (options.simulate_ranks > 0) {
     print_rank_table(plan.grid, sample, options.simulate_ranks, std::max(1, options.threads), start_seconds,
                      out);
   }
-  print_first_modes(study, plan.grid, out);
+  print_first_modes(study, plan.grid, options.listing(), out);
   return has_none ? exit_code::some_failed : exit_code::done;
 }
 

@@ -9,6 +9,7 @@
 
 #include "engine/progress.hpp"
 #include "studies/map/map_summary.hpp"
+#include "studies/map/output_quantities.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/logged_run.hpp"
 #include "studies/record/finished_file.hpp"
@@ -61,10 +62,10 @@ int print_map_table(const MapPlan& plan, const std::filesystem::path& study,
   const results::MapReader map(file);
   const auto& variables = map.layout().variables;
   const std::uint64_t points = points_of(map.layout());
-  const auto peak =
-      std::ranges::find(variables, plan.study.network.masses.front() + "_peak", &results::Variable::name);
-  if (peak != variables.end()) {
-    print_worst(map, worst_along_slowest_axis(map, static_cast<std::size_t>(peak - variables.begin())), out);
+  const auto headline = std::ranges::find(variables, headline_of(plan.study), &results::Variable::name);
+  if (headline != variables.end()) {
+    const auto variable = static_cast<std::size_t>(headline - variables.begin());
+    print_worst(map, worst_along_slowest_axis(map, variable), out);
   }
   const std::vector<FlagCounts> flags = count_flags(map);
   print_flags(flags, points, out);

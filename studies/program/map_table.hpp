@@ -10,7 +10,7 @@
 
 namespace frahm::studies {
 
-// The short table that ends a run: worst peak of the first mass along the slowest axis, shares of the
+// The short table that ends a run: worst value of the headline along the slowest axis, shares of the
 // regimes, statuses, effort, and for the first failed points the command that reproduces each. study: as the
 // user named it. Returns the exit code: 3 if points failed, else 0.
 int print_map_table(const MapPlan& plan, const std::filesystem::path& study,

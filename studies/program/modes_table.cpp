@@ -6,22 +6,39 @@
 
 #include <algorithm>
 #include <numbers>
+#include <type_traits>
 
 namespace frahm::studies {
 namespace {
 
-void print_table(const Study& study, const periodic::LinearModes& modes, std::ostream& out) {
-  const std::string masses = fmt::format("{}", fmt::join(study.network.masses, ", "));
+constexpr std::size_t most_modes = 12;        // of an excerpt
+constexpr std::size_t most_in_a_system = 12;  // masses whose shapes are shown whole
+constexpr std::size_t most_in_a_shape = 8;    // of an excerpt
+
+void print_table(const Study& study, const periodic::LinearModes& modes, Listing listing, std::ostream& out) {
+  const std::size_t masses = study.network.masses.size(), all = modes.frequency.size();
+  const std::size_t shown = listing == Listing::whole ? all : std::min(all, most_modes);
+  const std::vector<std::size_t> places =
+      listed_indices(masses, masses > most_in_a_system ? most_in_a_shape : masses, listing);
+  const auto at_places = [&](const auto& of_masses) {
+    std::vector<std::decay_t<decltype(of_masses[0])>> chosen;
+    for (const std::size_t place : places) chosen.push_back(of_masses[place]);
+    return chosen;
+  };
   const std::string frequencies = study.dimensionless
                                       ? fmt::format("{:>12}", "frequency")
                                       : fmt::format("{:>12}{:>11}{:>11}", "rad/s", "Hz", "rpm");
-  fmt::print(out, "  mode{}{:>12}   shape of {}\n", frequencies, "damping", masses);
-  for (std::size_t k = 0; k < modes.frequency.size(); ++k) {
+  fmt::print(out, "  mode{}{:>12}   shape of {}\n", frequencies, "damping",
+             fmt::join(at_places(study.network.masses), ", "));
+  for (std::size_t k = 0; k < shown; ++k) {
     const double omega = modes.frequency[k], hertz = omega / (2.0 * std::numbers::pi);
     fmt::print(out, "  {:>4}{:>12.6g}", k + 1, omega);
     if (!study.dimensionless) fmt::print(out, "{:>11.5g}{:>11.5g}", hertz, 60.0 * hertz);
-    fmt::print(out, "{:>12.5g}   {:.4g}\n", modes.damping[k], fmt::join(modes.shape[k], ", "));
+    fmt::print(out, "{:>12.5g}   {:.4g}\n", modes.damping[k], fmt::join(at_places(modes.shape[k]), ", "));
   }
+  if (shown < all || places.size() < masses)
+    fmt::print(out, "  {} of {} modes, at {} of {} masses; --all shows all\n", shown, all, places.size(),
+               masses);
 }
 
 }  // namespace
@@ -33,16 +50,28 @@ ModesAtPoint modes_at_point(const Study& study, const mechanics::NetworkValues& 
           periodic::linear_modes(study.network, values, true), friction};
 }
 
-void print_modes(const Study& study, const ModesAtPoint& modes, std::ostream& out) {
+void print_modes(const Study& study, const ModesAtPoint& modes, Listing listing, std::ostream& out) {
   fmt::print(out, "Undamped modes{}\n", modes.friction ? " with all friction sliding" : "");
-  print_table(study, modes.sliding, out);
+  print_table(study, modes.sliding, listing, out);
   if (!modes.friction) return;
   if (modes.stuck.frequency.empty()) {
     fmt::print(out, "With all friction stuck nothing moves.\n");
     return;
   }
   fmt::print(out, "Undamped modes with all friction stuck\n");
-  print_table(study, modes.stuck, out);
+  print_table(study, modes.stuck, listing, out);
+}
+
+void print_stated_modes(const Study& study, Listing listing, std::ostream& out) {
+  fmt::print(out, "As the study states it:\n");
+  std::vector<double> parameters = study.parameters.nominal();
+  mechanics::NetworkValues values;
+  evaluate(study.values, study.parameters, parameters, values);
+  try {
+    print_modes(study, modes_at_point(study, values), listing, out);
+  } catch (const mechanics::MechanicsError& error) {
+    throw StudyError(rules::not_computed, "{}", study.source.name + ": " + error.what());
+  }
 }
 
 }  // namespace frahm::studies

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "solvers/mechanics/modes.hpp"
+#include "studies/program/listing.hpp"
 #include "studies/reading/study.hpp"
 
 namespace frahm::studies {
@@ -19,7 +20,11 @@ struct ModesAtPoint {
 // Throws mechanics::MechanicsError for invalid matrices.
 ModesAtPoint modes_at_point(const Study& study, const mechanics::NetworkValues& values);
 
-// Frequencies (rad/s, Hz and rpm, or one number in a dimensionless study), damping ratios, shapes.
-void print_modes(const Study& study, const ModesAtPoint& modes, std::ostream& out);
+// Frequencies (rad/s, Hz and rpm, or one number in a dimensionless study), damping ratios, shapes. An excerpt
+// has the first twelve modes, with their shapes at eight masses.
+void print_modes(const Study& study, const ModesAtPoint& modes, Listing listing, std::ostream& out);
+
+// The modes with the parameters as the study states them. Throws StudyError for invalid matrices.
+void print_stated_modes(const Study& study, Listing listing, std::ostream& out);
 
 }  // namespace frahm::studies

@@ -52,7 +52,8 @@ int point_command(const PointOptions& options, std::ostream& out) {
   if (options.history) check_output_is_not_input(*options.history, options.study);
   const PointReport report = tell_point(study, parameters, path_of(study, options.path),
                                         options.history ? intervals_a_period + 1 : 0, options.gradient);
-  options.json ? print_point_json(study, report, out) : print_point(study, report, out);
+  options.json ? print_point_json(study, report, out)
+               : print_point(study, report, options.all ? Listing::whole : Listing::excerpt, out);
   if (report.status == "failed") return exit_code::some_failed;
   if (options.history && !report.history) {
     throw StudyError(rules::not_computed, "--history {}: the point is {} and has no time history: {}",

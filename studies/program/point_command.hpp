@@ -16,8 +16,9 @@ struct PointOptions {
   // CSV file of the time history; "-" is refused, as `out` has the report.
   std::optional<std::filesystem::path> history = {};
   std::string path = "fastest";  // or "general": every orbit by shooting
-  bool gradient = false;  // derivatives too: exact, by differences, and their deviation
-  bool json = false;      // the report as one JSON object
+  bool gradient = false;         // derivatives too: exact, by differences, and their deviation
+  bool json = false;             // the report as one JSON object
+  bool all = false;              // every quantity and mode, of a large system too
 };
 
 // Prints the periodic response of one point in full: status, every quantity, the sequence of modes over the

@@ -55,8 +55,9 @@ std::string flag_meaning(const periodic::QuantityDescription& description, doubl
 // Whether a quantity has a value at the point: not NaN, and no count of -1.
 bool has_value(const PointReport::QuantityValue& quantity);
 
-// Prints the report as text.
-void print_point(const Study& study, const PointReport& report, std::ostream& out);
+// Prints the report as text. An excerpt of more than a hundred quantities has those of four masses and four
+// elements, evenly chosen, and of the first modes.
+void print_point(const Study& study, const PointReport& report, Listing listing, std::ostream& out);
 // Prints one JSON object; a missing value is null. Angles in rad, the rest with its unit beside it.
 void print_point_json(const Study& study, const PointReport& report, std::ostream& out);
 

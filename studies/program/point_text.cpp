@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "solvers/quantities/quantity_table.hpp"
 #include "studies/program/point_report.hpp"
 
 namespace frahm::studies {
@@ -37,13 +39,48 @@ void print_heading(const Study& study, const PointReport& report, std::ostream& 
   fmt::print(out, "\n");
 }
 
-void print_quantities(const PointReport& report, std::ostream& out) {
-  for (const PointReport::QuantityValue& quantity : report.quantities) {
-    const auto& [description, value] = quantity;
-    const std::string unit = description.unit == "1" ? "" : description.unit;
-    fmt::print(out, "{:<28}{:>18} {:<7} {}\n", description.name, value_text(quantity), unit,
-               description.long_name);
+// Whether an excerpt has a quantity.
+class Excerpt {
+ public:
+  explicit Excerpt(const mechanics::Network& network)
+      : masses_(listed_indices(network.masses.size(), most_owners, Listing::excerpt)),
+        elements_(listed_indices(network.elements.size(), most_owners, Listing::excerpt)) {}
+
+  bool has(const periodic::Quantity& quantity) const {
+    switch (periodic::row_of(quantity.measure).owner) {
+      case periodic::Owner::mass:
+        return std::ranges::find(masses_, quantity.index) != masses_.end();
+      case periodic::Owner::element:
+      case periodic::Owner::contact:
+        return std::ranges::find(elements_, quantity.index) != elements_.end();
+      case periodic::Owner::mode:
+        return quantity.index < most_owners;
+      default:
+        return true;
+    }
   }
+
+ private:
+  static constexpr std::size_t most_owners = 4;
+  std::vector<std::size_t> masses_, elements_;
+};
+
+void print_quantities(const Study& study, const PointReport& report, Listing listing, std::ostream& out) {
+  constexpr std::size_t most_rows = 100;
+  const bool is_whole = listing == Listing::whole || report.quantities.size() <= most_rows;
+  const std::vector<periodic::Quantity> of_network = periodic::all_quantities(study.network);
+  const Excerpt excerpt(study.network);
+  std::size_t shown = 0;
+  for (std::size_t i = 0; i < report.quantities.size(); ++i) {
+    if (!is_whole && i < of_network.size() && !excerpt.has(of_network[i])) continue;
+    const auto& [description, value] = report.quantities[i];
+    const std::string unit = description.unit == "1" ? "" : description.unit;
+    fmt::print(out, "{:<28}{:>18} {:<7} {}\n", description.name, value_text(report.quantities[i]), unit,
+               description.long_name);
+    ++shown;
+  }
+  if (shown < report.quantities.size())
+    fmt::print(out, "{} of {} quantities; --all shows all\n", shown, report.quantities.size());
 }
 
 void print_stretches(const PointReport& report, std::ostream& out) {
@@ -85,13 +122,13 @@ void print_gradient(const PointGradient& gradient, std::ostream& out) {
 
 }  // namespace
 
-void print_point(const Study& study, const PointReport& report, std::ostream& out) {
+void print_point(const Study& study, const PointReport& report, Listing listing, std::ostream& out) {
   print_heading(study, report, out);
-  print_quantities(report, out);
+  print_quantities(study, report, listing, out);
   print_stretches(report, out);
   if (report.modes) {
     fmt::print(out, "\n");
-    print_modes(study, *report.modes, out);
+    print_modes(study, *report.modes, listing, out);
   }
   if (report.gradient) print_gradient(*report.gradient, out);
 }

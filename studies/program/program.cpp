@@ -190,6 +190,7 @@ void add_check(CLI::App& program, CheckOptions& options, Action& action) {
       ->add_option("--simulate-ranks", options.simulate_ranks,
                    "predict time and efficiency on up to so many MPI ranks of --threads each (0: one)")
       ->check(CLI::Range(1, 100'000));
+  check->add_flag("--all", options.all, "every mode, of a large system too");
   check->callback([&] { action = [&](std::ostream& out) { return check_command(options, out); }; });
 }
 
@@ -203,11 +204,13 @@ void add_point(CLI::App& program, PointOptions& options, Action& action) {
   point->add_flag("--gradient", options.gradient,
                   "exact derivatives with respect to the parameters, beside central differences");
   point
-      ->add_option("--path", options.path,
-                   "fastest: from the phases of its events where that is proved; general: by shooting, always")
+      ->add_option(
+          "--path", options.path,
+          "fastest: from the phases of its events where that is proved; general: by shooting, always")
       ->check(CLI::IsMember({"fastest", "general"}))
       ->take_last();
   point->add_flag("--json", options.json, "the report as one JSON object");
+  point->add_flag("--all", options.all, "every quantity and mode, of a large system too");
   point->callback([&] { action = [&](std::ostream& out) { return point_command(options, out); }; });
 }
 

@@ -76,10 +76,15 @@ std::vector<std::string> shown_quantities(const std::vector<std::string>& asked,
                                           const std::optional<Study>& study) {
   check_quantities(asked, layout);
   if (!asked.empty()) return asked;
-  if (!study || !study->sweep() || study->sweep()->report_quantities.empty())
-    return default_quantities(layout, study);
+  if (!study || !study->sweep()) return default_quantities(layout, study);
+  const SweepChoice& sweep = *study->sweep();
   std::vector<std::string> names;
-  for (const OutputChoice::Name& name : study->sweep()->report_quantities) names.push_back(name.text);
+  for (const OutputChoice::Name& name : sweep.report_quantities) names.push_back(name.text);
+  if (names.empty()) names = default_quantities(layout, study);
+  if (sweep.headline) {  // a page opens with its first number
+    std::erase(names, sweep.headline->text);
+    names.insert(names.begin(), sweep.headline->text);
+  }
   return names;
 }
 

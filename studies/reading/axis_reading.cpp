@@ -38,7 +38,7 @@ std::size_t read_axis_parameter(const TomlSection& section, const Study& study) 
 
 // Without a unit the values are SI, like every bare number. This is refused if the parameter itself is given
 // in another unit, because it is easily overlooked.
-void read_axis_unit(const StudyContext& context, const TomlSection& section, const Parameter& parameter,
+void read_axis_unit(const StudyContext& context, const TomlSection& section, Parameter& parameter,
                     ParameterAxis& axis) {
   if (context.dimensionless) {
     axis.unit = si_unit(Quantity::number);
@@ -53,6 +53,7 @@ void read_axis_unit(const StudyContext& context, const TomlSection& section, con
       section.fail(error.rule(), "unit", "{}", error.what());
     }
     axis.unit = unit->text;
+    parameter.unit_of_range = unit;
   } else if (parameter.unit) {
     if (si_factor(parameter, *parameter.unit) != 1.0) {
       section.fail_here(rules::missing_unit,
@@ -165,8 +166,7 @@ void read_axis(const StudyContext& context, const TomlValue& table, std::size_t 
   ParameterAxis axis;
   axis.position = section.position();
   axis.parameter = read_axis_parameter(section, study);
-  const Parameter& parameter = study.parameters.list[axis.parameter];
-  read_axis_unit(context, section, parameter, axis);
+  read_axis_unit(context, section, study.parameters.list[axis.parameter], axis);
   if (!section.find("values") && !section.find("from")) {
     section.fail_here(rules::missing_key,
                       "its values are missing: give values = [...] or from, to and points");
@@ -232,11 +232,16 @@ void read_coordinates(const StudyContext& context, const TomlValue& root, Study&
     const TomlValue& value = section.require("value");
     coordinate.value.where = fmt::format("{}: value", section.where());
     coordinate.value.position = value.position;
-    coordinate.value.expression = read_expression(context, study.parameters, coordinate.value.where, value);
-    coordinate.long_name = section.text_or("long_name", "");
+    std::optional<WantedDimension> wanted;
     if (const TomlValue* unit = section.find("unit")) {
-      if (const auto read = read_unit(context, section.where(), *unit)) coordinate.unit = read->text;
+      if (const auto read = read_unit(context, section.where(), *unit)) {
+        coordinate.unit = read->text;
+        wanted = wanted_by_label(*read);
+      }
     }
+    coordinate.value.expression =
+        read_expression(context, study.parameters, coordinate.value.where, value, wanted);
+    coordinate.long_name = section.text_or("long_name", "");
     const auto moving = dimensions_moving(study, coordinate.value.expression.reads());
     if (moving.size() != 1) {
       section.fail(rules::wrong_dependence, "value",

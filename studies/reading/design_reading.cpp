@@ -95,6 +95,13 @@ void read_schedule(const TuneReading& reading, const TomlSection& section, Desig
   design.max_slope *= design.unit.si_factor / band->unit.si_factor;
 }
 
+// A rule gives the parameter, so it has its dimension, where a unit tells it.
+std::optional<WantedDimension> wanted_of_parameter(const Parameter& parameter) {
+  const std::optional<Unit>& unit = parameter.unit ? parameter.unit : parameter.unit_of_range;
+  if (!unit) return std::nullopt;
+  return WantedDimension{*unit, fmt::format("\"{}\" is {}", parameter.name, dimension_with_unit(*unit))};
+}
+
 void read_design(TuneReading& reading, const TomlValue& table, std::size_t number) {
   const TomlSection section(reading.context.source, table,
                             label(table, "design", "parameter", "design", number),
@@ -111,7 +118,8 @@ void read_design(TuneReading& reading, const TomlValue& table, std::size_t numbe
     if (!design.is_scheduled())
       section.fail(rules::key_without_use, "rule",
                    "is compared with a schedule, and this [[design]] has none");
-    design.rule = read_formula(reading, section, "rule");
+    const Parameter& parameter = reading.study.parameters.list[design.parameter];
+    design.rule = read_formula(reading, section, "rule", wanted_of_parameter(parameter));
   }
   reading.choice.designs.push_back(std::move(design));
 }
@@ -173,10 +181,14 @@ void read_column(TuneReading& reading, const TomlValue& table, std::size_t numbe
                             {"name", "value", "unit", "lower", "upper"});
   ColumnChoice column;
   column.name = section.identifier("name");
-  column.value = read_formula(reading, section, "value");
+  std::optional<WantedDimension> wanted;
   if (const TomlValue* value = section.find("unit")) {
-    if (const auto unit = read_unit(reading.context, section.where(), *value)) column.unit = unit->text;
+    if (const auto unit = read_unit(reading.context, section.where(), *value)) {
+      column.unit = unit->text;
+      wanted = wanted_by_label(*unit);
+    }
   }
+  column.value = read_formula(reading, section, "value", std::move(wanted));
   column.lower = read_bound(section, "lower", 1.0, column.lower);
   column.upper = read_bound(section, "upper", 1.0, column.upper);
   check_bounds(section, column.lower, column.upper);

@@ -35,7 +35,9 @@ bool is_space(char c) {
 //   operand = number | name | function ( sum [, sum] ) | ( sum )
 class ExpressionParser {
  public:
-  ExpressionParser(std::string_view text, std::span<const std::string> names) : text_(text), names_(names) {}
+  ExpressionParser(std::string_view text, std::span<const std::string> names) : text_(text), names_(names) {
+    result_.text_ = text;
+  }
 
   Expression parse() {
     sum();
@@ -47,6 +49,7 @@ class ExpressionParser {
 
  private:
   using Operation = Expression::Operation;
+  using Place = Expression::Place;
 
   struct Function {
     std::string_view name;
@@ -99,7 +102,7 @@ class ExpressionParser {
     if (peek() == '-') {
       const std::size_t where = at_++;
       signed_operand();
-      unary(Operation::negate, where);
+      unary(Operation::negate, where, {where, operands_.back().end});
     } else {
       power();
     }
@@ -124,6 +127,7 @@ class ExpressionParser {
     const std::size_t open = at_++;
     sum();
     close(open);
+    result_.places_.back() = operands_.back() = {open, at_};
   }
 
   void number() {
@@ -134,13 +138,15 @@ class ExpressionParser {
       fail(rules::wrong_expression, at_, "this number is out of the range of double precision");
     if (error != std::errc{})
       fail(rules::wrong_expression, at_, fmt::format("a number is expected here, found {}", found()));
+    const std::size_t where = at_;
     at_ += static_cast<std::size_t>(end - first);
-    push({Operation::constant, 0, value}, at_);
+    push({Operation::constant, 0, value}, {where, at_});
   }
 
   void name() {
     const std::size_t where = at_;
     while (at_ < text_.size() && (is_letter(text_[at_]) || is_digit(text_[at_]))) ++at_;
+    const Place place{where, at_};
     const std::string_view word = text_.substr(where, at_ - where);
     const bool called = peek() == '(';
     const auto function =
@@ -151,7 +157,7 @@ class ExpressionParser {
       return call(*function, where);
     }
     if (called) fail_unknown_function(word, where);
-    if (word == "pi") return push({Operation::constant, 0, std::numbers::pi}, where);
+    if (word == "pi") return push({Operation::constant, 0, std::numbers::pi}, place);
     const auto parameter = std::find(names_.begin(), names_.end(), word);
     if (parameter == names_.end()) {
       fail(rules::unknown_name, where,
@@ -159,7 +165,7 @@ class ExpressionParser {
     }
     const auto index = static_cast<std::uint32_t>(parameter - names_.begin());
     result_.reads_.push_back(index);
-    push({Operation::parameter, index, 0.0}, where);
+    push({Operation::parameter, index, 0.0}, place);
   }
 
   void call(const Function& function, std::size_t where) {
@@ -176,9 +182,10 @@ class ExpressionParser {
     }
     close(open);
     if (function.arguments == 1) {
-      unary(function.operation, where);
+      unary(function.operation, where, {where, at_});
     } else {
       binary(function.operation, where);
+      result_.places_.back() = operands_.back() = {where, at_};
     }
   }
 
@@ -230,28 +237,40 @@ class ExpressionParser {
   }
 
   // Emission. An operation on constants alone is done now: its operands are the last instructions.
-  void push(Expression::Instruction instruction, std::size_t where) {
-    if (++stack_ > Expression::most_operands) fail(rules::wrong_expression, where, "nested too deeply");
+  void emit(Expression::Instruction instruction, Place place) {
     result_.program_.push_back(instruction);
+    result_.places_.push_back(place);
   }
 
-  void unary(Operation operation, std::size_t where) {
-    auto& program = result_.program_;
-    if (program.back().operation != Operation::constant) return program.push_back({operation, 0, 0.0});
-    program.back().constant = finite(Expression::apply(operation, program.back().constant), where);
+  void push(Expression::Instruction instruction, Place place) {
+    operands_.push_back(place);
+    if (operands_.size() > Expression::most_operands)
+      fail(rules::wrong_expression, place.first, "nested too deeply");
+    emit(instruction, place);
+  }
+
+  void unary(Operation operation, std::size_t where, Place place) {
+    operands_.back() = place;
+    auto& last = result_.program_.back();
+    if (last.operation != Operation::constant) return emit({operation, 0, 0.0}, place);
+    last.constant = finite(Expression::apply(operation, last.constant), where);
+    result_.places_.back() = place;
   }
 
   void binary(Operation operation, std::size_t where) {
     auto& program = result_.program_;
-    --stack_;
+    const Place place{operands_[operands_.size() - 2].first, operands_.back().end};
+    operands_.pop_back();
+    operands_.back() = place;
     const auto& left = program[program.size() - 2];
     const auto& right = program.back();
-    if (left.operation != Operation::constant || right.operation != Operation::constant) {
-      return program.push_back({operation, 0, 0.0});
-    }
+    if (left.operation != Operation::constant || right.operation != Operation::constant)
+      return emit({operation, 0, 0.0}, place);
     const double value = finite(Expression::apply(operation, left.constant, right.constant), where);
     program.pop_back();
+    result_.places_.pop_back();
     program.back().constant = value;
+    result_.places_.back() = place;
   }
 
   static double finite(double value, std::size_t where) {
@@ -270,7 +289,7 @@ class ExpressionParser {
   std::span<const std::string> names_;
   std::size_t at_ = 0;
   std::size_t depth_ = 0;
-  std::size_t stack_ = 0;  // entries on the stack after the program so far
+  std::vector<Place> operands_;  // those that wait for an operation
   Expression result_;
 };
 
@@ -284,6 +303,8 @@ Expression Expression::joined(const Expression& a, const Expression& b, Operatio
   Expression result = a;
   result.program_.insert(result.program_.end(), b.program_.begin(), b.program_.end());
   result.program_.push_back({operation, 0, 0.0});
+  result.text_.clear();
+  result.places_.clear();
   result.reads_.clear();
   std::ranges::set_union(a.reads_, b.reads_, std::back_inserter(result.reads_));
   if (!result.is_constant()) return result;

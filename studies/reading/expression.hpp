@@ -74,6 +74,7 @@ class Expression {
 
  private:
   friend class ExpressionParser;
+  friend class DimensionWalk;
 
   enum class Operation : std::uint8_t {
     constant,
@@ -100,6 +101,9 @@ class Expression {
     std::uint32_t parameter;  // index, of Operation::parameter
     double constant;          // value, of Operation::constant
   };
+  struct Place {
+    std::size_t first = 0, end = 0;  // bytes of the text, from 0; `end` is behind the last
+  };
   static constexpr std::size_t most_operands = 32;  // that wait for an operation: the parser refuses more
   static constexpr std::size_t stack_size = most_operands + 2;  // with those of which two are joined
 
@@ -115,6 +119,8 @@ class Expression {
 
   std::vector<Instruction> program_;
   std::vector<std::size_t> reads_;
+  std::string text_;           // as parsed; empty of a constant and of joined expressions
+  std::vector<Place> places_;  // of each instruction: the part of the text that it completes
 };
 
 template <>

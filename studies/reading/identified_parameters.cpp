@@ -104,17 +104,18 @@ std::size_t read_parameter(const IdentifyReading& reading, const TomlSection& se
   return *index;
 }
 
-UsualUnit read_usual_unit(const IdentifyReading& reading, const TomlSection& section, std::size_t parameter) {
+UsualUnit read_usual_unit(IdentifyReading& reading, const TomlSection& section, std::size_t parameter) {
   if (reading.study.dimensionless) {
     if (const TomlValue* unit = section.find("unit")) read_unit(reading.context, section.where(), *unit);
     return {"1", 1.0};
   }
-  const Parameter& definition = reading.study.parameters.list[parameter];
+  Parameter& definition = reading.study.parameters.list[parameter];
   UsualUnit usual = usual_unit(reading.study, parameter);
   if (const TomlValue* value = section.find("unit")) {
     const auto unit = read_unit(reading.context, section.where(), *value);
     try {
       usual = {unit->text, si_factor(definition, *unit)};
+      definition.unit_of_range = unit;
     } catch (const UnitError& error) {
       section.fail(error.rule(), "unit", "{}", error.what());
     }

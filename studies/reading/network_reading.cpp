@@ -120,7 +120,8 @@ StudyValue read_value_at(NetworkReading& reading, const std::string& where, cons
                          Quantity quantity, Range range) {
   StudyValue result{.quantity = quantity, .range = range, .where = where, .position = value.position};
   if (value.as<std::string>()) {
-    result.expression = read_expression(reading.context, reading.parameters, result.where, value);
+    result.expression =
+        read_expression(reading.context, reading.parameters, result.where, value, wanted_by_key(quantity));
     note_quantity(reading.parameters, result);
     if (quantity != Quantity::angular_frequency) return result;
     for (const std::size_t i : reading.parameters.inputs_of(result.expression.reads())) {

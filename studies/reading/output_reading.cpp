@@ -161,10 +161,34 @@ void read_output(const StudyContext& context, const TomlValue& root, Study& stud
   read_resonances(context, section, study);
 }
 
+namespace {
+
+// A name stands for its peak (a mass) or its stroke (an element).
+OutputChoice::Name read_headline(const TomlSection& section, const Study& study) {
+  const std::string name = section.identifier("headline");
+  const auto endings = {"_peak", "_stroke"};
+  for (const std::string ending : endings) {
+    if (periodic::find_quantity(name + ending, study.network))
+      return {name + ending, section.require("headline").position};
+  }
+  std::vector<std::string> known;
+  for (const periodic::Quantity& quantity : periodic::all_quantities(study.network)) {
+    const std::string of = periodic::describe(quantity, study.network, study.dimensionless).name;
+    for (const std::string_view ending : endings) {
+      if (of.ends_with(ending)) known.push_back(of.substr(0, of.size() - ending.size()));
+    }
+  }
+  section.fail(rules::unknown_name, "headline", "nothing with a peak or a stroke is called \"{}\"{}", name,
+               suggestion(name, known));
+}
+
+}  // namespace
+
 void read_report(const StudyContext& context, const TomlValue& root, Study& study) {
   const TomlEntry* entry = find_entry(root, "report");
   if (!entry) return;
-  const TomlSection section(context.source, entry->value, "[report]", {"quantities"});
+  const TomlSection section(context.source, entry->value, "[report]", {"quantities", "headline"});
+  if (section.find("headline")) study.sweep()->headline = read_headline(section, study);
   if (section.find("quantities")) study.sweep()->report_quantities = read_quantity_names(section);
 }
 

@@ -48,11 +48,26 @@ TableOf read_table(const StudyContext& context, const Parameters& parameters, co
   return table;
 }
 
+Expression parsed_expression(const StudyContext& context, const Parameters& parameters,
+                             const std::string& where, const TomlValue& value) {
+  if (!value.as<std::string>())
+    throw context.source.error_at(rules::wrong_type, value.position,
+                                  "{}: expected an expression in quotes, found {}", where, described(value));
+  const std::string text = read_text(context.source, where, value);
+  try {
+    return Expression::parse(text, parameters.names());
+  } catch (const ExpressionError& error) {
+    throw context.source.error_at(error.rule(),
+                                  context.source.inside_string(value.position, error.column() - 1), "{}: {}",
+                                  where, error.what());
+  }
+}
+
 void read_definition(const StudyContext& context, const TomlValue& value, const std::filesystem::path& folder,
                      Parameters& parameters, Parameter& parameter) {
   const std::string where = where_is(parameter.name);
   if (value.as<std::string>()) {
-    parameter.definition = read_expression(context, parameters, where, value);
+    parameter.definition = parsed_expression(context, parameters, where, value);
   } else if (find_entry(value, "table") || find_entry(value, "of")) {
     parameter.definition = read_table(context, parameters, where, value, folder);
   } else {
@@ -185,18 +200,11 @@ std::optional<Unit> read_unit(const StudyContext& context, const std::string& wh
 }
 
 Expression read_expression(const StudyContext& context, const Parameters& parameters,
-                           const std::string& where, const TomlValue& value) {
-  if (!value.as<std::string>())
-    throw context.source.error_at(rules::wrong_type, value.position,
-                                  "{}: expected an expression in quotes, found {}", where, described(value));
-  const std::string text = read_text(context.source, where, value);
-  try {
-    return Expression::parse(text, parameters.names());
-  } catch (const ExpressionError& error) {
-    throw context.source.error_at(error.rule(),
-                                  context.source.inside_string(value.position, error.column() - 1), "{}: {}",
-                                  where, error.what());
-  }
+                           const std::string& where, const TomlValue& value,
+                           std::optional<WantedDimension> wanted) {
+  const Expression expression = parsed_expression(context, parameters, where, value);
+  context.written.push_back({expression, where, value.position, std::move(wanted)});
+  return expression;
 }
 
 }  // namespace frahm::studies

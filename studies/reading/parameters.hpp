@@ -31,9 +31,10 @@ struct Parameter {
   // Of numbers only:
   std::optional<Unit> unit;  // as the study gives it
   Position unit_position;
-  std::optional<Quantity> quantity;  // known if a network value is this parameter alone:
-  std::string used_as;               // that value, for messages
-  bool in_frequency = false;         // the excitation frequency depends on it: its 1/s, Hz are cycles
+  std::optional<Unit> unit_of_range;  // as its axis, band or bounds give it
+  std::optional<Quantity> quantity;   // known if a network value is this parameter alone:
+  std::string used_as;                // that value, for messages
+  bool in_frequency = false;          // the excitation frequency depends on it: its 1/s, Hz are cycles
 
   bool is_number() const { return std::holds_alternative<double>(definition); }
 };

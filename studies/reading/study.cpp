@@ -163,7 +163,8 @@ Study parse_study(std::string text, const std::filesystem::path& name, DataFiles
   check_sections_of_kind(study, root);
 
   const UnitSystem units;
-  const StudyContext context{study.source, units, study.dimensionless};
+  std::vector<WrittenExpression> written;
+  const StudyContext context{study.source, units, study.dimensionless, written};
   study.parameters = read_parameters(context, root, name.parent_path());
   if (study.kind() != StudyKind::identify || has_system(root)) {
     auto [network, values] = read_network(context, root, name.parent_path(), study.parameters, study.kind());
@@ -188,6 +189,7 @@ Study parse_study(std::string text, const std::filesystem::path& name, DataFiles
   } else if (study.kind() == StudyKind::identify) {
     read_measurements(context, root, name.parent_path(), data, study);
   }
+  check_dimensions(context, study.parameters);
   check_whole(study);
   return study;
 }

@@ -14,11 +14,29 @@
 // The parts of reading a study, in the order in which parse_study() calls them. Each throws StudyError.
 namespace frahm::studies {
 
-// Shared by all parts: the text, the unit system, and whether units are allowed at all.
+// The dimension that the value of an expression has to have: that of a unit, and a sentence that says so.
+struct WantedDimension {
+  Unit unit;
+  std::string sentence;  // "a stiffness (N/m) is expected"
+};
+WantedDimension wanted_by_key(Quantity quantity);
+WantedDimension wanted_by_label(const Unit& unit);
+
+// An expression of the study outside [parameters].
+struct WrittenExpression {
+  Expression expression;
+  std::string where;
+  Position position;
+  std::optional<WantedDimension> wanted;  // nothing: any dimension will do
+};
+
+// Shared by all parts: the text, the unit system, whether units are allowed at all, and the expressions read
+// so far.
 struct StudyContext {
   const StudySource& source;
   const UnitSystem& units;
   bool dimensionless = false;
+  std::vector<WrittenExpression>& written;
 };
 
 // [parameters]. Numbers stay in their own units until convert_parameters(), because the network determines
@@ -116,8 +134,13 @@ Assignment read_assignment(const StudyContext& context, const Study& study, cons
 // The unit of a key; none in a dimensionless study, where only "1" is allowed.
 std::optional<Unit> read_unit(const StudyContext& context, const std::string& where, const TomlValue& value);
 
-// An expression of the parameters.
+// An expression of the parameters. It is noted in the context with the dimension that it has to have.
 Expression read_expression(const StudyContext& context, const Parameters& parameters,
-                           const std::string& where, const TomlValue& value);
+                           const std::string& where, const TomlValue& value,
+                           std::optional<WantedDimension> wanted = std::nullopt);
+
+// Refuses an expression in [parameters], or a noted one, that mixes dimensions or has the wrong one; once all
+// units are known.
+void check_dimensions(const StudyContext& context, const Parameters& parameters);
 
 }  // namespace frahm::studies

@@ -77,6 +77,7 @@ struct SweepChoice {
   std::vector<DerivedCoordinate> coordinates;
   OutputChoice output;
   std::vector<OutputChoice::Name> report_quantities;  // of the report's page; empty: its default
+  std::optional<OutputChoice::Name> headline;  // the quantity that summaries tell; else of headline_of()
   std::optional<Comparison> comparison;
 
   // The dimension along which the excitation frequency changes, which runs innermost in the computation; if

@@ -233,12 +233,13 @@ UsualUnit read_quantity_unit(const TuneReading& reading, const TomlSection& sect
 }
 
 UsualUnit read_parameter_unit(const TuneReading& reading, const TomlSection& section, std::size_t parameter) {
-  const Parameter& definition = reading.study.parameters.list[parameter];
+  Parameter& definition = reading.study.parameters.list[parameter];
   UsualUnit usual = usual_unit(reading.study, parameter);
   if (const TomlValue* value = section.find("unit")) {
     const auto unit = read_unit(reading.context, section.where(), *value);
     try {
       if (unit) usual = {unit->text, si_factor(definition, *unit)};
+      definition.unit_of_range = unit;
     } catch (const UnitError& error) {
       section.fail(error.rule(), "unit", "{}", error.what());
     }
@@ -282,12 +283,14 @@ tuning::Band read_range(const TomlSection& section, double si_factor) {
   return {from * si_factor, to * si_factor};
 }
 
-StudyValue read_formula(const TuneReading& reading, const TomlSection& section, const std::string& key) {
+StudyValue read_formula(const TuneReading& reading, const TomlSection& section, const std::string& key,
+                        std::optional<WantedDimension> wanted) {
   const TomlValue& value = section.require(key);
   StudyValue formula;
   formula.where = fmt::format("{}: {}", section.where(), key);
   formula.position = value.position;
-  formula.expression = read_expression(reading.context, reading.study.parameters, formula.where, value);
+  formula.expression =
+      read_expression(reading.context, reading.study.parameters, formula.where, value, std::move(wanted));
   return formula;
 }
 

@@ -24,7 +24,8 @@ periodic::Quantity read_real_quantity(const TuneReading& reading, const TomlSect
 UsualUnit read_quantity_unit(const TuneReading& reading, const TomlSection& section,
                              const periodic::Quantity& quantity);
 
-// Unit of a parameter's numbers: that of the key "unit", else the usual one.
+// Unit of a parameter's numbers: that of the key "unit", which is noted with the parameter, else the usual
+// one.
 UsualUnit read_parameter_unit(const TuneReading& reading, const TomlSection& section, std::size_t parameter);
 
 // A parameter that is a number, by its name at a key. role: "a design parameter", for messages.
@@ -37,8 +38,9 @@ std::vector<double> read_numbers(const TomlSection& section, const std::string& 
 // A range from <= to in the given unit, converted to SI.
 tuning::Band read_range(const TomlSection& section, double si_factor);
 
-// An expression of the parameters in quotes.
-StudyValue read_formula(const TuneReading& reading, const TomlSection& section, const std::string& key);
+// An expression of the parameters in quotes, with the dimension that it has to have.
+StudyValue read_formula(const TuneReading& reading, const TomlSection& section, const std::string& key,
+                        std::optional<WantedDimension> wanted = std::nullopt);
 
 // Whether the numbers of the network depend on a parameter.
 bool network_depends_on(const Study& study, std::size_t parameter);

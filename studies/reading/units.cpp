@@ -32,7 +32,7 @@ constexpr std::array<QuantityEntry, 21> quantities{{
     {"a time", "s", "s", "s, ms or min", {0, 0, 1}},
     {"an inverse speed", "s m-1", "s/m", "s/m or s/mm", {-1, 0, 1}},
     {"an angular acceleration", "rad s-2", "rad/s2", "rad/s2, rpm/s or Hz/s", {0, 0, -2}},
-    {"an acceleration", "m s-2", "m/s2", "m/s2 or mm/s2", {1, 0, -2}},
+    {"an acceleration", "m s-2", "m/s2", "m/s2, mm/s2 or gravity", {1, 0, -2}},
     {"an energy", "J", "J", "J, mJ or N m", {2, 1, -2}},
     {"a moment of inertia", "kg m2", "kg m2", "kg m2 or g cm2", {2, 1, 0}},
     {"a torque", "N m", "N m", "N m, N mm or kN m", {2, 1, -2}},
@@ -158,6 +158,19 @@ std::string dimension_name(const Unit& unit) {
     if (has_dimension(unit, quantity)) return std::string(quantity_name(quantity));
   }
   return "a quantity in " + coherent_unit(unit);
+}
+
+std::string dimension_with_unit(const Unit& unit) {
+  for (std::size_t i = 1; i < quantities.size() && !unit.foreign; ++i) {
+    const auto quantity = static_cast<Quantity>(i);
+    if (has_dimension(unit, quantity) && quantity != Quantity::angle)
+      return fmt::format("{} ({})", dimension_name(unit), written_si_unit(quantity));
+  }
+  return dimension_name(unit);
+}
+
+Unit coherent_unit_of(Quantity quantity) {
+  return {.text = std::string(si_unit(quantity)), .exponents = entry(quantity).exponents};
 }
 
 std::string coherent_unit(const Unit& unit) {

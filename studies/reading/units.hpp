@@ -70,6 +70,12 @@ double si_factor(const Unit& unit, Quantity expected);
 // The quantity of a unit, in words: "a stiffness", else its dimension in base units: "m2 s-2".
 std::string dimension_name(const Unit& unit);
 
+// The same with the SI unit, for readers: "a stiffness (N/m)", "a pure number", "a quantity in kg s2".
+std::string dimension_with_unit(const Unit& unit);
+
+// The SI unit of a quantity, radians left out.
+Unit coherent_unit_of(Quantity quantity);
+
 // The coherent SI unit of the same dimension: "N s m-1" where it has a name, else "m2 kg s-3"; "1" of a
 // number.
 std::string coherent_unit(const Unit& unit);

@@ -67,6 +67,8 @@ std::string direction_text(const mechanics::Element& element) {
   std::string text = fmt::format("along rotational {} twists {}", element.rotational, element.twists_ground);
   for (const auto& [node, factor] : element.along) text += fmt::format(" {} {}", node_text(node), factor);
   return text;
+}
+
 // Of the numbers of a matrix.
 std::string digest(const Eigen::MatrixXd& matrix) {
   const XXH128_hash_t hash =

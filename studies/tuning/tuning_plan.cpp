@@ -13,18 +13,9 @@
 namespace frahm::studies {
 namespace {
 
-std::vector<tuning::Optimum> tune(const Study& study, const tuning::Task& task, std::size_t start,
-                                  const engine::StopAsked& stop_asked) {
-  try {
-    return tuning::tune(task, start, stop_asked);
-  } catch (const mechanics::MechanicsError& error) {
-    throw StudyError(rules::not_computed, "{}", study.source.name + ": " + error.what());
-  }
-}
-
 void compute_start(const Study& study, const tuning::Task& task, std::uint64_t start,
                    const engine::StopAsked& stop_asked, engine::Bytes& out) {
-  const std::vector<tuning::Optimum> optima = tune(study, task, start, stop_asked);
+  const std::vector<tuning::Optimum> optima = tune_start(study, task, start, stop_asked);
   const bool stopped = std::any_of(optima.begin(), optima.end(), [](const tuning::Optimum& optimum) {
     return optimum.outcome == tuning::Outcome::stopped;
   });
@@ -41,6 +32,15 @@ StudyPlan plan_tuning(Study study, std::vector<std::string> set) {
   StudyPlan plan = plan_without_map(std::move(study), std::move(set));
   plan.tiles = plan.study.tune()->starts;
   return plan;
+}
+
+std::vector<tuning::Optimum> tune_start(const Study& study, const tuning::Task& task, std::size_t start,
+                                        const engine::StopAsked& stop_asked) {
+  try {
+    return tuning::tune(task, start, stop_asked);
+  } catch (const mechanics::MechanicsError& error) {
+    throw StudyError(rules::not_computed, "{}", study.source.name + ": " + error.what());
+  }
 }
 
 engine::Job job_of_tuning(const StudyPlan& plan) {

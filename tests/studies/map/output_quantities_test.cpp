@@ -72,6 +72,17 @@ TEST_CASE("a coordinate may not have the name of a group of the file, or of what
   }
 }
 
+TEST_CASE("the headline is the peak of its mass or the stroke of its element, else the first mass's peak") {
+  const auto headline = [](const std::string& report) {
+    return headline_of(parse_study(base + report, "small.toml"));
+  };
+  CHECK(headline("") == "main_peak");
+  CHECK(headline("[report]\nheadline = \"main\"\n") == "main_peak");
+  CHECK(headline("[report]\nheadline = \"spring\"\n") == "spring_stroke");
+  CHECK_THROWS_WITH(variables_of(base + "[report]\nheadline = \"friction\"\n"),
+                    Catch::Contains("[report]: headline: \"friction_stroke\" is not recorded by this study"));
+}
+
 TEST_CASE("a report may only show what is recorded") {
   const std::string chosen = base + "[output]\nquantities = [\"main_peak\"]\n[report]\nquantities = ";
   CHECK_THROWS_WITH(variables_of(chosen + "[\"main_rms\"]\n"),

@@ -8,8 +8,11 @@
 
 #include "studies/map/map_sample.hpp"
 #include "studies/reading/settings.hpp"
+#include "studies/tuning/tuning_plan.hpp"
+#include "studies/tuning/tuning_sample.hpp"
 #include "tests/results/temporary_directory.hpp"
 #include "tests/studies/small_studies.hpp"
+#include "tests/studies/small_tunings.hpp"
 #include "tests/study_path.hpp"
 
 namespace {
@@ -82,6 +85,52 @@ TEST_CASE("Checking a study of which nothing is computed ends like a run of fail
   INFO(text);
   CHECK(has(text, "slow.toml can be read, but none of the points tried has a response\n"));
   CHECK(has(text, "failed  2 of the 2 points tried, the first at r=1e-08: the excitation is too slow"));
+}
+
+TEST_CASE("Checking a large building shows twelve modes at eight floors, and all of them when asked") {
+  const TemporaryDirectory folder;
+  const std::filesystem::path path = folder / "building.toml";
+  std::ofstream(path) << small_studies::building(15, 20, 3);
+  std::ostringstream excerpt, whole;
+  CHECK(check_command({.study = path, .threads = 1}, excerpt) == 0);
+  CHECK(check_command({.study = path, .threads = 1, .all = true}, whole) == 0);
+  INFO(excerpt.str());
+  CHECK(has(excerpt.str(), "shape of floor1, floor3, floor5, floor7, floor9, floor11, floor13, floor15\n"));
+  CHECK(has(excerpt.str(), "\n    12 "));
+  CHECK(!has(excerpt.str(), "\n    13 "));
+  CHECK(has(excerpt.str(), "\n  12 of 15 modes, at 8 of 15 masses; --all shows all\n"));
+  CHECK(has(whole.str(), "shape of floor1, floor2, floor3, "));
+  CHECK(has(whole.str(), "\n    15 "));
+  CHECK(!has(whole.str(), "--all"));
+}
+
+TEST_CASE("Checking a tuning tells the time of its starts on these threads") {
+  const TemporaryDirectory folder;
+  const std::filesystem::path path = folder / "tune.toml";
+  std::string text = small_tunings::classical;
+  std::ofstream(path) << text.insert(text.find("[tune]\n") + 7, "start = 5\n");
+  std::ostringstream out;
+  CHECK(check_command({.study = path, .threads = 8}, out) == 0);
+  INFO(out.str());
+  CHECK(has(out.str(), "starts                5\n"));
+  CHECK(has(out.str(), " on 5 threads of this machine (the first start took 0."));
+}
+
+TEST_CASE("A start of a tuning that does not end within its sample is predicted by a range of responses") {
+  const auto plan = frahm::studies::plan_tuning(read_study_with(study_path("tune_rig_schedule"), {}), {});
+  const auto sample = frahm::studies::sample_tuning(plan, 0.05);
+  CHECK(!sample.is_whole);
+  CHECK(sample.seconds < 0.5);  // stops are asked for at every response
+  CHECK(sample.responses > 0);
+  // `frahm run` tells that it takes 24,550 of them.
+  CHECK(sample.least_responses < 24'550);
+  CHECK(sample.most_responses > 24'550);
+  const double each = sample.seconds / static_cast<double>(sample.responses);
+  CHECK(sample.most_seconds == Approx(each * sample.most_responses));
+  const auto whole = frahm::studies::sample_tuning(plan, 600.0);
+  CHECK(whole.is_whole);
+  CHECK(whole.least_seconds == whole.seconds);
+  CHECK(whole.assessment_seconds > 0.0);
 }
 
 TEST_CASE("Points that fail in a sample are counted and the first is named") {

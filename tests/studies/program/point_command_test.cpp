@@ -13,6 +13,7 @@
 #include "solvers/orbits/closed_forms.hpp"
 #include "studies/reading/study.hpp"
 #include "tests/results/temporary_directory.hpp"
+#include "tests/studies/small_studies.hpp"
 #include "tests/study_path.hpp"
 
 namespace {
@@ -208,6 +209,26 @@ TEST_CASE("A crank longer than anywhere on the grid is as good at a point, up to
   CHECK_THROWS_WITH(
       at("L=32 mm"),
       Catch::Contains("is 0.923438 times the rod at A = 29.55 mm, L = 32 mm; must be at most 0.9 times"));
+}
+
+TEST_CASE("the report of a large building has four floors, four elements and modes, and all when asked") {
+  const TemporaryDirectory folder;
+  PointOptions options{.study = folder / "building.toml"};
+  std::ofstream(options.study) << small_studies::building(15, 5, 3);
+  const Told excerpt = tell(options);
+  options.all = true;
+  const Told whole = tell(options);
+  INFO(excerpt.text);
+  for (const char* shown : {"floor1_peak", "floor6_peak", "floor10_peak", "floor15_peak", "spring1_stroke",
+                            "natural_frequency_4", "transmitted_force"})
+    CHECK_NOTHROW(excerpt.number(shown));
+  for (const char* left_out : {"floor2_peak", "spring15_stroke", "natural_frequency_5"}) {
+    CHECK_THROWS(excerpt.number(left_out));
+    CHECK_NOTHROW(whole.number(left_out));
+  }
+  CHECK(excerpt.has(" quantities; --all shows all\n"));
+  CHECK(excerpt.has("\n  12 of 15 modes, at 8 of 15 masses; --all shows all\n"));
+  CHECK(!whole.has("--all"));
 }
 
 }  // namespace
