@@ -145,7 +145,7 @@ Json groups_json(const MapReader& result, const PageContent& content) {
     if (name == provenance_group) continue;
     json[name] = group_json(result.texts(name), result.columns(name));
   }
-  for (const PageGroup& group : content.groups) json[group.name] = group_json({}, group.columns);
+  for (const PageGroup& group : content.groups) json[group.name] = group_json(group.texts, group.columns);
   return json;
 }
 

@@ -12,6 +12,7 @@ namespace frahm::results {
 struct PageGroup {
   std::string name;
   std::vector<Column> columns;
+  std::vector<Text> texts = {};
 };
 
 // The contents of a result's page.

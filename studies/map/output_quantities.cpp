@@ -7,6 +7,7 @@
 
 #include "solvers/mechanics/coordinates.hpp"
 #include "studies/map/comparison.hpp"
+#include "studies/reading/name_pattern.hpp"
 #include "studies/reading/spelling.hpp"
 
 namespace frahm::studies {
@@ -16,18 +17,32 @@ std::string name_of(const Study& study, const periodic::Quantity& quantity) {
   return periodic::describe(quantity, study.network, study.dimensionless).name;
 }
 
+[[noreturn]] void refuse_unknown(const Study& study, const OutputChoice::Name& name) {
+  std::vector<std::string> known;
+  for (const auto& each : periodic::all_quantities(study.network)) known.push_back(name_of(study, each));
+  throw study.source.error_at(rules::unknown_name, name.position,
+                              "[output]: quantities: there is no \"{}\"{}", name.text,
+                              suggestion(name.text, known));
+}
+
+// The quantities of a name, or of a pattern of names.
+std::vector<periodic::Quantity> quantities_called(const Study& study, const OutputChoice::Name& name) {
+  std::vector<periodic::Quantity> found;
+  if (is_pattern(name.text)) {
+    for (const periodic::Quantity& each : periodic::all_quantities(study.network))
+      if (matches(name.text, name_of(study, each))) found.push_back(each);
+  } else if (const auto quantity = periodic::find_quantity(name.text, study.network)) {
+    found.push_back(*quantity);
+  }
+  if (found.empty()) refuse_unknown(study, name);
+  return found;
+}
+
 std::vector<periodic::Quantity> listed_quantities(const Study& study) {
   std::vector<periodic::Quantity> result;
   for (const OutputChoice::Name& name : study.sweep()->output.names) {
-    const auto quantity = periodic::find_quantity(name.text, study.network);
-    if (!quantity) {
-      std::vector<std::string> known;
-      for (const auto& each : periodic::all_quantities(study.network)) known.push_back(name_of(study, each));
-      throw study.source.error_at(rules::unknown_name, name.position,
-                                  "[output]: quantities: there is no \"{}\"{}", name.text,
-                                  suggestion(name.text, known));
-    }
-    result.push_back(*quantity);
+    for (const periodic::Quantity& quantity : quantities_called(study, name))
+      if (std::find(result.begin(), result.end(), quantity) == result.end()) result.push_back(quantity);
   }
   return result;
 }
@@ -56,7 +71,10 @@ std::map<std::string, Taken> names_of_coordinates(const Study& study) {
 
 // Groups of the file and their contents beside the axes' own parameters.
 std::vector<std::pair<std::string, std::string>> names_of_groups(const Study& study) {
-  std::vector<std::pair<std::string, std::string>> names{{"provenance", "a group of the file"}};
+  std::vector<std::pair<std::string, std::string>> names{{"provenance", "a group of the file"},
+                                                         {"modes", "a group of the file"}};
+  for (const char* name : {"mode", "mode_mass", "mode_frequency", "mode_damping"})
+    names.emplace_back(name, "a variable of the modes");
   const auto add = [&](const std::string& name, const char* what) { names.emplace_back(name, what); };
   if (!study.sweep()->output.orbits.empty()) {
     add("orbits", "a group of the file");
@@ -84,7 +102,7 @@ void check_report(const Study& study, const std::vector<periodic::QuantityDescri
   std::vector<std::string> names;
   for (const periodic::QuantityDescription& quantity : recorded) names.push_back(quantity.name);
   const auto check = [&](const char* key, const OutputChoice::Name& name) {
-    if (std::find(names.begin(), names.end(), name.text) != names.end()) return;
+    if (std::ranges::any_of(names, [&](const std::string& each) { return matches(name.text, each); })) return;
     throw study.source.error_at(rules::unknown_name, name.position,
                                 "[report]: {}: \"{}\" is not recorded by this study{}; [output] "
                                 "quantities chooses what is",
@@ -92,6 +110,16 @@ void check_report(const Study& study, const std::vector<periodic::QuantityDescri
   };
   for (const OutputChoice::Name& name : study.sweep()->report_quantities) check("quantities", name);
   if (study.sweep()->headline) check("headline", *study.sweep()->headline);
+  const auto& profile = study.sweep()->profile;
+  if (!profile || !profile->position) return;
+  for (const std::size_t mass : profile->masses) {
+    const std::string peak = name_of(study, {periodic::Measure::peak, mass});
+    if (std::find(names.begin(), names.end(), peak) != names.end()) continue;
+    throw study.source.error_at(rules::unknown_name, *profile->position,
+                                "[report]: profile: \"{}\", which it shows, is not recorded by this study; "
+                                "[output] quantities chooses what is",
+                                peak);
+  }
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "solvers/mechanics/linear_system.hpp"
 #include "solvers/mechanics/rotation.hpp"
 #include "studies/identification/identification_record.hpp"
+#include "studies/map/first_modes.hpp"
 #include "studies/map/map_plan.hpp"
 #include "studies/map/map_sample.hpp"
 #include "studies/motion/motion_record.hpp"
@@ -75,11 +76,7 @@ void print_array(const CheckOptions& options, const StudyPlan& plan, const char*
 }
 
 void print_first_modes(const Study& study, const Grid& grid, Listing listing, std::ostream& out) {
-  std::vector<double> parameters = study.parameters.nominal();
-  for (std::size_t d = 0; d < study.sweep()->dimensions.size(); ++d)
-    set_along(*study.sweep(), d, 0, parameters);
-  mechanics::NetworkValues values;
-  evaluate(study.values, study.parameters, parameters, values);
+  const mechanics::NetworkValues values = values_at_first_point(study);
   const std::vector<std::uint64_t> first(grid.shape.size(), 0);
   fmt::print(out, "\nAt the first point of the grid, {}:\n", point_text(study, first));
   try {

@@ -274,9 +274,10 @@ void add_report(CLI::App& program, ReportOptions& options, Action& action) {
   command->add_option("FILE", options.file, "result file")->required();
   command->add_option("-o,--output", options.output, "the page, - for stdout; else FILE with .html");
   command
-      ->add_option("--quantities", options.quantities,
-                   "of a map: name,... to show; else those of the study's [report], else peaks, strokes, "
-                   "regimes, stops, energy shares, differences and status")
+      ->add_option(
+          "--quantities", options.quantities,
+          "of a map: name,... to show, or floor*_peak; else those of the study's [report], else peaks, "
+          "strokes, regimes, stops, energy shares, differences and status")
       ->delimiter(',')
       ->allow_extra_args(false);
   command->add_option("--figures", options.figures,

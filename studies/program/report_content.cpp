@@ -7,6 +7,8 @@
 #include <optional>
 
 #include "studies/program/report_facts.hpp"
+#include "studies/program/report_profile.hpp"
+#include "studies/reading/name_pattern.hpp"
 #include "studies/record/stored_study.hpp"
 
 namespace frahm::studies {
@@ -47,8 +49,9 @@ std::vector<std::string> default_quantities(const results::MapLayout& layout,
 void check_quantities(const std::vector<std::string>& asked, const results::MapLayout& layout) {
   for (const std::string& name : asked) {
     const auto& known = layout.variables;
-    const bool is_known = std::any_of(
-        known.begin(), known.end(), [&](const results::Variable& variable) { return variable.name == name; });
+    const bool is_known = std::any_of(known.begin(), known.end(), [&](const results::Variable& variable) {
+      return matches(name, variable.name);
+    });
     if (is_known) continue;
     std::string names;
     for (const results::Variable& variable : known) names += (names.empty() ? "" : ", ") + variable.name;
@@ -71,20 +74,43 @@ void check_size(const results::MapLayout& layout, std::size_t quantities, bool a
       quantities, points, all_digits ? "Node.js" : "a browser", most_numbers);
 }
 
-std::vector<std::string> shown_quantities(const std::vector<std::string>& asked,
-                                          const results::MapLayout& layout,
-                                          const std::optional<Study>& study) {
+// The names of recorded quantities that these names and patterns stand for, each once.
+std::vector<std::string> named_quantities(const std::vector<std::string>& asked,
+                                          const results::MapLayout& layout) {
+  std::vector<std::string> names;
+  for (const std::string& each : asked) {
+    for (const results::Variable& variable : layout.variables)
+      if (matches(each, variable.name) && std::ranges::find(names, variable.name) == names.end())
+        names.push_back(variable.name);
+  }
+  return names;
+}
+
+std::vector<std::string> chosen_quantities(const std::vector<std::string>& asked,
+                                           const results::MapLayout& layout,
+                                           const std::optional<Study>& study) {
   check_quantities(asked, layout);
-  if (!asked.empty()) return asked;
+  if (!asked.empty()) return named_quantities(asked, layout);
   if (!study || !study->sweep()) return default_quantities(layout, study);
   const SweepChoice& sweep = *study->sweep();
   std::vector<std::string> names;
   for (const OutputChoice::Name& name : sweep.report_quantities) names.push_back(name.text);
-  if (names.empty()) names = default_quantities(layout, study);
+  names = names.empty() ? default_quantities(layout, study) : named_quantities(names, layout);
   if (sweep.headline) {  // a page opens with its first number
     std::erase(names, sweep.headline->text);
     names.insert(names.begin(), sweep.headline->text);
   }
+  return names;
+}
+
+// Those, and what a profile is drawn from.
+std::vector<std::string> shown_quantities(const std::vector<std::string>& asked,
+                                          const results::MapLayout& layout,
+                                          const std::optional<Study>& study) {
+  std::vector<std::string> names = chosen_quantities(asked, layout, study);
+  if (!study || !study->sweep() || !study->sweep()->profile) return names;
+  for (const std::string& name : profile_quantities(*study, *study->sweep()->profile, layout))
+    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
   return names;
 }
 

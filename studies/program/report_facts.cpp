@@ -5,6 +5,7 @@
 #include "solvers/mechanics/element_table.hpp"
 #include "studies/motion/crank_motion.hpp"
 #include "studies/motion/motion_record.hpp"
+#include "studies/program/report_profile.hpp"
 #include "studies/tuning/tuning_record.hpp"
 
 namespace frahm::studies {
@@ -107,6 +108,8 @@ std::vector<results::PageGroup> report_facts(const Study& study) {
     groups.push_back({.name = "crank", .columns = std::move(cranks)});
   if (study.kind() == StudyKind::transient || study.kind() == StudyKind::decay)
     groups.push_back({.name = "study", .columns = motion_facts(study)});
+  if (study.sweep() && study.sweep()->profile)
+    groups.push_back(profile_group(study, *study.sweep()->profile));
   if (study.kind() == StudyKind::tune) groups.push_back({.name = "study", .columns = limit_bands(study)});
   return groups;
 }

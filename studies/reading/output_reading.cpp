@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "solvers/mechanics/coordinates.hpp"
+#include "studies/reading/name_pattern.hpp"
 #include "studies/reading/spelling.hpp"
 #include "studies/reading/study_reading.hpp"
 
@@ -137,7 +138,9 @@ std::vector<OutputChoice::Name> read_quantity_names(const TomlSection& section) 
   std::vector<OutputChoice::Name> names;
   const std::string where = fmt::format("{}: quantities", section.where());
   for (const TomlValue& item : *items) {
-    const std::string name = read_identifier(section.source(), where, item);
+    const auto* text = item.as<std::string>();
+    const std::string name =
+        text && is_pattern(*text) ? *text : read_identifier(section.source(), where, item);
     const bool twice = std::any_of(names.begin(), names.end(), [&](auto& n) { return n.text == name; });
     if (twice)
       throw section.source().error_at(rules::given_twice, item.position, "{}: \"{}\" appears twice", where,
@@ -186,10 +189,15 @@ OutputChoice::Name read_headline(const TomlSection& section, const Study& study)
 
 void read_report(const StudyContext& context, const TomlValue& root, Study& study) {
   const TomlEntry* entry = find_entry(root, "report");
-  if (!entry) return;
-  const TomlSection section(context.source, entry->value, "[report]", {"quantities", "headline"});
+  if (!entry) {
+    study.sweep()->profile = read_profile(nullptr, study.network);
+    return;
+  }
+  const TomlSection section(context.source, entry->value, "[report]",
+                            {"quantities", "headline", "profile", "height"});
   if (section.find("headline")) study.sweep()->headline = read_headline(section, study);
   if (section.find("quantities")) study.sweep()->report_quantities = read_quantity_names(section);
+  study.sweep()->profile = read_profile(&section, study.network);
 }
 
 }  // namespace frahm::studies

@@ -103,7 +103,7 @@ void read_coordinates(const StudyContext& context, const TomlValue& root, Study&
 void read_output(const StudyContext& context, const TomlValue& root, Study& study);
 void read_report(const StudyContext& context, const TomlValue& root, Study& study);
 
-// The names in the array `quantities` of a section, each once.
+// The names in the array `quantities` of a section, and patterns of names (name_pattern.hpp), each once.
 std::vector<OutputChoice::Name> read_quantity_names(const TomlSection& section);
 
 // Every value must be finite and in its range on the whole grid and at the orbits listed. A value is checked

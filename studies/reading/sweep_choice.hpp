@@ -8,6 +8,7 @@
 #include "solvers/mechanics/network.hpp"
 #include "solvers/quantities/quantity.hpp"
 #include "studies/reading/parameters.hpp"
+#include "studies/reading/profile.hpp"
 #include "studies/reading/study_source.hpp"
 #include "studies/reading/study_values.hpp"
 
@@ -54,7 +55,7 @@ struct OutputChoice {
   };
 
   Quantities quantities = Quantities::standard;
-  std::vector<Name> names;  // of Quantities::listed, then not empty; not checked here
+  std::vector<Name> names;  // or patterns, of Quantities::listed, then not empty; not checked here
   Precision precision = Precision::known_digits;
   bool general_path = false;                    // every orbit by shooting, also where nothing sticks
   bool borders = false;                         // whether borders of regimes are solved; exact law only
@@ -78,6 +79,7 @@ struct SweepChoice {
   OutputChoice output;
   std::vector<OutputChoice::Name> report_quantities;  // of the report's page; empty: its default
   std::optional<OutputChoice::Name> headline;  // the quantity that summaries tell; else of headline_of()
+  std::optional<Profile> profile;              // of the report's page
   std::optional<Comparison> comparison;
 
   // The dimension along which the excitation frequency changes, which runs innermost in the computation; if

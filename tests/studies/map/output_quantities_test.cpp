@@ -32,6 +32,19 @@ TEST_CASE("an unknown quantity is refused with its place and the nearest name") 
                         Catch::Contains("did you mean \"main_peak\"?"));
 }
 
+TEST_CASE("a pattern stands for every quantity that it matches, each recorded once") {
+  const std::string building = small_studies::building(3, 3, 5);
+  const auto listed =
+      of(building + "[output]\nquantities = [\"floor2_peak\", \"floor*_peak\", \"status\"]\n");
+  REQUIRE(listed.size() == 4);
+  CHECK(listed[0].index == 1);
+  CHECK(listed[1].index == 0);
+  CHECK(listed[2].index == 2);
+  CHECK(listed[3].measure == frahm::periodic::Measure::status);
+  CHECK_THROWS_WITH(of(building + "[output]\nquantities = [\"storey*_peak\"]\n"),
+                    Catch::Contains("there is no \"storey*_peak\""));
+}
+
 TEST_CASE("a coordinate may not have the name of a quantity that is recorded") {
   const std::string clash = "[[coordinate]]\nname = \"main_peak\"\nvalue = \"2*r\"\n";
   CHECK_THROWS_WITH(variables_of(base + clash), Catch::Contains("\"main_peak\" is the name of a coordinate"));
@@ -55,6 +68,8 @@ TEST_CASE("a coordinate may not have the name of a group of the file, or of what
     return "[[coordinate]]\nname = \"" + name + "\"\nvalue = \"2*r\"\n";
   };
   CHECK_THROWS_WITH(variables_of(base + clash("provenance")), Catch::Contains("and of a group of the file"));
+  for (const char* name : {"modes", "mode", "mode_mass", "mode_frequency", "mode_damping"})
+    CHECK_THROWS_WITH(variables_of(base + clash(name)), Catch::Contains("rename it"));
   const std::string resonances = "[output]\nresonances = [\"main\"]\n";
   for (const char* name : {"resonance", "curve", "main_half_power_low"}) {
     CHECK_NOTHROW(variables_of(base + clash(name)));
@@ -88,6 +103,15 @@ TEST_CASE("a report may only show what is recorded") {
   CHECK_THROWS_WITH(variables_of(chosen + "[\"main_rms\"]\n"),
                     Catch::Contains("[report]: quantities: \"main_rms\" is not recorded by this study"));
   CHECK_NOTHROW(variables_of(chosen + "[\"main_peak\"]\n"));
+  CHECK_NOTHROW(variables_of(chosen + "[\"main_*\"]\n"));
+  CHECK_THROWS_WITH(variables_of(chosen + "[\"main_r*\"]\n"), Catch::Contains("\"main_r*\" is not recorded"));
+}
+
+TEST_CASE("a profile may only be of masses whose peaks are recorded, unless nobody asked for it") {
+  const std::string chosen = small_studies::building(9, 3, 5) + "[output]\nquantities = [\"floor1_peak\"]\n";
+  CHECK_NOTHROW(variables_of(chosen));
+  CHECK_THROWS_WITH(variables_of(chosen + "[report]\nprofile = \"all\"\n"),
+                    Catch::Contains("[report]: profile: \"floor2_peak\", which it shows, is not recorded"));
 }
 
 }  // namespace

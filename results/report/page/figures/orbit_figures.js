@@ -1,5 +1,6 @@
 // Figures of a recorded orbit: time history, phase portrait, friction-force loop.
 import { coordinateText } from "../axes.js";
+import { mostListed } from "../profile.js";
 import { groupedByUnit, shownUnit, withUnit, words } from "../units.js";
 import { curve, dots, drawFrame, grid, lineColours, roomFor } from "./frame.js";
 
@@ -25,6 +26,9 @@ function shownColumn(column) {
 
 const namesEnding = (samples, end) =>
   [...samples.keys()].filter((name) => name.endsWith(end)).map((name) => name.slice(0, -end.length));
+
+// Of many names the first and the last.
+const endsOfMany = (names) => (names.length > mostListed ? [names[0], names.at(-1)] : names);
 
 // Masses have an acceleration, contacts a sliding velocity.
 function massesOf(samples) {
@@ -80,7 +84,7 @@ function loop(canvas, xColumn, yColumn, xLabel, yLabel) {
 const columnsOf = (samples, names) =>
   names.map((name) => ({ name, unit: samples.get(name).unit, values: samples.get(name).values }));
 
-// Figures of one orbit.  label: its point in words; suffix: of their files.
+// Figures of one orbit: of many masses or contacts, of the first and the last.  label: its point in words; suffix: of their files.
 export function orbitFigures(samples, label, suffix) {
   if (!samples.get("time")?.values.length) return [];
   const masses = massesOf(samples);
@@ -96,7 +100,7 @@ export function orbitFigures(samples, label, suffix) {
       title: `${turns ? "Rotations" : "Displacements"} over one period`,
       caption: label,
       draw: (canvas) =>
-        traces(canvas, samples, members, turns ? "rotation" : "displacement", "_displacement"),
+        traces(canvas, samples, endsOfMany(members), turns ? "rotation" : "displacement", "_displacement"),
       table: () => columnsOf(samples, ["time", ...members]),
     });
   }
@@ -109,11 +113,11 @@ export function orbitFigures(samples, label, suffix) {
       name: `orbit_friction${unit === "N m" ? "_torque" : ""}${suffix}`,
       title: `Friction ${word}s over one period`,
       caption: label,
-      draw: (canvas) => traces(canvas, samples, members, `friction ${word}`, "_force"),
+      draw: (canvas) => traces(canvas, samples, endsOfMany(members), `friction ${word}`, "_force"),
       table: () => columnsOf(samples, ["time", ...members]),
     });
   }
-  for (const mass of masses) {
+  for (const mass of endsOfMany(masses)) {
     const [x, v] = [`${mass}_displacement`, `${mass}_velocity`];
     figures.push({
       name: `orbit_phase_portrait_${mass}${suffix}`,
@@ -125,7 +129,7 @@ export function orbitFigures(samples, label, suffix) {
       table: () => columnsOf(samples, ["time", x, v]),
     });
   }
-  for (const contact of contactsOf(samples)) {
+  for (const contact of endsOfMany(contactsOf(samples))) {
     const [u, v, f] = [`${contact}_displacement`, `${contact}_sliding_velocity`, `${contact}_force`];
     figures.push({
       name: `orbit_friction_loop_${contact}${suffix}`,

@@ -1,13 +1,14 @@
 // The interactive map: lists and sliders choose what is shown, a click on the map picks a point for the curves.
 import { coordinateLabel } from "../axes.js";
-import { choice, slider, tick } from "../parts/controls.js";
+import { choice, choiceOfMany, slider, tick } from "../parts/controls.js";
 import { element, section } from "../parts/elements.js";
 import { figureCard } from "../parts/figure_card.js";
 import { followPointer } from "../parts/map_pointer.js";
 import { pointCard, pointTip } from "../parts/point_table.js";
-import { words } from "../units.js";
+import { mostListed } from "../profile.js";
 import { budgetFigure, curveFigure, mapFigure, regimeOf } from "./map_figures.js";
-import { curvePoints, firstState, sliding } from "./sweep_state.js";
+import { profileFigures } from "./profile.js";
+import { curvePoints, firstState, listedQuantities, profilePoints, sliding } from "./sweep_state.js";
 
 const scales = [
   ["linear", "linear"],
@@ -27,6 +28,7 @@ function viewOf(record) {
     mapShown: state.y === null ? null : card(mapFigure(map, state)),
     curvesShown: card(curveFigure(map, state)),
     budgetShown: card(budgetFigure(map, state)),
+    profilesShown: profileFigures(record, () => profilePoints(state)).map(card),
     mapControls: element("div", { class: "controls" }),
     sliders: element("div", { class: "controls" }),
     curveControls: element("div", { class: "controls" }),
@@ -42,8 +44,9 @@ function redraw(view) {
   view.waiting = true;
   requestAnimationFrame(() => {
     view.waiting = false;
-    for (const shown of [view.mapShown, view.curvesShown, view.budgetShown]) shown?.redraw();
-    view.place.replaceChildren(pointCard(view.record, view.state.index));
+    for (const shown of [view.mapShown, view.curvesShown, view.budgetShown, ...view.profilesShown])
+      shown?.redraw();
+    view.place.replaceChildren(pointCard(view.record, view.state.index, listedQuantities(view.state)));
   });
 }
 
@@ -77,22 +80,37 @@ function setAxis(view, which, key) {
   arrange(view);
 }
 
+// The names of many contacts that are listed: the first, the last and the one that is shown.
+function listedContacts(names, shown) {
+  if (names.length <= mostListed) return names;
+  return names.filter((name, i) => i === 0 || i === names.length - 1 || name === shown);
+}
+
+// A quantity that was not listed is listed from now on.
+function chooseQuantity(view, name) {
+  const variable = view.map.variable(name);
+  if (listedQuantities(view.state).includes(variable)) return change(view, { variable });
+  view.state.variable = variable;
+  return arrange(view);
+}
+
 function controlsOfMap(view) {
   const { map, state } = view;
-  const quantity = choice(
+  const quantity = choiceOfMany(
     "quantity",
-    map.variables.map(({ name }) => [name, words(name)]),
+    map.variables.map(({ name }) => name),
+    listedQuantities(state).map(({ name }) => name),
     state.variable.name,
-    (name) => change(view, { variable: map.variable(name) }),
+    (name) => chooseQuantity(view, name),
   );
-  if (state.y === null) return [quantity];
+  if (state.y === null) return quantity;
   const axis = (label, which) =>
     choice(label, coordinateChoices(view), `${state[which]}:${state.coordinates[state[which]]}`, (key) =>
       setAxis(view, which, key),
     );
   const contacts = [...state.crossings.keys()];
   return [
-    quantity,
+    ...quantity,
     axis("across", "x"),
     axis("up", "y"),
     choice("colours", [["automatic", "automatic"], ...scales], state.scale, (scale) =>
@@ -107,17 +125,18 @@ function controlsOfMap(view) {
       state.colours,
       (colours) => change(view, { colours }),
     ),
-    contacts.length
-      ? choice(
+    ...(contacts.length
+      ? choiceOfMany(
           "contact",
-          contacts.map((name) => [name, words(name)]),
+          contacts,
+          listedContacts(contacts, state.contact),
           state.contact,
           (contact) => {
             state.contact = contact;
             arrange(view);
           },
         )
-      : null,
+      : []),
   ];
 }
 
@@ -177,14 +196,14 @@ function pick(view, index, keep) {
 
 export function explorerSections(record) {
   const view = viewOf(record);
-  const { mapShown, curvesShown, budgetShown } = view;
+  const { mapShown, curvesShown, budgetShown, profilesShown } = view;
   arrange(view);
   if (mapShown) {
     followPointer(
       mapShown,
       view.map,
       view.state,
-      (index) => pointTip(record, index, view.state.variable),
+      (index) => pointTip(record, index, view.state.variable, listedQuantities(view.state)),
       (index, keep) => pick(view, index, keep),
     );
   }
@@ -199,6 +218,12 @@ export function explorerSections(record) {
       mapShown ? element("p", { class: "note hint" }, hint) : null,
     ),
     section("Response curves", view.curveControls, curvesShown.card, budgetShown?.card),
+    profilesShown.length
+      ? section(
+          "Over the height",
+          element("div", { class: "cards" }, ...profilesShown.map(({ card }) => card)),
+        )
+      : null,
     section("Point", view.place),
-  ];
+  ].filter(Boolean);
 }

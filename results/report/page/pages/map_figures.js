@@ -132,7 +132,7 @@ export function budgetFigure(map, state) {
 }
 
 // Points for curves: through the state's, at the ends and in the middle of the map's second axis.
-function pointsAcross(map, state) {
+export function pointsAcross(map, state) {
   if (state.y === null) return [state.index];
   const last = map.axes[state.y].size - 1;
   return [...new Set([0, Math.round(last / 2), last])].map((i) =>
@@ -140,10 +140,11 @@ function pointsAcross(map, state) {
   );
 }
 
-// For papers: the map of each quantity in the middle of the other axes, curves of each number, the damping budget.
+// For papers: the map of each listed quantity in the middle of the other axes, curves of each number, the damping
+// budget.
 export function allMapFigures(map, state) {
   const kept = pointsAcross(map, state);
-  const figures = map.variables.flatMap((variable) => {
+  const figures = state.headlines.flatMap((variable) => {
     const seen = { ...state, variable };
     return [
       state.y === null ? null : mapFigure(map, seen),

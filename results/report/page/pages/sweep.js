@@ -4,8 +4,9 @@ import { element, section, table } from "../parts/elements.js";
 import { failedPoints, missingPoints } from "../parts/missing_points.js";
 import { isMissing } from "../record.js";
 import { explorerSections } from "./explorer.js";
-import { allMapFigures } from "./map_figures.js";
+import { allMapFigures, pointsAcross } from "./map_figures.js";
 import { allOrbitFigures, orbitSection } from "./orbits.js";
+import { allProfileFigures, modeSection } from "./profile.js";
 import { resonanceFigures, resonanceSection } from "./resonance.js";
 import { firstState } from "./sweep_state.js";
 
@@ -29,13 +30,24 @@ function facts(record) {
   );
 }
 
+const mostNamed = 24; // quantities named at once
+
+// The names, those of many behind a click.
+function alsoHeld(names) {
+  const text = (some) => `The file also holds ${some.join(", ")}.`;
+  if (names.length <= mostNamed) return element("p", {}, text(names));
+  const summary = `The file also holds ${names.length} more quantities`;
+  return element("details", {}, element("summary", {}, summary), element("p", {}, text(names)));
+}
+
 function leftOut(record) {
   const { leftOut: names } = record.map;
   if (!names.length) return null;
-  const chosen = [...record.map.variables.map(({ name }) => name), names[0].name].join(",");
+  const carried = record.map.variables.map(({ name }) => name);
+  const chosen = [...(carried.length > mostNamed ? [] : carried), names[0].name].join(",");
   return section(
     "Not in this page",
-    element("p", {}, `The file also holds ${names.map(({ name }) => name).join(", ")}.`),
+    alsoHeld(names.map(({ name }) => name)),
     element(
       "p",
       { class: "note" },
@@ -54,6 +66,7 @@ export function sweepParts(record) {
   return [
     ...missingPoints(record),
     ...(hasNumbers(record.map) ? explorerSections(record) : []),
+    modeSection(record),
     orbitSection(record),
     resonanceSection(record),
     failedPoints(record),
@@ -62,9 +75,17 @@ export function sweepParts(record) {
   ].filter(Boolean);
 }
 
+function figuresOfPoints(record) {
+  const state = firstState(record);
+  return [
+    ...allMapFigures(record.map, state),
+    ...allProfileFigures(record, state, pointsAcross(record.map, state)),
+  ];
+}
+
 export function sweepFigures(record) {
   return [
-    ...(hasNumbers(record.map) ? allMapFigures(record.map, firstState(record)) : []),
+    ...(hasNumbers(record.map) ? figuresOfPoints(record) : []),
     ...allOrbitFigures(record),
     ...resonanceFigures(record),
   ];

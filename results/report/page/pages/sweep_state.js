@@ -1,5 +1,6 @@
 // The state of a map's view: quantity, axes, the sliders' point and the points picked for curves.
 import { fractionalIndex } from "../axes.js";
+import { headlines, profileOf } from "../profile.js";
 import { meaningOf } from "../record.js";
 
 // The axes with more than one point.
@@ -96,14 +97,22 @@ function middleWithNumber(map, variable) {
   return best < 0 ? middle : map.axes.map(({ size, stride }) => Math.floor(best / stride) % size);
 }
 
+// Of a structure the peak of its top, else the first number.
+function firstVariable(map, profile) {
+  const top = profile && map.variable(`${profile.masses.at(-1)}_peak`);
+  return top ?? map.variables.find(({ kind }) => kind === "float") ?? map.variables[0];
+}
+
 export function firstState(record) {
-  const { map } = record;
+  const { map } = record,
+    profile = profileOf(record);
   const { x, y } = axesOf(map);
   const crossings = new Map(contactsOf(record).map((contact) => [contact, crossingsOf(record, contact)]));
   const contacts = [...crossings.keys()].sort((a, b) => crossings.get(b).length - crossings.get(a).length);
-  const variable = map.variables.find(({ kind }) => kind === "float") ?? map.variables[0];
+  const variable = firstVariable(map, profile);
   return {
     variable,
+    headlines: headlines(map, profile), // the quantities that are listed
     x,
     y,
     index: middleWithNumber(map, variable),
@@ -129,4 +138,14 @@ export function shownContact({ variable, contact, crossings }) {
 export function curvePoints(state) {
   const same = (a, b) => a.every((i, axis) => axis === state.curveAxis || i === b[axis]);
   return state.kept.some((index) => same(index, state.index)) ? state.kept : [...state.kept, state.index];
+}
+
+// The points whose profiles are shown: the same, but points that differ along the curves' axis too.
+export function profilePoints({ kept, index }) {
+  return kept.some((other) => other.every((i, a) => i === index[a])) ? kept : [...kept, index];
+}
+
+// The quantities listed, with the one that is shown.
+export function listedQuantities({ headlines: listed, variable }) {
+  return listed.includes(variable) ? listed : [...listed, variable];
 }

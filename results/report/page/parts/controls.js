@@ -1,5 +1,6 @@
 // Sliders, lists and ticks.
 import { coordinateText } from "../axes.js";
+import { words } from "../units.js";
 import { element } from "./elements.js";
 
 // A drop-down list of [value, text]; chosen(value) is called when the choice changes.
@@ -12,6 +13,27 @@ export function choice(label, options, selected, chosen) {
     ),
   );
   return element("label", { class: "control" }, element("span", {}, label), list);
+}
+
+// A choice among many names: those listed, and a field that finds any other as it is typed. Returns its elements.
+export function choiceOfMany(label, names, listed, selected, chosen) {
+  const options = listed.map((name) => [name, words(name)]);
+  if (listed.length === names.length) return [choice(label, options, selected, chosen)];
+  const known = new Map(names.map((name) => [words(name), name]));
+  const list = `all-of-${label.replaceAll(" ", "-")}`;
+  const field = element("input", {
+    type: "search",
+    list,
+    placeholder: `any of ${names.length}`,
+    onchange: () => known.has(field.value) && chosen(known.get(field.value)),
+  });
+  const found = element(
+    "datalist",
+    { id: list },
+    [...known.keys()].map((text) => element("option", { value: text })),
+  );
+  const other = element("label", { class: "control" }, element("span", {}, `find a ${label}`), field, found);
+  return [choice(label, options, selected, chosen), other];
 }
 
 export function tick(label, checked, changed) {

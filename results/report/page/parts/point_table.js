@@ -14,7 +14,7 @@ export function valueText(map, variable, index) {
   return numberText(value, variable.digits ?? shownDigits);
 }
 
-function pointRows(map, index, variables = map.variables) {
+function pointRows(map, index, variables) {
   return variables.map((variable) => [
     words(variable.name),
     valueText(map, variable, index),
@@ -29,9 +29,9 @@ function pointPlace(map, index) {
 }
 
 // The tip shown while the pointer is over the map.
-export function pointTip(record, index, first) {
+export function pointTip(record, index, first, variables) {
   const { map } = record;
-  const shown = [first, ...map.variables.filter((variable) => variable !== first)].slice(0, 14);
+  const shown = [first, ...variables.filter((variable) => variable !== first)].slice(0, 14);
   return element(
     "div",
     {},
@@ -49,7 +49,8 @@ function regimeNote({ variables }) {
     : "";
 }
 
-export function pointCard(record, index) {
+// variables: those in its table; the command gives all.
+export function pointCard(record, index, variables) {
   const { map } = record;
   const command = pointCommand(record, index);
   const copy = element(
@@ -57,7 +58,8 @@ export function pointCard(record, index) {
     { type: "button", onclick: () => navigator.clipboard?.writeText(command) },
     "copy",
   );
-  const rows = pointRows(map, index).map((row, v) => [...row, map.variables[v].long_name]);
+  const rows = pointRows(map, index, variables).map((row, v) => [...row, variables[v].long_name]);
+  const others = map.variables.length - variables.length;
   const half = Math.ceil(rows.length / 2);
   return element(
     "div",
@@ -73,8 +75,8 @@ export function pointCard(record, index) {
     element(
       "p",
       { class: "note" },
-      `${regimeNote(map)}Values to six digits, the last uncertain by one. All of them, with residual, error bound ` +
-        "and energy balance:",
+      `${regimeNote(map)}${others ? `${others} more quantities are found by their names above the map. ` : ""}` +
+        "Values to six digits, the last uncertain by one. All of them, with residual, error bound and energy balance:",
     ),
     element("div", { class: "command" }, element("code", {}, command), copy),
   );

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+namespace frahm::studies {
+
+// Whether a text stands for all names that it matches. `*` stands for letters and digits, but no underscore:
+// "floor*_peak" matches floor12_peak, and not floor12_velocity_peak.
+bool is_pattern(const std::string& text);
+
+// Whether a name is the one given, or one that the pattern stands for.
+bool matches(const std::string& name_or_pattern, const std::string& name);
+
+}  // namespace frahm::studies
