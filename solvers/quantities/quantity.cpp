@@ -94,6 +94,7 @@ std::string unit_of(const QuantityRow& row, std::size_t index, const Network& ne
     case Owner::point:
       return std::string(all_rotate ? mechanics::unit_of_rotation(row.unit) : row.unit);
     case Owner::mode:
+    case Owner::structure:
       break;
   }
   return row.unit;

@@ -175,6 +175,34 @@ ReadDirection read_ends(const NetworkReading& reading, const TomlSection& sectio
   return read;
 }
 
+// Elements along one direction whose law merges are one contact.
+std::size_t number_of_contacts(const mechanics::Network& network) {
+  std::size_t contacts = 0;
+  for (std::size_t e = 0; e < network.elements.size(); ++e) {
+    const mechanics::Element& element = network.elements[e];
+    const ElementKind& kind = mechanics::kind_of(element);
+    const auto is_the_same = [&](const mechanics::Element& other) {
+      return other.type == element.type && (other.along == element.along || other.along == opposite(element.along));
+    };
+    const auto own = network.elements.begin() + static_cast<std::ptrdiff_t>(e);
+    const bool joins = kind.law != nullptr && kind.law->merges && element.along.size() == 2 &&
+                       std::any_of(network.elements.begin(), own, is_the_same);
+    contacts += kind.law != nullptr && !joins;
+  }
+  return contacts;
+}
+
+// The exact law knows which contacts stick by the bits of a word.
+void check_number_of_contacts(const NetworkReading& reading, const TomlSection& section,
+                              const mechanics::Element& element) {
+  if (!mechanics::has_contact(element) || element.law != mechanics::FrictionLaw::exact) return;
+  const std::size_t contacts = number_of_contacts(reading.result.network);
+  if (contacts <= periodic::kMostContacts) return;
+  section.fail_here(rules::too_large,
+                    "the {}th friction contact; at most {} are followed exactly (law = \"arctan\" has no limit)",
+                    contacts, periodic::kMostContacts);
+}
+
 }  // namespace
 
 void read_element(NetworkReading& reading, const TomlValue& table, std::size_t number) {
@@ -193,6 +221,7 @@ void read_element(NetworkReading& reading, const TomlValue& table, std::size_t n
   element.rotational = rotational;
   element.twists_ground = given.is_given() ? given.twists_ground : rotational;
   reading.result.network.elements.push_back(element);
+  check_number_of_contacts(reading, section, element);
   const auto read = [&](const ValueKey& value) {
     return read_value(reading, section, value.key, quantity_of(value.dimension, rotational), value.range);
   };
