@@ -13,6 +13,7 @@
 #include "solvers/quantities/orbit_measurement.hpp"
 #include "solvers/quantities/request.hpp"
 #include "solvers/quantities/sensitivity_sizes.hpp"
+#include "solvers/quantities/signal_derivatives.hpp"
 
 // Computes the exact derivatives of the requested quantities at an exact orbit.
 namespace frahm::periodic {
@@ -48,7 +49,6 @@ class Gradient {
   const char* differentiate(const Orbit<N, H>& orbit, const mechanics::NetworkValues& values,
                             const mechanics::NetworkValues& direction);
   void integrate();
-  void integrate_signals();
   void follow_contacts(const Orbit<N, H>& orbit);
   void differentiate_trace(std::size_t trace);
   CandidateDerivative of_candidate(std::size_t trace, std::size_t candidate);
@@ -173,7 +173,9 @@ void Gradient<N, H>::integrate() {
   Eigen::MatrixXd& gram = measured_by_.gram;
   gram = (sum + sum.transpose()) * ((measured_.half_period ? 2.0 : 1.0) * eq.step);
   in_seconds(n, eq.step, gram);
-  integrate_signals();
+  append_signals(signal_products_derivative(signals_, steps_, sensitivity_.passage(), flow_.equations(),
+                                            measured_.half_period ? 2.0 : 1.0),
+                 gram);
   gram += by_.log_step * measured_.gram;
   gram.middleRows(n, n) -= by_.log_step * measured_.gram.middleRows(n, n);
   gram.middleCols(n, n) -= by_.log_step * measured_.gram.middleCols(n, n);
@@ -181,34 +183,6 @@ void Gradient<N, H>::integrate() {
   measured_by_.motion_velocity = by_.motion_velocity;
   measured_by_.motion_velocity /= eq.step;
   measured_by_.motion_velocity -= by_.log_step * measured_.motion_velocity;
-}
-
-// The same of the signals' products: x = w^T q + p^T y,  dx = w^T dq + p^T dy.
-template <int N, int H>
-void Gradient<N, H>::integrate_signals() {
-  const StepEquations<N, H>& eq = flow_.equations();
-  const Eigen::Index n = eq.masses(), count = static_cast<Eigen::Index>(signals_.size());
-  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(count, eq.oscillators() + 1);
-  const double seconds = (measured_.half_period ? 2.0 : 1.0) * eq.step;
-  const auto steps = steps_.steps();
-  for (Eigen::Index s = 0; s < count; ++s) {
-    const mechanics::Incidence& at = signals_[static_cast<std::size_t>(s)];
-    const typename S::Oscillators moved = eq.motion.transpose() * at.p,
-                                  moved_by = by_.motion.transpose() * at.p;
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-      const Polynomial x = steps[i].expansion.z.leftCols(n) * at.w + steps[i].expansion.u * moved;
-      const Polynomial x_by =
-          sensitivity_.passage().polynomials(i).leftCols(n) * at.w + steps[i].expansion.u * moved_by;
-      for (int node = 0; node < kNodes; ++node) {
-        const Polynomial power = powers(kNodeAt[node] * steps[i].length);
-        const double weight = seconds * steps[i].length * kNodeWeight[node];
-        const double by = weight * x_by.dot(power);
-        products.row(s).head(eq.oscillators()) += by * (power.transpose() * steps[i].expansion.u);
-        products(s, eq.oscillators()) += 2.0 * by * x.dot(power);
-      }
-    }
-  }
-  append_signals(products, measured_by_.gram);
 }
 
 // Distance slid: the sum of sigma (u(end) - u(start)) over the steps in which the contact slides. A shift of
