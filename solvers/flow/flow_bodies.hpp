@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <string>
 
 #include "solvers/algebra/null_space.hpp"
 #include "solvers/algebra/solve.hpp"
@@ -32,6 +33,10 @@ bool holds_in_loops(const StepEquations<N, H>& eq) {
 
 template <int N, int H>
 void Flow<N, H>::set_system(const mechanics::LinearSystem& system) {
+  if (system.contacts() > kMostContacts)
+    throw mechanics::MechanicsError(std::to_string(system.contacts()) +
+                                    " contacts of the exact law: at most " + std::to_string(kMostContacts) +
+                                    " can be followed");
   fastest_rate_ = periodic::fastest_rate(system);
   orders_ = system.orders;
   matrices_changed_ = true;

@@ -23,6 +23,20 @@ template <class Number>
   return sum;
 }
 
+// a -= A x, by columns where A is full.
+template <class Number>
+[[gnu::always_inline]] inline void subtract_product(const SparseRows& A, const Number* x, Number* a) {
+  const std::size_t n = A.start.size() - 1;
+  if (A.full.size() == 0) {
+    for (std::size_t i = 0; i < n; ++i) a[i] -= row_times(A, i, x);
+    return;
+  }
+  const double* column = A.full.data();
+  for (Eigen::Index j = 0; j < A.full.cols(); ++j, column += n) {
+    for (std::size_t i = 0; i < n; ++i) a[i] -= column[i] * x[j];
+  }
+}
+
 // a -= M^-1 W lambda,  lambda = G^-1 W^T a
 template <class Number>
 [[gnu::always_inline]] inline void keep_numbers(const SparseSystem& system, const HeldContacts& held,
@@ -40,34 +54,7 @@ template <class Number>
   for (std::size_t j = 0; j < m; ++j)
     slip[j] = row_times(system.directions, static_cast<std::size_t>(held.list[j]), a);
   for (std::size_t j = 0; j < m; ++j) lambda[held.list[j]] = row_times(held.force, j, slip);
-  for (std::size_t i = 0; i < n; ++i) a[i] -= row_times(system.contacts, i, lambda);
-}
-
-// a = -M^-1 (K q + C v)
-template <class Number>
-[[gnu::always_inline]] inline void pull_by_entries(const SparseSystem& system, const Number* q,
-                                                   const Number* v, Number* a) {
-  const SparseRows& K = system.stiffness;  // C has the same entries
-  const double* c = system.damping.data();
-  for (std::size_t i = 0; i + 1 < K.start.size(); ++i) {
-    Number sum{};
-    for (int e = K.start[i]; e < K.start[i + 1]; ++e) {
-      const auto entry = static_cast<std::size_t>(e);
-      sum += K.value[entry] * q[K.column[entry]] + c[entry] * v[K.column[entry]];
-    }
-    a[i] = -sum;
-  }
-}
-
-template <class Number>
-[[gnu::always_inline]] inline void pull_by_columns(const SparseSystem& system, const Number* q,
-                                                   const Number* v, Number* a) {
-  const auto n = static_cast<std::size_t>(system.masses());
-  const double *k = system.full_stiffness.data(), *c = system.full_damping.data();
-  std::fill_n(a, n, Number{});
-  for (std::size_t j = 0; j < n; ++j, k += n, c += n) {
-    for (std::size_t i = 0; i < n; ++i) a[i] -= k[i] * q[j] + c[i] * v[j];
-  }
+  subtract_product(system.contacts, lambda, a);
 }
 
 template <class Number>
@@ -76,11 +63,10 @@ template <class Number>
                                                 Number* work, Number* a, Number* ds) {
   const auto n = static_cast<std::size_t>(system.masses());
   const auto internal = static_cast<std::size_t>(system.internal_forces());
-  if (system.is_full())
-    pull_by_columns(system, q, v, a);
-  else
-    pull_by_entries(system, q, v, a);
-  for (std::size_t i = 0; internal > 0 && i < n; ++i) a[i] -= row_times(system.internal, i, s);
+  std::fill_n(a, n, Number{});
+  subtract_product(system.stiffness, q, a);
+  subtract_product(system.damping, v, a);
+  if (internal > 0) subtract_product(system.internal, s, a);
   for (std::size_t i = 0; i < internal; ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     ds[i] = held.spring[row] * row_times(system.stretch, i, v) - system.internal_rate[row] * s[i];
@@ -119,17 +105,19 @@ void take_long_step(const SparseSystem& system, const HeldContacts& held, double
 
 }  // namespace
 
-SparseRows SparseRows::of(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd* also) {
+SparseRows SparseRows::of(const Eigen::MatrixXd& matrix) {
+  constexpr double kFull = 0.4;  // of all entries: from there on whole columns take less time
   SparseRows rows;
   rows.start.push_back(0);
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
     for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
-      if (matrix(i, j) == 0.0 && (also == nullptr || (*also)(i, j) == 0.0)) continue;
+      if (matrix(i, j) == 0.0) continue;
       rows.column.push_back(static_cast<int>(j));
       rows.value.push_back(matrix(i, j));
     }
     rows.start.push_back(static_cast<int>(rows.column.size()));
   }
+  if (static_cast<double>(rows.value.size()) > kFull * static_cast<double>(matrix.size())) rows.full = matrix;
   return rows;
 }
 
@@ -142,13 +130,8 @@ void SparseRows::add_row(int i, double scale, double* sum) const {
 void SparseSystem::set(const Eigen::MatrixXd& M_inverse, const Eigen::MatrixXd& K, const Eigen::MatrixXd& C,
                        const Eigen::MatrixXd& D, const Eigen::MatrixXd& W, const Eigen::VectorXd& rate) {
   const Eigen::MatrixXd MW = M_inverse * W;
-  const Eigen::MatrixXd MK = M_inverse * K, MC = M_inverse * C;
-  stiffness = SparseRows::of(MK, &MC);
-  damping = SparseRows::of(MC, &MK).value;
-  constexpr double kFull = 0.25;  // of all entries: from there on whole columns take less time
-  const bool full = static_cast<double>(damping.size()) > kFull * static_cast<double>(MK.size());
-  full_stiffness = full ? MK : Eigen::MatrixXd();
-  full_damping = full ? MC : Eigen::MatrixXd();
+  stiffness = SparseRows::of(M_inverse * K);
+  damping = SparseRows::of(M_inverse * C);
   internal = SparseRows::of(M_inverse * D);
   contacts = SparseRows::of(MW);
   directions = SparseRows::of(W.transpose());

@@ -12,9 +12,9 @@ namespace frahm::periodic {
 struct SparseRows {
   std::vector<int> start, column;
   std::vector<double> value;
+  Eigen::MatrixXd full;  // the matrix, where few entries are zero: damping by modes, imported matrices
 
-  // also: of these entries as well.
-  static SparseRows of(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd* also = nullptr);
+  static SparseRows of(const Eigen::MatrixXd& matrix);
   // sum += scale x row i
   void add_row(int i, double scale, double* sum) const;
   Eigen::Index rows() const { return static_cast<Eigen::Index>(start.size()) - 1; }
@@ -22,20 +22,15 @@ struct SparseRows {
 
 // n masses, m contacts, s internal forces; time in steps, as in StepEquations.
 struct SparseSystem {
-  SparseRows stiffness, internal;  // M^-1 K (n x n), M^-1 D (n x s)
-  std::vector<double> damping;     // M^-1 C at the entries of `stiffness`, which has all of its
-  SparseRows contacts;             // M^-1 W (n x m)
-  SparseRows directions, stretch;  // W^T (m x n), D^T (s x n)
+  SparseRows stiffness, damping, internal;            // M^-1 K, M^-1 C (n x n), M^-1 D (n x s)
+  SparseRows contacts;                                // M^-1 W (n x m)
+  SparseRows directions, stretch;                     // W^T (m x n), D^T (s x n)
   SparseRows pull_by_displacement, pull_by_velocity;  // W^T M^-1 K, W^T M^-1 C (m x n)
   Eigen::MatrixXd mobility;                           // G = W^T M^-1 W (m x m)
   Eigen::VectorXd internal_rate;                      // size s
 
   void set(const Eigen::MatrixXd& M_inverse, const Eigen::MatrixXd& K, const Eigen::MatrixXd& C,
            const Eigen::MatrixXd& D, const Eigen::MatrixXd& W, const Eigen::VectorXd& rate);
-  // Where damping by modes or imported matrices leave few zeros:
-  bool is_full() const { return full_stiffness.size() > 0; }
-  Eigen::MatrixXd full_stiffness, full_damping;  // M^-1 K, M^-1 C
-
   Eigen::Index masses() const { return stiffness.rows(); }
   Eigen::Index internal_forces() const { return stretch.rows(); }
 };

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "solvers/mechanics/element_table.hpp"
 #include "solvers/orbits/orbit.hpp"
 #include "solvers/response/periodic_response.hpp"
 #include "tests/benchmarks/works.hpp"
@@ -15,7 +16,7 @@ constexpr double kSame = 1e-9;  // of a peak: residuals of 1e-12 over 1 - contra
 TEST_CASE("A row of a building with stops has the orbits that its points have alone") {
   benchmarks::Work work = benchmarks::shear_building(10, 3);
   std::vector<mechanics::NetworkValues> row;
-  for (std::size_t i = 0; i < work.rows[0].size(); i += 10) row.push_back(work.rows[0][i]);
+  for (std::size_t i = 60; i < 90; ++i) row.push_back(work.rows[0][i]);
   for (mechanics::NetworkValues& values : row) {
     for (std::size_t e = 0; e < work.network.elements.size(); ++e) {
       if (mechanics::has_contact(work.network.elements[e])) values.element[e] *= 5.0;
@@ -32,7 +33,7 @@ TEST_CASE("A row of a building with stops has the orbits that its points have al
   };
   std::vector<ResponseSummary> along, alone;
   const std::vector<double> out = solve(row, along);
-  int with_stops = 0, kept = 0;
+  int with_stops = 0, passages_along = 0, passages_alone = 0;
   for (std::size_t i = 0; i < row.size(); ++i) {
     const std::vector<double> own = solve({&row[i], 1}, alone);
     INFO("omega " << row[i].omega);
@@ -47,10 +48,11 @@ TEST_CASE("A row of a building with stops has the orbits that its points have al
       if (quantities[q].measure == Measure::peak || quantities[q].measure == Measure::floquet_radius)
         CHECK(std::abs(value - own[q]) < kSame * std::abs(own[q]));
     }
-    kept += along[i].passages < alone[0].passages;
+    passages_along += along[i].passages;
+    passages_alone += alone[0].passages;
   }
   CHECK(with_stops > 20);
-  CHECK(kept > 10);
+  CHECK(passages_along < passages_alone);
 }
 
 }  // namespace
