@@ -23,7 +23,12 @@ const Kernel& fastest_kernel();     // that runs here
 
 // Points with more reversals, or that take more steps, are not solved.
 inline constexpr int kMostReversals = 32;
-inline constexpr int kMostSteps = 256;
+inline constexpr int kMostSteps = 1536;
+// Of a system of so many contacts: steps break at every reversal, between which a structure needs a few tens.
+constexpr int most_steps(int contacts) {
+  const int steps = 48 * contacts;
+  return steps < 256 ? 256 : steps > kMostSteps ? kMostSteps : steps;
+}
 
 std::size_t workspace_size(const Shape& shape);
 

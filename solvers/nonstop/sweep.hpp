@@ -293,7 +293,7 @@ inline Passage sweep(W& w, Mask group, double fineness) {
     passage.proved = passage.proved & (length > kShortest);
     w.segment_length[p] = length;
     const Lanes count = max(floor(length * fastest_rate(w) * steps_a_radian) + 1.0, lanes(2.0));
-    passage.proved = passage.proved & (count < lanes(kMostSteps / segments));
+    passage.proved = passage.proved & (count < lanes(most_steps(w.contacts) / segments));
     if (!any(passage.proved)) return passage;
     const Lanes h = length / count;
     set_factors(w, h);

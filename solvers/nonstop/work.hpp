@@ -9,6 +9,7 @@ namespace {
 using frahm::periodic::nonstop::kLanes;
 using frahm::periodic::nonstop::kMostReversals;
 using frahm::periodic::nonstop::kMostSteps;
+using frahm::periodic::nonstop::most_steps;
 using frahm::periodic::nonstop::Pack;
 using frahm::periodic::nonstop::Product;
 using frahm::periodic::nonstop::Shape;
@@ -175,6 +176,7 @@ struct Work : C {
         inputs(shape.inputs),
         span(shape.half_period ? kPi : 2.0 * kPi),
         sign(shape.half_period ? -1.0 : 1.0) {
+    const int most = most_steps(contacts);
     const int M = modes, H = orders, m = contacts, R = kMostReversals, sloped = 2 * m + shape.traces;
     rate = arena.take<Complex>(M);
     rate_size = arena.take<Lanes>(M);
@@ -237,11 +239,11 @@ struct Work : C {
     bend = arena.take<Lanes>(shape.traces);
     first_sign = arena.take<Lanes>(m);
     last_sign = arena.take<Lanes>(m);
-    zeta_at = arena.take<Complex>(kMostSteps * M);
-    osc_at = arena.take<Complex>(kMostSteps * H);
-    phase_at = arena.take<Lanes>(kMostSteps);
-    length = arena.take<Lanes>(kMostSteps);
-    left = arena.take<Lanes>(kMostSteps * shape.traces * 6);
+    zeta_at = arena.take<Complex>(most * M);
+    osc_at = arena.take<Complex>(most * H);
+    phase_at = arena.take<Lanes>(most);
+    length = arena.take<Lanes>(most);
+    left = arena.take<Lanes>(most * shape.traces * 6);
     const int D = states;
     flow = arena.take<Lanes>(D * D);
     square = arena.take<Lanes>(D * D);
