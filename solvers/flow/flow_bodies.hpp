@@ -110,12 +110,12 @@ void Flow<N, H>::set_forcing(const mechanics::LinearSystem& system) {
 // orbit meets new ones.
 template <int N, int H>
 void Flow<N, H>::bound_tables() {
-  constexpr Eigen::Index kMostDoubles = 8 << 20;  // 64 MB
+  const Eigen::Index most_doubles = (equations_.is_large() ? 16 : 64) << 17;  // 16 or 64 MB
   const Eigen::Index states = equations_.states();
   const Eigen::Index of_each =
       equations_.is_large() ? equations_.contacts() * (2 * states + 3 * equations_.contacts())
                             : kTerms * states * (states + equations_.oscillators() + equations_.contacts());
-  if (static_cast<Eigen::Index>(configurations_.size()) * of_each > kMostDoubles) configurations_.clear();
+  if (static_cast<Eigen::Index>(configurations_.size()) * of_each > most_doubles) configurations_.clear();
 }
 
 // The oscillators of the forcing over a step, cos and sin of order_k omega h, and their Taylor polynomials.

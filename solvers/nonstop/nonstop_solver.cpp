@@ -15,9 +15,10 @@ bool NonstopSolver::asks(Measure measure) const {
 }
 
 bool NonstopSolver::serves(const mechanics::Assembly& assembly) {
-  return std::ranges::all_of(assembly.network().elements, [](const mechanics::Element& element) {
-    return !mechanics::has_contact(element) || mechanics::kind_of(element).law == &laws::coulomb;
-  });
+  return assembly.contacts() <= kMostReversals &&
+         std::ranges::all_of(assembly.network().elements, [](const mechanics::Element& element) {
+           return !mechanics::has_contact(element) || mechanics::kind_of(element).law == &laws::coulomb;
+         });
 }
 
 NonstopSolver::NonstopSolver(const mechanics::Assembly& assembly, const std::vector<Quantity>& quantities)
