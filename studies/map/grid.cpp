@@ -40,10 +40,11 @@ std::uint64_t even_extent(std::uint64_t size, std::uint64_t most) {
 }
 
 // A tile is some tenths of a second of work at most, so that all threads have some, progress moves and a stop
-// is obeyed soon.
+// is obeyed soon; of dear points up to a second's, as each orbit starts the search for the next.
 TileSizes sizes_of(const Study& study) {
-  constexpr double kMostSeconds = 0.25;
-  const double affordable = std::max(1.0, kMostSeconds / predicted_orbit_seconds(study));
+  constexpr double kMostSeconds = 0.25, kFewestPoints = 4.0;
+  const double seconds = predicted_orbit_seconds(study);
+  const double affordable = std::max({1.0, kMostSeconds / seconds, std::min(kFewestPoints, 1.0 / seconds)});
   if (affordable >= static_cast<double>(cheap_tiles.most)) return cheap_tiles;
   const auto most = static_cast<std::uint64_t>(affordable);
   return {.longest_row = most, .least = std::min(most, cheap_tiles.least), .most = most};
