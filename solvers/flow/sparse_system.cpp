@@ -23,18 +23,38 @@ template <class Number>
   return sum;
 }
 
-// a -= A x, by columns where A is full.
+// a -= A x
 template <class Number>
 [[gnu::always_inline]] inline void subtract_product(const SparseRows& A, const Number* x, Number* a) {
   const std::size_t n = A.start.size() - 1;
-  if (A.full.size() == 0) {
+  if (!A.diagonals.empty()) {
+    for (const SparseRows::Diagonal& d : A.diagonals) {
+      const double* value = d.value.data();
+      const Number* from = x + d.first + d.offset;
+      Number* to = a + d.first;
+      for (std::size_t i = 0; i < d.value.size(); ++i) to[i] -= value[i] * from[i];
+    }
+  } else if (A.full.size() > 0) {
+    const double* column = A.full.data();
+    for (Eigen::Index j = 0; j < A.full.cols(); ++j, column += n) {
+      for (std::size_t i = 0; i < n; ++i) a[i] -= column[i] * x[j];
+    }
+  } else {
     for (std::size_t i = 0; i < n; ++i) a[i] -= row_times(A, i, x);
-    return;
   }
-  const double* column = A.full.data();
-  for (Eigen::Index j = 0; j < A.full.cols(); ++j, column += n) {
-    for (std::size_t i = 0; i < n; ++i) a[i] -= column[i] * x[j];
+}
+
+std::vector<SparseRows::Diagonal> occupied_diagonals(const Eigen::MatrixXd& matrix) {
+  std::vector<SparseRows::Diagonal> diagonals;
+  const Eigen::Index n = matrix.rows();
+  for (Eigen::Index offset = 1 - n; offset < n; ++offset) {
+    const Eigen::VectorXd values = matrix.diagonal(offset);
+    if (!values.isZero(0.0))
+      diagonals.push_back({.offset = static_cast<int>(offset),
+                           .value = {values.begin(), values.end()},
+                           .first = static_cast<int>(std::max<Eigen::Index>(0, -offset))});
   }
+  return diagonals;
 }
 
 // a -= M^-1 W lambda,  lambda = G^-1 W^T a
@@ -117,7 +137,14 @@ SparseRows SparseRows::of(const Eigen::MatrixXd& matrix) {
     }
     rows.start.push_back(static_cast<int>(rows.column.size()));
   }
-  if (static_cast<double>(rows.value.size()) > kFull * static_cast<double>(matrix.size())) rows.full = matrix;
+  constexpr std::size_t kFewer = 3;  // numbers of a diagonal take as long as an entry by its row
+  const bool is_full = static_cast<double>(rows.value.size()) > kFull * static_cast<double>(matrix.size());
+  if (matrix.rows() == matrix.cols()) rows.diagonals = occupied_diagonals(matrix);
+  if (rows.diagonals.size() * rows.start.size() > kFewer * rows.value.size()) rows.diagonals.clear();
+  if (is_full) {
+    rows.full = matrix;
+    rows.diagonals.clear();
+  }
   return rows;
 }
 

@@ -8,11 +8,19 @@
 // so that a set of stuck contacts costs one small inverse, and no table over all states.
 namespace frahm::periodic {
 
-// A matrix by rows: entries [start[i], start[i + 1]) are those of row i.
+// A matrix by rows: entries [start[i], start[i + 1]) are those of row i. Products take the form that suits
+// best.
 struct SparseRows {
+  struct Diagonal {
+    int offset = 0;             // of the columns from the rows
+    std::vector<double> value;  // of each row from `first` on
+    int first = 0;
+  };
+
   std::vector<int> start, column;
   std::vector<double> value;
-  Eigen::MatrixXd full;  // the matrix, where few entries are zero: damping by modes, imported matrices
+  Eigen::MatrixXd full;             // where few entries are zero: damping by modes, imported matrices
+  std::vector<Diagonal> diagonals;  // of a square matrix, where they are few: a chain of storeys
 
   static SparseRows of(const Eigen::MatrixXd& matrix);
   // sum += scale x row i
