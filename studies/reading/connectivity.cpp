@@ -36,6 +36,18 @@ bool holds(const mechanics::Element& element, const StudyValue& stiffness) {
   return mechanics::kind_of(element).holds && !absent;
 }
 
+// The rows of the stiffness matrices of parts, over all masses.
+void add_rows_of_matrices(const mechanics::Network& network, std::vector<Eigen::VectorXd>& rows) {
+  for (const mechanics::MatrixPart& part : network.matrices) {
+    for (Eigen::Index i = 0; i < part.stiffness.rows(); ++i) {
+      Eigen::VectorXd row = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(network.masses.size()));
+      for (std::size_t j = 0; j < part.nodes.size(); ++j)
+        row[static_cast<Eigen::Index>(part.nodes[j])] = part.stiffness(i, static_cast<Eigen::Index>(j));
+      if (!row.isZero(0.0)) rows.push_back(std::move(row));
+    }
+  }
+}
+
 }  // namespace
 
 void check_masses_are_held(const StudyContext& context, const NetworkOfStudy& system,
@@ -72,7 +84,7 @@ void check_masses_are_held(const StudyContext& context, const NetworkOfStudy& sy
   }
 }
 
-// Motions q of the masses that strain no spring, w^T q = 0.
+// Motions q of the masses that strain no spring, w^T q = 0, and no part given by matrices, K q = 0.
 void check_combinations_are_held(const Study& study) {
   const mechanics::Network& network = study.network;
   std::vector<Eigen::VectorXd> springs;
@@ -80,6 +92,7 @@ void check_combinations_are_held(const Study& study) {
     if (holds(network.elements[e], study.values.element[e]))
       springs.push_back(mechanics::incidence(network, network.elements[e]).w);
   }
+  add_rows_of_matrices(network, springs);
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(springs.size()),
                                             static_cast<Eigen::Index>(network.masses.size()));
   for (std::size_t i = 0; i < springs.size(); ++i)

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <fstream>
 #include <memory>
+#include <sstream>
 
 #include "studies/reading/matrix_file.hpp"
 #include "studies/reading/readable_file.hpp"
@@ -27,11 +28,26 @@ struct Workspace {
   Workspace& operator=(const Workspace&) = delete;
 };
 
+// The sizes, in the first line that is no comment: CHOLMOD makes room for whatever they say.
+void check_sizes(std::istream& file, const std::string& name) {
+  constexpr long most = 4096;  // of rows or columns
+  std::string line;
+  while (std::getline(file, line) && (line.empty() || line[0] == '%')) {
+  }
+  std::istringstream sizes(line);
+  long rows = 0, columns = 0;
+  if (!(sizes >> rows >> columns)) return;  // CHOLMOD says so
+  if (std::max(rows, columns) > most)
+    throw StudyError(rules::too_large, "{}: is {} x {}; at most {} degrees of freedom are read", name, rows,
+                     columns, most);
+}
+
 // The first line, as %%MatrixMarket matrix coordinate real symmetric. CHOLMOD would read files without it,
 // and make up the values of a pattern.
 void check_header(const std::filesystem::path& path, const std::string& name) {
+  std::ifstream file(path);
   std::string header;
-  std::getline(std::ifstream(path), header);
+  std::getline(file, header);
   std::ranges::transform(header, header.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (!header.starts_with("%%matrixmarket matrix "))
@@ -43,6 +59,7 @@ void check_header(const std::filesystem::path& path, const std::string& name) {
     if (header.find(form) != std::string::npos)
       throw StudyError(rules::wrong_file, "{}: is a {} matrix; real numbers are needed", name, form);
   }
+  check_sizes(file, name);
 }
 
 Eigen::MatrixXd copy_of(const cholmod_dense& dense) {

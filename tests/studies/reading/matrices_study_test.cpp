@@ -245,6 +245,19 @@ TEST_CASE("another number in a matrix file is another study, the same number in 
   CHECK(physics() != before);
 }
 
+TEST_CASE("a lever on a part that its matrices hold is accepted, and one on a part that floats is not") {
+  const TemporaryFolder folder;
+  export_storeys(folder);
+  const std::string lever =
+      "[[element]]\nname = \"lever\"\ntype = \"damper\"\nalong = { ground = -1, u1 = 2, u2 = -1 }\ndamping = "
+      "1\n";
+  CHECK_NOTHROW(parse_study(heading + matrices + lever + driven, folder / "a.toml"));
+  const Eigen::Index n = system_of(parse_study(heading + storeys + driven, "storeys.toml")).K.rows();
+  Eigen::MatrixXd floats = Eigen::MatrixXd::Identity(n, n) - Eigen::MatrixXd::Constant(n, n, 1.0 / double(n));
+  write_market(folder / "K.mtx", floats);
+  CHECK_THROWS_AS(parse_study(heading + matrices + lever + driven, folder / "a.toml"), StudyError);
+}
+
 TEST_CASE("the imported mast has the natural frequencies of a cantilever and its compliance") {
   const Study study = read_study(FRAHM_SOURCE_DIR "/studies/structures/imported_model.toml");
   const LinearSystem system = system_of(study);
