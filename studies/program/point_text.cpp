@@ -66,7 +66,7 @@ class Excerpt {
 };
 
 void print_quantities(const Study& study, const PointReport& report, Listing listing, std::ostream& out) {
-  constexpr std::size_t most_rows = 100;
+  constexpr std::size_t most_rows = 250;
   const bool is_whole = listing == Listing::whole || report.quantities.size() <= most_rows;
   const std::vector<periodic::Quantity> of_network = periodic::all_quantities(study.network);
   const Excerpt excerpt(study.network);

@@ -91,7 +91,7 @@ TEST_CASE("a combination of two nodes by -1 and 1 is the element between them") 
   CHECK(written.along == rack_of("between = [\"ground\", \"main\"]").along);
 }
 
-TEST_CASE("--set gives a study other factors, and --at does not") {
+TEST_CASE("a study is given other factors by --set, and not by --at") {
   TemporaryFolder folder;
   folder.write("study.toml", study_with("along = { main = 1, wheel = \"r\" }"));
   const Study study = read_study_with(folder / "study.toml", {"r=45 mm"});
