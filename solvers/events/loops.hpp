@@ -18,12 +18,12 @@ bool share_again(Flow<N, H>& flow, Workspace<N, H>& w) {
   for (Eigen::Index j = 0; idle != 0 && j < flow.equations().contacts(); ++j) {
     if (!contains(idle, j)) continue;
     const ContactMask stuck = flow.mode(w.mode).stuck | bit(j);
-    const std::size_t sharing = flow.mode_index(stuck, flow.mode(w.mode).positive);
+    const std::size_t sharing = flow.mode_index(stuck, flow.mode(w.mode).positive, flow.mode(w.mode).beyond);
     bool within = true;
     for (Eigen::Index i = 0; i < flow.equations().contacts(); ++i) {
       if (!contains(stuck & flow.equations().holding & ~w.held, i)) continue;
       const double force = flow.stuck_force(w.left, flow.mode(sharing), i).value;
-      within = within && std::abs(force) < kWithin * flow.equations().limit[i];
+      within = within && std::abs(force) < kWithin * flow.equations().static_limit[i];
     }
     if (!within) continue;
     w.mode = sharing;
@@ -70,7 +70,7 @@ void wake(Flow<N, H>& flow, ContactMask idle_before, Workspace<N, H>& w) {
     if (!contains(woken & ~mode.stuck, j)) continue;
     const FirstMotion first = first_motion(flow, j, w);
     if (mode.sign(j) * first.sign < 0.0)
-      w.mode = flow.mode_index(mode.stuck | bit(j), mode.positive);
+      w.mode = flow.mode_index(mode.stuck | bit(j), mode.positive, mode.beyond);
     else
       start_sliding(j, first, w);
   }
@@ -91,7 +91,7 @@ void slide_on(Flow<N, H>& flow, Workspace<N, H>& w) {
       const FirstMotion first = first_motion(flow, j, w);
       if (first.sign * force < 0.0) continue;
       const ContactMask forward = force > 0.0 ? bit(j) : 0;
-      w.mode = flow.mode_index(mode.stuck & ~bit(j), mode.positive | forward);
+      w.mode = flow.mode_index(mode.stuck & ~bit(j), mode.positive | forward, mode.beyond);
       start_sliding(j, first, w);
     }
   }

@@ -12,6 +12,8 @@ struct Event {
   std::size_t segment = 0;   // the segment that it ends; the next one begins with it
   ContactMask arrived = 0;   // contacts whose velocity reached zero here and that now stick or slide back
   ContactMask released = 0;  // contacts that stuck before and now slide
+  Eigen::Index bend = -1;    // the bend that ended the segment; then its guard's slope, and which guard it is
+  bool bend_by_force = false;
   // The contact that ended the segment; an arrival counts before a release (-1: none changed). Then the slope
   // of its guard function [m a step^2 or N a step], seen from inside the segment, and the side of the limit
   // that a force reached.

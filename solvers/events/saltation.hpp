@@ -69,4 +69,35 @@ void saltate(const Flow<N, H>& flow, ContactMask arrived, ContactMask released, 
   }
 }
 
+// A stuck contact that lets go of a static limit: its force falls and the acceleration jumps,
+//   dv+ = dv- + (a+ - a-) (grad lambda dz-) / lambda'
+template <int N, int H>
+void saltate_release(const Flow<N, H>& flow, Eigen::Index j, const Instant<N, H>& before,
+                     const Mode<N, H>& mode_before, const Workspace<N, H>& w,
+                     typename Sizes<N, H>::StateSquare& tangent) {
+  const StepEquations<N, H>& eq = flow.equations();
+  if (!eq.holds(j) || eq.static_limit[j] == eq.limit[j]) return;
+  const Eigen::Index n = eq.masses();
+  const Configuration<N, H>& c = flow.configuration(mode_before);
+  const double slope = flow.stuck_force(before, mode_before, j).slope;
+  if (slope == 0.0) return;
+  Eigen::Matrix<double, 1, Sizes<N, H>::kState> by_state =
+      c.Lq.row(j) * tangent.topRows(n) + c.Lv.row(j) * tangent.middleRows(n, n);
+  if constexpr (Sizes<N, H>::kInternal != 0)
+    by_state += c.Ls.row(j) * tangent.bottomRows(eq.internal_forces());
+  tangent.middleRows(n, n) += ((w.left.a - before.a) / slope) * by_state;
+}
+
+// An element whose force jumps where it bends, at a place of the displacement:
+//   dv+ = dv- + (a+ - a-) (b^T dq-) / (b^T v + p^T y')
+template <int N, int H>
+void saltate_bend(const Flow<N, H>& flow, Eigen::Index j, const Instant<N, H>& before, double slope,
+                  const Workspace<N, H>& w, typename Sizes<N, H>::StateSquare& tangent) {
+  if (slope == 0.0) return;
+  const Eigen::Index n = flow.equations().masses();
+  const Eigen::Matrix<double, 1, Sizes<N, H>::kState> by_state =
+      flow.equations().bends.B.col(j).transpose() * tangent.topRows(n);
+  tangent.middleRows(n, n) += ((w.left.a - before.a) / slope) * by_state;
+}
+
 }  // namespace frahm::periodic

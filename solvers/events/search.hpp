@@ -107,7 +107,7 @@ double fall_from_limit(const Polynomial& room, double limit, bool is_state, Work
 template <int N, int H>
 double first_release(const Flow<N, H>& flow, Eigen::Index j, Workspace<N, H>& w) {
   if (contains(w.held, j)) return kNoEvent;
-  const double limit = flow.equations().limit[j];
+  const double limit = flow.equations().static_limit[j];
   const Mode<N, H>& mode = flow.mode(w.mode);
   const ValueAndSlope left = flow.stuck_force(w.left, mode, j), right = flow.stuck_force(w.right, mode, j);
   const double margin = w.force_scale[j] * kFourthDerivative / 384.0;

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "solvers/events/bend_guards.hpp"
 #include "solvers/events/box_minimum.hpp"
 #include "solvers/events/loops.hpp"
 #include "solvers/events/passage.hpp"
@@ -53,6 +54,9 @@ class FreeAccelerations {
     const Eigen::Index n = eq.masses();
     typename Sizes<N, H>::Vector force =
         eq.force * u_ - eq.K * w.left.z.head(n) - eq.C * w.left.z.segment(n, n) - eq.W * friction;
+    for (Eigen::Index j = 0; mode.beyond != 0 && j < eq.bends.count(); ++j) {
+      if (contains(mode.beyond, j)) force -= bend_force(flow, w.left, j).value * eq.bends.B.col(j);
+    }
     if constexpr (Sizes<N, H>::kInternal != 0) force -= eq.D * w.left.z.tail(eq.internal_forces());
     acceleration_ = eq.M_inverse * force;
   }
@@ -74,7 +78,7 @@ struct Choice {
 // A single contact: it sticks if the force needed for this, c/G, is within the limit.
 template <int N, int H>
 Choice choose_alone(const StepEquations<N, H>& eq, Eigen::Index j, double c, Workspace<N, H>& w) {
-  const double force = c / eq.compliance[j], limit = eq.limit[j];
+  const double force = c / eq.compliance[j], limit = eq.static_limit[j];
   if (contains(w.held, j)) return {bit(j), 0};
   if (limit > 0.0) w.note_margin(std::abs(std::abs(force) - limit) / limit);
   if (std::abs(force) <= limit * (1.0 + kTie) && limit > 0.0) return {bit(j), 0};
@@ -82,7 +86,9 @@ Choice choose_alone(const StepEquations<N, H>& eq, Eigen::Index j, double c, Wor
 }
 
 // Several contacts: their forces minimise  1/2 lambda^T G lambda - c^T lambda,  |lambda_j| <= F_j,
-// G = W^T M^-1 W (Glocker, Set-Valued Force Laws, 2001, ch. 9).
+// G = W^T M^-1 W (Glocker, Set-Valued Force Laws, 2001, ch. 9). Where static limits are larger several
+// choices may be admissible. Contacts stick wherever they can: all are tried at their static limits; those
+// that reach them slide with F_j in that direction, and the others are tried again.
 template <int N, int H>
 Choice choose_together(const StepEquations<N, H>& eq, ContactMask at_rest,
                        const FreeAccelerations<N, H>& free, Workspace<N, H>& w) {
@@ -101,9 +107,23 @@ Choice choose_together(const StepEquations<N, H>& eq, ContactMask at_rest,
     for (Eigen::Index k = 0; k < m; ++k) G(i, k) = MWj.dot(eq.W.col(contact(k)));
     c[i] = free.of(j);
     weight[i] = eq.limit[j] > 0.0 ? eq.limit[j] : 1.0;
-    bound[i] = contains(w.held, j) ? kWithoutLimit * weight[i] : eq.limit[j];
+    bound[i] = contains(w.held, j) ? kWithoutLimit * weight[i] : eq.static_limit[j];
   }
-  const BoxMinimum minimum = box_minimum(G, c, -bound, bound, weight);
+  Eigen::VectorXd least = -bound, most = bound;
+  BoxMinimum minimum = box_minimum(G, c, least, most, weight);
+  // Of those that have let go the force falls from F_s to F.
+  for (bool again = !eq.monotone; again && minimum.found;) {
+    again = false;
+    for (Eigen::Index i = 0; i < m; ++i) {
+      const double kinetic = eq.limit[contact(i)];
+      if (least[i] == most[i] || std::abs(minimum.lambda[i]) < bound[i] * (1.0 - kTie)) continue;
+      const double slip = (c - G * minimum.lambda)[i];
+      if (bound[i] == kinetic || std::abs(slip) <= kTie * (G(i, i) * weight[i] + std::abs(c[i]))) continue;
+      least[i] = most[i] = minimum.lambda[i] > 0.0 ? kinetic : -kinetic;
+      again = true;
+    }
+    if (again) minimum = box_minimum(G, c, least, most, weight);
+  }
   if (!minimum.found) w.undecided = true;
   const Eigen::VectorXd& force = minimum.lambda;
   const Eigen::VectorXd acceleration = c - G * force;
@@ -113,9 +133,10 @@ Choice choose_together(const StepEquations<N, H>& eq, ContactMask at_rest,
     const Eigen::Index j = contact(i);
     const double limit = eq.limit[j];
     const double pull = std::abs(acceleration[i]) / (G(i, i) * weight[i] + std::abs(c[i]));
-    const double room = (limit - std::abs(force[i])) / weight[i];
+    const double room = (eq.static_limit[j] - std::abs(force[i])) / weight[i];
+    const bool has_let_go = least[i] == most[i];
     if (limit > 0.0 && !contains(w.held, j)) w.note_margin(std::max(pull, room));
-    if (pull <= kTie && limit > 0.0)
+    if (pull <= kTie && limit > 0.0 && !has_let_go)
       choice.stuck |= bit(j);
     else if (limit > 0.0 ? force[i] > 0.0 : acceleration[i] > 0.0)
       choice.forward |= bit(j);
@@ -135,23 +156,24 @@ void choose_modes(Flow<N, H>& flow, ContactMask at_rest, Workspace<N, H>& w) {
   w.fresh |= sliding;
   w.just_released &= ~sliding;
   const ContactMask states = before.stuck & ~eq.holding;  // internal forces, which no choice concerns
-  w.mode = flow.mode_index(choice.stuck | states, (before.positive & ~at_rest) | choice.forward);
+  w.mode =
+      flow.mode_index(choice.stuck | states, (before.positive & ~at_rest) | choice.forward, before.beyond);
 }
 
-// A stuck contact lets go. A held contact starts from rest without relative acceleration; an internal force
-// stays at its limit and the velocity does not change.
+// A stuck contact lets go. A held contact starts from rest, without relative acceleration unless its force
+// falls from a static limit; an internal force stays at its limit and the velocity does not change.
 template <int N, int H>
 void release(Flow<N, H>& flow, Eigen::Index j, bool forward, Workspace<N, H>& w) {
   const Mode<N, H>& before = flow.mode(w.mode);
   if (flow.equations().holds(j)) {
     w.fresh |= bit(j);
-    w.just_released |= bit(j);
+    if (flow.equations().static_limit[j] == flow.equations().limit[j]) w.just_released |= bit(j);
   } else {
     const Eigen::Index internal = flow.equations().internal_of[static_cast<std::size_t>(j)];
     w.left.z[2 * flow.equations().masses() + internal] = (forward ? 1.0 : -1.0) * flow.equations().limit[j];
     if (std::abs(flow.sliding_speed(w.left, j).value) <= w.rest_speed[j]) w.fresh |= bit(j);
   }
-  w.mode = flow.mode_index(before.stuck & ~bit(j), before.positive | (forward ? bit(j) : 0));
+  w.mode = flow.mode_index(before.stuck & ~bit(j), before.positive | (forward ? bit(j) : 0), before.beyond);
 }
 
 // Stuck contacts whose force is at its limit and grows let go at once; so does a contact in a loop whose
@@ -165,7 +187,7 @@ void release_at_limits(Flow<N, H>& flow, Workspace<N, H>& w) {
       if (!contains(mode.stuck & ~w.held & flow.equations().holding, j)) continue;
       const ValueAndSlope force = flow.stuck_force(w.left, mode, j);
       const double side = force.value > 0.0 ? 1.0 : -1.0;
-      const double limit = flow.equations().limit[j], size = side * force.value;
+      const double limit = flow.equations().static_limit[j], size = side * force.value;
       if (size < limit * (1.0 - kTie) || (side * force.slope <= 0.0 && size <= limit * (1.0 + 1e-9)))
         continue;
       release(flow, j, side > 0.0, w);
@@ -197,7 +219,7 @@ void change_mode(Flow<N, H>& flow, ContactMask arrived, Eigen::Index released, b
   }
   if (const ContactMask states = arrived & ~holding; states != 0) {
     const Mode<N, H>& mode = flow.mode(w.mode);
-    w.mode = flow.mode_index(mode.stuck | states, mode.positive);
+    w.mode = flow.mode_index(mode.stuck | states, mode.positive, mode.beyond);
   }
   if ((arrived & holding) != 0) choose_modes(flow, (flow.mode(w.mode).stuck | arrived) & holding, w);
   settle_mode(flow, w);

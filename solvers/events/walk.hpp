@@ -6,6 +6,7 @@
 namespace frahm::periodic {
 
 struct GuardEvent;  // events/search.hpp
+struct BendEvent;   // events/bend_guards.hpp
 
 // Follows motions on a flow, one passage after the other. It has the workspace; the flow has none.
 template <int N, int H>
@@ -29,6 +30,8 @@ class Walk {
   void catch_up(Passage<N, H>& passage);
   void advance(double fraction, Passage<N, H>& passage);
   void pass_event(const GuardEvent& event, double phase, Passage<N, H>& passage);
+  void pass_bend(const BendEvent& event, double phase, Passage<N, H>& passage);
+  void arrive_at(double fraction, double phase, Passage<N, H>& passage);
   void note_change(const GuardEvent& event, const Instant<N, H>& before, const Mode<N, H>& mode_before,
                    Passage<N, H>& passage);
   void open_segment(Passage<N, H>& passage);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "solvers/events/bend_guards.hpp"
 #include "solvers/events/saltation.hpp"
 #include "solvers/events/search.hpp"
 #include "solvers/events/transition.hpp"
@@ -20,11 +21,15 @@ void Walk<N, H>::pass(const typename S::State& z, double phase, double length, P
     share_forces_again(passage);
     w_.expanded = flow_.step(w_.left, flow_.mode(w_.mode), w_.right, w_.expansion);
     const GuardEvent event = first_event(flow_, w_);
-    const double room = length - w_.clock;
-    if (event.at < room && event.at <= 1.0) {
-      at_this_instant = event.at > 0.0 ? 0 : at_this_instant + 1;
-      pass_event(event, phase, passage);
-      if (at_this_instant > 8 + 4 * flow_.equations().contacts())
+    const BendEvent bend = first_bend(flow_, w_);
+    const double next = std::min(event.at, bend.at), room = length - w_.clock;
+    if (next < room && next <= 1.0) {
+      at_this_instant = next > 0.0 ? 0 : at_this_instant + 1;
+      if (bend.at < event.at)
+        pass_bend(bend, phase, passage);
+      else
+        pass_event(event, phase, passage);
+      if (at_this_instant > 8 + 4 * (flow_.equations().contacts() + flow_.equations().bends.count()))
         passage.failure = "the contacts chatter at one instant";
       if (passage.events > kMostEvents) passage.failure = "more than 20000 events in one passage";
       if (w_.undecided) passage.failure = "the friction forces of contacts at rest were not found";
@@ -62,7 +67,7 @@ void Walk<N, H>::take_step(Passage<N, H>& passage) {
   move_tangent(1.0, passage);
   w_.left = w_.right;
   w_.clock += 1.0;
-  w_.fresh = w_.just_released = 0;
+  w_.leave_event();
 }
 
 template <int N, int H>
@@ -85,8 +90,9 @@ void Walk<N, H>::enter(const typename S::State& z, double phase, Passage<N, H>& 
   w_.behind = 0.0;
   set_scales(flow_, z, w_);
 
-  w_.mode = flow_.mode_index(0, 0);
+  w_.mode = flow_.mode_index(0, 0, 0);
   flow_.instant_at(z, phase, flow_.mode(w_.mode), w_.left);
+  const ContactMask beyond = bends_at_start(flow_, w_);
   ContactMask at_rest = 0, positive = 0, stuck_states = 0;
   for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
     const double speed = flow_.sliding_speed(w_.left, j).value;
@@ -99,11 +105,11 @@ void Walk<N, H>::enter(const typename S::State& z, double phase, Passage<N, H>& 
     }
     if (std::abs(speed) <= w_.rest_speed[j]) at_rest |= bit(j);
   }
-  w_.mode = flow_.mode_index(stuck_states, positive & ~at_rest);
+  w_.mode = flow_.mode_index(stuck_states, positive & ~at_rest, beyond);
   if (at_rest != 0) choose_modes(flow_, at_rest, w_);
   settle_mode(flow_, w_);
 
-  passage.starts_at_event = w_.fresh != 0;
+  passage.starts_at_event = (w_.fresh | w_.at_place) != 0;
   if (passage.has_tangent) begin_tangent(passage);
   open_segment(passage);
 }
@@ -162,19 +168,25 @@ void Walk<N, H>::catch_up(Passage<N, H>& passage) {
   w_.behind = 0.0;
 }
 
+// `left` and the tangent at an event, seen from inside the segment that it ends.
+template <int N, int H>
+void Walk<N, H>::arrive_at(double fraction, double phase, Passage<N, H>& passage) {
+  if (fraction > 0.0) {
+    advance(fraction, passage);
+    w_.leave_event();
+  }
+  catch_up(passage);
+  flow_.instant_at(typename S::State(w_.left.z), phase + w_.clock * flow_.fundamental_rate(),
+                   flow_.mode(w_.mode), w_.left);
+  passage.segments.back().length = w_.clock - passage.segments.back().start;
+  ++passage.events;
+}
+
 template <int N, int H>
 void Walk<N, H>::pass_event(const GuardEvent& event, double phase, Passage<N, H>& passage) {
   // 1. Move to the event.
-  if (event.at > 0.0) {
-    advance(event.at, passage);
-    w_.fresh = w_.just_released = 0;
-  }
-  catch_up(passage);
   const std::size_t mode_before = w_.mode;
-  flow_.instant_at(typename S::State(w_.left.z), phase + w_.clock * flow_.fundamental_rate(),
-                   flow_.mode(mode_before), w_.left);
-  passage.segments.back().length = w_.clock - passage.segments.back().start;
-  ++passage.events;
+  arrive_at(event.at, phase, passage);
   const Instant<N, H> before = w_.left;
 
   // 2. What follows, of all contacts that are concerned together.
@@ -190,11 +202,45 @@ void Walk<N, H>::pass_event(const GuardEvent& event, double phase, Passage<N, H>
   // 3. Carry the tangent across.
   const ContactMask released = flow_.mode(mode_before).stuck & ~flow_.mode(w_.mode).stuck;
   note_arrivals(flow_, arrived, before, w_);
-  if (passage.has_tangent)
+  if (passage.has_tangent) {
     saltate(flow_, arrived, released, before, flow_.mode(mode_before), w_, passage.tangent);
+    if (arrived == 0)
+      saltate_release(flow_, event.contact, before, flow_.mode(mode_before), w_, passage.tangent);
+  }
 
   // 4. Record the change and begin the next segment. Events at one instant are one change.
   note_change(event, before, flow_.mode(mode_before), passage);
+  open_segment(passage);
+}
+
+// An element bends. Where its force jumps, the forces of all contacts at rest are chosen again.
+template <int N, int H>
+void Walk<N, H>::pass_bend(const BendEvent& event, double phase, Passage<N, H>& passage) {
+  const std::size_t mode_before = w_.mode;
+  arrive_at(event.at, phase, passage);
+  const Instant<N, H> before = w_.left;
+  const ValueAndSlope guard = bend_guard(flow_, before, event.guard, event.bend);
+  change_bend(flow_, event, w_);
+  const bool jumps = event.guard == BendGuard::place && contains(flow_.equations().bends.jumping, event.bend);
+  if (w_.mode != mode_before) {
+    const ContactMask at_rest = flow_.mode(w_.mode).stuck & flow_.equations().holding;
+    if (jumps && at_rest != 0) choose_modes(flow_, at_rest, w_);
+    settle_mode(flow_, w_);
+  }
+  if (passage.has_tangent && jumps) saltate_bend(flow_, event.bend, before, guard.slope, w_, passage.tangent);
+
+  const bool same_instant = passage.segments.back().length == 0.0;
+  if (same_instant) passage.segments.pop_back();
+  if (!passage.segments.empty()) {
+    if (!same_instant) passage.changes.push_back({.segment = passage.segments.size() - 1});
+    Event& change = passage.changes.back();
+    change.released |= flow_.mode(mode_before).stuck & ~flow_.mode(w_.mode).stuck;
+    if (change.contact < 0 && change.bend < 0) {
+      change.bend = event.bend;
+      change.bend_by_force = event.guard == BendGuard::force;
+      change.slope = guard.slope;
+    }
+  }
   open_segment(passage);
 }
 
@@ -211,7 +257,7 @@ void Walk<N, H>::note_change(const GuardEvent& event, const Instant<N, H>& befor
   const ContactMask arrived = arrived_between(flow_.equations(), mode_before, after);
   change.arrived |= arrived;
   change.released |= mode_before.stuck & ~after.stuck;
-  if (change.contact >= 0) return;  // the first event of this instant is recorded
+  if (change.contact >= 0 || change.bend >= 0) return;  // the first event of this instant is recorded
   if (arrived != 0) {
     // Of several arrivals the first whose velocity is held: the acceleration jumps for it.
     const ContactMask held = arrived & flow_.equations().holding;

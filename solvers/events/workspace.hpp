@@ -20,12 +20,14 @@ struct Workspace {
   Expansion<N, H> expansion;  // over the current step, if `expanded`
   bool expanded = false;
   std::size_t mode = 0;
-  double clock = 0.0;             // steps since the passage began
-  double behind = 0.0;            // steps by which the tangent lags behind the state
-  ContactMask fresh = 0;          // sliding contacts whose velocity is zero at `left`
-  ContactMask just_released = 0;  // fresh contacts whose relative acceleration is zero too
-  double margin = 1.0;            // see Passage::margin
-  bool undecided = false;         // a joint choice found no answer
+  double clock = 0.0;                           // steps since the passage began
+  double behind = 0.0;                          // steps by which the tangent lags behind the state
+  ContactMask fresh = 0;                        // sliding contacts whose velocity is zero at `left`
+  ContactMask just_released = 0;                // fresh contacts whose relative acceleration is zero too
+  ContactMask free = 0;                         // bends past their place that push no more (bend_guards.hpp)
+  ContactMask at_place = 0, without_force = 0;  // bends whose guard is zero at `left`
+  double margin = 1.0;                          // see Passage::margin
+  bool undecided = false;                       // a joint choice found no answer
 
   // Scales of the contacts' velocities [m a step] and forces [N]: those of the larger of the state's and the
   // static response's energy, plus a support's own motion.
@@ -34,6 +36,8 @@ struct Workspace {
   // stops within kRest of a step: the force of a strong contact rounds the velocities that it holds.
   typename S::Contacts rest_speed;
 
+  // The state has left the instant of the last event.
+  void leave_event() { fresh = just_released = at_place = without_force = 0; }
   void note_margin(double relative) { margin = std::min(margin, relative); }
   const Expansion<N, H>& expand(const Flow<N, H>& flow) {
     if (!expanded) flow.expand(left, flow.mode(mode), expansion);

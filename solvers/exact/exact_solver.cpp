@@ -8,7 +8,10 @@ std::unique_ptr<ResponseSolver> make_exact_solver(const mechanics::Network& netw
                                                   std::vector<Quantity> quantities, Path path) {
   const mechanics::Assembly assembly(network);
   const std::size_t masses = network.masses.size(), harmonics = assembly.orders().size();
-  if (assembly.contacts() <= Sizes<1, 1>::kMaxContacts && assembly.internal_forces() == 0) {
+  const bool is_small = assembly.contacts() <= Sizes<1, 1>::kMaxContacts &&
+                        assembly.bends().count() <= Sizes<1, 1>::kMaxContacts &&
+                        assembly.internal_forces() == 0;
+  if (is_small) {
     if (masses == 1 && harmonics == 1)
       return std::make_unique<SizedSolver<1, 1>>(network, std::move(quantities), path);
     if (masses == 1 && harmonics == 2)

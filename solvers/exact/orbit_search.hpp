@@ -9,6 +9,7 @@
 #include "solvers/flow/linear_form.hpp"
 #include "solvers/mechanics/undamped_resonance.hpp"
 #include "solvers/orbits/certificate.hpp"
+#include "solvers/orbits/coexistence.hpp"
 #include "solvers/orbits/continuation.hpp"
 #include "solvers/orbits/reasons.hpp"
 #include "solvers/orbits/rest_position.hpp"
@@ -25,10 +26,23 @@ class OrbitSearch {
  public:
   // Both must outlive the search.
   OrbitSearch(const mechanics::Assembly& assembly, Flow<N, H>& flow)
-      : forms_(assembly, flow), flow_(flow), continuation_(flow), shooting_(flow), steps_(flow) {}
+      : forms_(assembly, flow),
+        flow_(flow),
+        continuation_(flow),
+        shooting_(flow),
+        steps_(flow),
+        coexistence_(
+            flow, [this](Orbit<N, H>& orbit) { settle_rest_position(orbit); },
+            [this](const Orbit<N, H>& orbit) { return first_peak(orbit); }) {}
 
-  void forget() { continuation_.forget(); }
-  void begin_row() { continuation_.begin_row(); }
+  void forget() {
+    continuation_.forget();
+    coexistence_.forget();
+  }
+  void begin_row() {
+    continuation_.begin_row();
+    coexistence_.forget();
+  }
 
   // Finds the orbit of the flow, which is set to `system`. certify: also multipliers and error bound.
   void find(const mechanics::LinearSystem& system, const std::vector<UndampedMode>& undamped, bool certify,
@@ -51,6 +65,7 @@ class OrbitSearch {
   bool try_held(ContactMask held, Orbit<N, H>& orbit);
   double distance_slid(Eigen::Index contact, const Orbit<N, H>& orbit) const;
   ContactMask sliding_less_than(double share, const Orbit<N, H>& orbit) const;
+  double first_peak(const Orbit<N, H>& orbit);
 
   Forms<N, H> forms_;
   Flow<N, H>& flow_;
@@ -59,12 +74,14 @@ class OrbitSearch {
   OrbitSteps<N, H> steps_;
   Integrals<N, H> integrals_;
   Orbit<N, H> trial_;
+  Coexistence<N, H> coexistence_;
 };
 
 template <int N, int H>
 void OrbitSearch<N, H>::find(const mechanics::LinearSystem& system, const std::vector<UndampedMode>& undamped,
                              bool certify, Orbit<N, H>& orbit) {
-  if (is_unbounded(system, undamped)) return fail_unbounded(orbit);
+  if (system.bends.count() == 0 && is_unbounded(system, undamped)) return fail_unbounded(orbit);
+  if (!system.monotone) return coexistence_.find(system, orbit);
   continuation_.find(system, orbit);
   settle(orbit);
   if (certify && orbit.is_found()) judge_stability(flow_, orbit);
@@ -88,6 +105,15 @@ bool OrbitSearch<N, H>::find_otherwise(int way, const mechanics::LinearSystem& s
   }
   if (certify) judge_stability(flow_, orbit);
   return true;
+}
+
+// Peak of the first mass [m].
+template <int N, int H>
+double OrbitSearch<N, H>::first_peak(const Orbit<N, H>& orbit) {
+  LinearForm<N, H> form = forms_.zero();
+  form.z[0] = 1.0;
+  steps_.lay_out(orbit);
+  return find_extremes(steps_, flow_, orbit.section, [&](const Mode<N, H>&) { return form; }).magnitude();
 }
 
 template <int N, int H>
@@ -182,7 +208,7 @@ std::vector<StuckForce> OrbitSearch<N, H>::stuck_forces(ContactMask contacts, co
       return contains(mode.stuck, j) ? forms_.stuck_contact_force(j, mode) : forms_.zero();
     };
     const Extremes force = find_extremes(steps_, flow_, orbit.section, form);
-    forces.push_back({force.least, force.most, flow_.equations().limit[j]});
+    forces.push_back({force.least, force.most, flow_.equations().static_limit[j]});
   }
   return forces;
 }

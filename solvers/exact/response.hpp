@@ -31,6 +31,8 @@ struct ResponseSummary {
   double residual = 0.0;  // 1
   int newton_iterations = 0;
   int passages = 0;          // periods (or half periods) of the flow that the search took; 0 from phases
+  int multiple = 1;          // of the excitation's period, that the response takes
+  int coexisting = 1;        // stable responses that were found
   bool half_period = false;  // the response repeats with the opposite sign: x(t + T/2) = -x(t), T the
                              // period of the orders divided by their common divisor
 };

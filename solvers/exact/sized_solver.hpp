@@ -56,12 +56,16 @@ class SizedSolver final : public ResponseSolver {
 
   void quantities(std::span<double> out) override {
     if (has_response())
-      observables_.evaluate(orbit_, system_, out);
+      observables_.evaluate(orbit_, told(), out);
     else
       observables_.fill_missing(orbit_.status, out);
   }
 
   const char* gradient(std::span<const mechanics::NetworkValues> directions, std::span<double> out) override {
+    if (orbit_.multiple > 1) {
+      std::ranges::fill(out, kNone);
+      return "the response takes several periods of the excitation";
+    }
     follow_tangent(flow_, orbit_);
     return gradient_.evaluate(orbit_, system_, values_, directions, out);
   }
@@ -79,12 +83,13 @@ class SizedSolver final : public ResponseSolver {
 
  private:
   bool has_response() const { return orbit_.is_found(); }
+  const mechanics::LinearSystem& told() const { return orbit_.multiple > 1 ? longer_ : system_; }
   bool is_to_be_weighed() const;
   void weigh();
 
   mechanics::Assembly assembly_;
-  mechanics::NetworkValues values_;  // of the system
-  mechanics::LinearSystem system_;
+  mechanics::NetworkValues values_;          // of the system
+  mechanics::LinearSystem system_, longer_;  // longer: over the multiple of the period that the orbit takes
   std::vector<UndampedMode> undamped_modes_;
   Flow<N, H> flow_;
   OrbitSearch<N, H> search_;
@@ -99,6 +104,7 @@ template <int N, int H>
 const ResponseSummary& SizedSolver<N, H>::solve() {
   observables_.forget();
   search_.find(system_, undamped_modes_, observables_.needs_stability(), orbit_);
+  if (orbit_.multiple > 1) longer_ = over_multiple(system_, orbit_.multiple);
   if (orbit_.is_found() && is_to_be_weighed()) weigh();
   summary_.status = orbit_.status;
   summary_.reason = orbit_.reason;
@@ -106,6 +112,8 @@ const ResponseSummary& SizedSolver<N, H>::solve() {
   summary_.newton_iterations = orbit_.newton_iterations;
   summary_.passages = orbit_.passages;
   summary_.half_period = orbit_.half_period;
+  summary_.multiple = orbit_.multiple;
+  summary_.coexisting = orbit_.coexisting;
   return summary_;
 }
 
@@ -120,8 +128,8 @@ bool SizedSolver<N, H>::is_to_be_weighed() const {
 template <int N, int H>
 void SizedSolver<N, H>::weigh() {
   constexpr double kBalanced = 1e-9;
-  double balance = observables_.energy_balance(orbit_, system_);
-  for (int way = 0; balance > kBalanced && way < OrbitSearch<N, H>::kOtherWays; ++way) {
+  double balance = observables_.energy_balance(orbit_, told());
+  for (int way = 0; system_.monotone && balance > kBalanced && way < OrbitSearch<N, H>::kOtherWays; ++way) {
     if (search_.find_otherwise(way, system_, observables_.needs_stability(), orbit_))
       balance = observables_.energy_balance(orbit_, system_);
   }
@@ -149,7 +157,7 @@ History SizedSolver<N, H>::history(std::span<const double> phases) {
     Instant<N, H> instant;
     flow_.instant_at(flow_.state_within(*segment, orbit_.section, at - segment->start),
                      orbit_.section + from_section, mode, instant);
-    result.time.push_back(phase / system_.omega);
+    result.time.push_back(phase / told().omega);
     std::size_t column = 0;
     for (Eigen::Index mass = 0; mass < n; ++mass) {
       result.columns[column++].push_back(sign * instant.z[mass]);

@@ -13,12 +13,14 @@ namespace frahm::periodic {
 //   q'' = -P M^-1 (K q + C v + D s + W phi) + Au u(t),   phi_j = sigma_j F_j of the contacts that slide, else
 //   0 s'  = spring (D^T v + p^T y') - rate s,              spring = k, 0 of an internal force that is held
 //   lambda_j = (Lq q + Lv v + Ls s + Lu u(t) + Lf phi)_j of the stuck contacts (of an internal force: s)
+// K, C and the forcing are those beyond a set of bends (StepBends).
 // Small systems have tables of its flow over a step (StepTables), large ones only the held contacts.
 template <int N, int H>
 struct Configuration {
   using S = Sizes<N, H>;
 
   ContactMask stuck = 0;
+  ContactMask beyond = 0;  // bends
   // Contacts without events: they count as sliding, but the stuck contacts hold them at rest, or they have no
   // force.
   ContactMask idle = 0;
@@ -77,7 +79,7 @@ struct Configuration {
   }
 
   // Matrices that do not depend on the forcing.
-  void set_system(const StepEquations<N, H>& equations, ContactMask stuck_contacts);
+  void set_system(const StepEquations<N, H>& equations, ContactMask stuck_contacts, ContactMask beyond_bends);
   // Matrices that depend on the forcing; to be called after set_system.
   void set_forcing(const StepEquations<N, H>& equations);
 
@@ -124,8 +126,8 @@ Eigen::Matrix<double, N, Sizes<N, H>::kState> Configuration<N, H>::pull_by_state
   Eigen::Matrix<double, N, S::kState> A(n, equations.states());
   if (equations.is_large()) {
     const typename S::Square left = -(projector(equations) * equations.M_inverse);
-    A.leftCols(n).noalias() = left * equations.K;
-    A.middleCols(n, n).noalias() = left * equations.C;
+    A.leftCols(n).noalias() = left * equations.stiffness_beyond(beyond);
+    A.middleCols(n, n).noalias() = left * equations.damping_beyond(beyond);
     A.rightCols(internal).noalias() = left * equations.D;
     return A;
   }
@@ -147,6 +149,11 @@ typename Sizes<N, H>::State Configuration<N, H>::pull_form(const StepEquations<N
     left = (equations.M_inverse * left).eval();
     form.head(n).noalias() = equations.K * left;
     form.segment(n, n).noalias() = equations.C * left;
+    for (const BeyondBend& bend : held.beyond) {
+      const auto b = equations.bends.B.col(bend.index);
+      form.head(n) += (bend.stiffness * b.dot(left)) * b;
+      form.segment(n, n) += (bend.damping * b.dot(left)) * b;
+    }
     form.tail(internal).noalias() = equations.D.transpose() * left;
     return form;
   }
@@ -170,8 +177,10 @@ typename Sizes<N, H>::Vector Configuration<N, H>::pull_of_friction(
 }
 
 template <int N, int H>
-void Configuration<N, H>::set_system(const StepEquations<N, H>& equations, ContactMask stuck_contacts) {
+void Configuration<N, H>::set_system(const StepEquations<N, H>& equations, ContactMask stuck_contacts,
+                                     ContactMask beyond_bends) {
   stuck = stuck_contacts;
+  beyond = beyond_bends;
   set_constraint(equations);
   set_springs(equations);
   if (equations.is_large())
@@ -239,12 +248,13 @@ void Configuration<N, H>::set_tables(const StepEquations<N, H>& equations) {
   // sign is that of the pull of the springs and dampers.
   const typename S::Square left = -(P * equations.M_inverse);
   const typename S::ContactsByVector taken = -reaction_.transpose();
-  tables.Aq.noalias() = left * equations.K;
-  tables.Av.noalias() = left * equations.C;
+  const typename S::Square K = equations.stiffness_beyond(beyond), C = equations.damping_beyond(beyond);
+  tables.Aq.noalias() = left * K;
+  tables.Av.noalias() = left * C;
   tables.Af.noalias() = left * equations.W;
   if constexpr (S::kInternal != 0) tables.As.noalias() = left * equations.D;
-  Lq.noalias() = taken * equations.K;
-  Lv.noalias() = taken * equations.C;
+  Lq.noalias() = taken * K;
+  Lv.noalias() = taken * C;
   tables.propagate_homogeneous(equations, spring);
 }
 
@@ -257,6 +267,11 @@ void Configuration<N, H>::set_held(const StepEquations<N, H>& equations) {
   }
   held.force = SparseRows::of(constraint_(held.list, held.list));
   held.spring = spring;
+  held.beyond.clear();
+  for (Eigen::Index j = 0; beyond != 0 && j < equations.bends.count(); ++j) {
+    if (!contains(beyond, j)) continue;
+    held.beyond.push_back({static_cast<int>(j), equations.bends.stiffness[j], equations.bends.damping[j]});
+  }
   held.hold_all =
       static_cast<Eigen::Index>(held.list.size()) >= n && projector(equations).cwiseAbs().maxCoeff() < 1e-12;
   Lq.setZero(m, n);
@@ -265,6 +280,12 @@ void Configuration<N, H>::set_held(const StepEquations<N, H>& equations) {
     for (const int i : held.list) {
       equations.sparse.pull_by_displacement.add_row(i, -constraint_(j, i), Lq.row(j).data());
       equations.sparse.pull_by_velocity.add_row(i, -constraint_(j, i), Lv.row(j).data());
+    }
+    for (const BeyondBend& bend : held.beyond) {
+      const auto b = equations.bends.B.col(bend.index);
+      const double share = -reaction_.col(j).dot(b);
+      Lq.row(j) += (share * bend.stiffness) * b.transpose();
+      Lv.row(j) += (share * bend.damping) * b.transpose();
     }
   }
 }
@@ -281,13 +302,14 @@ void Configuration<N, H>::set_forcing(const StepEquations<N, H>& equations) {
     const double size = equations.support_velocity.row(j).norm();
     if (contains(immobile_, j) && drag.norm() <= 1e-12 * size) idle |= bit(j);
   }
-  Au.noalias() = equations.M_inverse * equations.force;
+  const typename S::VectorByOscillators force = equations.force_beyond(beyond);
+  Au.noalias() = equations.M_inverse * force;
   if (equations.is_large()) {
     for (Eigen::Index k = 0; k < Au.cols(); ++k) keep(equations.sparse, held, Au.col(k).data());
   } else {
     Au = (tables.P * Au).eval();
   }
-  Lu.noalias() = reaction_.transpose() * equations.force;
+  Lu.noalias() = reaction_.transpose() * force;
   if constexpr (S::kInternal != 0) {
     internal_drive = equations.internal_drive;
     for (Eigen::Index i = 0; i < spring.size(); ++i) {

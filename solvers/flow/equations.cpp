@@ -11,12 +11,19 @@ double fastest_rate(const mechanics::LinearSystem& system) {
   const auto largest = [&](const Eigen::MatrixXd& matrix) {
     return std::max(0.0, algebra::symmetric_values(matrix, system.M).maxCoeff());
   };
-  if (system.internal_forces() > 0) {
-    const double gamma = std::max(largest(system.C), system.internal_rate.maxCoeff());
-    return gamma + std::sqrt(largest(system.K + system.D * system.internal_stiffness.asDiagonal() *
-                                                    system.D.transpose()));
+  // Beyond all bends that stiffen or damp.
+  const mechanics::Bends& bends = system.bends;
+  Eigen::MatrixXd K = system.K, C = system.C;
+  for (Eigen::Index j = 0; j < bends.count(); ++j) {
+    K += std::max(0.0, bends.stiffness[j]) * bends.W.col(j) * bends.W.col(j).transpose();
+    C += std::max(0.0, bends.damping[j]) * bends.W.col(j) * bends.W.col(j).transpose();
   }
-  const double gamma = largest(system.C), kappa = largest(system.K);
+  if (system.internal_forces() > 0) {
+    const double gamma = std::max(largest(C), system.internal_rate.maxCoeff());
+    return gamma +
+           std::sqrt(largest(K + system.D * system.internal_stiffness.asDiagonal() * system.D.transpose()));
+  }
+  const double gamma = largest(C), kappa = largest(K);
   return 0.5 * (gamma + std::sqrt(gamma * gamma + 4.0 * kappa));
 }
 

@@ -9,6 +9,7 @@
 
 #include "solvers/flow/sizes.hpp"
 #include "solvers/flow/sparse_system.hpp"
+#include "solvers/flow/step_bends.hpp"
 #include "solvers/mechanics/linear_system.hpp"
 
 namespace frahm::periodic {
@@ -46,6 +47,7 @@ struct StepEquations {
   typename S::ContactsByOscillators support_velocity,
       support_acceleration;               // p_j^T y'(t), p_j^T y''(t), m rows
   typename S::Contacts limit;             // [N]
+  typename S::Contacts static_limit;      // of the force at rest, >= limit [N]
   typename S::Contacts compliance;        // w_j^T M^-1 w_j
   ContactMask holding = 0;                // contacts whose law holds the velocity while they stick
   std::vector<Eigen::Index> internal_of;  // of each contact: its internal force, -1: none
@@ -56,7 +58,9 @@ struct StepEquations {
   // cos + i sin of each harmonic at phase 0. Empty: 1, as in every motion except one with a measured
   // excitation.
   std::vector<std::complex<double>> oscillators_at_zero;
-  SparseSystem sparse;  // of a large system
+  StepBends<N, H> bends;
+  bool monotone = true;  // LinearSystem::monotone
+  SparseSystem sparse;   // of a large system
 
   Eigen::Index masses() const { return M.rows(); }
   Eigen::Index contacts() const { return limit.size(); }
@@ -93,6 +97,23 @@ struct StepEquations {
       u[1 + 2 * i] = turned.real();
       u[2 + 2 * i] = turned.imag();
     }
+  }
+
+  // K and C of the system, and the force on its masses, with the bends of `beyond`.
+  typename S::Square stiffness_beyond(ContactMask beyond) const {
+    typename S::Square with = K;
+    bends.add_stiffness(beyond, with);
+    return with;
+  }
+  typename S::Square damping_beyond(ContactMask beyond) const {
+    typename S::Square with = C;
+    bends.add_damping(beyond, with);
+    return with;
+  }
+  typename S::VectorByOscillators force_beyond(ContactMask beyond) const {
+    typename S::VectorByOscillators with = force;
+    bends.add_force(beyond, with);
+    return with;
   }
 
   // (K q, M v, s / k): its product with another state is twice the energy norm's.

@@ -20,6 +20,7 @@ namespace frahm::periodic {
 template <int N, int H>
 struct Mode {
   ContactMask stuck = 0, positive = 0;  // positive: sliding with w^T q' > 0
+  ContactMask beyond = 0;               // bends beyond their place
   std::size_t configuration = 0;
   typename Sizes<N, H>::Contacts friction;     // sigma_j F_j of contacts that slide; 0 if a state [N]
   typename Sizes<N, H>::Vector acceleration;   // due to it
@@ -95,7 +96,7 @@ class Flow {
   }
 
   // The table of modes: an index stays good until the next set_forcing.
-  std::size_t mode_index(ContactMask stuck, ContactMask positive);
+  std::size_t mode_index(ContactMask stuck, ContactMask positive, ContactMask beyond);
   const Mode<N, H>& mode(std::size_t index) const { return modes_[index]; }
   const Configuration<N, H>& configuration(const Mode<N, H>& mode) const {
     return configurations_[mode.configuration];
@@ -107,7 +108,7 @@ class Flow {
   }
   // Maps velocities to those that keep these contacts stuck, orthogonally in the norm of M.
   typename S::Square keeping_stuck(ContactMask contacts) {
-    return configurations_[configuration_index(contacts)].projector(equations_);
+    return configurations_[configuration_index(contacts, 0)].projector(equations_);
   }
   // z with velocities at which these contacts are at rest at `phase`.
   typename S::State brought_to_rest(const typename S::State& z, double phase, ContactMask contacts);
@@ -138,7 +139,7 @@ class Flow {
   void scale_matrices(const mechanics::LinearSystem& system);
   void bound_tables();
   void set_oscillation(double omega);
-  std::size_t configuration_index(ContactMask stuck);
+  std::size_t configuration_index(ContactMask stuck, ContactMask beyond);
 
   StepEquations<N, H> equations_;
   std::vector<Configuration<N, H>> configurations_;

@@ -20,6 +20,35 @@ void set_laws(const mechanics::LinearSystem& system, StepEquations<N, H>& eq) {
   }
 }
 
+template <int N, int H>
+void set_bends(const mechanics::Bends& bends, StepEquations<N, H>& eq) {
+  StepBends<N, H>& its = eq.bends;
+  its.B = bends.W;
+  its.MB = eq.M_inverse * its.B;
+  its.stiffness = bends.stiffness;
+  its.damping = bends.damping / eq.step;
+  its.place = bends.place;
+  its.of_velocity = its.pulling = its.jumping = 0;
+  for (Eigen::Index j = 0; j < its.count(); ++j) {
+    const laws::Bend& law = *bends.law[static_cast<std::size_t>(j)];
+    if (law.of_velocity) {
+      its.of_velocity |= bit(j);
+      its.place[j] *= eq.step;
+    } else if (its.damping[j] != 0.0) {
+      its.jumping |= bit(j);
+    }
+    if (law.pulls || its.damping[j] == 0.0) its.pulling |= bit(j);
+  }
+}
+
+// p^T y of the bends and its rates.
+template <int N, int H>
+void set_bend_motion(const mechanics::Bends& bends, StepEquations<N, H>& eq) {
+  eq.bends.motion.noalias() = bends.W_support.transpose() * eq.motion;
+  eq.bends.motion_velocity.noalias() = bends.W_support.transpose() * eq.motion_velocity;
+  eq.bends.motion_acceleration.noalias() = bends.W_support.transpose() * eq.motion_acceleration;
+}
+
 // Whether stuck contacts can hold a further contact at rest: their directions are linearly dependent.
 template <int N, int H>
 bool holds_in_loops(const StepEquations<N, H>& eq) {
@@ -36,6 +65,10 @@ void Flow<N, H>::set_system(const mechanics::LinearSystem& system) {
   if (system.contacts() > kMostContacts)
     throw mechanics::MechanicsError(std::to_string(system.contacts()) +
                                     " contacts of the exact law: at most " + std::to_string(kMostContacts) +
+                                    " can be followed");
+  if (system.bends.count() > kMostContacts)
+    throw mechanics::MechanicsError(std::to_string(system.bends.count()) +
+                                    " stops and points of tables: at most " + std::to_string(kMostContacts) +
                                     " can be followed");
   fastest_rate_ = periodic::fastest_rate(system);
   orders_ = system.orders;
@@ -57,7 +90,10 @@ void Flow<N, H>::scale_matrices(const mechanics::LinearSystem& system) {
   eq.K_root_inverse = eq.K_root.inverse();
   eq.W = system.W;
   eq.limit = system.limit;
+  eq.static_limit = system.static_limit;
+  eq.monotone = system.monotone;
   set_laws(system, eq);
+  set_bends(system.bends, eq);
   eq.has_loops = holds_in_loops(eq);
   eq.D = system.D;
   eq.internal_stiffness = system.internal_stiffness;
@@ -66,7 +102,11 @@ void Flow<N, H>::scale_matrices(const mechanics::LinearSystem& system) {
   eq.mobility = eq.W.transpose() * eq.MW;
   eq.compliance = eq.mobility.diagonal();
   if constexpr (!S::is_fixed) {
-    if (eq.is_large()) eq.sparse.set(eq.M_inverse, eq.K, eq.C, eq.D, eq.W, eq.internal_rate);
+    if (eq.is_large()) {
+      eq.sparse.set(eq.M_inverse, eq.K, eq.C, eq.D, eq.W, eq.internal_rate);
+      eq.sparse.bend_directions = SparseRows::of(eq.bends.B.transpose());
+      eq.sparse.bend_pull = SparseRows::of(eq.bends.MB.transpose());
+    }
   }
   configurations_.clear();
 }
@@ -91,6 +131,7 @@ void Flow<N, H>::set_forcing(const mechanics::LinearSystem& system) {
   eq.support_velocity.noalias() = system.W_support.transpose() * eq.motion_velocity;
   moving_support_ = !eq.support_velocity.isZero(0.0);
   eq.support_acceleration.noalias() = system.W_support.transpose() * eq.motion_acceleration;
+  set_bend_motion(system.bends, eq);
   eq.internal_drive.noalias() =
       eq.internal_stiffness.asDiagonal() * (system.D_support.transpose() * eq.motion_velocity);
 
@@ -144,27 +185,29 @@ void Flow<N, H>::set_oscillation(double omega) {
 }
 
 template <int N, int H>
-std::size_t Flow<N, H>::configuration_index(ContactMask stuck) {
+std::size_t Flow<N, H>::configuration_index(ContactMask stuck, ContactMask beyond) {
+  const auto is_other = [&](const Configuration<N, H>& c) { return c.stuck != stuck || c.beyond != beyond; };
   std::size_t index = 0;
-  while (index < configurations_.size() && configurations_[index].stuck != stuck) ++index;
+  while (index < configurations_.size() && is_other(configurations_[index])) ++index;
   if (index == configurations_.size()) {
     configurations_.emplace_back();
-    configurations_.back().set_system(equations_, stuck);
+    configurations_.back().set_system(equations_, stuck, beyond);
   }
   if (!configurations_[index].has_forcing) configurations_[index].set_forcing(equations_);
   return index;
 }
 
 template <int N, int H>
-std::size_t Flow<N, H>::mode_index(ContactMask stuck, ContactMask positive) {
+std::size_t Flow<N, H>::mode_index(ContactMask stuck, ContactMask positive, ContactMask beyond) {
   positive &= ~stuck;
   for (std::size_t i = 0; i < modes_.size(); ++i) {
-    if (modes_[i].stuck == stuck && modes_[i].positive == positive) return i;
+    if (modes_[i].stuck == stuck && modes_[i].positive == positive && modes_[i].beyond == beyond) return i;
   }
   Mode<N, H>& mode = modes_.emplace_back();
   mode.stuck = stuck;
   mode.positive = positive;
-  mode.configuration = configuration_index(stuck);
+  mode.beyond = beyond;
+  mode.configuration = configuration_index(stuck, beyond);
   const Configuration<N, H>& configuration = configurations_[mode.configuration];
   mode.friction.resize(equations_.contacts());
   for (Eigen::Index j = 0; j < equations_.contacts(); ++j) {
@@ -241,7 +284,7 @@ typename Sizes<N, H>::State Flow<N, H>::brought_to_rest(const typename S::State&
   typename S::State held = z;
   typename S::Oscillators u(equations_.oscillators());
   equations_.oscillators_at(phase, orders_, u);
-  configurations_[configuration_index(contacts)].hold(equations_, u, held);
+  configurations_[configuration_index(contacts, 0)].hold(equations_, u, held);
   return held;
 }
 

@@ -62,12 +62,18 @@ class Forms {
   Form node_force(const mechanics::Node& node, const mechanics::LinearSystem& system,
                   const Mode<N, H>& mode) const;
 
+  // u' [m/s] along a bend, and its force there [N], beyond its place.
+  Form bend_velocity(Eigen::Index bend) const;
+  Form bend_force(Eigen::Index bend) const;
+
   Form zero() const {
     return {S::State::Zero(flow_.equations().states()),
             S::Oscillators::Zero(flow_.equations().oscillators())};
   }
 
  private:
+  void add_bends(std::size_t element, const Mode<N, H>& mode, Form& form) const;
+
   const mechanics::Assembly& assembly_;
   const Flow<N, H>& flow_;
 };
@@ -109,6 +115,7 @@ LinearForm<N, H> Forms<N, H>::element_force(std::size_t element, const mechanics
   const mechanics::Incidence& at = assembly_.incidences()[element];
   Form form = mechanics::smooth_force(*this, at, law, mode);
   if (law.internal >= 0) form.z[2 * at.w.size() + law.internal] += 1.0;
+  add_bends(element, mode, form);
   if (law.friction == 0.0) return form;
   const mechanics::ContactShare& place = assembly_.shares()[element];
   const auto contact = static_cast<Eigen::Index>(place.contact);
@@ -120,6 +127,40 @@ LinearForm<N, H> Forms<N, H>::element_force(std::size_t element, const mechanics
   } else {
     form.u[0] += share * mode.friction[contact];
   }
+  return form;
+}
+
+// The bends of the element beyond their places, each along its side.
+template <int N, int H>
+void Forms<N, H>::add_bends(std::size_t element, const Mode<N, H>& mode, Form& form) const {
+  if (mode.beyond == 0) return;
+  const StepBends<N, H>& bends = flow_.equations().bends;
+  for (Eigen::Index j = 0; j < bends.count(); ++j) {
+    const auto place = static_cast<std::size_t>(j);
+    if (!contains(mode.beyond, j) || assembly_.bends().element[place] != element) continue;
+    form.add(assembly_.bends().side[place], bend_force(j));
+  }
+}
+
+// k (u - D) + c u', or c (u' - D)
+template <int N, int H>
+LinearForm<N, H> Forms<N, H>::bend_force(Eigen::Index j) const {
+  const StepBends<N, H>& bends = flow_.equations().bends;
+  const Eigen::Index n = flow_.equations().masses();
+  Form form = zero();
+  form.z.head(n) = bends.stiffness[j] * bends.B.col(j);
+  form.z.segment(n, n) = bends.damping[j] * bends.B.col(j);
+  form.u = bends.support_force(j).transpose();
+  return form;
+}
+
+template <int N, int H>
+LinearForm<N, H> Forms<N, H>::bend_velocity(Eigen::Index j) const {
+  const StepBends<N, H>& bends = flow_.equations().bends;
+  const Eigen::Index n = flow_.equations().masses();
+  Form form = zero();
+  form.z.segment(n, n) = bends.B.col(j) / flow_.equations().step;
+  form.u = bends.motion_velocity.row(j).transpose() / flow_.equations().step;
   return form;
 }
 

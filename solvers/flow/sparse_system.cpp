@@ -23,6 +23,14 @@ template <class Number>
   return sum;
 }
 
+// a -= row i of A x factor
+template <class Number>
+[[gnu::always_inline]] inline void subtract_row(const SparseRows& A, std::size_t i, Number factor,
+                                                Number* a) {
+  for (int e = A.start[i]; e < A.start[i + 1]; ++e)
+    a[A.column[static_cast<std::size_t>(e)]] -= A.value[static_cast<std::size_t>(e)] * factor;
+}
+
 // a -= A x
 template <class Number>
 [[gnu::always_inline]] inline void subtract_product(const SparseRows& A, const Number* x, Number* a) {
@@ -87,6 +95,12 @@ template <class Number>
   subtract_product(system.stiffness, q, a);
   subtract_product(system.damping, v, a);
   if (internal > 0) subtract_product(system.internal, s, a);
+  for (const BeyondBend& bend : held.beyond) {
+    const auto j = static_cast<std::size_t>(bend.index);
+    const Number force = bend.stiffness * row_times(system.bend_directions, j, q) +
+                         bend.damping * row_times(system.bend_directions, j, v);
+    subtract_row(system.bend_pull, j, force, a);
+  }
   for (std::size_t i = 0; i < internal; ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     ds[i] = held.spring[row] * row_times(system.stretch, i, v) - system.internal_rate[row] * s[i];

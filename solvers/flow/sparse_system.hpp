@@ -34,6 +34,7 @@ struct SparseSystem {
   SparseRows contacts;                                // M^-1 W (n x m)
   SparseRows directions, stretch;                     // W^T (m x n), D^T (s x n)
   SparseRows pull_by_displacement, pull_by_velocity;  // W^T M^-1 K, W^T M^-1 C (m x n)
+  SparseRows bend_directions, bend_pull;              // B^T, (M^-1 B)^T of the bends (number x n)
   Eigen::MatrixXd mobility;                           // G = W^T M^-1 W (m x m)
   Eigen::VectorXd internal_rate;                      // size s
 
@@ -43,6 +44,12 @@ struct SparseSystem {
   Eigen::Index internal_forces() const { return stretch.rows(); }
 };
 
+// A bend that is passed: what it adds (StepBends).
+struct BeyondBend {
+  int index = 0;
+  double stiffness = 0.0, damping = 0.0;
+};
+
 // The contacts that hold their velocity, and the force that each takes per relative acceleration of all:
 // lambda = force (W^T a + p^T y''), force = G^-1 over them.
 struct HeldContacts {
@@ -50,6 +57,7 @@ struct HeldContacts {
   SparseRows force;
   bool hold_all = false;   // no mass can move
   Eigen::VectorXd spring;  // of each internal force: k, or 0 while it is held
+  std::vector<BeyondBend> beyond;
 };
 
 // Accelerations a that keep the held contacts at rest: a - M^-1 W lambda, of one motion.

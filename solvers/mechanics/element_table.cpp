@@ -25,14 +25,16 @@ constexpr ElementKind kKinds[] = {
      .name = "inerter",
      .value = {"inertance", Dimension::inertance, Range::not_negative},
      .adds = [](auto b, auto, auto) { return Added<decltype(b)>{.inertance = b}; }},
-    // F Sgn(v)
+    // F Sgn(v), at rest up to F_s
     {.type = ElementType::coulomb,
      .name = "coulomb",
      .value = {"force", Dimension::force, Range::not_negative},
+     .second = {"static_force", Dimension::force, Range::not_negative},
      .adds = [](auto F, auto, auto) { return Added<decltype(F)>{.limit = F}; },
      .law = &laws::coulomb,
      .dissipates = true,
-     .smoothed = {"slope", Dimension::inverse_speed, Range::positive}},
+     .smoothed = {"slope", Dimension::inverse_speed, Range::positive},
+     .second_is_optional = true},
     // k u + (eta k / omega_h) v: the complex stiffness k (1 + i eta) at omega_h
     {.type = ElementType::hysteretic,
      .name = "hysteretic",
@@ -63,6 +65,15 @@ constexpr ElementKind kKinds[] = {
      .law = &laws::jenkins,
      .has_internal_force = true,
      .dissipates = true},
+    // k (u - D) + c v beyond D: its bends
+    {.type = ElementType::gap,
+     .name = "gap",
+     .value = {"stiffness", Dimension::stiffness, Range::not_negative},
+     .second = {"damping", Dimension::damping, Range::not_negative},
+     .adds = [](auto k, auto, auto) { return Added<decltype(k)>{}; },
+     .dissipates = true,
+     .stroke_is_standard = true,
+     .second_is_optional = true},
 };
 
 constexpr bool rows_stand_as_enumerators_do() {
@@ -112,6 +123,11 @@ const Element* element_unfit_for_noise(const Network& network) {
 
 double second_value(const NetworkValues& values, std::size_t element) {
   return element < values.second.size() ? values.second[element] : 0.0;
+}
+
+double static_force(const Element& element, const NetworkValues& values, std::size_t index) {
+  const bool has_one = element.type == ElementType::coulomb && element.law == FrictionLaw::exact;
+  return has_one ? second_value(values, index) : 0.0;
 }
 
 }  // namespace frahm::mechanics

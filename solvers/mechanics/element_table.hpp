@@ -82,6 +82,7 @@ struct ElementKind {
   // The second value under the arctan law, which smooths its contact; none: nothing smooths it.
   ValueKey smoothed{};
   bool stroke_is_standard = false;  // its stroke is among what an atlas shows
+  bool second_is_optional = false;  // 0 where it is left out
 
   constexpr bool can_be_smoothed() const { return smoothed.exists(); }
   // It feels the acceleration across it and nothing else.
@@ -109,5 +110,8 @@ const ValueKey& second_key(const Element& element);
 
 // The second value of the element; 0 if it has none.
 double second_value(const NetworkValues& values, std::size_t element);
+
+// The limit of a contact's force at rest, where the element has one of its own; else 0.
+double static_force(const Element& element, const NetworkValues& values, std::size_t index);
 
 }  // namespace frahm::mechanics

@@ -67,6 +67,7 @@ Assembly::Assembly(const Network& network)
     if (kind.law != nullptr) place_in_contact(e);
   }
   depends_on_frequency_ = frequency_dependent_element(network_) != nullptr;
+  bends_ = place_bends(network_, incidences_);
   place_orders();
   weigh_support_force();
   add_up_matrices();
@@ -135,6 +136,8 @@ void Assembly::check_values(const NetworkValues& values) const {
     check_value(kind_of(element).value, element, values.element[e]);
     if (const ValueKey& second = second_key(element); second.exists())
       check_value(second, element, second_value(values, e));
+    if (const double at_rest = static_force(element, values, e); at_rest < values.element[e] && at_rest > 0.0)
+      refuse("static_force of '" + element.name + "'", at_rest, "must not be below its force");
   }
   check_structural_damping(network_, values.damping);
 }
@@ -153,6 +156,9 @@ void Assembly::set_values(const NetworkValues& values, LinearSystem& system) con
   system.W.setZero(n, m);
   system.W_support.setZero(p, m);
   system.limit.setZero(m);
+  system.static_limit.setZero(m);
+  system.bends = bends_;
+  set_bends(network_, values, system.bends);
   system.law = contact_laws_;
   system.contact_internal = contact_internal_;
   const auto s = static_cast<Eigen::Index>(internal_forces_);
@@ -203,7 +209,10 @@ void Assembly::set_values(const NetworkValues& values, LinearSystem& system) con
       const auto contact = static_cast<Eigen::Index>(shares_[e].contact);
       system.W.col(contact) = shares_[e].orientation * at.w;
       system.W_support.col(contact) = shares_[e].orientation * at.p;
+      const double at_rest = static_force(network_.elements[e], values, e);
       system.limit[contact] += added.limit;
+      system.static_limit[contact] += at_rest > 0.0 ? at_rest : added.limit;
+      system.coefficients[e].static_friction = at_rest > 0.0 ? at_rest : added.limit;
     }
     if (const Eigen::Index place = internal_[e]; place >= 0) {
       system.D.col(place) = at.w;
@@ -212,6 +221,7 @@ void Assembly::set_values(const NetworkValues& values, LinearSystem& system) con
       system.internal_rate[place] = added.internal_rate;
     }
   }
+  weigh_laws(values, system);
   require_positive_definite(system.M, "mass",
                             "a mass of zero needs an inerter that moves with it; a spring and a slider in "
                             "series are one jenkins element");
@@ -220,16 +230,28 @@ void Assembly::set_values(const NetworkValues& values, LinearSystem& system) con
   set_structural_damping(*this, values.damping, system);
 }
 
+// One response alone follows the symmetry of its system.
+void Assembly::weigh_laws(const NetworkValues& values, LinearSystem& system) const {
+  system.monotone = are_monotone(network_, values) && system.static_limit == system.limit;
+  system.odd_response = odd_forcing_ && system.monotone && system.bends.count() == 0;
+}
+
 void Assembly::set_friction(const NetworkValues& values, LinearSystem& system) const {
   check_values(values);
   system.limit.setZero();
+  system.static_limit.setZero();
   for (std::size_t e = 0; e < network_.elements.size(); ++e) {
     if (!has_contact(network_.elements[e])) continue;
     const Added<double> added =
         kind_of(network_.elements[e]).adds(values.element[e], second_value(values, e), 0.0);
+    const double at_rest = static_force(network_.elements[e], values, e);
+    const auto contact = static_cast<Eigen::Index>(shares_[e].contact);
     system.coefficients[e].friction = added.limit;
-    system.limit[static_cast<Eigen::Index>(shares_[e].contact)] += added.limit;
+    system.coefficients[e].static_friction = at_rest > 0.0 ? at_rest : added.limit;
+    system.limit[contact] += added.limit;
+    system.static_limit[contact] += system.coefficients[e].static_friction;
   }
+  weigh_laws(values, system);
 }
 
 // R cos(omega t + phase - pi/2) + sum_m even[m] cos(2 m (omega t + phase))

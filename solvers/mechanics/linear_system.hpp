@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "solvers/laws/law.hpp"
+#include "solvers/mechanics/bends.hpp"
 #include "solvers/mechanics/network.hpp"
 
 namespace frahm::mechanics {
@@ -47,6 +48,7 @@ struct ElementCoefficients {
   double damping = 0.0;           // c [N s/m]; of a hysteretic element eta k / omega_h
   double inertance = 0.0;         // b [kg]
   double friction = 0.0;          // limit of the contact's force [N]
+  double static_friction = 0.0;   // the same at rest [N], >= friction
   Eigen::Index internal = -1;     // index of the internal force s among the system's, -1: none
   double internal_damping = 0.0;  // of the damper that s runs through [N s/m], 0: none
 };
@@ -75,17 +77,23 @@ struct LinearSystem {
   Eigen::MatrixXd structural_damping;
   Eigen::MatrixXd W, W_support;                   // directions of the contacts
   Eigen::VectorXd limit;                          // F_j [N] of each contact
+  Eigen::VectorXd static_limit;                   // of each contact's force at rest, >= F_j [N]
   std::vector<const laws::Law*> law;              // of each contact
   std::vector<Eigen::Index> contact_internal;     // index of each contact's internal force, -1: none
   Eigen::MatrixXd D, D_support;                   // directions d_e, p_e of the internal forces
   Eigen::VectorXd internal_stiffness;             // k_e [N/m]
   Eigen::VectorXd internal_rate;                  // k_e / c_e of a Maxwell element, 0 without a damper [1/s]
   std::vector<ElementCoefficients> coefficients;  // of each element
-  std::vector<int> orders;                 // > 0, ascending: of the excitation, and the reference order
-  int reference_order = 1;                 // the harmonic of which phases are taken
-  bool odd_forcing = false;                // every component of the excitation has an odd order
-  Eigen::VectorXd constant_force;          // f_0 [N], size n
-  Eigen::MatrixXcd force;                  // column k is f_k [N]
+  Bends bends;                                    // their forces add to those of K and C
+  // No force of a contact or element ever falls where its velocity rises, and no bend depends on the
+  // displacement: then the response is unique.
+  bool monotone = true;
+  std::vector<int> orders;         // > 0, ascending: of the excitation, and the reference order
+  int reference_order = 1;         // the harmonic of which phases are taken
+  bool odd_forcing = false;        // every component of the excitation has an odd order
+  bool odd_response = false;       // and the response repeats with the opposite sign after half a period
+  Eigen::VectorXd constant_force;  // f_0 [N], size n
+  Eigen::MatrixXcd force;          // column k is f_k [N]
   Eigen::VectorXd constant_applied_force;  // the part of f_0 that acts on the masses from outside
   Eigen::MatrixXcd applied_force;          // the part of f_k that does
   Eigen::VectorXd constant_motion;         // y_0 [m], size p
@@ -121,6 +129,7 @@ class Assembly {
   const std::vector<int>& orders() const { return orders_; }
   std::size_t contacts() const { return contact_laws_.size(); }
   std::size_t internal_forces() const { return internal_forces_; }
+  const Bends& bends() const { return bends_; }  // their directions and laws
   bool matrices_depend_on_frequency() const { return depends_on_frequency_; }
   // Sums of Network::matrices, n x n each; 0 x 0 where there are none.
   const MatrixPart& matrices() const { return matrices_; }
@@ -131,6 +140,7 @@ class Assembly {
   void place_orders();
   void weigh_support_force();
   void check_values(const NetworkValues& values) const;
+  void weigh_laws(const NetworkValues& values, LinearSystem& system) const;
   void add_crank(const Excitation& excitation, const ExcitationValue& value, LinearSystem& system) const;
 
   Network network_;
@@ -144,6 +154,7 @@ class Assembly {
   bool odd_forcing_ = true, depends_on_frequency_ = false;
   std::size_t internal_forces_ = 0;
   MatrixPart matrices_;
+  Bends bends_;
 };
 
 }  // namespace frahm::mechanics

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "solvers/laws/bend.hpp"
+
 // A mechanical system as a network: masses, elements along combinations of their coordinates, and an
 // excitation. A mass may be a moment of inertia: its displacement is then an angle.
 //
@@ -50,12 +52,23 @@ inline bool is_between_two_nodes(const Direction& u) {
 //   spring      k u                          value = stiffness k [N/m]
 //   damper      c v                          value = damping c [N s/m]
 //   inerter     b v'                         value = inertance b [kg]
-//   coulomb     F Sgn(v), Sgn(0) = [-1, 1]   value = friction force F [N]
+//   coulomb     F Sgn(v), Sgn(0) = [-1, 1]   value = friction force F [N], second = static limit F_s >= F of
+//                                            the force at rest [N], 0: F
 //   hysteretic  k u + (eta k / omega_h) v    value = stiffness k [N/m], second = loss factor eta [1]
 //   maxwell     s, s' = k v - (k/c) s        value = stiffness k [N/m], second = damping c [N s/m], in series
 //   jenkins     s, s' = k v, or s = +-F      value = stiffness k [N/m], second = friction force F [N], in
 //   series
-enum class ElementType { spring, damper, inerter, coulomb, hysteretic, maxwell, jenkins };
+//   gap         k (u - D) + c v beyond D     value = stiffness k [N/m], second = damping c [N s/m]; D of its
+//   bends
+// Bends add to springs and dampers what makes them characteristics of several pieces (laws/bend.hpp). Their
+// values are NetworkValues::bends.
+enum class ElementType { spring, damper, inerter, coulomb, hysteretic, maxwell, jenkins, gap };
+
+// A bend of an element, in the direction side x u.
+struct BendPlace {
+  double side = 1.0;  // +1 or -1
+  const laws::Bend* law = nullptr;
+};
 
 // Of a coulomb element. arctan smooths it: F (2/pi) arctan(slope v), second value = slope [s/m].
 enum class FrictionLaw { exact, arctan };
@@ -72,8 +85,10 @@ struct Element {
   ElementType type = ElementType::spring;
   Direction along;  // its displacement u; each node once
   FrictionLaw law = FrictionLaw::exact;
-  bool rotational = false;     // u is an angle
-  bool twists_ground = false;  // its factor there is of an angle: what the ground takes of it is a torque
+  std::vector<BendPlace> bends;
+  bool has_static_force = false;  // of a coulomb element: its second value is one
+  bool rotational = false;        // u is an angle
+  bool twists_ground = false;     // its factor there is of an angle: what the ground takes of it is a torque
 };
 
 enum class ExcitationKind {
@@ -132,6 +147,15 @@ struct ExcitationValue {
   friend bool operator==(const ExcitationValue&, const ExcitationValue&) = default;
 };
 
+// The numbers of a bend, along its side; of a rotation in rad and N m.
+struct BendValue {
+  double place = 0.0;      // D [m], or [m/s] of a velocity
+  double stiffness = 0.0;  // that it adds beyond [N/m]; 0 of a velocity
+  double damping = 0.0;    // that it adds beyond [N s/m]
+
+  friend bool operator==(const BendValue&, const BendValue&) = default;
+};
+
 // The numbers of a network at one point of a map, in the order of the lists in `Network`.
 struct NetworkValues {
   double omega = 0.0;  // fundamental angular frequency [rad/s], > 0
@@ -139,7 +163,8 @@ struct NetworkValues {
   std::vector<double> mass;
   std::vector<double> element;  // stiffness, damping, inertance or force of each element (see ElementType)
   std::vector<ExcitationValue> excitation;  // of each excitation component
-  std::vector<double> second{};   // of each element, 0 where it has none; may be empty where none has one
+  std::vector<double> second{};  // of each element, 0 where it has none; may be empty where none has one
+  std::vector<std::vector<BendValue>> bends{};  // of each element; may be empty where none has any
   double hysteretic_omega = 0.0;  // omega_h [rad/s] of hysteretic elements; 0: reference order x omega
   // modal: ratios [1] of the first modes, the last one of all higher modes too; rayleigh: a [1/s], b [s]
   std::vector<double> damping{};

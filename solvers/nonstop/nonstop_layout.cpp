@@ -82,7 +82,7 @@ void NonstopSolver::lay_out_shape() {
   shape_.contacts = static_cast<int>(system.contacts());
   shape_.orders = static_cast<int>(system.orders.size());
   shape_.traces = static_cast<int>(request_.traces.size());
-  shape_.half_period = system.odd_forcing;
+  shape_.half_period = system.odd_response;
   shape_.asks_phases = std::ranges::any_of(request_.uses, &TraceUse::instant);
   shape_.asks_strokes = request_.needs.energies || request_.needs.histories || asks(Measure::events);
   shape_.may_stop_once = n == 1 && s == 0 && system.contacts() == 1 && system.odd_forcing &&

@@ -15,7 +15,7 @@ bool NonstopSolver::asks(Measure measure) const {
 }
 
 bool NonstopSolver::serves(const mechanics::Assembly& assembly) {
-  return assembly.contacts() <= kMostReversals &&
+  return assembly.contacts() <= kMostReversals && assembly.bends().count() == 0 &&
          std::ranges::all_of(assembly.network().elements, [](const mechanics::Element& element) {
            return !mechanics::has_contact(element) || mechanics::kind_of(element).law == &laws::coulomb;
          });
@@ -59,7 +59,8 @@ bool NonstopSolver::set_row(std::span<const mechanics::NetworkValues> points) {
     has_modes_ = set_matrices();
   }
   // The first two points and the last tell whether the row is worth the modes; set_point() looks at all.
-  return has_modes_ && shares_matrices(points[points.size() > 1 ? 1 : 0]) && shares_matrices(points.back());
+  return has_modes_ && systems_[0].monotone && shares_matrices(points[points.size() > 1 ? 1 : 0]) &&
+         shares_matrices(points.back());
 }
 
 bool NonstopSolver::set_point(int lane, const mechanics::NetworkValues& values) {

@@ -66,7 +66,7 @@ double static_forces(const Flow<N, H>& flow, const Orbit<N, H>& orbit) {
 
 // Contraction, Floquet radius and error bound of a converged orbit:
 //   ||z - z*||_E <= (||r||_E + rounding) / (1 - L),   |x_n| <= sqrt(2 (K^-1)_nn) ||z||_E,
-// as long as the events are the same throughout that ball.
+// as long as the events are the same throughout that ball and all laws are monotone.
 template <int N, int H>
 void judge_stability(Flow<N, H>& flow, Orbit<N, H>& orbit) {
   const StepEquations<N, H>& eq = flow.equations();
@@ -84,7 +84,7 @@ void judge_stability(Flow<N, H>& flow, Orbit<N, H>& orbit) {
   const double rounding =
       std::numeric_limits<double>::epsilon() * operations * (scale + static_forces(flow, orbit));
   const double ball = (orbit.residual * scale + rounding) / (1.0 - orbit.contraction);
-  const bool holds = orbit.contraction < 1.0 && ball < 0.1 * orbit.passage.margin * scale;
+  const bool holds = eq.monotone && orbit.contraction < 1.0 && ball < 0.1 * orbit.passage.margin * scale;
   orbit.error_bound = holds ? ball * std::sqrt(2.0 * eq.K_inverse.diagonal().maxCoeff()) : kNone;
 }
 

@@ -36,7 +36,7 @@ class Continuation {
   void find(const mechanics::LinearSystem& system, Orbit<N, H>& orbit);
   // The same from the response without friction, at this section.
   void find_from(double section, const mechanics::LinearSystem& system, Orbit<N, H>& orbit) {
-    orbit.half_period = system.odd_forcing;
+    orbit.half_period = system.odd_response;
     orbit.section = section;
     orbit.z = response_without_friction(system, section);
     shooting_.find(orbit);
@@ -68,6 +68,7 @@ class Continuation {
 template <int N, int H>
 void Continuation<N, H>::find(const mechanics::LinearSystem& system, Orbit<N, H>& orbit) {
   predict(system, orbit);
+  orbit.multiple = orbit.coexisting = 1;
   shooting_.find(orbit);
   if (orbit.status == Status::failed && known_ > 0) {  // once more, without the known orbits
     forget();
@@ -92,7 +93,7 @@ template <int N, int H>
 void Continuation<N, H>::predict(const mechanics::LinearSystem& system, Orbit<N, H>& orbit) {
   const Eigen::Index n = flow_.equations().masses();
   const double omega = system.omega;
-  orbit.half_period = system.odd_forcing;
+  orbit.half_period = system.odd_response;
   if (at_row_start_ && has_row_start_) {
     history_[0] = row_start_;
     section_ = row_section_;
@@ -196,6 +197,7 @@ std::uint64_t Continuation<N, H>::mode_sequence(const Flow<N, H>& flow, const Or
   for (const Segment<N, H>& segment : orbit.passage.segments) {
     const Mode<N, H>& mode = flow.mode(segment.mode);
     sequence = (sequence ^ (mode.stuck * 2 + mode.positive * 0x9E3779B97F4A7C15ULL + 1)) * 0x100000001B3ULL;
+    sequence = (sequence ^ mode.beyond) * 0x100000001B3ULL;
   }
   return sequence;
 }

@@ -15,6 +15,8 @@ enum class Status {
       2,  // a contact's velocity or force only touches: the response is right, its derivative does not exist
   unbounded = 3,  // an undamped resonance that friction cannot hold: no periodic response exists
   failed = 4,
+  several = 5,       // laws that are not monotone: more than one stable orbit was found, one of which is told
+  not_periodic = 6,  // the same: no stable orbit was found among the multiples of the period that were tried
 };
 
 // Below this relative margin of its nearest event an orbit counts as grazing.
@@ -40,8 +42,15 @@ struct Orbit {
   int newton_iterations = 0;
   int passages = 0;  // of the flow that the search took
 
+  int multiple = 1;    // of the forcing's period, that the orbit takes
+  int coexisting = 1;  // stable orbits that were found
+
   double sign() const { return half_period ? -1.0 : 1.0; }
-  bool is_found() const { return status == Status::ok || status == Status::grazing; }
+  bool is_found() const {
+    return status == Status::ok || status == Status::grazing || status == Status::several;
+  }
+  // Stable, as a linear motion beside it shows. The multipliers +1 of contacts that rest do not count.
+  bool is_stable() const { return floquet_radius < 1.0; }
 };
 
 }  // namespace frahm::periodic

@@ -19,6 +19,11 @@ std::string no_convergence(int passages, double residual) {
       passages);
 }
 
+std::string none_stable(int starts, int most_multiple, bool found_unstable) {
+  return with_numbers("no stable orbit of up to %d periods was found from %d starts%s", most_multiple, starts,
+                      found_unstable ? ", only unstable ones" : "");
+}
+
 std::string unbalanced(double balance) {
   return with_numbers("the energy put in and dissipated in a period differ by %.1e of it", balance);
 }

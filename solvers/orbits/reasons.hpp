@@ -14,6 +14,8 @@ inline constexpr const char* kUnbounded =
 
 // The search ended after this many passages with this residual.
 std::string no_convergence(int passages, double residual);
+// Of so many starts none led to a stable orbit of up to this multiple of the period.
+std::string none_stable(int starts, int most_multiple, bool found_unstable);
 // The energies put in and dissipated in a period differ by this fraction.
 std::string unbalanced(double balance);
 

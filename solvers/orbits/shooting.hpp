@@ -54,6 +54,7 @@ class Shooting {
   void apply_map(Trial<N, H>& trial, Tangent tangent = Tangent::followed);
   Verdict judge();
   bool take_newton_step();
+  bool take_short_step();
   bool take_kept_step();
   bool wants_derivative(double left) const;
   bool keep_derivative();

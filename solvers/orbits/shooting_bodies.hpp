@@ -30,8 +30,13 @@ void Shooting<N, H>::find(Orbit<N, H>& orbit, ContactMask held) {
   Verdict verdict = judge();
   for (int maps = 2; verdict == Verdict::go_on; verdict = judge()) {
     if (keeps ? take_kept_step() : take_newton_step()) continue;
+    if (!flow_.equations().monotone && take_short_step()) continue;
     if (current_.relative <= options_.good_enough) {
       verdict = Verdict::converged;
+      break;
+    }
+    if (!flow_.equations().monotone) {
+      verdict = Verdict::gave_up;
       break;
     }
     march(maps);
@@ -87,6 +92,21 @@ bool Shooting<N, H>::take_newton_step() {
     if (!propose(A.partialPivLu().solve(current_.residual))) return false;
   }
   return try_candidate(Tangent::followed, options_.pays);
+}
+
+// Parts of Newton's step, where the whole leads too far: under laws that are not monotone the map does not
+// lead to the orbit by itself.
+template <int N, int H>
+bool Shooting<N, H>::take_short_step() {
+  constexpr int kMostHalvings = 6;
+  if (!current_.passage.has_tangent) apply_map(current_, Tangent::followed);
+  const typename S::State step = newton_matrix().partialPivLu().solve(current_.residual);
+  double part = 1.0;
+  for (int i = 0; i < kMostHalvings; ++i) {
+    part *= 0.5;
+    if (propose(part * step) && try_candidate(Tangent::followed, 1.0 - 0.1 * part)) return true;
+  }
+  return false;
 }
 
 // A step by the kept derivative, which is taken anew where it does not serve.

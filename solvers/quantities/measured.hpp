@@ -41,6 +41,7 @@ struct Measured {
 
   std::vector<ContactHistory> histories;  // of each contact; none of a law that never sticks
   std::vector<double> friction_loss;      // of each element in a period [J]
+  std::vector<double> bend_loss;          // of each bend: the work that goes into it
   std::vector<double> loss;               // of each element in all
   double structural_loss = 0.0;           // of the structure's damping
   double dissipated = 0.0;                // in all [J] in a period
@@ -50,6 +51,7 @@ struct Measured {
   double residual = 0.0;        // 1
   double error_bound = kNone;   // [m]
   double floquet_radius = 0.0;  // 1
+  int coexisting = 1, multiple = 1;
   int newton_iterations = 0;
   int events = -1;           // in a period; -1: the law has none
   double static_norm = 0.0;  // energy norm of the static response to the excitation's amplitudes [sqrt(J)]

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "solvers/mechanics/coordinates.hpp"
+#include "solvers/quantities/bend_losses.hpp"
 #include "solvers/quantities/integrals.hpp"
 #include "solvers/quantities/quantity_table.hpp"
 #include "solvers/quantities/quantity_values.hpp"
@@ -56,6 +57,8 @@ void OrbitMeasurement<N, H>::measure(const Orbit<N, H>& orbit, const mechanics::
   measured.residual = orbit.residual;
   measured.error_bound = orbit.error_bound;
   measured.floquet_radius = orbit.floquet_radius;
+  measured.coexisting = orbit.coexisting;
+  measured.multiple = orbit.multiple;
   measured.newton_iterations = orbit.newton_iterations;
   measured.events = (orbit.half_period ? 2 : 1) * orbit.passage.events;
   measured.static_norm = flow_.static_norm();
@@ -64,6 +67,7 @@ void OrbitMeasurement<N, H>::measure(const Orbit<N, H>& orbit, const mechanics::
   if (needs.histories || needs.energies) follow_contacts(orbit, measured);
   if (!needs.energies) return;
   value::add_up_friction(measured);
+  measured.bend_loss = bend_losses(steps, flow_, forms_, orbit.half_period);
   measured.structural_loss = value::structural_loss(measured);
   value::add_up_losses(measured);
 }

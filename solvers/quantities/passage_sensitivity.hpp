@@ -29,6 +29,7 @@ template <int N, int H>
 const char* why_no_passage_derivative(const Flow<N, H>& flow, std::span<const Event> changes) {
   for (const Event& change : changes) {
     if (count(change.arrived & flow.equations().holding) > 1) return kSeveralArrive;
+    if (change.bend >= 0) return "an element bends, across which no derivative is taken yet";
   }
   return "";
 }

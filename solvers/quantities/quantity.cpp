@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "solvers/algebra/no_value.hpp"
+#include "solvers/mechanics/bends.hpp"
 #include "solvers/mechanics/coordinates.hpp"
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/rotation.hpp"
@@ -30,6 +31,7 @@ std::string owner_name(Owner owner, std::size_t index, const Network& network) {
       return index == 0 ? "ground" : network.prescribed[index - 1];
     case Owner::point:
     case Owner::structure:
+    case Owner::coexistence:
       break;
   }
   return "";
@@ -48,6 +50,8 @@ std::size_t owner_count(Owner owner, const Network& network) {
       return 1 + network.prescribed.size();
     case Owner::structure:
       return mechanics::has_structural_damping(network) ? 1 : 0;
+    case Owner::coexistence:
+      return mechanics::may_have_several_responses(network) ? 1 : 0;
     case Owner::point:
       break;
   }
@@ -64,6 +68,7 @@ std::string name_of(const QuantityRow& row, std::size_t index, const Network& ne
   switch (row.owner) {
     case Owner::point:
     case Owner::structure:
+    case Owner::coexistence:
       return row.suffix;
     case Owner::mode:
       return joined(row.suffix, std::to_string(index + 1));
@@ -95,6 +100,7 @@ std::string unit_of(const QuantityRow& row, std::size_t index, const Network& ne
       return std::string(all_rotate ? mechanics::unit_of_rotation(row.unit) : row.unit);
     case Owner::mode:
     case Owner::structure:
+    case Owner::coexistence:
       break;
   }
   return row.unit;
@@ -103,9 +109,10 @@ std::string unit_of(const QuantityRow& row, std::size_t index, const Network& ne
 // The indices of the owners that have a quantity in the standard record.
 std::vector<std::size_t> owners(StandardOf of, const Network& network) {
   std::vector<std::size_t> result;
-  const std::size_t count = of == StandardOf::point    ? 1
-                            : of == StandardOf::masses ? mechanics::coordinate_count(network)
-                                                       : network.elements.size();
+  const std::size_t count = of == StandardOf::coexistence ? owner_count(Owner::coexistence, network)
+                            : of == StandardOf::point     ? 1
+                            : of == StandardOf::masses    ? mechanics::coordinate_count(network)
+                                                          : network.elements.size();
   for (std::size_t i = 0; i < count; ++i) {
     if (of == StandardOf::springs && !mechanics::kind_of(network.elements[i]).stroke_is_standard) continue;
     if (of == StandardOf::contacts && !mechanics::has_contact(network.elements[i])) continue;
@@ -119,7 +126,8 @@ const QuantityRow* row_named(const std::string& name) {
   const QuantityRow* best = nullptr;
   for (const QuantityRow& row : quantity_table()) {
     const std::string_view suffix = row.suffix;
-    const bool stands_alone = row.owner == Owner::point || row.owner == Owner::structure;
+    const bool stands_alone =
+        row.owner == Owner::point || row.owner == Owner::structure || row.owner == Owner::coexistence;
     const bool is_own = stands_alone && name == suffix;
     const bool is_owned = !stands_alone && name.ends_with(joined("", row.suffix));
     if (!is_own && !is_owned) continue;
@@ -157,8 +165,8 @@ std::vector<Quantity> all_quantities(const Network& network) {
 
 std::vector<Quantity> standard_quantities(const Network& network) {
   std::vector<Quantity> result;
-  for (const StandardOf of :
-       {StandardOf::masses, StandardOf::springs, StandardOf::contacts, StandardOf::point}) {
+  for (const StandardOf of : {StandardOf::masses, StandardOf::springs, StandardOf::contacts,
+                              StandardOf::point, StandardOf::coexistence}) {
     std::vector<const QuantityRow*> rows;
     for (const QuantityRow& row : quantity_table()) {
       if (row.standard.of == of) rows.push_back(&row);

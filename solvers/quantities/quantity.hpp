@@ -37,6 +37,8 @@ enum class Measure {
   // of the response
   status,
   floquet_radius,
+  coexisting,
+  period_multiple,
   energy_input,
   energy_balance,
   damping_energy,

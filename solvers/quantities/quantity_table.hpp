@@ -8,12 +8,13 @@
 // their derivatives follow from that.
 namespace frahm::periodic {
 
-// The owner of a quantity; `mass` is a mass or a signal, `support` the ground or a prescribed node, `structure`
-// the damping of the structure as a whole, where there is one.
-enum class Owner { mass, element, contact, point, mode, support, structure };
+// The owner of a quantity; `mass` is a mass or a signal, `support` the ground or a prescribed node,
+// `structure` the damping of the structure as a whole, where there is one, `coexistence` the search for
+// several responses, where there may be.
+enum class Owner { mass, element, contact, point, mode, support, structure, coexistence };
 
 // Whether the standard record of an atlas has the quantity, and for which of its owners.
-enum class StandardOf { none, masses, springs, contacts, point };
+enum class StandardOf { none, masses, springs, contacts, point, coexistence };
 struct Standard {
   StandardOf of = StandardOf::none;
   int rank = 0;  // position among those of one owner, from 1

@@ -92,7 +92,9 @@ void add_up_friction(Measured& m) {
 void add_up_losses(Measured& m) {
   m.loss.resize(m.system->coefficients.size());
   m.dissipated = m.structural_loss;
-  for (std::size_t e = 0; e < m.loss.size(); ++e) m.dissipated += m.loss[e] = loss(m, e);
+  for (std::size_t e = 0; e < m.loss.size(); ++e) m.loss[e] = loss(m, e);
+  for (std::size_t j = 0; j < m.bend_loss.size(); ++j) m.loss[m.system->bends.element[j]] += m.bend_loss[j];
+  for (const double of_element : m.loss) m.dissipated += of_element;
 }
 
 Eigen::MatrixXd velocity_rows(const Measured& m, const Eigen::MatrixXd& motion_velocity) {
@@ -191,6 +193,14 @@ double regime(const Measured& m, const Asked& asked) {
 
 double status(const Measured& m, const Asked&) {
   return static_cast<double>(m.status);
+}
+
+double coexisting(const Measured& m, const Asked&) {
+  return m.coexisting;
+}
+
+double period_multiple(const Measured& m, const Asked&) {
+  return m.multiple;
 }
 
 double floquet_radius(const Measured& m, const Asked&) {

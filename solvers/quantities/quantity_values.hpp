@@ -27,6 +27,8 @@ double stuck_fraction(const Measured&, const Asked&);
 double regime(const Measured&, const Asked&);
 double status(const Measured&, const Asked&);
 double floquet_radius(const Measured&, const Asked&);
+double coexisting(const Measured&, const Asked&);
+double period_multiple(const Measured&, const Asked&);
 double energy_input(const Measured&, const Asked&);
 double energy_balance(const Measured&, const Asked&);
 double force_transmissibility(const Measured&, const Asked&);

@@ -115,7 +115,7 @@ class SmoothSolver final : public periodic::ResponseSolver {
 const periodic::ResponseSummary& SmoothSolver::solve() {
   orbit_.residual = kNone;
   orbit_.newton_iterations = orbit_.passages = 0;
-  orbit_.half_period = system_.odd_forcing;
+  orbit_.half_period = system_.odd_response;
   if (periodic::is_unbounded(system_, undamped_modes_)) {  // arctan friction dissipates less than exact
     orbit_.status = Status::unbounded;
     orbit_.reason = "an undamped mode is driven at its resonance, and no friction holds it";
