@@ -75,7 +75,7 @@ class Flow {
  public:
   using S = Sizes<N, H>;
 
-  // Matrices and friction limits; call set_forcing before the next passage.
+  // Matrices, friction limits and bends; call set_forcing before the next passage.
   void set_system(const mechanics::LinearSystem& system);
   void set_forcing(const mechanics::LinearSystem& system);
   // The same forcing with other amplitudes and phases, until the next set_forcing; no matrix is computed

@@ -71,7 +71,6 @@ void Flow<N, H>::set_system(const mechanics::LinearSystem& system) {
                                     " stops and points of tables: at most " + std::to_string(kMostContacts) +
                                     " can be followed");
   fastest_rate_ = periodic::fastest_rate(system);
-  orders_ = system.orders;
   matrices_changed_ = true;
 }
 
@@ -114,6 +113,7 @@ void Flow<N, H>::scale_matrices(const mechanics::LinearSystem& system) {
 template <int N, int H>
 void Flow<N, H>::set_forcing(const mechanics::LinearSystem& system) {
   StepEquations<N, H>& eq = equations_;
+  orders_ = system.orders;
   const double h = step_length(fastest_rate_, system.omega, orders_.empty() ? 1 : orders_.back());
   if (matrices_changed_ || h != eq.step) {
     eq.step = h;

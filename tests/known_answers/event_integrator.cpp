@@ -46,8 +46,12 @@ double bisect(double lo, double hi, const Function& function) {
 
 EventIntegrator::EventIntegrator(const mechanics::LinearSystem& system)
     : system_(system), M_inverse_(system.M.inverse()) {
-  const double stiff = (M_inverse_ * system.K).eigenvalues().cwiseAbs().maxCoeff();
-  const double viscous = (M_inverse_ * system.C).eigenvalues().cwiseAbs().maxCoeff();
+  const mechanics::Bends& bends = system.bends;
+  const Eigen::MatrixXd K =
+      system.K + bends.W * bends.stiffness.cwiseAbs().asDiagonal() * bends.W.transpose();
+  const Eigen::MatrixXd C = system.C + bends.W * bends.damping.cwiseAbs().asDiagonal() * bends.W.transpose();
+  const double stiff = (M_inverse_ * K).eigenvalues().cwiseAbs().maxCoeff();
+  const double viscous = (M_inverse_ * C).eigenvalues().cwiseAbs().maxCoeff();
   double maxwell = 0.0;
   if (system.internal_forces() > 0) {
     const Eigen::MatrixXd springs = system.D * system.internal_stiffness.asDiagonal() * system.D.transpose();
@@ -66,13 +70,21 @@ void EventIntegrator::start(double t, const VectorXd& q, const VectorXd& v, cons
   most_ = least_ = q;
   events_ = 0;
   modes_.assign(static_cast<std::size_t>(system_.contacts()), Mode::stuck);
-  fresh_.assign(modes_.size(), false);
+  fresh_.assign(modes_.size() + static_cast<std::size_t>(system_.bends.count()), false);
+  beyond_.assign(static_cast<std::size_t>(system_.bends.count()), false);
+  for (Index j = 0; j < system_.bends.count(); ++j)
+    beyond_[static_cast<std::size_t>(j)] = bend_room(state_, t, j) > 0.0;
   const VectorXd static_q = system_.K.llt().solve(system_.force.cwiseAbs().rowwise().sum());
   speed_scale_ = v.cwiseAbs().maxCoeff() + system_.omega * (static_q.norm() + system_.motion.norm());
   std::vector<Index> at_rest;
   for (Index j = 0; j < system_.contacts(); ++j) {
     const double speed = relative_velocity(state_, t, j);
-    if (std::abs(speed) < 1e-11 * speed_scale_)
+    if (slides_by_state(j)) {
+      const double force =
+          maxwell(state_, system_.masses())[system_.contact_internal[static_cast<std::size_t>(j)]];
+      const bool slides = std::abs(force) >= system_.limit[j] * (1.0 - 1e-12) && force * speed > 0.0;
+      if (slides) modes_[static_cast<std::size_t>(j)] = force > 0.0 ? Mode::forward : Mode::backward;
+    } else if (std::abs(speed) < 1e-11 * speed_scale_)
       at_rest.push_back(j);
     else
       modes_[static_cast<std::size_t>(j)] = speed > 0.0 ? Mode::forward : Mode::backward;
@@ -87,13 +99,17 @@ EventIntegrator::Motion EventIntegrator::motion(const State& x, double t,
   std::vector<Index> stuck;
   for (Index j = 0; j < m; ++j) {
     const Mode mode = modes[static_cast<std::size_t>(j)];
+    if (slides_by_state(j)) continue;
     if (mode == Mode::stuck)
       stuck.push_back(j);
     else
       result.friction[j] = mode == Mode::forward ? system_.limit[j] : -system_.limit[j];
   }
-  const VectorXd force = system_.constant_force + harmonic(system_, system_.force, t, 0) -
-                         system_.K * head(x, n) - system_.C * velocity(x, n) - system_.D * maxwell(x, n);
+  VectorXd force = system_.constant_force + harmonic(system_, system_.force, t, 0) - system_.K * head(x, n) -
+                   system_.C * velocity(x, n) - system_.D * maxwell(x, n);
+  for (Index j = 0; j < system_.bends.count(); ++j) {
+    if (beyond_[static_cast<std::size_t>(j)]) force -= bend_force(x, t, j) * system_.bends.W.col(j);
+  }
   result.acceleration = M_inverse_ * (force - system_.W * result.friction);
   if (stuck.empty()) return result;
   // W_S^T (a - M^-1 W_S lambda) = - p_S^T y''
@@ -123,7 +139,45 @@ double EventIntegrator::relative_acceleration(const VectorXd& a, double t, Index
   return relative;
 }
 
+double EventIntegrator::bend_force(const State& x, double t, Index j) const {
+  const mechanics::Bends& bends = system_.bends;
+  const Index n = system_.masses();
+  double u = bends.W.col(j).dot(head(x, n)), v = bends.W.col(j).dot(velocity(x, n));
+  if (system_.motion.rows() > 0) {
+    u += bends.W_support.col(j).dot(system_.constant_motion + harmonic(system_, system_.motion, t, 0));
+    v += bends.W_support.col(j).dot(harmonic(system_, system_.motion, t, 1));
+  }
+  if (bends.law[static_cast<std::size_t>(j)]->of_velocity) return bends.damping[j] * (v - bends.place[j]);
+  return bends.stiffness[j] * (u - bends.place[j]) + bends.damping[j] * v;
+}
+
+double EventIntegrator::bend_room(const State& x, double t, Index j) const {
+  const mechanics::Bends& bends = system_.bends;
+  const Index n = system_.masses();
+  const laws::Bend& law = *bends.law[static_cast<std::size_t>(j)];
+  const bool has_support = system_.motion.rows() > 0;
+  if (law.of_velocity) {
+    double v = bends.W.col(j).dot(velocity(x, n));
+    if (has_support) v += bends.W_support.col(j).dot(harmonic(system_, system_.motion, t, 1));
+    return v - bends.place[j];
+  }
+  double u = bends.W.col(j).dot(head(x, n));
+  if (has_support)
+    u += bends.W_support.col(j).dot(system_.constant_motion + harmonic(system_, system_.motion, t, 0));
+  const double past = u - bends.place[j];
+  return law.pulls || bends.damping[j] == 0.0 ? past : std::min(past, bend_force(x, t, j));
+}
+
 double EventIntegrator::margin(const State& x, double t, Index j) const {
+  if (j >= system_.contacts()) {
+    const Index bend = j - system_.contacts();
+    const double room = bend_room(x, t, bend);
+    return beyond_[static_cast<std::size_t>(bend)] ? room : -room;
+  }
+  if (slides_by_state(j) && modes_[static_cast<std::size_t>(j)] == Mode::stuck) {
+    const Index place = system_.contact_internal[static_cast<std::size_t>(j)];
+    return system_.limit[j] - std::abs(maxwell(x, system_.masses())[place]);
+  }
   switch (modes_[static_cast<std::size_t>(j)]) {
     case Mode::forward:
       return relative_velocity(x, t, j);
@@ -132,7 +186,7 @@ double EventIntegrator::margin(const State& x, double t, Index j) const {
     case Mode::stuck:
       break;
   }
-  return system_.limit[j] * (1.0 + 1e-12) - std::abs(motion(x, t, modes_).friction[j]);
+  return system_.static_limit[j] * (1.0 + 1e-12) - std::abs(motion(x, t, modes_).friction[j]);
 }
 
 EventIntegrator::State EventIntegrator::moved(double t, double h) const {
@@ -151,6 +205,11 @@ EventIntegrator::State EventIntegrator::moved(double t, double h) const {
     for (Index e = 0; e < system_.internal_forces(); ++e) {
       const auto place = static_cast<std::size_t>(2 * n + e);
       dy[place] = system_.internal_stiffness[e] * strain_rate[e] - system_.internal_rate[e] * y[place];
+    }
+    for (Index j = 0; j < system_.contacts(); ++j) {
+      const bool slides = slides_by_state(j) && modes_[static_cast<std::size_t>(j)] != Mode::stuck;
+      if (slides)
+        dy[static_cast<std::size_t>(2 * n + system_.contact_internal[static_cast<std::size_t>(j)])] = 0.0;
     }
   };
   stepper.do_step(rate, x, t, h);
@@ -186,7 +245,7 @@ bool EventIntegrator::is_consistent(const std::vector<Index>& at_rest, const std
     const double relative = relative_acceleration(result.acceleration, t_, j);
     switch (modes[static_cast<std::size_t>(j)]) {
       case Mode::stuck:
-        if (std::abs(result.friction[j]) > system_.limit[j] * (1.0 + 1e-11)) return false;
+        if (std::abs(result.friction[j]) > system_.static_limit[j] * (1.0 + 1e-11)) return false;
         if (std::abs(relative) > 1e-9 * scale) return false;  // two constraints that contradict each other
         break;
       case Mode::forward:
@@ -228,14 +287,24 @@ void EventIntegrator::choose(const std::vector<Index>& at_rest) {
 void EventIntegrator::pass_event(Index j) {
   constexpr int kMostEvents = 10000;
   if (++events_ > kMostEvents) throw std::runtime_error("the reference met more than 10000 events");
+  if (j >= system_.contacts()) return pass_bend(j - system_.contacts());
   const auto place = static_cast<std::size_t>(j);
   std::vector<Index> at_rest;
-  if (modes_[place] == Mode::stuck) {
-    modes_[place] = motion(state_, t_, modes_).friction[j] > 0.0 ? Mode::forward : Mode::backward;
+  if (slides_by_state(j)) {
+    const double force = maxwell(state_, system_.masses())[system_.contact_internal[place]];
+    const bool sticks = modes_[place] == Mode::stuck;
+    modes_[place] = !sticks ? Mode::stuck : force > 0.0 ? Mode::forward : Mode::backward;
     fresh_[place] = true;
     return;
   }
+  if (modes_[place] == Mode::stuck) {
+    modes_[place] = motion(state_, t_, modes_).friction[j] > 0.0 ? Mode::forward : Mode::backward;
+    fresh_[place] = true;
+    if (system_.static_limit[j] > system_.limit[j]) choose(stuck_contacts());
+    return;
+  }
   for (Index k = 0; k < system_.contacts(); ++k) {
+    if (slides_by_state(k)) continue;
     const bool arrives = k == j || std::abs(relative_velocity(state_, t_, k)) < 1e-12 * speed_scale_;
     if ((arrives && !fresh_[static_cast<std::size_t>(k)]) ||
         modes_[static_cast<std::size_t>(k)] == Mode::stuck) {
@@ -245,6 +314,22 @@ void EventIntegrator::pass_event(Index j) {
   fresh_[place] = false;
   if (std::find(at_rest.begin(), at_rest.end(), j) == at_rest.end()) at_rest.push_back(j);
   choose(at_rest);
+}
+
+std::vector<Index> EventIntegrator::stuck_contacts() const {
+  std::vector<Index> stuck;
+  for (Index j = 0; j < system_.contacts(); ++j) {
+    if (modes_[static_cast<std::size_t>(j)] == Mode::stuck && !slides_by_state(j)) stuck.push_back(j);
+  }
+  return stuck;
+}
+
+// Where its force jumps, contacts at rest are chosen again.
+void EventIntegrator::pass_bend(Index bend) {
+  const auto place = static_cast<std::size_t>(bend);
+  beyond_[place] = !beyond_[place];
+  fresh_[modes_.size() + place] = true;
+  if (system_.bends.damping[bend] != 0.0 && !system_.bends.law[place]->of_velocity) choose(stuck_contacts());
 }
 
 void EventIntegrator::note_extremes(double h) {
@@ -272,7 +357,7 @@ void EventIntegrator::advance_to(double t_end) {
     double h = std::min(step_, t_end - t_);
     if (h < 1e-9 * step_) break;
     Index first = -1;
-    for (Index j = 0; j < system_.contacts(); ++j) {
+    for (Index j = 0; j < system_.contacts() + system_.bends.count(); ++j) {
       const double at = first_end_of_mode(h, j);
       if (at > h) continue;
       h = at;

@@ -5,9 +5,10 @@
 
 #include "solvers/mechanics/linear_system.hpp"
 
-// An independent reference for the flow with set-valued friction: Boost.odeint's Runge-Kutta-Fehlberg 7(8)
-// between events that are found by bisection of partial steps, with the modes of contacts at rest found by
-// trying all. It shares with the solvers nothing but the matrices.
+// An independent reference for the flow with set-valued friction (with a static limit above the sliding force
+// too), Jenkins elements and elements that bend: Boost.odeint's Runge-Kutta-Fehlberg 7(8) between events that
+// are found by bisection of partial steps, with the modes of contacts at rest found by trying all, and each
+// bend's force as a function of the state. It shares with the solvers nothing but the matrices.
 namespace frahm::periodic {
 
 class EventIntegrator {
@@ -34,14 +35,23 @@ class EventIntegrator {
   };
   Motion motion(const State& x, double t, const std::vector<Mode>& modes) const;
   double relative_velocity(const State& x, double t, Eigen::Index contact) const;
+  // Whether a bend has its force: u - D > 0, and k (u - D) + c u' > 0 where it cannot pull. More than zero
+  // where it has, by the room that is left.
+  double bend_room(const State& x, double t, Eigen::Index bend) const;
+  double bend_force(const State& x, double t, Eigen::Index bend) const;
+  bool slides_by_state(Eigen::Index contact) const {
+    return system_.contact_internal[static_cast<std::size_t>(contact)] >= 0;
+  }
   double relative_acceleration(const Eigen::VectorXd& a, double t, Eigen::Index contact) const;
   // > 0 while the contact's mode lasts: velocity in its direction, or room up to the limit of friction.
-  double margin(const State& x, double t, Eigen::Index contact) const;
-  State moved(double t, double h) const;  // state_ after a partial step
-  double first_end_of_mode(double h, Eigen::Index contact) const;
+  double margin(const State& x, double t, Eigen::Index guard) const;  // the contacts, then the bends
+  State moved(double t, double h) const;                              // state_ after a partial step
+  double first_end_of_mode(double h, Eigen::Index guard) const;
   void choose(const std::vector<Eigen::Index>& at_rest);
+  std::vector<Eigen::Index> stuck_contacts() const;
   bool is_consistent(const std::vector<Eigen::Index>& at_rest, const std::vector<Mode>& modes) const;
-  void pass_event(Eigen::Index contact);
+  void pass_event(Eigen::Index guard);
+  void pass_bend(Eigen::Index bend);
   void note_extremes(double h);
 
   const mechanics::LinearSystem& system_;
@@ -50,7 +60,8 @@ class EventIntegrator {
   double t_ = 0.0;
   State state_;
   std::vector<Mode> modes_;
-  std::vector<bool> fresh_;  // velocity or room is zero now and is about to grow
+  std::vector<bool> beyond_;  // bends with a force
+  std::vector<bool> fresh_;   // velocity or room is zero now and is about to grow
   Eigen::VectorXd most_, least_;
   int events_ = 0;
 };

@@ -5,8 +5,11 @@
 #include <numbers>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "solvers/laws/damper_bend.hpp"
+#include "solvers/laws/elastic_stop.hpp"
 #include "solvers/mechanics/network.hpp"
 
 // Networks drawn at random: a chain of masses on springs and dampers, with further springs, an inerter,
@@ -24,6 +27,10 @@ struct RandomNetworkOptions {
   int contacts = 0;
   int maxwell_elements = 0;
   bool hysteretic = false;
+  int jenkins_elements = 0;
+  int rising_dampers = 0;         // whose tables bend on both sides and never fall
+  int stops = 0;                  // gaps on one side, half of them with damping
+  bool static_friction = false;   // up to twice the sliding force
   std::vector<int> orders = {1};  // of the forces and of the support's motion
   bool shaken = true;             // a prescribed node exists
   double largest_friction = 1.0;  // of the amplitude of the force, 1 N
@@ -94,6 +101,40 @@ inline RandomNetwork random_network(const RandomNetworkOptions& options, std::mt
   if (options.hysteretic) {
     add(ElementType::hysteretic, options.shaken ? support : ground, mass(n - 1), spread(1.0));
     values.second.back() = 0.2 * spread(1.0);
+  }
+  const auto between = [&] {  // a mass, and the ground, the support or the mass before
+    const Node b = mass(static_cast<std::size_t>(pick(options.masses)));
+    const Node a = options.shaken && uniform(random) < 0.3 ? support
+                   : b.index > 0                           ? mass(b.index - 1)
+                                                           : ground;
+    return std::pair{a, b};
+  };
+  for (int j = 0; j < options.jenkins_elements; ++j) {
+    const auto [a, b] = between();
+    add(ElementType::jenkins, a, b, 2.0 * spread(1.0));
+    values.second.back() = options.largest_friction * uniform(random);
+  }
+  values.bends.resize(values.element.size());
+  for (int j = 0; j < options.rising_dampers; ++j) {
+    const auto [a, b] = between();
+    const double c = 0.1 * spread(1.0);
+    add(ElementType::damper, a, b, c);
+    network.elements.back().bends = {{1.0, &laws::damper_bend}, {-1.0, &laws::damper_bend}};
+    values.bends.push_back({{0.3 * uniform(random), 0.0, 0.3 * uniform(random)},
+                            {0.3 * uniform(random), 0.0, -0.9 * c * uniform(random)}});
+  }
+  for (int j = 0; j < options.stops; ++j) {
+    const auto [a, b] = between();
+    const double k = 4.0 * spread(1.0), c = uniform(random) < 0.5 ? 0.0 : 0.3 * uniform(random);
+    add(ElementType::gap, a, b, k);
+    values.second.back() = c;
+    network.elements.back().bends = {{uniform(random) < 0.5 ? 1.0 : -1.0, &laws::elastic_stop}};
+    values.bends.push_back({{uniform(random), k, c}});
+  }
+  for (std::size_t e = 0; options.static_friction && e < network.elements.size(); ++e) {
+    if (network.elements[e].type != ElementType::coulomb) continue;
+    network.elements[e].has_static_force = true;
+    values.second[e] = values.element[e] * (1.0 + uniform(random));
   }
   for (const int order : options.orders) {
     const auto on = static_cast<std::size_t>(pick(options.masses));
