@@ -200,7 +200,7 @@ bool Coexistence<N, H>::is_known(const typename S::State& z, double within) cons
 template <int N, int H>
 typename Sizes<N, H>::State Coexistence<N, H>::random_start(int index,
                                                             const mechanics::LinearSystem& system) {
-  constexpr double kReach = 3.0;
+  constexpr double kReach[] = {1.5, 4.0, 8.0};
   const StepEquations<N, H>& eq = flow_.equations();
   const Eigen::Index n = eq.masses();
   typename S::State z = mechanics::steady_response(system, 0.0);
@@ -219,8 +219,9 @@ typename Sizes<N, H>::State Coexistence<N, H>::random_start(int index,
     mixed = (mixed ^ (mixed >> 27U)) * 0x94D049BB133111EBULL;
     return static_cast<double>((mixed ^ (mixed >> 31U)) >> 11U) * 0x1p-52 - 1.0;
   };
-  for (Eigen::Index i = 0; i < n; ++i) z[i] = kReach * size * between();
-  for (Eigen::Index i = 0; i < n; ++i) z[n + i] = kReach * size * flow_.fundamental_rate() * between();
+  const double reach = size * kReach[index % 3];
+  for (Eigen::Index i = 0; i < n; ++i) z[i] = reach * between();
+  for (Eigen::Index i = 0; i < n; ++i) z[n + i] = reach * flow_.fundamental_rate() * between();
   return z;
 }
 
