@@ -125,7 +125,7 @@ void Coexistence<N, H>::follow(typename S::State z, const mechanics::LinearSyste
 // The multiple of the period after which the motion comes back closest.
 template <int N, int H>
 int Coexistence<N, H>::likely_multiple(const std::vector<typename S::State>& trail) const {
-  constexpr double kMuchCloser = 0.2;
+  constexpr double kMuchCloser = 0.2, kRounding = 1e-9;
   const auto gap = [&](int m) {
     return flow_.equations().energy_norm(trail.back() -
                                          trail[trail.size() - 1 - static_cast<std::size_t>(m)]);
@@ -133,7 +133,8 @@ int Coexistence<N, H>::likely_multiple(const std::vector<typename S::State>& tra
   const int most = std::min(wanted_.most_multiple, static_cast<int>(trail.size()) - 1);
   int best = 1;
   for (int m = 2; m <= most; ++m) {
-    if (gap(m) < kMuchCloser * gap(best)) best = m;
+    const bool is_back = gap(best) < kRounding * flow_.energy_scale(trail.back());
+    if (!is_back && gap(m) < kMuchCloser * gap(best)) best = m;
   }
   return best;
 }
