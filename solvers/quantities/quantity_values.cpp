@@ -60,6 +60,16 @@ std::complex<double> reference_component(const Measured& m, const mechanics::Inc
           -2.0 / m.period * integral(at, m.gram, m.motion, m.oscillators(), cosine + 1)};
 }
 
+bool is_rounding(const Measured& m, const Asked& asked, std::complex<double> component) {
+  constexpr double kRounding = 1e-12;
+  const Eigen::VectorXd& w = m.trace(asked).at.w;
+  double moving = m.extremes[asked.trace].magnitude();
+  for (Eigen::Index mass = 0; mass < w.size(); ++mass) {
+    moving = std::max(moving, std::abs(w[mass]) * std::sqrt(m.gram(mass, mass) / m.period));
+  }
+  return std::abs(component) <= kRounding * moving;
+}
+
 double square_of_velocity(const Measured& m, const mechanics::Incidence& at) {
   const Eigen::Index n = m.masses(), first = m.oscillators(), count = m.motion_velocity.cols();
   double sum = 0.0;
@@ -140,8 +150,7 @@ double rms(const Measured& m, const Asked& asked) {
 // x_n = |X_n| cos(n omega t - phase); NaN where there is none.
 double phase(const Measured& m, const Asked& asked) {
   const std::complex<double> component = value::reference_component(m, m.trace(asked).at);
-  const double rounding = 1e-12 * m.extremes[asked.trace].magnitude();
-  return std::abs(component) <= rounding ? kNone : -std::arg(component);
+  return is_rounding(m, asked, component) ? kNone : -std::arg(component);
 }
 
 double harmonic(const Measured& m, const Asked& asked) {
