@@ -8,11 +8,6 @@
 namespace frahm::studies {
 namespace {
 
-Exponents exponents_of(const Unit& unit) {
-  return {static_cast<double>(unit.exponents[0]), static_cast<double>(unit.exponents[1]),
-          static_cast<double>(unit.exponents[2])};
-}
-
 // A parameter has the dimension of its unit. Plain numbers, tables, and quantities beyond mechanics may have
 // any.
 ExpressionDimension dimension_of_number(const Parameter& parameter) {
@@ -23,9 +18,10 @@ ExpressionDimension dimension_of_number(const Parameter& parameter) {
 
 ExpressionDimension checked_dimension(const StudyContext& context, const Expression& expression,
                                       std::span<const ExpressionDimension> of_parameters,
-                                      const std::string& where, Position position) {
+                                      const std::string& where, Position position,
+                                      PlainFactor plain = PlainFactor::any_dimension) {
   try {
-    return dimension_of(expression, of_parameters);
+    return dimension_of(expression, of_parameters, plain);
   } catch (const ExpressionError& error) {
     throw context.source.error_at(error.rule(), context.source.inside_string(position, error.column() - 1),
                                   "{}: {}", where, error.what());
@@ -73,6 +69,18 @@ WantedDimension wanted_by_key(Quantity quantity) {
 
 WantedDimension wanted_by_label(const Unit& unit) {
   return {unit, fmt::format("its unit \"{}\" is that of {}", unit.text, dimension_name(unit))};
+}
+
+ExpressionDimension dimension_of_geometry(const StudyContext& context, const Parameters& parameters,
+                                          const Expression& expression, const std::string& where,
+                                          Position position) {
+  const std::vector<ExpressionDimension> dimensions = dimensions_of(context, parameters);
+  const ExpressionDimension found =
+      checked_dimension(context, expression, dimensions, where, position, PlainFactor::pure_number);
+  const bool all_known = std::ranges::all_of(parameters.inputs_of(expression.reads()),
+                                             [&](std::size_t i) { return dimensions[i].has_value(); });
+  const bool is_length = found && same(*found, {1.0, 0.0, 0.0});
+  return all_known || is_length ? found : ExpressionDimension{};
 }
 
 void check_dimensions(const StudyContext& context, const Parameters& parameters) {

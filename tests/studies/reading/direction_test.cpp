@@ -62,6 +62,14 @@ TEST_CASE("an element is rotational where no length is among what it takes") {
   CHECK_FALSE(rack_of("along = { main = \"ratio\", wheel = \"sqrt(r*r + r^2)\" }").rotational);
 }
 
+TEST_CASE("numbers in a factor are ratios as factors, and of the other's dimension as terms") {
+  CHECK_FALSE(rack_of("along = { wheel = \"1.5*r\", ground = -1 }").rotational);
+  CHECK_FALSE(rack_of("along = { wheel = \"1 + r\", ground = -1 }").rotational);  // 1 m, as in SI
+  CHECK(rack_of("along = { wheel = \"1 + ratio\", ground = -1 }").rotational);
+  CHECK(rack_of("along = { main = 1, wheel = \"1 + r\" }").along[1].factor == 1.0 + 30.0 * 1e-3);
+  CHECK(rack_of("along = { main = \"1.5/r\", wheel = -1 }").rotational);
+}
+
 TEST_CASE("the ground takes a force of a rack, and a torque of a shaft") {
   CHECK(rack_of("between = [\"ground\", \"wheel\"]").twists_ground);
   CHECK_FALSE(rack_of("along = { main = 1, wheel = \"-r\", ground = -1 }").twists_ground);
