@@ -60,14 +60,15 @@ std::complex<double> reference_component(const Measured& m, const mechanics::Inc
           -2.0 / m.period * integral(at, m.gram, m.motion, m.oscillators(), cosine + 1)};
 }
 
+// Coordinates of different units are compared as sqrt(m_i) x_i: a node may stand still, by symmetry or for
+// want of any connection, while others move.
 bool is_rounding(const Measured& m, const Asked& asked, std::complex<double> component) {
   constexpr double kRounding = 1e-12;
   const Eigen::VectorXd& w = m.trace(asked).at.w;
-  double moving = m.extremes[asked.trace].magnitude();
-  for (Eigen::Index mass = 0; mass < w.size(); ++mass) {
-    moving = std::max(moving, std::abs(w[mass]) * std::sqrt(m.gram(mass, mass) / m.period));
-  }
-  return std::abs(component) <= kRounding * moving;
+  const Eigen::ArrayXd mass = m.system->M.diagonal().array();
+  const double moving = (mass * m.gram.diagonal().head(w.size()).array() / m.period).sqrt().maxCoeff();
+  const double at_node = (w.array().abs() / mass.sqrt()).maxCoeff() * moving;
+  return std::abs(component) <= kRounding * std::max(at_node, m.extremes[asked.trace].magnitude());
 }
 
 double square_of_velocity(const Measured& m, const mechanics::Incidence& at) {

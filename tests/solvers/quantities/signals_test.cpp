@@ -159,6 +159,29 @@ TEST_CASE("a relative motion that is rounding has no phase, from phases and by s
   }
 }
 
+TEST_CASE("a mass that stands still while others move has no phase, from phases and by shooting") {
+  using mechanics::ElementType;
+  const Node ground{};
+  Network network{.masses = {"moves", "light", "heavy"}, .prescribed = {}, .elements = {}, .excitations = {}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    network.elements.push_back({"k" + std::to_string(i), ElementType::spring, ground, mass(i)});
+    network.elements.push_back({"c" + std::to_string(i), ElementType::damper, ground, mass(i)});
+  }
+  network.elements.push_back({"f", ElementType::coulomb, ground, mass(0)});
+  network.excitations = {{mechanics::ExcitationKind::force, 0, 1}};
+  const NetworkValues values{.omega = 0.9,
+                             .mass = {1.0, 0.03, 40.0},
+                             .element = {1.3, 0.1, 0.02, 0.01, 70.0, 3.0, 0.05},
+                             .excitation = {{1.0, 0.2}}};
+  for (const Path path : {Path::general, Path::fastest}) {
+    INFO("path " << static_cast<int>(path));
+    const Found found = solved(network, values, path);
+    CHECK_FALSE(std::isnan(found(Measure::phase, 0)));
+    CHECK(std::isnan(found(Measure::phase, 1)));
+    CHECK(std::isnan(found(Measure::phase, 2)));
+  }
+}
+
 // A mass with friction in a chain, on a base that moves slowly: relative to it next to nothing moves.
 TEST_CASE("a displacement relative to the base is as exact where it is a small part of what it is made of") {
   using namespace mechanics;
