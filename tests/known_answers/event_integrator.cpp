@@ -6,6 +6,8 @@
 #include <complex>
 #include <stdexcept>
 
+#include "solvers/algebra/eigenvalues.hpp"
+
 namespace frahm::periodic {
 namespace {
 
@@ -46,13 +48,13 @@ double bisect(double lo, double hi, const Function& function) {
 
 EventIntegrator::EventIntegrator(const mechanics::LinearSystem& system)
     : system_(system), M_inverse_(system.M.inverse()) {
-  const double stiff = (M_inverse_ * system.K).eigenvalues().cwiseAbs().maxCoeff();
-  const double viscous = (M_inverse_ * system.C).eigenvalues().cwiseAbs().maxCoeff();
+  const double stiff = algebra::eigenvalues(M_inverse_ * system.K).cwiseAbs().maxCoeff();
+  const double viscous = algebra::eigenvalues(M_inverse_ * system.C).cwiseAbs().maxCoeff();
   double maxwell = 0.0;
   if (system.internal_forces() > 0) {
     const Eigen::MatrixXd springs = system.D * system.internal_stiffness.asDiagonal() * system.D.transpose();
     maxwell = system.internal_rate.maxCoeff() +
-              std::sqrt((M_inverse_ * springs).eigenvalues().cwiseAbs().maxCoeff());
+              std::sqrt(algebra::eigenvalues(M_inverse_ * springs).cwiseAbs().maxCoeff());
   }
   step_ = kStepAngle / std::max({std::sqrt(stiff), viscous, maxwell, system.orders.back() * system.omega});
 }

@@ -7,7 +7,7 @@
 
 // An independent reference for the flow with set-valued friction: Boost.odeint's Runge-Kutta-Fehlberg 7(8)
 // between events that are found by bisection of partial steps, with the modes of contacts at rest found by
-// trying all. It shares with the solvers nothing but the matrices.
+// trying all. It shares with the solvers nothing but the matrices, and for its step their eigenvalues.
 namespace frahm::periodic {
 
 class EventIntegrator {
