@@ -265,7 +265,7 @@ void Configuration<N, H>::set_held(const StepEquations<N, H>& equations) {
   for (Eigen::Index j = 0; j < m; ++j) {
     if (contains(stuck & equations.holding, j)) held.list.push_back(static_cast<int>(j));
   }
-  held.force = SparseRows::of(constraint_(held.list, held.list));
+  held.force = SparseRows::rows_of(constraint_(held.list, held.list));
   held.spring = spring;
   held.beyond.clear();
   for (Eigen::Index j = 0; beyond != 0 && j < equations.bends.count(); ++j) {

@@ -139,8 +139,7 @@ void take_long_step(const SparseSystem& system, const HeldContacts& held, double
 
 }  // namespace
 
-SparseRows SparseRows::of(const Eigen::MatrixXd& matrix) {
-  constexpr double kFull = 0.4;  // of all entries: from there on whole columns take less time
+SparseRows SparseRows::rows_of(const Eigen::MatrixXd& matrix) {
   SparseRows rows;
   rows.start.push_back(0);
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
@@ -151,6 +150,12 @@ SparseRows SparseRows::of(const Eigen::MatrixXd& matrix) {
     }
     rows.start.push_back(static_cast<int>(rows.column.size()));
   }
+  return rows;
+}
+
+SparseRows SparseRows::of(const Eigen::MatrixXd& matrix) {
+  SparseRows rows = rows_of(matrix);
+  constexpr double kFull = 0.4;      // of all entries: from there on whole columns take less time
   constexpr std::size_t kFewer = 3;  // numbers of a diagonal take as long as an entry by its row
   const bool is_full = static_cast<double>(rows.value.size()) > kFull * static_cast<double>(matrix.size());
   if (matrix.rows() == matrix.cols()) rows.diagonals = occupied_diagonals(matrix);

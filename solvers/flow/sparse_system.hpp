@@ -23,6 +23,7 @@ struct SparseRows {
   std::vector<Diagonal> diagonals;  // of a square matrix, where they are few: a chain of storeys
 
   static SparseRows of(const Eigen::MatrixXd& matrix);
+  static SparseRows rows_of(const Eigen::MatrixXd& matrix);  // for sums of rows, not for products
   // sum += scale x row i
   void add_row(int i, double scale, double* sum) const;
   Eigen::Index rows() const { return static_cast<Eigen::Index>(start.size()) - 1; }

@@ -1,3 +1,3 @@
-#include "solvers/quantities/gradient.hpp"
+#include "solvers/quantities/gradient_bodies.hpp"
 
 template class frahm::periodic::Gradient<Eigen::Dynamic, Eigen::Dynamic>;

@@ -65,21 +65,10 @@ Component component(const Measured& m, D d, const mechanics::Incidence& at) {
   return X;
 }
 
-// A component below this part of the motion at its nodes is rounding.
-bool is_rounding(const Measured& m, const Asked& asked, std::complex<double> X) {
-  constexpr double kRounding = 1e-12;
-  const Eigen::VectorXd& w = m.trace(asked).at.w;
-  double moving = m.extremes[asked.trace].magnitude();
-  for (Eigen::Index mass = 0; mass < w.size(); ++mass) {
-    moving = std::max(moving, std::abs(w[mass]) * std::sqrt(m.gram(mass, mass) / m.period));
-  }
-  return std::abs(X) <= kRounding * moving;
-}
-
 // |X| / below
 Derivative harmonic_over(const Measured& m, D d, const Asked& asked, double below, double below_by) {
   const auto [X, X_by] = component(m, d, m.trace(asked).at);
-  if (is_rounding(m, asked, X)) return none(kNoComponent);
+  if (value::is_rounding(m, asked, X)) return none(kNoComponent);
   if (!(below > 0.0)) return none("it has no value");
   return {(modulus_derivative(X, X_by) - std::abs(X) / below * below_by) / below};
 }
@@ -187,7 +176,7 @@ Derivative rms(const Measured& m, D d, const Asked& asked) {
 // The phase lag is -arg X:  d = -Im(conj(X) dX) / |X|^2
 Derivative phase(const Measured& m, D d, const Asked& asked) {
   const auto [X, X_by] = component(m, d, m.trace(asked).at);
-  if (is_rounding(m, asked, X)) return none(kNoComponent);
+  if (value::is_rounding(m, asked, X)) return none(kNoComponent);
   return {-(std::conj(X) * X_by).imag() / std::norm(X)};
 }
 

@@ -60,6 +60,17 @@ std::complex<double> reference_component(const Measured& m, const mechanics::Inc
           -2.0 / m.period * integral(at, m.gram, m.motion, m.oscillators(), cosine + 1)};
 }
 
+// Coordinates of different units are compared as sqrt(m_i) x_i: a node may stand still, by symmetry or for
+// want of any connection, while others move.
+bool is_rounding(const Measured& m, const Asked& asked, std::complex<double> component) {
+  constexpr double kRounding = 1e-12;
+  const Eigen::VectorXd& w = m.trace(asked).at.w;
+  const Eigen::ArrayXd mass = m.system->M.diagonal().array();
+  const double moving = (mass * m.gram.diagonal().head(w.size()).array() / m.period).sqrt().maxCoeff();
+  const double at_node = (w.array().abs() / mass.sqrt()).maxCoeff() * moving;
+  return std::abs(component) <= kRounding * std::max(at_node, m.extremes[asked.trace].magnitude());
+}
+
 double square_of_velocity(const Measured& m, const mechanics::Incidence& at) {
   const Eigen::Index n = m.masses(), first = m.oscillators(), count = m.motion_velocity.cols();
   double sum = 0.0;
@@ -142,8 +153,7 @@ double rms(const Measured& m, const Asked& asked) {
 // x_n = |X_n| cos(n omega t - phase); NaN where there is none.
 double phase(const Measured& m, const Asked& asked) {
   const std::complex<double> component = value::reference_component(m, m.trace(asked).at);
-  const double rounding = 1e-12 * m.extremes[asked.trace].magnitude();
-  return std::abs(component) <= rounding ? kNone : -std::arg(component);
+  return is_rounding(m, asked, component) ? kNone : -std::arg(component);
 }
 
 double harmonic(const Measured& m, const Asked& asked) {

@@ -45,6 +45,9 @@ double integral(const mechanics::Incidence& at, const Eigen::MatrixXd& gram, con
                 Eigen::Index oscillators, Eigen::Index k);
 // X_n of w^T q + p^T y = Re X_n e^{i n omega t} + ..., n the reference order [m].
 std::complex<double> reference_component(const Measured& measured, const mechanics::Incidence& at);
+// Whether the component of the asked trace is rounding of the motion as a whole: it may be as small as its
+// closure error, and its phase is no one's then.
+bool is_rounding(const Measured& measured, const Asked& asked, std::complex<double> component);
 // Integral over a period of (w^T v + p^T y')^2 [m^2/s].
 double square_of_velocity(const Measured& measured, const mechanics::Incidence& at);
 // Fills in what the friction of each element takes out: its force times the distance its contact has slid.

@@ -6,19 +6,14 @@
 #include <vector>
 
 #include "solvers/algebra/no_value.hpp"
-#include "solvers/algebra/null_space.hpp"
-#include "solvers/algebra/solve.hpp"
 #include "solvers/mechanics/coordinates.hpp"
-#include "solvers/mechanics/element_table.hpp"
 #include "solvers/transient/step_limits.hpp"
 
 namespace frahm::transient {
 namespace {
 
 using Eigen::Index;
-using periodic::bit, periodic::contains, periodic::ContactMask;
-
-constexpr double kNever = kNone;
+using periodic::contains;
 
 void check_initial(double value, const char* what) {
   const double size = std::abs(value);
@@ -27,16 +22,6 @@ void check_initial(double value, const char* what) {
   message << "an initial " << what << " is " << value << "; must be 0 or of a size from " << kSmallestInitial
           << " to " << kLargestInitial;
   throw mechanics::MechanicsError(message.str());
-}
-
-// Accelerations at fraction s of a step: the slopes of the velocities' polynomials [m a step^2].
-template <class StatePolynomials>
-Eigen::VectorXd acceleration_in(const StatePolynomials& z, Index masses, double s) {
-  Eigen::VectorXd acceleration(masses);
-  const periodic::Polynomial powers = periodic::powers(s);
-  for (Index i = 0; i < masses; ++i)
-    acceleration[i] = periodic::derivative(periodic::Polynomial(z.col(masses + i))).dot(powers);
-  return acceleration;
 }
 
 }  // namespace
@@ -52,7 +37,7 @@ Trajectory::Trajectory(const mechanics::Assembly& assembly, std::vector<double> 
       walk_(flow_),
       steps_(flow_),
       account_(assembly, flow_),
-      held_since_(kNever),
+      held_since_(kNone),
       forms_(assembly, flow_),
       signals_(mechanics::signal_incidences(assembly.network())),
       turning_points_(mechanics::coordinate_count(assembly.network())),
@@ -197,99 +182,6 @@ void Trajectory::follow_signals(const Step& step, double at) {
   }
 }
 
-// The contacts that stick from here on, and those that no longer do.
-void Trajectory::note_mode(const periodic::Mode<Eigen::Dynamic, Eigen::Dynamic>& mode, double at,
-                           const State& z) {
-  if (has_mode_ && mode.stuck == stuck_ && mode.positive == positive_) return;
-  const auto& eq = flow_.equations();
-  const State creeps_to = has_mode_ ? resting_state(z) : z;
-  const ContactMask stopped = mode.stuck & ~stuck_, released = stuck_ & ~mode.stuck;
-  for (Index j = 0; j < eq.contacts(); ++j) {
-    auto& stops = stops_[static_cast<std::size_t>(j)];
-    if (contains(released, j)) stops.back().release = at;
-    if (!contains(stopped, j)) continue;
-    stops.push_back({at, kNever});
-    const double scale = periodic::kStepRate * std::sqrt(2.0 * eq.compliance[j]) * energy_scale_;
-    if (has_mode_ && deceleration_[j] <= kCreeping * scale) {
-      crept_ = true;
-      creeps_to_ = creeps_to;
-    }
-  }
-  if (released != 0) crept_ = false;
-  const bool same_stuck = has_mode_ && mode.stuck == stuck_;
-  stuck_ = mode.stuck;
-  positive_ = mode.positive;
-  has_mode_ = true;
-  if (same_stuck) return;
-  find_free_directions();
-  const bool held = free_directions_.cols() == 0;
-  if (!held || std::isnan(held_since_)) held_since_ = held ? at : kNever;
-}
-
-// The directions in which the masses move while the contacts that are held stick.
-void Trajectory::find_free_directions() {
-  const auto& eq = flow_.equations();
-  std::vector<Index> held;
-  for (Index j = 0; j < eq.contacts(); ++j) {
-    if (contains(stuck_ & eq.holding, j)) held.push_back(j);
-  }
-  free_directions_ = algebra::null_space(eq.W(Eigen::all, held).transpose());
-}
-
-void Trajectory::keep_samples(Step& step, double at) {
-  const double h = flow_.equations().step, end = at + step.length * h;
-  const auto& expansion = steps_.expand(step);
-  for (; next_sample_ < samples_.time.size() && samples_.time[next_sample_] < end; ++next_sample_) {
-    const double s = std::max(0.0, (samples_.time[next_sample_] - at) / h);
-    State z;
-    Flow::evaluate(expansion, s, z);
-    const Oscillators u = expansion.u.transpose() * periodic::powers(s);
-    keep_state(z, acceleration_in(expansion.z, flow_.equations().masses(), s), u,
-               account_.dissipated_within(flow_.mode(step.mode), expansion, s));
-  }
-  if (!samples_.time.empty())
-    acceleration_ = acceleration_in(expansion.z, flow_.equations().masses(), step.length);
-}
-
-void Trajectory::keep_state(const State& z, const Eigen::VectorXd& acceleration, const Oscillators& u,
-                            const std::vector<double>& dissipated) {
-  const Index n = flow_.equations().masses();
-  const double h = flow_.equations().step;
-  for (Index i = 0; i < n; ++i) {
-    const auto mass = static_cast<std::size_t>(i);
-    samples_.displacement[mass].push_back(z[i]);
-    samples_.velocity[mass].push_back(z[n + i] / h);
-    samples_.acceleration[mass].push_back(acceleration[i] / (h * h));
-  }
-  keep_signals(z, acceleration, u);
-  for (std::size_t e = 0; e < dissipated.size(); ++e) {
-    const auto& elements = assembly_.network().elements;
-    if (e == elements.size() || mechanics::kind_of(elements[e]).dissipates)
-      samples_.dissipated[e].push_back(dissipated[e]);
-  }
-}
-
-// w^T q + p^T y at the next sample. In a run-up, while the forcing has one frequency omega_f,
-//   y' = i k omega Y_k e^{i k phi},  y'' = (i k alpha - (k omega)^2) Y_k e^{i k phi}
-// with the true omega are omega/omega_f and (omega/omega_f)^2 times the forcing's, and alpha/omega_f y' more.
-void Trajectory::keep_signals(const State& z, const Eigen::VectorXd& acceleration, const Oscillators& u) {
-  const auto& eq = flow_.equations();
-  const Index n = eq.masses();
-  const double h = eq.step;
-  const double omega = omega_ + alpha_ * (samples_.time[next_sample_] - omega_since_);
-  const double faster = omega / forcing_omega_;
-  for (std::size_t i = 0; i < signals_.size(); ++i) {
-    const auto& [w, p] = signals_[i];
-    const std::size_t place = static_cast<std::size_t>(n) + i;
-    const double speed = p.dot(eq.motion_velocity * u) / h;  // of the forcing's support
-    const double rise = p.dot(eq.motion_acceleration * u) / (h * h);
-    samples_.displacement[place].push_back(w.dot(z.head(n)) + p.dot(eq.motion * u));
-    samples_.velocity[place].push_back(w.dot(z.segment(n, n)) / h + faster * speed);
-    samples_.acceleration[place].push_back(w.dot(acceleration) / (h * h) + faster * faster * rise +
-                                           alpha_ / forcing_omega_ * speed);
-  }
-}
-
 Trajectory::Oscillators Trajectory::oscillators_now() const {
   Oscillators u(flow_.equations().oscillators());
   flow_.equations().oscillators_at(phase_, flow_.orders(), u);
@@ -302,71 +194,6 @@ double Trajectory::displacement(std::size_t coordinate) const {
   if (place < n) return z_[place];
   const auto& [w, p] = signals_[coordinate - static_cast<std::size_t>(n)];
   return w.dot(z_.head(n)) + p.dot(eq.motion * oscillators_now());
-}
-
-void Trajectory::come_to_rest() {
-  z_ = tends_to();
-  acceleration_.setZero(flow_.equations().masses());
-}
-
-void Trajectory::finish() {
-  for (; next_sample_ < samples_.time.size(); ++next_sample_)
-    keep_state(z_, acceleration_, oscillators_now(), account_.dissipated());
-}
-
-// With q = q_0 + B y, B the free directions, the forces balance along them:
-//   B^T (K q - f_0 + W phi + D s) = 0,  phi_j = sigma_j F_j of the contacts that slide,
-// and of the internal forces s_i = s_0 + k D_i^T (q - q_0) where a slider sticks, 0 where a damper lets go.
-Trajectory::State Trajectory::resting_state(const State& z) const {
-  const auto& eq = flow_.equations();
-  const Index n = eq.masses();
-  Eigen::VectorXd stiffness = Eigen::VectorXd::Zero(eq.internal_forces()), s = stiffness;
-  // If nothing sticks any start is right, and zero is free of rounding.
-  const Eigen::VectorXd q =
-      stuck_ == 0 ? Eigen::VectorXd(Eigen::VectorXd::Zero(n)) : Eigen::VectorXd(z.head(n));
-  Eigen::VectorXd force = eq.force.col(0) - eq.K * q;
-  for (Index j = 0; j < eq.contacts(); ++j) {
-    const bool sticks = contains(stuck_, j);
-    if (!sticks) force -= (contains(positive_, j) ? 1.0 : -1.0) * eq.limit[j] * eq.W.col(j);
-    if (eq.holds(j)) continue;
-    const Index internal = eq.internal_of[static_cast<std::size_t>(j)];
-    s[internal] = z[2 * n + internal];
-    if (!sticks) continue;
-    stiffness[internal] = eq.internal_stiffness[internal];
-    force -= s[internal] * eq.D.col(internal);
-  }
-  const Eigen::MatrixXd K = eq.K + eq.D * stiffness.asDiagonal() * eq.D.transpose();
-  const Eigen::MatrixXd& B = free_directions_;
-  Eigen::VectorXd moved = Eigen::VectorXd::Zero(n);
-  if (B.cols() > 0)
-    moved = B * algebra::solve_positive(B.transpose() * K * B, Eigen::VectorXd(B.transpose() * force));
-  State rest = State::Zero(eq.states());
-  rest.head(n) = q + moved;
-  rest.tail(s.size()) = s + stiffness.cwiseProduct(eq.D.transpose() * moved);
-  return rest;
-}
-
-Trajectory::State Trajectory::tends_to() const {
-  return crept_ ? creeps_to_ : resting_state(z_);
-}
-
-double Trajectory::distance_from_rest() const {
-  return flow_.equations().energy_norm(State(z_ - resting_state(z_)));
-}
-
-bool Trajectory::friction_slides() const {
-  for (Index j = 0; j < flow_.equations().contacts(); ++j) {
-    if (!contains(stuck_, j) && flow_.equations().limit[j] > 0.0) return true;
-  }
-  return false;
-}
-
-// Held masses are released only by forces that still change: those of Maxwell elements.
-bool Trajectory::is_at_rest() const {
-  const auto& eq = flow_.equations();
-  constexpr double kRelaxed = 1e-12;
-  const auto relaxing = (eq.internal_rate.array() > 0.0).select(z_.tail(eq.internal_forces()), 0.0);
-  return has_mode_ && free_directions_.cols() == 0 && relaxing.matrix().norm() <= kRelaxed * eq.limit.norm();
 }
 
 }  // namespace frahm::transient

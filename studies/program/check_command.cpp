@@ -52,9 +52,9 @@ void print_prediction(const Grid& grid, const MapSample& sample, int wanted_thre
   const double seconds =
       sample.seconds * share * static_cast<double>(turns) / static_cast<double>(grid.tiles());
   const double rate = static_cast<double>(sample.points) / sample.seconds;
-  fmt::print(out,
-             "time    about {} on {} thread{} of this machine ({:.3g} orbits/s on one, from {} points)\n",
-             engine::readable_time(seconds), threads, threads == 1 ? "" : "s", rate, sample.points);
+  fmt::print(out, "time    {} on {} thread{} of this machine ({:.3g} orbits/s on one, from {} points)\n",
+             seconds < 1.0 ? "less than a second" : "about " + engine::readable_time(seconds), threads,
+             threads == 1 ? "" : "s", rate, sample.points);
   fmt::print(out, "file    about {} ({} before compression)\n",
              readable_size(static_cast<double>(sample.stored_bytes) * share),
              readable_size(static_cast<double>(sample.raw_bytes) * share));

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "solvers/mechanics/rotation.hpp"
-#include "studies/reading/factor_dimension.hpp"
 #include "studies/reading/network_reading.hpp"
 #include "studies/reading/spelling.hpp"
 
@@ -20,6 +19,24 @@ constexpr std::string_view key_of_direction = "along";
 constexpr std::string_view factor_must_stay =
     "a factor is the same throughout a study; write a study for each value, or run this one again with "
     "--set";
+
+// What a factor is, as far as its units tell: a rotation times a length [m/rad] is a length, a translation
+// over a length an angle.
+enum class FactorDimension { unknown, number, length, per_length };
+
+// Nothing for any other dimension.
+std::optional<FactorDimension> factor_dimension(const ExpressionDimension& dimension) {
+  if (!dimension) return FactorDimension::unknown;
+  if (same(*dimension, {0.0, 0.0, 0.0})) return FactorDimension::number;
+  if (same(*dimension, {1.0, 0.0, 0.0})) return FactorDimension::length;
+  if (same(*dimension, {-1.0, 0.0, 0.0})) return FactorDimension::per_length;
+  return std::nullopt;
+}
+
+std::optional<FactorDimension> factor_dimension(const Unit& unit) {
+  if (unit.foreign || std::abs(unit.radians) > 1) return std::nullopt;
+  return factor_dimension(exponents_of(unit));
+}
 
 // A factor while it is read.
 struct Factor {
@@ -41,15 +58,17 @@ Factor read_factor(const StudyContext& context, const Parameters& parameters, co
   factor.value.position = value.position;
   if (value.as<std::string>()) {
     factor.value.expression = read_expression(context, parameters, where, value);
-    const auto dimension = dimension_of(factor.value.expression, parameters);
+    const ExpressionDimension found =
+        dimension_of_geometry(context, parameters, factor.value.expression, where, value.position);
+    const auto dimension = factor_dimension(found);
     if (!dimension)
-      refuse_dimension(context, where, value.position, "the units of its parameters make another dimension");
+      refuse_dimension(context, where, value.position, "the expression is " + described(*found));
     factor.dimension = *dimension;
     return factor;
   }
   const NumberWithUnit number = read_number_with_unit(context, where, value);
   if (number.unit) {
-    const auto dimension = dimension_of(*number.unit);
+    const auto dimension = factor_dimension(*number.unit);
     if (!dimension) {
       refuse_dimension(
           context, where, number.unit_position,
@@ -153,6 +172,17 @@ void check_it_stays(const Study& study, const StudyValue& factor) {
   }
 }
 
+// Squares of factors, times a stiffness, stay among the doubles.
+void check_factor_size(const Study& study, const StudyValue& factor, double value) {
+  constexpr double smallest = 1e-50, largest = 1e50;
+  const double size = std::abs(value);
+  if (size >= smallest && size <= largest) return;
+  throw study.source.error_at(rules::out_of_range, factor.position,
+                              "{}: {}; a factor is of a size from {} to {}{}", factor.where,
+                              std::isnan(value) ? "has no value" : fmt::format("is {:.6g}", value), smallest,
+                              largest, value == 0.0 ? " (leave the node out)" : "");
+}
+
 }  // namespace
 
 StudyDirection read_direction(const StudyContext& context, const Parameters& parameters,
@@ -188,11 +218,7 @@ mechanics::Direction direction_of(const Study& study, const StudyDirection& alon
     const StudyValue& factor = along.factors[i];
     check_it_stays(study, factor);
     const double value = factor.expression.evaluate(std::span<const double>(parameters));
-    if (!std::isfinite(value) || value == 0.0)
-      throw study.source.error_at(rules::out_of_range, factor.position,
-                                  "{}: {}; a factor is a finite number other than zero{}", factor.where,
-                                  std::isfinite(value) ? "is 0" : "has no value",
-                                  value == 0.0 ? " (leave the node out)" : "");
+    check_factor_size(study, factor, value);
     direction.push_back({along.nodes[i], value});
   }
   return direction;

@@ -35,8 +35,9 @@ bool has_whole_numbers(std::string_view text) {
 // The expression's program, run on dimensions.
 class DimensionWalk {
  public:
-  DimensionWalk(const Expression& expression, std::span<const ExpressionDimension> of_parameters)
-      : expression_(expression), of_parameters_(of_parameters) {}
+  DimensionWalk(const Expression& expression, std::span<const ExpressionDimension> of_parameters,
+                PlainFactor plain)
+      : expression_(expression), of_parameters_(of_parameters), plain_(plain) {}
 
   ExpressionDimension result() {
     if (expression_.text_.empty()) return {};
@@ -74,7 +75,7 @@ class DimensionWalk {
       case Operation::constant:
         return push(constant(instruction.constant, place));
       case Operation::parameter:
-        return push({of_parameters_[instruction.parameter], false, {}, place});
+        return push(parameter(of_parameters_[instruction.parameter], place));
       case Operation::negate:
       case Operation::abs:
         stack_.back().place = place;
@@ -112,9 +113,14 @@ class DimensionWalk {
     return top;
   }
 
+  Operand parameter(const ExpressionDimension& dimension, const Place& place) const {
+    if (!dimension && plain_ == PlainFactor::pure_number) return {pure_number, true, {}, place};
+    return {dimension, false, {}, place};
+  }
+
   Operand constant(double value, const Place& place) const {
     Operand operand{pure_number, true, value, place};
-    if (!has_whole_numbers(text(operand))) operand.dimension.reset();
+    if (plain_ == PlainFactor::any_dimension && !has_whole_numbers(text(operand))) operand.dimension.reset();
     return operand;
   }
 
@@ -169,12 +175,18 @@ class DimensionWalk {
 
   const Expression& expression_;
   std::span<const ExpressionDimension> of_parameters_;
+  PlainFactor plain_;
   std::vector<Operand> stack_;
 };
 
 ExpressionDimension dimension_of(const Expression& expression,
-                                 std::span<const ExpressionDimension> of_parameters) {
-  return DimensionWalk(expression, of_parameters).result();
+                                 std::span<const ExpressionDimension> of_parameters, PlainFactor plain) {
+  return DimensionWalk(expression, of_parameters, plain).result();
+}
+
+Exponents exponents_of(const Unit& unit) {
+  return {static_cast<double>(unit.exponents[0]), static_cast<double>(unit.exponents[1]),
+          static_cast<double>(unit.exponents[2])};
 }
 
 bool same(const Exponents& a, const Exponents& b) {

@@ -1,11 +1,15 @@
+#include <fmt/format.h>
 #include <suitesparse/cholmod.h>
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cstdio>
 #include <fstream>
 #include <memory>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "studies/reading/matrix_file.hpp"
 #include "studies/reading/readable_file.hpp"
@@ -28,38 +32,85 @@ struct Workspace {
   Workspace& operator=(const Workspace&) = delete;
 };
 
-// The sizes, in the first line that is no comment: CHOLMOD makes room for whatever they say.
-void check_sizes(std::istream& file, const std::string& name) {
-  constexpr long most = 4096;  // of rows or columns
-  std::string line;
-  while (std::getline(file, line) && (line.empty() || line[0] == '%')) {
+// A file read line by line, comments and empty lines left out.
+struct Lines {
+  std::ifstream file;
+  std::string name, line;
+  int number = 0;
+
+  bool next() {
+    while (std::getline(file, line)) {
+      ++number;
+      if (line.find_first_not_of(" \t\r") != std::string::npos && line[0] != '%') return true;
+    }
+    return false;
   }
-  std::istringstream sizes(line);
-  long rows = 0, columns = 0;
-  if (!(sizes >> rows >> columns)) return;  // CHOLMOD says so
-  if (std::max(rows, columns) > most)
-    throw StudyError(rules::too_large, "{}: is {} x {}; at most {} degrees of freedom are read", name, rows,
-                     columns, most);
-}
+
+  [[noreturn]] void fail(Rule rule, const std::string& problem) const {
+    throw StudyError(rule, "{}:{}: {}", name, number, problem);
+  }
+
+  // The numbers of the line; a word that is none is an error.
+  std::vector<double> numbers() const {
+    std::vector<double> found;
+    std::istringstream words(line);
+    for (std::string word; words >> word;) {
+      const char* first = word.data() + (word[0] == '+' ? 1 : 0);
+      const char* end = word.data() + word.size();
+      const auto [stopped, error] = std::from_chars(first, end, found.emplace_back());
+      if (stopped != end || error != std::errc())
+        fail(rules::wrong_row, fmt::format("\"{}\" is not a number", word));
+    }
+    return found;
+  }
+};
 
 // The first line, as %%MatrixMarket matrix coordinate real symmetric. CHOLMOD would read files without it,
-// and make up the values of a pattern.
-void check_header(const std::filesystem::path& path, const std::string& name) {
-  std::ifstream file(path);
+// and make up the values of a pattern. Returned in lower case.
+std::string read_header(Lines& lines) {
   std::string header;
-  std::getline(file, header);
+  std::getline(lines.file, header);
+  lines.number = 1;
   std::ranges::transform(header, header.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (!header.starts_with("%%matrixmarket matrix "))
-    throw StudyError(rules::wrong_file,
-                     "{}: is no Matrix Market file: its first line does not begin with "
-                     "%%MatrixMarket matrix",
-                     name);
+    lines.fail(rules::wrong_file,
+               "is no Matrix Market file: its first line does not begin with %%MatrixMarket matrix");
   for (const char* form : {"pattern", "complex"}) {
     if (header.find(form) != std::string::npos)
-      throw StudyError(rules::wrong_file, "{}: is a {} matrix; real numbers are needed", name, form);
+      lines.fail(rules::wrong_file, fmt::format("is a {} matrix; real numbers are needed", form));
   }
-  check_sizes(file, name);
+  return header;
+}
+
+// Finds the line that is at fault, for CHOLMOD does not tell it, makes room for any size, and takes 1.0D5 for
+// 1.0.
+void check_lines(const std::filesystem::path& path, const std::string& name) {
+  constexpr double most = 4096;  // of rows or columns
+  Lines lines{.file = std::ifstream(path), .name = name, .line = {}};
+  const bool is_list = read_header(lines).find("coordinate") != std::string::npos;
+  const std::size_t sizes_needed = is_list ? 3 : 2, entry_needs = is_list ? 3 : 1;
+  if (!lines.next()) lines.fail(rules::wrong_row, "ends before the sizes of the matrix");
+  const std::vector<double> sizes = lines.numbers();
+  if (sizes.size() != sizes_needed)
+    lines.fail(rules::wrong_row, fmt::format("{} numbers, but the sizes of the matrix are {}", sizes.size(),
+                                             is_list ? "rows, columns, entries" : "rows, columns"));
+  const double rows = sizes[0], columns = sizes[1];
+  if (std::max(rows, columns) > most)
+    lines.fail(rules::too_large,
+               fmt::format("is {} x {}; at most {} degrees of freedom are read", rows, columns, most));
+  double entries = 0.0;
+  for (; lines.next(); ++entries) {
+    const std::vector<double> entry = lines.numbers();
+    if (entry.size() != entry_needs)
+      lines.fail(rules::wrong_row, fmt::format("{} numbers, but an entry is {}", entry.size(),
+                                               is_list ? "row, column, value" : "a value"));
+    if (is_list && !(entry[0] <= rows && entry[1] <= columns))
+      lines.fail(rules::wrong_row, fmt::format("entry ({}, {}) is outside the {} x {} matrix", entry[0],
+                                               entry[1], rows, columns));
+  }
+  if (is_list && entries != sizes[2])
+    lines.fail(rules::wrong_row, fmt::format("ends after {} of {} entries", entries, sizes[2]));
 }
 
 Eigen::MatrixXd copy_of(const cholmod_dense& dense) {
@@ -73,7 +124,7 @@ Eigen::MatrixXd copy_of(const cholmod_dense& dense) {
 
 Eigen::MatrixXd read_matrix_market(const std::filesystem::path& path, const std::string& name) {
   check_readable(path, name);
-  check_header(path, name);
+  check_lines(path, name);
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "r"), &std::fclose);
   if (!file) throw StudyError(rules::unreadable_file, "{}: cannot be read", name);
   Workspace work;
@@ -91,7 +142,7 @@ Eigen::MatrixXd read_matrix_market(const std::filesystem::path& path, const std:
   if (dense == nullptr || dense->xtype != CHOLMOD_REAL) {
     cholmod_free_dense(&dense, &work.common);
     throw StudyError(rules::wrong_file,
-                     "{}: is no Matrix Market file: its sizes, places or numbers cannot be read", name);
+                     "{}: is no Matrix Market file: its form, sizes or numbers cannot be read", name);
   }
   Eigen::MatrixXd matrix = copy_of(*dense);
   cholmod_free_dense(&dense, &work.common);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "studies/reading/expression_dimension.hpp"
 #include "studies/reading/study.hpp"
 #include "studies/reading/toml_section.hpp"
 #include "studies/reading/units.hpp"
@@ -138,6 +139,13 @@ std::optional<Unit> read_unit(const StudyContext& context, const std::string& wh
 Expression read_expression(const StudyContext& context, const Parameters& parameters,
                            const std::string& where, const TomlValue& value,
                            std::optional<WantedDimension> wanted = std::nullopt);
+
+// The dimension of a formula of lengths and ratios, while it is read. Numbers without a unit are ratios in
+// it, but without a length they may be lengths: then nothing is known. Throws StudyError for mixed
+// dimensions.
+ExpressionDimension dimension_of_geometry(const StudyContext& context, const Parameters& parameters,
+                                          const Expression& expression, const std::string& where,
+                                          Position position);
 
 // Refuses an expression in [parameters], or a noted one, that mixes dimensions or has the wrong one; once all
 // units are known.

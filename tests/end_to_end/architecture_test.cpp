@@ -109,7 +109,7 @@ TEST_CASE("each foreign library is known to one file, and to no header") {
   const std::map<std::string, std::set<std::string>> adapters{
       {"hdf5", {"results/hdf5.cpp", "results/hdf5_dataset.cpp", "results/hdf5_call.hpp"}},
       {"toml\\+\\+|toml", {"studies/reading/toml_reading.cpp"}},
-      {"CLI", {"studies/program/program.cpp"}},
+      {"CLI", {"studies/program/command_line.cpp"}},
       {"udunits2", {"studies/reading/units.cpp"}},
       {"suitesparse/cholmod", {"studies/reading/matrix_market.cpp"}},
       {"isa-l/crc", {"engine/checksum.cpp"}},

@@ -6,6 +6,8 @@
 #include <complex>
 #include <stdexcept>
 
+#include "solvers/algebra/eigenvalues.hpp"
+
 namespace frahm::periodic {
 namespace {
 
@@ -50,13 +52,13 @@ EventIntegrator::EventIntegrator(const mechanics::LinearSystem& system)
   const Eigen::MatrixXd K =
       system.K + bends.W * bends.stiffness.cwiseAbs().asDiagonal() * bends.W.transpose();
   const Eigen::MatrixXd C = system.C + bends.W * bends.damping.cwiseAbs().asDiagonal() * bends.W.transpose();
-  const double stiff = (M_inverse_ * K).eigenvalues().cwiseAbs().maxCoeff();
-  const double viscous = (M_inverse_ * C).eigenvalues().cwiseAbs().maxCoeff();
+  const double stiff = algebra::eigenvalues(M_inverse_ * K).cwiseAbs().maxCoeff();
+  const double viscous = algebra::eigenvalues(M_inverse_ * C).cwiseAbs().maxCoeff();
   double maxwell = 0.0;
   if (system.internal_forces() > 0) {
     const Eigen::MatrixXd springs = system.D * system.internal_stiffness.asDiagonal() * system.D.transpose();
     maxwell = system.internal_rate.maxCoeff() +
-              std::sqrt((M_inverse_ * springs).eigenvalues().cwiseAbs().maxCoeff());
+              std::sqrt(algebra::eigenvalues(M_inverse_ * springs).cwiseAbs().maxCoeff());
   }
   step_ = kStepAngle / std::max({std::sqrt(stiff), viscous, maxwell, system.orders.back() * system.omega});
 }

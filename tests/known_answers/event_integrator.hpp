@@ -8,7 +8,8 @@
 // An independent reference for the flow with set-valued friction (with a static limit above the sliding force
 // too), Jenkins elements and elements that bend: Boost.odeint's Runge-Kutta-Fehlberg 7(8) between events that
 // are found by bisection of partial steps, with the modes of contacts at rest found by trying all, and each
-// bend's force as a function of the state. It shares with the solvers nothing but the matrices.
+// bend's force as a function of the state. It shares with the solvers nothing but the matrices, and for its
+// step their eigenvalues.
 namespace frahm::periodic {
 
 class EventIntegrator {

@@ -77,32 +77,35 @@ std::vector<double> quantities_of(const Network& network, const NetworkValues& v
   return out;
 }
 
+struct DampedChain {
+  Network network;
+  NetworkValues values;
+  LinearSystem system;
+
+  DampedChain(std::size_t n, const Node& foot, DampingModel model, const std::vector<double>& damping)
+      : network(chain(n, foot, {})), values(chain_values(network, 0.0)) {
+    network.damping = model;
+    values.damping = damping;
+    Assembly(network).set_values(values, system);
+  }
+};
+
 TEST_CASE("Modal damping comes back as the damping ratio of each mode, uniform or from a list") {
-  Network network = chain(12, ground, {});
-  network.damping = DampingModel::modal;
-  NetworkValues values = chain_values(network, 0.0);
   for (const std::vector<double>& ratios :
        {std::vector{0.02}, std::vector{0.01, 0.05, 0.03},
         std::vector{0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.07, 0.08, 0.09, 0.1, 0.11, 0.12}}) {
-    values.damping = ratios;
-    LinearSystem system;
-    Assembly(network).set_values(values, system);
+    const DampedChain storeys(12, ground, DampingModel::modal, ratios);
     std::vector<double> frequency, damping;
-    periodic::modes_of(system, frequency, damping);
+    periodic::modes_of(storeys.system, frequency, damping);
     for (std::size_t i = 0; i < 12; ++i)
       CHECK(std::abs(damping[i] - ratios[std::min(i, ratios.size() - 1)]) < kRounding);
   }
 }
 
 TEST_CASE("Rayleigh damping gives each mode the ratio a / (2 omega) + b omega / 2") {
-  Network network = chain(12, ground, {});
-  network.damping = DampingModel::rayleigh;
-  NetworkValues values = chain_values(network, 0.0);
-  values.damping = {0.03, 0.004};
-  LinearSystem system;
-  Assembly(network).set_values(values, system);
+  const DampedChain storeys(12, ground, DampingModel::rayleigh, {0.03, 0.004});
   std::vector<double> frequency, damping;
-  periodic::modes_of(system, frequency, damping);
+  periodic::modes_of(storeys.system, frequency, damping);
   for (std::size_t i = 0; i < 12; ++i)
     CHECK(std::abs(damping[i] - (0.015 / frequency[i] + 0.002 * frequency[i])) < kRounding);
 }
@@ -168,12 +171,8 @@ TEST_CASE(
 
 TEST_CASE("A structure that moves with its base as a rigid body is not damped by its modal damping") {
   // All springs lead to the base: C 1 + C_support = 0, and nothing of a common motion is lost.
-  Network network = chain(5, base, {});
-  network.damping = DampingModel::modal;
-  NetworkValues values = chain_values(network, 0.0);
-  values.damping = {0.04, 0.02};
-  LinearSystem system;
-  Assembly(network).set_values(values, system);
+  const DampedChain storeys(5, base, DampingModel::modal, {0.04, 0.02});
+  const LinearSystem& system = storeys.system;
   const double scale = system.C.cwiseAbs().maxCoeff();
   CHECK((system.C.rowwise().sum() + system.C_support.col(0)).cwiseAbs().maxCoeff() < kRounding * scale);
   Eigen::VectorXd together = Eigen::VectorXd::Ones(7);

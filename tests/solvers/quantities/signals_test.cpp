@@ -122,6 +122,66 @@ TEST_CASE("a signal along an element is the element's relative displacement") {
   }
 }
 
+// Two masses, of which the second is three times the first in all, move as one: between them is rounding
+// alone.
+TEST_CASE("a relative motion that is rounding has no phase, from phases and by shooting") {
+  using mechanics::ElementType;
+  const Node ground{};
+  Network network{
+      .masses = {"small", "large"},
+      .prescribed = {},
+      .elements = {{"k1", ElementType::spring, ground, mass(0)},
+                   {"k2", ElementType::spring, ground, mass(1)},
+                   {"c1", ElementType::damper, ground, mass(0)},
+                   {"c2", ElementType::damper, ground, mass(1)},
+                   {"f1", ElementType::coulomb, ground, mass(0)},
+                   {"f2", ElementType::coulomb, ground, mass(1)},
+                   {"between", ElementType::spring, mass(0), mass(1)}},
+      .excitations = {{mechanics::ExcitationKind::force, 0, 1}, {mechanics::ExcitationKind::force, 1, 1}}};
+  network.signals = {{"drift", {{mass(1), 1.0}, {mass(0), -1.0}}}};
+  constexpr std::size_t drift = 2, spring = 6;
+  for (const double friction : {0.0, 0.03, 0.6}) {
+    for (const double omega : {0.3, 0.7, 0.95, 1.3, 2.1}) {
+      const NetworkValues values{
+          .omega = omega,
+          .mass = {0.7, 2.1},
+          .element = {1.1, 3.3, 0.1, 0.3, friction, 3.0 * friction, 0.37},
+          .excitation = {{1.0, 0.2}, {3.0, 0.2}},
+      };
+      for (const Path path : {Path::general, Path::fastest}) {
+        INFO("friction " << friction << " omega " << omega << " path " << static_cast<int>(path));
+        const Found found = solved(network, values, path);
+        CHECK(std::isnan(found(Measure::phase, drift)));
+        CHECK(std::isnan(found(Measure::element_phase, spring)));
+        CHECK_FALSE(std::isnan(found(Measure::phase, 0)));
+      }
+    }
+  }
+}
+
+TEST_CASE("a mass that stands still while others move has no phase, from phases and by shooting") {
+  using mechanics::ElementType;
+  const Node ground{};
+  Network network{.masses = {"moves", "light", "heavy"}, .prescribed = {}, .elements = {}, .excitations = {}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    network.elements.push_back({"k" + std::to_string(i), ElementType::spring, ground, mass(i)});
+    network.elements.push_back({"c" + std::to_string(i), ElementType::damper, ground, mass(i)});
+  }
+  network.elements.push_back({"f", ElementType::coulomb, ground, mass(0)});
+  network.excitations = {{mechanics::ExcitationKind::force, 0, 1}};
+  const NetworkValues values{.omega = 0.9,
+                             .mass = {1.0, 0.03, 40.0},
+                             .element = {1.3, 0.1, 0.02, 0.01, 70.0, 3.0, 0.05},
+                             .excitation = {{1.0, 0.2}}};
+  for (const Path path : {Path::general, Path::fastest}) {
+    INFO("path " << static_cast<int>(path));
+    const Found found = solved(network, values, path);
+    CHECK_FALSE(std::isnan(found(Measure::phase, 0)));
+    CHECK(std::isnan(found(Measure::phase, 1)));
+    CHECK(std::isnan(found(Measure::phase, 2)));
+  }
+}
+
 // A mass with friction in a chain, on a base that moves slowly: relative to it next to nothing moves.
 TEST_CASE("a displacement relative to the base is as exact where it is a small part of what it is made of") {
   using namespace mechanics;

@@ -62,6 +62,13 @@ TEST_CASE("A simulation of ranks tells time, efficiency and losses of 1, 10, 100
       Catch::Contains("threads in all"));
 }
 
+TEST_CASE("A map of less than a second is predicted as that") {
+  std::ostringstream out;
+  CHECK(check_command({.study = study_path("cheng_zu"), .threads = 1}, out) == 0);
+  INFO(out.str());
+  CHECK(has(out.str(), "\ntime    less than a second on 1 thread of this machine"));
+}
+
 TEST_CASE("A sample of a map is at least a tile and at most the map") {
   const MapPlan plan = plan_map(read_study_with(study_path("cheng_zu"), {}), {});
   const auto one = sample_map(plan, 0.0);

@@ -23,6 +23,7 @@ std::string study_with(const std::string& along, const std::string& value = "sti
   return "[study]\nschema = 1\nkind = \"sweep\"\n"
          "[parameters]\nomega = 20\nr = { value = 30, unit = \"mm\" }\nratio = { value = 3, unit = \"1\" "
          "}\nbare = 2\n"
+         "arm = \"1.5*r\"\nfitted = \"0.5*r + 3.7*alpha\"\n"
          "alpha = { value = 60, unit = \"degree\" }\n"
          "[[mass]]\nname = \"main\"\nmass = 100\n[[mass]]\nname = \"wheel\"\ninertia = { value = 20, unit = "
          "\"kg cm2\" }\n"
@@ -60,6 +61,16 @@ TEST_CASE("an element is rotational where no length is among what it takes") {
   CHECK_FALSE(rack_of("along = { main = 1, wheel = 0.5 }").rotational);  // 0.5 m, as in SI
   CHECK_FALSE(rack_of("along = { main = 1, wheel = \"r*bare\" }").rotational);
   CHECK_FALSE(rack_of("along = { main = \"ratio\", wheel = \"sqrt(r*r + r^2)\" }").rotational);
+}
+
+TEST_CASE("numbers in a factor are ratios as factors, and of the other's dimension as terms") {
+  CHECK_FALSE(rack_of("along = { wheel = \"1.5*r\", ground = -1 }").rotational);
+  CHECK_FALSE(rack_of("along = { wheel = \"1 + r\", ground = -1 }").rotational);  // 1 m, as in SI
+  CHECK_FALSE(rack_of("along = { wheel = \"arm\", ground = -1 }").rotational);
+  CHECK_FALSE(rack_of("along = { main = 1, wheel = \"cos(0.3)\" }").rotational);  // of a metre
+  CHECK(rack_of("along = { wheel = \"1 + ratio\", ground = -1 }").rotational);
+  CHECK(rack_of("along = { main = 1, wheel = \"1 + r\" }").along[1].factor == 1.0 + 30.0 * 1e-3);
+  CHECK(rack_of("along = { main = \"1.5/r\", wheel = -1 }").rotational);
 }
 
 TEST_CASE("the ground takes a force of a rack, and a torque of a shaft") {

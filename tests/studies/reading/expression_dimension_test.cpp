@@ -87,6 +87,17 @@ TEST_CASE("numbers in a fitted formula may have units that nobody wrote") {
   CHECK(dimension_in_words("zeta") == "a pure number");
 }
 
+TEST_CASE("in a formula of geometry all numbers without a unit are pure numbers as factors") {
+  const auto in_geometry = [](const std::string& text) {
+    const auto found = dimension_of(Expression::parse(text, names), dimensions, PlainFactor::pure_number);
+    return found ? described(*found) : "any";
+  };
+  CHECK(in_geometry("0.37*x") == "a length (m)");
+  CHECK(in_geometry("n*x/sqrt(0.7)") == "a length (m)");
+  CHECK(in_geometry("1.3 + n + x") == "a length (m)");
+  CHECK(in_geometry("0.37*n") == "any");
+}
+
 TEST_CASE("whole numbers, halves and pi are pure numbers as factors") {
   CHECK(dimension_in_words("6*k") == "a stiffness (N/m)");
   CHECK(dimension_in_words("m*w^2/12 + 0.5*k - 4/3*pi*k") == "a stiffness (N/m)");

@@ -1,6 +1,5 @@
 #include "solvers/tuning/variance/variance.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <array>
 #include <catch2/catch.hpp>
@@ -9,6 +8,7 @@
 #include <numbers>
 #include <random>
 
+#include "solvers/algebra/eigenvalues.hpp"
 #include "solvers/tuning/variance/lyapunov.hpp"
 #include "tests/solvers/known_optima.hpp"
 
@@ -353,7 +353,7 @@ TEST_CASE("a Lyapunov equation is solved to rounding, and its adjoint agrees wit
       return Eigen::MatrixXd(Eigen::MatrixXd::NullaryExpr(size, columns, [&] { return normal(generator); }));
     };
     Eigen::MatrixXd A = random(size);
-    A -= (0.01 + A.eigenvalues().real().maxCoeff()) * Eigen::MatrixXd::Identity(size, size);
+    A -= (0.01 + algebra::eigenvalues(A).real().maxCoeff()) * Eigen::MatrixXd::Identity(size, size);
     const Lyapunov lyapunov(A);
     const Eigen::VectorXd B = random(1), h = random(1);
     const Eigen::MatrixXd P = lyapunov.solve(B * B.transpose()),

@@ -1,0 +1,115 @@
+// What sticks in a motion, and where it comes to rest.
+#include <cmath>
+#include <vector>
+
+#include "solvers/algebra/no_value.hpp"
+#include "solvers/algebra/null_space.hpp"
+#include "solvers/algebra/solve.hpp"
+#include "solvers/transient/step_limits.hpp"
+#include "solvers/transient/trajectory.hpp"
+
+namespace frahm::transient {
+
+using Eigen::Index;
+using periodic::contains, periodic::ContactMask;
+
+// The contacts that stick from here on, and those that no longer do.
+void Trajectory::note_mode(const periodic::Mode<Eigen::Dynamic, Eigen::Dynamic>& mode, double at,
+                           const State& z) {
+  if (has_mode_ && mode.stuck == stuck_ && mode.positive == positive_) return;
+  const auto& eq = flow_.equations();
+  const State creeps_to = has_mode_ ? resting_state(z) : z;
+  const ContactMask stopped = mode.stuck & ~stuck_, released = stuck_ & ~mode.stuck;
+  for (Index j = 0; j < eq.contacts(); ++j) {
+    auto& stops = stops_[static_cast<std::size_t>(j)];
+    if (contains(released, j)) stops.back().release = at;
+    if (!contains(stopped, j)) continue;
+    stops.push_back({at, kNone});
+    const double scale = periodic::kStepRate * std::sqrt(2.0 * eq.compliance[j]) * energy_scale_;
+    if (has_mode_ && deceleration_[j] <= kCreeping * scale) {
+      crept_ = true;
+      creeps_to_ = creeps_to;
+    }
+  }
+  if (released != 0) crept_ = false;
+  const bool same_stuck = has_mode_ && mode.stuck == stuck_;
+  stuck_ = mode.stuck;
+  positive_ = mode.positive;
+  has_mode_ = true;
+  if (same_stuck) return;
+  find_free_directions();
+  const bool held = free_directions_.cols() == 0;
+  if (!held || std::isnan(held_since_)) held_since_ = held ? at : kNone;
+}
+
+// The directions in which the masses move while the contacts that are held stick.
+void Trajectory::find_free_directions() {
+  const auto& eq = flow_.equations();
+  std::vector<Index> held;
+  for (Index j = 0; j < eq.contacts(); ++j) {
+    if (contains(stuck_ & eq.holding, j)) held.push_back(j);
+  }
+  free_directions_ = algebra::null_space(eq.W(Eigen::all, held).transpose());
+}
+
+void Trajectory::come_to_rest() {
+  z_ = tends_to();
+  acceleration_.setZero(flow_.equations().masses());
+}
+
+// With q = q_0 + B y, B the free directions, the forces balance along them:
+//   B^T (K q - f_0 + W phi + D s) = 0,  phi_j = sigma_j F_j of the contacts that slide,
+// and of the internal forces s_i = s_0 + k D_i^T (q - q_0) where a slider sticks, 0 where a damper lets go.
+Trajectory::State Trajectory::resting_state(const State& z) const {
+  const auto& eq = flow_.equations();
+  const Index n = eq.masses();
+  Eigen::VectorXd stiffness = Eigen::VectorXd::Zero(eq.internal_forces()), s = stiffness;
+  // If nothing sticks any start is right, and zero is free of rounding.
+  const Eigen::VectorXd q =
+      stuck_ == 0 ? Eigen::VectorXd(Eigen::VectorXd::Zero(n)) : Eigen::VectorXd(z.head(n));
+  Eigen::VectorXd force = eq.force.col(0) - eq.K * q;
+  for (Index j = 0; j < eq.contacts(); ++j) {
+    const bool sticks = contains(stuck_, j);
+    if (!sticks) force -= (contains(positive_, j) ? 1.0 : -1.0) * eq.limit[j] * eq.W.col(j);
+    if (eq.holds(j)) continue;
+    const Index internal = eq.internal_of[static_cast<std::size_t>(j)];
+    s[internal] = z[2 * n + internal];
+    if (!sticks) continue;
+    stiffness[internal] = eq.internal_stiffness[internal];
+    force -= s[internal] * eq.D.col(internal);
+  }
+  const Eigen::MatrixXd K = eq.K + eq.D * stiffness.asDiagonal() * eq.D.transpose();
+  const Eigen::MatrixXd& B = free_directions_;
+  Eigen::VectorXd moved = Eigen::VectorXd::Zero(n);
+  if (B.cols() > 0)
+    moved = B * algebra::solve_positive(B.transpose() * K * B, Eigen::VectorXd(B.transpose() * force));
+  State rest = State::Zero(eq.states());
+  rest.head(n) = q + moved;
+  rest.tail(s.size()) = s + stiffness.cwiseProduct(eq.D.transpose() * moved);
+  return rest;
+}
+
+Trajectory::State Trajectory::tends_to() const {
+  return crept_ ? creeps_to_ : resting_state(z_);
+}
+
+double Trajectory::distance_from_rest() const {
+  return flow_.equations().energy_norm(State(z_ - resting_state(z_)));
+}
+
+bool Trajectory::friction_slides() const {
+  for (Index j = 0; j < flow_.equations().contacts(); ++j) {
+    if (!contains(stuck_, j) && flow_.equations().limit[j] > 0.0) return true;
+  }
+  return false;
+}
+
+// Held masses are released only by forces that still change: those of Maxwell elements.
+bool Trajectory::is_at_rest() const {
+  const auto& eq = flow_.equations();
+  constexpr double kRelaxed = 1e-12;
+  const auto relaxing = (eq.internal_rate.array() > 0.0).select(z_.tail(eq.internal_forces()), 0.0);
+  return has_mode_ && free_directions_.cols() == 0 && relaxing.matrix().norm() <= kRelaxed * eq.limit.norm();
+}
+
+}  // namespace frahm::transient

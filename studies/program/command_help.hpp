@@ -1,0 +1,72 @@
+#pragma once
+
+// What the program and its commands say of themselves, at the head and the foot of their help.
+namespace frahm::studies::help {
+
+inline constexpr const char* overview =
+    "Periodic responses of vibrating systems with dry friction and inerters, over whole maps of parameters.";
+
+inline constexpr const char* first_steps = R"(
+A study file describes a system and the axes of a map. From there:
+  frahm check study.toml                      is it right, how long will it take
+  frahm point study.toml --at r=0.9,f=0.1     the full report of one response
+  frahm run study.toml                        the whole map, into study.h5; run again to resume
+  frahm status study.h5                       what is in a file, or how far it is
+  frahm report study.h5                       its page: maps, curves and numbers to look at
+Every command has its own help: frahm run --help
+
+Exit codes: 0 done, 1 internal error, 2 wrong usage or study, 3 some points failed, 4 stopped (run again to
+resume), 5 refused to mix results of different studies, 6 input or output failed, 7 a tuning or fit did not
+converge, 8 self-check failed)";
+
+inline constexpr const char* run_examples = R"(
+Examples:
+  frahm run rig_atlas.toml                    into rig_atlas.h5, on all processors
+  frahm run rig_atlas.toml --set "K=8200 N/m" -o stiffer.h5
+  frahm run rig_atlas.toml --time-budget 50m  stops in time; the same command goes on
+  mpirun -np 16 frahm run rig_atlas.toml      on the ranks of an MPI job
+  frahm run rig_atlas.toml --from rig_atlas.h5    after axes have grown: computes the new points only
+  frahm run rig_decay_main.toml               one motion: a free decay, or a transient
+  frahm run tune_classical.toml               a tuning: an optimum from each of its starts
+  frahm run identify_rig_tmd.toml             an identification: a model from measurements
+  sbatch --array=0-15 --wrap 'frahm run rig_atlas.toml --shard $SLURM_ARRAY_TASK_ID/16'
+                                              then: frahm merge rig_atlas.h5)";
+
+inline constexpr const char* check_examples = R"(
+Examples:
+  frahm check rig_atlas.toml --set "A=20 mm"
+  frahm check rig_atlas.toml --max-array 201  an array's tasks, as MaxArraySize of the cluster allows
+  frahm check rig_atlas.toml --simulate-ranks 1000 --threads 4)";
+
+inline constexpr const char* point_examples = R"(
+Examples (a bare number is in the unit in which the study speaks of the parameter):
+  frahm point den_hartog.toml --at r=0.9,f=0.1
+  frahm point rig_atlas.toml --at "omega=250 rpm,I=6.36 kg" --history orbit.csv
+  frahm point rig_atlas.toml --at omega=250 --json
+  frahm point rig_atlas.toml --at omega=250 --gradient)";
+
+inline constexpr const char* merge_examples = R"(
+Examples:
+  frahm merge rig_atlas.h5                    all shard logs beside it
+  frahm merge rig_atlas.h5 node1/rig_atlas.h5.*.frahm-log node2/rig_atlas.h5.*.frahm-log
+  frahm merge rig_atlas.h5 --partial          what there is; the logs are kept)";
+
+inline constexpr const char* export_examples = R"(
+Examples:
+  frahm export rig_atlas.h5                   into rig_atlas.csv, a row a point
+  frahm export rig_atlas.h5 -o - | head
+  frahm export curves.h5 --group resonance    the resonances the study asked for
+  frahm export tuned.h5 --schedule            a tuning's schedule for a controller, in steps of 1 rpm
+  frahm export tuned.h5 --sweep optimum.toml  a study of the response at its optimum; then frahm run it
+  frahm export found.h5 --study model.toml    a study in which the estimates of an identification stand
+  frahm export rig_decay_main.toml --data decay.csv --rate "500 Hz" --noise "0.05 mm" --seed 7
+                                              measurements as a sensor would take them, to try an experiment)";
+
+inline constexpr const char* report_examples = R"(
+Examples:
+  frahm report rig_atlas.h5                   the page rig_atlas.html: opens in any browser, alone and offline
+  frahm report rig_atlas.h5 -o for_client.html --quantities main_peak,tmd_peak,guide_regime
+  frahm report tuned.h5 --figures figures     its figures for a paper: SVG, CSV, and PDF with rsvg-convert or
+                                              inkscape)";
+
+}  // namespace frahm::studies::help

@@ -1,0 +1,248 @@
+#include "studies/program/command_line.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <map>
+#include <ostream>
+
+#include "studies/program/assist_command.hpp"
+#include "studies/program/command_help.hpp"
+#include "studies/program/exit_code.hpp"
+#include "studies/program/option_values.hpp"
+#include "studies/program/status_command.hpp"
+#include "studies/program/verify_command.hpp"
+#include "studies/program/version_command.hpp"
+#include "studies/reading/study_source.hpp"
+
+namespace frahm::studies {
+namespace {
+
+using Action = std::function<int(std::ostream&)>;  // of the given command
+
+CLI::App* add_command(CLI::App& program, const char* name, const char* what, const char* examples) {
+  CLI::App* command = program.add_subcommand(name, what);
+  command->footer(examples);
+  return command;
+}
+
+void add_study(CLI::App& command, std::filesystem::path& study) {
+  command.add_option("STUDY", study, "study file (TOML)")->required();
+}
+
+void add_set(CLI::App& command, std::vector<std::string>& set) {
+  command
+      .add_option("--set", set,
+                  "change a parameter that is no axis: name=value or \"name=value unit\"; repeatable")
+      ->allow_extra_args(false);
+}
+
+void add_threads(CLI::App& command, int& threads) {
+  command
+      .add_option("--threads", threads,
+                  "number of threads; 0: OMP_NUM_THREADS, else SLURM_CPUS_PER_TASK, else all processors")
+      ->check(CLI::Range(0, 4096))
+      ->take_last();
+}
+
+void add_progress(CLI::App& command, engine::ProgressStyle& style) {
+  const std::map<std::string, engine::ProgressStyle> styles{{"auto", engine::ProgressStyle::automatic},
+                                                            {"plain", engine::ProgressStyle::plain},
+                                                            {"json", engine::ProgressStyle::json},
+                                                            {"none", engine::ProgressStyle::none}};
+  command.add_option("--progress", style, "auto, plain, json or none")
+      ->transform(CLI::Transformer(styles))
+      ->type_name("STYLE")
+      ->take_last();
+}
+
+// Which options of a run the line has, be their texts empty.
+struct RunGiven {
+  bool shard, output, from, time_budget;
+};
+
+int run_as_given(CommandLine& line, const RunGiven& given, std::ostream& out) {
+  RunCommandOptions& options = line.run;
+  options.run.shard = given.shard ? shard_of(line.shard) : shard_of_array_task(std::getenv);
+  if (given.output && options.run.output.empty())
+    throw StudyError(rules::wrong_option, "--output \"\": name the result file");
+  if (given.from && options.from.empty())
+    throw StudyError(rules::wrong_option, "--from \"\": name the result whose points are taken over");
+  if (given.time_budget) options.run.time_budget = time_span_of("--time-budget", line.time_budget);
+  const bool leads = !options.run.ranks || options.run.ranks->rank() == 0;
+  return leads ? run_command(options, out) : assist_command(options);
+}
+
+void add_run(CLI::App& program, CommandLine& line) {
+  CLI::App* run =
+      add_command(program, "run",
+                  "compute what a study asks for: a map, an optimum, one motion or a model; again, to resume",
+                  help::run_examples);
+  RunCommandOptions& options = line.run;
+  add_study(*run, options.study);
+  run->add_option("-o,--output", options.run.output, "result file; else the study's name with .h5, here");
+  add_threads(*run, options.run.threads);
+  run->add_option("--shard", line.shard,
+                  "i/n: compute part i of n, i from 0; else, in an array task of Slurm, its own part");
+  run->add_option("--from", options.from,
+                  "reuse the points of this earlier result, of the same system on another grid");
+  run->add_flag("--fresh", options.run.fresh, "start anew: an earlier result and its logs are lost");
+  run->add_option("--time-budget", line.time_budget, "stop after 90s, 50m, 2h or 1d");
+  add_set(*run, options.set);
+  add_progress(*run, options.run.progress);
+  run->callback([&, run] {
+    line.is_run = true;
+    const RunGiven given{run->count("--shard") > 0, run->count("--output") > 0, run->count("--from") > 0,
+                         run->count("--time-budget") > 0};
+    line.action = [&, given](std::ostream& out) { return run_as_given(line, given, out); };
+  });
+}
+
+void add_check(CLI::App& program, CheckOptions& options, Action& action) {
+  CLI::App* check =
+      add_command(program, "check", "validate a study; its size, its time, its natural frequencies",
+                  help::check_examples);
+  add_study(*check, options.study);
+  add_set(*check, options.set);
+  add_threads(*check, options.threads);
+  check
+      ->add_option("--max-array", options.max_array,
+                   "most tasks of a Slurm array (MaxArraySize); else as Slurm here says, or 1001")
+      ->check(CLI::Range(1, 4'000'001));  // the largest Slurm can be set to
+  check
+      ->add_option("--simulate-ranks", options.simulate_ranks,
+                   "predict time and efficiency on up to so many MPI ranks of --threads each (0: one)")
+      ->check(CLI::Range(1, 100'000));
+  check->add_flag("--all", options.all, "every mode, of a large system too");
+  check->callback([&] { action = [&](std::ostream& out) { return check_command(options, out); }; });
+}
+
+void add_point(CLI::App& program, PointOptions& options, Action& action) {
+  CLI::App* point = add_command(program, "point", "the full report of one response", help::point_examples);
+  add_study(*point, options.study);
+  point->add_option("--at", options.at, "name=value,...; other parameters as in the study")
+      ->allow_extra_args(false);
+  add_set(*point, options.set);
+  point->add_option("--history", options.history, "write the motion over one period to this CSV file");
+  point->add_flag("--gradient", options.gradient,
+                  "exact derivatives with respect to the parameters, beside central differences");
+  point
+      ->add_option(
+          "--path", options.path,
+          "fastest: from the phases of its events where that is proved; general: by shooting, always")
+      ->check(CLI::IsMember({"fastest", "general"}))
+      ->take_last();
+  point->add_flag("--json", options.json, "the report as one JSON object");
+  point->add_flag("--all", options.all, "every quantity and mode, of a large system too");
+  point->callback([&] { action = [&](std::ostream& out) { return point_command(options, out); }; });
+}
+
+void add_status(CLI::App& program, std::filesystem::path& file, Action& action) {
+  CLI::App* status = program.add_subcommand("status", "what a result file holds, or how far it is");
+  status->add_option("FILE", file, "result file, finished or not")->required();
+  status->callback([&] { action = [&](std::ostream& out) { return status_command(file, out); }; });
+}
+
+void add_merge(CLI::App& program, MergeOptions& options, Action& action) {
+  CLI::App* merge = add_command(program, "merge", "join what run --shard computed into the result file",
+                                help::merge_examples);
+  merge->add_option("FILE", options.output, "result file to make")->required();
+  merge->add_option("SHARD", options.logs, "shard logs (*.frahm-log); else those beside FILE");
+  merge->add_flag("--partial", options.partial,
+                  "write what there is although tiles are missing; the logs stay");
+  add_threads(*merge, options.threads);
+  add_progress(*merge, options.progress);
+  merge->callback([&] { action = [&](std::ostream& out) { return merge_command(options, out); }; });
+}
+
+void add_export(CLI::App& program, ExportOptions& options, Action& action) {
+  CLI::App* command = add_command(
+      program, "export", "write a result as CSV; a study of an optimum or a model; simulated measurements",
+      help::export_examples);
+  command->add_option("FILE", options.file, "result file")->required();
+  command->add_option("--group", options.group,
+                      "a group instead of the map: resonance, orbits, identification ...");
+  command->add_flag("--csv", options.csv, "CSV, which is the default");
+  command->add_flag("--schedule", options.schedule, "of a tuning: its schedule for a controller");
+  command->add_option("--step", options.step, "of --schedule: its step, in the unit of the band; else 1 rpm");
+  command->add_option("--sweep", options.sweep, "of a tuning: a study that sweeps its optimum, to this file");
+  command->add_option("--study", options.study,
+                      "of an identification: a study in which its estimates stand, to this file");
+  DataOptions& data = options.data;
+  command->add_option("--data", data.output,
+                      "simulated measurements of a study (FILE may be one), to this CSV file; - for stdout");
+  add_set(*command, data.set);
+  command->add_option("--at", data.at, "of --data: the point of a periodic response, name=value,...")
+      ->allow_extra_args(false);
+  command->add_option("--rate", data.rate,
+                      "of --data: samples a second, or \"1 kHz\"; else 100 a natural period");
+  command->add_option("--duration", data.duration,
+                      "of --data: so long, \"10 s\"; else the motion, or ten periods");
+  command->add_option("--noise", data.noise,
+                      "of --data: standard deviation, \"1%\" of each column's own or \"0.1 mm\"");
+  command->add_option("--seed", data.seed, "of --data: of the noise, else 1");
+  command
+      ->add_option("--columns", data.columns,
+                   "of --data: name,... of <mass>_displacement, _velocity, _acceleration, of a periodic "
+                   "response <element>_force too; else the displacements")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("-o,--output", options.output, "CSV file, - for stdout; else FILE with .csv");
+  command->callback([&] { action = [&](std::ostream& out) { return export_command(options, out); }; });
+}
+
+void add_report(CLI::App& program, ReportOptions& options, Action& action) {
+  CLI::App* command =
+      add_command(program, "report", "make the page of a result: figures, tables, where they come from",
+                  help::report_examples);
+  command->add_option("FILE", options.file, "result file")->required();
+  command->add_option("-o,--output", options.output, "the page, - for stdout; else FILE with .html");
+  command
+      ->add_option(
+          "--quantities", options.quantities,
+          "of a map: name,... to show, or floor*_peak; else those of the study's [report], else peaks, "
+          "strokes, regimes, stops, energy shares, differences and status")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--figures", options.figures,
+                      "no page: every figure as SVG, CSV and PDF into this folder; needs Node.js");
+  command->callback([&] { action = [&](std::ostream& out) { return report_command(options, out); }; });
+}
+
+void describe(CLI::App& program, CommandLine& line) {
+  program.footer(help::first_steps);
+  program.require_subcommand(0, 1);
+  auto* version = program.add_flag("--version", line.version, "print the version");
+  program.add_flag("--verbose", line.verbose, "compiler, libraries, processor")->needs(version);
+  add_run(program, line);
+  add_check(program, line.check, line.action);
+  add_point(program, line.point, line.action);
+  add_status(program, line.status, line.action);
+  add_merge(program, line.merge, line.action);
+  add_export(program, line.table, line.action);
+  add_report(program, line.report, line.action);
+  program
+      .add_subcommand("verify",
+                      "solve the classical cases on this machine and compare with their closed forms")
+      ->callback([&line] { line.action = [](std::ostream& out) { return verify_command(out); }; });
+}
+
+}  // namespace
+
+std::optional<int> parse_command_line(int argc, const char* const* argv, CommandLine& line, std::ostream& out,
+                                      std::ostream& complaints) {
+  CLI::App program(help::overview, "frahm");
+  describe(program, line);
+  for (int i = 0; i < argc; ++i) line.run.command += (i == 0 ? "frahm" : std::string(" ") + argv[i]);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() != 0) complaints << "frahm: ";
+    return program.exit(error, out, complaints) == 0 ? exit_code::done : exit_code::wrong_input;
+  }
+  if (line.version) line.action = [&line](std::ostream& to) { return version_command(line.verbose, to); };
+  if (line.action) return std::nullopt;
+  complaints << program.help();
+  return exit_code::wrong_input;
+}
+
+}  // namespace frahm::studies
