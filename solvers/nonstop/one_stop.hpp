@@ -1,6 +1,5 @@
 #pragma once
 
-#include "solvers/nonstop/extremes.hpp"
 #include "solvers/nonstop/stability.hpp"
 
 // One mass that stops once in each half of the period, or never moves, under one harmonic. It rests at -u, is
@@ -257,11 +256,8 @@ inline int steps_of(Mask group, Lanes count) {
 
 // One step of a stretch: measures it, and goes on.
 template <class W>
-inline void take_step(W& w, Mask taken, Lanes phase, Lanes h, bool first) {
-  if (w.shape.traces > 0) keep_step(w, taken, phase, h, first);
-  w.is_rest_at[w.steps] = w.rests;
-  w.is_release_at[w.steps] = first && !w.rests;
-  ++w.steps;
+inline void take_step(W& w, Mask taken, Lanes phase, Lanes h) {
+  keep_step(w, taken, phase, h);
   if (w.shape.integrated > 0) integrate_step(w, select(taken, h, 0.0));
   for (int s = 0; s < w.modes; ++s) w.zeta[s] = select(taken, w.next_zeta[s], w.zeta[s]);
   w.osc[0] = select(taken, w.next_osc[0], w.osc[0]);
@@ -273,6 +269,7 @@ inline void sweep_slide(W& w, const OneStop& stop, double steps_a_radian, Passag
   w.direction[0] = lanes(1.0);
   set_levels(w);
   w.rests = false;
+  w.is_released = true;
   set_coordinates(w, stop.start, w.zeta);
   w.osc[0] = turn(stop.release);
   const Lanes count = max(floor(stop.theta * fastest_rate(w) * steps_a_radian) + 1.0, lanes(2.0));
@@ -299,7 +296,7 @@ inline void sweep_slide(W& w, const OneStop& stop, double steps_a_radian, Passag
         select(ends, min(passage.at_reversals, -(a * w.per_speed[0])), passage.at_reversals);
     w.v0[0] = select(taken, v, w.v0[0]);
     w.a0[0] = select(taken, a, w.a0[0]);
-    take_step(w, taken, stop.release + h * k, h, k == 0);
+    take_step(w, taken, stop.release + h * k, h);
   }
 }
 
@@ -311,6 +308,7 @@ inline void sweep_rest(W& w, const OneStop& stop, double steps_a_radian, Passage
   const Lanes count = max(floor(length * steps_a_radian) + 1.0, lanes(2.0)), h = length / count;
   set_rest_forms(w, stop);
   w.rests = true;
+  w.is_released = false;
   for (int s = 0; s < w.modes; ++s) w.zeta[s] = {lanes(0.0), lanes(0.0)};
   w.osc[0] = turn(start);
   set_factors(w, h);
@@ -331,7 +329,7 @@ inline void sweep_rest(W& w, const OneStop& stop, double steps_a_radian, Passage
     const Lanes behind = least_coefficient(
         stop.friction + p0, d0, select(ends, lanes(0.0), stop.friction + p1), d1, h, error, none(), ends);
     passage.between = select(taken, min(passage.between, min(ahead, behind) * scale), passage.between);
-    take_step(w, taken, start + h * k, h, k == 0);
+    take_step(w, taken, start + h * k, h);
   }
 }
 
@@ -345,6 +343,7 @@ inline Passage sweep_stuck(W& w, const OneStop& held, Mask group) {
   Passage passage{holds, lanes(1.0), room, lanes(0.0), lanes(0.0)};
   clear_measures(w);
   if (any(holds)) sweep_rest(w, held, 1.0 / 0.75, passage);
+  search_segment(w, holds);
   passage.between = room;
   passage.proved = holds;
   return passage;
@@ -358,8 +357,13 @@ inline Passage sweep_one_stop(W& w, const OneStop& stop, double fineness) {
   passage.proved = passage.proved & (stop.theta > 1e-3) & (lanes(kPi) - stop.theta > 1e-6) &
                    (stop.rest > 0.0) & (abs(stop.missed) < kClosed * stop.rest);
   clear_measures(w);
+  const auto stands = [&] {
+    return passage.proved & (passage.at_reversals > kSafe) & (passage.between > kSafe);
+  };
   sweep_slide(w, stop, steps_a_radian, passage);
+  search_segment(w, stands());
   if (any(passage.proved)) sweep_rest(w, stop, steps_a_radian, passage);
+  search_segment(w, stands());
   w.slid[0] = 2.0 * stop.rest;
   w.contact_reversals[0] = lanes(1.0);
   passage.parts = w.harmonic_size[0];
@@ -368,7 +372,7 @@ inline Passage sweep_one_stop(W& w, const OneStop& stop, double fineness) {
   passage.residual = abs(stop.missed) * norm_of_coordinates(w, [&](int i) {
                        return i == 0 ? stop.unit.first : stop.unit.second;
                      });
-  passage.proved = passage.proved & (passage.at_reversals > kSafe) & (passage.between > kSafe);
+  passage.proved = stands();
   return passage;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solvers/nonstop/reversals.hpp"
+#include "solvers/nonstop/extremes.hpp"
 
 // One passage along the orbit: the proof that nothing sticks, and everything that is measured on the way.
 namespace {
@@ -24,16 +24,10 @@ struct Passage {
   Lanes parts;         // energy norms of what the motion is the sum of [sqrt(J)]
 };
 
-template <class W>
-FRAHM_INLINE Lanes value(const W& w, int form, const Complex* zeta, const Complex* osc) {
-  return real_sum(w.modes, complex_view(w.pack.form_modal) + form * w.modes, zeta) +
-         real_sum(w.orders, w.phasors() + form * w.orders, osc);
-}
-// By the phase.
-template <class W>
-FRAHM_INLINE Lanes slope(const W& w, int form, const Complex* zeta, const Complex* osc) {
-  return real_sum(w.modes, w.slope_modal + form * w.modes, zeta) +
-         real_sum(w.orders, w.slope_phasors() + form * w.orders, osc);
+// Lanes whose proof still can hold, with finer steps if need be.
+inline Mask may_hold(const Passage& passage) {
+  constexpr double kClose = -0.1;
+  return (passage.at_reversals > kSafe) & (passage.between > kClose);
 }
 
 // zeta just after the first reversal, and the direction of every contact from there: that of its last
@@ -102,30 +96,6 @@ FRAHM_INLINE Lanes least_coefficient(Lanes v0, Lanes a0, Lanes v1, Lanes a1, Lan
   return select(ends, least, min(least, v1));
 }
 
-// Bound of a form's fourth derivative over the segment that begins at zeta.
-template <class W>
-FRAHM_INLINE Lanes fourth_derivative(const W& w, int form) {
-  Lanes sum = lanes(0.0);
-  for (int s = 0; s < w.modes; ++s) {
-    const Lanes r2 = w.rate_size[s] * w.rate_size[s];
-    sum += size_of(load(w.pack.form_modal, form * w.modes + s)) * size_of(w.zeta[s]) * (r2 * r2);
-  }
-  for (int k = 0; k < w.orders; ++k) {
-    const double n = w.shape.order[k];
-    sum += size_of(w.phasors()[form * w.orders + k]) * (n * n * n * n);
-  }
-  return sum;
-}
-
-template <class W>
-inline void set_levels(W& w) {
-  for (int form = w.contacts; form < w.shape.forms(); ++form) {  // velocities have none
-    if (w.is_unused(form)) continue;
-    w.level[form] = w.constant[form];
-    for (int j = 0; j < w.contacts; ++j) w.level[form] += w.friction[form * w.contacts + j] * w.direction[j];
-  }
-}
-
 template <class W>
 inline void set_factors(W& w, Lanes h) {
   for (int s = 0; s < w.modes; ++s) w.step_factor[s] = exponential({h * w.rate[s].re, h * w.rate[s].im});
@@ -183,35 +153,6 @@ inline void integrate_step(W& w, Lanes h) {
   }
 }
 
-// What the search of extremes needs of a step, in the lanes that take it.
-template <class W>
-inline void keep_step(W& w, Mask taken, Lanes phase, Lanes h, bool first) {
-  const int step = w.steps, T = w.shape.traces;
-  w.phase_at[step] = phase;
-  w.length[step] = select(taken, h, 0.0);
-  for (int s = 0; s < w.modes; ++s) w.zeta_at[step * w.modes + s] = w.zeta[s];
-  for (int k = 0; k < w.orders; ++k) w.osc_at[step * w.orders + k] = w.osc[k];
-  for (int t = 0; t < T; ++t) {
-    const int form = w.shape.first_trace() + t;
-    Lanes* kept = w.left + (step * T + t) * 6;
-    if (first) {
-      w.bend[t] = fourth_derivative(w, form) * ((h * h) * (h * h)) * (1.0 / 144.0);
-      w.x0[t] = value(w, form, w.zeta, w.osc) + w.level[form];
-      w.d0[t] = slope(w, form, w.zeta, w.osc);
-    }
-    const Lanes x1 = value(w, form, w.next_zeta, w.next_osc) + w.level[form];
-    const Lanes d1 = slope(w, form, w.next_zeta, w.next_osc);
-    kept[0] = w.x0[t];
-    kept[1] = w.d0[t];
-    kept[2] = x1;
-    kept[3] = d1;
-    kept[4] = w.level[form];
-    kept[5] = w.bend[t];
-    w.x0[t] = x1;
-    w.d0[t] = d1;
-  }
-}
-
 // The reversal that ends a segment: what it misses zero by, how far its contact has come, and its jump.
 // Its direction is `turned`.
 template <class W>
@@ -249,7 +190,7 @@ inline void clear_measures(W& w) {
   for (int p = 0; p < w.shape.powers; ++p) w.work[p] = w.work_size[p] = lanes(0.0);
   for (int j = 0; j < w.contacts; ++j)
     w.slid[j] = w.contact_reversals[j] = w.first_sign[j] = w.last_sign[j] = lanes(0.0);
-  w.steps = 0;
+  clear_extremes(w);
 }
 
 // Counts a frictionless contact's changes of direction; a velocity of zero is of no direction.
@@ -282,7 +223,8 @@ inline Passage sweep(W& w, Mask group, double fineness) {
   const double steps_a_radian = fineness / (w.shape.integrated > 0 ? kStep : kCoarseStep);
   Passage passage{group, lanes(1.0), lanes(1.0), lanes(0.0), lanes(0.0)};
   clear_measures(w);
-  w.rests = false;
+  w.rests = w.is_released = false;
+  Lanes steps_so_far = lanes(0.0);
   start_sweep(w);
   for (int p = 0; p < segments; ++p) {
     const bool is_last = p + 1 == segments;
@@ -293,7 +235,9 @@ inline Passage sweep(W& w, Mask group, double fineness) {
     passage.proved = passage.proved & (length > kShortest);
     w.segment_length[p] = length;
     const Lanes count = max(floor(length * fastest_rate(w) * steps_a_radian) + 1.0, lanes(2.0));
-    passage.proved = passage.proved & (count < lanes(most_steps(w.contacts) / segments));
+    // A lane's own steps decide, not those that others of its group take beside it.
+    steps_so_far += count;
+    passage.proved = passage.proved & may_hold(passage) & (steps_so_far < lanes(most_steps(w.contacts)));
     if (!any(passage.proved)) return passage;
     const Lanes h = length / count;
     set_factors(w, h);
@@ -336,13 +280,12 @@ inline Passage sweep(W& w, Mask group, double fineness) {
         w.v0[j] = select(taken, v, w.v0[j]);
         w.a0[j] = select(taken, a, w.a0[j]);
       }
-      if (w.shape.traces > 0) keep_step(w, taken, start + h * k, h, k == 0);
-      w.is_rest_at[w.steps] = w.is_release_at[w.steps] = false;
-      ++w.steps;
+      keep_step(w, taken, start + h * k, h);
       if (w.shape.integrated > 0) integrate_step(w, select(taken, h, 0.0));
       for (int s = 0; s < w.modes; ++s) w.zeta[s] = select(taken, w.next_zeta[s], w.zeta[s]);
       for (int i = 0; i < w.orders; ++i) w.osc[i] = select(taken, w.next_osc[i], w.osc[i]);
     }
+    search_segment(w, passage.proved & (passage.at_reversals > kSafe) & (passage.between > kSafe));
     if (R > 0)
       take_reversal(w, next, is_last ? w.sign * w.sorted_turn[0] : w.sorted_turn[next], passage.proved,
                     passage);
