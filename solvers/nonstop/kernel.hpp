@@ -25,7 +25,8 @@ const Kernel& fastest_kernel();     // that runs here
 inline constexpr int kMostReversals = 32;
 // Of all segments of the span together: for a system of so many contacts.
 constexpr int most_steps(int contacts) {
-  return contacts > 2 ? 1024 : 256;
+  const int steps = 64 * contacts;
+  return steps < 256 ? 256 : steps > 1024 ? 1024 : steps;
 }
 
 std::size_t workspace_size(const Shape& shape);

@@ -15,7 +15,8 @@ inline void tell(const W& w, const Passage& passage, Mask told) {
   };
   tell_one(w.pack.newton_iterations, 0, w.iterations);
   tell_one(w.pack.reversals, 0, lanes(w.reversals));
-  tell_one(w.pack.margin, 0, min(passage.at_reversals, passage.between));
+  // Reversals keep their order while they move by less than lies between them.
+  tell_one(w.pack.margin, 0, min(min(passage.at_reversals, passage.between), passage.shortest));
   tell_one(w.pack.residual, 0, passage.residual);
   for (int p = 0; p < w.shape.products; ++p) tell_one(w.pack.integral, p, seconds * w.integral[p]);
   for (int p = 0; p < w.shape.powers; ++p) {
@@ -37,7 +38,7 @@ inline void tell(const W& w, const Passage& passage, Mask told) {
 
 // Lanes whose proof failed by so little that its steps may be to blame.
 inline Mask is_close(const Passage& passage) {
-  return may_hold(passage) & ~(passage.between > kSafe);
+  return passage.may_hold() & ~(passage.between > kSafe);
 }
 
 template <class W>

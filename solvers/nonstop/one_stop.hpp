@@ -244,16 +244,6 @@ inline void set_rest_forms(W& w, const OneStop& stop) {
   }
 }
 
-// The number of steps of a stretch, in the lanes of the group the largest.
-template <class W>
-inline int steps_of(Mask group, Lanes count) {
-  Lanes most = select(group, count, 0.0);
-  int steps = 0;
-  for (int lane = 0; lane < kLanes; ++lane)
-    if (at(most, lane) > steps) steps = static_cast<int>(at(most, lane));
-  return steps;
-}
-
 // One step of a stretch: measures it, and goes on.
 template <class W>
 inline void take_step(W& w, Mask taken, Lanes phase, Lanes h) {
@@ -277,7 +267,7 @@ inline void sweep_slide(W& w, const OneStop& stop, double steps_a_radian, Passag
   const Lanes h = stop.theta / count;
   set_factors(w, h);
   const Lanes error = fourth_derivative(w, 0) * ((h * h) * (h * h)) * (1.0 / 144.0);
-  const int steps = steps_of<W>(passage.proved, count);
+  const int steps = steps_of(passage.proved, count);
   w.v0[0] = w.a0[0] = lanes(0.0);
   for (int k = 0; k < steps; ++k) {
     const Mask taken = count > lanes(k), ends = taken & ~(count > lanes(k + 1.0));
@@ -317,7 +307,7 @@ inline void sweep_rest(W& w, const OneStop& stop, double steps_a_radian, Passage
   const Lanes held = -(stop.spring * stop.rest);
   const auto pull = [&](Complex u) { return real_part(stop.drive, u) + held; };
   const auto rate = [&](Complex u) { return -(stop.drive * u).im; };
-  const int steps = steps_of<W>(passage.proved, count);
+  const int steps = steps_of(passage.proved, count);
   for (int k = 0; k < steps; ++k) {
     const Mask taken = count > lanes(k), ends = taken & ~(count > lanes(k + 1.0));
     for (int s = 0; s < w.modes; ++s) w.next_zeta[s] = w.zeta[s];
@@ -357,13 +347,10 @@ inline Passage sweep_one_stop(W& w, const OneStop& stop, double fineness) {
   passage.proved = passage.proved & (stop.theta > 1e-3) & (lanes(kPi) - stop.theta > 1e-6) &
                    (stop.rest > 0.0) & (abs(stop.missed) < kClosed * stop.rest);
   clear_measures(w);
-  const auto stands = [&] {
-    return passage.proved & (passage.at_reversals > kSafe) & (passage.between > kSafe);
-  };
   sweep_slide(w, stop, steps_a_radian, passage);
-  search_segment(w, stands());
+  search_segment(w, passage.stands());
   if (any(passage.proved)) sweep_rest(w, stop, steps_a_radian, passage);
-  search_segment(w, stands());
+  search_segment(w, passage.stands());
   w.slid[0] = 2.0 * stop.rest;
   w.contact_reversals[0] = lanes(1.0);
   passage.parts = w.harmonic_size[0];
@@ -372,7 +359,7 @@ inline Passage sweep_one_stop(W& w, const OneStop& stop, double fineness) {
   passage.residual = abs(stop.missed) * norm_of_coordinates(w, [&](int i) {
                        return i == 0 ? stop.unit.first : stop.unit.second;
                      });
-  passage.proved = stands();
+  passage.proved = passage.stands();
   return passage;
 }
 

@@ -17,18 +17,30 @@ constexpr double kSafe = 1e-7;  // a margin that is certainly not grazing
 
 // What the sweep finds of all lanes.
 struct Passage {
-  Mask proved;         // nothing sticks
-  Lanes at_reversals;  // least relative acceleration there, on either side
-  Lanes between;       // least coefficient of the proof, relative
-  Lanes residual;      // [sqrt(J)]
-  Lanes parts;         // energy norms of what the motion is the sum of [sqrt(J)]
+  Mask proved;                    // nothing sticks
+  Lanes at_reversals;             // least relative acceleration there, on either side
+  Lanes between;                  // least coefficient of the proof, relative
+  Lanes residual;                 // [sqrt(J)]
+  Lanes parts;                    // energy norms of what the motion is the sum of [sqrt(J)]
+  Lanes shortest = lanes(1.0);    // time between two reversals [rad]
+  Lanes latest_off = lanes(0.0);  // by which a reversal misses its phase [rad]
+
+  // The proof stands so far.
+  Mask stands() const { return proved & (at_reversals > kSafe) & (between > kSafe); }
+  // Proved so far, or with finer steps.
+  Mask may_hold() const {
+    constexpr double kClose = -0.1;
+    return (at_reversals > kSafe) & (between > kClose);
+  }
 };
 
-// Lanes whose proof still can hold, with finer steps if need be.
-inline Mask may_hold(const Passage& passage) {
-  constexpr double kClose = -0.1;
-  return (passage.at_reversals > kSafe) & (passage.between > kClose);
-}
+// From one reversal to the next one; without any, the span.
+struct Segment {
+  int number, next;  // of the reversals at its ends
+  bool is_last;
+  Lanes start, length;  // [rad]
+  Lanes count, h;       // of steps, and their length [rad]
+};
 
 // zeta just after the first reversal, and the direction of every contact from there: that of its last
 // reversal.
@@ -179,7 +191,9 @@ inline void take_reversal(W& w, int p, Lanes turned, Mask sound, Passage& passag
   // A velocity v, or its rounding, is a delay v / (omega a), after which friction acts by 2 F the other way.
   constexpr double kRounding = 1e-15;
   const Lanes off = abs(v) + kRounding / max(per_speed, lanes(1e-300));
-  passage.residual += 2.0 * force * push_norm * (off / (omega * max(abs(a), lanes(1e-300))));
+  const Lanes late = off / max(abs(a), lanes(1e-300));
+  passage.residual += 2.0 * force * push_norm * (late / omega);
+  passage.latest_off = max(late, passage.latest_off);
   passage.at_reversals = min(passage.at_reversals, turned * a * per_speed);
   w.slope_before[p] = a;
 }
@@ -213,82 +227,147 @@ inline void close_signs(W& w) {
   }
 }
 
+// A coefficient of a velocity, relative to its size, that is small: beside the contact's own reversal it is
+// as small as that is near, and so is told relative to the distance [rad]. What may be rounding is left out;
+// the velocity is the sum of modes that were multiplied step by step.
+template <class W>
+inline Lanes beside_reversal(const W& w, const Segment& segment, int k, int j, Lanes least) {
+  constexpr double kRounding = 1e-12;
+  const auto folded_once = [&](Lanes phase) { return select(phase < 0.0, phase + w.span, phase); };
+  const Lanes end = w.sorted_phase[segment.next];
+  Lanes distance = lanes(1.0);
+  for (int e = 0; e < w.reversals; ++e) {
+    const Lanes since = folded_once(segment.start - w.sorted_phase[e]) + segment.h * (k + 1.0);
+    const Lanes until = folded_once(w.sorted_phase[e] - end) + segment.h * (segment.count - k);
+    distance = select(w.sorted_contact[e] == j, min(distance, min(since, until)), distance);
+  }
+  Lanes size = w.speed[j];
+  for (int s = 0; s < w.modes; ++s)
+    size += size_of(load(w.pack.form_modal, j * w.modes + s)) * size_of(w.zeta[s]);
+  const Lanes sound = least - kRounding * size * w.per_speed[j];
+  return select(sound > 0.0, sound / distance, least);
+}
+
+// The number and length of the segment's steps; false if no lane is left whose proof may hold.
+template <class W>
+inline bool lay_out_steps(const W& w, Segment& segment, double fineness, Lanes& steps_so_far,
+                          Passage& passage) {
+  constexpr double kStep = 0.75, kCoarseStep = 1.0;  // of the fastest rate's radian; without integrals
+  constexpr double kShortest = 1e-9;                 // between two reversals [rad]
+  const double steps_a_radian = fineness / (w.shape.integrated > 0 ? kStep : kCoarseStep);
+  const Lanes count = max(floor(segment.length * fastest_rate(w) * steps_a_radian) + 1.0, lanes(2.0));
+  segment.count = count;
+  segment.h = segment.length / count;
+  // A lane's own steps decide, not those that others of its group take beside it.
+  steps_so_far += count;
+  passage.shortest = min(passage.shortest, segment.length);
+  passage.proved = passage.proved & passage.may_hold() & (segment.length > kShortest) &
+                   (steps_so_far < lanes(most_steps(w.contacts)));
+  return any(passage.proved);
+}
+
+// Velocities and harmonics at the segment's start.
+template <class W>
+inline void start_segment(W& w, const Segment& segment, Passage& passage) {
+  const Lanes h = segment.h;
+  set_factors(w, h);
+  set_levels(w);
+  for (int k = 0; k < w.orders; ++k) w.osc[k] = turn(segment.start * w.shape.order[k]);
+  // The slopes are bounded from the segment's start on, as every mode decays.
+  for (int j = 0; j < w.contacts; ++j) {
+    const Mask reversed = w.reversals > 0 ? w.sorted_contact[segment.number] == j : none();
+    w.v0[j] = select(reversed, lanes(0.0), value(w, j, w.zeta, w.osc));
+    w.a0[j] = slope(w, j, w.zeta, w.osc);
+    w.error[j] = fourth_derivative(w, j) * ((h * h) * (h * h)) * (1.0 / 144.0);
+    if (w.reversals > 0) {
+      const Lanes after = w.direction[j] * w.a0[j] * w.per_speed[j];
+      passage.at_reversals = select(reversed, min(passage.at_reversals, after), passage.at_reversals);
+    }
+  }
+}
+
+// Whether every contact keeps its direction over step k of the segment, in the lanes that take it.
+template <class W>
+inline void prove_step(W& w, const Segment& segment, int k, Mask taken, Passage& passage) {
+  const Mask ends_segment = taken & ~(segment.count > lanes(k + 1.0));
+  for (int j = 0; j < w.contacts; ++j) {
+    const Mask rubs = view(w.pack.limit)[j] > 0.0;
+    const Lanes v = value(w, j, w.next_zeta, w.next_osc), a = slope(w, j, w.next_zeta, w.next_osc);
+    const bool reverses = w.reversals > 0;
+    const Mask starts = k == 0 && reverses ? w.sorted_contact[segment.number] == j : none();
+    const Mask ends = reverses ? ends_segment & (w.sorted_contact[segment.next] == j) : none();
+    const Lanes d = w.direction[j];
+    const Lanes at_end = select(ends, lanes(0.0), v);
+    Lanes least =
+        least_coefficient(d * w.v0[j], d * w.a0[j], d * at_end, d * a, segment.h, w.error[j], starts, ends) *
+        w.per_speed[j];
+    const Mask small = taken & rubs & (least > 0.0) & ~(least > kSafe);
+    if (any(small)) least = select(small, beside_reversal(w, segment, k, j, least), least);
+    passage.between = select(taken & rubs, min(passage.between, least), passage.between);
+    if (w.shape.asks_strokes) {  // without friction a contact reverses as it likes
+      note_sign(w, j, taken & ~rubs, v);
+    }
+    w.v0[j] = select(taken, v, w.v0[j]);
+    w.a0[j] = select(taken, a, w.a0[j]);
+  }
+}
+
+// The largest number of steps that a lane of the group takes.
+inline int steps_of(Mask group, Lanes count) {
+  Lanes most = select(group, count, 0.0);
+  int steps = 0;
+  for (int lane = 0; lane < kLanes; ++lane)
+    if (at(most, lane) > steps) steps = static_cast<int>(at(most, lane));
+  return steps;
+}
+
+template <class W>
+inline void sweep_segment(W& w, const Segment& segment, Passage& passage) {
+  start_segment(w, segment, passage);
+  const int steps = steps_of(passage.proved, segment.count);
+  for (int k = 0; k < steps; ++k) {
+    const Mask taken = segment.count > lanes(k);
+    for (int s = 0; s < w.modes; ++s) w.next_zeta[s] = w.zeta[s] * w.step_factor[s];
+    for (int i = 0; i < w.orders; ++i) w.next_osc[i] = w.osc[i] * w.osc_factor[i];
+    prove_step(w, segment, k, taken, passage);
+    keep_step(w, taken, segment.start + segment.h * k, segment.h);
+    if (w.shape.integrated > 0) integrate_step(w, select(taken, segment.h, 0.0));
+    for (int s = 0; s < w.modes; ++s) w.zeta[s] = select(taken, w.next_zeta[s], w.zeta[s]);
+    for (int i = 0; i < w.orders; ++i) w.osc[i] = select(taken, w.next_osc[i], w.osc[i]);
+  }
+  search_segment(w, passage.stands());
+}
+
+template <class W>
+inline Segment segment_of(const W& w, int number) {
+  const int R = w.reversals;
+  const bool is_last = number + 1 >= R;
+  Segment segment{number, is_last ? 0 : number + 1, is_last, lanes(0.0), lanes(w.span), {}, {}};
+  if (R == 0) return segment;
+  segment.start = w.sorted_phase[number];
+  segment.length =
+      is_last ? w.sorted_phase[0] + w.span - segment.start : w.sorted_phase[number + 1] - segment.start;
+  return segment;
+}
+
 // Sweeps the orbit in the lanes of the group. fineness: factor of the number of steps.
 template <class W>
 inline Passage sweep(W& w, Mask group, double fineness) {
-  constexpr double kStep = 0.75, kCoarseStep = 1.0;  // of the fastest rate's radian; without integrals
-  constexpr double kShortest = 1e-6;                 // between two reversals [rad]
   constexpr double kClosed = 1e-9;
-  const int R = w.reversals, segments = R > 0 ? R : 1;
-  const double steps_a_radian = fineness / (w.shape.integrated > 0 ? kStep : kCoarseStep);
+  constexpr double kInOrder = 1e-2;  // of the shortest segment, by which a reversal may miss its phase
   Passage passage{group, lanes(1.0), lanes(1.0), lanes(0.0), lanes(0.0)};
   clear_measures(w);
   w.rests = w.is_released = false;
   Lanes steps_so_far = lanes(0.0);
   start_sweep(w);
-  for (int p = 0; p < segments; ++p) {
-    const bool is_last = p + 1 == segments;
-    const int next = is_last ? 0 : p + 1;
-    const Lanes start = R > 0 ? w.sorted_phase[p] : lanes(0.0);
-    const Lanes length =
-        is_last ? (R > 0 ? w.sorted_phase[0] : lanes(0.0)) + w.span - start : w.sorted_phase[next] - start;
-    passage.proved = passage.proved & (length > kShortest);
-    w.segment_length[p] = length;
-    const Lanes count = max(floor(length * fastest_rate(w) * steps_a_radian) + 1.0, lanes(2.0));
-    // A lane's own steps decide, not those that others of its group take beside it.
-    steps_so_far += count;
-    passage.proved = passage.proved & may_hold(passage) & (steps_so_far < lanes(most_steps(w.contacts)));
-    if (!any(passage.proved)) return passage;
-    const Lanes h = length / count;
-    set_factors(w, h);
-    set_levels(w);
-    Lanes most_steps = select(passage.proved, count, 0.0);
-    int steps = 0;
-    for (int lane = 0; lane < kLanes; ++lane)
-      if (at(most_steps, lane) > steps) steps = static_cast<int>(at(most_steps, lane));
-    for (int k = 0; k < w.orders; ++k) w.osc[k] = turn(start * w.shape.order[k]);
-    // The slopes are bounded from the segment's start on, as every mode decays.
-    for (int j = 0; j < w.contacts; ++j) {
-      const Mask reversed = R > 0 ? w.sorted_contact[p] == j : none();
-      w.v0[j] = select(reversed, lanes(0.0), value(w, j, w.zeta, w.osc));
-      w.a0[j] = slope(w, j, w.zeta, w.osc);
-      w.error[j] = fourth_derivative(w, j) * ((h * h) * (h * h)) * (1.0 / 144.0);
-      if (R > 0) {
-        const Lanes after = w.direction[j] * w.a0[j] * w.per_speed[j];
-        passage.at_reversals = select(reversed, min(passage.at_reversals, after), passage.at_reversals);
-      }
-    }
-    for (int k = 0; k < steps; ++k) {
-      const Mask taken = count > lanes(k);
-      const Mask ends_segment = taken & ~(count > lanes(k + 1.0));
-      for (int s = 0; s < w.modes; ++s) w.next_zeta[s] = w.zeta[s] * w.step_factor[s];
-      for (int i = 0; i < w.orders; ++i) w.next_osc[i] = w.osc[i] * w.osc_factor[i];
-      for (int j = 0; j < w.contacts; ++j) {
-        const Mask rubs = view(w.pack.limit)[j] > 0.0;
-        const Lanes v = value(w, j, w.next_zeta, w.next_osc), a = slope(w, j, w.next_zeta, w.next_osc);
-        const Mask starts = k == 0 && R > 0 ? w.sorted_contact[p] == j : none();
-        const Mask ends = R > 0 ? ends_segment & (w.sorted_contact[next] == j) : none();
-        const Lanes d = w.direction[j];
-        const Lanes at_end = select(ends, lanes(0.0), v);
-        const Lanes least =
-            least_coefficient(d * w.v0[j], d * w.a0[j], d * at_end, d * a, h, w.error[j], starts, ends) *
-            w.per_speed[j];
-        passage.between = select(taken & rubs, min(passage.between, least), passage.between);
-        if (w.shape.asks_strokes) {  // without friction a contact reverses as it likes
-          note_sign(w, j, taken & ~rubs, v);
-        }
-        w.v0[j] = select(taken, v, w.v0[j]);
-        w.a0[j] = select(taken, a, w.a0[j]);
-      }
-      keep_step(w, taken, start + h * k, h);
-      if (w.shape.integrated > 0) integrate_step(w, select(taken, h, 0.0));
-      for (int s = 0; s < w.modes; ++s) w.zeta[s] = select(taken, w.next_zeta[s], w.zeta[s]);
-      for (int i = 0; i < w.orders; ++i) w.osc[i] = select(taken, w.next_osc[i], w.osc[i]);
-    }
-    search_segment(w, passage.proved & (passage.at_reversals > kSafe) & (passage.between > kSafe));
-    if (R > 0)
-      take_reversal(w, next, is_last ? w.sign * w.sorted_turn[0] : w.sorted_turn[next], passage.proved,
-                    passage);
+  for (int p = 0; p == 0 || p < w.reversals; ++p) {
+    Segment segment = segment_of(w, p);
+    w.segment_length[p] = segment.length;
+    if (!lay_out_steps(w, segment, fineness, steps_so_far, passage)) return passage;
+    sweep_segment(w, segment, passage);
+    if (w.reversals == 0) break;
+    const Lanes turned = segment.is_last ? w.sign * w.sorted_turn[0] : w.sorted_turn[segment.next];
+    take_reversal(w, segment.next, turned, passage.proved, passage);
   }
   close_signs(w);
   Lanes missed = lanes(0.0), size = lanes(1e-300);
@@ -299,8 +378,8 @@ inline Passage sweep(W& w, Mask group, double fineness) {
   }
   for (int k = 0; k < w.orders; ++k) passage.parts += w.harmonic_size[k];
   passage.parts += size;
-  passage.proved = passage.proved & (passage.at_reversals > kSafe) & (passage.between > kSafe) &
-                   ~(missed > kClosed * size);
+  passage.proved =
+      passage.stands() & ~(missed > kClosed * size) & (passage.latest_off < kInOrder * passage.shortest);
   return passage;
 }
 
