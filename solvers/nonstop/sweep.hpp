@@ -1,46 +1,11 @@
 #pragma once
 
 #include "solvers/nonstop/extremes.hpp"
+#include "solvers/nonstop/integrals.hpp"
+#include "solvers/nonstop/proof.hpp"
 
 // One passage along the orbit: the proof that nothing sticks, and everything that is measured on the way.
 namespace {
-
-// Six-point Gauss-Legendre nodes and weights on [0, 1] (Abramowitz and Stegun, table 25.4): over a step the
-// error is below 5e-14 of the integrand's scale.
-constexpr int kNodes = 6;
-constexpr double kNodeAt[kNodes] = {0.03376524289842397, 0.16939530676686774, 0.3806904069584015,
-                                    0.6193095930415985,  0.8306046932331323,  0.966234757101576};
-constexpr double kNodeWeight[kNodes] = {0.08566224618958517, 0.1803807865240693, 0.23395696728634552,
-                                        0.23395696728634552, 0.1803807865240693, 0.08566224618958517};
-
-constexpr double kSafe = 1e-7;  // a margin that is certainly not grazing
-
-// What the sweep finds of all lanes.
-struct Passage {
-  Mask proved;                    // nothing sticks
-  Lanes at_reversals;             // least relative acceleration there, on either side
-  Lanes between;                  // least coefficient of the proof, relative
-  Lanes residual;                 // [sqrt(J)]
-  Lanes parts;                    // energy norms of what the motion is the sum of [sqrt(J)]
-  Lanes shortest = lanes(1.0);    // time between two reversals [rad]
-  Lanes latest_off = lanes(0.0);  // by which a reversal misses its phase [rad]
-
-  // The proof stands so far.
-  Mask stands() const { return proved & (at_reversals > kSafe) & (between > kSafe); }
-  // Proved so far, or with finer steps.
-  Mask may_hold() const {
-    constexpr double kClose = -0.1;
-    return (at_reversals > kSafe) & (between > kClose);
-  }
-};
-
-// From one reversal to the next one; without any, the span.
-struct Segment {
-  int number, next;  // of the reversals at its ends
-  bool is_last;
-  Lanes start, length;  // [rad]
-  Lanes count, h;       // of steps, and their length [rad]
-};
 
 // zeta just after the first reversal, and the direction of every contact from there: that of its last
 // reversal.
@@ -95,76 +60,6 @@ inline Lanes fastest_rate(const W& w) {
   return sqrt(sqrt(sqrt(sum)));
 }
 
-// Whether a velocity stays positive over a step of length h: the Bernstein coefficients of the quartic that
-// the cubic Hermite interpolant, less what it can be wrong by, is at least. |error| <= B t^2 (h-t)^2 / 24
-// lowers the middle coefficient alone, by B h^4 / 144. v: at both ends, exactly zero where the contact
-// reverses; a: its slopes. Returns the least coefficient that is not zero by itself.
-FRAHM_INLINE Lanes least_coefficient(Lanes v0, Lanes a0, Lanes v1, Lanes a1, Lanes h, Lanes error,
-                                     Mask starts, Mask ends) {
-  const Lanes b1 = v0 + a0 * h * (1.0 / 3.0), b2 = v1 - a1 * h * (1.0 / 3.0);
-  const Lanes c1 = 0.25 * v0 + 0.75 * b1, c2 = 0.5 * (b1 + b2) - error, c3 = 0.75 * b2 + 0.25 * v1;
-  Lanes least = min(min(c1, c2), c3);
-  least = select(starts, least, min(least, v0));
-  return select(ends, least, min(least, v1));
-}
-
-template <class W>
-inline void set_factors(W& w, Lanes h) {
-  for (int s = 0; s < w.modes; ++s) w.step_factor[s] = exponential({h * w.rate[s].re, h * w.rate[s].im});
-  for (int k = 0; k < w.orders; ++k) w.osc_factor[k] = turn(h * w.shape.order[k]);
-  if (w.shape.integrated == 0) return;
-  for (int i = 0; i < kNodes / 2; ++i) {
-    const Lanes t = h * kNodeAt[i];
-    for (int s = 0; s < w.modes; ++s)
-      w.node_factor[i * w.modes + s] = exponential({t * w.rate[s].re, t * w.rate[s].im});
-    for (int k = 0; k < w.orders; ++k) w.node_osc[i * w.orders + k] = turn(t * w.shape.order[k]);
-  }
-  // The nodes lie symmetrically: exp(rate (h - t)) = exp(rate h) / exp(rate t).
-  for (int i = kNodes / 2; i < kNodes; ++i) {
-    const int mirror = kNodes - 1 - i;
-    for (int s = 0; s < w.modes; ++s) {
-      Complex factor = w.step_factor[s] / w.node_factor[mirror * w.modes + s];
-      const Mask vanishes = h * w.rate[s].re < lanes(kVanishing);
-      const Lanes t = h * kNodeAt[i];
-      if (any(vanishes)) factor = select(vanishes, exponential({t * w.rate[s].re, t * w.rate[s].im}), factor);
-      w.node_factor[i * w.modes + s] = factor;
-    }
-    for (int k = 0; k < w.orders; ++k)
-      w.node_osc[i * w.orders + k] = w.osc_factor[k] * conjugate(w.node_osc[mirror * w.orders + k]);
-  }
-}
-
-// Adds a step to all integrals; h is zero in lanes without it.
-template <class W>
-inline void integrate_step(W& w, Lanes h) {
-  const int first = w.shape.first_integrated();
-  for (int i = 0; i < kNodes; ++i) {
-    const Lanes weight = h * kNodeWeight[i];
-    for (int s = 0; s < w.modes; ++s) w.at_node[s] = w.zeta[s] * w.node_factor[i * w.modes + s];
-    for (int k = 0; k < w.orders; ++k) w.osc_at_node[k] = w.osc[k] * w.node_osc[i * w.orders + k];
-    for (int f = 0; f < w.shape.integrated; ++f)
-      w.form_value[f] = value(w, first + f, w.at_node, w.osc_at_node) + w.level[first + f];
-    for (int p = 0; p < w.shape.products; ++p) {
-      const Product& product = w.shape.product[p];
-      const Lanes a = weight * w.form_value[product.a];
-      if (product.b >= 0) {
-        w.integral[p] += a * w.form_value[product.b];
-      } else if (product.b == -1) {
-        w.integral[p] += a;
-      } else {
-        const Complex& u = w.osc_at_node[(-2 - product.b) / 2];
-        w.integral[p] += a * (product.b % 2 == 0 ? u.re : u.im);
-      }
-    }
-    for (int p = 0; p < w.shape.powers; ++p) {
-      const Product& power = w.shape.power[p];
-      const Lanes work = weight * (w.form_value[power.a] * w.form_value[power.b]);
-      w.work[p] += work;
-      w.work_size[p] += abs(work);
-    }
-  }
-}
-
 // The reversal that ends a segment: what it misses zero by, how far its contact has come, and its jump.
 // Its direction is `turned`.
 template <class W>
@@ -207,47 +102,6 @@ inline void clear_measures(W& w) {
   clear_extremes(w);
 }
 
-// Counts a frictionless contact's changes of direction; a velocity of zero is of no direction.
-template <class W>
-inline void note_sign(W& w, int j, Mask where, Lanes v) {
-  const Mask moves = where & ((v > 0.0) | (v < lanes(0.0)));
-  const Lanes sign = select(v > 0.0, lanes(1.0), lanes(-1.0));
-  const Mask known = abs(w.last_sign[j]) > 0.5;
-  const Mask reverses = moves & known & ~(sign == w.last_sign[j]);
-  w.contact_reversals[j] += select(reverses, lanes(1.0), 0.0);
-  w.first_sign[j] = select(moves & ~known, sign, w.first_sign[j]);
-  w.last_sign[j] = select(moves, sign, w.last_sign[j]);
-}
-// The first direction comes again after the span, with its sign.
-template <class W>
-inline void close_signs(W& w) {
-  for (int j = 0; j < w.contacts; ++j) {
-    const Mask reverses = (abs(w.last_sign[j]) > 0.5) & ~(w.last_sign[j] == w.sign * w.first_sign[j]);
-    w.contact_reversals[j] += select(reverses & ~(view(w.pack.limit)[j] > 0.0), lanes(1.0), 0.0);
-  }
-}
-
-// A coefficient of a velocity, relative to its size, that is small: beside the contact's own reversal it is
-// as small as that is near, and so is told relative to the distance [rad]. What may be rounding is left out;
-// the velocity is the sum of modes that were multiplied step by step.
-template <class W>
-inline Lanes beside_reversal(const W& w, const Segment& segment, int k, int j, Lanes least) {
-  constexpr double kRounding = 1e-12;
-  const auto folded_once = [&](Lanes phase) { return select(phase < 0.0, phase + w.span, phase); };
-  const Lanes end = w.sorted_phase[segment.next];
-  Lanes distance = lanes(1.0);
-  for (int e = 0; e < w.reversals; ++e) {
-    const Lanes since = folded_once(segment.start - w.sorted_phase[e]) + segment.h * (k + 1.0);
-    const Lanes until = folded_once(w.sorted_phase[e] - end) + segment.h * (segment.count - k);
-    distance = select(w.sorted_contact[e] == j, min(distance, min(since, until)), distance);
-  }
-  Lanes size = w.speed[j];
-  for (int s = 0; s < w.modes; ++s)
-    size += size_of(load(w.pack.form_modal, j * w.modes + s)) * size_of(w.zeta[s]);
-  const Lanes sound = least - kRounding * size * w.per_speed[j];
-  return select(sound > 0.0, sound / distance, least);
-}
-
 // The number and length of the segment's steps; false if no lane is left whose proof may hold.
 template <class W>
 inline bool lay_out_steps(const W& w, Segment& segment, double fineness, Lanes& steps_so_far,
@@ -283,32 +137,6 @@ inline void start_segment(W& w, const Segment& segment, Passage& passage) {
       const Lanes after = w.direction[j] * w.a0[j] * w.per_speed[j];
       passage.at_reversals = select(reversed, min(passage.at_reversals, after), passage.at_reversals);
     }
-  }
-}
-
-// Whether every contact keeps its direction over step k of the segment, in the lanes that take it.
-template <class W>
-inline void prove_step(W& w, const Segment& segment, int k, Mask taken, Passage& passage) {
-  const Mask ends_segment = taken & ~(segment.count > lanes(k + 1.0));
-  for (int j = 0; j < w.contacts; ++j) {
-    const Mask rubs = view(w.pack.limit)[j] > 0.0;
-    const Lanes v = value(w, j, w.next_zeta, w.next_osc), a = slope(w, j, w.next_zeta, w.next_osc);
-    const bool reverses = w.reversals > 0;
-    const Mask starts = k == 0 && reverses ? w.sorted_contact[segment.number] == j : none();
-    const Mask ends = reverses ? ends_segment & (w.sorted_contact[segment.next] == j) : none();
-    const Lanes d = w.direction[j];
-    const Lanes at_end = select(ends, lanes(0.0), v);
-    Lanes least =
-        least_coefficient(d * w.v0[j], d * w.a0[j], d * at_end, d * a, segment.h, w.error[j], starts, ends) *
-        w.per_speed[j];
-    const Mask small = taken & rubs & (least > 0.0) & ~(least > kSafe);
-    if (any(small)) least = select(small, beside_reversal(w, segment, k, j, least), least);
-    passage.between = select(taken & rubs, min(passage.between, least), passage.between);
-    if (w.shape.asks_strokes) {  // without friction a contact reverses as it likes
-      note_sign(w, j, taken & ~rubs, v);
-    }
-    w.v0[j] = select(taken, v, w.v0[j]);
-    w.a0[j] = select(taken, a, w.a0[j]);
   }
 }
 

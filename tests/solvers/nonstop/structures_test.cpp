@@ -51,6 +51,7 @@ TEST_CASE("A building of sixty storeys that slides has its orbits from the phase
   }
   const Row fastest = solved(work.network, quantities, Path::fastest, row);
   const Row general = solved(work.network, quantities, Path::general, row);
+  int with_bound = 0;
   for (std::size_t i = 0; i < row.size(); ++i) {
     INFO("omega " << row[i].omega);
     CHECK(fastest.found[i].way == Way::event_phases);
@@ -60,22 +61,28 @@ TEST_CASE("A building of sixty storeys that slides has its orbits from the phase
       return std::vector<double>(first, first + static_cast<std::ptrdiff_t>(quantities.size()));
     };
     const std::vector<double> a = own(general), b = own(fastest);
-    CHECK(std::isfinite(b[0]));
+    const bool has_bound = std::isfinite(b[0]);  // none where it is wider than two reversals are apart
+    with_bound += has_bound;
     for (std::size_t q = 1; q < quantities.size(); ++q) {
       const bool is_peak = quantities[q].measure == Measure::peak;
       INFO(describe(quantities[q], work.network, false).name << " " << a[q] << " and " << b[q]);
-      if (is_peak) CHECK(std::abs(a[q] - b[q]) <= a[0] + b[0]);
+      if (is_peak && has_bound) CHECK(std::abs(a[q] - b[q]) <= a[0] + b[0]);
       CHECK(difference(q, quantities, a, b) <= kSame);
     }
   }
+  CHECK(with_bound >= 6);
 }
 
-// Among others the largest numbers of steps of a group's segments add up to more than any lane takes.
+// At a tenth of the frequency orbits take nearly as many steps as may be, or more; and the largest numbers of
+// steps of a group's segments add up to more than any of its lanes takes.
 TEST_CASE("A building's point has the same values alone and in any company") {
-  const benchmarks::Work work = sliding_building(20, 1e-2);
+  const benchmarks::Work work = sliding_building(20, 1e-6);
   const std::vector<Quantity> quantities = standard_quantities(work.network);
   std::vector<mechanics::NetworkValues> mixed;  // neighbours are far apart
-  for (std::size_t i = 0; i < 48; ++i) mixed.push_back(work.rows[0][i * 61 % 200]);
+  for (std::size_t i = 0; i < 48; ++i) {
+    mixed.push_back(work.rows[0][i * 61 % 200]);
+    if (i % 3 == 0) mixed.back().omega *= 0.1;
+  }
   const Row together = solved(work.network, quantities, Path::fastest, mixed);
   int from_phases = 0;
   for (std::size_t i = 0; i < mixed.size(); ++i) {
@@ -90,7 +97,8 @@ TEST_CASE("A building's point has the same values alone and in any company") {
       CHECK(same);
     }
   }
-  CHECK(from_phases > 30);
+  CHECK(from_phases > 40);
+  CHECK(from_phases < 48);
 }
 
 }  // namespace
