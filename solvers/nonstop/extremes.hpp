@@ -1,15 +1,40 @@
 #pragma once
 
-#include "solvers/nonstop/sweep.hpp"
+#include "solvers/nonstop/forms.hpp"
 
-// The extremes of the traces, over the steps that the sweep has kept: stationary points solved, and both
-// limits where the friction turns.
+// The extremes of the traces, segment after segment: the sweep keeps a segment's steps; once they are proved
+// stationary points are solved, and both limits where the friction turns.
 namespace {
 
-struct Extreme {
-  Lanes value;
-  Lanes reached, phase;  // the largest value that is reached somewhere, not held from before, and where
-};
+template <class W>
+inline void clear_extremes(W& w) {
+  w.steps = 0;
+  w.unsure = none();
+  for (int i = 0; i < 2 * w.shape.traces; ++i) w.extreme[i] = {lanes(-1e300), lanes(-1e300), lanes(0.0)};
+}
+
+// What the search needs of the next step of a segment, in the lanes that take it. Where a step ends the next
+// one begins.
+template <class W>
+inline void keep_step(W& w, Mask taken, Lanes phase, Lanes h) {
+  const int step = w.steps++, T = w.shape.traces;
+  if (T == 0) return;
+  w.phase_at[step] = phase;
+  w.length[step] = select(taken, h, 0.0);
+  for (int s = 0; s < w.modes; ++s) w.zeta_at[step * w.modes + s] = w.zeta[s];
+  for (int k = 0; k < w.orders; ++k) w.osc_at[step * w.orders + k] = w.osc[k];
+  Lanes* kept = w.trace_at + step * T * 2;
+  for (int t = 0; t < T; ++t, kept += 2) {
+    const int form = w.shape.first_trace() + t;
+    if (step == 0) {
+      w.bend[t] = fourth_derivative(w, form) * ((h * h) * (h * h)) * (1.0 / 144.0);
+      kept[0] = value(w, form, w.zeta, w.osc) + w.level[form];
+      kept[1] = slope(w, form, w.zeta, w.osc);
+    }
+    kept[2 * T] = value(w, form, w.next_zeta, w.next_osc) + w.level[form];
+    kept[2 * T + 1] = slope(w, form, w.next_zeta, w.next_osc);
+  }
+}
 
 // The larger of two candidates; if phases are asked for, of equal ones (to 1e-12) the earlier that is
 // reached.
@@ -39,7 +64,7 @@ struct TraceStep {
     const Complex* zeta = w.zeta_at + step * w.modes;
     const Complex* osc = w.osc_at + step * w.orders;
     const Complex* c = complex_view(w.pack.form_modal) + form * w.modes;
-    const Complex* X = (w.is_rest_at[step] ? w.rest_phasor : w.phasor) + form * w.orders;
+    const Complex* X = w.phasors() + form * w.orders;
     Slopes x{level, lanes(0.0), lanes(0.0), lanes(0.0)};
     for (int s = 0; s < w.modes; ++s) {
       Complex part = c[s] * (zeta[s] * exponential({place * w.rate[s].re, place * w.rate[s].im}));
@@ -121,7 +146,7 @@ inline Mask search_part(const TraceStep<W>& trace, const Part& part, Mask among,
   const Lanes falling = select(q < lanes(0.0), d0 / (root - q), (-q - root) / (3.0 * r));
   // A release begins with a slope of zero, which is no extreme that is reached, and which the cubic, wrong by
   // its error, crosses beside it: the part there is cut short until such a crossing is out of it.
-  const bool is_release = trace.w.is_release_at[trace.step];
+  const bool is_release = trace.w.is_released && trace.step == 0;
   const Lanes cut = is_release ? select(part.from > 0.0, lanes(0.5), 0.125) : lanes(0.5);
   const Lanes first = is_release ? select(part.from > 0.0, lanes(0.0), 0.125) : lanes(0.0);
   const Mask inside = may & ~(under < lanes(0.0)) & (falling > first) & (falling < lanes(1.0));
@@ -147,54 +172,63 @@ inline Mask search_part(const TraceStep<W>& trace, const Part& part, Mask among,
   return search_part(trace, left, may, depth + 1, best) | search_part(trace, right, may, depth + 1, best);
 }
 
-// The largest value of `side` times a trace; side 0: of its magnitude. unsure: lanes in which the search did
-// not end.
+// The largest value of `side` times a trace, in the segment as before it; side 0: of its magnitude.
+// Returns the lanes in which the search did not end.
 template <class W>
-inline Extreme largest(const W& w, int t, double side, Mask told, Mask& unsure) {
-  const int T = w.shape.traces;
-  Extreme best{lanes(-1e300), lanes(-1e300), lanes(0.0)};
-  const auto trace_in = [&](int step, const Lanes* kept) {
-    const Lanes facing = side != 0.0 ? lanes(side) : select(kept[0] + kept[2] < 0.0, lanes(-1.0), lanes(1.0));
-    return TraceStep<W>{w, w.shape.first_trace() + t, step, kept[4], facing};
+inline Mask search_trace(const W& w, int t, double side, Mask among, Extreme& best) {
+  const int T = w.shape.traces, form = w.shape.first_trace() + t;
+  const auto trace_in = [&](int step, const Lanes* at_left, const Lanes* at_right) {
+    const Lanes facing =
+        side != 0.0 ? lanes(side) : select(at_left[0] + at_right[0] < 0.0, lanes(-1.0), lanes(1.0));
+    return TraceStep<W>{w, form, step, w.level[form], facing};
   };
   for (int step = 0; step < w.steps; ++step) {
-    const Lanes* kept = w.left + (step * T + t) * 6;
+    const Lanes *left = w.trace_at + (step * T + t) * 2, *right = left + 2 * T;
     const Lanes h = w.length[step];
-    const auto trace = trace_in(step, kept);
-    const Mask moves = abs(kept[2] - kept[0]) > 1e-13 * abs(kept[2]);
-    consider(w, best, h > 0.0, none(), trace.facing * kept[0], lanes(0.0));
-    consider(w, best, h > 0.0, moves, trace.facing * kept[2], side_phase(trace, w.phase_at[step] + h));
+    const auto trace = trace_in(step, left, right);
+    const Mask taken = among & (h > 0.0), moves = abs(right[0] - left[0]) > 1e-13 * abs(right[0]);
+    consider(w, best, taken, none(), trace.facing * left[0], lanes(0.0));
+    consider(w, best, taken, moves, trace.facing * right[0], side_phase(trace, w.phase_at[step] + h));
   }
-  for (int step = 0; step < w.steps; ++step) {
-    const Lanes* kept = w.left + (step * T + t) * 6;
-    const auto trace = trace_in(step, kept);
-    const Lanes f = trace.facing;
-    const Part whole{lanes(0.0), w.length[step], f * kept[0], f * kept[1], f * kept[2], f * kept[3], kept[5]};
-    unsure = unsure | search_part(trace, whole, told, 0, best);
-  }
-  return best;
-}
-
-// In the lanes told. Returns those in which an extreme may be missed.
-template <class W>
-inline Mask tell_extremes(const W& w, Mask told) {
   Mask unsure = none();
-  for (int t = 0; t < w.shape.traces; ++t) {
-    const auto tell = [&](double* array, Lanes x) { view(array)[t] = select(told, x, view(array)[t]); };
-    if (w.shape.half_period) {
-      const Extreme most = largest(w, t, 0.0, told, unsure);
-      tell(w.pack.most, most.value);
-      tell(w.pack.least, -most.value);
-      tell(w.pack.most_at, most.phase);
-      continue;
-    }
-    const Extreme most = largest(w, t, 1.0, told, unsure), least = largest(w, t, -1.0, told, unsure);
-    tell(w.pack.most, most.value);
-    tell(w.pack.least, -least.value);
-    tell(w.pack.most_at, most.phase);
-    tell(w.pack.least_at, least.phase);
+  for (int step = 0; step < w.steps; ++step) {
+    const Lanes *left = w.trace_at + (step * T + t) * 2, *right = left + 2 * T;
+    const auto trace = trace_in(step, left, right);
+    const Lanes f = trace.facing;
+    const Part whole{lanes(0.0),   w.length[step], f * left[0], f * left[1],
+                     f * right[0], f * right[1],   w.bend[t]};
+    unsure = unsure | search_part(trace, whole, among, 0, best);
   }
   return unsure;
+}
+
+// Searches the segment whose steps are kept, in the lanes given, and forgets them.
+template <class W>
+inline void search_segment(W& w, Mask among) {
+  for (int t = 0; t < w.shape.traces && any(among); ++t) {
+    Extreme* best = w.extreme + 2 * t;
+    if (w.shape.half_period) {
+      w.unsure = w.unsure | search_trace(w, t, 0.0, among, best[0]);
+      continue;
+    }
+    w.unsure = w.unsure | search_trace(w, t, 1.0, among, best[0]);
+    w.unsure = w.unsure | search_trace(w, t, -1.0, among, best[1]);
+  }
+  w.steps = 0;
+}
+
+// In the lanes told.
+template <class W>
+inline void tell_extremes(const W& w, Mask told) {
+  for (int t = 0; t < w.shape.traces; ++t) {
+    const auto tell = [&](double* array, Lanes x) { view(array)[t] = select(told, x, view(array)[t]); };
+    const Extreme &most = w.extreme[2 * t], &least = w.extreme[2 * t + 1];
+    tell(w.pack.most, most.value);
+    tell(w.pack.most_at, most.phase);
+    // A motion that repeats with the opposite sign is as far on either side.
+    tell(w.pack.least, w.shape.half_period ? -most.value : -least.value);
+    if (!w.shape.half_period) tell(w.pack.least_at, least.phase);
+  }
 }
 
 }  // namespace

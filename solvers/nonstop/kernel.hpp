@@ -23,11 +23,10 @@ const Kernel& fastest_kernel();     // that runs here
 
 // Points with more reversals, or that take more steps, are not solved.
 inline constexpr int kMostReversals = 32;
-inline constexpr int kMostSteps = 1024;
-// Of a system of so many contacts: steps break at every reversal, between which a structure needs a few tens.
+// Of all segments of the span together: for a system of so many contacts.
 constexpr int most_steps(int contacts) {
-  const int steps = 32 * contacts;
-  return steps < 256 ? 256 : steps > kMostSteps ? kMostSteps : steps;
+  const int steps = 64 * contacts;
+  return steps < 256 ? 256 : steps > 1024 ? 1024 : steps;
 }
 
 std::size_t workspace_size(const Shape& shape);

@@ -15,7 +15,8 @@ inline void tell(const W& w, const Passage& passage, Mask told) {
   };
   tell_one(w.pack.newton_iterations, 0, w.iterations);
   tell_one(w.pack.reversals, 0, lanes(w.reversals));
-  tell_one(w.pack.margin, 0, min(passage.at_reversals, passage.between));
+  // Reversals keep their order while they move by less than lies between them.
+  tell_one(w.pack.margin, 0, min(min(passage.at_reversals, passage.between), passage.shortest));
   tell_one(w.pack.residual, 0, passage.residual);
   for (int p = 0; p < w.shape.products; ++p) tell_one(w.pack.integral, p, seconds * w.integral[p]);
   for (int p = 0; p < w.shape.powers; ++p) {
@@ -27,18 +28,17 @@ inline void tell(const W& w, const Passage& passage, Mask told) {
     tell_one(w.pack.contact_reversals, j, omega_spans * w.contact_reversals[j]);
   }
   tell_one(w.pack.parts, 0, passage.parts);
-  const Mask unsure = tell_extremes(w, told);
+  tell_extremes(w, told);
   Lanes sound = lanes(0.0);  // not a number, if anything told is none
   for (int p = 0; p < w.shape.products; ++p) sound += 0.0 * view(w.pack.integral)[p];
   for (int p = 0; p < w.shape.powers; ++p) sound += 0.0 * view(w.pack.work)[p];
   for (int t = 0; t < w.shape.traces; ++t) sound += 0.0 * (view(w.pack.most)[t] + view(w.pack.least)[t]);
-  *view(w.pack.is_found) = select(told & ~unsure & (sound == 0.0), lanes(1.0), *view(w.pack.is_found));
+  *view(w.pack.is_found) = select(told & ~w.unsure & (sound == 0.0), lanes(1.0), *view(w.pack.is_found));
 }
 
 // Lanes whose proof failed by so little that its steps may be to blame.
 inline Mask is_close(const Passage& passage) {
-  constexpr double kClose = -0.1;
-  return (passage.at_reversals > kSafe) & (passage.between > kClose) & ~(passage.between > kSafe);
+  return passage.may_hold() & ~(passage.between > kSafe);
 }
 
 template <class W>

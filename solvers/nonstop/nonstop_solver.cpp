@@ -87,7 +87,7 @@ bool NonstopSolver::set_point(int lane, const mechanics::NetworkValues& values) 
 }
 
 bool NonstopSolver::set_matrices() {
-  constexpr double kIllConditioned = 30.0;  // rounding grows as its square
+  constexpr double kIllConditioned = 40.0;  // rounding grows as its square
   const mechanics::LinearSystem& system = systems_[0];
   modes_ = sliding_modes(system);
   if (!(modes_.condition < kIllConditioned)) return false;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "solvers/nonstop/extremes.hpp"
 #include "solvers/nonstop/stability.hpp"
 
 // One mass that stops once in each half of the period, or never moves, under one harmonic. It rests at -u, is
@@ -245,23 +244,10 @@ inline void set_rest_forms(W& w, const OneStop& stop) {
   }
 }
 
-// The number of steps of a stretch, in the lanes of the group the largest.
-template <class W>
-inline int steps_of(Mask group, Lanes count) {
-  Lanes most = select(group, count, 0.0);
-  int steps = 0;
-  for (int lane = 0; lane < kLanes; ++lane)
-    if (at(most, lane) > steps) steps = static_cast<int>(at(most, lane));
-  return steps;
-}
-
 // One step of a stretch: measures it, and goes on.
 template <class W>
-inline void take_step(W& w, Mask taken, Lanes phase, Lanes h, bool first) {
-  if (w.shape.traces > 0) keep_step(w, taken, phase, h, first);
-  w.is_rest_at[w.steps] = w.rests;
-  w.is_release_at[w.steps] = first && !w.rests;
-  ++w.steps;
+inline void take_step(W& w, Mask taken, Lanes phase, Lanes h) {
+  keep_step(w, taken, phase, h);
   if (w.shape.integrated > 0) integrate_step(w, select(taken, h, 0.0));
   for (int s = 0; s < w.modes; ++s) w.zeta[s] = select(taken, w.next_zeta[s], w.zeta[s]);
   w.osc[0] = select(taken, w.next_osc[0], w.osc[0]);
@@ -273,6 +259,7 @@ inline void sweep_slide(W& w, const OneStop& stop, double steps_a_radian, Passag
   w.direction[0] = lanes(1.0);
   set_levels(w);
   w.rests = false;
+  w.is_released = true;
   set_coordinates(w, stop.start, w.zeta);
   w.osc[0] = turn(stop.release);
   const Lanes count = max(floor(stop.theta * fastest_rate(w) * steps_a_radian) + 1.0, lanes(2.0));
@@ -280,7 +267,7 @@ inline void sweep_slide(W& w, const OneStop& stop, double steps_a_radian, Passag
   const Lanes h = stop.theta / count;
   set_factors(w, h);
   const Lanes error = fourth_derivative(w, 0) * ((h * h) * (h * h)) * (1.0 / 144.0);
-  const int steps = steps_of<W>(passage.proved, count);
+  const int steps = steps_of(passage.proved, count);
   w.v0[0] = w.a0[0] = lanes(0.0);
   for (int k = 0; k < steps; ++k) {
     const Mask taken = count > lanes(k), ends = taken & ~(count > lanes(k + 1.0));
@@ -299,7 +286,7 @@ inline void sweep_slide(W& w, const OneStop& stop, double steps_a_radian, Passag
         select(ends, min(passage.at_reversals, -(a * w.per_speed[0])), passage.at_reversals);
     w.v0[0] = select(taken, v, w.v0[0]);
     w.a0[0] = select(taken, a, w.a0[0]);
-    take_step(w, taken, stop.release + h * k, h, k == 0);
+    take_step(w, taken, stop.release + h * k, h);
   }
 }
 
@@ -311,6 +298,7 @@ inline void sweep_rest(W& w, const OneStop& stop, double steps_a_radian, Passage
   const Lanes count = max(floor(length * steps_a_radian) + 1.0, lanes(2.0)), h = length / count;
   set_rest_forms(w, stop);
   w.rests = true;
+  w.is_released = false;
   for (int s = 0; s < w.modes; ++s) w.zeta[s] = {lanes(0.0), lanes(0.0)};
   w.osc[0] = turn(start);
   set_factors(w, h);
@@ -319,7 +307,7 @@ inline void sweep_rest(W& w, const OneStop& stop, double steps_a_radian, Passage
   const Lanes held = -(stop.spring * stop.rest);
   const auto pull = [&](Complex u) { return real_part(stop.drive, u) + held; };
   const auto rate = [&](Complex u) { return -(stop.drive * u).im; };
-  const int steps = steps_of<W>(passage.proved, count);
+  const int steps = steps_of(passage.proved, count);
   for (int k = 0; k < steps; ++k) {
     const Mask taken = count > lanes(k), ends = taken & ~(count > lanes(k + 1.0));
     for (int s = 0; s < w.modes; ++s) w.next_zeta[s] = w.zeta[s];
@@ -331,7 +319,7 @@ inline void sweep_rest(W& w, const OneStop& stop, double steps_a_radian, Passage
     const Lanes behind = least_coefficient(
         stop.friction + p0, d0, select(ends, lanes(0.0), stop.friction + p1), d1, h, error, none(), ends);
     passage.between = select(taken, min(passage.between, min(ahead, behind) * scale), passage.between);
-    take_step(w, taken, start + h * k, h, k == 0);
+    take_step(w, taken, start + h * k, h);
   }
 }
 
@@ -345,6 +333,7 @@ inline Passage sweep_stuck(W& w, const OneStop& held, Mask group) {
   Passage passage{holds, lanes(1.0), room, lanes(0.0), lanes(0.0)};
   clear_measures(w);
   if (any(holds)) sweep_rest(w, held, 1.0 / 0.75, passage);
+  search_segment(w, holds);
   passage.between = room;
   passage.proved = holds;
   return passage;
@@ -359,7 +348,9 @@ inline Passage sweep_one_stop(W& w, const OneStop& stop, double fineness) {
                    (stop.rest > 0.0) & (abs(stop.missed) < kClosed * stop.rest);
   clear_measures(w);
   sweep_slide(w, stop, steps_a_radian, passage);
+  search_segment(w, passage.stands());
   if (any(passage.proved)) sweep_rest(w, stop, steps_a_radian, passage);
+  search_segment(w, passage.stands());
   w.slid[0] = 2.0 * stop.rest;
   w.contact_reversals[0] = lanes(1.0);
   passage.parts = w.harmonic_size[0];
@@ -368,7 +359,7 @@ inline Passage sweep_one_stop(W& w, const OneStop& stop, double fineness) {
   passage.residual = abs(stop.missed) * norm_of_coordinates(w, [&](int i) {
                        return i == 0 ? stop.unit.first : stop.unit.second;
                      });
-  passage.proved = passage.proved & (passage.at_reversals > kSafe) & (passage.between > kSafe);
+  passage.proved = passage.stands();
   return passage;
 }
 

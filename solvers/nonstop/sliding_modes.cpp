@@ -6,6 +6,7 @@
 #include "solvers/algebra/no_value.hpp"
 #include "solvers/algebra/solve.hpp"
 #include "solvers/algebra/spectrum.hpp"
+#include "solvers/algebra/symmetric_modes.hpp"
 
 namespace frahm::periodic::nonstop {
 namespace {
@@ -32,6 +33,13 @@ Eigen::MatrixXd energy_root(const mechanics::LinearSystem& system) {
   R.block(n, n, n, n) = algebra::upper_root(system.M);
   R.diagonal().tail(s) = system.internal_stiffness.cwiseSqrt().cwiseInverse();
   return R;
+}
+
+// sigma_max / sigma_min, by the eigenvalues of A^T A, and so to some 1e7 at most; infinite beyond.
+double condition_of(const Eigen::MatrixXd& A) {
+  const Eigen::VectorXd squares = algebra::symmetric_modes(A.transpose() * A).values;
+  const double most = squares[squares.size() - 1], least = squares[0];
+  return least > 1e-14 * most ? std::sqrt(most / least) : kInfinity;
 }
 
 }  // namespace
@@ -64,7 +72,7 @@ SlidingModes sliding_modes(const mechanics::LinearSystem& system) {
     if (is_pair) result.to_energy.col(column++) = -vector.imag();
     ++mode;
   }
-  result.condition = spectrum.inverse.allFinite() ? spectrum.inverse.norm() : kInfinity;
+  result.condition = spectrum.inverse.allFinite() ? condition_of(result.to_energy) : kInfinity;
   if (std::isfinite(result.condition)) result.from_energy = algebra::inverse(result.to_energy);
   return result;
 }

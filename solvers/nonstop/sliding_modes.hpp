@@ -18,7 +18,9 @@ struct SlidingModes {
   // Real modal coordinates (Re eta, Im eta of a pair, eta of a real mode) to coordinates whose length is
   // sqrt(2) times the energy norm, and back; D x D.
   Eigen::MatrixXd to_energy, from_energy;
-  // How many times rounding grows by way of the modes; infinite where there are too few (critical damping).
+  // How many times rounding grows by way of the modes, at most: the ratio of the longest to the shortest
+  // image of a unit of modal coordinates. 1 where modes are orthogonal in energy; infinite where there are
+  // too few (critical damping).
   double condition = 0.0;
 
   Eigen::Index modes() const { return lambda.size(); }

@@ -71,16 +71,37 @@ inline void differentiate_map(W& w) {
   }
 }
 
+// Some rows and columns of result = a b, all D x D, whose sums stay in registers.
+template <int Rows, int Columns>
+FRAHM_INLINE void multiply_tile(int D, const Lanes* a, const Lanes* b, Lanes* result) {
+  Lanes sum[Rows][Columns];
+  for (int r = 0; r < Rows; ++r) {
+    for (int c = 0; c < Columns; ++c) sum[r][c] = a[r * D] * b[c];
+  }
+  for (int k = 1; k < D; ++k) {
+    for (int r = 0; r < Rows; ++r) {
+      for (int c = 0; c < Columns; ++c) sum[r][c] += a[r * D + k] * b[k * D + c];
+    }
+  }
+  for (int r = 0; r < Rows; ++r) {
+    for (int c = 0; c < Columns; ++c) result[r * D + c] = sum[r][c];
+  }
+}
+
 // result = a b, all of the size of the states
 template <class W>
 inline void multiply(const W& w, const Lanes* a, const Lanes* b, Lanes* result) {
+  constexpr int kRows = 4, kColumns = 2;
   const int D = w.states;
-  for (int i = 0; i < D; ++i) {
-    for (int j = 0; j < D; ++j) {
-      Lanes sum = a[i * D] * b[j];
-      for (int k = 1; k < D; ++k) sum += a[i * D + k] * b[k * D + j];
-      result[i * D + j] = sum;
-    }
+  int i = 0;
+  for (; i + kRows <= D; i += kRows) {
+    int j = 0;
+    for (; j + kColumns <= D; j += kColumns)
+      multiply_tile<kRows, kColumns>(D, a + i * D, b + j, result + i * D + j);
+    if (j < D) multiply_tile<kRows, 1>(D, a + i * D, b + j, result + i * D + j);
+  }
+  for (; i < D; ++i) {
+    for (int j = 0; j < D; ++j) multiply_tile<1, 1>(D, a + i * D, b + j, result + i * D + j);
   }
 }
 
@@ -188,13 +209,8 @@ inline void judge(W& w, Mask told) {
 
   multiply(w, view(w.pack.to_energy), w.flow, w.scratch);
   multiply(w, w.scratch, view(w.pack.from_energy), w.flow);
-  for (int i = 0; i < D; ++i) {
-    for (int j = 0; j < D; ++j) {
-      Lanes sum = lanes(0.0);
-      for (int k = 0; k < D; ++k) sum += w.flow[k * D + i] * w.flow[k * D + j];
-      w.square[i * D + j] = sum;
-    }
-  }
+  for (int i = 0; i < D * D; ++i) w.scratch[i] = w.flow[i % D * D + i / D];  // transposed
+  multiply(w, w.scratch, w.flow, w.square);
   tell(w.pack.contraction, sqrt(largest_modulus(w, w.square, w.scratch, 1e-6)));
 }
 

@@ -1,40 +1,11 @@
 #pragma once
 
-#include "solvers/nonstop/reversals.hpp"
+#include "solvers/nonstop/extremes.hpp"
+#include "solvers/nonstop/integrals.hpp"
+#include "solvers/nonstop/proof.hpp"
 
 // One passage along the orbit: the proof that nothing sticks, and everything that is measured on the way.
 namespace {
-
-// Six-point Gauss-Legendre nodes and weights on [0, 1] (Abramowitz and Stegun, table 25.4): over a step the
-// error is below 5e-14 of the integrand's scale.
-constexpr int kNodes = 6;
-constexpr double kNodeAt[kNodes] = {0.03376524289842397, 0.16939530676686774, 0.3806904069584015,
-                                    0.6193095930415985,  0.8306046932331323,  0.966234757101576};
-constexpr double kNodeWeight[kNodes] = {0.08566224618958517, 0.1803807865240693, 0.23395696728634552,
-                                        0.23395696728634552, 0.1803807865240693, 0.08566224618958517};
-
-constexpr double kSafe = 1e-7;  // a margin that is certainly not grazing
-
-// What the sweep finds of all lanes.
-struct Passage {
-  Mask proved;         // nothing sticks
-  Lanes at_reversals;  // least relative acceleration there, on either side
-  Lanes between;       // least coefficient of the proof, relative
-  Lanes residual;      // [sqrt(J)]
-  Lanes parts;         // energy norms of what the motion is the sum of [sqrt(J)]
-};
-
-template <class W>
-FRAHM_INLINE Lanes value(const W& w, int form, const Complex* zeta, const Complex* osc) {
-  return real_sum(w.modes, complex_view(w.pack.form_modal) + form * w.modes, zeta) +
-         real_sum(w.orders, w.phasors() + form * w.orders, osc);
-}
-// By the phase.
-template <class W>
-FRAHM_INLINE Lanes slope(const W& w, int form, const Complex* zeta, const Complex* osc) {
-  return real_sum(w.modes, w.slope_modal + form * w.modes, zeta) +
-         real_sum(w.orders, w.slope_phasors() + form * w.orders, osc);
-}
 
 // zeta just after the first reversal, and the direction of every contact from there: that of its last
 // reversal.
@@ -89,129 +60,6 @@ inline Lanes fastest_rate(const W& w) {
   return sqrt(sqrt(sqrt(sum)));
 }
 
-// Whether a velocity stays positive over a step of length h: the Bernstein coefficients of the quartic that
-// the cubic Hermite interpolant, less what it can be wrong by, is at least. |error| <= B t^2 (h-t)^2 / 24
-// lowers the middle coefficient alone, by B h^4 / 144. v: at both ends, exactly zero where the contact
-// reverses; a: its slopes. Returns the least coefficient that is not zero by itself.
-FRAHM_INLINE Lanes least_coefficient(Lanes v0, Lanes a0, Lanes v1, Lanes a1, Lanes h, Lanes error,
-                                     Mask starts, Mask ends) {
-  const Lanes b1 = v0 + a0 * h * (1.0 / 3.0), b2 = v1 - a1 * h * (1.0 / 3.0);
-  const Lanes c1 = 0.25 * v0 + 0.75 * b1, c2 = 0.5 * (b1 + b2) - error, c3 = 0.75 * b2 + 0.25 * v1;
-  Lanes least = min(min(c1, c2), c3);
-  least = select(starts, least, min(least, v0));
-  return select(ends, least, min(least, v1));
-}
-
-// Bound of a form's fourth derivative over the segment that begins at zeta.
-template <class W>
-FRAHM_INLINE Lanes fourth_derivative(const W& w, int form) {
-  Lanes sum = lanes(0.0);
-  for (int s = 0; s < w.modes; ++s) {
-    const Lanes r2 = w.rate_size[s] * w.rate_size[s];
-    sum += size_of(load(w.pack.form_modal, form * w.modes + s)) * size_of(w.zeta[s]) * (r2 * r2);
-  }
-  for (int k = 0; k < w.orders; ++k) {
-    const double n = w.shape.order[k];
-    sum += size_of(w.phasors()[form * w.orders + k]) * (n * n * n * n);
-  }
-  return sum;
-}
-
-template <class W>
-inline void set_levels(W& w) {
-  for (int form = w.contacts; form < w.shape.forms(); ++form) {  // velocities have none
-    if (w.is_unused(form)) continue;
-    w.level[form] = w.constant[form];
-    for (int j = 0; j < w.contacts; ++j) w.level[form] += w.friction[form * w.contacts + j] * w.direction[j];
-  }
-}
-
-template <class W>
-inline void set_factors(W& w, Lanes h) {
-  for (int s = 0; s < w.modes; ++s) w.step_factor[s] = exponential({h * w.rate[s].re, h * w.rate[s].im});
-  for (int k = 0; k < w.orders; ++k) w.osc_factor[k] = turn(h * w.shape.order[k]);
-  if (w.shape.integrated == 0) return;
-  for (int i = 0; i < kNodes / 2; ++i) {
-    const Lanes t = h * kNodeAt[i];
-    for (int s = 0; s < w.modes; ++s)
-      w.node_factor[i * w.modes + s] = exponential({t * w.rate[s].re, t * w.rate[s].im});
-    for (int k = 0; k < w.orders; ++k) w.node_osc[i * w.orders + k] = turn(t * w.shape.order[k]);
-  }
-  // The nodes lie symmetrically: exp(rate (h - t)) = exp(rate h) / exp(rate t).
-  for (int i = kNodes / 2; i < kNodes; ++i) {
-    const int mirror = kNodes - 1 - i;
-    for (int s = 0; s < w.modes; ++s) {
-      Complex factor = w.step_factor[s] / w.node_factor[mirror * w.modes + s];
-      const Mask vanishes = h * w.rate[s].re < lanes(kVanishing);
-      const Lanes t = h * kNodeAt[i];
-      if (any(vanishes)) factor = select(vanishes, exponential({t * w.rate[s].re, t * w.rate[s].im}), factor);
-      w.node_factor[i * w.modes + s] = factor;
-    }
-    for (int k = 0; k < w.orders; ++k)
-      w.node_osc[i * w.orders + k] = w.osc_factor[k] * conjugate(w.node_osc[mirror * w.orders + k]);
-  }
-}
-
-// Adds a step to all integrals; h is zero in lanes without it.
-template <class W>
-inline void integrate_step(W& w, Lanes h) {
-  const int first = w.shape.first_integrated();
-  for (int i = 0; i < kNodes; ++i) {
-    const Lanes weight = h * kNodeWeight[i];
-    for (int s = 0; s < w.modes; ++s) w.at_node[s] = w.zeta[s] * w.node_factor[i * w.modes + s];
-    for (int k = 0; k < w.orders; ++k) w.osc_at_node[k] = w.osc[k] * w.node_osc[i * w.orders + k];
-    for (int f = 0; f < w.shape.integrated; ++f)
-      w.form_value[f] = value(w, first + f, w.at_node, w.osc_at_node) + w.level[first + f];
-    for (int p = 0; p < w.shape.products; ++p) {
-      const Product& product = w.shape.product[p];
-      const Lanes a = weight * w.form_value[product.a];
-      if (product.b >= 0) {
-        w.integral[p] += a * w.form_value[product.b];
-      } else if (product.b == -1) {
-        w.integral[p] += a;
-      } else {
-        const Complex& u = w.osc_at_node[(-2 - product.b) / 2];
-        w.integral[p] += a * (product.b % 2 == 0 ? u.re : u.im);
-      }
-    }
-    for (int p = 0; p < w.shape.powers; ++p) {
-      const Product& power = w.shape.power[p];
-      const Lanes work = weight * (w.form_value[power.a] * w.form_value[power.b]);
-      w.work[p] += work;
-      w.work_size[p] += abs(work);
-    }
-  }
-}
-
-// What the search of extremes needs of a step, in the lanes that take it.
-template <class W>
-inline void keep_step(W& w, Mask taken, Lanes phase, Lanes h, bool first) {
-  const int step = w.steps, T = w.shape.traces;
-  w.phase_at[step] = phase;
-  w.length[step] = select(taken, h, 0.0);
-  for (int s = 0; s < w.modes; ++s) w.zeta_at[step * w.modes + s] = w.zeta[s];
-  for (int k = 0; k < w.orders; ++k) w.osc_at[step * w.orders + k] = w.osc[k];
-  for (int t = 0; t < T; ++t) {
-    const int form = w.shape.first_trace() + t;
-    Lanes* kept = w.left + (step * T + t) * 6;
-    if (first) {
-      w.bend[t] = fourth_derivative(w, form) * ((h * h) * (h * h)) * (1.0 / 144.0);
-      w.x0[t] = value(w, form, w.zeta, w.osc) + w.level[form];
-      w.d0[t] = slope(w, form, w.zeta, w.osc);
-    }
-    const Lanes x1 = value(w, form, w.next_zeta, w.next_osc) + w.level[form];
-    const Lanes d1 = slope(w, form, w.next_zeta, w.next_osc);
-    kept[0] = w.x0[t];
-    kept[1] = w.d0[t];
-    kept[2] = x1;
-    kept[3] = d1;
-    kept[4] = w.level[form];
-    kept[5] = w.bend[t];
-    w.x0[t] = x1;
-    w.d0[t] = d1;
-  }
-}
-
 // The reversal that ends a segment: what it misses zero by, how far its contact has come, and its jump.
 // Its direction is `turned`.
 template <class W>
@@ -238,7 +86,9 @@ inline void take_reversal(W& w, int p, Lanes turned, Mask sound, Passage& passag
   // A velocity v, or its rounding, is a delay v / (omega a), after which friction acts by 2 F the other way.
   constexpr double kRounding = 1e-15;
   const Lanes off = abs(v) + kRounding / max(per_speed, lanes(1e-300));
-  passage.residual += 2.0 * force * push_norm * (off / (omega * max(abs(a), lanes(1e-300))));
+  const Lanes late = off / max(abs(a), lanes(1e-300));
+  passage.residual += 2.0 * force * push_norm * (late / omega);
+  passage.latest_off = max(late, passage.latest_off);
   passage.at_reversals = min(passage.at_reversals, turned * a * per_speed);
   w.slope_before[p] = a;
 }
@@ -249,103 +99,103 @@ inline void clear_measures(W& w) {
   for (int p = 0; p < w.shape.powers; ++p) w.work[p] = w.work_size[p] = lanes(0.0);
   for (int j = 0; j < w.contacts; ++j)
     w.slid[j] = w.contact_reversals[j] = w.first_sign[j] = w.last_sign[j] = lanes(0.0);
-  w.steps = 0;
+  clear_extremes(w);
 }
 
-// Counts a frictionless contact's changes of direction; a velocity of zero is of no direction.
+// The number and length of the segment's steps; false if no lane is left whose proof may hold.
 template <class W>
-inline void note_sign(W& w, int j, Mask where, Lanes v) {
-  const Mask moves = where & ((v > 0.0) | (v < lanes(0.0)));
-  const Lanes sign = select(v > 0.0, lanes(1.0), lanes(-1.0));
-  const Mask known = abs(w.last_sign[j]) > 0.5;
-  const Mask reverses = moves & known & ~(sign == w.last_sign[j]);
-  w.contact_reversals[j] += select(reverses, lanes(1.0), 0.0);
-  w.first_sign[j] = select(moves & ~known, sign, w.first_sign[j]);
-  w.last_sign[j] = select(moves, sign, w.last_sign[j]);
+inline bool lay_out_steps(const W& w, Segment& segment, double fineness, Lanes& steps_so_far,
+                          Passage& passage) {
+  constexpr double kStep = 0.75, kCoarseStep = 1.0;  // of the fastest rate's radian; without integrals
+  constexpr double kShortest = 1e-9;                 // between two reversals [rad]
+  const double steps_a_radian = fineness / (w.shape.integrated > 0 ? kStep : kCoarseStep);
+  const Lanes count = max(floor(segment.length * fastest_rate(w) * steps_a_radian) + 1.0, lanes(2.0));
+  segment.count = count;
+  segment.h = segment.length / count;
+  // A lane's own steps decide, not those that others of its group take beside it.
+  steps_so_far += count;
+  passage.shortest = min(passage.shortest, segment.length);
+  passage.proved = passage.proved & passage.may_hold() & (segment.length > kShortest) &
+                   (steps_so_far < lanes(most_steps(w.contacts)));
+  return any(passage.proved);
 }
-// The first direction comes again after the span, with its sign.
+
+// Velocities and harmonics at the segment's start.
 template <class W>
-inline void close_signs(W& w) {
+inline void start_segment(W& w, const Segment& segment, Passage& passage) {
+  const Lanes h = segment.h;
+  set_factors(w, h);
+  set_levels(w);
+  for (int k = 0; k < w.orders; ++k) w.osc[k] = turn(segment.start * w.shape.order[k]);
+  // The slopes are bounded from the segment's start on, as every mode decays.
   for (int j = 0; j < w.contacts; ++j) {
-    const Mask reverses = (abs(w.last_sign[j]) > 0.5) & ~(w.last_sign[j] == w.sign * w.first_sign[j]);
-    w.contact_reversals[j] += select(reverses & ~(view(w.pack.limit)[j] > 0.0), lanes(1.0), 0.0);
+    const Mask reversed = w.reversals > 0 ? w.sorted_contact[segment.number] == j : none();
+    w.v0[j] = select(reversed, lanes(0.0), value(w, j, w.zeta, w.osc));
+    w.a0[j] = slope(w, j, w.zeta, w.osc);
+    w.error[j] = fourth_derivative(w, j) * ((h * h) * (h * h)) * (1.0 / 144.0);
+    if (w.reversals > 0) {
+      const Lanes after = w.direction[j] * w.a0[j] * w.per_speed[j];
+      passage.at_reversals = select(reversed, min(passage.at_reversals, after), passage.at_reversals);
+    }
   }
+}
+
+// The largest number of steps that a lane of the group takes.
+inline int steps_of(Mask group, Lanes count) {
+  Lanes most = select(group, count, 0.0);
+  int steps = 0;
+  for (int lane = 0; lane < kLanes; ++lane)
+    if (at(most, lane) > steps) steps = static_cast<int>(at(most, lane));
+  return steps;
+}
+
+template <class W>
+inline void sweep_segment(W& w, const Segment& segment, Passage& passage) {
+  start_segment(w, segment, passage);
+  const int steps = steps_of(passage.proved, segment.count);
+  for (int k = 0; k < steps; ++k) {
+    const Mask taken = segment.count > lanes(k);
+    for (int s = 0; s < w.modes; ++s) w.next_zeta[s] = w.zeta[s] * w.step_factor[s];
+    for (int i = 0; i < w.orders; ++i) w.next_osc[i] = w.osc[i] * w.osc_factor[i];
+    prove_step(w, segment, k, taken, passage);
+    keep_step(w, taken, segment.start + segment.h * k, segment.h);
+    if (w.shape.integrated > 0) integrate_step(w, select(taken, segment.h, 0.0));
+    for (int s = 0; s < w.modes; ++s) w.zeta[s] = select(taken, w.next_zeta[s], w.zeta[s]);
+    for (int i = 0; i < w.orders; ++i) w.osc[i] = select(taken, w.next_osc[i], w.osc[i]);
+  }
+  search_segment(w, passage.stands());
+}
+
+template <class W>
+inline Segment segment_of(const W& w, int number) {
+  const int R = w.reversals;
+  const bool is_last = number + 1 >= R;
+  Segment segment{number, is_last ? 0 : number + 1, is_last, lanes(0.0), lanes(w.span), {}, {}};
+  if (R == 0) return segment;
+  segment.start = w.sorted_phase[number];
+  segment.length =
+      is_last ? w.sorted_phase[0] + w.span - segment.start : w.sorted_phase[number + 1] - segment.start;
+  return segment;
 }
 
 // Sweeps the orbit in the lanes of the group. fineness: factor of the number of steps.
 template <class W>
 inline Passage sweep(W& w, Mask group, double fineness) {
-  constexpr double kStep = 0.75, kCoarseStep = 1.0;  // of the fastest rate's radian; without integrals
-  constexpr double kShortest = 1e-6;                 // between two reversals [rad]
   constexpr double kClosed = 1e-9;
-  const int R = w.reversals, segments = R > 0 ? R : 1;
-  const double steps_a_radian = fineness / (w.shape.integrated > 0 ? kStep : kCoarseStep);
+  constexpr double kInOrder = 1e-2;  // of the shortest segment, by which a reversal may miss its phase
   Passage passage{group, lanes(1.0), lanes(1.0), lanes(0.0), lanes(0.0)};
   clear_measures(w);
-  w.rests = false;
+  w.rests = w.is_released = false;
+  Lanes steps_so_far = lanes(0.0);
   start_sweep(w);
-  for (int p = 0; p < segments; ++p) {
-    const bool is_last = p + 1 == segments;
-    const int next = is_last ? 0 : p + 1;
-    const Lanes start = R > 0 ? w.sorted_phase[p] : lanes(0.0);
-    const Lanes length =
-        is_last ? (R > 0 ? w.sorted_phase[0] : lanes(0.0)) + w.span - start : w.sorted_phase[next] - start;
-    passage.proved = passage.proved & (length > kShortest);
-    w.segment_length[p] = length;
-    const Lanes count = max(floor(length * fastest_rate(w) * steps_a_radian) + 1.0, lanes(2.0));
-    passage.proved = passage.proved & (count < lanes(most_steps(w.contacts) / segments));
-    if (!any(passage.proved)) return passage;
-    const Lanes h = length / count;
-    set_factors(w, h);
-    set_levels(w);
-    Lanes most_steps = select(passage.proved, count, 0.0);
-    int steps = 0;
-    for (int lane = 0; lane < kLanes; ++lane)
-      if (at(most_steps, lane) > steps) steps = static_cast<int>(at(most_steps, lane));
-    for (int k = 0; k < w.orders; ++k) w.osc[k] = turn(start * w.shape.order[k]);
-    // The slopes are bounded from the segment's start on, as every mode decays.
-    for (int j = 0; j < w.contacts; ++j) {
-      const Mask reversed = R > 0 ? w.sorted_contact[p] == j : none();
-      w.v0[j] = select(reversed, lanes(0.0), value(w, j, w.zeta, w.osc));
-      w.a0[j] = slope(w, j, w.zeta, w.osc);
-      w.error[j] = fourth_derivative(w, j) * ((h * h) * (h * h)) * (1.0 / 144.0);
-      if (R > 0) {
-        const Lanes after = w.direction[j] * w.a0[j] * w.per_speed[j];
-        passage.at_reversals = select(reversed, min(passage.at_reversals, after), passage.at_reversals);
-      }
-    }
-    for (int k = 0; k < steps; ++k) {
-      const Mask taken = count > lanes(k);
-      const Mask ends_segment = taken & ~(count > lanes(k + 1.0));
-      for (int s = 0; s < w.modes; ++s) w.next_zeta[s] = w.zeta[s] * w.step_factor[s];
-      for (int i = 0; i < w.orders; ++i) w.next_osc[i] = w.osc[i] * w.osc_factor[i];
-      for (int j = 0; j < w.contacts; ++j) {
-        const Mask rubs = view(w.pack.limit)[j] > 0.0;
-        const Lanes v = value(w, j, w.next_zeta, w.next_osc), a = slope(w, j, w.next_zeta, w.next_osc);
-        const Mask starts = k == 0 && R > 0 ? w.sorted_contact[p] == j : none();
-        const Mask ends = R > 0 ? ends_segment & (w.sorted_contact[next] == j) : none();
-        const Lanes d = w.direction[j];
-        const Lanes at_end = select(ends, lanes(0.0), v);
-        const Lanes least =
-            least_coefficient(d * w.v0[j], d * w.a0[j], d * at_end, d * a, h, w.error[j], starts, ends) *
-            w.per_speed[j];
-        passage.between = select(taken & rubs, min(passage.between, least), passage.between);
-        if (w.shape.asks_strokes) {  // without friction a contact reverses as it likes
-          note_sign(w, j, taken & ~rubs, v);
-        }
-        w.v0[j] = select(taken, v, w.v0[j]);
-        w.a0[j] = select(taken, a, w.a0[j]);
-      }
-      if (w.shape.traces > 0) keep_step(w, taken, start + h * k, h, k == 0);
-      w.is_rest_at[w.steps] = w.is_release_at[w.steps] = false;
-      ++w.steps;
-      if (w.shape.integrated > 0) integrate_step(w, select(taken, h, 0.0));
-      for (int s = 0; s < w.modes; ++s) w.zeta[s] = select(taken, w.next_zeta[s], w.zeta[s]);
-      for (int i = 0; i < w.orders; ++i) w.osc[i] = select(taken, w.next_osc[i], w.osc[i]);
-    }
-    if (R > 0)
-      take_reversal(w, next, is_last ? w.sign * w.sorted_turn[0] : w.sorted_turn[next], passage.proved,
-                    passage);
+  for (int p = 0; p == 0 || p < w.reversals; ++p) {
+    Segment segment = segment_of(w, p);
+    w.segment_length[p] = segment.length;
+    if (!lay_out_steps(w, segment, fineness, steps_so_far, passage)) return passage;
+    sweep_segment(w, segment, passage);
+    if (w.reversals == 0) break;
+    const Lanes turned = segment.is_last ? w.sign * w.sorted_turn[0] : w.sorted_turn[segment.next];
+    take_reversal(w, segment.next, turned, passage.proved, passage);
   }
   close_signs(w);
   Lanes missed = lanes(0.0), size = lanes(1e-300);
@@ -356,8 +206,8 @@ inline Passage sweep(W& w, Mask group, double fineness) {
   }
   for (int k = 0; k < w.orders; ++k) passage.parts += w.harmonic_size[k];
   passage.parts += size;
-  passage.proved = passage.proved & (passage.at_reversals > kSafe) & (passage.between > kSafe) &
-                   ~(missed > kClosed * size);
+  passage.proved =
+      passage.stands() & ~(missed > kClosed * size) & (passage.latest_off < kInOrder * passage.shortest);
   return passage;
 }
 

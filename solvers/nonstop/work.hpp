@@ -8,7 +8,6 @@ namespace {
 
 using frahm::periodic::nonstop::kLanes;
 using frahm::periodic::nonstop::kMostReversals;
-using frahm::periodic::nonstop::kMostSteps;
 using frahm::periodic::nonstop::most_steps;
 using frahm::periodic::nonstop::Pack;
 using frahm::periodic::nonstop::Product;
@@ -58,6 +57,12 @@ struct Counts {
     return shape.modes == M && shape.states == 2 * M && shape.orders == H && shape.contacts == C;
   }
   static constexpr int modes = M, states = 2 * M, orders = H, contacts = C;
+};
+
+// The largest value of a trace so far.
+struct Extreme {
+  Lanes value;
+  Lanes reached, phase;  // the largest value that is reached somewhere, not held from before, and where
 };
 
 template <class C>
@@ -132,19 +137,19 @@ struct Work : C {
   Lanes* level;                     // [forms] constant part in the segment
   Lanes *v0, *a0;                   // [contacts] at the start of a step
   Lanes* error;                     // [contacts] of the middle coefficient of the proof
-  Lanes *x0, *d0, *bend;            // [traces] and the error of a cubic over a step
   Lanes *first_sign, *last_sign;    // [contacts] of the velocity without friction, 0 before it moves
 
-  // What the sweep leaves for the search of extremes.
-  Complex* zeta_at;  // [steps][modes]
-  Complex* osc_at;   // [steps][orders]
-  Lanes* phase_at;   // [steps]
-  Lanes* length;     // [steps], 0 in lanes that have no such step
-  Lanes*
-      left;  // [steps][traces] value, slope at the left, value, slope at the right, level, error of a cubic
-  bool is_rest_at[kMostSteps];     // [steps] whether the mass rests
-  bool is_release_at[kMostSteps];  // [steps] whether it begins to slide from rest
-  int steps = 0;
+  // What the sweep of a segment leaves for the search of extremes.
+  Complex* zeta_at;          // [steps][modes]
+  Complex* osc_at;           // [steps][orders]
+  Lanes* phase_at;           // [steps]
+  Lanes* length;             // [steps], 0 in lanes that have no such step
+  Lanes* trace_at;           // [steps + 1][traces] value and slope at the steps' ends
+  Lanes* bend;               // [traces] what a cubic over a step can be wrong by
+  int steps = 0;             // in hand
+  bool is_released = false;  // the mass begins to slide from rest with the segment
+  Extreme* extreme;          // [traces] of the largest, and of the opposite's
+  Mask unsure;               // a larger one may be missed
 
   // Of a mass at rest, one contact and one order (one_stop.hpp).
   bool rests = false;
@@ -234,8 +239,6 @@ struct Work : C {
     v0 = arena.take<Lanes>(m);
     a0 = arena.take<Lanes>(m);
     error = arena.take<Lanes>(m);
-    x0 = arena.take<Lanes>(shape.traces);
-    d0 = arena.take<Lanes>(shape.traces);
     bend = arena.take<Lanes>(shape.traces);
     first_sign = arena.take<Lanes>(m);
     last_sign = arena.take<Lanes>(m);
@@ -243,7 +246,8 @@ struct Work : C {
     osc_at = arena.take<Complex>(most * H);
     phase_at = arena.take<Lanes>(most);
     length = arena.take<Lanes>(most);
-    left = arena.take<Lanes>(most * shape.traces * 6);
+    trace_at = arena.take<Lanes>((most + 1) * shape.traces * 2);
+    extreme = arena.take<Extreme>(2 * shape.traces);
     const int D = states;
     flow = arena.take<Lanes>(D * D);
     square = arena.take<Lanes>(D * D);
