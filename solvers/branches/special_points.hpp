@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "solvers/branches/corrector.hpp"
+
+namespace frahm::periodic {
+
+// A special place between two of a branch.
+struct SpecialPlace {
+  SpecialKind kind = SpecialKind::fold;
+  BranchPlace place;
+  std::size_t element = 0;  // of grazing
+  double residual = 0.0;
+};
+
+// The special places from one place of a branch to the next, in their order: where dp/ds changes its sign,
+// where the number of unstable multipliers changes, and where events begin or end. Each is solved on the
+// curve, at planes across the tangent of the first.
+std::vector<SpecialPlace> special_places(BranchMap& map, const BranchPlace& from, const BranchPlace& to);
+
+}  // namespace frahm::periodic
