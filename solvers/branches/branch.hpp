@@ -34,6 +34,7 @@ enum class SpecialKind {
   stability_jump,   // a multiplier jumps across the unit circle where an event begins
   grazing,          // an event begins or ends to happen: a stop is only just touched, a contact only just
                     // stops or lets go
+  corner,           // a grazing where the map has a kink and the parameter turns back: dp/ds jumps across 0
 };
 const char* kind_name(SpecialKind kind);  // "fold", "period_doubling"
 
@@ -41,17 +42,20 @@ struct SpecialPoint {
   SpecialKind kind = SpecialKind::fold;
   BranchPoint at;
   std::size_t after = 0;    // index of the point of the branch before it
-  std::size_t element = 0;  // of grazing: index in Network::elements
+  std::size_t element = 0;  // of grazing and corner: index in Network::elements
   // Of the equation that makes it special, 1: dp/ds of the scaled curve; a multiplier's modulus less 1; of a
-  // grazing the distance from the place in parts of it, or the margin of the event.
+  // grazing or corner the distance of a guard from zero, or the margin of a contact's event.
   double residual = 0.0;
 };
+
+// Why a branch ends.
+enum class BranchEnd { range, points, closed, lost };
+const char* end_sentence(BranchEnd end);
 
 struct Branch {
   std::vector<BranchPoint> points;    // along the curve
   std::vector<SpecialPoint> special;  // along the curve
-  bool closed = false;                // the last point is the first one
-  std::string first_end, last_end;    // why the curve stops before its first point, and after its last
+  BranchEnd first_end{}, last_end{};  // before its first point and after its last; closed: these are the same
   std::string reason;                 // why there is none; empty where there is
 };
 

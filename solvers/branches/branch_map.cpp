@@ -15,6 +15,21 @@
 #include "solvers/quantities/orbit_steps.hpp"
 
 namespace frahm::periodic {
+namespace {
+
+// A guard (events/bend_guards.hpp) over a step of an orbit.
+Polynomial bend_guard_over(const Expansion<kAnySize, kAnySize>& x, const StepBends<kAnySize, kAnySize>& bends,
+                           BendGuard guard, Eigen::Index j) {
+  const auto b = bends.B.col(j);
+  Polynomial place = x.displacement(b) + x.u * bends.motion.row(j).transpose();
+  Polynomial velocity = x.velocity(b) + x.u * bends.motion_velocity.row(j).transpose();
+  const bool of_velocity = contains(bends.of_velocity, j);
+  (of_velocity ? velocity : place)[0] -= bends.place[j];
+  if (guard == BendGuard::place) return of_velocity ? velocity : place;
+  return bends.stiffness[j] * place + bends.damping[j] * velocity;
+}
+
+}  // namespace
 
 BranchMap::BranchMap(const mechanics::Network& network, const ValuesAlong& values, double low, double high)
     : assembly_(network), values_(values), low_(low), high_(high), walk_(flow_) {}
@@ -91,24 +106,37 @@ void BranchMap::pass(const Eigen::VectorXd& y, Tangent tangent, Shot& shot) {
 }
 
 // By central differences within the range: what the parameter changes (the period, the matrices) has no
-// derivative in the flow.
+// derivative in the flow. Where an event begins between both ends, by the side that has the events of y.
 Eigen::VectorXd BranchMap::by_parameter(const Eigen::VectorXd& y, bool& failed) {
   constexpr double kStep = 1e-6;  // of the range
   const Eigen::Index last = y.size() - 1;
-  Shot side;
-  Eigen::VectorXd ends[2];
-  double at[2];
+  const double low = std::min(0.0, y[last]), high = std::max(1.0, y[last]);
+  double at[] = {std::max(y[last] - kStep, low), std::min(y[last] + kStep, high)};
+  Side ends[2];
   for (int i = 0; i < 2; ++i) {
-    at[i] = std::clamp(y[last] + (i == 0 ? -kStep : kStep), std::min(0.0, y[last]), std::max(1.0, y[last]));
-    Eigen::VectorXd moved = y;
-    moved[last] = at[i];
-    set(parameter(moved));
-    pass(moved, Tangent::none, side);
-    failed = failed || side.failed;
-    if (failed) return {};
-    ends[i] = side.residual;
+    ends[i] = side(y, at[i]);
+    failed = failed || ends[i].residual.size() == 0;
   }
-  return (ends[1] - ends[0]) / (at[1] - at[0]);
+  if (failed) return {};
+  if (ends[0].events != ends[1].events) {
+    const Side middle = side(y, y[last]);
+    failed = middle.residual.size() == 0;
+    if (failed) return {};
+    const int other = middle.events == ends[0].events ? 1 : 0;
+    ends[other] = middle;
+    at[other] = y[last];
+  }
+  return (ends[1].residual - ends[0].residual) / (at[1] - at[0]);
+}
+
+// The residual, and the events, of the state of y at another value of the parameter; none where it fails.
+BranchMap::Side BranchMap::side(Eigen::VectorXd y, double at) {
+  y[y.size() - 1] = at;
+  set(parameter(y));
+  Shot shot;
+  pass(y, Tangent::none, shot);
+  if (shot.failed) return {};
+  return {shot.residual, events(shot)};
 }
 
 Shot BranchMap::shoot(const Eigen::VectorXd& y) {
@@ -176,24 +204,26 @@ std::vector<int> BranchMap::events(const Shot& shot) const {
 }
 
 double BranchMap::distance_from_bend(const AnyOrbit& orbit, Eigen::Index j) const {
+  const auto& bends = flow_.equations().bends;
   OrbitSteps<kAnySize, kAnySize> steps(flow_);
   steps.lay_out(orbit);
-  double nearest = HUGE_VAL, size = std::abs(flow_.equations().bends.place[j]);
-  const auto& bends = flow_.equations().bends;
-  for (auto& step : steps.steps()) {
-    const ValueAndSlope left = bend_place(flow_, step.left, j), right = bend_place(flow_, step.right, j);
-    size = std::max({size, std::abs(left.value), std::abs(right.value)});
-    if ((left.slope > 0.0) == (right.slope > 0.0)) continue;
-    const auto& x = steps.expand(step);
-    const bool of_velocity = contains(bends.of_velocity, j);
-    Polynomial g = of_velocity ? x.velocity(bends.B.col(j)) : x.displacement(bends.B.col(j));
-    g += x.u * (of_velocity ? bends.motion_velocity : bends.motion).row(j).transpose();
-    g[0] -= bends.place[j];
-    const Roots extremes = sign_changes(derivative(g));
-    for (int i = 0; i < extremes.count; ++i)
-      nearest = std::min(nearest, std::abs(evaluate(g, extremes.at[static_cast<std::size_t>(i)])));
+  double nearest = HUGE_VAL;
+  for (const BendGuard guard : {BendGuard::place, BendGuard::force}) {
+    if (guard == BendGuard::force && contains(bends.pulling, j)) continue;
+    double size = guard == BendGuard::place ? std::abs(bends.place[j]) : 0.0, least = HUGE_VAL;
+    for (auto& step : steps.steps()) {
+      const ValueAndSlope left = bend_guard(flow_, step.left, guard, j);
+      const ValueAndSlope right = bend_guard(flow_, step.right, guard, j);
+      size = std::max({size, std::abs(left.value), std::abs(right.value)});
+      if ((left.slope > 0.0) == (right.slope > 0.0)) continue;
+      const Polynomial g = bend_guard_over(steps.expand(step), bends, guard, j);
+      const Roots extremes = sign_changes(derivative(g));
+      for (int i = 0; i < extremes.count; ++i)
+        least = std::min(least, std::abs(evaluate(g, extremes.at[static_cast<std::size_t>(i)])));
+    }
+    nearest = std::min(nearest, least / size);
   }
-  return nearest / size;
+  return nearest;
 }
 
 std::size_t BranchMap::element_of_event(std::size_t event) const {

@@ -47,7 +47,7 @@ class BranchMap {
   Eigen::VectorXcd multipliers(const Shot& shot);
   // How often each bend and each contact changes its state.
   std::vector<int> events(const Shot& shot) const;
-  // The least distance of an extreme of bend j's guard from its place, relative; over an orbit.
+  // The least distance from zero of an extreme of bend j's guards over an orbit, relative to the guard's size.
   double distance_from_bend(const AnyOrbit& orbit, Eigen::Index j) const;
   std::size_t element_of_event(std::size_t event) const;  // of events(): index in Network::elements
 
@@ -61,6 +61,11 @@ class BranchMap {
   void pass(const Eigen::VectorXd& y, Tangent tangent, Shot& shot);
   Eigen::MatrixXd scaled(const Eigen::MatrixXd& by_state) const;
   Eigen::VectorXd by_parameter(const Eigen::VectorXd& y, bool& failed);
+  struct Side {
+    Eigen::VectorXd residual;
+    std::vector<int> events;
+  };
+  Side side(Eigen::VectorXd y, double at);
 
   mechanics::Assembly assembly_;
   ValuesAlong values_;

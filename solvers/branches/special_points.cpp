@@ -4,9 +4,12 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <utility>
 
 namespace frahm::periodic {
 namespace {
+
+constexpr double kJump = 1e-6;  // what is left of an equation that a jump crosses is larger
 
 using Function = std::function<double(const BranchPlace&)>;
 
@@ -21,11 +24,10 @@ class Stretch {
   const BranchPlace& to() const { return to_; }
   BranchMap& map() const { return map_; }
   double at(const BranchPlace& place) const { return from_.tangent.dot(place.y - from_.y); }
-  // The place at s, searched from the chord.
-  std::optional<BranchPlace> place(double s) const {
-    const double part = s / length_;
-    return correct(map_, from_.y + part * (to_.y - from_.y), from_.tangent,
-                   part < 0.5 ? from_.tangent : to_.tangent);
+  // The place at s, searched from the chord between two that are known.
+  std::optional<BranchPlace> place(double s, const BranchPlace& a, const BranchPlace& b) const {
+    const double part = (s - at(a)) / (at(b) - at(a));
+    return correct(map_, a.y + part * (b.y - a.y), from_.tangent, part < 0.5 ? a.tangent : b.tangent);
   }
 
  private:
@@ -40,52 +42,52 @@ class Stretch {
 BranchPlace root(const Stretch& stretch, const Function& function) {
   constexpr int kMostSteps = 100;
   constexpr double kTolerance = 1e-11, kNoLength = 1e-15;
-  double a = 0.0, b = stretch.length(), fa = function(stretch.from()), fb = function(stretch.to());
-  BranchPlace best = std::abs(fa) < std::abs(fb) ? stretch.from() : stretch.to();
-  for (int i = 0; i < kMostSteps && b - a > kNoLength; ++i) {
-    const double s = i % 3 == 2 ? 0.5 * (a + b) : (a * fb - b * fa) / (fb - fa);
-    const auto place = stretch.place(s);
+  BranchPlace a = stretch.from(), b = stretch.to();
+  double fa = function(a), fb = function(b);
+  BranchPlace best = std::abs(fa) < std::abs(fb) ? a : b;
+  for (int i = 0; i < kMostSteps && stretch.at(b) - stretch.at(a) > kNoLength; ++i) {
+    const double sa = stretch.at(a), sb = stretch.at(b);
+    const auto place = stretch.place(i % 3 == 2 ? 0.5 * (sa + sb) : (sa * fb - sb * fa) / (fb - fa), a, b);
     if (!place) break;
     const double f = function(*place);
     if (std::abs(f) <= std::abs(function(best))) best = *place;
     if (std::abs(f) <= kTolerance) break;
     if ((f > 0.0) == (fb > 0.0)) {
-      b = s, fb = f, fa *= 0.5;
+      b = *place, fb = f, fa *= 0.5;
     } else {
-      a = s, fa = f, fb *= 0.5;
+      a = *place, fa = f, fb *= 0.5;
     }
   }
   return best;
 }
 
-// Whether the events of an index are as many as at the first place, bisected. Of both ends of the bracket the
-// one that has more: it happens there.
+// Where the events of an index are no longer as many as at the first place, by halving. Of both ends of the
+// bracket the one that has more: it happens there.
 struct Border {
   BranchPlace place;
   double margin;  // the lesser of both ends
 };
 Border border_of_event(const Stretch& stretch, std::size_t event) {
   constexpr double kNoLength = 1e-12;
-  double a = 0.0, b = stretch.length();
-  BranchPlace at_a = stretch.from(), at_b = stretch.to();
-  while (b - a > kNoLength) {
-    const double middle = 0.5 * (a + b);
-    const auto place = stretch.place(middle);
+  BranchPlace a = stretch.from(), b = stretch.to();
+  while (stretch.at(b) - stretch.at(a) > kNoLength) {
+    const auto place = stretch.place(0.5 * (stretch.at(a) + stretch.at(b)), a, b);
     if (!place) break;
-    const bool as_before = place->events[event] == stretch.from().events[event];
-    (as_before ? a : b) = middle;
-    (as_before ? at_a : at_b) = *place;
+    (place->events[event] == stretch.from().events[event] ? a : b) = *place;
   }
-  const double margin = std::min(at_a.margin, at_b.margin);
-  return {at_a.events[event] > at_b.events[event] ? at_a : at_b, margin};
+  const double margin = std::min(a.margin, b.margin);
+  return {a.events[event] > b.events[event] ? a : b, margin};
 }
 
-double residual_of_grazing(const Stretch& stretch, const Border& border, std::size_t event) {
-  BranchMap& map = stretch.map();
-  if (event >= map.assembly().bends().element.size()) return border.margin;
-  Shot shot = map.shoot(border.place.y);
-  return map.distance_from_bend(map.orbit(border.place.y, std::move(shot)), static_cast<Eigen::Index>(event));
+}  // namespace
+
+double residual_of_grazing(BranchMap& map, const BranchPlace& place, double margin, std::size_t event) {
+  if (event >= map.assembly().bends().element.size()) return margin;
+  Shot shot = map.shoot(place.y);
+  return map.distance_from_bend(map.orbit(place.y, std::move(shot)), static_cast<Eigen::Index>(event));
 }
+
+namespace {
 
 void add_grazings(const Stretch& stretch, std::vector<SpecialPlace>& found) {
   constexpr double kSame = 1e-8;
@@ -101,13 +103,14 @@ void add_grazings(const Stretch& stretch, std::vector<SpecialPlace>& found) {
                  std::abs(stretch.at(each.place) - stretch.at(border.place)) < kSame;
         });
     if (known) continue;
-    found.push_back({SpecialKind::grazing, border.place, element, residual_of_grazing(stretch, border, event)});
+    found.push_back({SpecialKind::grazing, border.place, element, 
+                     residual_of_grazing(stretch.map(), border.place, border.margin, event)});
   }
 }
 
 // A real multiplier that passes +1 where the parameter turns belongs to the fold.
 void add_stability_change(const Stretch& stretch, bool has_fold, std::vector<SpecialPlace>& found) {
-  constexpr double kJump = 1e-6, kAxis = 1e-4;
+  constexpr double kAxis = 1e-4;
   const int before = stretch.from().unstable(), after = stretch.to().unstable();
   const int change = std::abs(after - before);
   if (change == 0 || (has_fold && change == 1)) return;
@@ -125,6 +128,18 @@ void add_stability_change(const Stretch& stretch, bool has_fold, std::vector<Spe
   found.push_back(special);
 }
 
+// Where dp/ds jumps across 0 no place has dp/ds = 0: the branch turns at the grazing.
+void join_corners(std::vector<SpecialPlace>& found) {
+  const auto is_jump = [](const SpecialPlace& each) {
+    return each.kind == SpecialKind::fold && each.residual > kJump;
+  };
+  const auto fold = std::ranges::find_if(found, is_jump);
+  const auto grazing = std::ranges::find(found, SpecialKind::grazing, &SpecialPlace::kind);
+  if (fold == found.end() || grazing == found.end()) return;
+  grazing->kind = SpecialKind::corner;
+  found.erase(fold);
+}
+
 }  // namespace
 
 std::vector<SpecialPlace> special_places(BranchMap& map, const BranchPlace& from, const BranchPlace& to) {
@@ -139,6 +154,7 @@ std::vector<SpecialPlace> special_places(BranchMap& map, const BranchPlace& from
   }
   add_stability_change(stretch, has_fold, found);
   add_grazings(stretch, found);
+  join_corners(found);
   std::ranges::sort(found, [&](const SpecialPlace& a, const SpecialPlace& b) {
     return stretch.at(a.place) < stretch.at(b.place);
   });

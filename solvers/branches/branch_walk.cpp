@@ -1,0 +1,138 @@
+#include "solvers/branches/branch_walk.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace frahm::periodic {
+namespace {
+
+struct StepLimits {
+  double first = 1e-3;       // all of the scaled arclength
+  double least = 1e-10;      // below, the branch has a corner or is lost
+  double kink = 1e-6;        // below, the tangent may turn by any angle: the map has a kink at a grazing
+  double most_angle = 0.15;  // between the tangents of neighbours [rad], that a curve is drawn smoothly
+  double most_shift = 0.3;   // of a step: how far Newton's method may move its end
+  double corner = 1e-5;      // from a corner, the first place beyond
+};
+
+// Follows a branch one way.
+class BranchWalk {
+ public:
+  BranchWalk(BranchMap& map, const BranchWanted& wanted, const FoundOnBranch& found)
+      : map_(map), wanted_(wanted), found_(found) {}
+
+  BranchEnd follow(const BranchPlace& first) {
+    here_ = first;
+    step_ = limits_.first;
+    if (leaves_range(here_.y, here_.tangent)) return BranchEnd::range;
+    for (int points = 1; points < wanted_.most_points;) {
+      const auto next = take_step();
+      if (!next) {
+        step_ *= 0.5;
+        if (step_ < limits_.least && !pass_corner()) return BranchEnd::lost;
+        continue;
+      }
+      const double p = next->y[next->y.size() - 1];
+      if (p < 0.0 || p > 1.0) return end_at(p < 0.0 ? 0.0 : 1.0, *next);
+      ++points;
+      const bool closes = points > kLeastLoop && passes(first, *next);
+      if (closes) return accept(first), BranchEnd::closed;
+      accept(*next);
+    }
+    return BranchEnd::points;
+  }
+
+ private:
+  static constexpr int kLeastLoop = 10;
+
+  static bool leaves_range(const Eigen::VectorXd& y, const Eigen::VectorXd& tangent) {
+    const double p = y[y.size() - 1], rate = tangent[y.size() - 1];
+    return (p <= 0.0 && rate <= 0.0) || (p >= 1.0 && rate >= 0.0);
+  }
+
+  // Predicts along the tangent and corrects across it. Nothing where the step is too long.
+  std::optional<BranchPlace> take_step() const {
+    const Eigen::VectorXd predicted = here_.y + step_ * here_.tangent;
+    auto next = correct(map_, predicted, here_.tangent, here_.tangent);
+    if (!next) return std::nullopt;
+    const double shift = (next->y - predicted).norm() / step_;
+    const double angle = std::acos(std::clamp(here_.tangent.dot(next->tangent), -1.0, 1.0));
+    const bool serves = angle <= limits_.most_angle && shift <= limits_.most_shift;
+    return serves || (step_ <= limits_.kink && shift <= 2.0) ? next : std::nullopt;
+  }
+
+  // Goes on where the map has a kink so sharp that the branch turns back: both of its ends are on this side of
+  // the plane across the tangent. The tangent beyond the kink is that of the map there.
+  bool pass_corner() {
+    constexpr double kNear = 30.0;  // of the step: several events may begin together, each with its own map
+    const Shot beyond = map_.shoot(here_.y + limits_.corner * here_.tangent);
+    if (beyond.failed) return false;
+    const Eigen::VectorXd ahead = branch_tangent(beyond.derivative, here_.tangent);
+    for (const Eigen::VectorXd& way : {Eigen::VectorXd(-ahead), ahead}) {
+      const Eigen::VectorXd predicted = here_.y + limits_.corner * way;
+      auto next = correct(map_, predicted, way, way);
+      if (!next || next->events == here_.events) continue;
+      const Eigen::VectorXd on = next->y - here_.y;
+      if (on.norm() > kNear * limits_.corner) continue;
+      if (next->tangent.dot(on) < 0.0) next->tangent *= -1.0;
+      found_(*next, {corner_before(*next)});
+      here_ = *next;
+      step_ = limits_.corner;
+      return true;
+    }
+    return false;
+  }
+
+  SpecialPlace corner_before(const BranchPlace& next) const {
+    const bool turns = (here_.parameter_rate() > 0.0) != (next.parameter_rate() > 0.0);
+    const auto differs = std::ranges::mismatch(here_.events, next.events).in1 - here_.events.begin();
+    const auto event = static_cast<std::size_t>(differs);
+    return {turns ? SpecialKind::corner : SpecialKind::grazing, here_, map_.element_of_event(event),
+            residual_of_grazing(map_, here_, here_.margin, event)};
+  }
+
+  // The step that led to the first place again, or past it.
+  bool passes(const BranchPlace& first, const BranchPlace& next) const {
+    const Eigen::VectorXd to_first = first.y - here_.y;
+    const double along = here_.tangent.dot(to_first);
+    return along > 0.0 && along <= here_.tangent.dot(next.y - here_.y) && to_first.norm() < 2.0 * step_ &&
+           (to_first - along * here_.tangent).norm() < 0.5 * step_ && here_.tangent.dot(first.tangent) > 0.9;
+  }
+
+  void accept(const BranchPlace& next) {
+    constexpr double kGrow = 1.5;
+    constexpr int kFast = 4;  // Newton's steps
+    const double angle = std::acos(std::clamp(here_.tangent.dot(next.tangent), -1.0, 1.0));
+    found_(next, special_places(map_, here_, next));
+    if (next.newton_iterations <= kFast && angle < 0.5 * limits_.most_angle)
+      step_ = std::min(kGrow * step_, wanted_.largest_step);
+    here_ = next;
+  }
+
+  // The place at the end of the range, before one beyond it.
+  BranchEnd end_at(double end, const BranchPlace& beyond) {
+    const Eigen::Index last = beyond.y.size() - 1;
+    const double part = (end - here_.y[last]) / (beyond.y[last] - here_.y[last]);
+    const Eigen::VectorXd across = Eigen::VectorXd::Unit(last + 1, last);
+    const Eigen::VectorXd guess = here_.y + part * (beyond.y - here_.y);
+    if (const auto place = correct(map_, guess, across, here_.tangent); place && part > 0.0) accept(*place);
+    return BranchEnd::range;
+  }
+
+  BranchMap& map_;
+  const BranchWanted& wanted_;
+  const FoundOnBranch& found_;
+  StepLimits limits_;
+  BranchPlace here_;
+  double step_ = 0.0;
+};
+
+}  // namespace
+
+BranchEnd walk_branch(BranchMap& map, const BranchWanted& wanted, const BranchPlace& first,
+                      const FoundOnBranch& found) {
+  return BranchWalk(map, wanted, found).follow(first);
+}
+
+}  // namespace frahm::periodic
