@@ -44,7 +44,8 @@ struct SpecialPoint {
   std::size_t after = 0;    // index of the point of the branch before it
   std::size_t element = 0;  // of grazing and corner: index in Network::elements
   // Of the equation that makes it special, 1: dp/ds of the scaled curve; a multiplier's modulus less 1; of a
-  // grazing or corner the distance of a guard from zero, or the margin of a contact's event.
+  // grazing or corner the distance of a bend's guard from zero, relative, or of a contact the width of the
+  // bracket on the scaled curve.
   double residual = 0.0;
 };
 

@@ -183,13 +183,13 @@ Eigen::VectorXcd BranchMap::multipliers(const Shot& shot) {
 }
 
 std::vector<int> BranchMap::events(const Shot& shot) const {
-  constexpr double kNoLength = 1e-9;  // of the period: the first slip of a state that should be at rest
+  constexpr double kNoLength = 1e-10;  // of the period: the first slip of a state that should be at rest
   const auto& eq = flow_.equations();
   const auto bends = static_cast<std::size_t>(eq.bends.count());
   std::vector<int> count(bends + static_cast<std::size_t>(eq.contacts()), 0);
   const Mode<kAnySize, kAnySize>* before = nullptr;
   for (const auto& segment : shot.passage.segments) {
-    if (segment.length <= kNoLength * eq.period) continue;
+    if (before == nullptr && segment.length <= kNoLength * eq.period) continue;
     const auto& mode = flow_.mode(segment.mode);
     for (std::size_t i = 0; before != nullptr && i < count.size(); ++i) {
       const auto j = static_cast<Eigen::Index>(i < bends ? i : i - bends);

@@ -34,7 +34,7 @@ class BranchWalk {
         continue;
       }
       const double p = next->y[next->y.size() - 1];
-      if (p < 0.0 || p > 1.0) return end_at(p < 0.0 ? 0.0 : 1.0, *next);
+      if (p <= 0.0 || p >= 1.0) return accept(*next), BranchEnd::range;
       ++points;
       const bool closes = points > kLeastLoop && passes(first, *next);
       if (closes) return accept(first), BranchEnd::closed;
@@ -51,11 +51,21 @@ class BranchWalk {
     return (p <= 0.0 && rate <= 0.0) || (p >= 1.0 && rate >= 0.0);
   }
 
-  // Predicts along the tangent and corrects across it. Nothing where the step is too long.
+  // Predicts along the tangent and corrects across it; beyond the range, at its end. Nothing where the step is
+  // too long.
   std::optional<BranchPlace> take_step() const {
-    const Eigen::VectorXd predicted = here_.y + step_ * here_.tangent;
-    auto next = correct(map_, predicted, here_.tangent, here_.tangent);
+    Eigen::VectorXd predicted = here_.y + step_ * here_.tangent, across = here_.tangent;
+    const Eigen::Index last = predicted.size() - 1;
+    if (predicted[last] < 0.0 || predicted[last] > 1.0) {
+      const double end = predicted[last] < 0.0 ? 0.0 : 1.0;
+      predicted = here_.y + (end - here_.y[last]) / here_.parameter_rate() * here_.tangent;
+      predicted[last] = end;
+      across = Eigen::VectorXd::Unit(last + 1, last);
+    }
+    auto next = correct(map_, predicted, across, here_.tangent);
     if (!next) return std::nullopt;
+    if (next->y[last] < 0.0 || next->y[last] > 1.0) return std::nullopt;
+    if (across[last] == 1.0) next->y[last] = predicted[last];
     const double shift = (next->y - predicted).norm() / step_;
     const double angle = std::acos(std::clamp(here_.tangent.dot(next->tangent), -1.0, 1.0));
     const bool serves = angle <= limits_.most_angle && shift <= limits_.most_shift;
@@ -65,17 +75,13 @@ class BranchWalk {
   // Goes on where the map has a kink so sharp that the branch turns back: both of its ends are on this side of
   // the plane across the tangent. The tangent beyond the kink is that of the map there.
   bool pass_corner() {
-    constexpr double kNear = 30.0;  // of the step: several events may begin together, each with its own map
     const Shot beyond = map_.shoot(here_.y + limits_.corner * here_.tangent);
     if (beyond.failed) return false;
     const Eigen::VectorXd ahead = branch_tangent(beyond.derivative, here_.tangent);
     for (const Eigen::VectorXd& way : {Eigen::VectorXd(-ahead), ahead}) {
-      const Eigen::VectorXd predicted = here_.y + limits_.corner * way;
-      auto next = correct(map_, predicted, way, way);
-      if (!next || next->events == here_.events) continue;
-      const Eigen::VectorXd on = next->y - here_.y;
-      if (on.norm() > kNear * limits_.corner) continue;
-      if (next->tangent.dot(on) < 0.0) next->tangent *= -1.0;
+      // Nearer by as much as the step is shorter, or the map jumps and the branch ends here.
+      const auto next = beyond_corner(way, limits_.corner);
+      if (!next || !beyond_corner(way, 0.01 * limits_.corner)) continue;
       found_(*next, {corner_before(*next)});
       here_ = *next;
       step_ = limits_.corner;
@@ -84,12 +90,27 @@ class BranchWalk {
     return false;
   }
 
+  std::optional<BranchPlace> beyond_corner(const Eigen::VectorXd& way, double distance) const {
+    constexpr double kNear = 30.0;  // several events may begin together, each with its own map
+    constexpr double kSame = 1e-4;
+    auto next = correct(map_, here_.y + distance * way, way, way);
+    if (!next || next->events == here_.events) return std::nullopt;
+    const Eigen::VectorXd on = next->y - here_.y;
+    if (on.norm() > kNear * distance) return std::nullopt;
+    // Not on the way back.
+    const double back = here_.tangent.dot(on);
+    const auto before = correct(map_, here_.y + back * here_.tangent, here_.tangent, here_.tangent);
+    if (before && (before->y - next->y).norm() < kSame * on.norm()) return std::nullopt;
+    if (next->tangent.dot(on) < 0.0) next->tangent *= -1.0;
+    return next;
+  }
+
   SpecialPlace corner_before(const BranchPlace& next) const {
     const bool turns = (here_.parameter_rate() > 0.0) != (next.parameter_rate() > 0.0);
     const auto differs = std::ranges::mismatch(here_.events, next.events).in1 - here_.events.begin();
     const auto event = static_cast<std::size_t>(differs);
     return {turns ? SpecialKind::corner : SpecialKind::grazing, here_, map_.element_of_event(event),
-            residual_of_grazing(map_, here_, here_.margin, event)};
+            residual_of_grazing(map_, here_, limits_.least, event)};
   }
 
   // The step that led to the first place again, or past it.
@@ -108,16 +129,6 @@ class BranchWalk {
     if (next.newton_iterations <= kFast && angle < 0.5 * limits_.most_angle)
       step_ = std::min(kGrow * step_, wanted_.largest_step);
     here_ = next;
-  }
-
-  // The place at the end of the range, before one beyond it.
-  BranchEnd end_at(double end, const BranchPlace& beyond) {
-    const Eigen::Index last = beyond.y.size() - 1;
-    const double part = (end - here_.y[last]) / (beyond.y[last] - here_.y[last]);
-    const Eigen::VectorXd across = Eigen::VectorXd::Unit(last + 1, last);
-    const Eigen::VectorXd guess = here_.y + part * (beyond.y - here_.y);
-    if (const auto place = correct(map_, guess, across, here_.tangent); place && part > 0.0) accept(*place);
-    return BranchEnd::range;
   }
 
   BranchMap& map_;

@@ -45,7 +45,6 @@ std::optional<BranchPlace> correct(BranchMap& map, const Eigen::VectorXd& start,
       if (!place.tangent.allFinite()) return std::nullopt;
       place.multipliers = map.multipliers(shot);
       place.events = map.events(shot);
-      place.margin = shot.passage.margin;
       return place;
     }
     if (iteration > 3 && residual > 2.0 * before) return std::nullopt;

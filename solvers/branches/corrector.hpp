@@ -14,7 +14,6 @@ struct BranchPlace {
   Eigen::VectorXd tangent;  // dy/ds of the curve, of length 1
   Eigen::VectorXcd multipliers;
   std::vector<int> events;
-  double margin = 1.0;  // of the passage
   int newton_iterations = 0;
 
   double parameter_rate() const { return tangent[tangent.size() - 1]; }  // dp/ds, scaled

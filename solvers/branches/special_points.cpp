@@ -65,7 +65,7 @@ BranchPlace root(const Stretch& stretch, const Function& function) {
 // bracket the one that has more: it happens there.
 struct Border {
   BranchPlace place;
-  double margin;  // the lesser of both ends
+  double width;  // of the bracket
 };
 Border border_of_event(const Stretch& stretch, std::size_t event) {
   constexpr double kNoLength = 1e-12;
@@ -75,14 +75,13 @@ Border border_of_event(const Stretch& stretch, std::size_t event) {
     if (!place) break;
     (place->events[event] == stretch.from().events[event] ? a : b) = *place;
   }
-  const double margin = std::min(a.margin, b.margin);
-  return {a.events[event] > b.events[event] ? a : b, margin};
+  return {a.events[event] > b.events[event] ? a : b, stretch.at(b) - stretch.at(a)};
 }
 
 }  // namespace
 
-double residual_of_grazing(BranchMap& map, const BranchPlace& place, double margin, std::size_t event) {
-  if (event >= map.assembly().bends().element.size()) return margin;
+double residual_of_grazing(BranchMap& map, const BranchPlace& place, double width, std::size_t event) {
+  if (event >= map.assembly().bends().element.size()) return width;
   Shot shot = map.shoot(place.y);
   return map.distance_from_bend(map.orbit(place.y, std::move(shot)), static_cast<Eigen::Index>(event));
 }
@@ -104,7 +103,7 @@ void add_grazings(const Stretch& stretch, std::vector<SpecialPlace>& found) {
         });
     if (known) continue;
     found.push_back({SpecialKind::grazing, border.place, element, 
-                     residual_of_grazing(stretch.map(), border.place, border.margin, event)});
+                     residual_of_grazing(stretch.map(), border.place, border.width, event)});
   }
 }
 
@@ -129,13 +128,15 @@ void add_stability_change(const Stretch& stretch, bool has_fold, std::vector<Spe
 }
 
 // Where dp/ds jumps across 0 no place has dp/ds = 0: the branch turns at the grazing.
-void join_corners(std::vector<SpecialPlace>& found) {
-  const auto is_jump = [](const SpecialPlace& each) {
-    return each.kind == SpecialKind::fold && each.residual > kJump;
-  };
-  const auto fold = std::ranges::find_if(found, is_jump);
-  const auto grazing = std::ranges::find(found, SpecialKind::grazing, &SpecialPlace::kind);
-  if (fold == found.end() || grazing == found.end()) return;
+void join_corners(const Stretch& stretch, std::vector<SpecialPlace>& found) {
+  constexpr double kSame = 1e-6;
+  const auto fold = std::ranges::find(found, SpecialKind::fold, &SpecialPlace::kind);
+  if (fold == found.end() || fold->residual <= kJump) return;
+  const double at = stretch.at(fold->place);
+  const auto grazing = std::ranges::find_if(found, [&](const SpecialPlace& each) {
+    return each.kind == SpecialKind::grazing && std::abs(stretch.at(each.place) - at) < kSame;
+  });
+  if (grazing == found.end()) return;
   grazing->kind = SpecialKind::corner;
   found.erase(fold);
 }
@@ -154,7 +155,7 @@ std::vector<SpecialPlace> special_places(BranchMap& map, const BranchPlace& from
   }
   add_stability_change(stretch, has_fold, found);
   add_grazings(stretch, found);
-  join_corners(found);
+  join_corners(stretch, found);
   std::ranges::sort(found, [&](const SpecialPlace& a, const SpecialPlace& b) {
     return stretch.at(a.place) < stretch.at(b.place);
   });

@@ -20,7 +20,7 @@ struct SpecialPlace {
 std::vector<SpecialPlace> special_places(BranchMap& map, const BranchPlace& from, const BranchPlace& to);
 
 // How far an event (BranchMap::events) is from just happening: the distance of a bend's guard from zero at an
-// extreme, relative; of a contact the margin given.
-double residual_of_grazing(BranchMap& map, const BranchPlace& place, double margin, std::size_t event);
+// extreme, relative; of a contact the width given, of the bracket that holds it.
+double residual_of_grazing(BranchMap& map, const BranchPlace& place, double width, std::size_t event);
 
 }  // namespace frahm::periodic
