@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,9 +43,10 @@ struct SpecialPoint {
   SpecialKind kind = SpecialKind::fold;
   BranchPoint at;
   std::size_t after = 0;    // index of the point of the branch before it
-  std::size_t element = 0;  // of grazing and corner: index in Network::elements
-  // Of the equation that makes it special, 1: dp/ds of the scaled curve; a multiplier's modulus less 1; of a
-  // grazing or corner the distance of a bend's guard from zero, relative, or of a contact the width of the
+  // Of a grazing, and of a corner where it is known: whose event it is, index in Network::elements.
+  std::optional<std::size_t> element{};
+  // Of the equation that makes it special, 1: dp/ds of the scaled curve; a multiplier's modulus less 1; the
+  // distance of a bend's guard from zero, relative. Of a contact's event and of a jump the width of the
   // bracket on the scaled curve.
   double residual = 0.0;
 };

@@ -24,6 +24,7 @@ class BranchWalk {
 
   BranchEnd follow(const BranchPlace& first) {
     here_ = first;
+    passed_ = {here_.y};
     step_ = limits_.first;
     if (leaves_range(here_.y, here_.tangent)) return BranchEnd::range;
     for (int points = 1; points < wanted_.most_points;) {
@@ -81,9 +82,10 @@ class BranchWalk {
     for (const Eigen::VectorXd& way : {Eigen::VectorXd(-ahead), ahead}) {
       // Nearer by as much as the step is shorter, or the map jumps and the branch ends here.
       const auto next = beyond_corner(way, limits_.corner);
-      if (!next || !beyond_corner(way, 0.01 * limits_.corner)) continue;
+      if (!next || !beyond_corner(way, 0.1 * limits_.corner)) continue;
       found_(*next, {corner_before(*next)});
       here_ = *next;
+      passed_.push_back(here_.y);
       step_ = limits_.corner;
       return true;
     }
@@ -97,12 +99,22 @@ class BranchWalk {
     if (!next || next->events == here_.events) return std::nullopt;
     const Eigen::VectorXd on = next->y - here_.y;
     if (on.norm() > kNear * distance) return std::nullopt;
-    // Not on the way back.
-    const double back = here_.tangent.dot(on);
-    const auto before = correct(map_, here_.y + back * here_.tangent, here_.tangent, here_.tangent);
+    const auto before = come_by(here_.tangent.dot(on));  // not on the way back
     if (before && (before->y - next->y).norm() < kSame * on.norm()) return std::nullopt;
     if (next->tangent.dot(on) < 0.0) next->tangent *= -1.0;
     return next;
+  }
+
+  // The place that the branch has come by, so far along the tangent (< 0) from here.
+  std::optional<BranchPlace> come_by(double along) const {
+    const auto from_here = [this](const Eigen::VectorXd& y) { return here_.tangent.dot(y - here_.y); };
+    for (std::size_t i = passed_.size(); i-- > 1;) {
+      const double near = from_here(passed_[i]), far = from_here(passed_[i - 1]);
+      if (along < far || along > near || near == far) continue;
+      const Eigen::VectorXd chord = passed_[i - 1] - passed_[i];
+      return correct(map_, passed_[i] + (along - near) / (far - near) * chord, here_.tangent, here_.tangent);
+    }
+    return std::nullopt;
   }
 
   SpecialPlace corner_before(const BranchPlace& next) const {
@@ -129,6 +141,7 @@ class BranchWalk {
     if (next.newton_iterations <= kFast && angle < 0.5 * limits_.most_angle)
       step_ = std::min(kGrow * step_, wanted_.largest_step);
     here_ = next;
+    passed_.push_back(here_.y);
   }
 
   BranchMap& map_;
@@ -136,6 +149,7 @@ class BranchWalk {
   const FoundOnBranch& found_;
   StepLimits limits_;
   BranchPlace here_;
+  std::vector<Eigen::VectorXd> passed_;  // the last one is here
   double step_ = 0.0;
 };
 

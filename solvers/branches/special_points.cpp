@@ -9,7 +9,8 @@
 namespace frahm::periodic {
 namespace {
 
-constexpr double kJump = 1e-6;  // what is left of an equation that a jump crosses is larger
+constexpr double kJump = 1e-6;     // what is left of an equation that a jump crosses is larger
+constexpr double kClosed = 1e-12;  // a bracket
 
 using Function = std::function<double(const BranchPlace&)>;
 
@@ -39,7 +40,14 @@ class Stretch {
 
 // The root of a function that has different signs at both ends, by regula falsi with halved ends (Illinois),
 // each third step by halving the bracket.
-BranchPlace root(const Stretch& stretch, const Function& function) {
+struct Root {
+  BranchPlace place;
+  double value;  // of the function there
+  double width;  // of the bracket
+  // The function jumps across zero: the bracket is closed, and there is no root.
+  bool is_jump() const { return std::abs(value) > kJump && width < kClosed; }
+};
+Root root(const Stretch& stretch, const Function& function) {
   constexpr int kMostSteps = 100;
   constexpr double kTolerance = 1e-11, kNoLength = 1e-15;
   BranchPlace a = stretch.from(), b = stretch.to();
@@ -58,7 +66,7 @@ BranchPlace root(const Stretch& stretch, const Function& function) {
       a = *place, fa = f, fb *= 0.5;
     }
   }
-  return best;
+  return {best, function(best), stretch.at(b) - stretch.at(a)};
 }
 
 // Where the events of an index are no longer as many as at the first place, by halving. Of both ends of the
@@ -68,9 +76,8 @@ struct Border {
   double width;  // of the bracket
 };
 Border border_of_event(const Stretch& stretch, std::size_t event) {
-  constexpr double kNoLength = 1e-12;
   BranchPlace a = stretch.from(), b = stretch.to();
-  while (stretch.at(b) - stretch.at(a) > kNoLength) {
+  while (stretch.at(b) - stretch.at(a) > kClosed) {
     const auto place = stretch.place(0.5 * (stretch.at(a) + stretch.at(b)), a, b);
     if (!place) break;
     (place->events[event] == stretch.from().events[event] ? a : b) = *place;
@@ -117,28 +124,34 @@ void add_stability_change(const Stretch& stretch, bool has_fold, std::vector<Spe
   const auto beyond_one = [passing](const BranchPlace& place) {
     return std::abs(place.multipliers[passing]) - 1.0;
   };
-  SpecialPlace special{.place = root(stretch, beyond_one)};
-  const std::complex<double> multiplier = special.place.multipliers[passing];
-  special.residual = std::abs(beyond_one(special.place));
-  special.kind = special.residual > kJump                     ? SpecialKind::stability_jump
-                 : std::abs(multiplier.imag()) > kAxis        ? SpecialKind::torus
-                 : multiplier.real() > 0.0                    ? SpecialKind::branching
-                                                              : SpecialKind::period_doubling;
+  const Root found_root = root(stretch, beyond_one);
+  const bool jumps = found_root.is_jump();
+  const std::complex<double> multiplier = found_root.place.multipliers[passing];
+  SpecialPlace special;
+  special.place = found_root.place;
+  special.residual = jumps ? found_root.width : std::abs(found_root.value);
+  special.kind = jumps                                 ? SpecialKind::stability_jump
+                 : std::abs(multiplier.imag()) > kAxis ? SpecialKind::torus
+                 : multiplier.real() > 0.0             ? SpecialKind::branching
+                                                       : SpecialKind::period_doubling;
   found.push_back(special);
 }
 
-// Where dp/ds jumps across 0 no place has dp/ds = 0: the branch turns at the grazing.
-void join_corners(const Stretch& stretch, std::vector<SpecialPlace>& found) {
+// Where dp/ds changes its sign. Where it jumps across 0, at a grazing that is then part of the corner, there
+// is no fold.
+void add_fold(const Stretch& stretch, std::vector<SpecialPlace>& found) {
   constexpr double kSame = 1e-6;
-  const auto fold = std::ranges::find(found, SpecialKind::fold, &SpecialPlace::kind);
-  if (fold == found.end() || fold->residual <= kJump) return;
-  const double at = stretch.at(fold->place);
+  const Root fold = root(stretch, [](const BranchPlace& place) { return place.parameter_rate(); });
+  SpecialPlace special{SpecialKind::fold, fold.place, std::nullopt, std::abs(fold.value)};
+  if (fold.is_jump()) special = {SpecialKind::corner, fold.place, std::nullopt, fold.width};
+  const double at = stretch.at(fold.place);
   const auto grazing = std::ranges::find_if(found, [&](const SpecialPlace& each) {
     return each.kind == SpecialKind::grazing && std::abs(stretch.at(each.place) - at) < kSame;
   });
-  if (grazing == found.end()) return;
-  grazing->kind = SpecialKind::corner;
-  found.erase(fold);
+  if (std::abs(fold.value) <= kJump || grazing == found.end())
+    found.push_back(special);
+  else
+    grazing->kind = SpecialKind::corner;
 }
 
 }  // namespace
@@ -146,16 +159,10 @@ void join_corners(const Stretch& stretch, std::vector<SpecialPlace>& found) {
 std::vector<SpecialPlace> special_places(BranchMap& map, const BranchPlace& from, const BranchPlace& to) {
   const Stretch stretch(map, from, to);
   std::vector<SpecialPlace> found;
-  const auto rate = [](const BranchPlace& place) { return place.parameter_rate(); };
-  const bool has_fold = (rate(from) > 0.0) != (rate(to) > 0.0);
-  if (has_fold) {
-    SpecialPlace fold{.kind = SpecialKind::fold, .place = root(stretch, rate)};
-    fold.residual = std::abs(rate(fold.place));
-    found.push_back(fold);
-  }
-  add_stability_change(stretch, has_fold, found);
+  const bool turns = (from.parameter_rate() > 0.0) != (to.parameter_rate() > 0.0);
   add_grazings(stretch, found);
-  join_corners(stretch, found);
+  add_stability_change(stretch, turns, found);
+  if (turns) add_fold(stretch, found);
   std::ranges::sort(found, [&](const SpecialPlace& a, const SpecialPlace& b) {
     return stretch.at(a.place) < stretch.at(b.place);
   });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "solvers/branches/corrector.hpp"
@@ -10,7 +11,7 @@ namespace frahm::periodic {
 struct SpecialPlace {
   SpecialKind kind = SpecialKind::fold;
   BranchPlace place;
-  std::size_t element = 0;  // of grazing
+  std::optional<std::size_t> element{};  // of grazing and corner
   double residual = 0.0;
 };
 
