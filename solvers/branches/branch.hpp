@@ -42,7 +42,7 @@ const char* kind_name(SpecialKind kind);  // "fold", "period_doubling"
 struct SpecialPoint {
   SpecialKind kind = SpecialKind::fold;
   BranchPoint at;
-  std::size_t after = 0;    // index of the point of the branch before it
+  std::size_t after = 0;  // index of the point of the branch before it
   // Of a grazing, and of a corner where it is known: whose event it is, index in Network::elements.
   std::optional<std::size_t> element{};
   // Of the equation that makes it special, 1: dp/ds of the scaled curve; a multiplier's modulus less 1; the

@@ -47,7 +47,8 @@ class BranchMap {
   Eigen::VectorXcd multipliers(const Shot& shot);
   // How often each bend and each contact changes its state.
   std::vector<int> events(const Shot& shot) const;
-  // The least distance from zero of an extreme of bend j's guards over an orbit, relative to the guard's size.
+  // The least distance from zero of an extreme of bend j's guards over an orbit, relative to the guard's
+  // size.
   double distance_from_bend(const AnyOrbit& orbit, Eigen::Index j) const;
   std::size_t element_of_event(std::size_t event) const;  // of events(): index in Network::elements
 

@@ -19,7 +19,8 @@ void find_of_multiple(BranchMap& map, int multiple, AnyOrbit& orbit) {
   OrbitsWanted wanted;
   wanted.starts = 64;  // a subharmonic often has a small basin
   wanted.most_multiple = std::max(wanted.most_multiple, multiple);
-  Coexistence<kAnySize, kAnySize> coexistence(map.flow(), [](AnyOrbit&) {}, peak_of, wanted);
+  Coexistence<kAnySize, kAnySize> coexistence(
+      map.flow(), [](AnyOrbit&) {}, peak_of, wanted);
   coexistence.find(map.system(), orbit);
   if (!orbit.is_found() || orbit.multiple == multiple) return;
   orbit.status = Status::failed;

@@ -52,8 +52,8 @@ class BranchWalk {
     return (p <= 0.0 && rate <= 0.0) || (p >= 1.0 && rate >= 0.0);
   }
 
-  // Predicts along the tangent and corrects across it; beyond the range, at its end. Nothing where the step is
-  // too long.
+  // Predicts along the tangent and corrects across it; beyond the range, at its end. Nothing where the step
+  // is too long.
   std::optional<BranchPlace> take_step() const {
     Eigen::VectorXd predicted = here_.y + step_ * here_.tangent, across = here_.tangent;
     const Eigen::Index last = predicted.size() - 1;
@@ -73,8 +73,8 @@ class BranchWalk {
     return serves || (step_ <= limits_.kink && shift <= 2.0) ? next : std::nullopt;
   }
 
-  // Goes on where the map has a kink so sharp that the branch turns back: both of its ends are on this side of
-  // the plane across the tangent. The tangent beyond the kink is that of the map there.
+  // Goes on where the map has a kink so sharp that the branch turns back: both of its ends are on this side
+  // of the plane across the tangent. The tangent beyond the kink is that of the map there.
   bool pass_corner() {
     const Shot beyond = map_.shoot(here_.y + limits_.corner * here_.tangent);
     if (beyond.failed) return false;

@@ -109,7 +109,7 @@ void add_grazings(const Stretch& stretch, std::vector<SpecialPlace>& found) {
                  std::abs(stretch.at(each.place) - stretch.at(border.place)) < kSame;
         });
     if (known) continue;
-    found.push_back({SpecialKind::grazing, border.place, element, 
+    found.push_back({SpecialKind::grazing, border.place, element,
                      residual_of_grazing(stretch.map(), border.place, border.width, event)});
   }
 }
