@@ -19,6 +19,7 @@
 #include "engine/mpi.hpp"
 #include "results/store_error.hpp"
 #include "studies/program/assist_command.hpp"
+#include "studies/program/branch_command.hpp"
 #include "studies/program/check_command.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/export_command.hpp"
@@ -76,6 +77,12 @@ Examples (a bare number is in the unit in which the study speaks of the paramete
   frahm point rig_atlas.toml --at "omega=250 rpm,I=6.36 kg" --history orbit.csv
   frahm point rig_atlas.toml --at omega=250 --json
   frahm point rig_atlas.toml --at omega=250 --gradient)";
+
+constexpr const char* branch_examples = R"(
+Examples:
+  frahm branch den_hartog.toml --along r --at f=0.4 -o branch.csv
+  frahm branch stops.toml --along omega --from "10 Hz" --to "40 Hz"
+  frahm branch stops.toml --along r --at r=3.2 --multiple 2    a subharmonic, from where it is stable)";
 
 constexpr const char* merge_examples = R"(
 Examples:
@@ -214,6 +221,30 @@ void add_point(CLI::App& program, PointOptions& options, Action& action) {
   point->callback([&] { action = [&](std::ostream& out) { return point_command(options, out); }; });
 }
 
+void add_branch(CLI::App& program, BranchCommandOptions& options, Action& action) {
+  CLI::App* branch =
+      add_command(program, "branch", "follow a response along a parameter, stable or not, through folds",
+                  branch_examples);
+  add_study(*branch, options.study);
+  branch->add_option("--along", options.along, "the parameter, a number of the study")->required();
+  branch->add_option("--from", options.from, "start of its range; else that of its axis");
+  branch->add_option("--to", options.to, "end of its range; else that of its axis");
+  branch
+      ->add_option("--at", options.at,
+                   "name=value,...; other parameters as in the study; of the one followed: where to start")
+      ->allow_extra_args(false);
+  add_set(*branch, options.set);
+  branch->add_option("--steps", options.steps, "most points in each direction, else 2000")
+      ->check(CLI::Range(1, 1'000'000));
+  branch
+      ->add_option("--multiple", options.multiple,
+                   "follow a response that takes so many periods of the excitation; else any")
+      ->check(CLI::Range(1, 64));
+  branch->add_option("-o,--output", options.output, "write all points to this CSV file");
+  add_progress(*branch, options.progress);
+  branch->callback([&] { action = [&](std::ostream& out) { return branch_command(options, out); }; });
+}
+
 void add_status(CLI::App& program, std::filesystem::path& file, Action& action) {
   CLI::App* status = program.add_subcommand("status", "what a result file holds, or how far it is");
   status->add_option("FILE", file, "result file, finished or not")->required();
@@ -290,6 +321,7 @@ struct CommandLine {
   RunTexts run;
   CheckOptions check;
   PointOptions point;
+  BranchCommandOptions branch;
   std::filesystem::path status;
   MergeOptions merge;
   ExportOptions table;
@@ -306,6 +338,7 @@ void describe(CLI::App& program, CommandLine& line) {
   add_run(program, line.run, line.action);
   add_check(program, line.check, line.action);
   add_point(program, line.point, line.action);
+  add_branch(program, line.branch, line.action);
   add_status(program, line.status, line.action);
   add_merge(program, line.merge, line.action);
   add_export(program, line.table, line.action);
