@@ -17,10 +17,8 @@ using Function = std::function<double(const BranchPlace&)>;
 // The part of a branch between two places, by the arclength s from the first along its tangent.
 class Stretch {
  public:
-  Stretch(BranchMap& map, const BranchPlace& from, const BranchPlace& to)
-      : map_(map), from_(from), to_(to), length_(from.tangent.dot(to.y - from.y)) {}
+  Stretch(BranchMap& map, const BranchPlace& from, const BranchPlace& to) : map_(map), from_(from), to_(to) {}
 
-  double length() const { return length_; }
   const BranchPlace& from() const { return from_; }
   const BranchPlace& to() const { return to_; }
   BranchMap& map() const { return map_; }
@@ -35,7 +33,6 @@ class Stretch {
   BranchMap& map_;
   const BranchPlace& from_;
   const BranchPlace& to_;
-  double length_;
 };
 
 // The root of a function that has different signs at both ends, by regula falsi with halved ends (Illinois),
@@ -76,8 +73,9 @@ struct Border {
   double width;  // of the bracket
 };
 Border border_of_event(const Stretch& stretch, std::size_t event) {
+  constexpr int kMostSteps = 60;
   BranchPlace a = stretch.from(), b = stretch.to();
-  while (stretch.at(b) - stretch.at(a) > kClosed) {
+  for (int i = 0; i < kMostSteps && stretch.at(b) - stretch.at(a) > kClosed; ++i) {
     const auto place = stretch.place(0.5 * (stretch.at(a) + stretch.at(b)), a, b);
     if (!place) break;
     (place->events[event] == stretch.from().events[event] ? a : b) = *place;

@@ -8,6 +8,7 @@
 
 #include "solvers/laws/elastic_stop.hpp"
 #include "solvers/orbits/closed_forms.hpp"
+#include "solvers/response/periodic_response.hpp"
 
 namespace frahm::periodic {
 namespace {
@@ -190,25 +191,47 @@ TEST_CASE("The border of sliding without stops under static friction is where it
   CHECK_THAT(grazings[0].at.quantities[0], WithinAbs(2.5001367841, kExact));
 }
 
-TEST_CASE("A subharmonic is followed in its own period until the branch closes") {
+Network mass_before_a_stop() {
   Network network = mass_between_stops();
   network.elements[2].bends.pop_back();
-  const auto values = [](double r) {
-    return NetworkValues{.omega = r,
-                         .mass = {1.0},
-                         .element = {1.0, 0.05, 20.0},
-                         .excitation = {{1.0, 0.0}},
-                         .second = {0.0, 0.0, 0.0},
-                         .bends = {{}, {}, {{0.3, 20.0, 0.0}}}};
-  };
-  const Branch branch =
-      follow_branch(network, asked, values, {.low = 1.0, .high = 5.0, .start = 3.2, .multiple = 2});
+  return network;
+}
+
+NetworkValues one_stop_values(double r) {
+  return {.omega = r,
+          .mass = {1.0},
+          .element = {1.0, 0.05, 20.0},
+          .excitation = {{1.0, 0.0}},
+          .second = {0.0, 0.0, 0.0},
+          .bends = {{}, {}, {{0.3, 20.0, 0.0}}}};
+}
+
+TEST_CASE("A subharmonic is followed in its own period until the branch closes") {
+  const Branch branch = follow_branch(mass_before_a_stop(), asked, one_stop_values,
+                                      {.low = 1.0, .high = 5.0, .start = 3.2, .multiple = 2});
   check_points(branch);
   CHECK(branch.last_end == BranchEnd::closed);
   CHECK(branch.points.front().multiple == 2);
   CHECK_THAT(branch.points.back().parameter, WithinAbs(branch.points.front().parameter, kExact));
   CHECK_THAT(branch.points.back().quantities[0], WithinAbs(branch.points.front().quantities[0], kExact));
   CHECK(of_kind(branch, SpecialKind::period_doubling).size() >= 4);
+}
+
+// The forcing of a subharmonic is still that of one period.
+TEST_CASE("A subharmonic repeats under the forcing of one period") {
+  Network network = mass_before_a_stop();
+  PeriodicResponse response(network, {{Measure::period_multiple, 0}, {Measure::peak, 0}});
+  response.set_values(one_stop_values(3.2));
+  response.solve();
+  double found[2];
+  response.quantities(found);
+  REQUIRE(found[0] == 2.0);
+  const Branch branch =
+      follow_branch(network, asked, one_stop_values,
+                    {.low = 3.0, .high = 3.4, .start = 3.2, .most_points = 2, .multiple = 2});
+  const auto start = std::ranges::find(branch.points, 3.2, &BranchPoint::parameter);
+  REQUIRE(start != branch.points.end());
+  CHECK_THAT(start->quantities[0], WithinAbs(found[1], kExact));
 }
 
 TEST_CASE("A branch without an orbit to start from says why") {
