@@ -53,6 +53,9 @@ class OrbitSearch {
   static constexpr int kOtherWays = 2;
   bool find_otherwise(int way, const mechanics::LinearSystem& system, bool certify, Orbit<N, H>& orbit);
 
+  // Peak of the first mass over an orbit [m].
+  double first_peak(const Orbit<N, H>& orbit);
+
  private:
   void fail_unbounded(Orbit<N, H>& orbit);
   void settle(Orbit<N, H>& orbit);
@@ -65,7 +68,6 @@ class OrbitSearch {
   bool try_held(ContactMask held, Orbit<N, H>& orbit);
   double distance_slid(Eigen::Index contact, const Orbit<N, H>& orbit) const;
   ContactMask sliding_less_than(double share, const Orbit<N, H>& orbit) const;
-  double first_peak(const Orbit<N, H>& orbit);
 
   Forms<N, H> forms_;
   Flow<N, H>& flow_;
@@ -107,7 +109,6 @@ bool OrbitSearch<N, H>::find_otherwise(int way, const mechanics::LinearSystem& s
   return true;
 }
 
-// Peak of the first mass [m].
 template <int N, int H>
 double OrbitSearch<N, H>::first_peak(const Orbit<N, H>& orbit) {
   LinearForm<N, H> form = forms_.zero();

@@ -45,6 +45,12 @@ Examples (a bare number is in the unit in which the study speaks of the paramete
   frahm point rig_atlas.toml --at omega=250 --json
   frahm point rig_atlas.toml --at omega=250 --gradient)";
 
+inline constexpr const char* branch_examples = R"(
+Examples:
+  frahm branch den_hartog.toml --along r --at f=0.4 -o branch.csv
+  frahm branch stops.toml --along omega --from "10 Hz" --to "40 Hz"
+  frahm branch stops.toml --along r --at r=3.2 --multiple 2    a subharmonic, from where it is stable)";
+
 inline constexpr const char* merge_examples = R"(
 Examples:
   frahm merge rig_atlas.h5                    all shard logs beside it

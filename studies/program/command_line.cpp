@@ -136,6 +136,30 @@ void add_point(CLI::App& program, PointOptions& options, Action& action) {
   point->callback([&] { action = [&](std::ostream& out) { return point_command(options, out); }; });
 }
 
+void add_branch(CLI::App& program, BranchCommandOptions& options, Action& action) {
+  CLI::App* branch =
+      add_command(program, "branch", "follow a response along a parameter, stable or not, through folds",
+                  help::branch_examples);
+  add_study(*branch, options.study);
+  branch->add_option("--along", options.along, "the parameter, a number of the study")->required();
+  branch->add_option("--from", options.from, "start of its range; else that of its axis");
+  branch->add_option("--to", options.to, "end of its range; else that of its axis");
+  branch
+      ->add_option("--at", options.at,
+                   "name=value,...; other parameters as in the study; of the one followed: where to start")
+      ->allow_extra_args(false);
+  add_set(*branch, options.set);
+  branch->add_option("--steps", options.steps, "most points in each direction, else 2000")
+      ->check(CLI::Range(1, 1'000'000));
+  branch
+      ->add_option("--multiple", options.multiple,
+                   "follow a response that takes so many periods of the excitation; else any")
+      ->check(CLI::Range(1, 64));
+  branch->add_option("-o,--output", options.output, "write all points to this CSV file");
+  add_progress(*branch, options.progress);
+  branch->callback([&] { action = [&](std::ostream& out) { return branch_command(options, out); }; });
+}
+
 void add_status(CLI::App& program, std::filesystem::path& file, Action& action) {
   CLI::App* status = program.add_subcommand("status", "what a result file holds, or how far it is");
   status->add_option("FILE", file, "result file, finished or not")->required();
@@ -216,6 +240,7 @@ void describe(CLI::App& program, CommandLine& line) {
   add_run(program, line);
   add_check(program, line.check, line.action);
   add_point(program, line.point, line.action);
+  add_branch(program, line.branch, line.action);
   add_status(program, line.status, line.action);
   add_merge(program, line.merge, line.action);
   add_export(program, line.table, line.action);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "studies/program/branch_command.hpp"
 #include "studies/program/check_command.hpp"
 #include "studies/program/export_command.hpp"
 #include "studies/program/merge_command.hpp"
@@ -21,6 +22,7 @@ struct CommandLine {
   std::string shard, time_budget;  // of a run, as written
   CheckOptions check;
   PointOptions point;
+  BranchCommandOptions branch;
   std::filesystem::path status;
   MergeOptions merge;
   ExportOptions table;

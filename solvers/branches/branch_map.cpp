@@ -1,0 +1,240 @@
+#include "solvers/branches/branch_map.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "solvers/algebra/eigenvalues.hpp"
+#include "solvers/events/bend_guards.hpp"
+#include "solvers/exact/response.hpp"
+#include "solvers/mechanics/element_table.hpp"
+#include "solvers/orbits/certificate.hpp"
+#include "solvers/orbits/coexistence.hpp"
+#include "solvers/orbits/rest_directions.hpp"
+#include "solvers/quantities/orbit_steps.hpp"
+
+namespace frahm::periodic {
+namespace {
+
+// A guard (events/bend_guards.hpp) over a step of an orbit.
+Polynomial bend_guard_over(const Expansion<kAnySize, kAnySize>& x, const StepBends<kAnySize, kAnySize>& bends,
+                           BendGuard guard, Eigen::Index j) {
+  const auto b = bends.B.col(j);
+  Polynomial place = x.displacement(b) + x.u * bends.motion.row(j).transpose();
+  Polynomial velocity = x.velocity(b) + x.u * bends.motion_velocity.row(j).transpose();
+  const bool of_velocity = contains(bends.of_velocity, j);
+  (of_velocity ? velocity : place)[0] -= bends.place[j];
+  if (guard == BendGuard::place) return of_velocity ? velocity : place;
+  return bends.stiffness[j] * place + bends.damping[j] * velocity;
+}
+
+}  // namespace
+
+BranchMap::BranchMap(const mechanics::Network& network, const ValuesAlong& values, double low, double high)
+    : assembly_(network), values_(values), low_(low), high_(high), walk_(flow_) {}
+
+void BranchMap::set(double parameter) {
+  const mechanics::NetworkValues now = values_(parameter);
+  const bool same_matrices =
+      has_last_ && !assembly_.matrices_depend_on_frequency() && have_same_elements(now, last_);
+  has_last_ = false;
+  if (!same_matrices) assembly_.set_values(now, system_);
+  assembly_.set_forcing(now, system_);
+  if (multiple_ > 1) longer_ = over_multiple(system_, multiple_);
+  if (!same_matrices) flow_.set_system(system());
+  flow_.set_forcing(system());
+  last_ = now;
+  has_last_ = true;
+}
+
+Eigen::VectorXd BranchMap::begin(const AnyOrbit& orbit) {
+  const auto& eq = flow_.equations();
+  const Eigen::Index n = eq.masses(), internal = eq.internal_forces();
+  multiple_ = orbit.multiple;
+  half_period_ = orbit.half_period;
+  if (multiple_ > 1) longer_ = over_multiple(system_, multiple_);
+  root_.setZero(eq.states(), eq.states());
+  root_.topLeftCorner(n, n) = eq.K_root;
+  root_.block(n, n, n, n) = eq.M_root * eq.step;
+  root_.bottomRightCorner(internal, internal).diagonal() = eq.internal_stiffness.cwiseSqrt().cwiseInverse();
+  root_inverse_ = root_.inverse();
+  Eigen::VectorXd z = orbit.z;
+  z.segment(n, n) /= eq.step;
+  const double size = std::sqrt(2.0) * flow_.energy_scale(orbit.z);
+  scale_ = size > 0.0 ? size : 1.0;
+  has_last_ = false;
+  Eigen::VectorXd y(z.size() + 1);
+  y << root_ * z / scale_, 0.0;
+  return y;
+}
+
+Eigen::VectorXd BranchMap::state(const Eigen::VectorXd& y) const {
+  const Eigen::Index n = flow_.equations().masses();
+  Eigen::VectorXd z = scale_ * (root_inverse_ * y.head(y.size() - 1));
+  z.segment(n, n) *= flow_.equations().step;
+  return z;
+}
+
+// A matrix over states in the units of the flow, over scaled ones.
+Eigen::MatrixXd BranchMap::scaled(const Eigen::MatrixXd& by_state) const {
+  const Eigen::Index n = flow_.equations().masses();
+  const double step = flow_.equations().step;
+  Eigen::MatrixXd A = by_state;
+  A.middleRows(n, n) /= step;
+  A.middleCols(n, n) *= step;
+  return root_ * A * root_inverse_;
+}
+
+// The residual at the parameter set. Contacts that stick throughout keep their rest position (multiplier +1):
+// the residual has no part of it.
+void BranchMap::pass(const Eigen::VectorXd& y, Tangent tangent, Shot& shot) {
+  const auto& eq = flow_.equations();
+  const Eigen::Index n = eq.masses();
+  const Eigen::VectorXd z = state(y);
+  shot.failed = true;
+  if (!z.allFinite() || eq.period > ShootingOptions{}.most_steps_a_period) return;
+  walk_.pass(z, 0.0, half_period_ ? 0.5 * eq.period : eq.period, shot.passage, tangent);
+  if (shot.passage.failure != nullptr) return;
+  shot.failed = false;
+  shot.stuck_throughout = stuck_throughout(flow_, shot.passage);
+  Eigen::VectorXd residual = (half_period_ ? -1.0 : 1.0) * shot.passage.end - z;
+  if (!half_period_ && shot.stuck_throughout != 0)
+    residual -= shift_projector(rest_directions(eq, shot.stuck_throughout)) * residual;
+  residual.segment(n, n) /= eq.step;
+  shot.residual = root_ * residual / scale_;
+}
+
+// By central differences within the range: what the parameter changes (the period, the matrices) has no
+// derivative in the flow. Where an event begins between both ends, by the side that has the events of y.
+Eigen::VectorXd BranchMap::by_parameter(const Eigen::VectorXd& y, bool& failed) {
+  constexpr double kStep = 1e-6;  // of the range
+  const Eigen::Index last = y.size() - 1;
+  const double low = std::min(0.0, y[last]), high = std::max(1.0, y[last]);
+  double at[] = {std::max(y[last] - kStep, low), std::min(y[last] + kStep, high)};
+  Side ends[2];
+  for (int i = 0; i < 2; ++i) {
+    ends[i] = side(y, at[i]);
+    failed = failed || ends[i].residual.size() == 0;
+  }
+  if (failed) return {};
+  if (ends[0].events != ends[1].events) {
+    const Side middle = side(y, y[last]);
+    failed = middle.residual.size() == 0;
+    if (failed) return {};
+    const int other = middle.events == ends[0].events ? 1 : 0;
+    ends[other] = middle;
+    at[other] = y[last];
+  }
+  return (ends[1].residual - ends[0].residual) / (at[1] - at[0]);
+}
+
+// The residual, and the events, of the state of y at another value of the parameter; none where it fails.
+BranchMap::Side BranchMap::side(Eigen::VectorXd y, double at) {
+  y[y.size() - 1] = at;
+  set(parameter(y));
+  Shot shot;
+  pass(y, Tangent::none, shot);
+  if (shot.failed) return {};
+  return {shot.residual, events(shot)};
+}
+
+Shot BranchMap::shoot(const Eigen::VectorXd& y) {
+  Shot shot;
+  try {
+    const Eigen::VectorXd column = by_parameter(y, shot.failed);
+    if (shot.failed) return shot;
+    set(parameter(y));
+    pass(y, Tangent::followed, shot);
+    if (shot.failed) return shot;
+    const auto& eq = flow_.equations();
+    Eigen::MatrixXd A = (half_period_ ? -1.0 : 1.0) * shot.passage.tangent;
+    A.diagonal().array() -= 1.0;
+    if (!half_period_ && shot.stuck_throughout != 0)
+      A -= shift_projector(rest_directions(eq, shot.stuck_throughout));
+    shot.derivative.resize(y.size() - 1, y.size());
+    shot.derivative << scaled(A), column;
+    shot.failed = !shot.derivative.allFinite();
+  } catch (const mechanics::MechanicsError&) {  // the parameter's values break a rule here
+    shot.failed = true;
+  }
+  return shot;
+}
+
+AnyOrbit BranchMap::orbit(const Eigen::VectorXd& y, Shot&& shot) {
+  AnyOrbit orbit;
+  orbit.z = state(y);
+  orbit.half_period = half_period_;
+  orbit.multiple = multiple_;
+  orbit.passage = std::move(shot.passage);
+  orbit.stuck_throughout = shot.stuck_throughout;
+  orbit.residual = shot.residual.norm() / std::max(1.0, y.head(y.size() - 1).norm());
+  orbit.status = orbit.passage.margin < kGrazing ? Status::grazing : Status::ok;
+  judge_stability(flow_, orbit);
+  return orbit;
+}
+
+Eigen::VectorXcd BranchMap::multipliers(const Shot& shot) {
+  const Eigen::MatrixXd moving = moving_part(flow_, shot.passage.tangent, shot.stuck_throughout);
+  Eigen::VectorXcd values = algebra::eigenvalues(moving);
+  if (half_period_) values = values.array().square();
+  std::ranges::sort(values, [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
+  return values;
+}
+
+std::vector<int> BranchMap::events(const Shot& shot) const {
+  constexpr double kNoLength = 1e-10;  // of the period: the first slip of a state that should be at rest
+  const auto& eq = flow_.equations();
+  const auto bends = static_cast<std::size_t>(eq.bends.count());
+  std::vector<int> count(bends + static_cast<std::size_t>(eq.contacts()), 0);
+  const Mode<kAnySize, kAnySize>* before = nullptr;
+  for (const auto& segment : shot.passage.segments) {
+    if (before == nullptr && segment.length <= kNoLength * eq.period) continue;
+    const auto& mode = flow_.mode(segment.mode);
+    for (std::size_t i = 0; before != nullptr && i < count.size(); ++i) {
+      const auto j = static_cast<Eigen::Index>(i < bends ? i : i - bends);
+      const bool changes = i < bends ? contains(mode.beyond ^ before->beyond, j)
+                                     : contains(mode.stuck ^ before->stuck, j) ||
+                                           (!contains(mode.stuck, j) && mode.sign(j) != before->sign(j));
+      count[i] += changes ? 1 : 0;
+    }
+    before = &mode;
+  }
+  return count;
+}
+
+double BranchMap::distance_from_bend(const AnyOrbit& orbit, Eigen::Index j) const {
+  const auto& bends = flow_.equations().bends;
+  OrbitSteps<kAnySize, kAnySize> steps(flow_);
+  steps.lay_out(orbit);
+  double nearest = HUGE_VAL;
+  for (const BendGuard guard : {BendGuard::place, BendGuard::force}) {
+    if (guard == BendGuard::force && contains(bends.pulling, j)) continue;
+    double size = guard == BendGuard::place ? std::abs(bends.place[j]) : 0.0, least = HUGE_VAL;
+    for (auto& step : steps.steps()) {
+      const ValueAndSlope left = bend_guard(flow_, step.left, guard, j);
+      const ValueAndSlope right = bend_guard(flow_, step.right, guard, j);
+      size = std::max({size, std::abs(left.value), std::abs(right.value)});
+      if ((left.slope > 0.0) == (right.slope > 0.0)) continue;
+      const Polynomial g = bend_guard_over(steps.expand(step), bends, guard, j);
+      const Roots extremes = sign_changes(derivative(g));
+      for (int i = 0; i < extremes.count; ++i)
+        least = std::min(least, std::abs(evaluate(g, extremes.at[static_cast<std::size_t>(i)])));
+    }
+    nearest = std::min(nearest, least / size);
+  }
+  return nearest;
+}
+
+std::size_t BranchMap::element_of_event(std::size_t event) const {
+  const auto& elements = assembly_.bends().element;
+  if (event < elements.size()) return elements[event];
+  const std::size_t contact = event - elements.size();
+  for (std::size_t e = 0; e < assembly_.shares().size(); ++e) {
+    if (mechanics::has_contact(assembly_.network().elements[e]) && assembly_.shares()[e].contact == contact)
+      return e;
+  }
+  return 0;
+}
+
+}  // namespace frahm::periodic

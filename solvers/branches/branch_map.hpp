@@ -1,0 +1,86 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "solvers/branches/branch.hpp"
+#include "solvers/mechanics/linear_system.hpp"
+#include "solvers/orbits/orbit.hpp"
+#include "solvers/orbits/shooting.hpp"
+
+namespace frahm::periodic {
+
+inline constexpr int kAnySize = Eigen::Dynamic;
+using AnyOrbit = Orbit<kAnySize, kAnySize>;
+using AnyPassage = Passage<kAnySize, kAnySize>;
+using AnyFlow = Flow<kAnySize, kAnySize>;
+
+// The period map's residual at a place y of the scaled space, and all that its passage tells.
+struct Shot {
+  bool failed = false;
+  Eigen::VectorXd residual;    // R (g(z, p) - z) / scale
+  Eigen::MatrixXd derivative;  // by y, states x (states + 1)
+  AnyPassage passage;
+  ContactMask stuck_throughout = 0;
+};
+
+// The period map of a network along one parameter p. Places of a branch are y = (R z / scale, (p - low) /
+// (high - low)): z the state in SI at omega t = 0, |R z| / sqrt(2) its energy norm in the system at the
+// start, scale that of the first orbit. So both the orbit and the parameter move by parts of one.
+class BranchMap {
+ public:
+  BranchMap(const mechanics::Network& network, const ValuesAlong& values, double low, double high);
+
+  // Throws mechanics::MechanicsError for values that break a rule.
+  void set(double parameter);
+  // Takes scale, period and symmetry of this orbit, which belongs to the parameter set and starts at phase 0.
+  // Returns its place.
+  Eigen::VectorXd begin(const AnyOrbit& orbit);
+
+  // Leaves the flow set to the parameter of y.
+  Shot shoot(const Eigen::VectorXd& y);
+
+  double parameter(const Eigen::VectorXd& y) const { return low_ + (high_ - low_) * y[y.size() - 1]; }
+  // The orbit of a shot that closes, at the parameter set.
+  AnyOrbit orbit(const Eigen::VectorXd& y, Shot&& shot);
+  // Floquet multipliers of what can move, over the whole period, the largest first.
+  Eigen::VectorXcd multipliers(const Shot& shot);
+  // How often each bend and each contact changes its state.
+  std::vector<int> events(const Shot& shot) const;
+  // The least distance from zero of an extreme of bend j's guards over an orbit, relative to the guard's
+  // size.
+  double distance_from_bend(const AnyOrbit& orbit, Eigen::Index j) const;
+  std::size_t element_of_event(std::size_t event) const;  // of events(): index in Network::elements
+
+  const mechanics::Assembly& assembly() const { return assembly_; }
+  const mechanics::LinearSystem& system() const { return multiple_ > 1 ? longer_ : system_; }
+  AnyFlow& flow() { return flow_; }
+  const AnyFlow& flow() const { return flow_; }
+
+ private:
+  Eigen::VectorXd state(const Eigen::VectorXd& y) const;  // in the units of the flow
+  void pass(const Eigen::VectorXd& y, Tangent tangent, Shot& shot);
+  Eigen::MatrixXd scaled(const Eigen::MatrixXd& by_state) const;
+  Eigen::VectorXd by_parameter(const Eigen::VectorXd& y, bool& failed);
+  struct Side {
+    Eigen::VectorXd residual;
+    std::vector<int> events;
+  };
+  Side side(Eigen::VectorXd y, double at);
+
+  mechanics::Assembly assembly_;
+  ValuesAlong values_;
+  double low_, high_;
+  mechanics::NetworkValues last_;
+  bool has_last_ = false;
+  mechanics::LinearSystem system_, longer_;
+  AnyFlow flow_;
+  Walk<kAnySize, kAnySize> walk_;
+
+  int multiple_ = 1;
+  bool half_period_ = false;
+  double scale_ = 1.0;
+  Eigen::MatrixXd root_, root_inverse_;  // R of states in SI
+};
+
+}  // namespace frahm::periodic

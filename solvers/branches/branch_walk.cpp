@@ -1,0 +1,163 @@
+#include "solvers/branches/branch_walk.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace frahm::periodic {
+namespace {
+
+struct StepLimits {
+  double first = 1e-3;       // all of the scaled arclength
+  double least = 1e-10;      // below, the branch has a corner or is lost
+  double kink = 1e-6;        // below, the tangent may turn by any angle: the map has a kink at a grazing
+  double most_angle = 0.15;  // between the tangents of neighbours [rad], that a curve is drawn smoothly
+  double most_shift = 0.3;   // of a step: how far Newton's method may move its end
+  double corner = 1e-5;      // from a corner, the first place beyond
+};
+
+// Follows a branch one way.
+class BranchWalk {
+ public:
+  BranchWalk(BranchMap& map, const BranchWanted& wanted, const FoundOnBranch& found)
+      : map_(map), wanted_(wanted), found_(found) {}
+
+  BranchEnd follow(const BranchPlace& first) {
+    here_ = first;
+    passed_ = {here_.y};
+    step_ = limits_.first;
+    if (leaves_range(here_.y, here_.tangent)) return BranchEnd::range;
+    for (int points = 1; points < wanted_.most_points;) {
+      const auto next = take_step();
+      if (!next) {
+        step_ *= 0.5;
+        if (step_ < limits_.least && !pass_corner()) return BranchEnd::lost;
+        continue;
+      }
+      const double p = next->y[next->y.size() - 1];
+      if (p <= 0.0 || p >= 1.0) return accept(*next), BranchEnd::range;
+      ++points;
+      const bool closes = points > kLeastLoop && passes(first, *next);
+      if (closes) return accept(first), BranchEnd::closed;
+      accept(*next);
+    }
+    return BranchEnd::points;
+  }
+
+ private:
+  static constexpr int kLeastLoop = 10;
+
+  static bool leaves_range(const Eigen::VectorXd& y, const Eigen::VectorXd& tangent) {
+    const double p = y[y.size() - 1], rate = tangent[y.size() - 1];
+    return (p <= 0.0 && rate <= 0.0) || (p >= 1.0 && rate >= 0.0);
+  }
+
+  // Predicts along the tangent and corrects across it; beyond the range, at its end. Nothing where the step
+  // is too long.
+  std::optional<BranchPlace> take_step() const {
+    Eigen::VectorXd predicted = here_.y + step_ * here_.tangent, across = here_.tangent;
+    const Eigen::Index last = predicted.size() - 1;
+    if (predicted[last] < 0.0 || predicted[last] > 1.0) {
+      const double end = predicted[last] < 0.0 ? 0.0 : 1.0;
+      predicted = here_.y + (end - here_.y[last]) / here_.parameter_rate() * here_.tangent;
+      predicted[last] = end;
+      across = Eigen::VectorXd::Unit(last + 1, last);
+    }
+    auto next = correct(map_, predicted, across, here_.tangent);
+    if (!next) return std::nullopt;
+    if (next->y[last] < 0.0 || next->y[last] > 1.0) return std::nullopt;
+    if (across[last] == 1.0) next->y[last] = predicted[last];
+    const double shift = (next->y - predicted).norm() / step_;
+    const double angle = std::acos(std::clamp(here_.tangent.dot(next->tangent), -1.0, 1.0));
+    const bool serves = angle <= limits_.most_angle && shift <= limits_.most_shift;
+    return serves || (step_ <= limits_.kink && shift <= 2.0) ? next : std::nullopt;
+  }
+
+  // Goes on where the map has a kink so sharp that the branch turns back: both of its ends are on this side
+  // of the plane across the tangent. The tangent beyond the kink is that of the map there.
+  bool pass_corner() {
+    const Shot beyond = map_.shoot(here_.y + limits_.corner * here_.tangent);
+    if (beyond.failed) return false;
+    const Eigen::VectorXd ahead = branch_tangent(beyond.derivative, here_.tangent);
+    for (const Eigen::VectorXd& way : {Eigen::VectorXd(-ahead), ahead}) {
+      // Nearer by as much as the step is shorter, or the map jumps and the branch ends here.
+      const auto next = beyond_corner(way, limits_.corner);
+      if (!next || !beyond_corner(way, 0.1 * limits_.corner)) continue;
+      found_(*next, {corner_before(*next)});
+      here_ = *next;
+      passed_.push_back(here_.y);
+      step_ = limits_.corner;
+      return true;
+    }
+    return false;
+  }
+
+  std::optional<BranchPlace> beyond_corner(const Eigen::VectorXd& way, double distance) const {
+    constexpr double kNear = 30.0;  // several events may begin together, each with its own map
+    constexpr double kSame = 1e-4;
+    auto next = correct(map_, here_.y + distance * way, way, way);
+    if (!next || next->events == here_.events) return std::nullopt;
+    const Eigen::VectorXd on = next->y - here_.y;
+    if (on.norm() > kNear * distance) return std::nullopt;
+    const auto before = come_by(here_.tangent.dot(on));  // not on the way back
+    if (before && (before->y - next->y).norm() < kSame * on.norm()) return std::nullopt;
+    if (next->tangent.dot(on) < 0.0) next->tangent *= -1.0;
+    return next;
+  }
+
+  // The place that the branch has come by, so far along the tangent (< 0) from here.
+  std::optional<BranchPlace> come_by(double along) const {
+    const auto from_here = [this](const Eigen::VectorXd& y) { return here_.tangent.dot(y - here_.y); };
+    for (std::size_t i = passed_.size(); i-- > 1;) {
+      const double near = from_here(passed_[i]), far = from_here(passed_[i - 1]);
+      if (along < far || along > near || near == far) continue;
+      const Eigen::VectorXd chord = passed_[i - 1] - passed_[i];
+      return correct(map_, passed_[i] + (along - near) / (far - near) * chord, here_.tangent, here_.tangent);
+    }
+    return std::nullopt;
+  }
+
+  SpecialPlace corner_before(const BranchPlace& next) const {
+    const bool turns = (here_.parameter_rate() > 0.0) != (next.parameter_rate() > 0.0);
+    const auto differs = std::ranges::mismatch(here_.events, next.events).in1 - here_.events.begin();
+    const auto event = static_cast<std::size_t>(differs);
+    return {turns ? SpecialKind::corner : SpecialKind::grazing, here_, map_.element_of_event(event),
+            residual_of_grazing(map_, here_, limits_.least, event)};
+  }
+
+  // The step that led to the first place again, or past it.
+  bool passes(const BranchPlace& first, const BranchPlace& next) const {
+    const Eigen::VectorXd to_first = first.y - here_.y;
+    const double along = here_.tangent.dot(to_first);
+    return along > 0.0 && along <= here_.tangent.dot(next.y - here_.y) && to_first.norm() < 2.0 * step_ &&
+           (to_first - along * here_.tangent).norm() < 0.5 * step_ && here_.tangent.dot(first.tangent) > 0.9;
+  }
+
+  void accept(const BranchPlace& next) {
+    constexpr double kGrow = 1.5;
+    constexpr int kFast = 4;  // Newton's steps
+    const double angle = std::acos(std::clamp(here_.tangent.dot(next.tangent), -1.0, 1.0));
+    found_(next, special_places(map_, here_, next));
+    if (next.newton_iterations <= kFast && angle < 0.5 * limits_.most_angle)
+      step_ = std::min(kGrow * step_, wanted_.largest_step);
+    here_ = next;
+    passed_.push_back(here_.y);
+  }
+
+  BranchMap& map_;
+  const BranchWanted& wanted_;
+  const FoundOnBranch& found_;
+  StepLimits limits_;
+  BranchPlace here_;
+  std::vector<Eigen::VectorXd> passed_;  // the last one is here
+  double step_ = 0.0;
+};
+
+}  // namespace
+
+BranchEnd walk_branch(BranchMap& map, const BranchWanted& wanted, const BranchPlace& first,
+                      const FoundOnBranch& found) {
+  return BranchWalk(map, wanted, found).follow(first);
+}
+
+}  // namespace frahm::periodic

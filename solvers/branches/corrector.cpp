@@ -1,0 +1,60 @@
+#include "solvers/branches/corrector.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace frahm::periodic {
+namespace {
+
+Eigen::MatrixXd bordered(const Eigen::MatrixXd& derivative, const Eigen::VectorXd& row) {
+  Eigen::MatrixXd A(derivative.cols(), derivative.cols());
+  A << derivative, row.transpose();
+  return A;
+}
+
+}  // namespace
+
+int BranchPlace::unstable() const {
+  return static_cast<int>((multipliers.array().abs() > 1.0).count());
+}
+
+Eigen::VectorXd branch_tangent(const Eigen::MatrixXd& derivative, const Eigen::VectorXd& towards) {
+  const Eigen::VectorXd last = Eigen::VectorXd::Unit(derivative.cols(), derivative.cols() - 1);
+  return bordered(derivative, towards).partialPivLu().solve(last).normalized();
+}
+
+std::optional<BranchPlace> correct(BranchMap& map, const Eigen::VectorXd& start, const Eigen::VectorXd& row,
+                                   const Eigen::VectorXd& towards) {
+  constexpr int kMostIterations = 12;
+  constexpr double kTolerance = 1e-13, kGoodEnough = 1e-11;  // of the relative residual (ShootingOptions)
+  Eigen::VectorXd y = start;
+  double before = HUGE_VAL;
+  for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+    const Shot shot = map.shoot(y);
+    if (shot.failed) return std::nullopt;
+    const double size = std::max(1.0, y.head(y.size() - 1).norm());
+    const double residual = shot.residual.norm() / size;
+    const bool no_better = residual > 0.25 * before;
+    if (residual <= kTolerance || (residual <= kGoodEnough && no_better)) {
+      BranchPlace place;
+      place.y = y;
+      place.newton_iterations = iteration;
+      place.tangent = branch_tangent(shot.derivative, towards);
+      if (!place.tangent.allFinite()) return std::nullopt;
+      place.multipliers = map.multipliers(shot);
+      place.events = map.events(shot);
+      return place;
+    }
+    if (iteration > 3 && residual > 2.0 * before) return std::nullopt;
+    before = residual;
+    Eigen::VectorXd right(y.size());
+    right << -shot.residual, row.dot(start - y);
+    y += bordered(shot.derivative, row).partialPivLu().solve(right);
+    if (!y.allFinite()) return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+}  // namespace frahm::periodic

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "solvers/branches/corrector.hpp"
+
+namespace frahm::periodic {
+
+// A special place between two of a branch.
+struct SpecialPlace {
+  SpecialKind kind = SpecialKind::fold;
+  BranchPlace place;
+  std::optional<std::size_t> element{};  // of grazing and corner
+  double residual = 0.0;
+};
+
+// The special places from one place of a branch to the next, in their order: where dp/ds changes its sign,
+// where the number of unstable multipliers changes, and where events begin or end. Each is solved on the
+// curve, at planes across the tangent of the first.
+std::vector<SpecialPlace> special_places(BranchMap& map, const BranchPlace& from, const BranchPlace& to);
+
+// How far an event (BranchMap::events) is from just happening: the distance of a bend's guard from zero at an
+// extreme, relative; of a contact the width given, of the bracket that holds it.
+double residual_of_grazing(BranchMap& map, const BranchPlace& place, double width, std::size_t event);
+
+}  // namespace frahm::periodic

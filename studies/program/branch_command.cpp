@@ -1,0 +1,161 @@
+#include "studies/program/branch_command.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+
+#include "solvers/branches/branch.hpp"
+#include "solvers/mechanics/linear_system.hpp"
+#include "studies/map/output_quantities.hpp"
+#include "studies/program/branch_table.hpp"
+#include "studies/program/exit_code.hpp"
+#include "studies/program/whole_file.hpp"
+#include "studies/reading/assignment.hpp"
+#include "studies/reading/settings.hpp"
+#include "studies/reading/spelling.hpp"
+
+namespace frahm::studies {
+namespace {
+
+std::size_t parameter_along(const Study& study, const std::string& name) {
+  const auto found = study.parameters.find(name);
+  if (!found) {
+    throw StudyError(rules::unknown_name, "--along {}: there is no such parameter{}", name,
+                     suggestion(name, study.parameters.names()));
+  }
+  if (!study.parameters.list[*found].is_number()) {
+    throw StudyError(rules::computed_parameter,
+                     "--along {}: it is computed from others; a branch goes along a number", name);
+  }
+  return *found;
+}
+
+void check_options(const Study& study, const BranchCommandOptions& options) {
+  if (study.kind() != StudyKind::sweep) {
+    throw StudyError(rules::other_kind, "{}: {} has no branches; they are those of a sweep's responses",
+                     study.source.name, kind_noun(study.kind()));
+  }
+  const auto is_smooth = [](const mechanics::Element& each) {
+    return each.law == mechanics::FrictionLaw::arctan;
+  };
+  if (std::ranges::any_of(study.network.elements, is_smooth)) {
+    throw StudyError(rules::wrong_law,
+                     "{}: branches follow the exact law; an element here has law = \"arctan\"",
+                     study.source.name);
+  }
+  if (options.output == "-") {
+    throw StudyError(rules::wrong_option,
+                     "--output \"-\": the special points go to standard output; name a file");
+  }
+}
+
+// An end of the range [SI]: as the option says, else that of the parameter's axis.
+double end_of_range(const Study& study, std::size_t parameter, const char* option,
+                    const std::optional<std::string>& given, bool is_upper) {
+  const std::string& name = study.parameters.list[parameter].name;
+  if (given) return parse_assignments(study, option, name + "=" + *given).front().value;
+  for (const ParameterAxis& axis : study.sweep()->axes) {
+    if (axis.parameter != parameter) continue;
+    const auto [least, most] = std::ranges::minmax_element(axis.si_values);
+    return is_upper ? *most : *least;
+  }
+  throw StudyError(rules::wrong_option, "--along {}: it is no axis of the study, so give {}", name, option);
+}
+
+// Where the first response is searched [SI]: where --at puts the parameter, else at the start of the range.
+double start_of(const Study& study, std::size_t parameter, const BranchCommandOptions& options, double low,
+                double high) {
+  double start = low;
+  for (const std::string& text : options.at) {
+    for (const Assignment& each : parse_assignments(study, "--at", text))
+      if (each.parameter == parameter) start = each.value;
+  }
+  if (start >= low && start <= high) return start;
+  throw StudyError(rules::out_of_range, "--at {} = {}: must be within the range of the branch, {} to {} (SI)",
+                   study.parameters.list[parameter].name, start, low, high);
+}
+
+// A line that tells how far the branch is, on a terminal.
+class Counter {
+ public:
+  Counter(const Study& study, std::size_t parameter, engine::ProgressStyle style)
+      : study_(study), parameter_(parameter), form_(engine::progress_form(style)) {}
+  ~Counter() {
+    if (told_) fmt::print(std::cerr, "\r{:60}\r", "");
+  }
+  void operator()(const periodic::BranchPoint& point) {
+    ++points_;
+    const auto now = std::chrono::steady_clock::now();
+    const bool on_terminal =
+        form_ == engine::ProgressForm::bar || form_ == engine::ProgressForm::coloured_bar;
+    if (!on_terminal || now < next_) return;
+    next_ = now + std::chrono::milliseconds(100);
+    told_ = true;
+    const SpokenValue value = spoken_value(study_, parameter_, point.parameter);
+    const std::string text = fmt::format("{} points, {} = {:.6g} {}", points_,
+                                         study_.parameters.list[parameter_].name, value.value, value.unit);
+    fmt::print(std::cerr, "\r{:60}", text);
+    std::cerr.flush();
+  }
+
+ private:
+  const Study& study_;
+  std::size_t parameter_;
+  engine::ProgressForm form_;
+  std::size_t points_ = 0;
+  bool told_ = false;
+  std::chrono::steady_clock::time_point next_ =
+      std::chrono::steady_clock::now() + std::chrono::milliseconds(500);
+};
+
+}  // namespace
+
+int branch_command(const BranchCommandOptions& options, std::ostream& out) {
+  Study study = read_study_with(options.study, options.set);
+  check_options(study, options);
+  if (options.output) check_output_is_not_input(*options.output, options.study);
+  const std::size_t along = parameter_along(study, options.along);
+  periodic::BranchWanted wanted;
+  wanted.low = end_of_range(study, along, "--from", options.from, false);
+  wanted.high = end_of_range(study, along, "--to", options.to, true);
+  if (!(wanted.low < wanted.high)) {
+    throw StudyError(rules::wrong_order, "--from {}: must be below --to, {} (SI)", wanted.low, wanted.high);
+  }
+  wanted.start = start_of(study, along, options, wanted.low, wanted.high);
+  wanted.most_points = options.steps;
+  wanted.multiple = options.multiple;
+
+  std::vector<double> parameters = parameters_at(study, options.at);
+  for (const double place : {wanted.low, wanted.high, wanted.start}) {
+    parameters[along] = place;
+    check_point(study, parameters);
+    set_crank_orders_at(study, parameters);
+  }
+  const std::vector<periodic::Quantity> quantities = output_quantities(study);
+  const auto values_at = [&](double value) {
+    parameters[along] = value;
+    mechanics::NetworkValues values;
+    evaluate(study.values, study.parameters, parameters, values);
+    return values;
+  };
+  periodic::Branch branch;
+  try {
+    Counter counter(study, along, options.progress);
+    branch = periodic::follow_branch(study.network, quantities, values_at, wanted, std::ref(counter));
+  } catch (const mechanics::MechanicsError& error) {
+    throw StudyError(rules::not_computed, "{}: {}", study.source.name, error.what());
+  }
+  const BranchTable table(study, along, quantities);
+  if (!branch.reason.empty()) {
+    table.print_failure(wanted.start, branch.reason, out);
+    return exit_code::some_failed;
+  }
+  if (options.output) write_whole_file(*options.output, table.csv(branch));
+  table.print(branch, out);
+  return exit_code::done;
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,251 @@
+#include "solvers/branches/branch.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "solvers/laws/elastic_stop.hpp"
+#include "solvers/orbits/closed_forms.hpp"
+#include "solvers/response/periodic_response.hpp"
+
+namespace frahm::periodic {
+namespace {
+
+using Catch::Matchers::WithinAbs;
+using namespace mechanics;
+
+constexpr double kPrinted = 1e-7;   // of the reference figures, by two independent methods
+constexpr double kExact = 1e-9;     // of closed forms, and of the equations of special points
+constexpr double kBalance = 1e-10;  // of the energy
+constexpr double kOrbit = 1e-11;    // residual of the periodic condition
+const Node ground{}, mass{NodeKind::mass, 0};
+const std::vector<Quantity> asked{{Measure::peak, 0}, {Measure::energy_balance, 0}};
+
+// x'' + 2 zeta x' + x + stops of stiffness k and damping c beyond |x| = 1 = cos(r tau).
+Network mass_between_stops() {
+  Network network{.masses = {"x"},
+                  .prescribed = {},
+                  .elements = {{"spring", ElementType::spring, ground, mass},
+                               {"damper", ElementType::damper, ground, mass},
+                               {"stops", ElementType::gap, ground, mass}},
+                  .excitations = {{ExcitationKind::force, 0, 1}}};
+  network.elements[2].bends = {{1.0, &laws::elastic_stop}, {-1.0, &laws::elastic_stop}};
+  return network;
+}
+
+NetworkValues stop_values(double r, double zeta, double k, double c) {
+  return {.omega = r,
+          .mass = {1.0},
+          .element = {1.0, 2.0 * zeta, k},
+          .excitation = {{1.0, 0.0}},
+          .second = {0.0, 0.0, c},
+          .bends = {{}, {}, {{1.0, k, c}, {1.0, k, c}}}};
+}
+
+// Along the frequency.
+Branch stop_branch(double zeta, double k, double c, const BranchWanted& wanted) {
+  return follow_branch(
+      mass_between_stops(), asked, [=](double r) { return stop_values(r, zeta, k, c); }, wanted);
+}
+
+std::vector<SpecialPoint> of_kind(const Branch& branch, SpecialKind kind) {
+  std::vector<SpecialPoint> found;
+  std::ranges::copy_if(branch.special, std::back_inserter(found),
+                       [kind](const SpecialPoint& each) { return each.kind == kind; });
+  return found;
+}
+
+void check_points(const Branch& branch) {
+  REQUIRE(branch.reason.empty());
+  double balance = 0.0, residual = 0.0;
+  for (const BranchPoint& point : branch.points) {
+    balance = std::max(balance, point.quantities[1]);
+    residual = std::max(residual, point.residual);
+  }
+  CHECK(balance < kBalance);
+  CHECK(residual < kOrbit);
+}
+
+TEST_CASE(
+    "The branch of a mass between elastic stops has the known folds and its stops are touched where the "
+    "linear response reaches them") {
+  for (const double start : {1.2, 1.8}) {  // on either side of the folds
+    INFO("start " << start);
+    const Branch branch = stop_branch(0.05, 4.0, 0.0, {.low = 1.1, .high = 2.5, .start = start});
+    check_points(branch);
+    CHECK(branch.first_end == BranchEnd::range);
+    CHECK(branch.last_end == BranchEnd::range);
+    const auto folds = of_kind(branch, SpecialKind::fold);
+    REQUIRE(branch.special.size() == 3);
+    REQUIRE(folds.size() == 2);
+    CHECK_THAT(folds[0].at.parameter, WithinAbs(2.0018066685, kPrinted));
+    CHECK_THAT(folds[0].at.quantities[0], WithinAbs(4.9326330, kPrinted));
+    CHECK_THAT(folds[1].at.parameter, WithinAbs(1.4086707284, kPrinted));
+    CHECK_THAT(folds[1].at.quantities[0], WithinAbs(1.01774225, kPrinted));
+    for (const SpecialPoint& fold : folds) {
+      CHECK(fold.residual < kExact);
+      CHECK_THAT(fold.at.floquet_radius, WithinAbs(1.0, kPrinted));
+    }
+    // (1 - r^2)^2 + (2 zeta r)^2 = 1
+    const SpecialPoint& touch = branch.special.back();
+    CHECK(touch.kind == SpecialKind::grazing);
+    CHECK_THAT(touch.at.parameter, WithinAbs(std::sqrt(1.99), kExact));
+    CHECK_THAT(touch.at.quantities[0], WithinAbs(1.0, kExact));
+    CHECK(touch.residual < kExact);
+    CHECK(touch.element == 2U);
+  }
+}
+
+TEST_CASE("A branch is unstable between its folds and stable elsewhere") {
+  const Branch branch = stop_branch(0.05, 4.0, 0.0, {.low = 1.1, .high = 2.5, .start = 1.2});
+  const auto folds = of_kind(branch, SpecialKind::fold);
+  REQUIRE(folds.size() == 2);
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < branch.points.size(); ++i) {
+    const bool between = i > folds[0].after && i <= folds[1].after;
+    wrong += branch.points[i].stable == between ? 1 : 0;
+  }
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("Branches pass fifty folds of twenty-five systems", "[slow]") {
+  std::size_t passed = 0;
+  for (const double zeta : {0.03, 0.04, 0.05, 0.06, 0.07}) {
+    for (const double k : {2.0, 3.0, 4.0, 5.0, 6.0}) {
+      INFO("zeta " << zeta << " k " << k);
+      const Branch branch = stop_branch(zeta, k, 0.0, {.low = 1.1, .high = 4.0, .start = 1.15});
+      check_points(branch);
+      // On to the linear response above the jump.
+      CHECK(branch.last_end == BranchEnd::range);
+      CHECK_THAT(branch.points.back().quantities[0], WithinAbs(classical_amplitude(4.0, zeta, 0.0), kExact));
+      for (const SpecialPoint& fold : of_kind(branch, SpecialKind::fold)) {
+        CHECK(fold.residual < kExact);
+        CHECK_THAT(fold.at.floquet_radius, WithinAbs(1.0, kPrinted));
+        ++passed;
+      }
+    }
+  }
+  CHECK(passed == 50);
+}
+
+TEST_CASE("Where a damped stop gives the map a kink the branch turns at the touch") {
+  for (const double c : {1.5, 6.0}) {
+    INFO("damping " << c);
+    const Branch branch = stop_branch(0.05, 4.0, c, {.low = 1.1, .high = 2.5, .start = 1.2});
+    check_points(branch);
+    CHECK(branch.last_end == BranchEnd::range);
+    const auto corners = of_kind(branch, SpecialKind::corner);
+    REQUIRE(corners.size() == 1);
+    CHECK_THAT(corners[0].at.parameter, WithinAbs(std::sqrt(1.99), kExact));
+    CHECK(corners[0].residual < kExact);
+    CHECK(of_kind(branch, SpecialKind::fold).size() == 1);
+  }
+}
+
+Network rubbing_mass(bool has_static_force) {
+  Network network{.masses = {"x"},
+                  .prescribed = {},
+                  .elements = {{"spring", ElementType::spring, ground, mass},
+                               {"damper", ElementType::damper, ground, mass},
+                               {"friction", ElementType::coulomb, ground, mass}},
+                  .excitations = {{ExcitationKind::force, 0, 1}}};
+  network.elements[2].has_static_force = has_static_force;
+  return network;
+}
+
+TEST_CASE("A branch along friction is Den Hartog's until stops begin, and ends at rest") {
+  constexpr double r = 0.5, zeta = 0.05;
+  const auto values = [&](double f) {
+    return NetworkValues{
+        .omega = r, .mass = {1.0}, .element = {1.0, 2.0 * zeta, f}, .excitation = {{1.0, 0.0}}};
+  };
+  const Branch branch =
+      follow_branch(rubbing_mass(false), asked, values, {.low = 0.0, .high = 1.2, .start = 0.5});
+  check_points(branch);
+  CHECK(branch.first_end == BranchEnd::range);
+  CHECK(branch.last_end == BranchEnd::range);
+  const auto grazings = of_kind(branch, SpecialKind::grazing);
+  REQUIRE(branch.special.size() == 2);
+  REQUIRE(grazings.size() == 2);
+  CHECK_THAT(grazings[0].at.parameter, WithinAbs(critical_friction(r, zeta), kExact));
+  CHECK_THAT(grazings[1].at.parameter, WithinAbs(1.0, kExact));
+  CHECK_THAT(branch.points.back().quantities[0], WithinAbs(0.0, kExact));
+}
+
+TEST_CASE("The border of sliding without stops under static friction is where it is known to be") {
+  const auto values = [](double static_force) {
+    return NetworkValues{.omega = 0.8,
+                         .mass = {1.0},
+                         .element = {1.0, 0.1, 0.2},
+                         .excitation = {{1.0, 0.0}},
+                         .second = {0.0, 0.0, static_force}};
+  };
+  const Branch branch =
+      follow_branch(rubbing_mass(true), asked, values, {.low = 0.2, .high = 2.0, .start = 0.5});
+  check_points(branch);
+  const auto grazings = of_kind(branch, SpecialKind::grazing);
+  REQUIRE(grazings.size() == 1);
+  CHECK_THAT(grazings[0].at.parameter, WithinAbs(1.5914263943, kExact));
+  CHECK_THAT(grazings[0].at.quantities[0], WithinAbs(2.5001367841, kExact));
+}
+
+Network mass_before_a_stop() {
+  Network network = mass_between_stops();
+  network.elements[2].bends.pop_back();
+  return network;
+}
+
+NetworkValues one_stop_values(double r) {
+  return {.omega = r,
+          .mass = {1.0},
+          .element = {1.0, 0.05, 20.0},
+          .excitation = {{1.0, 0.0}},
+          .second = {0.0, 0.0, 0.0},
+          .bends = {{}, {}, {{0.3, 20.0, 0.0}}}};
+}
+
+TEST_CASE("A subharmonic is followed in its own period until the branch closes") {
+  const Branch branch = follow_branch(mass_before_a_stop(), asked, one_stop_values,
+                                      {.low = 1.0, .high = 5.0, .start = 3.2, .multiple = 2});
+  check_points(branch);
+  CHECK(branch.last_end == BranchEnd::closed);
+  CHECK(branch.points.front().multiple == 2);
+  CHECK_THAT(branch.points.back().parameter, WithinAbs(branch.points.front().parameter, kExact));
+  CHECK_THAT(branch.points.back().quantities[0], WithinAbs(branch.points.front().quantities[0], kExact));
+  CHECK(of_kind(branch, SpecialKind::period_doubling).size() >= 4);
+}
+
+// The forcing of a subharmonic is still that of one period.
+TEST_CASE("A subharmonic repeats under the forcing of one period") {
+  Network network = mass_before_a_stop();
+  PeriodicResponse response(network, {{Measure::period_multiple, 0}, {Measure::peak, 0}});
+  response.set_values(one_stop_values(3.2));
+  response.solve();
+  double found[2];
+  response.quantities(found);
+  REQUIRE(found[0] == 2.0);
+  const Branch branch =
+      follow_branch(network, asked, one_stop_values,
+                    {.low = 3.0, .high = 3.4, .start = 3.2, .most_points = 2, .multiple = 2});
+  const auto start = std::ranges::find(branch.points, 3.2, &BranchPoint::parameter);
+  REQUIRE(start != branch.points.end());
+  CHECK_THAT(start->quantities[0], WithinAbs(found[1], kExact));
+}
+
+TEST_CASE("A branch without an orbit to start from says why") {
+  const Branch branch = stop_branch(0.05, 4.0, 0.0, {.low = 1.1, .high = 2.5, .start = 1.2, .multiple = 3});
+  CHECK(branch.points.empty());
+  CHECK(branch.reason.find("3 periods") != std::string::npos);
+}
+
+TEST_CASE("A branch stops after as many points as are wanted") {
+  const Branch branch =
+      stop_branch(0.05, 4.0, 0.0, {.low = 1.1, .high = 2.5, .start = 1.2, .most_points = 20});
+  CHECK(branch.last_end == BranchEnd::points);
+  CHECK(branch.points.size() <= 39);
+}
+
+}  // namespace
+}  // namespace frahm::periodic
