@@ -146,6 +146,20 @@ TEST_CASE("So are those of friction that sticks harder than it slides, with two 
   check_all(network, values, 50);
 }
 
+// Both the table's point and the friction are at zero velocity.
+TEST_CASE("So are those of a damper that is stiffer one way, beside friction with a static limit") {
+  Network network = one_mass({"friction", ElementType::coulomb, ground, first});
+  network.elements[1].bends = {{+1.0, &damper_bend}};
+  network.elements[2].has_static_force = true;
+  const NetworkValues values{.omega = 0.5,
+                             .mass = {1.0},
+                             .element = {1.0, 0.1, 0.3},
+                             .excitation = {{1.0, 0.0}},
+                             .second = {0.0, 0.0, 0.6},
+                             .bends = {{}, {{0.0, 0.0, 0.2}}, {}}};
+  check_all(network, values, 50);
+}
+
 TEST_CASE("So are those of an absorber on a moving base that hits damped stops and rubs on the first mass") {
   Network network;
   network.masses = {"main", "absorber"};
