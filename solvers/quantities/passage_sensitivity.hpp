@@ -80,6 +80,8 @@ class PassageSensitivity {
   void enter(typename S::State& delta) const;
   double cross(const Event& change, const OrbitStep<N, H>& before, const OrbitStep<N, H>& after,
                typename S::State& delta);
+  double let_go(const Event& change, const OrbitStep<N, H>& before, const OrbitStep<N, H>& after,
+                typename S::State& delta);
   void keep_at_limit(ContactMask contacts, const Mode<N, H>& mode, typename S::State& delta) const;
 
   const Flow<N, H>& flow_;
@@ -198,23 +200,30 @@ void PassageSensitivity<N, H>::keep_at_limit(ContactMask contacts, const Mode<N,
 template <int N, int H>
 double PassageSensitivity<N, H>::cross(const Event& change, const OrbitStep<N, H>& before,
                                        const OrbitStep<N, H>& after, typename S::State& delta) {
+  if (change.bend < 0 && change.contact < 0) return 0.0;
+  double shift = 0.0;
   if (change.bend >= 0) {
     const BendGuard guard = change.bend_by_force ? BendGuard::force : BendGuard::place;
-    return bend(change.bend, guard, change.slope, before.right, after.left, delta);
-  }
-  if (change.contact < 0) return 0.0;
-  double shift = 0.0;
-  if (contains(change.arrived, change.contact)) {
+    shift = bend(change.bend, guard, change.slope, before.right, after.left, delta);
+  } else if (contains(change.arrived, change.contact)) {
     shift = arrive(change.contact, change.slope, before.right, after.left, delta);
   } else {
-    mode(before.mode);
-    const double force = stuck_force(before.mode, before.right, delta, change.contact);
-    shift = (change.side * by_->static_limit[change.contact] - force) / change.slope;
-    const Eigen::Index n = flow_.equations().masses();
-    if (falls_at_release(flow_.equations(), change.contact))
-      delta.segment(n, n) += (before.right.a - after.left.a) * shift;
+    shift = let_go(change, before, after, delta);
   }
   keep_at_limit(change.released & ~flow_.equations().holding, flow_.mode(after.mode), delta);
+  return shift;
+}
+
+// Of a stuck force that reaches its limit.
+template <int N, int H>
+double PassageSensitivity<N, H>::let_go(const Event& change, const OrbitStep<N, H>& before,
+                                        const OrbitStep<N, H>& after, typename S::State& delta) {
+  const Eigen::Index n = flow_.equations().masses();
+  mode(before.mode);
+  const double force = stuck_force(before.mode, before.right, delta, change.contact);
+  const double shift = (change.side * by_->static_limit[change.contact] - force) / change.slope;
+  if (falls_at_release(flow_.equations(), change.contact))
+    delta.segment(n, n) += (before.right.a - after.left.a) * shift;
   return shift;
 }
 
