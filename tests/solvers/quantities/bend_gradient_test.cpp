@@ -120,6 +120,25 @@ TEST_CASE("So are those with damping in the stops, whose forces jump") {
   }
 }
 
+TEST_CASE("So are those of responses that take two periods of the excitation") {
+  Network network = one_mass(stops(base, first, false));
+  network.prescribed = {"base"};
+  network.excitations.push_back({ExcitationKind::force, 0, 0});
+  network.excitations.push_back({ExcitationKind::motion, 0, 1});
+  for (const double omega : {2.4, 3.1}) {
+    const NetworkValues values{.omega = omega,
+                               .mass = {1.0},
+                               .element = {1.0, 0.06, 3.0},
+                               .excitation = {{1.0, 0.0}, {0.3, 0.0}, {0.01, 0.3}},
+                               .second = {0.0, 0.0, 0.1},
+                               .bends = {{}, {}, {{0.2, 3.0, 0.1}}}};
+    PeriodicResponse response(network, {});
+    response.set_values(values);
+    CHECK(response.solve().multiple == 2);
+    check_all(network, values, 100);
+  }
+}
+
 TEST_CASE("So are those of a spring with a table and of a damper with one") {
   Network network = one_mass({"friction", ElementType::coulomb, ground, first});
   network.elements[0].bends = {{+1.0, &spring_bend}, {-1.0, &spring_bend}};

@@ -352,5 +352,32 @@ TEST_CASE("Derivatives of steady responses at any time are those of differences,
   CHECK(tally.undecided < tally.compared / 100);
 }
 
+TEST_CASE("So are those of a response of two periods against a damped stop") {
+  const mechanics::Node ground{}, first{mechanics::NodeKind::mass, 0};
+  Case of;
+  of.network.masses = {"mass"};
+  of.network.elements = {{"spring", ElementType::spring, ground, first},
+                         {"damper", ElementType::damper, ground, first},
+                         {"stop", ElementType::gap, ground, first}};
+  of.network.elements[2].bends = {{+1.0, &laws::elastic_stop}};
+  of.network.excitations = {{mechanics::ExcitationKind::force, 0, 1},
+                            {mechanics::ExcitationKind::force, 0, 0}};
+  of.model.values = {.omega = 2.6,
+                     .mass = {1.0},
+                     .element = {1.0, 0.06, 3.0},
+                     .excitation = {{1.0, 0.0}, {0.3, 0.0}},
+                     .second = {0.0, 0.0, 0.1},
+                     .bends = {{}, {}, {{0.2, 3.0, 0.1}}}};
+  of.record.motion = MotionKind::periodic;
+  for (int k = 0; k < 40; ++k) of.record.time.push_back(0.2 * k);
+  of.record.channels = all_channels(of.network);
+  Tally tally;
+  compare(of, tally);
+  INFO(tally.compared << " compared, worst " << tally.worst << ", " << tally.undecided << " undecided");
+  CHECK(tally.without_derivative == 0);
+  CHECK(tally.compared > 1000);
+  CHECK(tally.undecided < tally.compared / 50);
+}
+
 }  // namespace
 }  // namespace frahm::identification
