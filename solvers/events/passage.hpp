@@ -45,7 +45,8 @@ struct Passage {
   bool has_tangent = false;                   // it was followed
   std::vector<Segment<N, H>> segments;
   std::vector<Event> changes;  // between the segments, one fewer than segments
-  int events = 0;              // stops, releases and reversals, also those without a change of mode
+  int events = 0;              // stops, releases, reversals and bends, also those without a change of mode
+  int bends = 0;               // those of them that are no event of a contact
   double margin = 1.0;         // relative distance of the nearest event from a different outcome; 0 = grazing
   bool starts_at_event = false;   // a contact passes through rest at the very start, outside the tangent
   const char* failure = nullptr;  // why the passage could not be completed

@@ -81,7 +81,7 @@ void Walk<N, H>::enter(const typename S::State& z, double phase, Passage<N, H>& 
   const StepEquations<N, H>& eq = flow_.equations();
   passage.segments.clear();
   passage.changes.clear();
-  passage.events = 0;
+  passage.events = passage.bends = 0;
   passage.failure = nullptr;
   w_.clock = 0.0;
   w_.margin = 1.0;
@@ -219,6 +219,7 @@ void Walk<N, H>::pass_bend(const BendEvent& event, double phase, Passage<N, H>& 
   const std::size_t mode_before = w_.mode;
   arrive_at(event.at, phase, passage);
   const Instant<N, H> before = w_.left;
+  ++passage.bends;
   const ValueAndSlope guard = bend_guard(flow_, before, event.guard, event.bend);
   change_bend(flow_, event, w_);
   const bool jumps = event.guard == BendGuard::place && contains(flow_.equations().bends.jumping, event.bend);
