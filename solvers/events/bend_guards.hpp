@@ -71,14 +71,16 @@ Polynomial bend_polynomial(const Flow<N, H>& flow, BendGuard guard, Eigen::Index
 }
 
 // The fraction of the step at which the guard, which has the sign `side` before, changes it. fresh: the guard
-// is zero at the start of the step, a root that is divided out.
+// is zero at the start of the step, a root that is divided out. A place on which contacts hold the bend, such
+// as zero velocity beside friction that sticks, is never passed.
 template <int N, int H>
 double first_guard(const Flow<N, H>& flow, BendGuard guard, Eigen::Index j, double side, bool fresh,
                    Workspace<N, H>& w) {
   constexpr double kNever = 2.0;
   Polynomial p = side * bend_polynomial(flow, guard, j, w);
+  const double size = p.cwiseAbs().sum();
+  if (guard == BendGuard::place && size <= w.at_rest_on_place[j]) return kNever;
   if (fresh) {
-    const double size = p.cwiseAbs().sum();
     int multiplicity = 1;
     while (multiplicity < 4 && std::abs(p[multiplicity]) <= kRest * size) ++multiplicity;
     p = deflate(p, multiplicity);

@@ -14,12 +14,24 @@ struct Event {
   ContactMask released = 0;  // contacts that stuck before and now slide
   Eigen::Index bend = -1;    // the bend that ended the segment; then its guard's slope, and which guard it is
   bool bend_by_force = false;
+  // Events of this instant at which the acceleration may jump: a held velocity arrives, a force falls from a
+  // static limit, a bend's force jumps.
+  int jumps = 0;
   // The contact that ended the segment; an arrival counts before a release (-1: none changed). Then the slope
   // of its guard function [m a step^2 or N a step], seen from inside the segment, and the side of the limit
   // that a force reached.
   Eigen::Index contact = -1;
   double slope = 0.0;
   double side = 1.0;
+
+  // Whether a further event of this instant is the one to be recorded: the first of those at which the
+  // acceleration may jump, else the first.
+  bool is_to_record(bool may_jump) {
+    const bool takes = jumps == 0 && (may_jump || (contact < 0 && bend < 0));
+    jumps += may_jump ? 1 : 0;
+    if (takes) contact = bend = -1;
+    return takes;
+  }
 };
 
 // Whether the tangent of a passage is followed: of a large system it takes most of the time.
@@ -33,7 +45,8 @@ struct Passage {
   bool has_tangent = false;                   // it was followed
   std::vector<Segment<N, H>> segments;
   std::vector<Event> changes;  // between the segments, one fewer than segments
-  int events = 0;              // stops, releases and reversals, also those without a change of mode
+  int events = 0;              // stops, releases, reversals and bends, also those without a change of mode
+  int bends = 0;               // those of them that are no event of a contact
   double margin = 1.0;         // relative distance of the nearest event from a different outcome; 0 = grazing
   bool starts_at_event = false;   // a contact passes through rest at the very start, outside the tangent
   const char* failure = nullptr;  // why the passage could not be completed

@@ -69,6 +69,12 @@ void saltate(const Flow<N, H>& flow, ContactMask arrived, ContactMask released, 
   }
 }
 
+// Whether the force of a contact falls where it lets go.
+template <int N, int H>
+bool falls_at_release(const StepEquations<N, H>& eq, Eigen::Index j) {
+  return eq.holds(j) && eq.static_limit[j] != eq.limit[j];
+}
+
 // A stuck contact that lets go of a static limit: its force falls and the acceleration jumps,
 //   dv+ = dv- + (a+ - a-) (grad lambda dz-) / lambda'
 template <int N, int H>
@@ -76,7 +82,7 @@ void saltate_release(const Flow<N, H>& flow, Eigen::Index j, const Instant<N, H>
                      const Mode<N, H>& mode_before, const Workspace<N, H>& w,
                      typename Sizes<N, H>::StateSquare& tangent) {
   const StepEquations<N, H>& eq = flow.equations();
-  if (!eq.holds(j) || eq.static_limit[j] == eq.limit[j]) return;
+  if (!falls_at_release(eq, j)) return;
   const Eigen::Index n = eq.masses();
   const Configuration<N, H>& c = flow.configuration(mode_before);
   const double slope = flow.stuck_force(before, mode_before, j).slope;

@@ -81,7 +81,7 @@ void Walk<N, H>::enter(const typename S::State& z, double phase, Passage<N, H>& 
   const StepEquations<N, H>& eq = flow_.equations();
   passage.segments.clear();
   passage.changes.clear();
-  passage.events = 0;
+  passage.events = passage.bends = 0;
   passage.failure = nullptr;
   w_.clock = 0.0;
   w_.margin = 1.0;
@@ -219,6 +219,7 @@ void Walk<N, H>::pass_bend(const BendEvent& event, double phase, Passage<N, H>& 
   const std::size_t mode_before = w_.mode;
   arrive_at(event.at, phase, passage);
   const Instant<N, H> before = w_.left;
+  ++passage.bends;
   const ValueAndSlope guard = bend_guard(flow_, before, event.guard, event.bend);
   change_bend(flow_, event, w_);
   const bool jumps = event.guard == BendGuard::place && contains(flow_.equations().bends.jumping, event.bend);
@@ -235,7 +236,7 @@ void Walk<N, H>::pass_bend(const BendEvent& event, double phase, Passage<N, H>& 
     if (!same_instant) passage.changes.push_back({.segment = passage.segments.size() - 1});
     Event& change = passage.changes.back();
     change.released |= flow_.mode(mode_before).stuck & ~flow_.mode(w_.mode).stuck;
-    if (change.contact < 0 && change.bend < 0) {
+    if (w_.mode != mode_before && change.is_to_record(jumps)) {
       change.bend = event.bend;
       change.bend_by_force = event.guard == BendGuard::force;
       change.slope = guard.slope;
@@ -257,13 +258,14 @@ void Walk<N, H>::note_change(const GuardEvent& event, const Instant<N, H>& befor
   const ContactMask arrived = arrived_between(flow_.equations(), mode_before, after);
   change.arrived |= arrived;
   change.released |= mode_before.stuck & ~after.stuck;
-  if (change.contact >= 0 || change.bend >= 0) return;  // the first event of this instant is recorded
+  const ContactMask held = arrived & flow_.equations().holding;
+  const bool falls = arrived == 0 && event.release && falls_at_release(flow_.equations(), event.contact);
+  if ((arrived == 0 && !event.release) || !change.is_to_record(held != 0 || falls)) return;
   if (arrived != 0) {
     // Of several arrivals the first whose velocity is held: the acceleration jumps for it.
-    const ContactMask held = arrived & flow_.equations().holding;
     change.contact = first(held != 0 ? held : arrived);
     change.slope = flow_.sliding_speed(before, change.contact).slope;
-  } else if (event.release) {
+  } else {
     const ValueAndSlope force = flow_.stuck_force(before, mode_before, event.contact);
     change.contact = event.contact;
     change.slope = force.slope;

@@ -35,6 +35,8 @@ struct Workspace {
   // A contact's velocity below this counts as zero [m a step]: kRest of its scale, or what its own friction
   // stops within kRest of a step: the force of a strong contact rounds the velocities that it holds.
   typename S::Contacts rest_speed;
+  // A bend's distance from its place [m], or [m a step] of a velocity, that is rounding.
+  typename S::Contacts at_rest_on_place;
 
   // The state has left the instant of the last event.
   void leave_event() { fresh = just_released = at_place = without_force = 0; }
@@ -63,6 +65,11 @@ void set_scales(const Flow<N, H>& flow, const typename Sizes<N, H>::State& z, Wo
     const double stopped_in_a_step = eq.holds(j) ? eq.limit[j] * eq.compliance[j] : 0.0;
     w.rest_speed[j] = kRest * std::max(w.speed_scale[j], stopped_in_a_step);
   }
+  const StepBends<N, H>& bends = eq.bends;
+  w.at_rest_on_place.resize(bends.count());
+  for (Eigen::Index j = 0; j < bends.count(); ++j)
+    w.at_rest_on_place[j] = kRest * (std::sqrt(2.0 * bends.B.col(j).dot(bends.MB.col(j))) * energy +
+                                     bends.motion_velocity.row(j).norm());
 }
 
 }  // namespace frahm::periodic

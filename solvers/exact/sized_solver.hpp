@@ -62,12 +62,8 @@ class SizedSolver final : public ResponseSolver {
   }
 
   const char* gradient(std::span<const mechanics::NetworkValues> directions, std::span<double> out) override {
-    if (orbit_.multiple > 1) {
-      std::ranges::fill(out, kNone);
-      return "the response takes several periods of the excitation";
-    }
     follow_tangent(flow_, orbit_);
-    return gradient_.evaluate(orbit_, system_, values_, directions, out);
+    return gradient_.evaluate(orbit_, told(), values_, directions, out);
   }
   const char* why_no_derivative(std::size_t quantity) const override { return gradient_.why_none(quantity); }
 
@@ -75,7 +71,7 @@ class SizedSolver final : public ResponseSolver {
                       std::span<const mechanics::NetworkValues> directions, ObservedMotion& out) override {
     follow_tangent(flow_, orbit_);
     OrbitObservation<N, H> observation(flow_, observed);
-    return observation.observe(orbit_, assembly_, system_, values_, directions, times, out);
+    return observation.observe(orbit_, assembly_, told(), values_, directions, times, out);
   }
 
   History history(std::span<const double> phases) override;

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <functional>
 #include <numbers>
+#include <numeric>
 
 #include "solvers/mechanics/crank.hpp"
 #include "solvers/mechanics/element_table.hpp"
@@ -26,6 +28,7 @@ void resize(const LinearSystem& system, const NetworkValues& direction, LinearSy
   d.C_support.setZero(n, p);
   d.K_support.setZero(n, p);
   d.limit.setZero(system.contacts());
+  d.static_limit.setZero(system.contacts());
   d.internal_stiffness.setZero(system.internal_forces());
   d.internal_rate.setZero(system.internal_forces());
   d.coefficients.resize(system.coefficients.size());
@@ -58,10 +61,13 @@ void differentiate_elements(const Assembly& assembly, const NetworkValues& value
                               Dual{second_value(values, e), second_value(direction, e)}, omega_h);
     const Incidence& at = assembly.incidences()[e];
     const Eigen::Index internal = system.coefficients[e].internal;
+    const bool has_static_force = static_force(element, values, e) > 0.0;
+    const double at_rest = has_static_force ? second_value(direction, e) : added.limit.derivative;
     d.coefficients[e] = {.stiffness = added.stiffness.derivative,
                          .damping = added.damping.derivative,
                          .inertance = added.inertance.derivative,
                          .friction = added.limit.derivative,
+                         .static_friction = at_rest,
                          .internal = internal,
                          .internal_damping = added.internal_damping.derivative};
     add(d.K, d.K_support, at, added.stiffness.derivative);
@@ -71,12 +77,35 @@ void differentiate_elements(const Assembly& assembly, const NetworkValues& value
       d.felt_inertia += excess * added.inertance.derivative * at.w.transpose();
       d.felt_inertia_support += excess * added.inertance.derivative * at.p.transpose();
     }
-    if (has_contact(element))
-      d.limit[static_cast<Eigen::Index>(assembly.shares()[e].contact)] += added.limit.derivative;
+    if (has_contact(element)) {
+      const auto contact = static_cast<Eigen::Index>(assembly.shares()[e].contact);
+      d.limit[contact] += added.limit.derivative;
+      d.static_limit[contact] += at_rest;
+    }
     if (internal >= 0) {
       d.internal_stiffness[internal] = added.internal_stiffness.derivative;
       d.internal_rate[internal] = added.internal_rate.derivative;
     }
+  }
+}
+
+void differentiate_bends(const Network& network, const NetworkValues& direction, Bends& d) {
+  const auto count = [](const Element& element) { return element.bends.size(); };
+  const std::size_t all = std::transform_reduce(network.elements.begin(), network.elements.end(),
+                                                std::size_t{0}, std::plus<>(), count);
+  const auto b = static_cast<Eigen::Index>(all);
+  d.place.setZero(b);
+  d.stiffness.setZero(b);
+  d.damping.setZero(b);
+  Eigen::Index first = 0;
+  for (std::size_t e = 0; e < direction.bends.size(); ++e) {
+    Eigen::Index column = first;
+    for (const BendValue& by : direction.bends[e]) {
+      d.place[column] = by.place;
+      d.stiffness[column] = by.stiffness;
+      d.damping[column++] = by.damping;
+    }
+    first += static_cast<Eigen::Index>(count(network.elements[e]));
   }
 }
 
@@ -157,12 +186,15 @@ void differentiate_matrices(const Assembly& assembly, const NetworkValues& value
                             LinearSystem& derivative) {
   resize(system, direction, derivative);
   differentiate_elements(assembly, values, direction, system, derivative);
+  differentiate_bends(assembly.network(), direction, derivative.bends);
   differentiate_structural_damping(assembly, values, direction, system, derivative);
 }
 
 void differentiate(const Assembly& assembly, const NetworkValues& values, const NetworkValues& direction,
                    const LinearSystem& system, LinearSystem& derivative) {
   differentiate_matrices(assembly, values, direction, system, derivative);
+  // A system over m periods has an m-th of the frequency.
+  derivative.omega *= system.omega / values.omega;
   differentiate_excitation(assembly, values, direction, derivative);
   derivative.constant_applied_force = derivative.constant_force;
   derivative.applied_force = derivative.force;

@@ -49,7 +49,7 @@ class Gradient {
   void differentiate_trace(std::size_t trace);
   CandidateDerivative of_candidate(std::size_t trace, std::size_t candidate);
   void look_at(const Instant<N, H>& x, const InstantDerivative<N, H>& d);
-  void look_at_contacts(const Instant<N, H>& x, const InstantDerivative<N, H>& d, std::size_t mode);
+  void look_at_forces(const Instant<N, H>& x, const InstantDerivative<N, H>& d, std::size_t mode);
 
   const mechanics::Assembly& assembly_;
   const Flow<N, H>& flow_;

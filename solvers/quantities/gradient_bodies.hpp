@@ -7,6 +7,7 @@
 #include "solvers/algebra/no_value.hpp"
 #include "solvers/mechanics/modes.hpp"
 #include "solvers/mechanics/system_derivative.hpp"
+#include "solvers/quantities/bend_losses_derivative.hpp"
 #include "solvers/quantities/gradient.hpp"
 
 // Bodies of Gradient, for the files that instantiate it.
@@ -78,6 +79,8 @@ const char* Gradient<N, H>::differentiate(const Orbit<N, H>& orbit, const mechan
   measured_by_.log_period = by_.log_step;
   if (request_.needs.integrals) integrate();
   if (request_.needs.energies || request_.needs.histories) follow_contacts(orbit);
+  if (request_.needs.energies)
+    measured_by_.bend_loss = bend_losses_derivative(steps_, flow_, sensitivity_.passage(), orbit.half_period);
   if (request_.needs.modes)
     modes_derivative(system, system_by_, measured_by_.natural_frequency, measured_by_.modal_damping);
   for (std::size_t i = 0; i < request_.traces.size(); ++i) differentiate_trace(i);
@@ -180,7 +183,7 @@ CandidateDerivative Gradient<N, H>::of_candidate(std::size_t trace, std::size_t 
   const InstantDerivative<N, H> d = sensitivity_.passage().at(candidate.step, candidate.s, x);
   look_at(x, d);
   if (what.kind == TraceKind::element_force || what.kind == TraceKind::support_force)
-    look_at_contacts(x, d, steps_.steps()[candidate.step].mode);
+    look_at_forces(x, d, steps_.steps()[candidate.step].mode);
   CandidateDerivative result;
   result.value = trace_derivative(what, motion_, assembly_, *measured_.system, system_by_);
   result.state = d.z.norm() / x.z.norm();
@@ -221,8 +224,8 @@ void Gradient<N, H>::look_at(const Instant<N, H>& x, const InstantDerivative<N, 
 }
 
 template <int N, int H>
-void Gradient<N, H>::look_at_contacts(const Instant<N, H>& x, const InstantDerivative<N, H>& d,
-                                      std::size_t mode_index) {
+void Gradient<N, H>::look_at_forces(const Instant<N, H>& x, const InstantDerivative<N, H>& d,
+                                    std::size_t mode_index) {
   const Mode<N, H>& mode = flow_.mode(mode_index);
   motion_.contacts.resize(assembly_.contacts());
   for (std::size_t contact = 0; contact < motion_.contacts.size(); ++contact) {
@@ -232,6 +235,13 @@ void Gradient<N, H>::look_at_contacts(const Instant<N, H>& x, const InstantDeriv
     if (!its.sticks) continue;
     its.force = flow_.stuck_force(x, mode, j).value;
     its.force_by = sensitivity_.passage().stuck_force(mode_index, x, d.z, j);
+  }
+  const StepBends<N, H>& bends = flow_.equations().bends;
+  motion_.bends_by.assign(static_cast<std::size_t>(bends.count()), 0.0);
+  for (Eigen::Index j = 0; j < bends.count(); ++j) {
+    if (contains(mode.beyond, j))
+      motion_.bends_by[static_cast<std::size_t>(j)] =
+          bend_force_derivative<N, H>(bends, by_.bends, x, d.z, j);
   }
 }
 

@@ -36,7 +36,7 @@ class Forces {
          const mechanics::LinearSystem& system, const mechanics::LinearSystem& system_by)
       : motion_(motion), assembly_(assembly), system_(system), by_(system_by) {}
 
-  // F = k u + c v + b v' + s + its share of the friction
+  // F = k u + c v + b v' + s + its bends + its share of the friction
   double of_element(std::size_t e) const {
     const mechanics::Incidence& at = assembly_.incidences()[e];
     const mechanics::ElementCoefficients &law = system_.coefficients[e], &law_by = by_.coefficients[e];
@@ -46,7 +46,7 @@ class Forces {
     // The friction of an element with an internal force is the limit of that force.
     if (law.internal >= 0) return force + motion_.internal_by[law.internal];
     if (law.friction != 0.0 || law_by.friction != 0.0) force += friction(e);
-    return force;
+    return force + bends(e);
   }
 
   double at_node(const mechanics::Node& node) const {
@@ -66,6 +66,15 @@ class Forces {
  private:
   static double product(double factor, double factor_by, const ValueAndDerivative& motion) {
     return factor_by * motion.value + factor * motion.by;
+  }
+
+  double bends(std::size_t e) const {
+    const mechanics::Bends& all = assembly_.bends();
+    double force = 0.0;
+    for (std::size_t j = 0; j < motion_.bends_by.size(); ++j) {
+      if (all.element[j] == e) force += all.side[j] * motion_.bends_by[j];
+    }
+    return force;
   }
 
   // sigma F of a sliding contact; of a stuck one the share F / sum F of its force lambda.

@@ -24,8 +24,11 @@ struct ContactForce {
 // A motion at one instant, seen from inside a mode, and its derivative along a direction, time held.
 struct InstantMotion {
   Kinematics at, by;
-  Eigen::VectorXd internal_by;         // of the internal forces [N]
-  std::vector<ContactForce> contacts;  // where forces are traced
+  Eigen::VectorXd internal_by;  // of the internal forces [N]
+  // Where forces are traced: those of the contacts, and the derivative of each bend's [N], 0 before its
+  // place.
+  std::vector<ContactForce> contacts;
+  std::vector<double> bends_by;
 };
 
 // system_by: the derivative of `system`.

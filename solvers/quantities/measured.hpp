@@ -98,7 +98,7 @@ struct MeasuredDerivative {
   std::vector<std::vector<CandidateDerivative>> candidates;  // of each trace
   Eigen::MatrixXd gram, motion, motion_velocity;
   std::vector<ContactDerivative> contacts;
-  std::vector<double> loss;
+  std::vector<double> bend_loss, loss;
   double structural_loss = 0.0, dissipated = 0.0;
   std::vector<double> natural_frequency, modal_damping;
 };

@@ -60,7 +60,7 @@ void OrbitMeasurement<N, H>::measure(const Orbit<N, H>& orbit, const mechanics::
   measured.coexisting = orbit.coexisting;
   measured.multiple = orbit.multiple;
   measured.newton_iterations = orbit.newton_iterations;
-  measured.events = (orbit.half_period ? 2 : 1) * orbit.passage.events;
+  measured.events = (orbit.half_period ? 2 : 1) * (orbit.passage.events - orbit.passage.bends);
   measured.static_norm = flow_.static_norm();
   measured.state_norm = eq.energy_norm(orbit.z);
   if (needs.integrals) integrate(orbit, steps, needs.input, measured);

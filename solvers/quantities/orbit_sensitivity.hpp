@@ -17,6 +17,7 @@ template <int N, int H>
 const char* why_no_orbit_derivative(const Orbit<N, H>& orbit) {
   switch (orbit.status) {
     case Status::ok:
+    case Status::several:
       return "";
     case Status::grazing:
       return "grazing: an event only just happens, and the derivatives on both sides differ";

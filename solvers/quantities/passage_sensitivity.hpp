@@ -3,13 +3,15 @@
 #include <span>
 #include <vector>
 
+#include "solvers/events/bend_guards.hpp"
+#include "solvers/events/saltation.hpp"
 #include "solvers/quantities/orbit_steps.hpp"
 #include "solvers/quantities/step_derivative.hpp"
 
 // The derivative of a motion over a passage, through its events, at fixed time in steps
 // (step_derivative.hpp):
 //   delta(t) = d z(t) / d p,   delta' = A delta + dA z + dB u + ...   between events,
-// a jump where a contact comes to rest or reverses, or an internal force reaches its limit.
+// a jump where a contact comes to rest or reverses, a force reaches its limit, or an element bends.
 // Sources: Leine and Nijmeijer, Dynamics and Bifurcations of Non-Smooth Mechanical Systems, 2004, ch. 7;
 // Hiskens and Pai, Trajectory sensitivity analysis of hybrid systems, IEEE Trans. Circuits Syst. I 47 (2000).
 namespace frahm::periodic {
@@ -22,14 +24,17 @@ struct InstantDerivative {
 };
 
 inline constexpr const char* kSeveralArrive = "several contacts come to rest at one instant";
+inline constexpr const char* kSeveralChange =
+    "several contacts or elements change their state at one instant";
 
 // Why no derivative exists across the changes of a passage; "" if it exists. Contacts that come to rest
-// together may do so one after the other on either side, in either order.
+// together may do so one after the other on either side, in either order; so may events of other
+// kinds at which the acceleration jumps.
 template <int N, int H>
 const char* why_no_passage_derivative(const Flow<N, H>& flow, std::span<const Event> changes) {
   for (const Event& change : changes) {
     if (count(change.arrived & flow.equations().holding) > 1) return kSeveralArrive;
-    if (change.bend >= 0) return "an element bends, across which no derivative is taken yet";
+    if (change.jumps > 1 && !flow.equations().monotone) return kSeveralChange;
   }
   return "";
 }
@@ -54,6 +59,9 @@ class PassageSensitivity {
   // seen from inside the modes before and after. Returns the derivative of its instant [steps].
   double arrive(Eigen::Index j, double slope, const Instant<N, H>& before, const Instant<N, H>& after,
                 typename S::State& delta) const;
+  // The same over the event of bend j, at its place or where its force vanishes.
+  double bend(Eigen::Index j, BendGuard guard, double slope, const Instant<N, H>& before,
+              const Instant<N, H>& after, typename S::State& delta) const;
 
   // Taylor polynomials of delta over a step, a column for each component of the state.
   const typename S::StatePolynomials& polynomials(std::size_t step) const { return polynomials_[step]; }
@@ -72,6 +80,8 @@ class PassageSensitivity {
   void enter(typename S::State& delta) const;
   double cross(const Event& change, const OrbitStep<N, H>& before, const OrbitStep<N, H>& after,
                typename S::State& delta);
+  double let_go(const Event& change, const OrbitStep<N, H>& before, const OrbitStep<N, H>& after,
+                typename S::State& delta);
   void keep_at_limit(ContactMask contacts, const Mode<N, H>& mode, typename S::State& delta) const;
 
   const Flow<N, H>& flow_;
@@ -185,20 +195,35 @@ void PassageSensitivity<N, H>::keep_at_limit(ContactMask contacts, const Mode<N,
 
 // The guard g(z, p) = 0 of a change is reached later by dt = -dg / g'. Then with the fields before and after
 //   dz+ = dz- + (f- - f+) dt:
-// an arrival changes the acceleration, a release an internal force's rate, nothing else jumps.
+// an arrival changes the acceleration, a release an internal force's rate. The acceleration also changes
+// where a force falls from a static limit, and where a bend's force jumps. Nothing else jumps.
 template <int N, int H>
 double PassageSensitivity<N, H>::cross(const Event& change, const OrbitStep<N, H>& before,
                                        const OrbitStep<N, H>& after, typename S::State& delta) {
-  if (change.contact < 0) return 0.0;
+  if (change.bend < 0 && change.contact < 0) return 0.0;
   double shift = 0.0;
-  if (contains(change.arrived, change.contact)) {
+  if (change.bend >= 0) {
+    const BendGuard guard = change.bend_by_force ? BendGuard::force : BendGuard::place;
+    shift = bend(change.bend, guard, change.slope, before.right, after.left, delta);
+  } else if (contains(change.arrived, change.contact)) {
     shift = arrive(change.contact, change.slope, before.right, after.left, delta);
   } else {
-    mode(before.mode);
-    const double force = stuck_force(before.mode, before.right, delta, change.contact);
-    shift = (change.side * by_->limit[change.contact] - force) / change.slope;
+    shift = let_go(change, before, after, delta);
   }
   keep_at_limit(change.released & ~flow_.equations().holding, flow_.mode(after.mode), delta);
+  return shift;
+}
+
+// Of a stuck force that reaches its limit.
+template <int N, int H>
+double PassageSensitivity<N, H>::let_go(const Event& change, const OrbitStep<N, H>& before,
+                                        const OrbitStep<N, H>& after, typename S::State& delta) {
+  const Eigen::Index n = flow_.equations().masses();
+  mode(before.mode);
+  const double force = stuck_force(before.mode, before.right, delta, change.contact);
+  const double shift = (change.side * by_->static_limit[change.contact] - force) / change.slope;
+  if (falls_at_release(flow_.equations(), change.contact))
+    delta.segment(n, n) += (before.right.a - after.left.a) * shift;
   return shift;
 }
 
@@ -211,6 +236,19 @@ double PassageSensitivity<N, H>::arrive(Eigen::Index j, double slope, const Inst
   const double velocity = eq.W.col(j).dot(dv) + by_->support_velocity.row(j).dot(before.u);
   const double shift = -velocity / slope;
   if (eq.holds(j)) dv += (before.a - after.a) * shift;
+  return shift;
+}
+
+template <int N, int H>
+double PassageSensitivity<N, H>::bend(Eigen::Index j, BendGuard guard, double slope,
+                                      const Instant<N, H>& before, const Instant<N, H>& after,
+                                      typename S::State& delta) const {
+  const StepBends<N, H>& bends = flow_.equations().bends;
+  const Eigen::Index n = flow_.equations().masses();
+  if (guard == BendGuard::force)
+    return -bend_force_derivative<N, H>(bends, by_->bends, before, delta, j) / slope;
+  const double shift = -bend_place_derivative<N, H>(bends, by_->bends, before, delta, j) / slope;
+  if (contains(bends.jumping, j)) delta.segment(n, n) += (before.a - after.a) * shift;
   return shift;
 }
 

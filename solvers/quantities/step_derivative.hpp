@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solvers/flow/flow.hpp"
+#include "solvers/quantities/bend_derivative.hpp"
 
 // Derivatives of the equations of motion along a change of the network's values. Time is counted in steps,
 // and the step shrinks with the period: omega h is held, so that a period keeps its number of steps and the
@@ -17,13 +17,18 @@ struct StepDerivative {
   typename S::VectorByOscillators force;
   typename S::SupportsByOscillators motion, motion_velocity, motion_acceleration;
   typename S::ContactsByOscillators support_displacement, support_velocity, support_acceleration;
-  typename S::Contacts limit;
+  typename S::Contacts limit, static_limit;
+  StepBends<N, H> bends;                              // of their numbers and supports; directions are empty
   Eigen::VectorXd internal_stiffness;                 // dk
   Eigen::MatrixXd internal_by_state, internal_drive;  // of s', by state and by oscillators
 
   // system, by: the equations of `eq` and their derivative, before time was counted in steps.
   void set(const StepEquations<N, H>& eq, const mechanics::LinearSystem& system,
            const mechanics::LinearSystem& by);
+
+ private:
+  void set_bends(const StepEquations<N, H>& eq, const mechanics::Bends& of_system,
+                 const mechanics::Bends& by);
 };
 
 // The derivative of the motion in one mode: at state z and oscillators u
@@ -58,6 +63,8 @@ void StepDerivative<N, H>::set(const StepEquations<N, H>& eq, const mechanics::L
   support_velocity.noalias() = system.W_support.transpose() * motion_velocity;
   support_acceleration.noalias() = system.W_support.transpose() * motion_acceleration;
   limit = by.limit;
+  static_limit = by.static_limit;
+  set_bends(eq, system.bends, by.bends);
   if constexpr (S::kInternal != 0) {
     // s' = k (D^T v + p^T y') - rate s,  d(rate h) = h drate + (rate h) dh/h
     const Eigen::Index n = eq.masses(), s = eq.internal_forces();
@@ -69,6 +76,22 @@ void StepDerivative<N, H>::set(const StepEquations<N, H>& eq, const mechanics::L
     internal_drive = by.internal_stiffness.asDiagonal() * (system.D_support.transpose() * eq.motion_velocity);
     internal_drive += eq.internal_stiffness.asDiagonal() * (system.D_support.transpose() * motion_velocity);
   }
+}
+
+// d(c/h) = dc/h - (c/h) dh/h; of the place of a velocity d(D h) = h dD + (D h) dh/h
+template <int N, int H>
+void StepDerivative<N, H>::set_bends(const StepEquations<N, H>& eq, const mechanics::Bends& of_system,
+                                     const mechanics::Bends& by) {
+  bends.of_velocity = eq.bends.of_velocity;
+  bends.stiffness = by.stiffness;
+  bends.damping = by.damping / eq.step - log_step * eq.bends.damping;
+  bends.place = by.place;
+  for (Eigen::Index j = 0; j < bends.count(); ++j) {
+    if (contains(bends.of_velocity, j)) bends.place[j] = eq.step * by.place[j] + log_step * eq.bends.place[j];
+  }
+  bends.motion.noalias() = of_system.W_support.transpose() * motion;
+  bends.motion_velocity.noalias() = of_system.W_support.transpose() * motion_velocity;
+  bends.motion_acceleration.noalias() = of_system.W_support.transpose() * motion_acceleration;
 }
 
 // M q'' + W lambda = f and w_j^T q'' = -p_j^T y'' of the stuck contacts, differentiated:
@@ -90,6 +113,15 @@ void ModeDerivative<N, H>::set(const Flow<N, H>& flow, const Mode<N, H>& mode,
   r_u.col(0).noalias() -= by.M * mode.acceleration;
   for (Eigen::Index j = 0; j < m; ++j) {
     if (eq.holds(j) && !contains(mode.stuck, j)) r_u.col(0) -= (mode.sign(j) * by.limit[j]) * eq.W.col(j);
+  }
+
+  for (Eigen::Index j = 0; mode.beyond != 0 && j < eq.bends.count(); ++j) {
+    if (!contains(mode.beyond, j)) continue;
+    const auto b = eq.bends.B.col(j);
+    const BendForceDerivative<N, H> force(eq.bends, by.bends, j);
+    r_z.leftCols(n) -= b * force.of_displacement;
+    r_z.middleCols(n, n) -= b * force.of_velocity;
+    r_u -= b * force.of_oscillators;
   }
 
   const typename S::Square mobility = c.projector(eq) * eq.M_inverse;

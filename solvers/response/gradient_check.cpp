@@ -41,7 +41,7 @@ std::vector<double> solve(PeriodicResponse& response, const mechanics::NetworkVa
   }
   if (anew) response.forget();
   const Status status = response.solve().status;
-  const bool found = status == Status::ok || status == Status::grazing;
+  const bool found = status == Status::ok || status == Status::grazing || status == Status::several;
   if (found && sequence_of(response) == events) response.quantities(result);
   return result;
 }

@@ -63,20 +63,21 @@ class PeriodicResponse {
   // the quantity per that of the parameter, NaN where a quantity has no derivative.
   // Returns "", or why the response has no derivatives, and then every entry of `out` is NaN: it is grazing
   // (an event only just happens, and the derivative differs on both sides), unbounded or failed, of the
-  // arctan law, or several contacts come to rest at one instant.
+  // arctan law, or several contacts come to rest, or let go of static limits or hit damped stops, at one
+  // instant. Of several responses they are those of the one that is told.
   std::string gradient(std::span<const mechanics::NetworkValues> directions, std::span<double> out);
   // Why a quantity of the last gradient() has none; "" where it has.
   std::string why_no_derivative(std::size_t quantity) const;
 
-  // What sensors show of a response that is ok or grazing.
+  // What sensors show of a response that is ok, several or grazing.
   // times: [s], at any of which the excitation's phase is omega t.  directions: as of gradient(); may be
   // none. Returns "", or why there are no derivatives (as gradient() says); `out` then has the values alone.
   // Of the arctan law there are neither.
   std::string observe(std::span<const double> times, std::span<const Observed> observed,
                       std::span<const mechanics::NetworkValues> directions, ObservedMotion& out);
 
-  // Of a response that is ok or grazing, at these phases omega t [rad]; where something jumps, what it
-  // jumps to.
+  // Of a response that is ok, several or grazing, at these phases omega t [rad]; where something jumps, what
+  // it jumps to.
   History history(std::span<const double> phases);
   std::vector<Stretch> stretches() const;
 

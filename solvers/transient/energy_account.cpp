@@ -51,6 +51,18 @@ double EnergyAccount::energy_of(const State& z, double phase) const {
     const double force = z[2 * n + laws[e].internal];
     energy += 0.5 * force * force / eq.internal_stiffness[laws[e].internal];
   }
+  return energy + energy_of_bends(z, u);
+}
+
+// k (u - D)^2 / 2 beyond D
+double EnergyAccount::energy_of_bends(const State& z, const typename Flow::S::Oscillators& u) const {
+  const auto& bends = flow_.equations().bends;
+  double energy = 0.0;
+  for (Index j = 0; j < bends.count(); ++j) {
+    const double past =
+        bends.B.col(j).dot(z.head(bends.B.rows())) + bends.motion.row(j).dot(u) - bends.place[j];
+    if (past > 0.0 && !contains(bends.of_velocity, j)) energy += 0.5 * bends.stiffness[j] * past * past;
+  }
   return energy;
 }
 
@@ -72,11 +84,12 @@ std::vector<double> EnergyAccount::dissipated_within(const Mode& mode, const Exp
 }
 
 void EnergyAccount::prepare(const Mode& mode) {
-  if (prepared_ && mode.stuck == stuck_ && mode.positive == positive_) return;
+  if (prepared_ && mode.stuck == stuck_ && mode.positive == positive_ && mode.beyond == beyond_) return;
   prepared_ = true;
   stuck_ = mode.stuck;
   positive_ = mode.positive;
-  std::vector<Form> forms = loss_forms();
+  beyond_ = mode.beyond;
+  std::vector<Form> forms = loss_forms(mode);
   for (Form& form : drive_forms(mode)) forms.push_back(std::move(form));
   const auto rows = static_cast<Index>(forms.size());
   of_z_.resize(rows, flow_.equations().states());
@@ -88,8 +101,8 @@ void EnergyAccount::prepare(const Mode& mode) {
 }
 
 // The velocity of each element that damps or rubs, the force of each Maxwell element, the rates of the
-// structure's damping.
-std::vector<EnergyAccount::Form> EnergyAccount::loss_forms() {
+// structure's damping, and what bends.
+std::vector<EnergyAccount::Form> EnergyAccount::loss_forms(const Mode& mode) {
   std::vector<Form> forms;
   losses_.clear();
   for (std::size_t e = 0; e < system_.coefficients.size(); ++e) {
@@ -104,7 +117,7 @@ std::vector<EnergyAccount::Form> EnergyAccount::loss_forms() {
       forms.back().z[2 * flow_.equations().masses() + law.internal] = 1.0;
     }
     if (law.friction != 0.0) {
-      losses_.push_back({e, law.friction, static_cast<Index>(assembly_.shares()[e].contact)});
+      losses_.push_back({e, law.friction, Power::sliding, static_cast<Index>(assembly_.shares()[e].contact)});
       forms.push_back(forms_.velocity(assembly_.incidences()[e]));
     }
   }
@@ -113,7 +126,32 @@ std::vector<EnergyAccount::Form> EnergyAccount::loss_forms() {
     losses_.push_back({system_.coefficients.size(), 1.0});
     forms.push_back(forms_.velocity(mechanics::structural_incidence(system_, rates.row(r))));
   }
+  add_bends(mode, forms);
   return forms;
+}
+
+// Beyond a place of the displacement c u'^2, of the velocity its force times u'. The energy k g^2/2 of a stop
+// that is past its place and pushes no more falls by -k g g', which nothing takes up.
+void EnergyAccount::add_bends(const Mode& mode, std::vector<Form>& forms) {
+  const auto& bends = flow_.equations().bends;
+  for (Index j = 0; j < bends.count(); ++j) {
+    const std::size_t element = assembly_.bends().element[static_cast<std::size_t>(j)];
+    if (contains(mode.beyond & bends.of_velocity, j)) {
+      losses_.push_back({element, 1.0, Power::product});
+      forms.push_back(forms_.bend_force(j));
+    } else if (contains(mode.beyond & bends.jumping, j)) {
+      losses_.push_back({element, bends.damping[j] * flow_.equations().step});
+    } else if (contains(bends.jumping & ~bends.pulling, j)) {
+      losses_.push_back({element, bends.stiffness[j], Power::recoil});
+      forms.push_back(forms_.zero());
+      forms.back().z.head(bends.B.rows()) = bends.B.col(j);
+      forms.back().u = bends.motion.row(j).transpose();
+      forms.back().u[0] -= bends.place[j];
+    } else {
+      continue;
+    }
+    forms.push_back(forms_.bend_velocity(j));
+  }
 }
 
 // Force and velocity of each mass on which an outside force acts, and of each prescribed node.
@@ -148,9 +186,14 @@ void EnergyAccount::integrate(const Mode& mode, const Expansion& step, double le
 
   Index row = 0;
   for (const Loss& loss : losses_) {
-    const auto x = values.row(row++);
-    if (loss.contact >= 0 && contains(mode.stuck, loss.contact)) continue;
-    const double mean = loss.contact >= 0 ? x.cwiseAbs().dot(weight) : x.cwiseAbs2().dot(weight);
+    const auto x = values.row(row), y = values.row(row + (loss.has_two_forms() ? 1 : 0));
+    row += loss.has_two_forms() ? 2 : 1;
+    if (loss.power == Power::sliding && contains(mode.stuck, loss.contact)) continue;
+    double mean = 0.0;
+    if (loss.power == Power::square) mean = x.cwiseAbs2().dot(weight);
+    if (loss.power == Power::sliding) mean = x.cwiseAbs().dot(weight);
+    if (loss.power == Power::product) mean = x.cwiseProduct(y).dot(weight);
+    if (loss.power == Power::recoil) mean = -x.cwiseMax(0.0).cwiseProduct(y).dot(weight);
     energies.dissipated[loss.element] += loss.coefficient * seconds * mean;
   }
   for (; row < values.rows(); row += 2) {

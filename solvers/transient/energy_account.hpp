@@ -10,6 +10,7 @@ namespace frahm::transient {
 
 // The energies of a motion on the exact flow, step after step: what each element dissipates,
 //   integral of c v^2 (damper, hysteretic), of s^2 / c (Maxwell), of F |v| (friction that slides),
+//   of c v^2 or c (v - D) v beyond a place of the displacement or of the velocity (an element that bends),
 // what the damping of the structure does,
 // and the work of the excitation: of the outside forces on the masses, and of what drives each prescribed
 // node. Six-point Gauss-Legendre between the events, as of a periodic orbit (quantities/integrals.hpp).
@@ -26,7 +27,8 @@ class EnergyAccount {
   // Sets masses, element laws and forcing; to be called after the flow has got them.
   void set_system(const mechanics::LinearSystem& system);
 
-  // Kinetic energy of masses and inerters, potential energy of springs, those in Maxwell elements too [J];
+  // Kinetic energy of masses and inerters, potential energy of springs, those in Maxwell elements and beyond
+  // places of the displacement too [J];
   // phase: omega t of the fundamental [rad].
   double energy_of(const State& z, double phase) const;
 
@@ -44,12 +46,20 @@ class EnergyAccount {
  private:
   using Form = periodic::LinearForm<Eigen::Dynamic, Eigen::Dynamic>;
 
-  // coefficient x^2, or coefficient |x| of the friction of a contact, with x the form in the row of its
-  // index.
+  // A power, of the forms x, and y where there is one, in the rows of its index.
+  enum class Power {
+    square,   // coefficient x^2
+    sliding,  // coefficient |x|, while its contact slides
+    product,  // coefficient x y
+    recoil,   // -coefficient max(x, 0) y: a stop past its place that pushes no more gives up what it stored
+  };
   struct Loss {
     std::size_t element = 0;  // the number of elements: of the structure
     double coefficient = 0.0;
-    Eigen::Index contact = -1;  // -1: no friction
+    Power power = Power::square;
+    Eigen::Index contact = -1;
+
+    bool has_two_forms() const { return power == Power::product || power == Power::recoil; }
   };
   struct Energies {
     std::vector<double> dissipated;        // [J] of each element, and of the structure where it damps
@@ -57,7 +67,9 @@ class EnergyAccount {
   };
 
   void prepare(const Mode& mode);
-  std::vector<Form> loss_forms();
+  double energy_of_bends(const State& z, const typename Flow::S::Oscillators& u) const;
+  std::vector<Form> loss_forms(const Mode& mode);
+  void add_bends(const Mode& mode, std::vector<Form>& forms);
   std::vector<Form> drive_forms(const Mode& mode) const;
   void integrate(const Mode& mode, const Expansion& step, double length, Energies& energies) const;
 
@@ -71,7 +83,7 @@ class EnergyAccount {
 
   // The current mode: a row of z and u for each loss, then force and velocity of each drive.
   bool prepared_ = false;
-  periodic::ContactMask stuck_ = 0, positive_ = 0;
+  periodic::ContactMask stuck_ = 0, positive_ = 0, beyond_ = 0;
   std::vector<Loss> losses_;
   Eigen::MatrixXd of_z_, of_u_;
 

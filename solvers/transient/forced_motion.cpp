@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "solvers/algebra/no_value.hpp"
+#include "solvers/exact/response.hpp"
 #include "solvers/mechanics/coordinates.hpp"
 #include "solvers/transient/trajectory.hpp"
 
@@ -45,14 +46,11 @@ class Driven {
   // `phase`.
   void drive(double omega, double alpha, double phase) {
     const mechanics::NetworkValues values = values_at_(omega);
-    const bool rebuild = !started_ || assembly_.matrices_depend_on_frequency() || values.mass != mass_ ||
-                         values.element != element_ || values.second != second_ || values.damping != damping_;
+    const bool rebuild = !started_ || assembly_.matrices_depend_on_frequency() ||
+                         !periodic::have_same_elements(values, built_);
     if (rebuild) {
       assembly_.set_values(values, system_);
-      mass_ = values.mass;
-      element_ = values.element;
-      second_ = values.second;
-      damping_ = values.damping;
+      built_ = values;
     }
     assembly_.set_forcing(values, system_);
     add_angular_acceleration(alpha);
@@ -86,7 +84,7 @@ class Driven {
   const ValuesAt& values_at_;
   const InitialState& initial_;
   mechanics::LinearSystem system_;
-  std::vector<double> mass_, element_, second_, damping_;
+  mechanics::NetworkValues built_;  // of which the system's matrices are
   bool started_ = false;
 };
 

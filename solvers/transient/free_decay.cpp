@@ -180,7 +180,8 @@ FreeDecay free_decay(const mechanics::Network& network, mechanics::NetworkValues
   decay.duration = given ? options.duration : found_duration(decaying, trajectory, ending);
   const double rest = decay.end == DecayEnd::at_rest ? rest_since(trajectory, ending) : kNone;
   decay.stop_time = rest <= decay.duration ? rest : kNone;
-  const bool linear = assembly.contacts() == 0 || decaying.system.limit.isZero(0.0);
+  const bool linear =
+      assembly.bends().count() == 0 && (assembly.contacts() == 0 || decaying.system.limit.isZero(0.0));
   const bool tends_somewhere =
       decay.end == DecayEnd::cut_off ? linear && decaying.all_damped : decay.end != DecayEnd::failed;
   tell_masses(network, trajectory, tends_somewhere, decay);

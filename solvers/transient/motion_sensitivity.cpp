@@ -10,6 +10,8 @@ namespace {
 
 using Eigen::Index;
 
+constexpr const char* kLetsGo = "a contact lets go of its static limit just between two passages";
+
 }  // namespace
 
 MotionSensitivity::MotionSensitivity(std::span<const periodic::Observed> observed, std::vector<double> times,
@@ -121,19 +123,38 @@ void MotionSensitivity::begin(const Step& first) {
 // stick from there on, the impulses of their friction reduce delta to its M-orthogonal projection onto the
 // velocities that keep them stuck, in any order of arrival; the next passage begins with that projection.
 const char* MotionSensitivity::cross_border(const Step& first) {
-  const periodic::Mode<kAny, kAny>& after = flow_.mode(first.mode);
-  if (after.stuck == ending_.mode.stuck && after.positive == ending_.mode.positive) return "";
-  const periodic::ContactMask arrived =
-      periodic::arrived_between(flow_.equations(), ending_.mode, after) & flow_.equations().holding;
-  if (arrived == 0) return "";
+  const auto& eq = flow_.equations();
+  const periodic::Mode<kAny, kAny>&before = ending_.mode, &after = flow_.mode(first.mode);
+  const periodic::ContactMask bent = (after.beyond ^ before.beyond) & eq.bends.jumping;
+  if (after.stuck == before.stuck && after.positive == before.positive && bent == 0) return "";
+  const periodic::ContactMask arrived = periodic::arrived_between(eq, before, after) & eq.holding;
+  if (bent != 0) return arrived == 0 ? cross_bends(bent, first) : periodic::kSeveralChange;
+  if (arrived == 0) return falls_from_limit(before.stuck & ~after.stuck) ? kLetsGo : "";
   if (periodic::count(arrived) > 1) {
-    const bool all_stick = (arrived & ~after.stuck) == 0 && (ending_.mode.stuck & ~after.stuck) == 0;
+    const bool all_stick = (arrived & ~after.stuck) == 0 && (before.stuck & ~after.stuck) == 0;
     return all_stick ? "" : periodic::kSeveralArrive;
   }
   const Index contact = periodic::first(arrived);
   const double slope = ending_.slopes[static_cast<std::size_t>(contact)];
   for (Direction& d : directions_) d.sensitivity.arrive(contact, slope, ending_.at, first.left, d.delta);
   return "";
+}
+
+// A bend that reaches its place just at the end of a passage.
+const char* MotionSensitivity::cross_bends(periodic::ContactMask bent, const Step& first) {
+  if (periodic::count(bent) > 1) return periodic::kSeveralChange;
+  const Index bend = periodic::first(bent);
+  const double slope = periodic::bend_place(flow_, ending_.at, bend).slope;
+  for (Direction& d : directions_)
+    d.sensitivity.bend(bend, periodic::BendGuard::place, slope, ending_.at, first.left, d.delta);
+  return "";
+}
+
+bool MotionSensitivity::falls_from_limit(periodic::ContactMask released) const {
+  for (Index j = 0; j < flow_.equations().contacts(); ++j) {
+    if (periodic::contains(released, j) && periodic::falls_at_release(flow_.equations(), j)) return true;
+  }
+  return false;
 }
 
 void MotionSensitivity::keep_ending(const Step& last) {

@@ -67,6 +67,8 @@ class MotionSensitivity {
   void differentiate();
   void begin(const Step& first);
   const char* cross_border(const Step& first);
+  const char* cross_bends(periodic::ContactMask bent, const Step& first);
+  bool falls_from_limit(periodic::ContactMask released) const;
   void keep_ending(const Step& last);
   void sample(std::size_t step, double end);
 

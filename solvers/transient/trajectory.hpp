@@ -106,7 +106,7 @@ class Trajectory {
   double energy_scale_ = 0.0;  // [sqrt(J)] of the current passage
 
   bool has_mode_ = false;
-  periodic::ContactMask stuck_ = 0, positive_ = 0;
+  periodic::ContactMask stuck_ = 0, positive_ = 0, beyond_ = 0;
   Eigen::MatrixXd free_directions_;  // of the masses, while these contacts stick
   Eigen::VectorXd deceleration_;     // of each sliding contact at the end of the step before [m a step^2]
   bool crept_ = false;

@@ -16,7 +16,8 @@ using periodic::contains, periodic::ContactMask;
 // The contacts that stick from here on, and those that no longer do.
 void Trajectory::note_mode(const periodic::Mode<Eigen::Dynamic, Eigen::Dynamic>& mode, double at,
                            const State& z) {
-  if (has_mode_ && mode.stuck == stuck_ && mode.positive == positive_) return;
+  const bool same_contacts = has_mode_ && mode.stuck == stuck_ && mode.positive == positive_;
+  if (same_contacts && mode.beyond == beyond_) return;
   const auto& eq = flow_.equations();
   const State creeps_to = has_mode_ ? resting_state(z) : z;
   const ContactMask stopped = mode.stuck & ~stuck_, released = stuck_ & ~mode.stuck;
@@ -35,6 +36,7 @@ void Trajectory::note_mode(const periodic::Mode<Eigen::Dynamic, Eigen::Dynamic>&
   const bool same_stuck = has_mode_ && mode.stuck == stuck_;
   stuck_ = mode.stuck;
   positive_ = mode.positive;
+  beyond_ = mode.beyond;
   has_mode_ = true;
   if (same_stuck) return;
   find_free_directions();
@@ -59,6 +61,7 @@ void Trajectory::come_to_rest() {
 
 // With q = q_0 + B y, B the free directions, the forces balance along them:
 //   B^T (K q - f_0 + W phi + D s) = 0,  phi_j = sigma_j F_j of the contacts that slide,
+// K and f_0 with the bends of the displacement that are beyond their places,
 // and of the internal forces s_i = s_0 + k D_i^T (q - q_0) where a slider sticks, 0 where a damper lets go.
 Trajectory::State Trajectory::resting_state(const State& z) const {
   const auto& eq = flow_.equations();
@@ -67,7 +70,9 @@ Trajectory::State Trajectory::resting_state(const State& z) const {
   // If nothing sticks any start is right, and zero is free of rounding.
   const Eigen::VectorXd q =
       stuck_ == 0 ? Eigen::VectorXd(Eigen::VectorXd::Zero(n)) : Eigen::VectorXd(z.head(n));
-  Eigen::VectorXd force = eq.force.col(0) - eq.K * q;
+  const ContactMask bent = beyond_ & ~eq.bends.of_velocity;
+  const Eigen::MatrixXd K_bent = eq.stiffness_beyond(bent);
+  Eigen::VectorXd force = eq.force_beyond(bent).col(0) - K_bent * q;
   for (Index j = 0; j < eq.contacts(); ++j) {
     const bool sticks = contains(stuck_, j);
     if (!sticks) force -= (contains(positive_, j) ? 1.0 : -1.0) * eq.limit[j] * eq.W.col(j);
@@ -78,11 +83,15 @@ Trajectory::State Trajectory::resting_state(const State& z) const {
     stiffness[internal] = eq.internal_stiffness[internal];
     force -= s[internal] * eq.D.col(internal);
   }
-  const Eigen::MatrixXd K = eq.K + eq.D * stiffness.asDiagonal() * eq.D.transpose();
+  const Eigen::MatrixXd K = K_bent + eq.D * stiffness.asDiagonal() * eq.D.transpose();
   const Eigen::MatrixXd& B = free_directions_;
   Eigen::VectorXd moved = Eigen::VectorXd::Zero(n);
-  if (B.cols() > 0)
-    moved = B * algebra::solve_positive(B.transpose() * K * B, Eigen::VectorXd(B.transpose() * force));
+  if (B.cols() > 0) {
+    const Eigen::MatrixXd along = B.transpose() * K * B;  // bends may have made it indefinite
+    const Eigen::VectorXd force_along = B.transpose() * force;
+    moved =
+        B * (bent == 0 ? algebra::solve_positive(along, force_along) : algebra::solve(along, force_along));
+  }
   State rest = State::Zero(eq.states());
   rest.head(n) = q + moved;
   rest.tail(s.size()) = s + stiffness.cwiseProduct(eq.D.transpose() * moved);

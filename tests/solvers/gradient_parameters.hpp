@@ -19,6 +19,7 @@ inline mechanics::NetworkValues zero_direction(const mechanics::NetworkValues& v
   zero.mass.resize(values.mass.size());
   zero.element.resize(values.element.size());
   zero.second.resize(values.second.size());
+  for (const auto& bends : values.bends) zero.bends.emplace_back(bends.size());
   zero.damping.resize(values.damping.size());
   zero.excitation.resize(values.excitation.size());
   return zero;
@@ -37,7 +38,7 @@ NamedParameter named_parameter(std::string name, const mechanics::NetworkValues&
   return {std::move(name), {place(at), direction, values_at}};
 }
 
-// The frequency, and every number that is not zero, of masses, elements and excitations.
+// The frequency, and every number that is not zero, of masses, elements, their bends and excitations.
 inline std::vector<NamedParameter> all_parameters(const mechanics::Network& network,
                                                   const mechanics::NetworkValues& values) {
   using mechanics::NetworkValues;
@@ -54,6 +55,14 @@ inline std::vector<NamedParameter> all_parameters(const mechanics::Network& netw
     add(network.elements[e].name, [e](NetworkValues& v) -> double& { return v.element[e]; });
     if (e >= values.second.size()) continue;
     add(network.elements[e].name + " second", [e](NetworkValues& v) -> double& { return v.second[e]; });
+  }
+  for (std::size_t e = 0; e < values.bends.size(); ++e) {
+    for (std::size_t i = 0; i < values.bends[e].size(); ++i) {
+      const std::string name = network.elements[e].name + " bend " + std::to_string(i);
+      add(name + " place", [e, i](NetworkValues& v) -> double& { return v.bends[e][i].place; });
+      add(name + " stiffness", [e, i](NetworkValues& v) -> double& { return v.bends[e][i].stiffness; });
+      add(name + " damping", [e, i](NetworkValues& v) -> double& { return v.bends[e][i].damping; });
+    }
   }
   for (std::size_t i = 0; i < values.damping.size(); ++i) {
     add("damping " + std::to_string(i), [i](NetworkValues& v) -> double& { return v.damping[i]; });

@@ -18,6 +18,15 @@ void add(const mechanics::NetworkValues& values, double factor, mechanics::Netwo
   add_list(values.element, sum.element);
   add_list(values.second, sum.second);
   add_list(values.damping, sum.damping);
+  if (sum.bends.size() < values.bends.size()) sum.bends.resize(values.bends.size());
+  for (std::size_t e = 0; e < values.bends.size(); ++e) {
+    if (sum.bends[e].size() < values.bends[e].size()) sum.bends[e].resize(values.bends[e].size());
+    for (std::size_t i = 0; i < values.bends[e].size(); ++i) {
+      sum.bends[e][i].place += factor * values.bends[e][i].place;
+      sum.bends[e][i].stiffness += factor * values.bends[e][i].stiffness;
+      sum.bends[e][i].damping += factor * values.bends[e][i].damping;
+    }
+  }
   for (std::size_t i = 0; i < values.excitation.size(); ++i) {
     sum.excitation[i].amplitude += factor * values.excitation[i].amplitude;
     sum.excitation[i].phase += factor * values.excitation[i].phase;
@@ -69,7 +78,8 @@ TunedResponse::State TunedResponse::solve_at(std::span<const double> x, double b
   is_symmetric_ = summary.half_period;
   reason_ = summary.reason;
   if (summary.status == periodic::Status::unbounded) return State::unbounded;
-  if (summary.status == periodic::Status::failed) return State::failed;
+  if (summary.status == periodic::Status::failed || summary.status == periodic::Status::not_periodic)
+    return State::failed;
   response_.quantities(value_);
   if (derivatives != Derivatives::none) {
     ++effort_.gradients;

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "solvers/identification/simulation.hpp"
+#include "solvers/laws/damper_bend.hpp"
+#include "solvers/laws/elastic_stop.hpp"
 #include "tests/known_answers/random_network.hpp"
 #include "tests/solvers/gradient_parameters.hpp"
 
@@ -294,6 +296,46 @@ TEST_CASE("Derivatives of 120 random motions are those of differences, through e
   CHECK(tally.undecided < tally.compared / 1000);
 }
 
+// Damped stops on both sides of the first mass, a damper with a table, and friction that sticks harder than
+// it slides.
+void bend(Case& of) {
+  Network& network = of.network;
+  NetworkValues& values = of.model.values;
+  const mechanics::Node ground{}, first{mechanics::NodeKind::mass, 0};
+  network.elements.emplace_back("stops", ElementType::gap, ground, first);
+  network.elements.back().bends = {{+1.0, &laws::elastic_stop}, {-1.0, &laws::elastic_stop}};
+  network.elements.emplace_back("valve", ElementType::damper, ground, first);
+  network.elements.back().bends = {{+1.0, &laws::damper_bend}};
+  values.element.insert(values.element.end(), {5.0, 0.02});
+  values.second.resize(values.element.size());
+  values.bends.assign(values.element.size(), {});
+  values.bends[values.bends.size() - 2] = {{0.3, 5.0, 0.2}, {0.4, 3.0, 0.0}};
+  values.bends.back() = {{0.2, 0.0, 0.1}};
+  for (std::size_t e = 0; e < network.elements.size(); ++e) {
+    if (network.elements[e].type != ElementType::coulomb) continue;
+    network.elements[e].has_static_force = true;
+    values.second[e] = 1.4 * values.element[e];
+  }
+}
+
+TEST_CASE("So are those of motions against stops, with a damper's table and a static limit") {
+  std::mt19937 random(20261123);
+  Tally tally;
+  for (int number = 0; number < 24; ++number) {
+    INFO("case " << number);
+    Case of = random_case(number, random);
+    bend(of);
+    compare(of, tally);
+  }
+  INFO(tally.compared << " compared, worst " << tally.worst << ", " << tally.at_event << " at events, "
+                      << tally.undecided << " undecided, " << tally.without_derivative << " without");
+  CHECK(tally.compared > 10000);
+  CHECK(tally.stops > 10);
+  CHECK(tally.without_derivative == 0);
+  CHECK(tally.at_event < tally.compared / 200);
+  CHECK(tally.undecided < tally.compared / 100);
+}
+
 TEST_CASE("Derivatives of steady responses at any time are those of differences, by the frequency too") {
   std::mt19937 random(20261125);
   Tally tally;
@@ -308,6 +350,33 @@ TEST_CASE("Derivatives of steady responses at any time are those of differences,
   CHECK(tally.without_derivative <= 2);
   CHECK(tally.at_event < tally.compared / 1000);
   CHECK(tally.undecided < tally.compared / 100);
+}
+
+TEST_CASE("So are those of a response of two periods against a damped stop") {
+  const mechanics::Node ground{}, first{mechanics::NodeKind::mass, 0};
+  Case of;
+  of.network.masses = {"mass"};
+  of.network.elements = {{"spring", ElementType::spring, ground, first},
+                         {"damper", ElementType::damper, ground, first},
+                         {"stop", ElementType::gap, ground, first}};
+  of.network.elements[2].bends = {{+1.0, &laws::elastic_stop}};
+  of.network.excitations = {{mechanics::ExcitationKind::force, 0, 1},
+                            {mechanics::ExcitationKind::force, 0, 0}};
+  of.model.values = {.omega = 2.6,
+                     .mass = {1.0},
+                     .element = {1.0, 0.06, 3.0},
+                     .excitation = {{1.0, 0.0}, {0.3, 0.0}},
+                     .second = {0.0, 0.0, 0.1},
+                     .bends = {{}, {}, {{0.2, 3.0, 0.1}}}};
+  of.record.motion = MotionKind::periodic;
+  for (int k = 0; k < 40; ++k) of.record.time.push_back(0.2 * k);
+  of.record.channels = all_channels(of.network);
+  Tally tally;
+  compare(of, tally);
+  INFO(tally.compared << " compared, worst " << tally.worst << ", " << tally.undecided << " undecided");
+  CHECK(tally.without_derivative == 0);
+  CHECK(tally.compared > 1000);
+  CHECK(tally.undecided < tally.compared / 50);
 }
 
 }  // namespace
