@@ -46,12 +46,14 @@ class Driven {
   void drive(double omega, double alpha, double phase) {
     const mechanics::NetworkValues values = values_at_(omega);
     const bool rebuild = !started_ || assembly_.matrices_depend_on_frequency() || values.mass != mass_ ||
-                         values.element != element_ || values.second != second_ || values.damping != damping_;
+                         values.element != element_ || values.second != second_ || values.bends != bends_ ||
+                         values.damping != damping_;
     if (rebuild) {
       assembly_.set_values(values, system_);
       mass_ = values.mass;
       element_ = values.element;
       second_ = values.second;
+      bends_ = values.bends;
       damping_ = values.damping;
     }
     assembly_.set_forcing(values, system_);
@@ -87,6 +89,7 @@ class Driven {
   const InitialState& initial_;
   mechanics::LinearSystem system_;
   std::vector<double> mass_, element_, second_, damping_;
+  std::vector<std::vector<mechanics::BendValue>> bends_;
   bool started_ = false;
 };
 

@@ -18,6 +18,13 @@ void add(const mechanics::NetworkValues& values, double factor, mechanics::Netwo
   add_list(values.element, sum.element);
   add_list(values.second, sum.second);
   add_list(values.damping, sum.damping);
+  for (std::size_t e = 0; e < values.bends.size(); ++e) {
+    for (std::size_t i = 0; i < values.bends[e].size(); ++i) {
+      sum.bends[e][i].place += factor * values.bends[e][i].place;
+      sum.bends[e][i].stiffness += factor * values.bends[e][i].stiffness;
+      sum.bends[e][i].damping += factor * values.bends[e][i].damping;
+    }
+  }
   for (std::size_t i = 0; i < values.excitation.size(); ++i) {
     sum.excitation[i].amplitude += factor * values.excitation[i].amplitude;
     sum.excitation[i].phase += factor * values.excitation[i].phase;
