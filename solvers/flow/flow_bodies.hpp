@@ -114,6 +114,7 @@ void Flow<N, H>::scale_matrices(const mechanics::LinearSystem& system) {
 template <int N, int H>
 void Flow<N, H>::set_forcing(const mechanics::LinearSystem& system) {
   StepEquations<N, H>& eq = equations_;
+  orders_ = system.orders;  // those over a multiple of the period are others
   const double h = step_length(fastest_rate_, system.omega, orders_.empty() ? 1 : orders_.back());
   if (matrices_changed_ || h != eq.step) {
     eq.step = h;
