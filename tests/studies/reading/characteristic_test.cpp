@@ -121,7 +121,8 @@ TEST_CASE("a gap has a stop at each clearance that is not infinite") {
   CHECK(bends[0].side == -1.0);
   CHECK(bends[1].side == 1.0);
   CHECK(bends[0].law == &laws::elastic_stop);
-  for (const auto& bend : values_at(both, 0.7).bends[1]) CHECK(bend == mechanics::BendValue{1.4, 3.0, 0.1});
+  const auto values = values_at(both, 0.7);
+  for (const auto& bend : values.bends[1]) CHECK(bend == mechanics::BendValue{1.4, 3.0, 0.1});
 
   const Study below = study_of(element("gap", "clearance = [\"D\", inf]\nstiffness = 2\ntension = true\n"));
   REQUIRE(below.network.elements[1].bends.size() == 1);
