@@ -25,7 +25,7 @@ template <int N, int H>
 class OrbitSearch {
  public:
   // Both must outlive the search.
-  OrbitSearch(const mechanics::Assembly& assembly, Flow<N, H>& flow)
+  OrbitSearch(const mechanics::Assembly& assembly, Flow<N, H>& flow, const OrbitsWanted& wanted = {})
       : forms_(assembly, flow),
         flow_(flow),
         continuation_(flow),
@@ -33,7 +33,7 @@ class OrbitSearch {
         steps_(flow),
         coexistence_(
             flow, [this](Orbit<N, H>& orbit) { settle_rest_position(orbit); },
-            [this](const Orbit<N, H>& orbit) { return first_peak(orbit); }) {}
+            [this](const Orbit<N, H>& orbit) { return first_peak(orbit); }, wanted) {}
 
   void forget() {
     continuation_.forget();

@@ -18,9 +18,10 @@ namespace frahm::periodic {
 template <int N, int H>
 class SizedSolver final : public ResponseSolver {
  public:
-  SizedSolver(const mechanics::Network& network, const std::vector<Quantity>& quantities, Path path)
+  SizedSolver(const mechanics::Network& network, const std::vector<Quantity>& quantities, Path path,
+              const OrbitsWanted& wanted)
       : assembly_(network),
-        search_(assembly_, flow_),
+        search_(assembly_, flow_, wanted),
         observables_(assembly_, flow_, quantities),
         gradient_(assembly_, flow_, quantities) {
     if (path == Path::fastest && nonstop::NonstopSolver::serves(assembly_))

@@ -1,7 +1,12 @@
 #include "solvers/mechanics/element_table.hpp"
 
+#include <algorithm>
+
 #include "solvers/laws/coulomb.hpp"
+#include "solvers/laws/damper_bend.hpp"
+#include "solvers/laws/elastic_stop.hpp"
 #include "solvers/laws/jenkins.hpp"
+#include "solvers/laws/spring_bend.hpp"
 
 namespace frahm::mechanics {
 namespace {
@@ -13,13 +18,15 @@ constexpr ElementKind kKinds[] = {
      .value = {"stiffness", Dimension::stiffness, Range::finite},
      .adds = [](auto k, auto, auto) { return Added<decltype(k)>{.stiffness = k}; },
      .holds = true,
-     .stroke_is_standard = true},
+     .stroke_is_standard = true,
+     .table = &laws::spring_bend},
     // c v
     {.type = ElementType::damper,
      .name = "damper",
      .value = {"damping", Dimension::damping, Range::not_negative},
      .adds = [](auto c, auto, auto) { return Added<decltype(c)>{.damping = c}; },
-     .dissipates = true},
+     .dissipates = true,
+     .table = &laws::damper_bend},
     // b v'
     {.type = ElementType::inerter,
      .name = "inerter",
@@ -73,7 +80,9 @@ constexpr ElementKind kKinds[] = {
      .adds = [](auto k, auto, auto) { return Added<decltype(k)>{}; },
      .dissipates = true,
      .stroke_is_standard = true,
-     .second_is_optional = true},
+     .second_is_optional = true,
+     .stop = &laws::elastic_stop,
+     .pulling_stop = &laws::spring_bend},
 };
 
 constexpr bool rows_stand_as_enumerators_do() {
@@ -117,8 +126,12 @@ const Element* frequency_dependent_element(const Network& network) {
 }
 
 const Element* element_unfit_for_noise(const Network& network) {
-  return first_element(
-      network, [](const ElementKind& kind) { return kind.law != nullptr || kind.depends_on_frequency; });
+  const auto is_unfit = [](const Element& element) {
+    const ElementKind& kind = kind_of(element);
+    return kind.law != nullptr || kind.depends_on_frequency || !element.bends.empty();
+  };
+  const auto found = std::ranges::find_if(network.elements, is_unfit);
+  return found == network.elements.end() ? nullptr : &*found;
 }
 
 double second_value(const NetworkValues& values, std::size_t element) {

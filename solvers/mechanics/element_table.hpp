@@ -3,6 +3,7 @@
 #include <span>
 #include <type_traits>
 
+#include "solvers/laws/bend.hpp"
 #include "solvers/laws/law.hpp"
 #include "solvers/mechanics/dual.hpp"
 #include "solvers/mechanics/network.hpp"
@@ -83,6 +84,9 @@ struct ElementKind {
   ValueKey smoothed{};
   bool stroke_is_standard = false;  // its stroke is among what an atlas shows
   bool second_is_optional = false;  // 0 where it is left out
+  // How it bends: at the points of a table that it may have in place of its value; at its stops, which only
+  // push, or pull as well. None: it does not.
+  const laws::Bend *table = nullptr, *stop = nullptr, *pulling_stop = nullptr;
 
   constexpr bool can_be_smoothed() const { return smoothed.exists(); }
   // It feels the acceleration across it and nothing else.

@@ -9,6 +9,7 @@
 #include "solvers/algebra/no_value.hpp"
 #include "solvers/mechanics/steady_response.hpp"
 #include "solvers/orbits/certificate.hpp"
+#include "solvers/orbits/orbits_wanted.hpp"
 #include "solvers/orbits/reasons.hpp"
 #include "solvers/orbits/shooting.hpp"
 
@@ -16,14 +17,6 @@
 // forcing's period, and none may be periodic at all. The search follows motions from many starts until they
 // come near an orbit, which Newton's method then finds. It may miss one.
 namespace frahm::periodic {
-
-// What is searched, and which orbit is told.
-struct OrbitsWanted {
-  enum class Show { largest, smallest };  // peak of the first mass
-  int starts = 8;                         // beside the orbits of the point before
-  int most_multiple = 4;                  // of the forcing's period
-  Show show = Show::largest;
-};
 
 // The same motion with m periods taken for one: m times the orders at a frequency m times lower.
 inline mechanics::LinearSystem over_multiple(const mechanics::LinearSystem& system, int multiple) {

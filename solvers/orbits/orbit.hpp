@@ -19,6 +19,11 @@ enum class Status {
   not_periodic = 6,  // the same: no stable orbit was found among the multiples of the period that were tried
 };
 
+// Whether there is a response, which is right.
+inline bool has_response(Status status) {
+  return status == Status::ok || status == Status::grazing || status == Status::several;
+}
+
 // Below this relative margin of its nearest event an orbit counts as grazing.
 inline constexpr double kGrazing = 1e-9;
 
@@ -46,9 +51,7 @@ struct Orbit {
   int coexisting = 1;  // stable orbits that were found
 
   double sign() const { return half_period ? -1.0 : 1.0; }
-  bool is_found() const {
-    return status == Status::ok || status == Status::grazing || status == Status::several;
-  }
+  bool is_found() const { return has_response(status); }
   // Stable, as a linear motion beside it shows. The multipliers +1 of contacts that rest do not count.
   bool is_stable() const { return floquet_radius < 1.0; }
 };

@@ -31,7 +31,8 @@ bool needs_reference_component(Measure measure) {
 
 // Whether the quantity is a count, -1 where there is none.
 bool is_count(Measure measure) {
-  return measure == Measure::stops || measure == Measure::reversals || measure == Measure::events;
+  return measure == Measure::stops || measure == Measure::reversals || measure == Measure::events ||
+         measure == Measure::period_multiple;
 }
 
 // If g does not divide the reference order, any order of the excitation serves as reference order: no
@@ -60,12 +61,17 @@ class DividedOrders final : public ResponseSolver {
   void set_forcing(const NetworkValues& values) override { solver_->set_forcing(quickened(values)); }
   void forget() override { solver_->forget(); }
   void begin_row() override { solver_->begin_row(); }
-  const ResponseSummary& solve() override { return solver_->solve(); }
+  const ResponseSummary& solve() override {
+    summary_ = solver_->solve();
+    multiple_ = summary_.multiple;
+    summary_.multiple = whole_periods(multiple_);
+    return summary_;
+  }
 
   void quantities(std::span<double> out) override {
     solver_->quantities(out);
     for (std::size_t i = 0; i < quantities_.size(); ++i)
-      out[i] = of_whole_period(quantities_[i].measure, out[i]);
+      out[i] = of_whole_period(quantities_[i].measure, out[i], multiple_);
   }
 
   void solve_row(std::span<const NetworkValues> points, std::span<ResponseSummary> found,
@@ -73,8 +79,11 @@ class DividedOrders final : public ResponseSolver {
     row_.assign(points.begin(), points.end());
     for (NetworkValues& values : row_) quicken(values);
     solver_->solve_row(row_, found, out);
-    for (std::size_t i = 0; i < out.size(); ++i)
-      out[i] = of_whole_period(quantities_[i % quantities_.size()].measure, out[i]);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const int multiple = found[i / quantities_.size()].multiple;
+      out[i] = of_whole_period(quantities_[i % quantities_.size()].measure, out[i], multiple);
+    }
+    for (ResponseSummary& summary : found) summary.multiple = whole_periods(summary.multiple);
   }
 
   const char* gradient(std::span<const NetworkValues> directions, std::span<double> out) override {
@@ -82,7 +91,7 @@ class DividedOrders final : public ResponseSolver {
     is_differentiable_ = *reason == '\0';
     if (!is_differentiable_) return reason;
     for (std::size_t i = 0; i < directions.size() * quantities_.size(); ++i)
-      out[i] = derivative_of_whole_period(quantities_[i % quantities_.size()].measure, out[i]);
+      out[i] = derivative_of_whole_period(quantities_[i % quantities_.size()].measure, out[i], divisor_);
     return reason;
   }
 
@@ -139,20 +148,28 @@ class DividedOrders final : public ResponseSolver {
     return directions_;
   }
 
-  double of_whole_period(Measure measure, double value) const {
+  // A response that takes m of the g-th parts of the period takes m/gcd(m, g) whole periods, in which it
+  // repeats g/gcd(m, g) times.
+  int whole_periods(int multiple) const { return multiple / std::gcd(multiple, divisor_); }
+
+  // multiple: of the g-th part of the period, that the response takes.
+  double of_whole_period(Measure measure, double value, int multiple) const {
+    const int times = divisor_ / std::gcd(multiple, divisor_);
     if (!has_reference_ && needs_reference_component(measure)) return kNone;
     if (!has_reference_ && measure == Measure::harmonic) return std::isnan(value) ? kNone : 0.0;
-    if (measure == Measure::floquet_radius) return std::pow(value, divisor_);
+    if (measure == Measure::floquet_radius) return std::pow(value, times);
     const bool is_missing_count = value < 0.0 && is_count(measure);
-    return is_missing_count ? value : derivative_of_whole_period(measure, value);
+    if (is_missing_count) return value;
+    if (measure == Measure::period_multiple) return whole_periods(multiple);
+    return derivative_of_whole_period(measure, value, times);
   }
 
   // A quantity of the whole period is a multiple of what was found, and so is its derivative.
-  double derivative_of_whole_period(Measure measure, double value) const {
+  double derivative_of_whole_period(Measure measure, double value, int times) const {
     if (!has_reference_ && needs_reference_component(measure)) return kNone;
     if (!has_reference_ && measure == Measure::harmonic) return 0.0;
     if (measure == Measure::peak_phase) return value / divisor_;
-    return is_of_a_period(measure) ? value * divisor_ : value;
+    return is_of_a_period(measure) ? value * times : value;
   }
 
   int divisor_, reference_order_;
@@ -162,6 +179,8 @@ class DividedOrders final : public ResponseSolver {
   NetworkValues values_;                    // as it was given them
   std::vector<NetworkValues> row_;          // the same
   std::vector<NetworkValues> directions_;
+  ResponseSummary summary_;
+  int multiple_ = 1;  // of the response last solved
   bool follows_frequency_ = true, is_differentiable_ = false;
 };
 

@@ -9,25 +9,27 @@ namespace {
 
 // A solver of the network's law.
 std::unique_ptr<ResponseSolver> make_solver(const mechanics::Network& network,
-                                            std::vector<Quantity> quantities, Path path) {
+                                            std::vector<Quantity> quantities, Path path,
+                                            const OrbitsWanted& wanted) {
   if (smooth::is_smooth(network)) return smooth::make_solver(network, std::move(quantities));
-  return make_exact_solver(network, std::move(quantities), path);
+  return make_exact_solver(network, std::move(quantities), path, wanted);
 }
 
 std::unique_ptr<ResponseSolver> make_divided_solver(const mechanics::Network& network,
-                                                    std::vector<Quantity> quantities, Path path) {
+                                                    std::vector<Quantity> quantities, Path path,
+                                                    const OrbitsWanted& wanted) {
   return divide_orders(network, std::move(quantities),
-                       [path](const mechanics::Network& divided, std::vector<Quantity> asked) {
-                         return make_solver(divided, std::move(asked), path);
+                       [path, wanted](const mechanics::Network& divided, std::vector<Quantity> asked) {
+                         return make_solver(divided, std::move(asked), path, wanted);
                        });
 }
 
 }  // namespace
 
 PeriodicResponse::PeriodicResponse(const mechanics::Network& network, std::vector<Quantity> quantities,
-                                   Path path)
-    : solver_(common_divisor(network) > 1 ? make_divided_solver(network, std::move(quantities), path)
-                                          : make_solver(network, std::move(quantities), path)) {}
+                                   Path path, const OrbitsWanted& wanted)
+    : solver_(common_divisor(network) > 1 ? make_divided_solver(network, std::move(quantities), path, wanted)
+                                          : make_solver(network, std::move(quantities), path, wanted)) {}
 PeriodicResponse::~PeriodicResponse() = default;
 PeriodicResponse::PeriodicResponse(PeriodicResponse&&) noexcept = default;
 PeriodicResponse& PeriodicResponse::operator=(PeriodicResponse&&) noexcept = default;

@@ -6,6 +6,7 @@
 
 #include "solvers/exact/response.hpp"
 #include "solvers/mechanics/network.hpp"
+#include "solvers/orbits/orbits_wanted.hpp"
 #include "solvers/quantities/quantity.hpp"
 
 namespace frahm::periodic {
@@ -22,9 +23,10 @@ namespace frahm::periodic {
 //   response.set_forcing(values);  response.solve();  response.quantities(out);  // next: from known orbits
 class PeriodicResponse {
  public:
+  // wanted: of a system that may have several responses.
   // Throws mechanics::MechanicsError for a network that cannot move, or that mixes friction laws.
   PeriodicResponse(const mechanics::Network& network, std::vector<Quantity> quantities,
-                   Path path = Path::fastest);
+                   Path path = Path::fastest, const OrbitsWanted& wanted = {});
   ~PeriodicResponse();
   PeriodicResponse(PeriodicResponse&&) noexcept;
   PeriodicResponse& operator=(PeriodicResponse&&) noexcept;

@@ -175,7 +175,8 @@ bool KnownPoints::is_answer(std::span<const double> values, std::uint64_t points
   const auto value = [&](std::size_t variable) { return values[variable * points_of_tile + in_tile]; };
   for (const std::size_t status : statuses_) {
     if (value(status) == static_cast<double>(periodic::Status::not_computed) ||
-        value(status) == static_cast<double>(periodic::Status::failed))
+        value(status) == static_cast<double>(periodic::Status::failed) ||
+        value(status) == static_cast<double>(periodic::Status::not_periodic))
       return false;
   }
   if (own_status_ &&

@@ -75,14 +75,14 @@ KeptOrbit keep_orbit(const MapPlan& plan, const std::vector<Assignment>& point) 
   for (const Assignment& assignment : point) orbit.parameters[assignment.parameter] = assignment.value;
   mechanics::NetworkValues values;
   evaluate(study.values, study.parameters, orbit.parameters, values);
-  periodic::PeriodicResponse response(study.network, plan.quantities);
+  periodic::PeriodicResponse response(study.network, plan.quantities, periodic::Path::fastest,
+                                      study.orbits_wanted());
   try {
     response.set_values(values);
   } catch (const mechanics::MechanicsError&) {
     return orbit;  // the point fails as it would in the map
   }
-  const periodic::Status status = response.solve().status;
-  if (status == periodic::Status::ok || status == periodic::Status::grazing) {
+  if (periodic::has_response(response.solve().status)) {
     orbit.history = response.history(periodic::phases_of_a_period(samples_in_period));
     orbit.sliding = sliding_motions(study.network, values, orbit.history);
   }

@@ -29,7 +29,7 @@ RowSolver::RowSolver(const Study& study, const mechanics::Network& network, Stud
     : parameters_(study.parameters),
       values_(std::move(values)),
       missing_(values_of_failure(quantities)),
-      response_(network, std::move(quantities), path_of(study)) {}
+      response_(network, std::move(quantities), path_of(study), study.orbits_wanted()) {}
 
 void RowSolver::add_point(std::span<double> parameters) {
   if (points_ == numbers_.size()) numbers_.emplace_back();

@@ -99,10 +99,10 @@ std::vector<MeasuredColumn> motion_columns(Study study, const std::vector<double
 
 std::vector<MeasuredColumn> periodic_columns(const Study& study, const mechanics::NetworkValues& values,
                                              const std::vector<double>& times) {
-  periodic::PeriodicResponse response(study.network, {});
+  periodic::PeriodicResponse response(study.network, {}, periodic::Path::fastest, study.orbits_wanted());
   response.set_values(values);
   const periodic::ResponseSummary& summary = response.solve();
-  if (summary.status != periodic::Status::ok && summary.status != periodic::Status::grazing)
+  if (!periodic::has_response(summary.status))
     throw StudyError(rules::not_computed, "{}: there is no periodic response: {}", study.source.name,
                      summary.reason);
   std::vector<double> phases;

@@ -15,9 +15,9 @@ A study file describes a system and the axes of a map. From there:
   frahm report study.h5                       its page: maps, curves and numbers to look at
 Every command has its own help: frahm run --help
 
-Exit codes: 0 done, 1 internal error, 2 wrong usage or study, 3 some points failed, 4 stopped (run again to
-resume), 5 refused to mix results of different studies, 6 input or output failed, 7 a tuning or fit did not
-converge, 8 self-check failed)";
+Exit codes: 0 done, 1 internal error, 2 wrong usage or study, 3 some points failed or have no periodic
+response, 4 stopped (run again to resume), 5 refused to mix results of different studies, 6 input or output
+failed, 7 a tuning or fit did not converge, 8 self-check failed)";
 
 inline constexpr const char* run_examples = R"(
 Examples:

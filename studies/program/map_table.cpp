@@ -30,21 +30,25 @@ void print_effort(const Effort& effort, std::ostream& out) {
   fmt::print(out, "\n");
 }
 
-std::uint64_t failed_points(const std::vector<FlagCounts>& flags) {
+// "3 points failed", "5 points have no periodic response that was found", or both; "some points failed" where
+// the map has no status.
+std::string failures_text(const std::vector<FlagCounts>& flags) {
   const auto status = std::ranges::find(flags, "status", &FlagCounts::variable);
-  return status == flags.end() ? 0 : status->of("failed");
+  const std::uint64_t failed = status == flags.end() ? 0 : status->of("failed");
+  const std::uint64_t not_periodic = status == flags.end() ? 0 : status->of("not_periodic");
+  std::string text = failed > 0 ? fmt::format("{} points failed", failed) : "";
+  if (not_periodic > 0)
+    text += fmt::format("{}{} points have no periodic response that was found", failed > 0 ? ", " : "",
+                        not_periodic);
+  return text.empty() ? "some points failed" : text;
 }
 
 // The lines are those of provenance(): "<point as --at takes it>: <reason>".
 void print_failures(const MapPlan& plan, const std::filesystem::path& study, const std::string& lines,
-                    std::uint64_t failed) {
+                    const std::string& failures) {
   std::istringstream rows(lines);
   std::string line;
-  if (failed > 0) {
-    fmt::print(std::cerr, "{} points failed; the first of them:\n", failed);
-  } else {
-    fmt::print(std::cerr, "some points failed; the first of them:\n");
-  }
+  fmt::print(std::cerr, "{}; the first of them:\n", failures);
   for (int i = 0; i < most_failures_shown && std::getline(rows, line); ++i) {
     const std::size_t colon = line.find(": ");
     fmt::print(std::cerr, "  {}\n    frahm point {} --at \"{}\"", line, study.string(),
@@ -79,7 +83,7 @@ int print_map_table(const MapPlan& plan, const std::filesystem::path& study,
 
   const std::string lines = provenance_text(map, "failed_points");
   if (lines.empty()) return exit_code::done;
-  print_failures(plan, study, lines, failed_points(flags));
+  print_failures(plan, study, lines, failures_text(flags));
   return exit_code::some_failed;
 }
 

@@ -54,7 +54,7 @@ int point_command(const PointOptions& options, std::ostream& out) {
                                         options.history ? intervals_a_period + 1 : 0, options.gradient);
   options.json ? print_point_json(study, report, out)
                : print_point(study, report, options.all ? Listing::whole : Listing::excerpt, out);
-  if (report.status == "failed") return exit_code::some_failed;
+  if (report.status == "failed" || report.status == "not_periodic") return exit_code::some_failed;
   if (options.history && !report.history) {
     throw StudyError(rules::not_computed, "--history {}: the point is {} and has no time history: {}",
                      options.history->string(), report.status, report.reason);

@@ -35,7 +35,7 @@ std::vector<std::string> friction_elements(const mechanics::Network& network) {
 periodic::PeriodicResponse response_of(const Study& study, const std::vector<periodic::Quantity>& quantities,
                                        periodic::Path path) {
   try {
-    return {study.network, quantities, path};
+    return {study.network, quantities, path, study.orbits_wanted()};
   } catch (const mechanics::MechanicsError& error) {
     throw StudyError(rules::not_computed, "{}", study.source.name + ": " + error.what());
   }
@@ -74,7 +74,7 @@ void add_motion(periodic::PeriodicResponse& response, const mechanics::NetworkVa
                 std::size_t history_samples, PointReport& report) {
   response.forget();
   response.set_values(values);
-  if (response.solve().status == periodic::Status::failed) return;
+  if (!periodic::has_response(response.solve().status)) return;
   report.stretches = response.stretches();
   if (history_samples > 0) report.history = response.history(periodic::phases_of_a_period(history_samples));
 }
@@ -128,7 +128,7 @@ PointReport tell_point(const Study& study, std::vector<double> parameters, perio
   }
   report.modes = modes_at_point(study, values);
   add_comparison(study, parameters, quantities, report);
-  if (report.status == "ok" || report.status == "grazing")
+  if (report.status == "ok" || report.status == "grazing" || report.status == "several")
     add_motion(response, values, history_samples, report);
   if (gradient) report.gradient = gradient_at(study, parameters);
   return report;

@@ -26,7 +26,7 @@ struct PointReport {
   };
 
   std::vector<Parameter> parameters;  // the numbers of the study
-  std::string status;                 // meaning of the flag: "ok", "grazing", "unbounded", "failed"
+  std::string status;                 // meaning of the flag: "ok", "grazing", "several", "failed" ...
   std::string reason;                 // why there is no response; else empty
   double residual = 0.0;              // 1
   int newton_iterations = 0;

@@ -23,8 +23,12 @@ void read_compared_law(NetworkReading& reading, const TomlSection& section, cons
   const bool arctan = section.choice_or("law", {"exact", "arctan"}) == "arctan";
   comparison.law = arctan ? FrictionLaw::arctan : FrictionLaw::exact;
   if (arctan) {
+    refuse_bends(study, "the compared law \"arctan\" does not stand beside it");
     for (const mechanics::Element& each : elements) {
       const mechanics::ElementKind& kind = mechanics::kind_of(each);
+      if (each.has_static_force)
+        section.fail(rules::wrong_law, "law",
+                     "element \"{}\" has a static_force, which the arctan law knows not", each.name);
       if (kind.law == nullptr || kind.can_be_smoothed()) continue;
       section.fail(rules::wrong_law, "law", "element \"{}\" is a {}, which has no arctan law", each.name,
                    kind.name);

@@ -30,7 +30,10 @@ class Union {
 };
 
 // Whether the element holds masses in position; not with a stiffness of 0.
-bool holds(const mechanics::Element& element, const StudyValue& stiffness) {
+bool holds(const mechanics::Element& element, const StudyValues& values, std::size_t index) {
+  if (values.characteristic[index].kind == StudyCharacteristic::Kind::table)
+    return mechanics::kind_of(element).holds;
+  const StudyValue& stiffness = values.element[index];
   const bool absent =
       stiffness.expression.is_constant() && stiffness.expression.evaluate(std::span<const double>{}) == 0.0;
   return mechanics::kind_of(element).holds && !absent;
@@ -60,7 +63,7 @@ void check_masses_are_held(const StudyContext& context, const NetworkOfStudy& sy
   Union sets(held + 1);
   for (std::size_t i = 0; i < network.elements.size(); ++i) {
     const auto& element = network.elements[i];
-    if (!holds(element, system.values.element[i])) continue;
+    if (!holds(element, system.values, i)) continue;
     for (const auto& [node, factor] : element.along) sets.join(set_of(node), set_of(element.along[0].node));
     // What a lever holds depends on its factors: check_combinations_are_held().
     if (!mechanics::is_between_two_nodes(element.along)) sets.join(held, set_of(element.along[0].node));
@@ -89,7 +92,7 @@ void check_combinations_are_held(const Study& study) {
   const mechanics::Network& network = study.network;
   std::vector<Eigen::VectorXd> springs;
   for (std::size_t e = 0; e < network.elements.size(); ++e) {
-    if (holds(network.elements[e], study.values.element[e]))
+    if (holds(network.elements[e], study.values, e))
       springs.push_back(mechanics::incidence(network, network.elements[e]).w);
   }
   add_rows_of_matrices(network, springs);

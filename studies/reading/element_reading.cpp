@@ -48,6 +48,7 @@ std::vector<std::string> keys_of_kinds() {
   for (const ElementKind& kind : mechanics::element_kinds()) add(kind.second.key);
   add("law");
   for (const ElementKind& kind : mechanics::element_kinds()) add(kind.smoothed.key);
+  for (const char* key : {"table", "clearance", "tension"}) add(key);
   return keys;
 }
 
@@ -65,7 +66,11 @@ const ElementKind& read_kind(const TomlSection& section) {
 void check_keys_of_kind(const TomlSection& section, const ElementKind& kind) {
   for (const std::string& key : keys_of_kinds()) {
     const bool of_law = kind.can_be_smoothed() && (key == "law" || key == kind.smoothed.key);
-    if (of_law || key == kind.value.key || key == kind.second.key || !section.find(key)) continue;
+    const bool of_table = kind.table != nullptr && key == "table";
+    const bool of_stops = kind.stop != nullptr && (key == "clearance" || key == "tension");
+    if (of_law || of_table || of_stops || key == kind.value.key || key == kind.second.key ||
+        !section.find(key))
+      continue;
     const std::string second = kind.second.exists() ? fmt::format(" and a {}", kind.second.key) : "";
     section.fail(rules::unknown_key, key, "a {} has a {}{}, no {}", kind.name, kind.value.key, second, key);
   }
@@ -73,7 +78,12 @@ void check_keys_of_kind(const TomlSection& section, const ElementKind& kind) {
 
 mechanics::FrictionLaw read_law(const TomlSection& section, const ElementKind& kind) {
   if (!kind.can_be_smoothed()) return mechanics::FrictionLaw::exact;
-  if (section.choice_or("law", {"exact", "arctan"}) == "arctan") return mechanics::FrictionLaw::arctan;
+  if (section.choice_or("law", {"exact", "arctan"}) == "arctan") {
+    if (section.find(kind.second.key))
+      section.fail(rules::key_without_use, kind.second.key, "only the law \"exact\" has a {}",
+                   kind.second.key);
+    return mechanics::FrictionLaw::arctan;
+  }
   if (section.find(kind.smoothed.key))
     section.fail(rules::key_without_use, kind.smoothed.key, "only the law \"arctan\" has a {}",
                  kind.smoothed.key);
@@ -211,6 +221,11 @@ void check_number_of_contacts(const NetworkReading& reading, const TomlSection& 
       periodic::kMostContacts);
 }
 
+// The value of an element with a table follows from its points.
+StudyValue value_of_table(const StudyCharacteristic& table) {
+  return {.where = table.where, .position = table.position};
+}
+
 }  // namespace
 
 void read_element(NetworkReading& reading, const TomlValue& table, std::size_t number) {
@@ -228,15 +243,21 @@ void read_element(NetworkReading& reading, const TomlValue& table, std::size_t n
   mechanics::Element element{name, kind.type, std::move(direction), law};
   element.rotational = rotational;
   element.twists_ground = given.is_given() ? given.twists_ground : rotational;
+  StudyCharacteristic characteristic = read_characteristic(reading, section, rotational, element);
+  element.has_static_force = kind.can_be_smoothed() && section.find(kind.second.key) != nullptr;
   reading.result.network.elements.push_back(element);
   check_number_of_contacts(reading, section, element);
   const auto read = [&](const ValueKey& value) {
-    return read_value(reading, section, value.key, quantity_of(value.dimension, rotational), value.range);
+    const bool may_be_absent = kind.second_is_optional && std::string(value.key) == kind.second.key;
+    return read_value(reading, section, value.key, quantity_of(value.dimension, rotational), value.range,
+                      may_be_absent ? std::optional(0.0) : std::nullopt);
   };
   const ValueKey& second = mechanics::second_key(element);
-  reading.result.values.element.push_back(read(kind.value));
+  const bool has_table = characteristic.kind == StudyCharacteristic::Kind::table;
+  reading.result.values.element.push_back(has_table ? value_of_table(characteristic) : read(kind.value));
   reading.result.values.second.push_back(second.exists() ? read(second) : StudyValue{});
   reading.result.values.along.push_back(std::move(given));
+  reading.result.values.characteristic.push_back(std::move(characteristic));
 }
 
 }  // namespace frahm::studies

@@ -12,13 +12,27 @@ namespace {
 
 constexpr std::size_t most_points_tried = 100'000;  // for one value: some milliseconds
 
-// Something to check: a value of the network, a derived coordinate, or a derived parameter.
+// Something to check: a value of the network, a derived coordinate, a derived parameter, or the values of an
+// element beside each other.
 struct Checked {
   const StudyValue* value = nullptr;     // or
   const Parameter* parameter = nullptr;  // with its index
   std::vector<std::size_t> reads;        // parameters
   std::string_view origin = "";          // who sets them
+  std::optional<std::size_t> element{};  // whose values
 };
+
+// The parameters that the values of an element read which are checked beside each other.
+std::vector<std::size_t> reads_of_element(const StudyValues& values, std::size_t e) {
+  std::vector<std::size_t> reads;
+  const auto add = [&](const StudyValue& value) {
+    reads.insert(reads.end(), value.expression.reads().begin(), value.expression.reads().end());
+  };
+  add(values.element[e]);
+  add(values.second[e]);
+  for (const StudyValue& value : values.points_of(e)) add(value);
+  return reads;
+}
 
 std::vector<Checked> all_checked(const Study& study) {
   std::vector<Checked> all;
@@ -33,6 +47,11 @@ std::vector<Checked> all_checked(const Study& study) {
     for (const StudyValue& value : *list) add(value);
   }
   for (const StudyValue* value : study.values_of_its_kind()) add(*value);
+  for (std::size_t e = 0; e < study.network.elements.size(); ++e) {
+    const bool has_table = values.characteristic[e].kind == StudyCharacteristic::Kind::table;
+    if (has_table || study.network.elements[e].has_static_force)
+      all.push_back({.reads = reads_of_element(values, e), .element = e});
+  }
   return all;
 }
 
@@ -91,9 +110,18 @@ void check_value(const Study& study, const Checked& checked, std::span<const dou
        is_rate ? "must be > 0; the direction follows from sweep_to" : "must be > 0");
 }
 
+void check_element(const Study& study, Checked checked, std::span<const double> parameters) {
+  const auto problem = element_problem(study, *checked.element, parameters);
+  if (!problem) return;
+  checked.value = problem->value;
+  fail(problem->rule, study, checked, parameters, problem->found, problem->must);
+}
+
 void check(const Study& study, const Checked& checked, std::span<double> parameters) {
   study.parameters.complete(parameters);
-  if (checked.value) {
+  if (checked.element) {
+    check_element(study, checked, parameters);
+  } else if (checked.value) {
     check_value(study, checked, parameters);
   } else {
     check_derived(study, checked, parameters);

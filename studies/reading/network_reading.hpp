@@ -48,6 +48,9 @@ std::optional<StudyValue> read_optional(NetworkReading& reading, const TomlSecti
 
 // An [[element]], after the masses and the nodes of prescribed motion. number: from 1.
 void read_element(NetworkReading& reading, const TomlValue& table, std::size_t number);
+// Its stops or table, if its kind has such and, of a table, the key is there; the bends go to the element.
+StudyCharacteristic read_characteristic(NetworkReading& reading, const TomlSection& section, bool rotational,
+                                        mechanics::Element& element);
 // The same of what stands at one place, by its name in messages: [damping]: rayleigh: a.
 StudyValue read_value_at(NetworkReading& reading, const std::string& where, const TomlValue& value,
                          Quantity quantity, Range range);

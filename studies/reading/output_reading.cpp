@@ -162,6 +162,7 @@ void read_output(const StudyContext& context, const TomlValue& root, Study& stud
   read_borders(section, study);
   read_orbits(context, section, study);
   read_resonances(context, section, study);
+  if (const std::string one = needs_one_response(study); !one.empty()) refuse_several_responses(study, one);
 }
 
 namespace {

@@ -58,9 +58,10 @@ inline constexpr Rule circular_definition{"circular_definition"};
 // The system and the requested results.
 inline constexpr Rule floating_mass{"floating_mass"};
 inline constexpr Rule wrong_node{"wrong_node"};
-inline constexpr Rule wrong_matrix{"wrong_matrix"};  // not square, symmetric or definite
-inline constexpr Rule wrong_law{"wrong_law"};        // friction laws that do not go together
-inline constexpr Rule no_contact{"no_contact"};      // where friction is asked for
+inline constexpr Rule wrong_matrix{"wrong_matrix"};            // not square, symmetric or definite
+inline constexpr Rule wrong_law{"wrong_law"};                  // friction laws that do not go together
+inline constexpr Rule no_contact{"no_contact"};                // where friction is asked for
+inline constexpr Rule several_responses{"several_responses"};  // may exist where there must be one
 inline constexpr Rule unfit_quantity{"unfit_quantity"};
 inline constexpr Rule unfit_axis{"unfit_axis"};
 inline constexpr Rule unfit_for_method{"unfit_for_method"};

@@ -21,7 +21,7 @@ constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // some editors be
 // The sections of each kind of study, in the order of StudyKind.
 const std::array<std::vector<std::string>, 5> sections_of_kind{
     {{"study", "parameters", "mass", "matrices", "element", "damping", "excitation", "axis", "coordinate",
-      "output", "compare", "report"},
+      "output", "orbits", "compare", "report"},
      {"study", "parameters", "mass", "matrices", "element", "damping", "decay", "initial"},
      {"study", "parameters", "mass", "matrices", "element", "damping", "excitation", "transient", "initial"},
      {"study", "parameters", "mass", "matrices", "element", "damping", "excitation", "tune", "design",
@@ -48,7 +48,8 @@ void check_top_keys(const StudySource& source, const TomlValue& root) {
 
 // What to say of a section that this kind of study does without.
 std::string why_without(StudyKind kind, const std::string& section) {
-  const bool of_a_map = section == "axis" || section == "coordinate" || section == "output";
+  const bool of_a_map =
+      section == "axis" || section == "coordinate" || section == "output" || section == "orbits";
   const bool one_motion = kind == StudyKind::decay || kind == StudyKind::transient;
   if (kind == StudyKind::tune && of_a_map)
     return ": the band of [tune] and the bounds of [[design]] are its ranges";
@@ -108,8 +109,8 @@ std::vector<std::size_t> read_by_matrices(const Study& study) {
   const auto add = [&](const StudyValue& value) {
     reads.insert(reads.end(), value.expression.reads().begin(), value.expression.reads().end());
   };
-  for (const auto* values :
-       {&study.values.mass, &study.values.element, &study.values.second, &study.values.damping}) {
+  for (const auto* values : {&study.values.mass, &study.values.element, &study.values.second,
+                             &study.values.damping, &study.values.points}) {
     for (const StudyValue& value : *values) add(value);
   }
   if (mechanics::frequency_dependent_element(study.network)) add(study.values.omega);
@@ -138,6 +139,7 @@ bool has_system(const TomlValue& root) {
 void check_whole(Study& study) {
   set_directions(study);
   set_signals(study);
+  set_characteristics(study);
   check_grid(study);
   set_crank_orders(study);
   if (study.tune()) check_tuning(study);
@@ -170,6 +172,7 @@ Study parse_study(std::string text, const std::filesystem::path& name, DataFiles
     auto [network, values] = read_network(context, root, name.parent_path(), study.parameters, study.kind());
     study.network = std::move(network);
     study.values = std::move(values);
+    refuse_bends_beside_arctan(study);
   }
   if (study.kind() == StudyKind::sweep) {
     read_comparison(context, root, study);
@@ -183,6 +186,7 @@ Study parse_study(std::string text, const std::filesystem::path& name, DataFiles
     read_coordinates(context, root, study);
     find_frequency_dimension(study);
     read_output(context, root, study);
+    read_orbits_wanted(context, root, study);
     read_report(context, root, study);
   } else if (study.kind() == StudyKind::tune) {
     read_tuning(context, root, study);
@@ -233,6 +237,10 @@ const MotionChoice* Study::motion() const {
 
 MotionChoice* Study::motion() {
   return const_cast<MotionChoice*>(std::as_const(*this).motion());
+}
+
+periodic::OrbitsWanted Study::orbits_wanted() const {
+  return sweep() ? sweep()->orbits : periodic::OrbitsWanted{};
 }
 
 std::span<const InitialValues> Study::initial() const {

@@ -50,6 +50,9 @@ struct Study {
   const MotionChoice* motion() const;
   MotionChoice* motion();
 
+  // What is searched where it may have several responses.
+  periodic::OrbitsWanted orbits_wanted() const;
+
   // The initial values of its masses: of a decay, a transient or an identification.
   std::span<const InitialValues> initial() const;
 

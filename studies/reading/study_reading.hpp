@@ -98,10 +98,33 @@ void check_combinations_are_held(const Study& study);
 // read. Refuses factors that change within the study, and masses that no spring holds through levers.
 void set_directions(Study& study);
 
-// [[axis]], [[coordinate]], [output] and [report] into the choice of a sweep.
+// Gives each bend of a table its side of the origin, once units are converted.
+void set_characteristics(Study& study);
+
+// What is wrong with the values of an element beside each other, at one point (SI values of all parameters,
+// completed): of a table that does not rise or pass through the origin, of a static force below the force.
+struct ElementProblem {
+  Rule rule;
+  const StudyValue* value = nullptr;  // at which it is told
+  std::string found, must;
+};
+std::optional<ElementProblem> element_problem(const Study& study, std::size_t element,
+                                              std::span<const double> parameters);
+
+// Refuses elements that bend where the motion from initial values, or the arctan law, does not know them.
+void refuse_bends(const Study& study, const std::string& why);
+void refuse_bends_beside_arctan(const Study& study);
+// Refuses elements with which several responses may exist; where they depend on numbers, element_problem()
+// does.
+void refuse_several_responses(const Study& study, const std::string& what_needs_one);
+// What of the study needs that there is one response, "" if nothing does.
+std::string needs_one_response(const Study& study);
+
+// [[axis]], [[coordinate]], [output], [orbits] and [report] into the choice of a sweep.
 void read_axes(const StudyContext& context, const TomlValue& root, Study& study);
 void read_coordinates(const StudyContext& context, const TomlValue& root, Study& study);
 void read_output(const StudyContext& context, const TomlValue& root, Study& study);
+void read_orbits_wanted(const StudyContext& context, const TomlValue& root, Study& study);
 void read_report(const StudyContext& context, const TomlValue& root, Study& study);
 
 // The names in the array `quantities` of a section, and patterns of names (name_pattern.hpp), each once.

@@ -3,6 +3,34 @@
 namespace frahm::studies {
 namespace {
 
+// Of an element with a table its value, and the bends of all characteristics.
+template <class Number, class Part>
+void fill_bends(const StudyValues& values, std::span<const Number> parameters, Part part,
+                mechanics::NetworkValues& out) {
+  out.bends.resize(values.characteristic.size());
+  std::vector<Number> numbers;
+  for (std::size_t e = 0; e < values.characteristic.size(); ++e) {
+    const StudyCharacteristic& of = values.characteristic[e];
+    out.bends[e].resize(of.sides.size());
+    if (of.kind == StudyCharacteristic::Kind::none) continue;
+    numbers.clear();
+    for (const StudyValue& value : values.points_of(e))
+      numbers.push_back(value.expression.evaluate(parameters));
+    if (of.kind == StudyCharacteristic::Kind::stops) {
+      for (std::size_t b = 0; b < of.sides.size(); ++b)
+        out.bends[e][b] = {part(numbers[b]), out.element[e], out.second[e]};
+      continue;
+    }
+    const TableOfForces<Number> table(numbers, of.sides);
+    out.element[e] = part(table.slope(table.central()));
+    for (std::size_t b = 0; b < of.sides.size(); ++b) {
+      const double place = part(table.bend_place(b)), change = part(table.bend_change(b));
+      out.bends[e][b] = of.of_velocity ? mechanics::BendValue{place, 0.0, change}
+                                       : mechanics::BendValue{place, change, 0.0};
+    }
+  }
+}
+
 // Applies `part` to each value (the value itself, or its derivative), in the layout of NetworkValues.
 template <class Number, class Part>
 void fill(const StudyValues& values, std::span<const Number> parameters, Part part,
@@ -21,6 +49,7 @@ void fill(const StudyValues& values, std::span<const Number> parameters, Part pa
   for (std::size_t i = 0; i < out.excitation.size(); ++i) {
     out.excitation[i] = {at(values.amplitude[i]), at(values.phase[i]), at(values.rod[i])};
   }
+  if (!values.points.empty()) fill_bends(values, parameters, part, out);
 }
 
 }  // namespace

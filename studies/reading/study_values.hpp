@@ -7,6 +7,7 @@
 
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/network.hpp"
+#include "studies/reading/characteristic.hpp"
 #include "studies/reading/expression.hpp"
 #include "studies/reading/parameters.hpp"
 #include "studies/reading/study_source.hpp"
@@ -46,10 +47,16 @@ struct StudyValues {
   std::vector<StudyDirection> along;  // of each element, not given where it is between two nodes
   std::vector<StudyDirection> signals{};
   std::vector<StudyValue> damping;  // of the structure: modal ratios, or the two of rayleigh
+  std::vector<StudyCharacteristic> characteristic{};  // of each element; of a table, in place of its value
+  std::vector<StudyValue> points{};                   // of all characteristics
 
   // All but the frequency.
-  std::array<const std::vector<StudyValue>*, 7> lists() const {
-    return {&mass, &element, &second, &amplitude, &phase, &rod, &damping};
+  std::array<const std::vector<StudyValue>*, 8> lists() const {
+    return {&mass, &element, &second, &amplitude, &phase, &rod, &damping, &points};
+  }
+  // Those of an element's characteristic.
+  std::span<const StudyValue> points_of(std::size_t e) const {
+    return std::span(points).subspan(characteristic[e].first, characteristic[e].count);
   }
   // Indices of the parameters that the factors of directions read.
   std::vector<std::size_t> read_by_factors() const;
@@ -57,9 +64,9 @@ struct StudyValues {
 
 // The numbers of the network at one point of the map.
 // parameters: SI values of all parameters in the order of Parameters::list; those of expressions and tables
-// are recomputed in place.  out: resized at the first call, no allocation after it.  Outside a table, or
-// where an expression has no value, the results are not finite: the solver gives such a point the status
-// `failed`.
+// are recomputed in place.  out: resized at the first call, no allocation after it but for characteristics.
+// Outside a table, or where an expression has no value, the results are not finite: the solver gives such a
+// point the status `failed`.
 void evaluate(const StudyValues& values, const Parameters& definitions, std::span<double> parameters,
               mechanics::NetworkValues& out);
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "solvers/mechanics/network.hpp"
+#include "solvers/orbits/orbits_wanted.hpp"
 #include "solvers/quantities/quantity.hpp"
 #include "studies/reading/parameters.hpp"
 #include "studies/reading/profile.hpp"
@@ -77,6 +78,7 @@ struct SweepChoice {
   std::vector<GridDimension> dimensions;  // the first varies slowest; at least one
   std::vector<DerivedCoordinate> coordinates;
   OutputChoice output;
+  periodic::OrbitsWanted orbits;                      // of a system that may have several responses
   std::vector<OutputChoice::Name> report_quantities;  // of the report's page; empty: its default
   std::optional<OutputChoice::Name> headline;  // the quantity that summaries tell; else of headline_of()
   std::optional<Profile> profile;              // of the report's page

@@ -36,8 +36,8 @@ void check_variance(const TuneReading& reading, const TomlSection& section) {
   if (const mechanics::Element* unfit = mechanics::element_unfit_for_noise(reading.study.network)) {
     section.fail(rules::unfit_for_method, "objective",
                  "a variance is that of a linear system under white noise, and element \"{}\" is "
-                 "a {}; write \"minimax\" or \"mean_square\"",
-                 unfit->name, mechanics::kind_of(*unfit).name);
+                 "a {}{}; write \"minimax\" or \"mean_square\"",
+                 unfit->name, mechanics::kind_of(*unfit).name, unfit->bends.empty() ? "" : " with a table");
   }
 }
 
@@ -296,6 +296,7 @@ StudyValue read_formula(const TuneReading& reading, const TomlSection& section, 
 
 void read_tuning(const StudyContext& context, const TomlValue& root, Study& study) {
   refuse_smooth_friction(study);
+  refuse_several_responses(study, needs_one_response(study));
   const TomlEntry* entry = find_entry(root, "tune");
   if (!entry)
     throw context.source.error_at(rules::missing_section, root.position,

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "solvers/mechanics/bends.hpp"
 #include "solvers/mechanics/rotation.hpp"
 
 namespace frahm::studies {
@@ -91,6 +92,13 @@ void add_network(const Study& study, CanonicalText& text) {
     text.line("element {} {} {} {} {} {}", element.name, static_cast<int>(element.type),
               direction_text(element), value(values.element[i]), static_cast<int>(element.law),
               value(values.second[i]));
+  }
+  for (std::size_t i = 0; i < network.elements.size(); ++i) {
+    const StudyCharacteristic& of = values.characteristic[i];
+    if (of.kind == StudyCharacteristic::Kind::none) continue;
+    text.line("characteristic {} {} sides {}", i, static_cast<int>(of.kind), fmt::join(of.sides, " "));
+    for (const mechanics::BendPlace& bend : network.elements[i].bends) text.line("bend {}", bend.law->name);
+    for (const StudyValue& each : values.points_of(i)) text.line("point {}", value(each));
   }
   text.line("frequency {}", value(values.omega));
   for (std::size_t i = 0; i < network.excitations.size(); ++i) {
@@ -229,6 +237,10 @@ std::string physics_hash(const Study& study, std::span<const periodic::Quantity>
     const OutputChoice& output = study.sweep()->output;
     text.line("precision {}", precision_names[static_cast<std::size_t>(output.precision)]);
     if (output.general_path) text.line("path general");
+    if (mechanics::may_have_several_responses(study.network)) {
+      const periodic::OrbitsWanted& wanted = study.sweep()->orbits;
+      text.line("orbits {} {} {}", wanted.starts, wanted.most_multiple, static_cast<int>(wanted.show));
+    }
   }
   text.line("units {}", study.dimensionless ? "dimensionless" : "SI");
   add_parameters(study, text);

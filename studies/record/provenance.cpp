@@ -7,6 +7,7 @@
 #include <chrono>
 #include <filesystem>
 
+#include "solvers/mechanics/bends.hpp"
 #include "studies/record/build_facts.hpp"
 #include "studies/record/finished_file.hpp"
 
@@ -26,6 +27,22 @@ results::MapLayout file_layout(const StudyPlan& plan, const RunRecord& run) {
   return layout;
 }
 
+namespace {
+
+// What was searched where there may be several responses, "" where there is one alone.
+std::string searched_orbits(const Study& study) {
+  if (!study.sweep() || !mechanics::may_have_several_responses(study.network)) return "";
+  const periodic::OrbitsWanted wanted = study.orbits_wanted();
+  const bool largest = wanted.show == periodic::OrbitsWanted::Show::largest;
+  return fmt::format(
+      "where the laws are not monotone: {} starts and the responses of the point before, multiples of the "
+      "period "
+      "up to {}; told is the {} peak of {}. Others may have been missed",
+      wanted.starts, wanted.most_multiple, largest ? "largest" : "smallest", study.network.masses.front());
+}
+
+}  // namespace
+
 std::vector<results::Text> provenance(const StudyPlan& plan, const RunRecord& run,
                                       const std::vector<std::string>& failed, std::uint64_t missing) {
   const BuildFacts facts = build_facts();
@@ -44,6 +61,8 @@ std::vector<results::Text> provenance(const StudyPlan& plan, const RunRecord& ru
       {"ranks", fmt::format("{}", run.ranks)},
       {"started", run.started},
       {"finished", utc_now()}};
+  if (const std::string searched = searched_orbits(plan.study); !searched.empty())
+    texts.emplace_back("orbits_searched", searched);
   if (plan.grown_from) {
     texts.emplace_back("grown_from", plan.grown_from->file);
     texts.emplace_back(grown_from_identity, plan.grown_from->identity);

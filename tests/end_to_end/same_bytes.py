@@ -148,9 +148,35 @@ orbits = [{ zeta = 0.1, f = 0.2, r = 0.9 }, { zeta = 0.1, f = 0.7, r = 0.4 }, { 
         runs.killed(whole["1"], output, signal.SIGKILL, "--threads", "2")
 
 
+def check_several_responses(program, source):
+    """Maps of stops, where several responses are searched, and of a shock absorber's table, where there is one."""
+    changes = {
+        "machine_on_stops": [("points = 141", "points = 71"),
+                             ("[[axis]]", "[[axis]]\nparameter = \"D\"\nfrom = 0.4\nto = 1.5\npoints = 8\n\n[[axis]]")],
+        "bump_and_rebound": [("values = [600, 1200, 2400]", "from = 600\nto = 2400\npoints = 60")],
+    }
+    for name, replacements in changes.items():
+        with open(os.path.join(source, "studies", "stops", name + ".toml")) as file:
+            text = file.read()
+        for passage, by in replacements:
+            assert passage in text, passage
+            text = text.replace(passage, by, 1)
+        with tempfile.TemporaryDirectory() as folder:
+            study_path, output = os.path.join(folder, "study.toml"), os.path.join(folder, "map.h5")
+            with open(study_path, "w") as file:
+                file.write(text)
+            runs = Runs(program, folder, study_path)
+            one = runs.finish(output, "--threads", "1")
+            assert one["coexisting"][1] in [(8, 71), (60, 46)]
+            for threads in "2", "5":
+                assert runs.finish(output, "--threads", threads) == one, (name, threads)
+            runs.killed(one, output, signal.SIGKILL, "--threads", "2")
+
+
 def main():
     random.seed(2)
     program, source = sys.argv[1:]
+    check_several_responses(program, source)
     check_tuning(program, source)
     check_assembly(program, source)
     with tempfile.TemporaryDirectory() as folder:
@@ -163,7 +189,7 @@ def main():
             assert runs.finish(output, "--threads", threads) == one, threads
         runs.killed(one, output, signal.SIGKILL, "--threads", "2")
         runs.killed(one, output, signal.SIGTERM, "--threads", "1")
-    print("a map, its assembly and a tuning on 1, 2 and more threads, SIGKILL and SIGTERM: the same bytes in every dataset")
+    print("maps, an assembly and a tuning on 1, 2 and more threads, SIGKILL and SIGTERM: the same bytes in every dataset")
 
 
 if __name__ == "__main__":

@@ -19,7 +19,14 @@ export function colourTable(name) {
 
 export const colourSteps = steps;
 
-const statusColours = { ok: "#DDE3E8", grazing: "#E69F00", unbounded: "#6F4E9B", failed: "#D55E00" };
+const statusColours = {
+  ok: "#DDE3E8",
+  grazing: "#E69F00",
+  unbounded: "#6F4E9B",
+  failed: "#D55E00",
+  several: "#0072B2",
+  not_periodic: "#CC79A7",
+};
 const others = ["#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#8C6D31", "#D55E00", "#6F4E9B"];
 
 // Meaning -> colour of a flag's values; not_computed has none.

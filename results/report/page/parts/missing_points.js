@@ -20,19 +20,27 @@ export function missingPoints(record) {
   const told = {
     failed: "failed (no number; the reasons are below)",
     unbounded: "have no bounded response (an undamped mode driven at resonance)",
+    not_periodic:
+      "have no periodic response that was found (no number; what was searched stands in the reasons below)",
     not_computed: "were not computed",
   };
   for (const [word, text] of Object.entries(told))
     if (counts.get(word)) add(`${counts.get(word)} of ${map.points} points ${text}.`);
+  const note = (text) => notes.push(element("p", { class: "note" }, text));
   if (counts.get("grazing"))
-    notes.push(
-      element(
-        "p",
-        { class: "note" },
-        `${counts.get("grazing")} of ${map.points} points only just touch another regime (grazing): right responses, without a derivative.`,
-      ),
+    note(
+      `${counts.get("grazing")} of ${map.points} points only just touch another regime (grazing): right responses, without a derivative.`,
+    );
+  if (counts.get("several"))
+    note(
+      `${counts.get("several")} of ${map.points} points have several stable responses, one of which is shown.${searched(provenance)}`,
     );
   return notes;
+}
+
+// What was searched, as a sentence.
+function searched({ orbits_searched: text }) {
+  return text ? ` Searched ${text}.` : "";
 }
 
 const failuresAtOnce = 12;
@@ -57,7 +65,7 @@ function failureList(failed) {
 
 // The section of reasons, or null.
 export function failedPoints({ provenance }) {
-  return provenance.failed_points
-    ? section("Points that failed", failureList(provenance.failed_points))
-    : null;
+  if (!provenance.failed_points) return null;
+  const title = provenance.orbits_searched ? "Points without a response" : "Points that failed";
+  return section(title, failureList(provenance.failed_points));
 }

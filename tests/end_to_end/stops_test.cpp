@@ -1,0 +1,190 @@
+// The studies of stops, play, shock absorbers and static friction.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <complex>
+#include <string>
+#include <vector>
+
+#include "tests/end_to_end/runs.hpp"
+
+namespace {
+
+using Catch::Matchers::WithinAbs;
+using Catch::Matchers::WithinRel;
+using runs::Map;
+using Complex = std::complex<double>;
+
+constexpr double kOk = 1.0, kSeveral = 5.0, kNotPeriodic = 6.0;
+constexpr double kTold = 1e-7;     // of the figures of known orbits
+constexpr double kClosed = 1e-10;  // of closed forms, relative
+constexpr double kBalance = 1e-10;
+
+std::size_t index_of(const std::vector<double>& values, double value) {
+  const auto near = [&](double each) { return std::abs(each - value) < 1e-9; };
+  const auto found = std::find_if(values.begin(), values.end(), near);
+  REQUIRE(found != values.end());
+  return static_cast<std::size_t>(found - values.begin());
+}
+
+double linear_peak(double r, double zeta = 0.05) {
+  return 1.0 / std::hypot(1.0 - r * r, 2.0 * zeta * r);
+}
+
+TEST_CASE("machine_on_stops.toml: two orbits between the folds, and the jump at either one") {
+  const std::string text = runs::reduced("machine_on_stops", {});
+  const Map large = runs::run_study(text);
+  const Map small = runs::run_study(runs::replaced(text, "\"largest\"", "\"smallest\""));
+  const std::vector<double>& r = large.coordinate("r");
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    INFO("r " << r[i]);
+    // The folds: 1.4086707284 and 2.0018066685. Up to the grazing at sqrt(1.99) the small orbit touches the
+    // stops and attracts few starts.
+    const bool is_between = r[i] > 1.415 && r[i] < 2.0018;
+    if (r[i] > 1.405 && r[i] < 1.415) continue;
+    CHECK(large["coexisting"][i] == (is_between ? 2.0 : 1.0));
+    CHECK(large["status"][i] == (is_between ? kSeveral : kOk));
+    CHECK(large["period_multiple"][i] == 1.0);
+    CHECK(large["energy_balance"][i] < kBalance);
+    CHECK((large["machine_peak"][i] > small["machine_peak"][i]) == is_between);
+    if (r[i] > 1.415) CHECK_THAT(small["machine_peak"][i], WithinRel(linear_peak(r[i]), kClosed));
+  }
+  CHECK_THAT(large["machine_peak"][index_of(r, 1.4)], WithinAbs(1.9642744, kTold));
+  CHECK_THAT(large["machine_peak"][index_of(r, 1.5)], WithinAbs(2.1765907, kTold));
+  CHECK_THAT(small["machine_peak"][index_of(r, 1.5)], WithinAbs(0.7943015, kTold));
+  CHECK_THAT(large["machine_peak"][index_of(r, 1.6)], WithinAbs(2.4531427, kTold));
+  CHECK_THAT(small["machine_peak"][index_of(r, 1.6)], WithinAbs(0.6376804, kTold));
+}
+
+TEST_CASE("bump_and_rebound.toml: the spring carries the mean of the absorber's force") {
+  const Map map = runs::run_study(runs::reduced("bump_and_rebound", {}));
+  const double k = 20e3, rebound = 2400.0;
+  std::size_t point = 0;
+  for (const double bump : map.coordinate("bump")) {
+    for (const double f : map.coordinate("f")) {
+      INFO("bump " << bump << ", f " << f);
+      // In a period T the velocity has each sign once: the mean of c_+ v while v > 0 is c_+ 2 A/T, A the
+      // amplitude.
+      const double mean_force = (rebound - bump) * 2.0 * map["ride_amplitude"][point] * f;
+      CHECK(map["status"][point] == kOk);
+      CHECK(map["error_bound"][point] < 1e-9);
+      CHECK(map["energy_balance"][point] < kBalance);
+      CHECK_THAT(map["ride_mean"][point], WithinAbs(-mean_force / k, kClosed * 0.01));
+      if (bump == rebound) {
+        const double w = 2.0 * M_PI * f;
+        const Complex u = 300.0 * w * w / Complex(k - 300.0 * w * w, rebound * w);
+        CHECK_THAT(map["ride_peak"][point], WithinRel(0.01 * std::abs(u), kClosed));
+      }
+      ++point;
+    }
+  }
+}
+
+// Whether the orbit that slides without a stop stands: f_s < X - cos(lag of the peak). Its first harmonic
+// alone drives it (Den Hartog): the border of r = 0.8 is known.
+TEST_CASE("static_over_kinetic.toml: rest and sliding coexist from f_s = 1 to the border of sliding") {
+  constexpr double kBorder = 1.5914263943;
+  const Map map = runs::run_study(runs::reduced("static_over_kinetic", {}));
+  const std::vector<double>&f_s = map.coordinate("f_s"), &r = map.coordinate("r");
+  const std::size_t at = index_of(r, 0.8);
+  for (std::size_t i = 0; i < f_s.size(); ++i) {
+    const std::size_t point = i * r.size() + at;
+    INFO("f_s " << f_s[i]);
+    const double peak = map["main_peak"][point], coexisting = map["coexisting"][point];
+    if (f_s[i] < kBorder) CHECK_THAT(peak, WithinAbs(2.5001367841, 1e-9));
+    if (std::abs(f_s[i] - 1.0) < 1e-9) continue;  // the force only just reaches the limit
+    if (f_s[i] < 1.0) CHECK(coexisting == 1.0);
+    if (f_s[i] > 1.0 && f_s[i] < kBorder) {
+      CHECK(coexisting == 2.0);
+      CHECK(map["status"][point] == kSeveral);
+    }
+  }
+}
+
+TEST_CASE("absorber_stops.toml: linear below the clearance, thrown back beyond it") {
+  constexpr double mu = 0.05, nu = 0.95, D = 10.0;
+  const runs::Folder folder;
+  const std::string study = folder.write("study.toml", runs::reduced("absorber_stops", {}));
+  const auto outcome = runs::frahm({"run", study, "-o", folder / "map.h5", "--threads", "1"});
+  CHECK(outcome.code == 3);
+  CHECK_THAT(outcome.err, Catch::Contains("points have no periodic response that was found"));
+  const Map map = runs::read_map(folder / "map.h5");
+  std::size_t point = 0, within = 0, beyond = 0, lost = 0;
+  for (const double P : map.coordinate("P")) {
+    for (const double r : map.coordinate("r")) {
+      INFO("P " << P << ", r " << r);
+      const Complex link(mu * nu * nu, 0.1 * mu * nu * r);
+      // The absorber's stroke per displacement of the machine, and the force it returns.
+      const Complex stroke = mu * r * r / (link - mu * r * r);
+      const Complex X = P / (Complex(1.0 - r * r, 0.01 * r) - link * stroke);
+      const bool is_free = std::abs(stroke * X) < D;
+      const double status = map["status"][point];
+      if (status == kNotPeriodic) {
+        CHECK_FALSE(is_free);
+        CHECK(std::isnan(map["machine_peak"][point++]));
+        ++lost;
+        continue;
+      }
+      CHECK(map["energy_balance"][point] < kBalance);
+      CHECK((status == kOk || status == kSeveral));
+      if (is_free && status == kOk) {
+        CHECK_THAT(map["machine_peak"][point], WithinRel(std::abs(X), kClosed));
+        CHECK_THAT(map["end_stops_stroke"][point], WithinRel(std::abs(stroke * X), kClosed));
+        ++within;
+      }
+      if (!is_free) {
+        CHECK(map["end_stops_stroke"][point] > D);
+        if (P == 2.0) CHECK(map["end_stops_stroke"][point] < std::abs(stroke * X));
+        ++beyond;
+      }
+      ++point;
+    }
+  }
+  CHECK(within > 25);
+  CHECK(beyond > 10);
+  CHECK(lost > 0);
+}
+
+TEST_CASE("rig_play.toml: without play the teeth are a spring, and play takes inertance away") {
+  const std::string text = runs::reduced("rig_play", {});
+  const Map map = runs::run_study(text);
+  std::string without = runs::replaced(text, "type = \"gap\"", "type = \"spring\"");
+  without = runs::replaced(without, "clearance = \"play/2\"\n", "");
+  without = runs::replaced(without, "damping = 500                      # while in contact\n", "");
+  without = runs::replaced(
+      without, "tension = true                     # the oil between the teeth pulls as well\n", "");
+  without = runs::replaced(without, "damping = 5\n", "damping = 505\n");
+  without = without.substr(0, without.find("[orbits]"));
+  const Map linear = runs::run_study(without);
+  const std::size_t inertances = map.coordinate("I").size();
+  for (std::size_t i = 0; i < map["status"].size(); ++i) {
+    INFO("point " << i);
+    CHECK(map["energy_balance"][i] < kBalance);
+    if (i < inertances) {
+      CHECK(map["status"][i] == kOk);
+      CHECK_THAT(map["main_peak"][i], WithinRel(linear["main_peak"][i], 1e-8));
+      CHECK_THAT(map["tmd_peak"][i], WithinRel(linear["tmd_peak"][i], 1e-8));
+    }
+  }
+  const std::vector<double>& I = map.coordinate("I");
+  for (std::size_t i = inertances; i < map["status"].size(); ++i) {
+    if (I[i % inertances] >= 8.0) CHECK(map["main_peak"][i] > map["main_peak"][i - inertances]);
+  }
+  const std::size_t at = index_of(I, 10.0), most = map["status"].size() - inertances + at;
+  CHECK_THAT(map["main_peak"][most] / map["main_peak"][at], WithinAbs(1.11, 0.005));
+}
+
+TEST_CASE("a map of a system with several responses says what was searched") {
+  const runs::Folder folder;
+  const std::string study = folder.write("study.toml", runs::reduced("machine_on_stops", {{"r", 3}}));
+  const auto outcome = runs::frahm({"run", study, "-o", folder / "map.h5"});
+  CHECK(outcome.code == 0);
+  const frahm::results::MapReader reader(folder / "map.h5");
+  const std::vector<frahm::results::Text> texts = reader.texts("provenance");
+  const auto searched = std::find_if(texts.begin(), texts.end(),
+                                     [](const auto& text) { return text.first == "orbits_searched"; });
+  REQUIRE(searched != texts.end());
+  CHECK_THAT(searched->second, Catch::Contains("16 starts") && Catch::Contains("largest peak of machine"));
+}
+
+}  // namespace
