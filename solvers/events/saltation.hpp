@@ -14,8 +14,9 @@ void note_arrivals(const Flow<N, H>& flow, ContactMask arrived, const Instant<N,
   }
 }
 
-// The tangent across an event at which a guard g(z, t) reaches zero with the slope g', the fields f before
-// and after (Leine and Nijmeijer, Dynamics and Bifurcations of Non-Smooth Mechanical Systems, 2004, ch. 7):
+// What an event does to small changes of the state, where a guard g(z, t) reaches zero with the slope g', the
+// fields f before and after (Leine and Nijmeijer, Dynamics and Bifurcations of Non-Smooth Mechanical Systems,
+// 2004, ch. 7):
 //   dz+ = dz- + (f+ - f-) (grad g dz-) / g'
 // - a velocity that reaches zero:  dv+ = dv- + (a+ - a-)(w^T dv-)/(w^T a- + p^T y''); exact for a reversal
 //   and for a stop, where it is the M-orthogonal projection onto the stuck velocities. If contacts arrive
@@ -25,47 +26,75 @@ void note_arrivals(const Flow<N, H>& flow, ContactMask arrived, const Instant<N,
 // - a force lambda that reaches its limit leaves a unchanged: nothing jumps.
 // - an internal force s that does: s' falls from g' to 0, so that ds+ = ds- + (0 - g') ds-/g' = 0.
 // before: the event's instant seen from inside the mode before it; w.left: from inside the mode after.
+// Calls add(j, slope, change) for each part of the velocities' jump,  dv+ = dv- + change (w_j^T dv-) / slope.
+template <int N, int H, class Add>
+void for_each_jump(const Flow<N, H>& flow, ContactMask arrived, const Instant<N, H>& before,
+                   const Mode<N, H>& mode_before, const Workspace<N, H>& w, const Add& add) {
+  using S = Sizes<N, H>;
+  const StepEquations<N, H>& eq = flow.equations();
+  const Mode<N, H>& mode = flow.mode(w.mode);
+  const bool alone = count(arrived & eq.holding) == 1;
+  typename S::Vector left = w.left.a - before.a;  // the part of the jump that no contact has added yet
+  Eigen::Index leader = -1;
+  double leader_slope = 0.0;
+  for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
+    if (!contains(arrived, j)) continue;
+    const double slope = flow.sliding_speed(before, j).slope;
+    if (slope == 0.0 || !eq.holds(j)) continue;
+    if (alone) return add(j, slope, left);
+    if (leader < 0) {
+      leader = j;
+      leader_slope = slope;
+    }
+    // Its force's jump, with what the contacts that stuck before then take up.
+    const double after = contains(mode.stuck, j) ? flow.stuck_force(w.left, mode, j).value : mode.friction[j];
+    typename S::Contacts jump = S::Contacts::Zero(eq.contacts());
+    jump[j] = after - mode_before.friction[j];
+    const typename S::Vector change = flow.configuration(mode_before).pull_of_friction(eq, jump);
+    add(j, slope, change);
+    left -= change;
+  }
+  if (leader >= 0) add(leader, leader_slope, left);
+}
+
+// Carries the tangent of a small system across an event.
 template <int N, int H>
 void saltate(const Flow<N, H>& flow, ContactMask arrived, ContactMask released, const Instant<N, H>& before,
              const Mode<N, H>& mode_before, const Workspace<N, H>& w,
              typename Sizes<N, H>::StateSquare& tangent) {
   using S = Sizes<N, H>;
   const StepEquations<N, H>& eq = flow.equations();
-  const Mode<N, H>& mode = flow.mode(w.mode);
   const Eigen::Index n = eq.masses();
-  const bool alone = count(arrived & eq.holding) == 1;
   Eigen::Matrix<double, N, S::kState> correction;
   correction.setZero(n, eq.states());
-  typename S::Vector left = w.left.a - before.a;        // the part of the jump that no contact has added yet
-  using Earlier = Eigen::Matrix<double, 1, S::kState>;  // time lead of an arrival, a unit of the state
-  Earlier earlier = Earlier::Zero(eq.states());
-  bool is_first = true;
-  for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
-    if (!contains(arrived, j)) continue;
-    const double slope = flow.sliding_speed(before, j).slope;
-    if (slope == 0.0 || !eq.holds(j)) continue;
-    const Earlier its_earlier = eq.W.col(j).transpose() * tangent.middleRows(n, n) / slope;
-    if (is_first) earlier = its_earlier;
-    is_first = false;
-    typename S::Vector change = left;
-    if (!alone) {
-      // Its force's jump, with what the contacts that stuck before then take up.
-      const double after =
-          contains(mode.stuck, j) ? flow.stuck_force(w.left, mode, j).value : mode.friction[j];
-      typename S::Contacts jump = S::Contacts::Zero(eq.contacts());
-      jump[j] = after - mode_before.friction[j];
-      change = flow.configuration(mode_before).pull_of_friction(eq, jump);
-    }
-    correction += change * its_earlier;
-    left -= change;
-  }
-  correction += left * earlier;
+  const auto add = [&](Eigen::Index j, double slope, const typename S::Vector& change) {
+    const Eigen::Matrix<double, 1, S::kState> earlier =  // time lead of the arrival, a unit of the state
+        eq.W.col(j).transpose() * tangent.middleRows(n, n) / slope;
+    correction += change * earlier;
+  };
+  for_each_jump(flow, arrived, before, mode_before, w, add);
   tangent.middleRows(n, n) += correction;
   if constexpr (S::kInternal != 0) {
     for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
       if (contains(released & ~eq.holding, j))
         tangent.row(2 * n + eq.internal_of[static_cast<std::size_t>(j)]).setZero();
     }
+  }
+}
+
+// Records the same at the end of a stretch.
+template <int N, int H>
+void record_saltation(const Flow<N, H>& flow, ContactMask arrived, ContactMask released,
+                      const Instant<N, H>& before, const Mode<N, H>& mode_before, const Workspace<N, H>& w,
+                      TangentPath::Stretch& stretch) {
+  const StepEquations<N, H>& eq = flow.equations();
+  const auto add = [&](Eigen::Index j, double slope, const typename Sizes<N, H>::Vector& change) {
+    stretch.jumps.push_back({.contact = static_cast<int>(j), .change = change / slope});
+  };
+  for_each_jump(flow, arrived, before, mode_before, w, add);
+  for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
+    if (contains(released & ~eq.holding, j))
+      stretch.stopped.push_back(static_cast<int>(eq.internal_of[static_cast<std::size_t>(j)]));
   }
 }
 

@@ -51,6 +51,14 @@ class FreeAccelerations {
       if (contains(at_rest, j)) friction[j] = 0.0;
     }
     const Eigen::Index n = eq.masses();
+    if (eq.is_large()) {
+      const auto& z = w.left.z;
+      Eigen::VectorXd a(n), ds(eq.internal_forces());
+      const HeldContacts none{.list = {}, .force = {}, .spring = Eigen::VectorXd::Zero(ds.size())};
+      pull(eq.sparse, none, z.data(), z.data() + n, z.data() + 2 * n, a.data(), ds.data());
+      acceleration_ = a + eq.M_inverse * (eq.force * u_) - eq.MW * friction;
+      return;
+    }
     typename Sizes<N, H>::Vector force =
         eq.force * u_ - eq.K * w.left.z.head(n) - eq.C * w.left.z.segment(n, n) - eq.W * friction;
     if constexpr (Sizes<N, H>::kInternal != 0) force -= eq.D * w.left.z.tail(eq.internal_forces());
@@ -97,8 +105,7 @@ Choice choose_together(const StepEquations<N, H>& eq, ContactMask at_rest,
   Eigen::VectorXd c(m), weight(m), bound(m);
   for (Eigen::Index i = 0; i < m; ++i) {
     const Eigen::Index j = contact(i);
-    const typename Sizes<N, H>::Vector MWj = eq.M_inverse * eq.W.col(j);
-    for (Eigen::Index k = 0; k < m; ++k) G(i, k) = MWj.dot(eq.W.col(contact(k)));
+    for (Eigen::Index k = 0; k < m; ++k) G(i, k) = eq.mobility(j, contact(k));
     c[i] = free.of(j);
     weight[i] = eq.limit[j] > 0.0 ? eq.limit[j] : 1.0;
     bound[i] = contains(w.held, j) ? kWithoutLimit * weight[i] : eq.limit[j];

@@ -23,10 +23,11 @@ class Walk {
  private:
   void enter(const typename S::State& z, double phase, Passage<N, H>& passage);
   void begin_tangent(Passage<N, H>& passage) const;
+  std::vector<int> stopped_at_start() const;
   bool starts_at_limit(Eigen::Index contact, double speed);
   void take_step(Passage<N, H>& passage);
   void move_tangent(double steps, Passage<N, H>& passage);
-  void catch_up(Passage<N, H>& passage);
+  void end_stretch(Passage<N, H>& passage);
   void advance(double fraction, Passage<N, H>& passage);
   void pass_event(const GuardEvent& event, double phase, Passage<N, H>& passage);
   void note_change(const GuardEvent& event, const Instant<N, H>& before, const Mode<N, H>& mode_before,

@@ -172,6 +172,7 @@ typename Sizes<N, H>::Vector Configuration<N, H>::pull_of_friction(
 template <int N, int H>
 void Configuration<N, H>::set_system(const StepEquations<N, H>& equations, ContactMask stuck_contacts) {
   stuck = stuck_contacts;
+  has_forcing = false;
   set_constraint(equations);
   set_springs(equations);
   if (equations.is_large())
@@ -255,7 +256,7 @@ void Configuration<N, H>::set_held(const StepEquations<N, H>& equations) {
   for (Eigen::Index j = 0; j < m; ++j) {
     if (contains(stuck & equations.holding, j)) held.list.push_back(static_cast<int>(j));
   }
-  held.force = SparseRows::of(constraint_(held.list, held.list));
+  held.force = sparse_rows(constraint_(held.list, held.list));
   held.spring = spring;
   held.hold_all =
       static_cast<Eigen::Index>(held.list.size()) >= n && projector(equations).cwiseAbs().maxCoeff() < 1e-12;

@@ -56,7 +56,8 @@ struct StepEquations {
   // cos + i sin of each harmonic at phase 0. Empty: 1, as in every motion except one with a measured
   // excitation.
   std::vector<std::complex<double>> oscillators_at_zero;
-  SparseSystem sparse;  // of a large system
+  SparseSystem sparse;           // of a large system
+  SystemOf<float> sparse_rough;  // the same in single precision
 
   Eigen::Index masses() const { return M.rows(); }
   Eigen::Index contacts() const { return limit.size(); }
