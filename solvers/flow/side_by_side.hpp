@@ -48,15 +48,16 @@ template <class Real, class Number>
                                                   const RowsOf<Real>& B, const Number* __restrict__ y,
                                                   Number* __restrict__ a) {
   const std::size_t last = A.start.size() - 2;
-  const Real *A0 = A.diagonals[0].value.data() - 1, *A1 = A.diagonals[1].value.data(),
+  const Real *A0 = A.diagonals[0].value.data(), *A1 = A.diagonals[1].value.data(),
              *A2 = A.diagonals[2].value.data();
-  const Real *B0 = B.diagonals[0].value.data() - 1, *B1 = B.diagonals[1].value.data(),
+  const Real *B0 = B.diagonals[0].value.data(), *B1 = B.diagonals[1].value.data(),
              *B2 = B.diagonals[2].value.data();
   a[0] = -(A1[0] * x[0] + A2[0] * x[1] + B1[0] * y[0] + B2[0] * y[1]);
   for (std::size_t i = 1; i < last; ++i)
-    a[i] = -(A0[i] * x[i - 1] + A1[i] * x[i] + A2[i] * x[i + 1]) -
-           (B0[i] * y[i - 1] + B1[i] * y[i] + B2[i] * y[i + 1]);
-  a[last] = -(A0[last] * x[last - 1] + A1[last] * x[last] + B0[last] * y[last - 1] + B1[last] * y[last]);
+    a[i] = -(A0[i - 1] * x[i - 1] + A1[i] * x[i] + A2[i] * x[i + 1]) -
+           (B0[i - 1] * y[i - 1] + B1[i] * y[i] + B2[i] * y[i + 1]);
+  a[last] =
+      -(A0[last - 1] * x[last - 1] + A1[last] * x[last] + B0[last - 1] * y[last - 1] + B1[last] * y[last]);
 }
 
 // a -= M^-1 W lambda,  lambda = G^-1 W^T a.  work: keep_work numbers
