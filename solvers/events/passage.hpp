@@ -34,8 +34,9 @@ struct Event {
   }
 };
 
-// Whether the tangent of a passage is followed: of a large system it takes most of the time.
-enum class Tangent { none, followed };
+// Whether the tangent of a passage is followed. Of a large system that takes as long as many passages: its
+// path may be recorded instead, along which the tangent can be followed later.
+enum class Tangent { none, recorded, followed };
 
 // The flow over a stretch of time from one state.
 template <int N, int H>
@@ -43,6 +44,8 @@ struct Passage {
   typename Sizes<N, H>::State end;
   typename Sizes<N, H>::StateSquare tangent;  // d end / d start, product of flow and saltation matrices
   bool has_tangent = false;                   // it was followed
+  bool has_path = false;                      // recorded; of a large system only
+  TangentPath path;
   std::vector<Segment<N, H>> segments;
   std::vector<Event> changes;  // between the segments, one fewer than segments
   int events = 0;              // stops, releases, reversals and bends, also those without a change of mode

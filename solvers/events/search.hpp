@@ -47,16 +47,29 @@ double first_lasting_fall(const Polynomial& p, double limit, Workspace<N, H>& w)
   return kNoEvent;
 }
 
+// The velocity of sliding contact j over the step.
+template <int N, int H>
+Polynomial sliding_polynomial(const Flow<N, H>& flow, Eigen::Index j, Workspace<N, H>& w) {
+  const StepEquations<N, H>& eq = flow.equations();
+  const Expansion<N, H>& x = w.expand(flow);
+  Polynomial speed;
+  if (eq.is_large()) {
+    const SparseRows& W = eq.sparse.directions;
+    speed.setZero();
+    for (auto e = static_cast<std::size_t>(W.start[static_cast<std::size_t>(j)]);
+         e < static_cast<std::size_t>(W.start[static_cast<std::size_t>(j) + 1]); ++e)
+      speed += W.value[e] * x.z.col(eq.masses() + W.column[e]);
+  } else {
+    speed = x.velocity(eq.W.col(j));
+  }
+  if (flow.moving_support()) speed.noalias() += x.u * eq.support_velocity.row(j).transpose();
+  return speed;
+}
+
 // When does sliding contact j come to rest within the step?
 template <int N, int H>
 double first_stop(const Flow<N, H>& flow, Eigen::Index j, Workspace<N, H>& w) {
-  const StepEquations<N, H>& eq = flow.equations();
-  const auto polynomial = [&] {
-    const Expansion<N, H>& x = w.expand(flow);
-    Polynomial speed = x.velocity(eq.W.col(j));
-    if (flow.moving_support()) speed.noalias() += x.u * eq.support_velocity.row(j).transpose();
-    return speed;
-  };
+  const auto polynomial = [&] { return sliding_polynomial(flow, j, w); };
   const double scale = w.speed_scale[j];
   if (scale == 0.0) return kNoEvent;
   if (contains(w.fresh, j)) {

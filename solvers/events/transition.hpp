@@ -52,13 +52,22 @@ class FreeAccelerations {
       if (contains(at_rest, j)) friction[j] = 0.0;
     }
     const Eigen::Index n = eq.masses();
-    typename Sizes<N, H>::Vector force =
-        eq.force * u_ - eq.K * w.left.z.head(n) - eq.C * w.left.z.segment(n, n) - eq.W * friction;
-    for (Eigen::Index j = 0; mode.beyond != 0 && j < eq.bends.count(); ++j) {
-      if (contains(mode.beyond, j)) force -= bend_force(flow, w.left, j).value * eq.bends.B.col(j);
+    if (eq.is_large()) {
+      const auto& z = w.left.z;
+      Eigen::VectorXd a(n), ds(eq.internal_forces());
+      HeldContacts none;
+      none.spring.setZero(ds.size());
+      pull(eq.sparse, none, z.data(), z.data() + n, z.data() + 2 * n, a.data(), ds.data());
+      acceleration_ = a + eq.M_inverse * (eq.force * u_) - eq.MW * friction;
+    } else {
+      typename Sizes<N, H>::Vector force =
+          eq.force * u_ - eq.K * w.left.z.head(n) - eq.C * w.left.z.segment(n, n) - eq.W * friction;
+      if constexpr (Sizes<N, H>::kInternal != 0) force -= eq.D * w.left.z.tail(eq.internal_forces());
+      acceleration_ = eq.M_inverse * force;
     }
-    if constexpr (Sizes<N, H>::kInternal != 0) force -= eq.D * w.left.z.tail(eq.internal_forces());
-    acceleration_ = eq.M_inverse * force;
+    for (Eigen::Index j = 0; mode.beyond != 0 && j < eq.bends.count(); ++j) {
+      if (contains(mode.beyond, j)) acceleration_ -= bend_force(flow, w.left, j).value * eq.bends.MB.col(j);
+    }
   }
   double of(Eigen::Index j) const {
     return equations_.W.col(j).dot(acceleration_) + equations_.support_acceleration.row(j).dot(u_);
@@ -103,8 +112,7 @@ Choice choose_together(const StepEquations<N, H>& eq, ContactMask at_rest,
   Eigen::VectorXd c(m), weight(m), bound(m);
   for (Eigen::Index i = 0; i < m; ++i) {
     const Eigen::Index j = contact(i);
-    const typename Sizes<N, H>::Vector MWj = eq.M_inverse * eq.W.col(j);
-    for (Eigen::Index k = 0; k < m; ++k) G(i, k) = MWj.dot(eq.W.col(contact(k)));
+    for (Eigen::Index k = 0; k < m; ++k) G(i, k) = eq.mobility(j, contact(k));
     c[i] = free.of(j);
     weight[i] = eq.limit[j] > 0.0 ? eq.limit[j] : 1.0;
     bound[i] = contains(w.held, j) ? kWithoutLimit * weight[i] : eq.static_limit[j];

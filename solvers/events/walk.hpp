@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "solvers/events/passage.hpp"
 #include "solvers/events/workspace.hpp"
 
@@ -7,6 +9,8 @@ namespace frahm::periodic {
 
 struct GuardEvent;  // events/search.hpp
 struct BendEvent;   // events/bend_guards.hpp
+template <int N, int H>
+struct RankOne;  // events/saltation.hpp
 
 // Follows motions on a flow, one passage after the other. It has the workspace; the flow has none.
 template <int N, int H>
@@ -24,13 +28,15 @@ class Walk {
  private:
   void enter(const typename S::State& z, double phase, Passage<N, H>& passage);
   void begin_tangent(Passage<N, H>& passage) const;
+  std::vector<int> stopped_at_start() const;
   bool starts_at_limit(Eigen::Index contact, double speed);
   void take_step(Passage<N, H>& passage);
   void move_tangent(double steps, Passage<N, H>& passage);
-  void catch_up(Passage<N, H>& passage);
+  void end_stretch(Passage<N, H>& passage);
   void advance(double fraction, Passage<N, H>& passage);
   void pass_event(const GuardEvent& event, double phase, Passage<N, H>& passage);
   void pass_bend(const BendEvent& event, double phase, Passage<N, H>& passage);
+  void jump(const std::optional<RankOne<N, H>>& jump, Passage<N, H>& passage);
   void arrive_at(double fraction, double phase, Passage<N, H>& passage);
   void note_change(const GuardEvent& event, const Instant<N, H>& before, const Mode<N, H>& mode_before,
                    Passage<N, H>& passage);

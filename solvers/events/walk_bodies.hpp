@@ -13,6 +13,7 @@ template <int N, int H>
 void Walk<N, H>::pass(const typename S::State& z, double phase, double length, Passage<N, H>& passage,
                       Tangent tangent, ContactMask held) {
   constexpr int kMostEvents = 20000;
+  passage.has_path = flow_.equations().is_large() && tangent != Tangent::none;
   passage.has_tangent = tangent == Tangent::followed;
   w_.held = held;
   enter(z, phase, passage);
@@ -35,7 +36,7 @@ void Walk<N, H>::pass(const typename S::State& z, double phase, double length, P
       if (w_.undecided) passage.failure = "the friction forces of contacts at rest were not found";
     } else if (room <= 1.0) {
       advance(room, passage);
-      catch_up(passage);
+      end_stretch(passage);
       passage.segments.back().length = length - passage.segments.back().start;
       break;
     } else {
@@ -46,13 +47,15 @@ void Walk<N, H>::pass(const typename S::State& z, double phase, double length, P
   passage.end = w_.left.z;
   passage.margin = w_.margin;
   if (!passage.end.allFinite()) passage.failure = "the state is not finite";
+  if (passage.has_tangent && passage.has_path)
+    flow_.tangent_along(passage.path, Precision::exact, passage.tangent);
 }
 
 // Where idle contacts share the forces again the motion continues unchanged, in a new segment.
 template <int N, int H>
 void Walk<N, H>::share_forces_again(Passage<N, H>& passage) {
   if (flow_.configuration(flow_.mode(w_.mode)).idle == 0) return;
-  catch_up(passage);
+  end_stretch(passage);
   if (!share_again(flow_, w_)) return;
   passage.segments.back().length = w_.clock - passage.segments.back().start;
   if (passage.segments.back().length == 0.0)
@@ -110,24 +113,37 @@ void Walk<N, H>::enter(const typename S::State& z, double phase, Passage<N, H>& 
   settle_mode(flow_, w_);
 
   passage.starts_at_event = (w_.fresh | w_.at_place) != 0;
-  if (passage.has_tangent) begin_tangent(passage);
+  begin_tangent(passage);
   open_segment(passage);
 }
 
 // The tangent that keeps the stuck contacts stuck.
 template <int N, int H>
 void Walk<N, H>::begin_tangent(Passage<N, H>& passage) const {
+  if (passage.has_path) {
+    passage.path = {.first_mode = w_.mode, .stopped = stopped_at_start()};
+    return;
+  }
+  if (!passage.has_tangent) return;
   const StepEquations<N, H>& eq = flow_.equations();
   const Eigen::Index n = eq.masses();
   passage.tangent.setIdentity(eq.states(), eq.states());
   passage.tangent.block(n, n, n, n) = flow_.configuration(flow_.mode(w_.mode)).projector(eq);
   if constexpr (S::kInternal != 0) {
-    for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
-      const bool stays = !eq.holds(j) && !contains(flow_.mode(w_.mode).stuck, j);
-      const Eigen::Index internal = eq.internal_of[static_cast<std::size_t>(j)];
-      if (stays) passage.tangent(2 * n + internal, 2 * n + internal) = 0.0;
-    }
+    for (const int i : stopped_at_start()) passage.tangent(2 * n + i, 2 * n + i) = 0.0;
   }
+}
+
+// The internal forces that stay at their limit.
+template <int N, int H>
+std::vector<int> Walk<N, H>::stopped_at_start() const {
+  const StepEquations<N, H>& eq = flow_.equations();
+  std::vector<int> stopped;
+  for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
+    if (!eq.holds(j) && !contains(flow_.mode(w_.mode).stuck, j))
+      stopped.push_back(static_cast<int>(eq.internal_of[static_cast<std::size_t>(j)]));
+  }
+  return stopped;
 }
 
 // Whether contact j, whose force is a state, starts sliding: its force is at the limit, in the direction of
@@ -153,18 +169,19 @@ void Walk<N, H>::advance(double fraction, Passage<N, H>& passage) {
   move_tangent(fraction, passage);
 }
 
-// The tangent moves with the homogeneous flow: that of a small system step by step, that of a large one once
-// for each segment.
+// The tangent moves with the homogeneous flow: that of a small system step by step; the path of a large one
+// has a stretch up to each event.
 template <int N, int H>
 void Walk<N, H>::move_tangent(double steps, Passage<N, H>& passage) {
-  if (!passage.has_tangent) return;
-  w_.behind += steps;
-  if (!flow_.equations().is_large()) catch_up(passage);
+  if (passage.has_path)
+    w_.behind += steps;
+  else if (passage.has_tangent)
+    flow_.move_tangent(flow_.mode(w_.mode), steps, passage.tangent);
 }
 
 template <int N, int H>
-void Walk<N, H>::catch_up(Passage<N, H>& passage) {
-  if (w_.behind > 0.0) flow_.move_tangent(flow_.mode(w_.mode), w_.behind, passage.tangent);
+void Walk<N, H>::end_stretch(Passage<N, H>& passage) {
+  if (passage.has_path) passage.path.stretches.push_back({.mode = w_.mode, .steps = w_.behind});
   w_.behind = 0.0;
 }
 
@@ -175,7 +192,7 @@ void Walk<N, H>::arrive_at(double fraction, double phase, Passage<N, H>& passage
     advance(fraction, passage);
     w_.leave_event();
   }
-  catch_up(passage);
+  end_stretch(passage);
   flow_.instant_at(typename S::State(w_.left.z), phase + w_.clock * flow_.fundamental_rate(),
                    flow_.mode(w_.mode), w_.left);
   passage.segments.back().length = w_.clock - passage.segments.back().start;
@@ -202,15 +219,26 @@ void Walk<N, H>::pass_event(const GuardEvent& event, double phase, Passage<N, H>
   // 3. Carry the tangent across.
   const ContactMask released = flow_.mode(mode_before).stuck & ~flow_.mode(w_.mode).stuck;
   note_arrivals(flow_, arrived, before, w_);
-  if (passage.has_tangent) {
+  if (passage.has_path)
+    record_saltation(flow_, arrived, released, before, flow_.mode(mode_before), w_,
+                     passage.path.stretches.back());
+  else if (passage.has_tangent)
     saltate(flow_, arrived, released, before, flow_.mode(mode_before), w_, passage.tangent);
-    if (arrived == 0)
-      saltate_release(flow_, event.contact, before, flow_.mode(mode_before), w_, passage.tangent);
-  }
+  if (arrived == 0) jump(jump_of_release(flow_, event.contact, before, flow_.mode(mode_before), w_), passage);
 
   // 4. Record the change and begin the next segment. Events at one instant are one change.
   note_change(event, before, flow_.mode(mode_before), passage);
   open_segment(passage);
+}
+
+template <int N, int H>
+void Walk<N, H>::jump(const std::optional<RankOne<N, H>>& jump, Passage<N, H>& passage) {
+  if (!jump) return;
+  const Eigen::Index n = flow_.equations().masses();
+  if (passage.has_path)
+    passage.path.stretches.back().jumps.push_back({.change = jump->change, .by = jump->by});
+  else if (passage.has_tangent)
+    passage.tangent.middleRows(n, n) += jump->change * (jump->by.transpose() * passage.tangent).eval();
 }
 
 // An element bends. Where its force jumps, the forces of all contacts at rest are chosen again.
@@ -228,7 +256,7 @@ void Walk<N, H>::pass_bend(const BendEvent& event, double phase, Passage<N, H>& 
     if (jumps && at_rest != 0) choose_modes(flow_, at_rest, w_);
     settle_mode(flow_, w_);
   }
-  if (passage.has_tangent && jumps) saltate_bend(flow_, event.bend, before, guard.slope, w_, passage.tangent);
+  if (jumps) jump(jump_of_bend(flow_, event.bend, before, guard.slope, w_), passage);
 
   const bool same_instant = passage.segments.back().length == 0.0;
   if (same_instant) passage.segments.pop_back();

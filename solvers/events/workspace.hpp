@@ -21,7 +21,7 @@ struct Workspace {
   bool expanded = false;
   std::size_t mode = 0;
   double clock = 0.0;                           // steps since the passage began
-  double behind = 0.0;                          // steps by which the tangent lags behind the state
+  double behind = 0.0;                          // steps since the last stretch of the path ended
   ContactMask fresh = 0;                        // sliding contacts whose velocity is zero at `left`
   ContactMask just_released = 0;                // fresh contacts whose relative acceleration is zero too
   ContactMask free = 0;                         // bends past their place that push no more (bend_guards.hpp)

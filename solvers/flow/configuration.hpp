@@ -149,7 +149,7 @@ typename Sizes<N, H>::State Configuration<N, H>::pull_form(const StepEquations<N
     left = (equations.M_inverse * left).eval();
     form.head(n).noalias() = equations.K * left;
     form.segment(n, n).noalias() = equations.C * left;
-    for (const BeyondBend& bend : held.beyond) {
+    for (const BeyondBend<double>& bend : held.beyond) {
       const auto b = equations.bends.B.col(bend.index);
       form.head(n) += (bend.stiffness * b.dot(left)) * b;
       form.segment(n, n) += (bend.damping * b.dot(left)) * b;
@@ -181,6 +181,7 @@ void Configuration<N, H>::set_system(const StepEquations<N, H>& equations, Conta
                                      ContactMask beyond_bends) {
   stuck = stuck_contacts;
   beyond = beyond_bends;
+  has_forcing = false;
   set_constraint(equations);
   set_springs(equations);
   if (equations.is_large())
@@ -265,7 +266,7 @@ void Configuration<N, H>::set_held(const StepEquations<N, H>& equations) {
   for (Eigen::Index j = 0; j < m; ++j) {
     if (contains(stuck & equations.holding, j)) held.list.push_back(static_cast<int>(j));
   }
-  held.force = SparseRows::rows_of(constraint_(held.list, held.list));
+  held.force = rows_alone(constraint_(held.list, held.list));
   held.spring = spring;
   held.beyond.clear();
   for (Eigen::Index j = 0; beyond != 0 && j < equations.bends.count(); ++j) {
@@ -281,7 +282,7 @@ void Configuration<N, H>::set_held(const StepEquations<N, H>& equations) {
       equations.sparse.pull_by_displacement.add_row(i, -constraint_(j, i), Lq.row(j).data());
       equations.sparse.pull_by_velocity.add_row(i, -constraint_(j, i), Lv.row(j).data());
     }
-    for (const BeyondBend& bend : held.beyond) {
+    for (const BeyondBend<double>& bend : held.beyond) {
       const auto b = equations.bends.B.col(bend.index);
       const double share = -reaction_.col(j).dot(b);
       Lq.row(j) += (share * bend.stiffness) * b.transpose();

@@ -59,8 +59,9 @@ struct StepEquations {
   // excitation.
   std::vector<std::complex<double>> oscillators_at_zero;
   StepBends<N, H> bends;
-  bool monotone = true;  // LinearSystem::monotone
-  SparseSystem sparse;   // of a large system
+  bool monotone = true;          // LinearSystem::monotone
+  SparseSystem sparse;           // of a large system
+  SystemOf<float> sparse_rough;  // the same in single precision
 
   Eigen::Index masses() const { return M.rows(); }
   Eigen::Index contacts() const { return limit.size(); }

@@ -7,6 +7,7 @@
 
 #include "solvers/flow/configuration.hpp"
 #include "solvers/flow/equations.hpp"
+#include "solvers/flow/tangent_path.hpp"
 #include "solvers/mechanics/linear_system.hpp"
 
 // The exact flow of a network whose contacts follow laws that are linear state by state (laws/law.hpp):
@@ -70,6 +71,9 @@ struct Expansion {
   }
 };
 
+// Of a tangent: to the last digits, or to about 1e-3, which serves for steps of an iteration.
+enum class Precision { exact, rough };
+
 template <int N, int H>
 class Flow {
  public:
@@ -122,8 +126,10 @@ class Flow {
   static void evaluate(const Expansion<N, H>& expansion, double s, typename S::State& z) {
     z.noalias() = expansion.z.transpose() * powers(s);
   }
-  // Columns of states moved on by `steps` of the homogeneous flow of a mode.
+  // Columns of states moved on by `steps` of the homogeneous flow of a mode, of a small system.
   void move_tangent(const Mode<N, H>& mode, double steps, typename S::StateSquare& tangent) const;
+  // The tangent of a passage of a large system.
+  void tangent_along(const TangentPath& path, Precision precision, typename S::StateSquare& tangent) const;
   // The state `elapsed` steps after the start of a segment of a passage that began at phase `section`.
   typename S::State state_within(const Segment<N, H>& segment, double section, double elapsed) const;
 
@@ -133,16 +139,29 @@ class Flow {
   ValueAndSlope stuck_force(const Instant<N, H>& at, const Mode<N, H>& mode, Eigen::Index contact) const;
 
  private:
+  std::vector<const HeldContacts*> held_along(const TangentPath& path) const;
   void turn_oscillators(const Instant<N, H>& from, Instant<N, H>& to) const;
   void expand_oscillators(const Instant<N, H>& at, Expansion<N, H>& x) const;
   void expand_by_recurrence(const Instant<N, H>& at, const Mode<N, H>& mode, Expansion<N, H>& x) const;
   void scale_matrices(const mechanics::LinearSystem& system);
   void bound_tables();
+  struct ConfigurationKey {
+    ContactMask stuck, beyond;
+    friend bool operator==(const ConfigurationKey&, const ConfigurationKey&) = default;
+  };
+  struct ModeKey {
+    ContactMask stuck, positive, beyond;
+    friend bool operator==(const ModeKey&, const ModeKey&) = default;
+  };
   void set_oscillation(double omega);
   std::size_t configuration_index(ContactMask stuck, ContactMask beyond);
 
   StepEquations<N, H> equations_;
+  // The tables are searched by their keys; entries beyond the keys are of earlier systems, kept for their
+  // storage.
+  std::vector<ConfigurationKey> configuration_keys_;
   std::vector<Configuration<N, H>> configurations_;
+  std::vector<ModeKey> mode_keys_;
   std::vector<Mode<N, H>> modes_;
   std::vector<int> orders_;
   std::vector<double> rotation_;             // cos, sin of each phase rate

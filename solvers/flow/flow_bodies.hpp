@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -102,12 +103,13 @@ void Flow<N, H>::scale_matrices(const mechanics::LinearSystem& system) {
   eq.compliance = eq.mobility.diagonal();
   if constexpr (!S::is_fixed) {
     if (eq.is_large()) {
-      eq.sparse.set(eq.M_inverse, eq.K, eq.C, eq.D, eq.W, eq.internal_rate);
-      eq.sparse.bend_directions = SparseRows::of(eq.bends.B.transpose());
-      eq.sparse.bend_pull = SparseRows::of(eq.bends.MB.transpose());
+      eq.sparse = sparse_system(eq.M_inverse, eq.K, eq.C, eq.D, eq.W, eq.internal_rate);
+      eq.sparse.bend_directions = rows_alone(eq.bends.B.transpose());
+      eq.sparse.bend_pull = rows_alone(eq.bends.MB.transpose());
+      eq.sparse_rough = in_single_precision(eq.sparse);
     }
   }
-  configurations_.clear();
+  configuration_keys_.clear();
 }
 
 template <int N, int H>
@@ -144,7 +146,7 @@ void Flow<N, H>::set_forcing(const mechanics::LinearSystem& system) {
 
   bound_tables();
   for (Configuration<N, H>& configuration : configurations_) configuration.has_forcing = false;
-  modes_.clear();
+  mode_keys_.clear();
 }
 
 // Configurations are kept for the next frequency as long as they take little memory: with many contacts each
@@ -156,7 +158,8 @@ void Flow<N, H>::bound_tables() {
   const Eigen::Index of_each =
       equations_.is_large() ? equations_.contacts() * (2 * states + 3 * equations_.contacts())
                             : kTerms * states * (states + equations_.oscillators() + equations_.contacts());
-  if (static_cast<Eigen::Index>(configurations_.size()) * of_each > most_doubles) configurations_.clear();
+  if (static_cast<Eigen::Index>(configuration_keys_.size()) * of_each > most_doubles)
+    configuration_keys_.clear();
 }
 
 // The oscillators of the forcing over a step, cos and sin of order_k omega h, and their Taylor polynomials.
@@ -184,28 +187,33 @@ void Flow<N, H>::set_oscillation(double omega) {
   }
 }
 
+// The entry of a table for a new key.
+template <class Key, class Entry>
+Entry& new_entry(const Key& key, std::vector<Key>& keys, std::vector<Entry>& entries) {
+  if (entries.size() == keys.size()) entries.emplace_back();
+  keys.push_back(key);
+  return entries[keys.size() - 1];
+}
+
 template <int N, int H>
 std::size_t Flow<N, H>::configuration_index(ContactMask stuck, ContactMask beyond) {
-  const auto is_other = [&](const Configuration<N, H>& c) { return c.stuck != stuck || c.beyond != beyond; };
-  std::size_t index = 0;
-  while (index < configurations_.size() && is_other(configurations_[index])) ++index;
-  if (index == configurations_.size()) {
-    configurations_.emplace_back();
-    configurations_.back().set_system(equations_, stuck, beyond);
-  }
+  const ConfigurationKey key{stuck, beyond};
+  const auto found = std::ranges::find(configuration_keys_, key);
+  const auto index = static_cast<std::size_t>(found - configuration_keys_.begin());
+  if (found == configuration_keys_.end())
+    new_entry(key, configuration_keys_, configurations_).set_system(equations_, stuck, beyond);
   if (!configurations_[index].has_forcing) configurations_[index].set_forcing(equations_);
   return index;
 }
 
 template <int N, int H>
 std::size_t Flow<N, H>::mode_index(ContactMask stuck, ContactMask positive, ContactMask beyond) {
-  positive &= ~stuck;
-  for (std::size_t i = 0; i < modes_.size(); ++i) {
-    if (modes_[i].stuck == stuck && modes_[i].positive == positive && modes_[i].beyond == beyond) return i;
-  }
-  Mode<N, H>& mode = modes_.emplace_back();
+  const ModeKey key{stuck, positive & ~stuck, beyond};
+  const auto found = std::ranges::find(mode_keys_, key);
+  if (found != mode_keys_.end()) return static_cast<std::size_t>(found - mode_keys_.begin());
+  Mode<N, H>& mode = new_entry(key, mode_keys_, modes_);
   mode.stuck = stuck;
-  mode.positive = positive;
+  mode.positive = key.positive;
   mode.beyond = beyond;
   mode.configuration = configuration_index(stuck, beyond);
   const Configuration<N, H>& configuration = configurations_[mode.configuration];
@@ -220,7 +228,7 @@ std::size_t Flow<N, H>::mode_index(ContactMask stuck, ContactMask positive, Cont
     mode.step.noalias() = configuration.tables.Ef.lazyProduct(mode.friction);
     mode.series.noalias() = configuration.tables.series_f.lazyProduct(mode.friction);
   }
-  return modes_.size() - 1;
+  return mode_keys_.size() - 1;
 }
 
 // Coefficient k + 1 of the series is the derivative of coefficient k over k + 1.
@@ -252,13 +260,30 @@ void Flow<N, H>::expand_by_recurrence(const Instant<N, H>& at, const Mode<N, H>&
 template <int N, int H>
 void Flow<N, H>::move_tangent(const Mode<N, H>& mode, double steps, typename S::StateSquare& tangent) const {
   const Configuration<N, H>& configuration = configurations_[mode.configuration];
-  if constexpr (!S::is_fixed) {
-    if (equations_.is_large()) return propagate(equations_.sparse, configuration.held, steps, tangent);
-  }
   if (steps == 1.0)
     tangent = (configuration.tables.E * tangent).eval();
   else
     configuration.tables.move_by_fraction(steps, tangent);
+}
+
+template <int N, int H>
+std::vector<const HeldContacts*> Flow<N, H>::held_along(const TangentPath& path) const {
+  const auto held_in = [this](std::size_t index) { return &configuration(mode(index)).held; };
+  std::vector<const HeldContacts*> held{held_in(path.first_mode)};
+  for (const TangentPath::Stretch& stretch : path.stretches) held.push_back(held_in(stretch.mode));
+  return held;
+}
+
+template <int N, int H>
+void Flow<N, H>::tangent_along(const TangentPath& path, Precision precision,
+                               typename S::StateSquare& tangent) const {
+  if constexpr (!S::is_fixed) {
+    tangent.setIdentity(equations_.states(), equations_.states());
+    if (precision == Precision::rough)
+      follow_roughly(path, equations_.sparse_rough, held_along(path), tangent);
+    else
+      follow(path, equations_.sparse, held_along(path), tangent);
+  }
 }
 
 template <int N, int H>

@@ -106,8 +106,9 @@ void Continuation<N, H>::predict(const mechanics::LinearSystem& system, Orbit<N,
     orbit.z = response_without_friction(system, orbit.section);
     return;
   }
-  // Lagrange's polynomial through the orbits that went through the same modes.
-  std::size_t points = 1;
+  // Lagrange's polynomial through the orbits that went through the same modes; of a large system, whose
+  // orbits rarely do, at least a straight line through two.
+  std::size_t points = flow_.equations().is_large() ? std::min<std::size_t>(known_, 2) : 1;
   while (points < known_ && history_[points].sequence == history_[0].sequence) ++points;
   orbit.z.setZero(flow_.equations().states());
   for (std::size_t i = 0; i < points; ++i) {
@@ -138,13 +139,15 @@ typename Sizes<N, H>::State Continuation<N, H>::response_without_friction(
 }
 
 // Moves the section to the middle of the longest stretch without events when an event has come within 2 % of
-// the map's length. Returns whether it did; the orbit then holds the state there.
+// the map's length, or within 0.5 % in a large system, whose events are many. Returns whether it did; the
+// orbit then holds the state there.
 template <int N, int H>
 bool Continuation<N, H>::move_section(Orbit<N, H>& orbit) const {
   const double length = (orbit.half_period ? 0.5 : 1.0) * flow_.equations().period;
   const auto& segments = orbit.passage.segments;
   const double first = segments.front().length, last = segments.back().length;
-  const bool near_event = segments.size() > 1 && (first <= 0.02 * length || last <= 0.02 * length);
+  const double near = (flow_.equations().is_large() ? 0.005 : 0.02) * length;
+  const bool near_event = segments.size() > 1 && (first <= near || last <= near);
   if (!near_event && !orbit.passage.starts_at_event) return false;
   if (segments.size() == 1) {
     orbit.z = flow_.state_within(segments.front(), orbit.section, 0.5 * length);

@@ -3,20 +3,21 @@
 #include <Eigen/Core>
 
 #include "solvers/events/walk.hpp"
-#include "solvers/orbits/broyden.hpp"
+#include "solvers/orbits/kept_derivative.hpp"
 #include "solvers/orbits/orbit.hpp"
 
 // The periodic orbit as a fixed point of the period map g, by Newton's method on g(z) - z = 0 with the exact
-// derivative of g. Of a large system that derivative is kept and corrected, and computed only where its steps
-// no longer serve (Broyden). If a Newton step reduces the residual too little, the map itself is applied:
-// under monotone laws it expands no distance in the energy norm, so the search converges if the map
-// contracts.
+// derivative of g; of a large system with one that is kept, corrected, and computed anew, in single
+// precision, where its steps no longer serve (KeptDerivative). If a Newton step reduces the residual too
+// little, the map itself is applied: under monotone laws it expands no distance in the energy norm, so the
+// search converges if the map contracts.
 namespace frahm::periodic {
 
 struct ShootingOptions {
   double tolerance = 1e-13;    // of the relative residual: a few units of rounding of one passage
   double good_enough = 1e-12;  // accepted when rounding keeps the residual from falling further
-  double pays = 0.9;           // a Newton step that leaves more than this part of the residual is refused
+  double pays = 0.1;           // part of the residual that a Newton step must remove, else it is refused
+  int most_halvings = 4;       // of a refused step of a large system
   int most_passages = 20000;   // enough for the map alone at damping ratios of 1e-3
   double most_steps = 2e7;     // of all passages together: about a second of work
   double most_steps_a_period = 2e5;
@@ -51,16 +52,16 @@ class Shooting {
  private:
   enum class Verdict { go_on, converged, gave_up };
 
-  void apply_map(Trial<N, H>& trial, Tangent tangent = Tangent::followed);
+  void apply_map(Trial<N, H>& trial);
   Verdict judge();
   bool take_newton_step();
-  bool take_short_step();
+  bool take_dense_step();
   bool take_kept_step();
-  bool wants_derivative(double left) const;
-  bool keep_derivative();
-  typename S::StateSquare newton_matrix();
-  bool propose(const typename S::State& step);
-  bool try_candidate(Tangent tangent, double pays);
+  KeptDerivative::Map map() const;
+  typename S::StateSquare newton_matrix(const typename S::StateSquare& tangent);
+  bool try_step(const typename S::State& step, double share = 1.0);
+  bool try_steps(const typename S::State& step);
+  bool try_shorter_steps(const typename S::State& step);
   void march(int maps);
   void start_at_rest();
   bool is_resolved(const typename S::State& z) const;
@@ -74,24 +75,16 @@ class Shooting {
   double section_ = 0.0, sign_ = 1.0, length_ = 0.0;
   ContactMask held_ = 0;
   int newton_iterations_ = 0, passages_ = 0;
-  Tangent tangent_ = Tangent::followed;  // of the passages of this search
-  // Of a large system: the derivative that is kept, and where it was taken.
-  struct KeptAt {
-    double section = 0.0, sign = 0.0, step = 0.0;
-    ContactMask stuck_throughout = 0;
-    friend bool operator==(const KeptAt&, const KeptAt&) = default;
-  };
-  Broyden kept_;
-  KeptAt kept_at_;
+  KeptDerivative kept_;  // of a large system
   Trial<N, H> current_, candidate_;
 };
 
 // The tangent of an orbit's passage, where the search did not need it.
 template <int N, int H>
-void follow_tangent(Flow<N, H>& flow, Orbit<N, H>& orbit) {
+void follow_tangent(const Flow<N, H>& flow, Orbit<N, H>& orbit) {
   if (orbit.passage.has_tangent || !orbit.is_found()) return;
-  const double period = flow.equations().period;
-  Walk<N, H>(flow).pass(orbit.z, orbit.section, orbit.half_period ? 0.5 * period : period, orbit.passage);
+  flow.tangent_along(orbit.passage.path, Precision::exact, orbit.passage.tangent);
+  orbit.passage.has_tangent = true;
 }
 
 extern template class Shooting<1, 1>;

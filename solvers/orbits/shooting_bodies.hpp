@@ -18,24 +18,21 @@ void Shooting<N, H>::find(Orbit<N, H>& orbit, ContactMask held) {
   length_ = orbit.half_period ? 0.5 * period : period;
   held_ = held;
   newton_iterations_ = passages_ = 0;
-  const bool keeps = flow_.equations().is_large() && held == 0;
-  tangent_ = keeps ? Tangent::none : Tangent::followed;
   if (period > options_.most_steps_a_period) {
     current_.passage.segments.clear();
     current_.passage.failure = kTooManySteps;
     return conclude(Verdict::gave_up, orbit);
   }
   current_.z = orbit.z;
-  apply_map(current_, tangent_);
+  apply_map(current_);
   Verdict verdict = judge();
   for (int maps = 2; verdict == Verdict::go_on; verdict = judge()) {
-    if (keeps ? take_kept_step() : take_newton_step()) continue;
-    if (!flow_.equations().monotone && take_short_step()) continue;
+    if (take_newton_step()) continue;
     if (current_.relative <= options_.good_enough) {
       verdict = Verdict::converged;
       break;
     }
-    if (!flow_.equations().monotone) {
+    if (!flow_.equations().monotone) {  // the map does not lead to an orbit by itself
       verdict = Verdict::gave_up;
       break;
     }
@@ -47,8 +44,9 @@ void Shooting<N, H>::find(Orbit<N, H>& orbit, ContactMask held) {
 }
 
 template <int N, int H>
-void Shooting<N, H>::apply_map(Trial<N, H>& trial, Tangent tangent) {
+void Shooting<N, H>::apply_map(Trial<N, H>& trial) {
   const StepEquations<N, H>& eq = flow_.equations();
+  const Tangent tangent = eq.is_large() ? Tangent::recorded : Tangent::followed;
   walk_.pass(trial.z, section_, length_, trial.passage, tangent, held_);
   ++passages_;
   trial.stuck_throughout = stuck_throughout(flow_, trial.passage);
@@ -71,98 +69,92 @@ typename Shooting<N, H>::Verdict Shooting<N, H>::judge() {
   return passages_ > options_.most_passages || too_long ? Verdict::gave_up : Verdict::go_on;
 }
 
+template <int N, int H>
+bool Shooting<N, H>::take_newton_step() {
+  if constexpr (!S::is_fixed) {
+    if (flow_.equations().is_large()) return take_kept_step();
+  }
+  return take_dense_step();
+}
+
 // B of Newton's step,  (1 - dg/dz) step = g(z) - z. A contact that sticks throughout keeps its rest position
 // (multiplier +1); its equation is replaced by L^T step = 0.
 template <int N, int H>
-typename Sizes<N, H>::StateSquare Shooting<N, H>::newton_matrix() {
-  typename S::StateSquare A = -sign_ * current_.passage.tangent;
-  A.diagonal().array() += 1.0;
+typename Sizes<N, H>::StateSquare Shooting<N, H>::newton_matrix(const typename S::StateSquare& tangent) {
+  typename S::StateSquare B = -sign_ * tangent;
+  B.diagonal().array() += 1.0;
   if (sign_ > 0.0 && current_.stuck_throughout != 0)
-    A += shift_projector(rest_directions(flow_.equations(), current_.stuck_throughout));
-  return A;
+    B += shift_projector(rest_directions(flow_.equations(), current_.stuck_throughout));
+  return B;
 }
 
 template <int N, int H>
-bool Shooting<N, H>::take_newton_step() {
-  const typename S::StateSquare A = newton_matrix();
+bool Shooting<N, H>::take_dense_step() {
+  const typename S::StateSquare B = newton_matrix(current_.passage.tangent);
   if constexpr (S::is_fixed && S::kState <= 4) {
     // In closed form; Newton's method forgives its rounding.
-    if (!propose(A.inverse() * current_.residual)) return false;
+    return try_steps(B.inverse() * current_.residual);
   } else {
-    if (!propose(A.partialPivLu().solve(current_.residual))) return false;
+    return try_steps(B.partialPivLu().solve(current_.residual));
   }
-  return try_candidate(Tangent::followed, options_.pays);
 }
 
-// Parts of Newton's step, where the whole leads too far: under laws that are not monotone the map does not
-// lead to the orbit by itself.
+// Where the map leads to the orbit by itself, a step that is refused leaves the search to it.
 template <int N, int H>
-bool Shooting<N, H>::take_short_step() {
-  constexpr int kMostHalvings = 6;
-  if (!current_.passage.has_tangent) apply_map(current_, Tangent::followed);
-  const typename S::State step = newton_matrix().partialPivLu().solve(current_.residual);
-  double part = 1.0;
-  for (int i = 0; i < kMostHalvings; ++i) {
-    part *= 0.5;
-    if (propose(part * step) && try_candidate(Tangent::followed, 1.0 - 0.1 * part)) return true;
+bool Shooting<N, H>::try_steps(const typename S::State& step) {
+  return flow_.equations().monotone ? try_step(step) : try_shorter_steps(step);
+}
+
+template <int N, int H>
+KeptDerivative::Map Shooting<N, H>::map() const {
+  return {section_, sign_, flow_.equations().step, sign_ > 0.0 ? current_.stuck_throughout : 0, held_};
+}
+
+// A step by the kept derivative, or, where that does not serve, by the derivative here.
+template <int N, int H>
+bool Shooting<N, H>::take_kept_step() {
+  const double before = current_.norm;
+  if (kept_.serves(map())) {
+    if (try_step(kept_.step(current_.residual))) {
+      const double needed = options_.tolerance / current_.relative;
+      if (kept_.is_worth_renewing(current_.norm / before, needed)) kept_.forget();
+      return true;
+    }
+    if (current_.relative <= options_.good_enough) return false;
+  }
+  typename S::StateSquare tangent;
+  flow_.tangent_along(current_.passage.path, Precision::rough, tangent);
+  kept_.set(map(), newton_matrix(tangent));
+  return try_shorter_steps(kept_.step(current_.residual));
+}
+
+// The map has a kink wherever a contact begins to stop or to slide: the residual may fall on the way although
+// it does not at the end.
+template <int N, int H>
+bool Shooting<N, H>::try_shorter_steps(const typename S::State& step) {
+  double share = 1.0;
+  for (int halvings = 0; halvings <= options_.most_halvings; ++halvings, share *= 0.5) {
+    if (try_step(step, share)) return true;
   }
   return false;
 }
 
-// A step by the kept derivative, which is taken anew where it does not serve.
+// Whether this share of a step reduces the residual enough (by Armijo's rule); if so, it leads to the current
+// trial.
 template <int N, int H>
-bool Shooting<N, H>::take_kept_step() {
-  const KeptAt here{section_, sign_, flow_.equations().step, sign_ > 0.0 ? current_.stuck_throughout : 0};
-  const bool serves = kept_.is_set() && kept_at_ == here;
-  const double before = current_.norm;
-  if (serves && propose(kept_.step(current_.residual)) && try_candidate(Tangent::none, options_.pays)) {
-    if (wants_derivative(current_.norm / before)) kept_.forget();
-    return true;
-  }
-  if (serves && current_.relative <= options_.good_enough) return false;
-  if (!keep_derivative()) return false;
-  kept_at_ = here;
-  return propose(kept_.step(current_.residual)) && try_candidate(Tangent::none, options_.pays);
-}
-
-// Whether further steps, each of which leaves this part of the residual, would take longer than the
-// derivative and the steps after it.
-template <int N, int H>
-bool Shooting<N, H>::wants_derivative(double left) const {
-  constexpr double kStatesAPassage = 12.0;  // columns of the tangent that take as long as the passage itself
-  constexpr double kAfterDerivative = 3.0;  // passages
-  const double derivative = static_cast<double>(flow_.equations().states()) / kStatesAPassage;
-  const double further = std::log(current_.relative / options_.tolerance) / -std::log(left);
-  return further > derivative + kAfterDerivative;
-}
-
-// The derivative at the current state.
-template <int N, int H>
-bool Shooting<N, H>::keep_derivative() {
-  kept_.forget();
-  apply_map(current_, Tangent::followed);
-  if (current_.passage.failure != nullptr) return false;
-  kept_.set(newton_matrix());
-  return true;
-}
-
-template <int N, int H>
-bool Shooting<N, H>::propose(const typename S::State& step) {
-  candidate_.z = current_.z + step;
-  return candidate_.z.allFinite() && is_resolved(candidate_.z);
-}
-
-// Whether the candidate reduces the residual enough; if so, it becomes the current trial.
-template <int N, int H>
-bool Shooting<N, H>::try_candidate(Tangent tangent, double pays) {
+bool Shooting<N, H>::try_step(const typename S::State& step, double share) {
+  candidate_.z = current_.z + share * step;
+  if (!candidate_.z.allFinite() || !is_resolved(candidate_.z)) return false;
   ++newton_iterations_;
-  apply_map(candidate_, tangent);
+  apply_map(candidate_);
   if (candidate_.passage.failure != nullptr) return false;
-  if (tangent == Tangent::none) {
-    const typename S::State step = candidate_.z - current_.z;
-    kept_.correct(step, flow_.equations().weighted_by_energy(step), candidate_.residual);
+  if constexpr (!S::is_fixed) {
+    const typename S::State moved = share * step;
+    if (flow_.equations().is_large())
+      kept_.correct(moved, flow_.equations().weighted_by_energy(moved),
+                    current_.residual - candidate_.residual);
   }
-  if (!(candidate_.norm < pays * current_.norm)) return false;
+  if (!(candidate_.norm < (1.0 - options_.pays * share) * current_.norm)) return false;
   std::swap(current_, candidate_);
   return true;
 }
@@ -172,7 +164,7 @@ void Shooting<N, H>::march(int maps) {
   for (int i = 0; i < maps && current_.passage.failure == nullptr && current_.relative > options_.tolerance;
        ++i) {
     current_.z = sign_ * current_.passage.end;
-    apply_map(current_, tangent_);
+    apply_map(current_);
   }
 }
 
@@ -184,7 +176,7 @@ void Shooting<N, H>::start_at_rest() {
   const auto& segments = current_.passage.segments;
   if (segments.size() < 2 || segments.front().length > kNoLength * length_) return;
   candidate_.z = sign_ * current_.passage.end;
-  apply_map(candidate_, tangent_);
+  apply_map(candidate_);
   const bool serves = candidate_.passage.failure == nullptr && candidate_.relative <= options_.good_enough;
   if (serves) std::swap(current_, candidate_);
 }

@@ -38,11 +38,11 @@ bool difference(AnyFlow& flow, const Eigen::VectorXd& z, double length, const Pa
   return true;
 }
 
-TEST_CASE("The derivative through stops, releases and reversals is that of differences, for 1 to 5 masses") {
+TEST_CASE("The derivative through stops, releases and reversals is that of differences, for 1 to 9 masses") {
   std::mt19937 random(11);
   std::normal_distribution<double> normal;
   int compared = 0, events = 0, stuck_segments = 0;
-  for (const int masses : {1, 2, 3, 5}) {
+  for (const int masses : {1, 2, 3, 5, 9}) {  // from 8 on along its path
     for (const int contacts : {0, 1, 2, 3}) {
       for (int trial = 0; trial < 25; ++trial) {
         const RandomNetwork drawn = random_network(
