@@ -101,6 +101,17 @@ TEST_CASE("static_over_kinetic.toml: rest and sliding coexist from f_s = 1 to th
   }
 }
 
+// A row where force and static force are equal has one response; on the next row there are two.
+TEST_CASE("rows of one response leave the next ones to the search") {
+  std::string text = runs::reduced("static_over_kinetic", {});
+  text = text.substr(0, text.find("[[axis]]")) +
+         "[[axis]]\nparameter = \"f_k\"\nvalues = [1.3, 0.2]\n[[axis]]\nparameter = \"r\"\nvalues = [0.75, "
+         "0.8, 0.85]\n";
+  const Map map = runs::run_study(text);
+  CHECK(map["coexisting"] == std::vector<double>{1, 1, 1, 2, 2, 2});
+  CHECK(map["status"] == std::vector<double>{kOk, kOk, kOk, kSeveral, kSeveral, kSeveral});
+}
+
 TEST_CASE("absorber_stops.toml: linear below the clearance, thrown back beyond it") {
   constexpr double mu = 0.05, nu = 0.95, D = 10.0;
   const runs::Folder folder;
