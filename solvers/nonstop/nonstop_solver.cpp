@@ -59,10 +59,10 @@ bool NonstopSolver::set_row(std::span<const mechanics::NetworkValues> points) {
     has_modes_ = set_matrices();
   }
   // The first two points and the last tell whether the row is worth the modes; set_point() looks at all.
-  return has_modes_ && systems_[0].monotone && shares_matrices(points[points.size() > 1 ? 1 : 0]) &&
-         shares_matrices(points.back());
+  return has_modes_ && shares_matrices(points[points.size() > 1 ? 1 : 0]) && shares_matrices(points.back());
 }
 
+// Not where the response may be one of several: no proof holds there.
 bool NonstopSolver::set_point(int lane, const mechanics::NetworkValues& values) {
   mechanics::LinearSystem& system = systems_[size(lane)];
   mechanics::NetworkValues& last = values_[size(lane)];
@@ -75,7 +75,7 @@ bool NonstopSolver::set_point(int lane, const mechanics::NetworkValues& values) 
     } else if (!needs_forces_ && last.excitation == values.excitation && values.omega > 0.0 &&
                std::isfinite(values.omega)) {
       system.omega = values.omega;  // inputs are as they were, and nothing else is asked for
-      return true;
+      return system.monotone;
     }
     assembly_.set_forcing(values, system);
   } catch (const mechanics::MechanicsError&) {
@@ -83,7 +83,7 @@ bool NonstopSolver::set_point(int lane, const mechanics::NetworkValues& values) 
     return false;
   }
   last = values;
-  return true;
+  return system.monotone;
 }
 
 bool NonstopSolver::set_matrices() {

@@ -101,6 +101,17 @@ TEST_CASE("static_over_kinetic.toml: rest and sliding coexist from f_s = 1 to th
   }
 }
 
+// A row where force and static force are equal has one response; on the next row there are two.
+TEST_CASE("rows of one response leave the next ones to the search") {
+  std::string text = runs::reduced("static_over_kinetic", {});
+  text = text.substr(0, text.find("[[axis]]")) +
+         "[[axis]]\nparameter = \"f_k\"\nvalues = [1.3, 0.2]\n[[axis]]\nparameter = \"r\"\nvalues = [0.75, "
+         "0.8, 0.85]\n";
+  const Map map = runs::run_study(text);
+  CHECK(map["coexisting"] == std::vector<double>{1, 1, 1, 2, 2, 2});
+  CHECK(map["status"] == std::vector<double>{kOk, kOk, kOk, kSeveral, kSeveral, kSeveral});
+}
+
 TEST_CASE("absorber_stops.toml: linear below the clearance, thrown back beyond it") {
   constexpr double mu = 0.05, nu = 0.95, D = 10.0;
   const runs::Folder folder;
@@ -172,6 +183,109 @@ TEST_CASE("rig_play.toml: without play the teeth are a spring, and play takes in
   }
   const std::size_t at = index_of(I, 10.0), most = map["status"].size() - inertances + at;
   CHECK_THAT(map["main_peak"][most] / map["main_peak"][at], WithinAbs(1.11, 0.005));
+}
+
+// One mass on a spring with a stop below it, without clearance: w = 2 w1 w2/(w1 + w2) = 1.5195.
+std::string mass_on_a_stop(const std::string& excitation, const std::string& more = "") {
+  return R"([study]
+schema = 1
+kind = "sweep"
+units = "dimensionless"
+[parameters]
+r = 3
+[[mass]]
+name = "main"
+mass = 1
+[[element]]
+name = "spring"
+type = "spring"
+between = ["ground", "main"]
+stiffness = 1
+[[element]]
+name = "damper"
+type = "damper"
+between = ["ground", "main"]
+damping = 0.1
+[[element]]
+name = "stop"
+type = "gap"
+between = ["ground", "main"]
+clearance = [0, inf]
+stiffness = 9
+)" + excitation +
+         R"([[axis]]
+parameter = "r"
+values = [2.1, 2.6, 3.0, 3.1]
+[output]
+quantities = ["main_peak", "damper_energy", "energy_balance", "floquet_radius", "coexisting", "period_multiple", "status"]
+)" + more;
+}
+
+const std::string kOrderOne = R"([excitation]
+frequency = "r"
+[[excitation.force]]
+on = "main"
+amplitude = 1
+)";
+
+TEST_CASE("a subharmonic takes two periods, and one where its order is counted as the second") {
+  const std::string order_two = runs::replaced(runs::replaced(kOrderOne, "\"r\"", "\"r/2\""), "amplitude = 1",
+                                               "amplitude = 1\norder = 2");
+  const Map one = runs::run_study(mass_on_a_stop(kOrderOne)),
+            two = runs::run_study(mass_on_a_stop(order_two));
+  // The natural frequency by two: a subharmonic resonance at 3.04.
+  CHECK(one["main_peak"][2] > 2.0);
+  const std::vector<double> multiples{1, 4, 2, 2}, of_whole_periods{1, 2, 1, 1}, times{2, 1, 1, 1};
+  for (std::size_t i = 0; i < multiples.size(); ++i) {
+    INFO("point " << i);
+    CHECK(one["period_multiple"][i] == multiples[i]);
+    CHECK(two["period_multiple"][i] == of_whole_periods[i]);
+    CHECK(one["energy_balance"][i] < kBalance);
+    CHECK_THAT(two["main_peak"][i], WithinRel(one["main_peak"][i], kClosed));
+    CHECK_THAT(two["damper_energy"][i], WithinRel(times[i] * one["damper_energy"][i], kClosed));
+    CHECK_THAT(two["floquet_radius"][i], WithinRel(std::pow(one["floquet_radius"][i], times[i]), 1e-8));
+  }
+}
+
+TEST_CASE("where no multiple that is tried has a stable orbit, the point is not periodic and has no number") {
+  const runs::Folder folder;
+  const std::string study =
+      folder.write("study.toml", mass_on_a_stop(kOrderOne, "[orbits]\nmost_multiple = 1\n"));
+  const auto outcome = runs::frahm({"run", study, "-o", folder / "map.h5"});
+  CHECK(outcome.code == 3);
+  CHECK_THAT(outcome.err, Catch::Contains("\n3 points have no periodic response that was found"));
+  const Map map = runs::read_map(folder / "map.h5");
+  CHECK(map["status"] == std::vector<double>{kOk, kNotPeriodic, kNotPeriodic, kNotPeriodic});
+  CHECK(map["coexisting"] == std::vector<double>{1, -1, -1, -1});
+  CHECK(std::isnan(map["main_peak"][1]));
+}
+
+// It loses 2 F/k of amplitude from each turning point to the next, and stays at the first within F_s/k.
+TEST_CASE("a free motion stays where static friction first holds it") {
+  const auto outcome_of = [](const std::string& static_force) {
+    const runs::Folder folder;
+    const std::string study = folder.write("study.toml", R"([study]
+schema = 1
+kind = "decay"
+units = "dimensionless"
+[[mass]]
+name = "main"
+mass = 1
+[[element]]
+name = "spring"
+type = "spring"
+between = ["ground", "main"]
+stiffness = 1
+[[element]]
+name = "guide"
+type = "coulomb"
+between = ["ground", "main"]
+force = 0.1
+)" + static_force + "[[initial]]\nnode = \"main\"\ndisplacement = 1.05\n");
+    return runs::frahm({"run", study, "-o", folder / "decay.h5"}).out;
+  };
+  CHECK_THAT(outcome_of(""), Catch::Contains("main: 6 extrema, rests at -0.05"));
+  CHECK_THAT(outcome_of("static_force = 0.3\n"), Catch::Contains("main: 5 extrema, rests at 0.25"));
 }
 
 TEST_CASE("a map of a system with several responses says what was searched") {
