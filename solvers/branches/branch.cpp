@@ -41,15 +41,15 @@ class BranchTelling {
 };
 
 // One way of a branch, from the first point on.
-struct Way {
+struct OneWay {
   std::vector<BranchPoint> points;
   std::vector<SpecialPoint> special;
   BranchEnd end{};
 };
 
-Way follow_way(BranchMap& map, BranchTelling& telling, const BranchWanted& wanted, const BranchPlace& first,
-               const BranchProgress& progress) {
-  Way way;
+OneWay follow_way(BranchMap& map, BranchTelling& telling, const BranchWanted& wanted,
+                  const BranchPlace& first, const BranchProgress& progress) {
+  OneWay way;
   const FoundOnBranch found = [&](const BranchPlace& place, const std::vector<SpecialPlace>& special) {
     for (const SpecialPlace& each : special)
       way.special.push_back(
@@ -62,7 +62,7 @@ Way follow_way(BranchMap& map, BranchTelling& telling, const BranchWanted& wante
 }
 
 // Both ways in one, the parameter rising at the first point.
-Branch joined(Way&& back, const BranchPoint& first, Way&& on) {
+Branch joined(OneWay&& back, const BranchPoint& first, OneWay&& on) {
   Branch branch;
   branch.first_end = back.end;
   branch.last_end = on.end;
@@ -139,8 +139,8 @@ Branch follow_branch(const mechanics::Network& network, const std::vector<Quanti
   BranchTelling telling(map, quantities);
   const BranchPoint point = telling.tell(*first);
   if (progress) progress(point);
-  Way on = follow_way(map, telling, wanted, *first, progress);
-  Way back;
+  OneWay on = follow_way(map, telling, wanted, *first, progress);
+  OneWay back;
   if (on.end != BranchEnd::closed) {
     first->tangent *= -1.0;
     back = follow_way(map, telling, wanted, *first, progress);

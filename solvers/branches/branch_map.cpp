@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "solvers/algebra/eigenvalues.hpp"
@@ -94,7 +95,7 @@ void BranchMap::pass(const Eigen::VectorXd& y, Tangent tangent, Shot& shot) {
   const Eigen::VectorXd z = state(y);
   shot.failed = true;
   if (!z.allFinite() || eq.period > ShootingOptions{}.most_steps_a_period) return;
-  walk_.pass(z, 0.0, half_period_ ? 0.5 * eq.period : eq.period, shot.passage, tangent);
+  walk_.pass(z, section_, length(), shot.passage, tangent);
   if (shot.passage.failure != nullptr) return;
   shot.failed = false;
   shot.stuck_throughout = stuck_throughout(flow_, shot.passage);
@@ -164,6 +165,7 @@ Shot BranchMap::shoot(const Eigen::VectorXd& y) {
 AnyOrbit BranchMap::orbit(const Eigen::VectorXd& y, Shot&& shot) {
   AnyOrbit orbit;
   orbit.z = state(y);
+  orbit.section = section_;
   orbit.half_period = half_period_;
   orbit.multiple = multiple_;
   orbit.passage = std::move(shot.passage);
@@ -172,6 +174,33 @@ AnyOrbit BranchMap::orbit(const Eigen::VectorXd& y, Shot&& shot) {
   orbit.status = orbit.passage.margin < kGrazing ? Status::grazing : Status::ok;
   judge_stability(flow_, orbit);
   return orbit;
+}
+
+Eigen::VectorXd BranchMap::moved(const Eigen::VectorXd& y, double section) {
+  set(parameter(y));
+  const Eigen::Index n = flow_.equations().masses();
+  const double turn = 2.0 * std::numbers::pi;
+  const double ahead = section > section_ ? section - section_ : section - section_ + turn;
+  AnyPassage passage;
+  walk_.pass(state(y), section_, ahead / flow_.fundamental_rate(), passage, Tangent::none);
+  if (passage.failure != nullptr) return {};
+  Eigen::VectorXd z = passage.end;
+  z.segment(n, n) /= flow_.equations().step;
+  Eigen::VectorXd there = y;
+  there.head(z.size()) = root_ * z / scale_;
+  return there;
+}
+
+std::optional<double> BranchMap::better_section(const Shot& shot) const {
+  constexpr double kNear = 0.02, kFar = 0.05;  // of the length
+  const auto& segments = shot.passage.segments;
+  if (segments.size() < 2) return std::nullopt;
+  const double first = segments.front().length, last = segments.back().length;
+  if (std::min(first, last) > kNear * length()) return std::nullopt;
+  const auto longest = std::ranges::max_element(segments, {}, &Segment<kAnySize, kAnySize>::length);
+  if (0.5 * longest->length < kFar * length()) return std::nullopt;
+  const double middle = longest->start + 0.5 * longest->length;
+  return std::fmod(section_ + middle * flow_.fundamental_rate(), 2.0 * std::numbers::pi);
 }
 
 Eigen::VectorXcd BranchMap::multipliers(const Shot& shot) {

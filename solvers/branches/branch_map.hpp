@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "solvers/branches/branch.hpp"
@@ -25,7 +26,7 @@ struct Shot {
 };
 
 // The period map of a network along one parameter p. Places of a branch are y = (R z / scale, (p - low) /
-// (high - low)): z the state in SI at omega t = 0, |R z| / sqrt(2) its energy norm in the system at the
+// (high - low)): z the state in SI at a section, |R z| / sqrt(2) its energy norm in the system at the
 // start, scale that of the first orbit. So both the orbit and the parameter move by parts of one.
 class BranchMap {
  public:
@@ -39,6 +40,14 @@ class BranchMap {
 
   // Leaves the flow set to the parameter of y.
   Shot shoot(const Eigen::VectorXd& y);
+
+  // omega t of the section [rad], 0 at first.
+  double section() const { return section_; }
+  void set_section(double section) { section_ = section; }
+  // The place of the same orbit at another section; empty where the motion there cannot be followed.
+  Eigen::VectorXd moved(const Eigen::VectorXd& y, double section);
+  // Where an event has come within 2 % of the map's length: a section that is far from all; else none.
+  std::optional<double> better_section(const Shot& shot) const;
 
   double parameter(const Eigen::VectorXd& y) const { return low_ + (high_ - low_) * y[y.size() - 1]; }
   // The orbit of a shot that closes, at the parameter set.
@@ -58,6 +67,7 @@ class BranchMap {
   const AnyFlow& flow() const { return flow_; }
 
  private:
+  double length() const { return (half_period_ ? 0.5 : 1.0) * flow_.equations().period; }
   Eigen::VectorXd state(const Eigen::VectorXd& y) const;  // in the units of the flow
   void pass(const Eigen::VectorXd& y, Tangent tangent, Shot& shot);
   Eigen::MatrixXd scaled(const Eigen::MatrixXd& by_state) const;
@@ -79,7 +89,7 @@ class BranchMap {
 
   int multiple_ = 1;
   bool half_period_ = false;
-  double scale_ = 1.0;
+  double scale_ = 1.0, section_ = 0.0;
   Eigen::MatrixXd root_, root_inverse_;  // R of states in SI
 };
 

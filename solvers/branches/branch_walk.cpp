@@ -23,7 +23,7 @@ class BranchWalk {
       : map_(map), wanted_(wanted), found_(found) {}
 
   BranchEnd follow(const BranchPlace& first) {
-    here_ = first;
+    here_ = first_ = first;
     passed_ = {here_.y};
     step_ = limits_.first;
     if (leaves_range(here_.y, here_.tangent)) return BranchEnd::range;
@@ -37,9 +37,10 @@ class BranchWalk {
       const double p = next->y[next->y.size() - 1];
       if (p <= 0.0 || p >= 1.0) return accept(*next), BranchEnd::range;
       ++points;
-      const bool closes = points > kLeastLoop && passes(first, *next);
-      if (closes) return accept(first), BranchEnd::closed;
+      const bool closes = points > kLeastLoop && passes(first_, *next);
+      if (closes) return accept(first_), BranchEnd::closed;
       accept(*next);
+      if (here_.section_is_near_event) move_section();
     }
     return BranchEnd::points;
   }
@@ -139,16 +140,37 @@ class BranchWalk {
     const double angle = std::acos(std::clamp(here_.tangent.dot(next.tangent), -1.0, 1.0));
     found_(next, special_places(map_, here_, next));
     if (next.newton_iterations <= kFast && angle < 0.5 * limits_.most_angle)
-      step_ = std::min(kGrow * step_, wanted_.largest_step);
+      step_ = std::min(kGrow * step_, wanted_.largest_step * std::max(1.0, next.y.norm()));
     here_ = next;
     passed_.push_back(here_.y);
+  }
+
+  // Away from events: where one passes the section, the curve of states there has a kink. Its tangent is
+  // found from the chord of the last two places.
+  void move_section() {
+    if (passed_.size() < 2) return;
+    const double to = here_.better_section;
+    const Eigen::VectorXd before = map_.moved(passed_[passed_.size() - 2], to),
+                          first = map_.moved(first_.y, to);
+    const Eigen::VectorXd now = map_.moved(here_.y, to);
+    if (before.size() == 0 || first.size() == 0 || now.size() == 0) return;
+    const double from = map_.section();
+    map_.set_section(to);
+    const Eigen::VectorXd chord = (now - before).normalized();
+    const Eigen::VectorXd along = Eigen::VectorXd::Unit(now.size(), now.size() - 1);
+    const auto place = correct(map_, now, chord, chord);
+    const auto start = correct(map_, first, along, first_.parameter_rate() * along);
+    if (!place || !start) return map_.set_section(from);
+    here_ = *place;
+    first_ = *start;
+    passed_ = {before, here_.y};
   }
 
   BranchMap& map_;
   const BranchWanted& wanted_;
   const FoundOnBranch& found_;
   StepLimits limits_;
-  BranchPlace here_;
+  BranchPlace here_, first_;
   std::vector<Eigen::VectorXd> passed_;  // the last one is here
   double step_ = 0.0;
 };
@@ -157,7 +179,10 @@ class BranchWalk {
 
 BranchEnd walk_branch(BranchMap& map, const BranchWanted& wanted, const BranchPlace& first,
                       const FoundOnBranch& found) {
-  return BranchWalk(map, wanted, found).follow(first);
+  const double section = map.section();
+  const BranchEnd end = BranchWalk(map, wanted, found).follow(first);
+  map.set_section(section);
+  return end;
 }
 
 }  // namespace frahm::periodic

@@ -41,6 +41,9 @@ std::optional<BranchPlace> correct(BranchMap& map, const Eigen::VectorXd& start,
       BranchPlace place;
       place.y = y;
       place.newton_iterations = iteration;
+      const auto section = map.better_section(shot);
+      place.section_is_near_event = section.has_value();
+      place.better_section = section.value_or(0.0);
       place.tangent = branch_tangent(shot.derivative, towards);
       if (!place.tangent.allFinite()) return std::nullopt;
       place.multipliers = map.multipliers(shot);

@@ -15,6 +15,8 @@ struct BranchPlace {
   Eigen::VectorXcd multipliers;
   std::vector<int> events;
   int newton_iterations = 0;
+  bool section_is_near_event = false;
+  double better_section = 0.0;  // then: omega t [rad] in the middle of the longest stretch without events
 
   double parameter_rate() const { return tangent[tangent.size() - 1]; }  // dp/ds, scaled
   // Multipliers outside the unit circle.

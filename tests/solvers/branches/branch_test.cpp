@@ -174,6 +174,17 @@ TEST_CASE("A branch along friction is Den Hartog's until stops begin, and ends a
   CHECK_THAT(branch.points.back().quantities[0], WithinAbs(0.0, kExact));
 }
 
+TEST_CASE("A branch goes on where stops pass the phase at which it began") {
+  const auto values = [](double r) {
+    return NetworkValues{.omega = r, .mass = {1.0}, .element = {1.0, 0.1, 0.4}, .excitation = {{1.0, 0.0}}};
+  };
+  const Branch branch =
+      follow_branch(rubbing_mass(false), asked, values, {.low = 0.1, .high = 2.5, .start = 0.1});
+  check_points(branch);
+  CHECK(branch.last_end == BranchEnd::range);
+  CHECK_THAT(branch.points.back().quantities[0], WithinAbs(classical_amplitude(2.5, 0.05, 0.4), kExact));
+}
+
 TEST_CASE("The border of sliding without stops under static friction is where it is known to be") {
   const auto values = [](double static_force) {
     return NetworkValues{.omega = 0.8,
@@ -215,6 +226,20 @@ TEST_CASE("A subharmonic is followed in its own period until the branch closes")
   CHECK_THAT(branch.points.back().parameter, WithinAbs(branch.points.front().parameter, kExact));
   CHECK_THAT(branch.points.back().quantities[0], WithinAbs(branch.points.front().quantities[0], kExact));
   CHECK(of_kind(branch, SpecialKind::period_doubling).size() >= 4);
+}
+
+TEST_CASE("A branch of two periods meets that of one where its period doubles") {
+  const auto followed = [](double start, int multiple) {
+    return follow_branch(mass_before_a_stop(), asked, one_stop_values,
+                         {.low = 1.0, .high = 5.0, .start = start, .multiple = multiple});
+  };
+  const Branch one = followed(1.2, 1), two = followed(3.2, 2);
+  const auto meets = [&](const SpecialPoint& doubling) {
+    return std::ranges::any_of(two.special, [&](const SpecialPoint& each) {
+      return each.kind == SpecialKind::fold && std::abs(each.at.parameter - doubling.at.parameter) < kExact;
+    });
+  };
+  CHECK(std::ranges::count_if(of_kind(one, SpecialKind::period_doubling), meets) == 2);
 }
 
 // The forcing of a subharmonic is still that of one period.
