@@ -162,8 +162,7 @@ void refuse_names_of_energies(const StudyContext& context, const Study& study) {
 
 void read_motion(const StudyContext& context, const TomlValue& root, Study& study) {
   refuse_smooth_friction(study);
-  refuse_bends(study,
-               fmt::format("only periodic responses follow it so far; {} does not", kind_noun(study.kind())));
+  if (study.identify()) refuse_bends(study, "an identification does not follow it so far");
   if (!study.identify()) refuse_names_of_energies(context, study);
   NetworkReading reading(context, study.parameters);
   reading.result = {study.network, study.values};
