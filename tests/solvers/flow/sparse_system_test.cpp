@@ -58,7 +58,7 @@ TEST_CASE("The Taylor series of a large system are those of the tables, whatever
       REQUIRE(flow.equations().is_large());
       const Eigen::Index states = flow.equations().states();
       for (ContactMask stuck = 0; stuck < bit(contacts); stuck += 1 + (bit(contacts) > 20 ? 12 : 0)) {
-        const std::size_t index = flow.mode_index(stuck, ~stuck);
+        const std::size_t index = flow.mode_index(stuck, ~stuck, 0);
         const auto& mode = flow.mode(index);
         const SparseRows& held = flow.configuration(mode).held.force;  // taken row by row, at every set
         CHECK((held.diagonals.empty() && held.full.size() == 0));
@@ -86,10 +86,10 @@ TEST_CASE("A tangent that is moved in long steps is that of single steps") {
   AnyFlow& flow = large.flow;
   const Eigen::Index states = flow.equations().states();
   for (const ContactMask stuck : {0, 1, 6, 15}) {
-    const auto& mode = flow.mode(flow.mode_index(stuck, 0));
+    const auto& mode = flow.mode(flow.mode_index(stuck, 0, 0));
     const StepTables<kAny, kAny> tables = large.tables(flow.configuration(mode));
     // At the start the path removes what the held contacts do not allow.
-    const std::size_t index = flow.mode_index(stuck, 0);
+    const std::size_t index = flow.mode_index(stuck, 0, 0);
     const TangentPath path{.first_mode = index, .stretches = {{.mode = index, .steps = 13.25}}};
     Eigen::MatrixXd moved, rough, expected = Eigen::MatrixXd::Identity(states, states);
     flow.tangent_along(path, Precision::exact, moved);
