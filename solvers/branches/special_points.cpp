@@ -88,7 +88,8 @@ Border border_of_event(const Stretch& stretch, std::size_t event) {
 double residual_of_grazing(BranchMap& map, const BranchPlace& place, double width, std::size_t event) {
   if (event >= map.assembly().bends().element.size()) return width;
   Shot shot = map.shoot(place.y);
-  return map.distance_from_bend(map.orbit(place.y, std::move(shot)), static_cast<Eigen::Index>(event));
+  return distance_from_bend(map.flow(), map.orbit(place.y, std::move(shot)),
+                            static_cast<Eigen::Index>(event));
 }
 
 namespace {
@@ -99,7 +100,7 @@ void add_grazings(const Stretch& stretch, std::vector<SpecialPlace>& found) {
   for (std::size_t event = 0; event < stretch.from().events.size(); ++event) {
     if (stretch.from().events[event] == stretch.to().events[event]) continue;
     const Border border = border_of_event(stretch, event);
-    const std::size_t element = stretch.map().element_of_event(event);
+    const std::size_t element = element_of_event(stretch.map().assembly(), event);
     // Both stops of a symmetric orbit at once.
     const bool known = std::any_of(
         found.begin() + static_cast<std::ptrdiff_t>(first), found.end(), [&](const SpecialPlace& each) {
