@@ -7,30 +7,12 @@
 #include <utility>
 
 #include "solvers/algebra/eigenvalues.hpp"
-#include "solvers/events/bend_guards.hpp"
 #include "solvers/exact/response.hpp"
-#include "solvers/mechanics/element_table.hpp"
 #include "solvers/orbits/certificate.hpp"
 #include "solvers/orbits/coexistence.hpp"
 #include "solvers/orbits/rest_directions.hpp"
-#include "solvers/quantities/orbit_steps.hpp"
 
 namespace frahm::periodic {
-namespace {
-
-// A guard (events/bend_guards.hpp) over a step of an orbit.
-Polynomial bend_guard_over(const Expansion<kAnySize, kAnySize>& x, const StepBends<kAnySize, kAnySize>& bends,
-                           BendGuard guard, Eigen::Index j) {
-  const auto b = bends.B.col(j);
-  Polynomial place = x.displacement(b) + x.u * bends.motion.row(j).transpose();
-  Polynomial velocity = x.velocity(b) + x.u * bends.motion_velocity.row(j).transpose();
-  const bool of_velocity = contains(bends.of_velocity, j);
-  (of_velocity ? velocity : place)[0] -= bends.place[j];
-  if (guard == BendGuard::place) return of_velocity ? velocity : place;
-  return bends.stiffness[j] * place + bends.damping[j] * velocity;
-}
-
-}  // namespace
 
 BranchMap::BranchMap(const mechanics::Network& network, const ValuesAlong& values, double low, double high)
     : assembly_(network), values_(values), low_(low), high_(high), walk_(flow_) {}
@@ -137,7 +119,7 @@ BranchMap::Side BranchMap::side(Eigen::VectorXd y, double at) {
   Shot shot;
   pass(y, Tangent::none, shot);
   if (shot.failed) return {};
-  return {shot.residual, events(shot)};
+  return {shot.residual, count_events(flow_, shot.passage)};
 }
 
 Shot BranchMap::shoot(const Eigen::VectorXd& y) {
@@ -209,61 +191,6 @@ Eigen::VectorXcd BranchMap::multipliers(const Shot& shot) {
   if (half_period_) values = values.array().square();
   std::ranges::sort(values, [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
   return values;
-}
-
-std::vector<int> BranchMap::events(const Shot& shot) const {
-  constexpr double kNoLength = 1e-10;  // of the period: the first slip of a state that should be at rest
-  const auto& eq = flow_.equations();
-  const auto bends = static_cast<std::size_t>(eq.bends.count());
-  std::vector<int> count(bends + static_cast<std::size_t>(eq.contacts()), 0);
-  const Mode<kAnySize, kAnySize>* before = nullptr;
-  for (const auto& segment : shot.passage.segments) {
-    if (before == nullptr && segment.length <= kNoLength * eq.period) continue;
-    const auto& mode = flow_.mode(segment.mode);
-    for (std::size_t i = 0; before != nullptr && i < count.size(); ++i) {
-      const auto j = static_cast<Eigen::Index>(i < bends ? i : i - bends);
-      const bool changes = i < bends ? contains(mode.beyond ^ before->beyond, j)
-                                     : contains(mode.stuck ^ before->stuck, j) ||
-                                           (!contains(mode.stuck, j) && mode.sign(j) != before->sign(j));
-      count[i] += changes ? 1 : 0;
-    }
-    before = &mode;
-  }
-  return count;
-}
-
-double BranchMap::distance_from_bend(const AnyOrbit& orbit, Eigen::Index j) const {
-  const auto& bends = flow_.equations().bends;
-  OrbitSteps<kAnySize, kAnySize> steps(flow_);
-  steps.lay_out(orbit);
-  double nearest = HUGE_VAL;
-  for (const BendGuard guard : {BendGuard::place, BendGuard::force}) {
-    if (guard == BendGuard::force && contains(bends.pulling, j)) continue;
-    double size = guard == BendGuard::place ? std::abs(bends.place[j]) : 0.0, least = HUGE_VAL;
-    for (auto& step : steps.steps()) {
-      const ValueAndSlope left = bend_guard(flow_, step.left, guard, j);
-      const ValueAndSlope right = bend_guard(flow_, step.right, guard, j);
-      size = std::max({size, std::abs(left.value), std::abs(right.value)});
-      if ((left.slope > 0.0) == (right.slope > 0.0)) continue;
-      const Polynomial g = bend_guard_over(steps.expand(step), bends, guard, j);
-      const Roots extremes = sign_changes(derivative(g));
-      for (int i = 0; i < extremes.count; ++i)
-        least = std::min(least, std::abs(evaluate(g, extremes.at[static_cast<std::size_t>(i)])));
-    }
-    nearest = std::min(nearest, least / size);
-  }
-  return nearest;
-}
-
-std::size_t BranchMap::element_of_event(std::size_t event) const {
-  const auto& elements = assembly_.bends().element;
-  if (event < elements.size()) return elements[event];
-  const std::size_t contact = event - elements.size();
-  for (std::size_t e = 0; e < assembly_.shares().size(); ++e) {
-    if (mechanics::has_contact(assembly_.network().elements[e]) && assembly_.shares()[e].contact == contact)
-      return e;
-  }
-  return 0;
 }
 
 }  // namespace frahm::periodic

@@ -5,16 +5,12 @@
 #include <vector>
 
 #include "solvers/branches/branch.hpp"
+#include "solvers/branches/branch_events.hpp"
 #include "solvers/mechanics/linear_system.hpp"
 #include "solvers/orbits/orbit.hpp"
 #include "solvers/orbits/shooting.hpp"
 
 namespace frahm::periodic {
-
-inline constexpr int kAnySize = Eigen::Dynamic;
-using AnyOrbit = Orbit<kAnySize, kAnySize>;
-using AnyPassage = Passage<kAnySize, kAnySize>;
-using AnyFlow = Flow<kAnySize, kAnySize>;
 
 // The period map's residual at a place y of the scaled space, and all that its passage tells.
 struct Shot {
@@ -54,12 +50,6 @@ class BranchMap {
   AnyOrbit orbit(const Eigen::VectorXd& y, Shot&& shot);
   // Floquet multipliers of what can move, over the whole period, the largest first.
   Eigen::VectorXcd multipliers(const Shot& shot);
-  // How often each bend and each contact changes its state.
-  std::vector<int> events(const Shot& shot) const;
-  // The least distance from zero of an extreme of bend j's guards over an orbit, relative to the guard's
-  // size.
-  double distance_from_bend(const AnyOrbit& orbit, Eigen::Index j) const;
-  std::size_t element_of_event(std::size_t event) const;  // of events(): index in Network::elements
 
   const mechanics::Assembly& assembly() const { return assembly_; }
   const mechanics::LinearSystem& system() const { return multiple_ > 1 ? longer_ : system_; }

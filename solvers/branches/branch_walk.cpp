@@ -122,8 +122,8 @@ class BranchWalk {
     const bool turns = (here_.parameter_rate() > 0.0) != (next.parameter_rate() > 0.0);
     const auto differs = std::ranges::mismatch(here_.events, next.events).in1 - here_.events.begin();
     const auto event = static_cast<std::size_t>(differs);
-    return {turns ? SpecialKind::corner : SpecialKind::grazing, here_, map_.element_of_event(event),
-            residual_of_grazing(map_, here_, limits_.least, event)};
+    return {turns ? SpecialKind::corner : SpecialKind::grazing, here_,
+            element_of_event(map_.assembly(), event), residual_of_grazing(map_, here_, limits_.least, event)};
   }
 
   // The step that led to the first place again, or past it.

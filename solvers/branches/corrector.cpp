@@ -47,7 +47,7 @@ std::optional<BranchPlace> correct(BranchMap& map, const Eigen::VectorXd& start,
       place.tangent = branch_tangent(shot.derivative, towards);
       if (!place.tangent.allFinite()) return std::nullopt;
       place.multipliers = map.multipliers(shot);
-      place.events = map.events(shot);
+      place.events = count_events(map.flow(), shot.passage);
       return place;
     }
     if (iteration > 3 && residual > 2.0 * before) return std::nullopt;

@@ -15,9 +15,10 @@ constexpr double kClosed = 1e-12;  // a bracket
 using Function = std::function<double(const BranchPlace&)>;
 
 // The part of a branch between two places, by the arclength s from the first along its tangent.
-class Stretch {
+class PartOfBranch {
  public:
-  Stretch(BranchMap& map, const BranchPlace& from, const BranchPlace& to) : map_(map), from_(from), to_(to) {}
+  PartOfBranch(BranchMap& map, const BranchPlace& from, const BranchPlace& to)
+      : map_(map), from_(from), to_(to) {}
 
   const BranchPlace& from() const { return from_; }
   const BranchPlace& to() const { return to_; }
@@ -44,7 +45,7 @@ struct Root {
   // The function jumps across zero: the bracket is closed, and there is no root.
   bool is_jump() const { return std::abs(value) > kJump && width < kClosed; }
 };
-Root root(const Stretch& stretch, const Function& function) {
+Root root(const PartOfBranch& stretch, const Function& function) {
   constexpr int kMostSteps = 100;
   constexpr double kTolerance = 1e-11, kNoLength = 1e-15;
   BranchPlace a = stretch.from(), b = stretch.to();
@@ -72,7 +73,7 @@ struct Border {
   BranchPlace place;
   double width;  // of the bracket
 };
-Border border_of_event(const Stretch& stretch, std::size_t event) {
+Border border_of_event(const PartOfBranch& stretch, std::size_t event) {
   constexpr int kMostSteps = 60;
   BranchPlace a = stretch.from(), b = stretch.to();
   for (int i = 0; i < kMostSteps && stretch.at(b) - stretch.at(a) > kClosed; ++i) {
@@ -88,18 +89,19 @@ Border border_of_event(const Stretch& stretch, std::size_t event) {
 double residual_of_grazing(BranchMap& map, const BranchPlace& place, double width, std::size_t event) {
   if (event >= map.assembly().bends().element.size()) return width;
   Shot shot = map.shoot(place.y);
-  return map.distance_from_bend(map.orbit(place.y, std::move(shot)), static_cast<Eigen::Index>(event));
+  return distance_from_bend(map.flow(), map.orbit(place.y, std::move(shot)),
+                            static_cast<Eigen::Index>(event));
 }
 
 namespace {
 
-void add_grazings(const Stretch& stretch, std::vector<SpecialPlace>& found) {
+void add_grazings(const PartOfBranch& stretch, std::vector<SpecialPlace>& found) {
   constexpr double kSame = 1e-8;
   const std::size_t first = found.size();
   for (std::size_t event = 0; event < stretch.from().events.size(); ++event) {
     if (stretch.from().events[event] == stretch.to().events[event]) continue;
     const Border border = border_of_event(stretch, event);
-    const std::size_t element = stretch.map().element_of_event(event);
+    const std::size_t element = element_of_event(stretch.map().assembly(), event);
     // Both stops of a symmetric orbit at once.
     const bool known = std::any_of(
         found.begin() + static_cast<std::ptrdiff_t>(first), found.end(), [&](const SpecialPlace& each) {
@@ -113,7 +115,7 @@ void add_grazings(const Stretch& stretch, std::vector<SpecialPlace>& found) {
 }
 
 // A real multiplier that passes +1 where the parameter turns belongs to the fold.
-void add_stability_change(const Stretch& stretch, bool has_fold, std::vector<SpecialPlace>& found) {
+void add_stability_change(const PartOfBranch& stretch, bool has_fold, std::vector<SpecialPlace>& found) {
   constexpr double kAxis = 1e-4;
   const int before = stretch.from().unstable(), after = stretch.to().unstable();
   const int change = std::abs(after - before);
@@ -137,7 +139,7 @@ void add_stability_change(const Stretch& stretch, bool has_fold, std::vector<Spe
 
 // Where dp/ds changes its sign. Where it jumps across 0, at a grazing that is then part of the corner, there
 // is no fold.
-void add_fold(const Stretch& stretch, std::vector<SpecialPlace>& found) {
+void add_fold(const PartOfBranch& stretch, std::vector<SpecialPlace>& found) {
   constexpr double kSame = 1e-6;
   const Root fold = root(stretch, [](const BranchPlace& place) { return place.parameter_rate(); });
   SpecialPlace special{SpecialKind::fold, fold.place, std::nullopt, std::abs(fold.value)};
@@ -155,7 +157,7 @@ void add_fold(const Stretch& stretch, std::vector<SpecialPlace>& found) {
 }  // namespace
 
 std::vector<SpecialPlace> special_places(BranchMap& map, const BranchPlace& from, const BranchPlace& to) {
-  const Stretch stretch(map, from, to);
+  const PartOfBranch stretch(map, from, to);
   std::vector<SpecialPlace> found;
   const bool turns = (from.parameter_rate() > 0.0) != (to.parameter_rate() > 0.0);
   add_grazings(stretch, found);

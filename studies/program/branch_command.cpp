@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <iostream>
 
 #include "solvers/branches/branch.hpp"
@@ -111,6 +112,19 @@ class Counter {
       std::chrono::steady_clock::now() + std::chrono::milliseconds(500);
 };
 
+periodic::BranchWanted wanted_branch(const Study& study, std::size_t along,
+                                     const BranchCommandOptions& options) {
+  periodic::BranchWanted wanted;
+  wanted.low = end_of_range(study, along, "--from", options.from, false);
+  wanted.high = end_of_range(study, along, "--to", options.to, true);
+  if (!(wanted.low < wanted.high))
+    throw StudyError(rules::wrong_order, "--from {}: must be below --to, {} (SI)", wanted.low, wanted.high);
+  wanted.start = start_of(study, along, options, wanted.low, wanted.high);
+  wanted.most_points = options.steps;
+  wanted.multiple = options.multiple;
+  return wanted;
+}
+
 }  // namespace
 
 int branch_command(const BranchCommandOptions& options, std::ostream& out) {
@@ -118,16 +132,7 @@ int branch_command(const BranchCommandOptions& options, std::ostream& out) {
   check_options(study, options);
   if (options.output) check_output_is_not_input(*options.output, options.study);
   const std::size_t along = parameter_along(study, options.along);
-  periodic::BranchWanted wanted;
-  wanted.low = end_of_range(study, along, "--from", options.from, false);
-  wanted.high = end_of_range(study, along, "--to", options.to, true);
-  if (!(wanted.low < wanted.high)) {
-    throw StudyError(rules::wrong_order, "--from {}: must be below --to, {} (SI)", wanted.low, wanted.high);
-  }
-  wanted.start = start_of(study, along, options, wanted.low, wanted.high);
-  wanted.most_points = options.steps;
-  wanted.multiple = options.multiple;
-
+  const periodic::BranchWanted wanted = wanted_branch(study, along, options);
   std::vector<double> parameters = parameters_at(study, options.at);
   for (const double place : {wanted.low, wanted.high, wanted.start}) {
     parameters[along] = place;
