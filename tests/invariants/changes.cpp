@@ -45,6 +45,12 @@ Change in_other_units(const Case& original, const std::string& name, double leng
         values.element[e] *= stiffness;
         second_of(change.changed, e) *= force;
         break;
+      case ElementType::gap:
+        values.element[e] *= stiffness;
+        second_of(change.changed, e) *= damping;
+        for (BendValue& bend : values.bends[e])
+          bend = {bend.place * length, bend.stiffness * stiffness, bend.damping * damping};
+        break;
     }
   }
   for (std::size_t k = 0; k < values.excitation.size(); ++k) {

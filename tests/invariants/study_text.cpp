@@ -34,6 +34,8 @@ Keys keys_of(ElementType type) {
       return {"maxwell", "stiffness", "damping"};
     case ElementType::jenkins:
       return {"jenkins", "stiffness", "force"};
+    case ElementType::gap:
+      return {"gap", "stiffness", "damping"};
   }
   return {"", "", nullptr};
 }
@@ -59,6 +61,8 @@ std::string element_text(const Case& c, std::size_t e) {
   std::string text =
       fmt::format("[[element]]\nname = \"{}\"\ntype = \"{}\"\n{}\n{} = {}\n", element.name, keys.type,
                   direction_text(c.network, element.along), keys.first, number(c.values.element[e]));
+  if (element.type == ElementType::gap)
+    text += fmt::format("clearance = {}\n", number(c.values.bends[e].front().place));
   if (keys.second != nullptr) text += fmt::format("{} = {}\n", keys.second, number(c.values.second[e]));
   return text;
 }

@@ -31,6 +31,7 @@ std::string name_on_page(const QuantityRow& row) {
     case Owner::support:
     case Owner::point:
     case Owner::structure:
+    case Owner::coexistence:
       break;
   }
   return "`" + suffix + "`";
