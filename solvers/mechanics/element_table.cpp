@@ -113,7 +113,8 @@ const ElementKind& kind_of(ElementType type) {
 
 bool ElementKind::is_inertia_alone() const {
   const Added<double> unit = adds(1.0, 1.0, 1.0);
-  return unit.stiffness == 0.0 && unit.damping == 0.0 && law == nullptr && !has_internal_force;
+  return unit.stiffness == 0.0 && unit.damping == 0.0 && law == nullptr && !has_internal_force &&
+         stop == nullptr;
 }
 
 const ValueKey& second_key(const Element& element) {
@@ -139,7 +140,7 @@ double second_value(const NetworkValues& values, std::size_t element) {
 }
 
 double static_force(const Element& element, const NetworkValues& values, std::size_t index) {
-  const bool has_one = element.type == ElementType::coulomb && element.law == FrictionLaw::exact;
+  const bool has_one = element.has_static_force && element.law == FrictionLaw::exact;
   return has_one ? second_value(values, index) : 0.0;
 }
 

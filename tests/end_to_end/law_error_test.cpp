@@ -41,7 +41,7 @@ TEST_CASE("law_error_rig.toml: the differences say under which law, and the stat
   CHECK(named("main_peak_compared").unit == "m");
   CHECK(named("main_peak_difference").unit == "1");
   CHECK(named("main_peak_difference").long_name == "relative difference of main_peak under the arctan law");
-  CHECK(named("status_compared").flags.size() == 5);
+  CHECK(named("status_compared").flags.size() == 7);
   for (const double difference : map["guide_energy_difference"]) {
     CHECK((std::isnan(difference) || difference < 1e-2));  // NaN where FP = 0: no energy to compare
   }

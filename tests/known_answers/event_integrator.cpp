@@ -178,7 +178,7 @@ double EventIntegrator::margin(const State& x, double t, Index j) const {
   }
   if (slides_by_state(j) && modes_[static_cast<std::size_t>(j)] == Mode::stuck) {
     const Index place = system_.contact_internal[static_cast<std::size_t>(j)];
-    return system_.limit[j] - std::abs(maxwell(x, system_.masses())[place]);
+    return system_.limit[j] * (1.0 + 1e-12) - std::abs(maxwell(x, system_.masses())[place]);
   }
   switch (modes_[static_cast<std::size_t>(j)]) {
     case Mode::forward:
@@ -218,7 +218,7 @@ EventIntegrator::State EventIntegrator::moved(double t, double h) const {
   return x;
 }
 
-// The time after t_ at which the contact's mode ends, or 2 h.
+// The time after t_ at which the contact's mode ends, or infinity.
 double EventIntegrator::first_end_of_mode(double h, Index j) const {
   const auto at = [&](double elapsed) { return margin(moved(t_, elapsed), t_ + elapsed, j); };
   const double little = 1e-3 * h;
@@ -227,7 +227,7 @@ double EventIntegrator::first_end_of_mode(double h, Index j) const {
   if (fresh_[static_cast<std::size_t>(j)] && left <= 0.0)
     return lo;  // a micro-slip shorter than the search resolves
   if (right <= 0.0) return bisect(lo, h, at);
-  if (at(lo + little) >= left || at(h - little) >= right) return 2.0 * h;
+  if (at(lo + little) >= left || at(h - little) >= right) return HUGE_VAL;
   double hi = h;  // both ends positive, falling inwards: look for a minimum below zero
   constexpr double kGolden = 0.6180339887498949;
   while (hi - lo > 1e-7 * h) {
@@ -236,7 +236,7 @@ double EventIntegrator::first_end_of_mode(double h, Index j) const {
     if (at_d <= 0.0) return bisect(lo, d, at);
     (at_c < at_d ? hi : lo) = at_c < at_d ? d : c;
   }
-  return 2.0 * h;
+  return HUGE_VAL;
 }
 
 bool EventIntegrator::is_consistent(const std::vector<Index>& at_rest, const std::vector<Mode>& modes) const {
@@ -296,6 +296,8 @@ void EventIntegrator::pass_event(Index j) {
     const double force = maxwell(state_, system_.masses())[system_.contact_internal[place]];
     const bool sticks = modes_[place] == Mode::stuck;
     modes_[place] = !sticks ? Mode::stuck : force > 0.0 ? Mode::forward : Mode::backward;
+    const auto state = static_cast<std::size_t>(2 * system_.masses() + system_.contact_internal[place]);
+    if (sticks) state_[state] = force > 0.0 ? system_.limit[j] : -system_.limit[j];
     fresh_[place] = true;
     return;
   }

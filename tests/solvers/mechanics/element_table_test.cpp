@@ -56,7 +56,7 @@ TEST_CASE("What a row says of its kind is what the kind adds") {
     CHECK((here.internal_stiffness != 0.0) == kind.has_internal_force);
     CHECK((here.stiffness != 0.0) == kind.holds);
     const bool loses = here.damping != 0.0 || here.internal_damping != 0.0 || here.limit != 0.0;
-    CHECK(loses == kind.dissipates);
+    CHECK((loses || kind.stop != nullptr) == kind.dissipates);
     CHECK((here.damping != elsewhere.damping) == kind.depends_on_frequency);
     CHECK(kind.is_inertia_alone() == (kind.type == ElementType::inerter));
     if (kind.law != nullptr) CHECK(kind.has_internal_force == !kind.law->holds_velocity);
