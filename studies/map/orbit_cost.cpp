@@ -11,14 +11,14 @@ namespace frahm::studies {
 namespace {
 
 // [s] of an orbit with stops, measured: small systems by tables, 0.1 ms at 5 masses with three contacts;
-// large ones by their equation, 2.5 ms at 20 with seven, 45 at 60 with twenty, 900 at 200 with fifty; some
+// large ones by their equation, 0.7 to 1.2 ms at 20 with seven, 15 to 20 at 60 with twenty; some
 // four times that where the matrices are full.
 double with_contacts(const Study& study, double masses, double contacts) {
   constexpr double kFromMasses = 8.0;
   if (masses < kFromMasses) return 3e-6 * std::pow(masses / 2.5, 3.3) * std::max(1.0, 0.5 * (1.0 + contacts));
   const bool full =
       study.network.damping == mechanics::DampingModel::modal || !study.network.matrices.empty();
-  return (full ? 4.0 : 1.0) * 2.5e-3 * std::pow(masses / 20.0, 2.1) * std::sqrt(contacts / 7.0);
+  return (full ? 4.0 : 1.0) * 1.15e-3 * std::pow(masses / 20.0, 2.1) * std::sqrt(contacts / 7.0);
 }
 
 // [s] of the search for several orbits, measured: 0.12 ms a start of one mass with stops, 2 ms of two masses.

@@ -247,5 +247,23 @@ TEST_CASE("Random networks with stops and static friction move as the independen
   CHECK(checked >= 33);  // the others have no stable orbit of up to four periods
 }
 
+TEST_CASE("So does a chain of nine masses with damped stops, tables and static friction") {
+  int checked = 0;
+  for (unsigned trial = 0; trial < 6; ++trial) {
+    INFO("trial " << trial);
+    std::mt19937 random(2000 + trial);
+    check_random(random_network({.masses = 9,
+                                 .contacts = 2,
+                                 .rising_dampers = 1,
+                                 .stops = 2,
+                                 .static_friction = trial % 2 == 1,
+                                 .orders = {1},
+                                 .largest_friction = 0.6},
+                                random),
+                 checked);
+  }
+  CHECK(checked >= 5);
+}
+
 }  // namespace
 }  // namespace frahm::periodic

@@ -234,10 +234,10 @@ TEST_CASE("A branch of two periods meets that of one where its period doubles") 
                          {.low = 1.0, .high = 5.0, .start = start, .multiple = multiple});
   };
   const Branch one = followed(1.2, 1), two = followed(3.2, 2);
-  // The corrector is singular there: the branch's turn is told as a fold, or as a jump of its stability.
+  // The corrector is singular there: where the parameter turns back is told as a fold, or as a corner.
   const auto meets = [&](const SpecialPoint& doubling) {
     return std::ranges::any_of(two.special, [&](const SpecialPoint& each) {
-      const bool turns = each.kind == SpecialKind::fold || each.kind == SpecialKind::stability_jump;
+      const bool turns = each.kind == SpecialKind::fold || each.kind == SpecialKind::corner;
       return turns && std::abs(each.at.parameter - doubling.at.parameter) < kExact;
     });
   };

@@ -17,7 +17,7 @@ bool same_sequence(const AnyFlow& flow, const Passage<kAny, kAny>& a, const Pass
   if (a.segments.size() != b.segments.size()) return false;
   for (std::size_t i = 0; i < a.segments.size(); ++i) {
     const auto &p = flow.mode(a.segments[i].mode), &q = flow.mode(b.segments[i].mode);
-    if (p.stuck != q.stuck || p.positive != q.positive) return false;
+    if (p.stuck != q.stuck || p.positive != q.positive || p.beyond != q.beyond) return false;
   }
   return true;
 }
@@ -38,44 +38,76 @@ bool difference(AnyFlow& flow, const Eigen::VectorXd& z, double length, const Pa
   return true;
 }
 
+struct Compared {
+  int passages = 0, events = 0, stuck_segments = 0, bent_segments = 0;
+};
+
+// A period from a random state.
+void compare(const RandomNetwork& drawn, std::mt19937& random, Compared& compared) {
+  std::normal_distribution<double> normal;
+  const mechanics::Assembly assembly(drawn.network);
+  mechanics::LinearSystem system;
+  assembly.set_values(drawn.values, system);
+  assembly.set_forcing(drawn.values, system);
+  AnyFlow flow;
+  flow.set_system(system);
+  flow.set_forcing(system);
+  const Eigen::VectorXd z = Eigen::VectorXd::NullaryExpr(2 * system.masses(), [&] { return normal(random); });
+  Passage<kAny, kAny> passage;
+  Walk(flow).pass(z, 0.3, flow.equations().period, passage);
+  REQUIRE(passage.failure == nullptr);
+  Eigen::MatrixXd expected;
+  if (passage.margin < 1e-3 || !difference(flow, z, flow.equations().period, passage, expected)) return;
+  INFO("events " << passage.events);
+  CHECK((passage.tangent - expected).cwiseAbs().maxCoeff() <
+        kAgreement * std::max(1.0, expected.cwiseAbs().maxCoeff()));
+  ++compared.passages;
+  compared.events += passage.events;
+  for (const auto& segment : passage.segments) {
+    compared.stuck_segments += flow.mode(segment.mode).stuck != 0;
+    compared.bent_segments += flow.mode(segment.mode).beyond != 0;
+  }
+}
+
 TEST_CASE("The derivative through stops, releases and reversals is that of differences, for 1 to 9 masses") {
   std::mt19937 random(11);
-  std::normal_distribution<double> normal;
-  int compared = 0, events = 0, stuck_segments = 0;
+  Compared compared;
   for (const int masses : {1, 2, 3, 5, 9}) {  // from 8 on along its path
     for (const int contacts : {0, 1, 2, 3}) {
       for (int trial = 0; trial < 25; ++trial) {
-        const RandomNetwork drawn = random_network(
-            {.masses = masses, .contacts = contacts, .orders = {1, 2}, .largest_friction = 0.7}, random);
-        const mechanics::Assembly assembly(drawn.network);
-        mechanics::LinearSystem system;
-        assembly.set_values(drawn.values, system);
-        assembly.set_forcing(drawn.values, system);
-        AnyFlow flow;
-        flow.set_system(system);
-        flow.set_forcing(system);
-        const Eigen::VectorXd z = Eigen::VectorXd::NullaryExpr(2 * masses, [&] { return normal(random); });
-        Passage<kAny, kAny> passage;
-        Walk(flow).pass(z, 0.3, flow.equations().period, passage);
-        REQUIRE(passage.failure == nullptr);
-        Eigen::MatrixXd expected;
-        if (passage.margin < 1e-3 || !difference(flow, z, flow.equations().period, passage, expected))
-          continue;
-        const Eigen::MatrixXd tangent = passage.tangent;
-        INFO("masses " << masses << " contacts " << contacts << " trial " << trial << " events "
-                       << passage.events);
-        CHECK((tangent - expected).cwiseAbs().maxCoeff() <
-              kAgreement * std::max(1.0, expected.cwiseAbs().maxCoeff()));
-        ++compared;
-        events += passage.events;
-        for (const auto& segment : passage.segments) stuck_segments += flow.mode(segment.mode).stuck != 0;
+        INFO("masses " << masses << " contacts " << contacts << " trial " << trial);
+        compare(
+            random_network(
+                {.masses = masses, .contacts = contacts, .orders = {1, 2}, .largest_friction = 0.7}, random),
+            random, compared);
       }
     }
   }
-  INFO("compared " << compared << " events " << events << " with sticking " << stuck_segments);
-  CHECK(compared > 200);
-  CHECK(events > 400);
-  CHECK(stuck_segments > 200);
+  CHECK(compared.passages > 200);
+  CHECK(compared.events > 400);
+  CHECK(compared.stuck_segments > 200);
+}
+
+TEST_CASE("So is that through elastic stops, bends of dampers and falls from a static limit") {
+  std::mt19937 random(13);
+  Compared compared;
+  for (const int masses : {1, 2, 3, 9}) {
+    for (int trial = 0; trial < 40; ++trial) {
+      INFO("masses " << masses << " trial " << trial);
+      compare(random_network({.masses = masses,
+                              .contacts = trial % 3,
+                              .rising_dampers = trial / 3 % 2,
+                              .stops = 1 + trial / 6 % 2,
+                              .static_friction = true,
+                              .orders = {1, 2},
+                              .largest_friction = 0.7},
+                             random),
+              random, compared);
+    }
+  }
+  CHECK(compared.passages > 80);
+  CHECK(compared.stuck_segments > 60);
+  CHECK(compared.bent_segments > 200);
 }
 
 TEST_CASE("The distance of two motions never grows in the energy norm") {
