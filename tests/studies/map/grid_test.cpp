@@ -117,9 +117,9 @@ TEST_CASE("a row of a building's frequencies is cut, so that every core has some
     return grid.tile[0];
   };
   CHECK(points_of_tile(2) == 200);
-  CHECK(points_of_tile(20) <= 100);
-  CHECK(points_of_tile(40) <= 20);
-  CHECK(points_of_tile(60) <= 5);
+  CHECK(points_of_tile(30) <= 100);
+  CHECK(points_of_tile(40) <= 25);
+  CHECK(points_of_tile(60) <= 10);
 }
 
 }  // namespace
