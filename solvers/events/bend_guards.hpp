@@ -153,7 +153,7 @@ void change_bend(Flow<N, H>& flow, const BendEvent& event, Workspace<N, H>& w) {
   (event.guard == BendGuard::place ? w.at_place : w.without_force) |= its;
   const bool was_beyond = contains(before.beyond, event.bend), was_free = contains(w.free, event.bend);
   w.free &= ~its;
-  if (was_free && event.guard == BendGuard::place) return;  // back before its place, as it has been in force
+  if (was_free && event.guard == BendGuard::place) return;  // it pushed no more: the mode stays
   if (was_beyond && event.guard == BendGuard::force && bend_place(flow, w.left, event.bend).value > 0.0)
     w.free |= its;
   w.mode = flow.mode_index(before.stuck, before.positive, before.beyond ^ its);

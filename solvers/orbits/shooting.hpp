@@ -17,7 +17,7 @@ struct ShootingOptions {
   double tolerance = 1e-13;    // of the relative residual: a few units of rounding of one passage
   double good_enough = 1e-12;  // accepted when rounding keeps the residual from falling further
   double pays = 0.1;           // part of the residual that a Newton step must remove, else it is refused
-  int most_halvings = 4;       // of a refused step of a large system
+  int most_halvings = 4;       // of a refused step, of a large system or under laws that are not monotone
   int most_passages = 20000;   // enough for the map alone at damping ratios of 1e-3
   double most_steps = 2e7;     // of all passages together: about a second of work
   double most_steps_a_period = 2e5;
