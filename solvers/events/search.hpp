@@ -89,18 +89,6 @@ double first_stop(const Flow<N, H>& flow, Eigen::Index j, Workspace<N, H>& w) {
   return first_crossing(polynomial(), scale, w);
 }
 
-// The force of stuck contact j over the step.
-template <int N, int H>
-Polynomial stuck_force_polynomial(const Flow<N, H>& flow, Eigen::Index j, Workspace<N, H>& w) {
-  const Expansion<N, H>& x = w.expand(flow);
-  const Configuration<N, H>& c = flow.configuration(flow.mode(w.mode));
-  Polynomial force = x.displacement(c.Lq.row(j).transpose()) + x.velocity(c.Lv.row(j).transpose());
-  force.noalias() += x.u * c.Lu.row(j).transpose();
-  if constexpr (Sizes<N, H>::kInternal != 0) force += x.internal_force(c.Ls.row(j).transpose());
-  force[0] += flow.mode(w.mode).stuck_force[j];
-  return force;
-}
-
 // The room of a force that starts at its limit: the first coefficient that is not rounding decides. Negative:
 // the contact lets go at once. Otherwise the root at the start is divided out. is_state: the force is an
 // internal one, which stays at its limit while others hold the contact.
@@ -129,7 +117,7 @@ double first_release(const Flow<N, H>& flow, Eigen::Index j, Workspace<N, H>& w)
                std::max(std::abs(left.value + left.slope / 3.0), std::abs(right.value - right.slope / 3.0)));
   if (largest + margin < limit) return kNoEvent;
 
-  const Polynomial force = stuck_force_polynomial(flow, j, w);
+  const Polynomial force = flow.stuck_force(w.expand(flow), mode, j);
   double first = kNoEvent;
   for (const double side : {1.0, -1.0}) {
     Polynomial room = -side * force;

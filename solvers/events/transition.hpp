@@ -58,7 +58,7 @@ class FreeAccelerations {
       HeldContacts none;
       none.spring.setZero(ds.size());
       pull(eq.sparse, none, z.data(), z.data() + n, z.data() + 2 * n, a.data(), ds.data());
-      acceleration_ = a + eq.M_inverse * (eq.force * u_) - eq.MW * friction;
+      acceleration_ = a + eq.force_pull * u_ - eq.MW * friction;
     } else {
       typename Sizes<N, H>::Vector force =
           eq.force * u_ - eq.K * w.left.z.head(n) - eq.C * w.left.z.segment(n, n) - eq.W * friction;

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "solvers/events/passage.hpp"
 #include "solvers/events/workspace.hpp"
 
@@ -9,8 +7,6 @@ namespace frahm::periodic {
 
 struct GuardEvent;  // events/search.hpp
 struct BendEvent;   // events/bend_guards.hpp
-template <int N, int H>
-struct RankOne;  // events/saltation.hpp
 
 // Follows motions on a flow, one passage after the other. It has the workspace; the flow has none.
 template <int N, int H>
@@ -36,10 +32,11 @@ class Walk {
   void advance(double fraction, Passage<N, H>& passage);
   void pass_event(const GuardEvent& event, double phase, Passage<N, H>& passage);
   void pass_bend(const BendEvent& event, double phase, Passage<N, H>& passage);
-  void jump(const std::optional<RankOne<N, H>>& jump, Passage<N, H>& passage);
+  void saltate(ContactMask released, Passage<N, H>& passage);
+  Event* change_here(Passage<N, H>& passage) const;
   void arrive_at(double fraction, double phase, Passage<N, H>& passage);
   void note_change(const GuardEvent& event, const Instant<N, H>& before, const Mode<N, H>& mode_before,
-                   Passage<N, H>& passage);
+                   Passage<N, H>& passage) const;
   void open_segment(Passage<N, H>& passage);
   void share_forces_again(Passage<N, H>& passage);
 

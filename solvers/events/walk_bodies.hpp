@@ -5,6 +5,7 @@
 #include "solvers/events/search.hpp"
 #include "solvers/events/transition.hpp"
 #include "solvers/events/walk.hpp"
+#include "solvers/events/walk_tangent.hpp"
 
 // Bodies of Walk, for the files that instantiate it (walk_1_1.cpp and so on).
 namespace frahm::periodic {
@@ -117,35 +118,6 @@ void Walk<N, H>::enter(const typename S::State& z, double phase, Passage<N, H>& 
   open_segment(passage);
 }
 
-// The tangent that keeps the stuck contacts stuck.
-template <int N, int H>
-void Walk<N, H>::begin_tangent(Passage<N, H>& passage) const {
-  if (passage.has_path) {
-    passage.path = {.first_mode = w_.mode, .stopped = stopped_at_start()};
-    return;
-  }
-  if (!passage.has_tangent) return;
-  const StepEquations<N, H>& eq = flow_.equations();
-  const Eigen::Index n = eq.masses();
-  passage.tangent.setIdentity(eq.states(), eq.states());
-  passage.tangent.block(n, n, n, n) = flow_.configuration(flow_.mode(w_.mode)).projector(eq);
-  if constexpr (S::kInternal != 0) {
-    for (const int i : stopped_at_start()) passage.tangent(2 * n + i, 2 * n + i) = 0.0;
-  }
-}
-
-// The internal forces that stay at their limit.
-template <int N, int H>
-std::vector<int> Walk<N, H>::stopped_at_start() const {
-  const StepEquations<N, H>& eq = flow_.equations();
-  std::vector<int> stopped;
-  for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
-    if (!eq.holds(j) && !contains(flow_.mode(w_.mode).stuck, j))
-      stopped.push_back(static_cast<int>(eq.internal_of[static_cast<std::size_t>(j)]));
-  }
-  return stopped;
-}
-
 // Whether contact j, whose force is a state, starts sliding: its force is at the limit, in the direction of
 // the velocity. A force beyond the limit, which a search may try, starts at the limit.
 template <int N, int H>
@@ -167,22 +139,6 @@ void Walk<N, H>::advance(double fraction, Passage<N, H>& passage) {
   w_.clock += fraction;
 
   move_tangent(fraction, passage);
-}
-
-// The tangent moves with the homogeneous flow: that of a small system step by step; the path of a large one
-// has a stretch up to each event.
-template <int N, int H>
-void Walk<N, H>::move_tangent(double steps, Passage<N, H>& passage) {
-  if (passage.has_path)
-    w_.behind += steps;
-  else if (passage.has_tangent)
-    flow_.move_tangent(flow_.mode(w_.mode), steps, passage.tangent);
-}
-
-template <int N, int H>
-void Walk<N, H>::end_stretch(Passage<N, H>& passage) {
-  if (passage.has_path) passage.path.stretches.push_back({.mode = w_.mode, .steps = w_.behind});
-  w_.behind = 0.0;
 }
 
 // `left` and the tangent at an event, seen from inside the segment that it ends.
@@ -219,26 +175,17 @@ void Walk<N, H>::pass_event(const GuardEvent& event, double phase, Passage<N, H>
   // 3. Carry the tangent across.
   const ContactMask released = flow_.mode(mode_before).stuck & ~flow_.mode(w_.mode).stuck;
   note_arrivals(flow_, arrived, before, w_);
-  if (passage.has_path)
-    record_saltation(flow_, arrived, released, before, flow_.mode(mode_before), w_,
-                     passage.path.stretches.back());
-  else if (passage.has_tangent)
-    saltate(flow_, arrived, released, before, flow_.mode(mode_before), w_, passage.tangent);
-  if (arrived == 0) jump(jump_of_release(flow_, event.contact, before, flow_.mode(mode_before), w_), passage);
+  if (passage.has_path || passage.has_tangent) {
+    if (arrived == 0)
+      add_release(flow_, event.contact, before, flow_.mode(mode_before), w_);
+    else
+      add_arrivals(flow_, arrived, before, flow_.mode(mode_before), w_);
+    saltate(released, passage);
+  }
 
-  // 4. Record the change and begin the next segment. Events at one instant are one change.
+  // 4. Record the change and begin the next segment.
   note_change(event, before, flow_.mode(mode_before), passage);
   open_segment(passage);
-}
-
-template <int N, int H>
-void Walk<N, H>::jump(const std::optional<RankOne<N, H>>& jump, Passage<N, H>& passage) {
-  if (!jump) return;
-  const Eigen::Index n = flow_.equations().masses();
-  if (passage.has_path)
-    passage.path.stretches.back().jumps.push_back({.change = jump->change, .by = jump->by});
-  else if (passage.has_tangent)
-    passage.tangent.middleRows(n, n) += jump->change * (jump->by.transpose() * passage.tangent).eval();
 }
 
 // An element bends. Where its force jumps, the forces of all contacts at rest are chosen again.
@@ -256,48 +203,53 @@ void Walk<N, H>::pass_bend(const BendEvent& event, double phase, Passage<N, H>& 
     if (jumps && at_rest != 0) choose_modes(flow_, at_rest, w_);
     settle_mode(flow_, w_);
   }
-  if (jumps) jump(jump_of_bend(flow_, event.bend, before, guard.slope, w_), passage);
-
-  const bool same_instant = passage.segments.back().length == 0.0;
-  if (same_instant) passage.segments.pop_back();
-  if (!passage.segments.empty()) {
-    if (!same_instant) passage.changes.push_back({.segment = passage.segments.size() - 1});
-    Event& change = passage.changes.back();
-    change.released |= flow_.mode(mode_before).stuck & ~flow_.mode(w_.mode).stuck;
-    if (w_.mode != mode_before && change.is_to_record(jumps)) {
-      change.bend = event.bend;
-      change.bend_by_force = event.guard == BendGuard::force;
-      change.slope = guard.slope;
+  if (jumps && (passage.has_path || passage.has_tangent)) {
+    add_bend(flow_, event.bend, before, guard.slope, w_);
+    saltate(0, passage);
+  }
+  if (Event* change = change_here(passage)) {
+    change->released |= flow_.mode(mode_before).stuck & ~flow_.mode(w_.mode).stuck;
+    if (w_.mode != mode_before && change->is_to_record(jumps)) {
+      change->bend = event.bend;
+      change->bend_by_force = event.guard == BendGuard::force;
+      change->slope = guard.slope;
     }
   }
   open_segment(passage);
 }
 
+// The record of the change that ends the current segment, of which all events at one instant are one; null at
+// the very start.
 template <int N, int H>
-void Walk<N, H>::note_change(const GuardEvent& event, const Instant<N, H>& before,
-                             const Mode<N, H>& mode_before, Passage<N, H>& passage) {
+Event* Walk<N, H>::change_here(Passage<N, H>& passage) const {
   const bool same_instant = passage.segments.back().length == 0.0;
   if (same_instant) passage.segments.pop_back();
-  if (passage.segments.empty()) return;  // at the very start
+  if (passage.segments.empty()) return nullptr;
   if (!same_instant) passage.changes.push_back({.segment = passage.segments.size() - 1});
-  Event& change = passage.changes.back();
+  return &passage.changes.back();
+}
 
+template <int N, int H>
+void Walk<N, H>::note_change(const GuardEvent& event, const Instant<N, H>& before,
+                             const Mode<N, H>& mode_before, Passage<N, H>& passage) const {
+  Event* change = change_here(passage);
+  if (change == nullptr) return;
   const Mode<N, H>& after = flow_.mode(w_.mode);
   const ContactMask arrived = arrived_between(flow_.equations(), mode_before, after);
-  change.arrived |= arrived;
-  change.released |= mode_before.stuck & ~after.stuck;
+  change->arrived |= arrived;
+  change->released |= mode_before.stuck & ~after.stuck;
   const ContactMask held = arrived & flow_.equations().holding;
   const bool falls = arrived == 0 && event.release && falls_at_release(flow_.equations(), event.contact);
-  if ((arrived == 0 && !event.release) || !change.is_to_record(held != 0 || falls)) return;
+  if ((arrived == 0 && !event.release) || !change->is_to_record(held != 0 || falls)) return;
   if (arrived != 0) {
     // Of several arrivals the first whose velocity is held: the acceleration jumps for it.
-    change.contact = first(held != 0 ? held : arrived);
-    change.slope = flow_.sliding_speed(before, change.contact).slope;
+    change->contact = first(held != 0 ? held : arrived);
+    change->slope = flow_.sliding_speed(before, change->contact).slope;
   } else {
     const ValueAndSlope force = flow_.stuck_force(before, mode_before, event.contact);
-    change.contact = event.contact;
-    change.slope = force.slope;
-    change.side = force.value > 0.0 ? 1.0 : -1.0;
+    change->contact = event.contact;
+    change->slope = force.slope;
+    change->side = force.value > 0.0 ? 1.0 : -1.0;
   }
 }
 

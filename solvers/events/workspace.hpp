@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "solvers/events/tolerances.hpp"
 #include "solvers/flow/flow.hpp"
 
@@ -26,8 +28,9 @@ struct Workspace {
   ContactMask just_released = 0;                // fresh contacts whose relative acceleration is zero too
   ContactMask free = 0;                         // bends past their place that push no more (bend_guards.hpp)
   ContactMask at_place = 0, without_force = 0;  // bends whose guard is zero at `left`
-  double margin = 1.0;                          // see Passage::margin
-  bool undecided = false;                       // a joint choice found no answer
+  std::vector<JumpOf<typename S::Vector, typename S::State>> jumps;  // of the tangent, at the current event
+  double margin = 1.0;                                               // see Passage::margin
+  bool undecided = false;                                            // a joint choice found no answer
 
   // Scales of the contacts' velocities [m a step] and forces [N]: those of the larger of the state's and the
   // static response's energy, plus a support's own motion.

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 
-#include "solvers/flow/constraints.hpp"
 #include "solvers/flow/equations.hpp"
 #include "solvers/flow/step_tables.hpp"
 
@@ -14,7 +13,8 @@ namespace frahm::periodic {
 //   0 s'  = spring (D^T v + p^T y') - rate s,              spring = k, 0 of an internal force that is held
 //   lambda_j = (Lq q + Lv v + Ls s + Lu u(t) + Lf phi)_j of the stuck contacts (of an internal force: s)
 // K, C and the forcing are those beyond a set of bends (StepBends).
-// Small systems have tables of its flow over a step (StepTables), large ones only the held contacts.
+// Small systems have tables of all this (StepTables); large ones, which meet thousands of sets in a period,
+// only the inverse of G over the held contacts (HeldContacts), from which the rest follows where it is asked.
 template <int N, int H>
 struct Configuration {
   using S = Sizes<N, H>;
@@ -26,8 +26,6 @@ struct Configuration {
   ContactMask idle = 0;
   bool has_forcing = false;  // set_forcing was called since the forcing changed
   typename S::VectorByOscillators Au;
-  typename S::ContactsByVector Lq, Lv;
-  typename S::ContactsByInternal Ls;
   typename S::ContactsByOscillators Lu;
   typename S::Internal spring;                       // of each internal force k, or 0 while it is held
   typename S::InternalByOscillators internal_drive;  // spring p^T y'(t) [N a step]
@@ -36,17 +34,17 @@ struct Configuration {
 
   // Removes rounding from the velocities of the held contacts, M-orthogonally.
   void hold(const StepEquations<N, H>& equations, const typename S::Oscillators& u,
-            typename S::State& z) const {
-    if ((stuck & equations.holding) == 0) return;
-    const Eigen::Index n = equations.masses();
-    typename S::Contacts slip = equations.W.transpose() * z.segment(n, n);
-    slip.noalias() += equations.support_velocity * u;
-    z.segment(n, n).noalias() -= reaction_ * slip;
-  }
+            typename S::State& z) const;
 
-  // These meet the constraint w_j^T q'' = -p_j^T y'' of the held contacts:
-  const typename S::ContactSquare& constraint() const { return constraint_; }  // G^+
-  const typename S::VectorByContacts& reaction() const { return reaction_; }   // M^-1 W G^+
+  // These meet the constraint w_j^T q'' = -p_j^T y'' of the held contacts; zero for contacts that slide.
+  typename S::ContactSquare constraint(const StepEquations<N, H>& equations) const;   // G^+
+  typename S::VectorByContacts reaction(const StepEquations<N, H>& equations) const;  // M^-1 W G^+
+  // G^+ c, the forces that give the held contacts the relative accelerations c (m).
+  template <class Accelerations>
+  typename S::Contacts forces_for(const StepEquations<N, H>& equations, const Accelerations& c) const {
+    if (equations.is_large()) return forces_of(held, c);
+    return tables.constraint * c;
+  }
 
   // P
   typename S::Square projector(const StepEquations<N, H>& equations) const;
@@ -68,9 +66,7 @@ struct Configuration {
   // Lf phi = -G^+ W^T M^-1 W phi
   typename S::Contacts stuck_force_of_friction(const StepEquations<N, H>& equations,
                                                const typename S::Contacts& friction) const {
-    typename S::Contacts force(friction.size());
-    force.noalias() = -(constraint_ * (equations.mobility * friction));
-    return force;
+    return -forces_for(equations, (equations.mobility * friction).eval());
   }
   // s' without the part of the support.
   template <class Velocities, class Forces>
@@ -84,23 +80,54 @@ struct Configuration {
   void set_forcing(const StepEquations<N, H>& equations);
 
  private:
-  void set_constraint(const StepEquations<N, H>& equations);
+  Eigen::MatrixXd inverse_mobility(const StepEquations<N, H>& equations, ContactMask holding) const;
+  void find_immobile(const StepEquations<N, H>& equations);
   void set_springs(const StepEquations<N, H>& equations);
   void set_tables(const StepEquations<N, H>& equations);
   void set_held(const StepEquations<N, H>& equations);
 
-  ContactMask frictionless_ = 0;           // internal forces with limit zero, which are always zero
-  ContactMask immobile_ = 0;               // contacts that count as sliding but are held by the stuck ones
-  typename S::ContactSquare constraint_;   // zero rows and columns for sliding contacts
-  typename S::VectorByContacts reaction_;  // accelerations per unit of relative acceleration
+  ContactMask frictionless_ = 0;  // internal forces with limit zero, which are always zero
+  ContactMask immobile_ = 0;      // contacts that count as sliding but are held by the stuck ones
 };
+
+template <int N, int H>
+void Configuration<N, H>::hold(const StepEquations<N, H>& equations, const typename S::Oscillators& u,
+                               typename S::State& z) const {
+  if ((stuck & equations.holding) == 0) return;
+  const Eigen::Index n = equations.masses();
+  const typename S::Contacts support = equations.support_velocity * u;
+  if (equations.is_large()) return keep(equations.sparse, held, support.data(), z.data() + n);
+  const typename S::Contacts slip = equations.W.transpose() * z.segment(n, n) + support;
+  z.segment(n, n).noalias() -= tables.reaction * slip;
+}
+
+template <int N, int H>
+typename Sizes<N, H>::ContactSquare Configuration<N, H>::constraint(
+    const StepEquations<N, H>& equations) const {
+  if (!equations.is_large()) return tables.constraint;
+  const Eigen::Index m = equations.contacts();
+  typename S::ContactSquare all = S::ContactSquare::Zero(m, m);
+  for (std::size_t i = 0; i < held.list.size(); ++i) {
+    for_each_entry(held.force, static_cast<int>(i), [&](int k, double value) {
+      all(held.list[i], held.list[static_cast<std::size_t>(k)]) = value;
+    });
+  }
+  return all;
+}
+
+template <int N, int H>
+typename Sizes<N, H>::VectorByContacts Configuration<N, H>::reaction(
+    const StepEquations<N, H>& equations) const {
+  if (!equations.is_large()) return tables.reaction;
+  return equations.MW * constraint(equations);
+}
 
 template <int N, int H>
 typename Sizes<N, H>::Square Configuration<N, H>::projector(const StepEquations<N, H>& equations) const {
   if (!equations.is_large()) return tables.P;
   const Eigen::Index n = equations.masses();
   if (held.hold_all) return S::Square::Zero(n, n);
-  return S::Square::Identity(n, n) - reaction_ * equations.W.transpose();
+  return S::Square::Identity(n, n) - reaction(equations) * equations.W.transpose();
 }
 
 template <int N, int H>
@@ -144,7 +171,7 @@ typename Sizes<N, H>::State Configuration<N, H>::pull_form(const StepEquations<N
   typename S::State form(equations.states());
   if (equations.is_large()) {
     // -w^T P M^-1 (K, C, D)
-    typename S::Vector left = equations.W * (reaction_.transpose() * w) - w;
+    typename S::Vector left = equations.W * forces_for(equations, (equations.MW.transpose() * w).eval()) - w;
     if (held.hold_all) left.setZero();
     left = (equations.M_inverse * left).eval();
     form.head(n).noalias() = equations.K * left;
@@ -171,157 +198,9 @@ typename Sizes<N, H>::Vector Configuration<N, H>::pull_of_friction(
     a.noalias() = tables.Af.lazyProduct(friction);
   } else {
     a.noalias() = -(equations.MW * friction);
-    keep(equations.sparse, held, a.data());
+    keep(equations.sparse, held, nullptr, a.data());
   }
   return a;
-}
-
-template <int N, int H>
-void Configuration<N, H>::set_system(const StepEquations<N, H>& equations, ContactMask stuck_contacts,
-                                     ContactMask beyond_bends) {
-  stuck = stuck_contacts;
-  beyond = beyond_bends;
-  has_forcing = false;
-  set_constraint(equations);
-  set_springs(equations);
-  if (equations.is_large())
-    set_held(equations);
-  else
-    set_tables(equations);
-}
-
-// G^+ over the held contacts, and what it holds.
-template <int N, int H>
-void Configuration<N, H>::set_constraint(const StepEquations<N, H>& equations) {
-  const Eigen::Index m = equations.contacts();
-  // Their directions may be linearly dependent; of the forces that are then equivalent, those of least sum
-  // (lambda_j / F_j)^2 are taken.
-  const ContactMask holding = stuck & equations.holding;
-  constraint_.setZero(m, m);
-  if (count(holding) == 1) {
-    const Eigen::Index j = first(holding);
-    constraint_(j, j) = 1.0 / equations.compliance[j];
-  } else if (holding != 0 && equations.is_large() && !equations.has_loops) {
-    set_inverse(equations.mobility, holding, constraint_);
-  } else if (holding != 0) {
-    typename S::Contacts weight(m);
-    for (Eigen::Index j = 0; j < m; ++j) weight[j] = contains(holding, j) ? equations.limit[j] : 0.0;
-    constraint_ = weighted_pseudo_inverse(equations.mobility, weight);
-  }
-  reaction_ = equations.MW * constraint_;
-
-  // A contact that slides has the mobility (G - G G^+ G)_jj.
-  immobile_ = 0;
-  if (holding == 0 || (equations.is_large() && !equations.has_loops)) return;
-  for (Eigen::Index j = 0; j < m; ++j) {
-    constexpr double kImmobile = 1e-10;  // of its compliance: rounding of what a loop takes away
-    if (!contains(equations.holding & ~stuck, j)) continue;
-    const auto row = equations.mobility.row(j);
-    const double mobility = equations.compliance[j] - row.dot(constraint_ * row.transpose());
-    if (mobility <= kImmobile * equations.compliance[j]) immobile_ |= bit(j);
-  }
-}
-
-template <int N, int H>
-void Configuration<N, H>::set_springs(const StepEquations<N, H>& equations) {
-  frictionless_ = 0;
-  if constexpr (S::kInternal != 0) {
-    spring = equations.internal_stiffness;
-    Ls.noalias() = -(reaction_.transpose() * equations.D);
-    for (Eigen::Index j = 0; j < equations.contacts(); ++j) {
-      const Eigen::Index internal = equations.internal_of[static_cast<std::size_t>(j)];
-      if (internal < 0) continue;
-      Ls(j, internal) = 1.0;
-      if (equations.limit[j] == 0.0) frictionless_ |= bit(j);
-      if (!contains(stuck, j)) spring[internal] = 0.0;
-    }
-  }
-}
-
-template <int N, int H>
-void Configuration<N, H>::set_tables(const StepEquations<N, H>& equations) {
-  const Eigen::Index n = equations.masses();
-  typename S::Square& P = tables.P;
-  P = S::Square::Identity(n, n) - reaction_ * equations.W.transpose();
-  // A projector's trace is its rank, so one without a large entry is zero: every mass is held.
-  if (P.cwiseAbs().maxCoeff() < 1e-12) P.setZero();
-  // For a force on the masses: the acceleration that remains, and the force that the stuck contacts take; the
-  // sign is that of the pull of the springs and dampers.
-  const typename S::Square left = -(P * equations.M_inverse);
-  const typename S::ContactsByVector taken = -reaction_.transpose();
-  const typename S::Square K = equations.stiffness_beyond(beyond), C = equations.damping_beyond(beyond);
-  tables.Aq.noalias() = left * K;
-  tables.Av.noalias() = left * C;
-  tables.Af.noalias() = left * equations.W;
-  if constexpr (S::kInternal != 0) tables.As.noalias() = left * equations.D;
-  Lq.noalias() = taken * K;
-  Lv.noalias() = taken * C;
-  tables.propagate_homogeneous(equations, spring);
-}
-
-template <int N, int H>
-void Configuration<N, H>::set_held(const StepEquations<N, H>& equations) {
-  const Eigen::Index n = equations.masses(), m = equations.contacts();
-  held.list.clear();
-  for (Eigen::Index j = 0; j < m; ++j) {
-    if (contains(stuck & equations.holding, j)) held.list.push_back(static_cast<int>(j));
-  }
-  held.force = rows_alone(constraint_(held.list, held.list));
-  held.spring = spring;
-  held.beyond.clear();
-  for (Eigen::Index j = 0; beyond != 0 && j < equations.bends.count(); ++j) {
-    if (!contains(beyond, j)) continue;
-    held.beyond.push_back({static_cast<int>(j), equations.bends.stiffness[j], equations.bends.damping[j]});
-  }
-  held.hold_all =
-      static_cast<Eigen::Index>(held.list.size()) >= n && projector(equations).cwiseAbs().maxCoeff() < 1e-12;
-  Lq.setZero(m, n);
-  Lv.setZero(m, n);
-  for (const int j : held.list) {
-    for (const int i : held.list) {
-      equations.sparse.pull_by_displacement.add_row(i, -constraint_(j, i), Lq.row(j).data());
-      equations.sparse.pull_by_velocity.add_row(i, -constraint_(j, i), Lv.row(j).data());
-    }
-    for (const BeyondBend<double>& bend : held.beyond) {
-      const auto b = equations.bends.B.col(bend.index);
-      const double share = -reaction_.col(j).dot(b);
-      Lq.row(j) += (share * bend.stiffness) * b.transpose();
-      Lv.row(j) += (share * bend.damping) * b.transpose();
-    }
-  }
-}
-
-template <int N, int H>
-void Configuration<N, H>::set_forcing(const StepEquations<N, H>& equations) {
-  has_forcing = true;
-  idle = frictionless_;
-  for (Eigen::Index j = 0; immobile_ != 0 && j < equations.contacts(); ++j) {
-    // Its velocity is (p_j - P_S^T G^+ W^T M^-1 w_j)^T y': none, unless a support moves it.
-    const typename S::Contacts share = reaction_.transpose() * equations.W.col(j);
-    typename S::OscillatorRow drag = equations.support_velocity.row(j);
-    drag.noalias() -= share.transpose() * equations.support_velocity;
-    const double size = equations.support_velocity.row(j).norm();
-    if (contains(immobile_, j) && drag.norm() <= 1e-12 * size) idle |= bit(j);
-  }
-  const typename S::VectorByOscillators force = equations.force_beyond(beyond);
-  Au.noalias() = equations.M_inverse * force;
-  if (equations.is_large()) {
-    for (Eigen::Index k = 0; k < Au.cols(); ++k) keep(equations.sparse, held, Au.col(k).data());
-  } else {
-    Au = (tables.P * Au).eval();
-  }
-  Lu.noalias() = reaction_.transpose() * force;
-  if constexpr (S::kInternal != 0) {
-    internal_drive = equations.internal_drive;
-    for (Eigen::Index i = 0; i < spring.size(); ++i) {
-      if (spring[i] == 0.0) internal_drive.row(i).setZero();
-    }
-  }
-  if ((stuck & equations.holding) != 0) {
-    Au.noalias() -= reaction_ * equations.support_acceleration;
-    Lu.noalias() += constraint_ * equations.support_acceleration;
-  }
-  if (!equations.is_large()) tables.propagate_forcing(equations, spring, Au, internal_drive);
 }
 
 }  // namespace frahm::periodic

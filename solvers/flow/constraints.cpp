@@ -47,15 +47,9 @@ Eigen::MatrixXd weighted_pseudo_inverse(const Eigen::MatrixXd& G, const Eigen::V
   return result;
 }
 
-void set_inverse(const Eigen::MatrixXd& G, ContactMask contacts, Eigen::Ref<Eigen::MatrixXd> inverse) {
-  std::vector<Eigen::Index> kept;
-  for (Eigen::Index j = 0; j < G.rows(); ++j) {
-    if (contains(contacts, j)) kept.push_back(j);
-  }
-  const auto size = static_cast<Eigen::Index>(kept.size());
-  inverse.setZero();
-  inverse(kept, kept) =
-      algebra::solve_positive(G(kept, kept), Eigen::MatrixXd(Eigen::MatrixXd::Identity(size, size)));
+Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& G) {
+  if (G.size() == 0) return G;
+  return algebra::solve_positive(G, Eigen::MatrixXd(Eigen::MatrixXd::Identity(G.rows(), G.cols())));
 }
 
 }  // namespace frahm::periodic

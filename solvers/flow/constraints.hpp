@@ -11,7 +11,7 @@ namespace frahm::periodic {
 // several, that of least sum (lambda_j / weight_j)^2. Rows and columns of weight 0 are left out (zero).
 Eigen::MatrixXd weighted_pseudo_inverse(const Eigen::MatrixXd& G, const Eigen::VectorXd& weight);
 
-// The inverse of G over the contacts of the mask, whose directions are independent; zero elsewhere.
-void set_inverse(const Eigen::MatrixXd& G, ContactMask contacts, Eigen::Ref<Eigen::MatrixXd> inverse);
+// The inverse of a symmetric positive definite G.
+Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& G);
 
 }  // namespace frahm::periodic

@@ -38,6 +38,7 @@ struct StepEquations {
   typename S::Square M, C, K, M_inverse, K_inverse;
   typename S::Square M_root, K_root, M_root_inverse, K_root_inverse;  // upper Cholesky factors: M = R^T R
   typename S::VectorByOscillators force;                              // f(t) = force * u(t) [N]
+  typename S::VectorByOscillators force_pull;                         // M^-1 force
   typename S::VectorByOscillators applied_force;  // the part of it that acts on the masses from outside
   typename S::SupportsByOscillators motion, motion_velocity,
       motion_acceleration;             // y(t) of the prescribed nodes
@@ -113,7 +114,13 @@ struct StepEquations {
   }
   typename S::VectorByOscillators force_beyond(ContactMask beyond) const {
     typename S::VectorByOscillators with = force;
-    bends.add_force(beyond, with);
+    bends.add_force(beyond, bends.B, with);
+    return with;
+  }
+  // M^-1 times it
+  typename S::VectorByOscillators force_pull_beyond(ContactMask beyond) const {
+    typename S::VectorByOscillators with = force_pull;
+    bends.add_force(beyond, bends.MB, with);
     return with;
   }
 

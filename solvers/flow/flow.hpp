@@ -137,6 +137,9 @@ class Flow {
   ValueAndSlope sliding_speed(const Instant<N, H>& at, Eigen::Index contact) const;
   // The force of a stuck contact [N]: lambda_j, or its internal force if it has one; and its slope a step.
   ValueAndSlope stuck_force(const Instant<N, H>& at, const Mode<N, H>& mode, Eigen::Index contact) const;
+  Polynomial stuck_force(const Expansion<N, H>& x, const Mode<N, H>& mode, Eigen::Index contact) const;
+  // Its part that the state makes, as a form over the state: (Lq, Lv, Ls)_j.
+  typename S::State stuck_force_form(const Mode<N, H>& mode, Eigen::Index contact) const;
 
  private:
   std::vector<const HeldContacts*> held_along(const TangentPath& path) const;
@@ -182,3 +185,4 @@ extern template class Flow<Eigen::Dynamic, Eigen::Dynamic>;
 }  // namespace frahm::periodic
 
 #include "solvers/flow/stepper.hpp"
+#include "solvers/flow/stuck_forces.hpp"

@@ -166,15 +166,9 @@ LinearForm<N, H> Forms<N, H>::bend_velocity(Eigen::Index j) const {
 
 template <int N, int H>
 LinearForm<N, H> Forms<N, H>::stuck_contact_force(Eigen::Index contact, const Mode<N, H>& mode) const {
-  const Configuration<N, H>& c = flow_.configuration(mode);
-  const Eigen::Index n = flow_.equations().masses();
   Form form = zero();
-  form.z.head(n) = c.Lq.row(contact).transpose();
-  form.z.segment(n, n) = c.Lv.row(contact).transpose();
-  if constexpr (S::kInternal != 0) {
-    form.z.tail(flow_.equations().internal_forces()) = c.Ls.row(contact).transpose();
-  }
-  form.u = c.Lu.row(contact).transpose();
+  form.z = flow_.stuck_force_form(mode, contact);
+  form.u = flow_.configuration(mode).Lu.row(contact).transpose();
   form.u[0] += mode.stuck_force[contact];
   return form;
 }

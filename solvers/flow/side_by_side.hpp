@@ -68,24 +68,31 @@ template <class Real, class Number>
       -(A0[last - 1] * x[last - 1] + A1[last] * x[last] + B0[last - 1] * y[last - 1] + B1[last] * y[last]);
 }
 
-// a -= M^-1 W lambda,  lambda = G^-1 W^T a.  work: keep_work numbers
+// a -= M^-1 W lambda,  lambda = G^-1 (W^T a + support).  support: of every contact, null: zero.  work:
+// keep_work numbers
 template <class Real, class Number>
 [[gnu::always_inline]] inline void keep_numbers(const SystemOf<Real>& system, const HeldOf<Real>& held,
-                                                Number* work, Number* a) {
+                                                const Number* support, Number* work, Number* a) {
   if (held.list.empty()) return;
-  const auto n = static_cast<std::size_t>(system.masses());
-  if (held.hold_all) {
-    std::fill_n(a, n, Number{});
-    return;
-  }
   const std::size_t m = held.list.size();
   Number* slip = work;
   Number* lambda = work + m;  // of every contact: zero where it is not held
   std::fill_n(lambda, system.contacts_count(), Number{});
-  for (std::size_t j = 0; j < m; ++j)
+  for (std::size_t j = 0; j < m; ++j) {
     slip[j] = row_times(system.directions, static_cast<std::size_t>(held.list[j]), a);
+    if (support != nullptr) slip[j] += support[held.list[j]];
+  }
   for (std::size_t j = 0; j < m; ++j) lambda[held.list[j]] = row_times(held.force, j, slip);
   subtract_product(system.contacts, lambda, a);
+}
+// The same where no support moves: no mass moves if all are held.
+template <class Real, class Number>
+[[gnu::always_inline]] inline void keep_numbers(const SystemOf<Real>& system, const HeldOf<Real>& held,
+                                                Number* work, Number* a) {
+  if (held.hold_all)
+    std::fill_n(a, system.masses(), Number{});
+  else
+    keep_numbers<Real, Number>(system, held, nullptr, work, a);
 }
 template <class Real>
 std::size_t keep_work(const SystemOf<Real>& system) {

@@ -79,8 +79,9 @@ SparseSystem sparse_system(const Eigen::MatrixXd& M_inverse, const Eigen::Matrix
                       .contacts = sparse_rows(MW),
                       .directions = sparse_rows(W.transpose()),
                       .stretch = sparse_rows(D.transpose()),
-                      .pull_by_displacement = sparse_rows(MW.transpose() * K),
-                      .pull_by_velocity = sparse_rows(MW.transpose() * C),
+                      .contact_stiffness = rows_alone(MW.transpose() * K),
+                      .contact_damping = rows_alone(MW.transpose() * C),
+                      .contact_internal = rows_alone(MW.transpose() * D),
                       .bend_directions = {},
                       .bend_pull = {},
                       .internal_rate = rate};
@@ -95,8 +96,9 @@ SystemOf<float> in_single_precision(const SparseSystem& system) {
           .contacts = in_single_precision(system.contacts),
           .directions = in_single_precision(system.directions),
           .stretch = in_single_precision(system.stretch),
-          .pull_by_displacement = in_single_precision(system.pull_by_displacement),
-          .pull_by_velocity = in_single_precision(system.pull_by_velocity),
+          .contact_stiffness = {},
+          .contact_damping = {},
+          .contact_internal = {},
           .bend_directions = in_single_precision(system.bend_directions),
           .bend_pull = in_single_precision(system.bend_pull),
           .internal_rate = system.internal_rate.cast<float>(),
@@ -115,9 +117,20 @@ HeldOf<float> in_single_precision(const HeldContacts& held) {
   return rough;
 }
 
-void keep(const SparseSystem& system, const HeldContacts& held, double* a) {
-  std::vector<double> work(keep_work(system));
-  keep_numbers(system, held, work.data(), a);
+Eigen::VectorXd forces_of(const HeldContacts& held, const Eigen::VectorXd& c) {
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(c.size());
+  for (std::size_t j = 0; j < held.list.size(); ++j) {
+    for_each_entry(held.force, static_cast<int>(j), [&](int k, double value) {
+      forces[held.list[j]] += value * c[held.list[static_cast<std::size_t>(k)]];
+    });
+  }
+  return forces;
+}
+
+void keep(const SparseSystem& system, const HeldContacts& held, const double* support, double* a) {
+  std::array<double, 2 * kMostContacts + 1> work;
+  if (held.hold_all) std::fill_n(a, system.masses(), 0.0);
+  keep_numbers(system, held, support, work.data(), a);
 }
 
 void pull(const SparseSystem& system, const HeldContacts& held, const double* q, const double* v,

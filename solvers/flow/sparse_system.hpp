@@ -25,15 +25,17 @@ struct RowsOf {
       full;                         // where few entries are zero: damping by modes, imported matrices
   std::vector<Diagonal> diagonals;  // of a square matrix, where they are few: a chain of storeys
 
-  // sum += scale x row i
-  void add_row(int i, double scale, double* sum) const {
-    const auto row = static_cast<std::size_t>(i);
-    for (int e = start[row]; e < start[row + 1]; ++e)
-      sum[column[static_cast<std::size_t>(e)]] += scale * value[static_cast<std::size_t>(e)];
-  }
   Eigen::Index rows() const { return static_cast<Eigen::Index>(start.size()) - 1; }
 };
 using SparseRows = RowsOf<double>;
+// each(column, value) of the entries of row i
+template <class Real, class Each>
+void for_each_entry(const RowsOf<Real>& rows, int i, const Each& each) {
+  const auto row = static_cast<std::size_t>(i);
+  for (auto e = static_cast<std::size_t>(rows.start[row]); e < static_cast<std::size_t>(rows.start[row + 1]);
+       ++e)
+    each(rows.column[e], rows.value[e]);
+}
 SparseRows sparse_rows(const Eigen::MatrixXd& matrix);
 SparseRows rows_alone(const Eigen::MatrixXd& matrix);  // for sums of rows, not for products
 
@@ -42,10 +44,11 @@ template <class Real>
 struct SystemOf {
   using Rows = RowsOf<Real>;
 
-  Rows stiffness, damping, internal;                     // M^-1 K, M^-1 C (n x n), M^-1 D (n x s)
-  Rows contacts;                                         // M^-1 W (n x m)
-  Rows directions, stretch;                              // W^T (m x n), D^T (s x n)
-  Rows pull_by_displacement, pull_by_velocity;           // W^T M^-1 K, W^T M^-1 C (m x n)
+  Rows stiffness, damping, internal;  // M^-1 K, M^-1 C (n x n), M^-1 D (n x s)
+  Rows contacts;                      // M^-1 W (n x m)
+  Rows directions, stretch;           // W^T (m x n), D^T (s x n)
+  // W^T M^-1 (K, C, D) (m x n, m x n, m x s), in double precision alone
+  Rows contact_stiffness, contact_damping, contact_internal;
   Rows bend_directions, bend_pull;                       // B^T, (M^-1 B)^T of the bends (number x n)
   Eigen::Matrix<Real, Eigen::Dynamic, 1> internal_rate;  // size s
   bool is_chain =
@@ -83,8 +86,12 @@ using HeldContacts = HeldOf<double>;
 SystemOf<float> in_single_precision(const SparseSystem& system);
 HeldOf<float> in_single_precision(const HeldContacts& held);
 
-// Accelerations a that keep the held contacts at rest: a - M^-1 W lambda, of one motion.
-void keep(const SparseSystem& system, const HeldContacts& held, double* a);
+// force x c of the held contacts, zero of the others. c: of every contact
+Eigen::VectorXd forces_of(const HeldContacts& held, const Eigen::VectorXd& c);
+
+// Accelerations a that keep the held contacts at rest: a - M^-1 W force (W^T a + support), of one motion.
+// support: p^T y'' of every contact; null: no contact rubs on a moving support.
+void keep(const SparseSystem& system, const HeldContacts& held, const double* support, double* a);
 
 // a = -P M^-1 (K q + C v + D s) and s' = spring D^T v - rate s, of one motion.
 void pull(const SparseSystem& system, const HeldContacts& held, const double* q, const double* v,

@@ -11,6 +11,7 @@ struct StepBends {
   using S = Sizes<N, H>;
 
   typename S::VectorByContacts B, MB;  // directions, M^-1 B (n x number)
+  Eigen::MatrixXd contact_pull;        // W^T M^-1 B, of a large system
   typename S::Contacts stiffness, damping, place;
   typename S::ContactsByOscillators motion, motion_velocity, motion_acceleration;  // p^T y(t) and its rates
   ContactMask of_velocity = 0;  // bends at a place of the velocity
@@ -41,10 +42,12 @@ struct StepBends {
     row[0] -= (contains(of_velocity, j) ? damping[j] : stiffness[j]) * place[j];
     return row;
   }
-  // The forces on the masses that they do not move themselves, added to those of the excitation.
-  void add_force(ContactMask beyond, typename S::VectorByOscillators& force) const {
+  // The forces on the masses that they do not move themselves, added to those of the excitation; along: B, or
+  // M^-1 B for the accelerations.
+  void add_force(ContactMask beyond, const typename S::VectorByContacts& along,
+                 typename S::VectorByOscillators& force) const {
     for (Eigen::Index j = 0; beyond != 0 && j < count(); ++j) {
-      if (contains(beyond, j)) force.noalias() -= B.col(j) * support_force(j);
+      if (contains(beyond, j)) force.noalias() -= along.col(j) * support_force(j);
     }
   }
 };

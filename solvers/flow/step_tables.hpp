@@ -6,7 +6,7 @@
 
 namespace frahm::periodic {
 
-// The flow of one configuration over a step, as tables over all states: of small systems, in which they take
+// One configuration and its flow over a step, as tables over all states: of small systems, in which they take
 // less time than the equation itself.
 //   q'' = Aq q + Av v + As s + Au u(t) + Af phi,   phi_j = sigma_j F_j of the contacts that slide, else 0
 //   z(1) = E z(0) + Eu u(0) + Ef phi,
@@ -20,6 +20,11 @@ struct StepTables {
   typename S::VectorByInternal As;
   typename S::VectorByContacts Af;
   typename S::Square P;  // velocities -> velocities that keep the stuck contacts stuck, M-orthogonal
+  typename S::ContactSquare constraint;   // G^+; zero rows and columns for sliding contacts
+  typename S::VectorByContacts reaction;  // M^-1 W G^+
+  // lambda = Lq q + Lv v + Ls s + ...
+  typename S::ContactsByVector Lq, Lv;
+  typename S::ContactsByInternal Ls;
 
   // The flow as Taylor series in the step fraction, z(s) = series_z(s) z(0) + series_u(s) u(0) + series_f(s)
   // phi.

@@ -105,24 +105,19 @@ inline void Flow<N, H>::expand_oscillators(const Instant<N, H>& at, Expansion<N,
 template <int N, int H>
 inline ValueAndSlope Flow<N, H>::sliding_speed(const Instant<N, H>& at, Eigen::Index j) const {
   const Eigen::Index n = equations_.masses();
-  const auto w = equations_.W.col(j);
   const auto support = equations_.support_velocity.row(j);
-  return {w.dot(at.z.segment(n, n)) + support.dot(at.u), w.dot(at.a) + support.dot(at.du)};
-}
-
-template <int N, int H>
-inline ValueAndSlope Flow<N, H>::stuck_force(const Instant<N, H>& at, const Mode<N, H>& mode,
-                                             Eigen::Index j) const {
-  const Eigen::Index n = equations_.masses();
-  const Configuration<N, H>& c = configurations_[mode.configuration];
-  ValueAndSlope force{c.Lq.row(j).dot(at.z.head(n)) + c.Lv.row(j).dot(at.z.segment(n, n)) +
-                          c.Lu.row(j).dot(at.u) + mode.stuck_force[j],
-                      c.Lq.row(j).dot(at.z.segment(n, n)) + c.Lv.row(j).dot(at.a) + c.Lu.row(j).dot(at.du)};
-  if constexpr (S::kInternal != 0) {
-    force.value += c.Ls.row(j).dot(at.z.tail(equations_.internal_forces()));
-    force.slope += c.Ls.row(j).dot(at.ds);
+  ValueAndSlope speed{support.dot(at.u), support.dot(at.du)};
+  if (equations_.is_large()) {
+    for_each_entry(equations_.sparse.directions, static_cast<int>(j), [&](int i, double w) {
+      speed.value += w * at.z[n + i];
+      speed.slope += w * at.a[i];
+    });
+    return speed;
   }
-  return force;
+  const auto w = equations_.W.col(j);
+  speed.value += w.dot(at.z.segment(n, n));
+  speed.slope += w.dot(at.a);
+  return speed;
 }
 
 }  // namespace frahm::periodic

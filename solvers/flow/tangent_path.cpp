@@ -99,7 +99,7 @@ class Columns {
     Number* v = x_.data() + masses_;
     slip_.resize(jumps.size());
     for (std::size_t k = 0; k < jumps.size(); ++k)
-      slip_[k] = jumps[k].by.size() > 0
+      slip_[k] = jumps[k].contact < 0
                      ? form_of(jumps[k].by)
                      : row_times(system_.directions, static_cast<std::size_t>(jumps[k].contact), v);
     for (std::size_t k = 0; k < jumps.size(); ++k) {

@@ -8,16 +8,20 @@
 
 namespace frahm::periodic {
 
+// A jump of small changes of the state, of rank one:  dv+ = dv- + change (w_contact^T dv-), or change (by^T
+// dz-). Jumps at one instant see the same dz-.
+template <class Vector, class State>
+struct JumpOf {
+  int contact = -1;  // -1: by a form of the state
+  Vector change;     // size n
+  State by;          // size 2n + s; unset where it is a contact's velocity
+};
+
 // What a passage does to small changes dz of the state from which it starts: stretches of the homogeneous
 // flow, each ended by jumps of rank one. A passage of a large system records it, so that its tangent can be
 // followed afterwards, if at all, and as exactly as its use requires.
 struct TangentPath {
-  // dv+ = dv- + change (w_contact^T dv-), or change (by^T dz-); jumps at one instant see the same dz-.
-  struct Jump {
-    int contact = 0;
-    Eigen::VectorXd change;  // size n, a unit of the contact's velocity
-    Eigen::VectorXd by{};    // size 2n + s; empty where it is a contact's velocity
-  };
+  using Jump = JumpOf<Eigen::VectorXd, Eigen::VectorXd>;
   struct Stretch {
     std::size_t mode = 0;
     double steps = 0.0;

@@ -177,7 +177,7 @@ void PassageSensitivity<N, H>::enter(typename S::State& delta) const {
   const Eigen::Index n = eq.masses();
   const typename S::Contacts slip =
       eq.W.transpose() * delta.segment(n, n) + by_->support_velocity * steps_.front().left.u;
-  delta.segment(n, n) -= flow_.configuration(first).reaction() * slip;
+  delta.segment(n, n) -= flow_.configuration(first).reaction(eq) * slip;
 }
 
 // s = sigma F of internal forces that slide in `mode`:  ds = sigma dF
@@ -255,12 +255,9 @@ double PassageSensitivity<N, H>::bend(Eigen::Index j, BendGuard guard, double sl
 template <int N, int H>
 double PassageSensitivity<N, H>::stuck_force(std::size_t mode, const Instant<N, H>& x,
                                              const typename S::State& delta, Eigen::Index j) const {
-  const Eigen::Index n = flow_.equations().masses();
-  const Configuration<N, H>& c = flow_.configuration(flow_.mode(mode));
   const ModeDerivative<N, H>& d = modes_[mode];
-  double force = c.Lq.row(j).dot(delta.head(n)) + c.Lv.row(j).dot(delta.segment(n, n));
-  if constexpr (S::kInternal != 0) force += c.Ls.row(j).dot(delta.tail(flow_.equations().internal_forces()));
-  return force + d.force_z.row(j).dot(x.z) + d.force_u.row(j).dot(x.u);
+  return flow_.stuck_force_form(flow_.mode(mode), j).dot(delta) + d.force_z.row(j).dot(x.z) +
+         d.force_u.row(j).dot(x.u);
 }
 
 template <int N, int H>

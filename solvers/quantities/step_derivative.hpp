@@ -131,11 +131,13 @@ void ModeDerivative<N, H>::set(const Flow<N, H>& flow, const Mode<N, H>& mode,
   force_u.setZero(m, eq.oscillators());
   const ContactMask held = mode.stuck & eq.holding;
   if (held == 0) return;
-  acceleration_u -= c.reaction() * by.support_acceleration;
-  force_z.noalias() = c.reaction().transpose() * r_z;
-  force_u.noalias() = c.reaction().transpose() * r_u;
-  force_u += c.constraint() * by.support_acceleration;
-  if (count(held) == 1) return;
+  const typename S::VectorByContacts reaction = c.reaction(eq);
+  const typename S::ContactSquare constraint = c.constraint(eq);
+  acceleration_u -= reaction * by.support_acceleration;
+  force_z.noalias() = reaction.transpose() * r_z;
+  force_u.noalias() = reaction.transpose() * r_u;
+  force_u += constraint * by.support_acceleration;
+  if (!eq.has_loops) return;
 
   // If stuck directions are linearly dependent, lambda is that of least sum (lambda_j / F_j)^2, which changes
   // with the F_j: (1 - G^+ G) 2 (dF/F) lambda, in the kernel of G.
@@ -146,11 +148,13 @@ void ModeDerivative<N, H>::set(const Flow<N, H>& flow, const Mode<N, H>& mode,
   const typename S::VectorByContacts MW = eq.M_inverse * eq.W;
   const typename S::ContactSquare G = eq.W.transpose() * MW;
   typename S::ContactSquare turned = S::ContactSquare::Identity(m, m);
-  turned.noalias() -= c.constraint() * G;
+  turned.noalias() -= constraint * G;
   for (Eigen::Index j = 0; j < m; ++j) turned.col(j) *= turn[j];
-  force_z.leftCols(n) += turned * c.Lq;
-  force_z.middleCols(n, n) += turned * c.Lv;
-  if constexpr (S::kInternal != 0) force_z.rightCols(eq.internal_forces()) += turned * c.Ls;
+  decltype(force_z) forces = decltype(force_z)::Zero(m, eq.states());
+  for (Eigen::Index j = 0; j < m; ++j) {
+    if (contains(mode.stuck, j)) forces.row(j) = flow.stuck_force_form(mode, j).transpose();
+  }
+  force_z += turned * forces;
   force_u += turned * c.Lu;
   force_u.col(0) += turned * mode.stuck_force;
 }

@@ -1,0 +1,178 @@
+#pragma once
+
+#include <cmath>
+#include <string>
+
+#include "solvers/algebra/null_space.hpp"
+#include "solvers/algebra/solve.hpp"
+#include "solvers/flow/flow.hpp"
+
+// Bodies of Flow: the equations of a system and of its forcing, with time counted in steps.
+namespace frahm::periodic {
+
+// How each contact's law acts on the flow.
+template <int N, int H>
+void set_laws(const mechanics::LinearSystem& system, StepEquations<N, H>& eq) {
+  eq.holding = 0;
+  eq.internal_of = system.contact_internal;
+  for (std::size_t j = 0; j < system.law.size(); ++j) {
+    if (system.law[j]->holds_velocity) eq.holding |= bit(static_cast<Eigen::Index>(j));
+  }
+}
+
+template <int N, int H>
+void set_bends(const mechanics::Bends& bends, StepEquations<N, H>& eq) {
+  StepBends<N, H>& its = eq.bends;
+  its.B = bends.W;
+  its.MB = eq.M_inverse * its.B;
+  its.stiffness = bends.stiffness;
+  its.damping = bends.damping / eq.step;
+  its.place = bends.place;
+  its.of_velocity = its.pulling = its.jumping = 0;
+  for (Eigen::Index j = 0; j < its.count(); ++j) {
+    const laws::Bend& law = *bends.law[static_cast<std::size_t>(j)];
+    if (law.of_velocity) {
+      its.of_velocity |= bit(j);
+      its.place[j] *= eq.step;
+    } else if (its.damping[j] != 0.0) {
+      its.jumping |= bit(j);
+    }
+    if (law.pulls || its.damping[j] == 0.0) its.pulling |= bit(j);
+  }
+}
+
+// p^T y of the bends and its rates.
+template <int N, int H>
+void set_bend_motion(const mechanics::Bends& bends, StepEquations<N, H>& eq) {
+  eq.bends.motion.noalias() = bends.W_support.transpose() * eq.motion;
+  eq.bends.motion_velocity.noalias() = bends.W_support.transpose() * eq.motion_velocity;
+  eq.bends.motion_acceleration.noalias() = bends.W_support.transpose() * eq.motion_acceleration;
+}
+
+// Whether stuck contacts can hold a further contact at rest: their directions are linearly dependent.
+template <int N, int H>
+bool holds_in_loops(const StepEquations<N, H>& eq) {
+  Eigen::MatrixXd held(eq.masses(), count(eq.holding));
+  Eigen::Index column = 0;
+  for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
+    if (eq.holds(j)) held.col(column++) = eq.W.col(j);
+  }
+  return column > 1 && algebra::null_space(held).cols() > 0;
+}
+
+template <int N, int H>
+void Flow<N, H>::set_system(const mechanics::LinearSystem& system) {
+  if (system.contacts() > kMostContacts)
+    throw mechanics::MechanicsError(std::to_string(system.contacts()) +
+                                    " contacts of the exact law: at most " + std::to_string(kMostContacts) +
+                                    " can be followed");
+  if (system.bends.count() > kMostContacts)
+    throw mechanics::MechanicsError(std::to_string(system.bends.count()) +
+                                    " stops and points of tables: at most " + std::to_string(kMostContacts) +
+                                    " can be followed");
+  fastest_rate_ = periodic::fastest_rate(system);
+  matrices_changed_ = true;
+}
+
+template <int N, int H>
+void Flow<N, H>::scale_matrices(const mechanics::LinearSystem& system) {
+  StepEquations<N, H>& eq = equations_;
+  const double h = eq.step;
+  eq.M = system.M / (h * h);
+  eq.C = system.C / h;
+  eq.K = system.K;
+  eq.M_inverse = eq.M.inverse();
+  eq.K_inverse = eq.K.inverse();
+  eq.M_root = algebra::upper_root(eq.M);
+  eq.K_root = algebra::upper_root(eq.K);
+  eq.M_root_inverse = eq.M_root.inverse();
+  eq.K_root_inverse = eq.K_root.inverse();
+  eq.W = system.W;
+  eq.limit = system.limit;
+  eq.static_limit = system.static_limit;
+  eq.monotone = system.monotone;
+  set_laws(system, eq);
+  set_bends(system.bends, eq);
+  eq.has_loops = holds_in_loops(eq);
+  eq.D = system.D;
+  eq.internal_stiffness = system.internal_stiffness;
+  eq.internal_rate = h * system.internal_rate;
+  eq.MW = eq.M_inverse * eq.W;
+  eq.mobility = eq.W.transpose() * eq.MW;
+  eq.compliance = eq.mobility.diagonal();
+  if constexpr (!S::is_fixed) {
+    if (eq.is_large()) {
+      eq.sparse = sparse_system(eq.M_inverse, eq.K, eq.C, eq.D, eq.W, eq.internal_rate);
+      eq.bends.contact_pull = eq.W.transpose() * eq.bends.MB;
+      eq.sparse.bend_directions = rows_alone(eq.bends.B.transpose());
+      eq.sparse.bend_pull = rows_alone(eq.bends.MB.transpose());
+      eq.sparse_rough = in_single_precision(eq.sparse);
+    }
+  }
+  configuration_keys_.clear();
+}
+
+template <int N, int H>
+void Flow<N, H>::set_forcing(const mechanics::LinearSystem& system) {
+  StepEquations<N, H>& eq = equations_;
+  orders_ = system.orders;  // those over a multiple of the period are others
+  const double h = step_length(fastest_rate_, system.omega, orders_.empty() ? 1 : orders_.back());
+  if (matrices_changed_ || h != eq.step) {
+    eq.step = h;
+    scale_matrices(system);
+    matrices_changed_ = false;
+  }
+  set_oscillation(system.omega);
+  on_oscillators(system.constant_force, system.force, eq.force);
+  eq.force_pull = eq.M_inverse * eq.force;
+  on_oscillators(system.constant_applied_force, system.applied_force, eq.applied_force);
+  on_oscillators(system.constant_motion, system.motion, eq.motion);
+  eq.motion_velocity.resizeLike(eq.motion);
+  eq.motion_acceleration.resizeLike(eq.motion);
+  eq.differentiate(eq.motion, eq.motion_velocity);
+  eq.differentiate(eq.motion_velocity, eq.motion_acceleration);
+  eq.support_velocity.noalias() = system.W_support.transpose() * eq.motion_velocity;
+  moving_support_ = !eq.support_velocity.isZero(0.0);
+  eq.support_acceleration.noalias() = system.W_support.transpose() * eq.motion_acceleration;
+  set_bend_motion(system.bends, eq);
+  eq.internal_drive.noalias() =
+      eq.internal_stiffness.asDiagonal() * (system.D_support.transpose() * eq.motion_velocity);
+
+  // sqrt(1/2 sum_k f_k^H K^-1 f_k)
+  static_norm_ = 0.0;
+  for (Eigen::Index i = 0; i < eq.force.cols(); ++i) {
+    static_norm_ += 0.5 * eq.force.col(i).dot(eq.K_inverse * eq.force.col(i));
+  }
+  static_norm_ = std::sqrt(static_norm_);
+
+  bound_tables();
+  for (Configuration<N, H>& configuration : configurations_) configuration.has_forcing = false;
+  mode_keys_.clear();
+}
+
+// The oscillators of the forcing over a step, cos and sin of order_k omega h, and their Taylor polynomials.
+template <int N, int H>
+void Flow<N, H>::set_oscillation(double omega) {
+  const auto harmonics = static_cast<Eigen::Index>(orders_.size());
+  fundamental_rate_ = omega * equations_.step;
+  equations_.oscillators_at_zero.clear();
+  equations_.period = 2.0 * M_PI / fundamental_rate_;
+  equations_.phase_rate.resize(harmonics);
+  rotation_.resize(2 * orders_.size());
+  rotation_series_.resize(2 * orders_.size());
+  for (Eigen::Index k = 0; k < harmonics; ++k) {
+    const double rate = orders_[static_cast<std::size_t>(k)] * fundamental_rate_;
+    equations_.phase_rate[k] = rate;
+    const auto entry = 2 * static_cast<std::size_t>(k);
+    rotation_[entry] = std::cos(rate);
+    rotation_[entry + 1] = std::sin(rate);
+    double term = 1.0;  // rate^i / i!, with the signs of cos: + 0 - 0, of sin: 0 + 0 -
+    for (int i = 0; i < kTerms; term *= rate / ++i) {
+      const double signed_term = i % 4 < 2 ? term : -term;
+      rotation_series_[entry][i] = i % 2 == 0 ? signed_term : 0.0;
+      rotation_series_[entry + 1][i] = i % 2 == 1 ? signed_term : 0.0;
+    }
+  }
+}
+
+}  // namespace frahm::periodic
