@@ -1,5 +1,7 @@
 #include "solvers/orbits/rest_directions.hpp"
 
+#include "solvers/flow/constraints.hpp"
+
 namespace frahm::periodic {
 
 Eigen::MatrixXd shift_per_kept(const RestDirections& rest) {
