@@ -41,7 +41,7 @@ struct StepEquations {
   typename S::VectorByOscillators force_pull;                         // M^-1 force
   typename S::VectorByOscillators applied_force;  // the part of it that acts on the masses from outside
   typename S::SupportsByOscillators motion, motion_velocity,
-      motion_acceleration;             // y(t) of the prescribed nodes
+      motion_acceleration;             // y(t) of the prescribed nodes, without what a belt moves on
   typename S::VectorByContacts W, MW;  // directions of the contacts, M^-1 W (n x m)
   typename S::ContactSquare mobility;  // G = W^T M^-1 W
   bool has_loops = false;              // the directions of contacts depend on one another

@@ -131,6 +131,7 @@ void Flow<N, H>::set_forcing(const mechanics::LinearSystem& system) {
   eq.motion_acceleration.resizeLike(eq.motion);
   eq.differentiate(eq.motion, eq.motion_velocity);
   eq.differentiate(eq.motion_velocity, eq.motion_acceleration);
+  eq.motion_velocity.col(0) += h * system.belt_velocity;
   eq.support_velocity.noalias() = system.W_support.transpose() * eq.motion_velocity;
   moving_support_ = !eq.support_velocity.isZero(0.0);
   eq.support_acceleration.noalias() = system.W_support.transpose() * eq.motion_acceleration;

@@ -286,6 +286,7 @@ void Assembly::set_forcing(const NetworkValues& values, LinearSystem& system) co
   system.omega = values.omega;
   system.constant_force.setZero(n);
   system.constant_motion.setZero(p);
+  system.belt_velocity.setZero(p);
   system.force.setZero(n, harmonics);
   system.motion.setZero(p, harmonics);
 
@@ -297,6 +298,10 @@ void Assembly::set_forcing(const NetworkValues& values, LinearSystem& system) co
     if (!std::isfinite(phase)) refuse("an excitation's phase", phase, "must be finite");
     if (excitation.kind == ExcitationKind::crank) {
       add_crank(excitation, values.excitation[k], system);
+      continue;
+    }
+    if (excitation.kind == ExcitationKind::belt) {
+      system.belt_velocity[node] += amplitude * std::cos(phase);
       continue;
     }
     const bool is_force = excitation.kind == ExcitationKind::force;
@@ -313,7 +318,8 @@ void Assembly::set_forcing(const NetworkValues& values, LinearSystem& system) co
 
   // What the supports exert: f = -(K_s y + C_s y' + M_s y''), harmonic by harmonic. What they exert through
   // Maxwell elements is in those elements' forces.
-  system.constant_force.noalias() -= system.K_support * system.constant_motion;
+  system.constant_force.noalias() -=
+      system.K_support * system.constant_motion + system.C_support * system.belt_velocity;
   for (Eigen::Index k = 0; k < harmonics; ++k) {
     const std::complex<double> i_omega(0.0, orders_[static_cast<std::size_t>(k)] * values.omega);
     for (Eigen::Index row = 0; row < n; ++row) {

@@ -61,7 +61,7 @@ struct ElementCoefficients {
 //                                                              a contact's whose law has one
 //   lambda_j in F_j Sgn(w_j^T q' + p_j^T y')                   of each contact of the law `coulomb`; what
 //                                                              others do, their law says (solvers/laws)
-//   y(t) = y_0 + Re sum_k Y_k e^{i order_k omega t}
+//   y(t) = y_0 + V t + Re sum_k Y_k e^{i order_k omega t}; V only of nodes whose displacement no law asks for
 //   f(t) = f_0 + Re sum_k f_k e^{i order_k omega t}, which includes what the prescribed nodes exert
 //
 // Shapes: M, C, K n x n; M_support, C_support, K_support n x p; W n x m; W_support p x m; D n x s; D_support
@@ -98,6 +98,7 @@ struct LinearSystem {
   Eigen::MatrixXcd applied_force;          // the part of f_k that does
   Eigen::VectorXd constant_motion;         // y_0 [m], size p
   Eigen::MatrixXcd motion;                 // column k is Y_k [m]
+  Eigen::VectorXd belt_velocity;           // V [m/s], size p
   SupportForce support_force;
   Eigen::RowVectorXd felt_inertia, felt_inertia_support;  // its parts by -q'' and by -y''
 

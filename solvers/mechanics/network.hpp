@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <string>
@@ -95,13 +96,14 @@ enum class ExcitationKind {
   force,   // P cos(order omega t + phase) on a mass [N], on a rotation [N m]
   motion,  // displacement A cos(order omega t + phase) of a prescribed node [m]
   crank,   // displacement of a prescribed node by a crank that turns with omega t + phase (crank.hpp)
+  belt,  // displacement V cos(phase) t of a prescribed node, for ever: nothing may ask for it but by its rate
 };
 
 // One component of the excitation; order 0 is a constant. Components on one node add up.
 struct Excitation {
   ExcitationKind kind = ExcitationKind::force;
   std::size_t node = 0;  // index into Network::masses (force) or Network::prescribed (motion, crank)
-  int order = 1;         // of a crank: 1
+  int order = 1;         // of a crank: 1; of a belt: 0
   int even_orders = 0;   // of a crank: how many of its orders 2, 4, 6 ... are included
   int taylor_order = 0;  // of a crank: 1, 2 or 4 cuts its Taylor series in crank/rod there; 0: exact
 };
@@ -139,10 +141,27 @@ struct Network {
   std::vector<MatrixPart> matrices{};
 };
 
+// Whether a prescribed node moves on for ever.
+inline bool has_belt(const Network& network) {
+  return std::ranges::any_of(network.excitations,
+                             [](const Excitation& each) { return each.kind == ExcitationKind::belt; });
+}
+// Whether a combination of coordinates has a share of such a node: it grows for ever.
+inline bool is_on_belt(const Network& network, const Direction& u) {
+  return std::ranges::any_of(u, [&](const Share& share) {
+    return share.node.kind == NodeKind::prescribed &&
+           std::ranges::any_of(network.excitations, [&](const Excitation& each) {
+             return each.kind == ExcitationKind::belt && each.node == share.node.index;
+           });
+  });
+}
+
 struct ExcitationValue {
-  double amplitude = 0.0;  // [N] for a force ([N m] on a rotation), [m] for a motion; radius [m] of a crank
-  double phase = 0.0;      // [rad]
-  double rod = 0.0;        // length [m] of a crank's rod, > amplitude
+  // [N] for a force ([N m] on a rotation), [m] for a motion; radius [m] of a crank; velocity V [m/s] of a
+  // belt
+  double amplitude = 0.0;
+  double phase = 0.0;  // [rad]
+  double rod = 0.0;    // length [m] of a crank's rod, > amplitude
 
   friend bool operator==(const ExcitationValue&, const ExcitationValue&) = default;
 };

@@ -34,6 +34,7 @@ void resize(const LinearSystem& system, const NetworkValues& direction, LinearSy
   d.coefficients.resize(system.coefficients.size());
   d.constant_force.setZero(n);
   d.constant_motion.setZero(p);
+  d.belt_velocity.setZero(p);
   d.force.setZero(n, system.force.cols());
   d.motion.setZero(p, system.motion.cols());
   d.M = d.mass;
@@ -151,6 +152,10 @@ void differentiate_excitation(const Assembly& assembly, const NetworkValues& val
     const bool is_force = excitation.kind == ExcitationKind::force;
     const std::complex<double> change =
         phasor_derivative({value.amplitude, by.amplitude}, {value.phase, by.phase}, 1.0);
+    if (excitation.kind == ExcitationKind::belt) {
+      d.belt_velocity[node] += change.real();
+      continue;
+    }
     if (excitation.order == 0) {
       (is_force ? d.constant_force : d.constant_motion)[node] += change.real();
       continue;
@@ -163,6 +168,7 @@ void differentiate_excitation(const Assembly& assembly, const NetworkValues& val
 // f_k -= Z_k Y_k with Z_k = K_s + i n omega C_s - (n omega)^2 M_s:  d(Z Y) = dZ Y + Z dY.
 void differentiate_support_forces(const LinearSystem& system, LinearSystem& d) {
   d.constant_force -= d.K_support * system.constant_motion + system.K_support * d.constant_motion;
+  d.constant_force -= d.C_support * system.belt_velocity + system.C_support * d.belt_velocity;
   for (Eigen::Index k = 0; k < system.force.cols(); ++k) {
     const double n = system.orders[static_cast<std::size_t>(k)];
     const std::complex<double> i_omega(0.0, n * system.omega), i_omega_by(0.0, n * d.omega);

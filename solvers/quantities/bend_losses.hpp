@@ -9,7 +9,7 @@ namespace frahm::periodic {
 
 // The work that goes into each bend over the orbit's steps [J]: the integral of its force times its velocity
 // while it is beyond its place. What a spring has taken it gives back within a period, so over one it is what
-// the bend dissipates.
+// the bend dissipates: of one without damping exactly nothing.
 template <int N, int H>
 std::vector<double> bend_losses(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow, const Forms<N, H>& forms,
                                 bool half_period) {
@@ -20,7 +20,7 @@ std::vector<double> bend_losses(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow,
   for (OrbitStep<N, H>& step : orbit.steps()) {
     const ContactMask beyond = flow.mode(step.mode).beyond;
     for (Eigen::Index j = 0; beyond != 0 && j < count; ++j) {
-      if (!contains(beyond, j)) continue;
+      if (!contains(beyond, j) || flow.equations().bends.damping[j] == 0.0) continue;
       const Expansion<N, H>& x = orbit.expand(step);
       const Polynomial force = forms.bend_force(j).polynomial(x),
                        velocity = forms.bend_velocity(j).polynomial(x);

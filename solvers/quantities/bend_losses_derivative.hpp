@@ -39,7 +39,7 @@ struct BendOverStep {
 template <int N, int H>
 std::vector<double> bend_losses_derivative(const OrbitSteps<N, H>& orbit, const Flow<N, H>& flow,
                                            const PassageSensitivity<N, H>& passage, bool half_period) {
-  const StepBends<N, H>& bends = flow.equations().bends;
+  const StepBends<N, H>&bends = flow.equations().bends, &by = passage.equations().bends;
   std::vector<double> loss(static_cast<std::size_t>(bends.count()), 0.0);
   const auto steps = orbit.steps();
   std::size_t changes = 0;
@@ -49,9 +49,9 @@ std::vector<double> bend_losses_derivative(const OrbitSteps<N, H>& orbit, const 
     const bool is_before_change = step.ends_segment && i + 1 < steps.size();
     changes += is_after_change ? 1 : 0;
     for (Eigen::Index j = 0; j < bends.count(); ++j) {
-      if (!contains(flow.mode(step.mode).beyond, j)) continue;
-      const BendOverStep<N, H> bend(bends, passage.equations().bends, step.expansion, passage.polynomials(i),
-                                    j);
+      if (!contains(flow.mode(step.mode).beyond, j) || (bends.damping[j] == 0.0 && by.damping[j] == 0.0))
+        continue;
+      const BendOverStep<N, H> bend(bends, by, step.expansion, passage.polynomials(i), j);
       double work = 0.0;
       for (int node = 0; node < kNodes; ++node)
         work += step.length * kNodeWeight[node] * bend.power_by(kNodeAt[node] * step.length);

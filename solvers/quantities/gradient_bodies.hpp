@@ -148,7 +148,8 @@ void Gradient<N, H>::follow_contacts(const Orbit<N, H>& orbit) {
       }
       const auto& p = sensitivity_.passage().polynomials(i);
       const typename S::State d = p.transpose() * powers(steps[i].length);
-      double slid = by_.support_displacement.row(j).dot(steps[i].right.u - steps[i].left.u);
+      double slid = by_.support_displacement.row(j).dot(steps[i].right.u - steps[i].left.u) +
+                    by_.support_velocity(j, 0) * steps[i].length;  // of a belt, whose velocity is constant
       for (Eigen::Index q = 0; q < n; ++q) slid += flow_.equations().W(q, j) * (d[q] - p(0, q));
       its.sliding_distance += halves * mode.sign(j) * slid;
     }

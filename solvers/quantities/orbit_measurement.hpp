@@ -134,7 +134,7 @@ void OrbitMeasurement<N, H>::follow_contacts(const Orbit<N, H>& orbit, Measured&
   }
 }
 
-// w^T q + p^T y [m] at omega t = phase.
+// w^T q + p^T y [m] at omega t = phase, with what a belt has moved since phase 0.
 template <int N, int H>
 double OrbitMeasurement<N, H>::relative_displacement(Eigen::Index contact, const typename S::State& z,
                                                      double phase,
@@ -145,7 +145,9 @@ double OrbitMeasurement<N, H>::relative_displacement(Eigen::Index contact, const
   typename S::Oscillators oscillators(eq.oscillators());
   eq.oscillators_at(phase, flow_.orders(), oscillators);
   for (Eigen::Index s = 0; s < eq.motion.rows(); ++s)
-    u += system.W_support(s, contact) * eq.motion.row(s).dot(oscillators);
+    u +=
+        system.W_support(s, contact) * (eq.motion.row(s).dot(oscillators) +
+                                        system.belt_velocity[s] * eq.step * phase / flow_.fundamental_rate());
   return u;
 }
 

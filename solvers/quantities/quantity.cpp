@@ -136,6 +136,11 @@ const QuantityRow* row_named(const std::string& name) {
   return best;
 }
 
+// Of an element's displacement, which has no end on a belt.
+bool is_of_displacement(const QuantityRow& row) {
+  return row.measure == Measure::stroke || row.measure == Measure::element_phase;
+}
+
 }  // namespace
 
 QuantityDescription describe(const Quantity& quantity, const Network& network, bool dimensionless) {
@@ -157,6 +162,7 @@ std::vector<Quantity> all_quantities(const Network& network) {
   for (const QuantityRow& row : quantity_table()) {
     for (std::size_t i = 0; i < owner_count(row.owner, network); ++i) {
       if (row.owner == Owner::contact && !mechanics::has_contact(network.elements[i])) continue;
+      if (is_of_displacement(row) && mechanics::is_on_belt(network, network.elements[i].along)) continue;
       result.push_back({row.measure, i});
     }
   }

@@ -59,6 +59,8 @@ void StepDerivative<N, H>::set(const StepEquations<N, H>& eq, const mechanics::L
   motion_acceleration.resizeLike(motion);
   eq.differentiate(motion, motion_velocity);
   eq.differentiate(motion_velocity, motion_acceleration);
+  // d(V h) = h dV + (V h) dh/h
+  motion_velocity.col(0) += h * (by.belt_velocity + log_step * system.belt_velocity);
   support_displacement.noalias() = system.W_support.transpose() * motion;
   support_velocity.noalias() = system.W_support.transpose() * motion_velocity;
   support_acceleration.noalias() = system.W_support.transpose() * motion_acceleration;

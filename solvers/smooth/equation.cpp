@@ -32,6 +32,7 @@ void Equation::set(const mechanics::LinearSystem& system, const mechanics::Netwo
   motion_ = rows_of(system.constant_motion, system.motion);
   motion_velocity_ = differentiated(motion_);
   motion_acceleration_ = differentiated(motion_velocity_);
+  motion_velocity_.col(0) += system.belt_velocity;
   applied_force_ = rows_of(system.constant_applied_force, system.applied_force);
   set_linear_part(system);
   set_friction(system, values);

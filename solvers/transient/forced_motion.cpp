@@ -165,6 +165,8 @@ ForcedMotion run(const Problem& problem, int stairs) {
   motion.peaks = peaks_of(driven.trajectory, mechanics::coordinate_count(problem.assembly.network()));
   for (std::size_t j = 0; j < problem.assembly.contacts(); ++j)
     motion.stops.push_back(driven.trajectory.stops(j));
+  for (std::size_t j = 0; j < problem.assembly.bends().law.size(); ++j)
+    motion.touches.push_back(driven.trajectory.touches(j));
   return motion;
 }
 

@@ -31,10 +31,11 @@ using ValuesAt = std::function<mechanics::NetworkValues(double omega)>;
 struct ForcedMotion {
   std::string failure;  // why the motion could not be completed; empty: it is complete
   Samples history;
-  std::vector<double> frequency;         // at the history's times [rad/s]
-  std::vector<Extremum> peaks;           // of each mass, then of each signal, the largest |displacement|
-  std::vector<std::vector<Stop>> stops;  // of each friction contact
-  EnergyBudget energy;                   // to the duration
+  std::vector<double> frequency;            // at the history's times [rad/s]
+  std::vector<Extremum> peaks;              // of each mass, then of each signal, the largest |displacement|
+  std::vector<std::vector<Stop>> stops;     // of each friction contact
+  std::vector<std::vector<Touch>> touches;  // of each bend, in the order of mechanics::Bends
+  EnergyBudget energy;                      // to the duration
   // Of a run-up: the largest change of any sample of a mass [m] when the stairs were last halved; NaN
   // otherwise. The error that remains is a fraction of it, as halving divides it by four or more.
   double discretisation_error = 0.0;

@@ -29,6 +29,13 @@ struct Stop {
   double release = 0.0;  // [s]; NaN: not released by the end
 };
 
+// An interval in which an element is beyond a place of its displacement: a stop is touched. If it begins so
+// the touch is 0.
+struct Touch {
+  double onset = 0.0;  // [s]
+  double end = 0.0;    // [s]; NaN: not over by the end
+};
+
 // States at given times, ascending.
 struct Samples {
   std::vector<double> time;  // [s]

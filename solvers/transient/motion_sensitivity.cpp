@@ -193,7 +193,7 @@ bool MotionSensitivity::is_at_rest() const {
   const auto& eq = flow_.equations();
   const Index harmonics = eq.force.cols() - 1;
   return begun_ && eq.internal_forces() == 0 && eq.force.rightCols(harmonics).isZero(0.0) &&
-         eq.motion.rightCols(harmonics).isZero(0.0) && flow_.configuration(ending_.mode).holds_all(eq);
+         eq.motion_velocity.isZero(0.0) && flow_.configuration(ending_.mode).holds_all(eq);
 }
 
 void MotionSensitivity::finish() {

@@ -42,6 +42,7 @@ Trajectory::Trajectory(const mechanics::Assembly& assembly, std::vector<double> 
       signals_(mechanics::signal_incidences(assembly.network())),
       turning_points_(mechanics::coordinate_count(assembly.network())),
       stops_(assembly.contacts()),
+      touches_(assembly.bends().law.size()),
       watch_(std::move(watch)) {
   samples_.time = std::move(times);
   samples_.displacement.resize(turning_points_.size());

@@ -65,6 +65,7 @@ class Trajectory {
 
   const TurningPoints& turning_points(std::size_t coordinate) const { return turning_points_[coordinate]; }
   const std::vector<Stop>& stops(std::size_t contact) const { return stops_[contact]; }
+  const std::vector<Touch>& touches(std::size_t bend) const { return touches_[bend]; }
   const Samples& samples() const { return samples_; }
   EnergyBudget energy_budget() const { return account_.budget(energy_now()); }  // of the motion so far
 
@@ -81,6 +82,7 @@ class Trajectory {
   void follow(Step& step);
   void follow_signals(const Step& step, double at);
   void note_mode(const periodic::Mode<Eigen::Dynamic, Eigen::Dynamic>& mode, double at, const State& z);
+  void note_touches(periodic::ContactMask beyond, double at);
   void find_free_directions();
   void keep_samples(Step& step, double at);
   void keep_state(const State& z, const Eigen::VectorXd& acceleration, const Oscillators& u,
@@ -118,6 +120,7 @@ class Trajectory {
   std::vector<TurningPoints> turning_points_;  // of each coordinate
   std::vector<double> first_displacements_;    // of each coordinate [m]
   std::vector<std::vector<Stop>> stops_;
+  std::vector<std::vector<Touch>> touches_;
   std::size_t next_sample_ = 0;
   Samples samples_;
   Watch watch_;

@@ -36,12 +36,27 @@ void Trajectory::note_mode(const periodic::Mode<Eigen::Dynamic, Eigen::Dynamic>&
   const bool same_stuck = has_mode_ && mode.stuck == stuck_;
   stuck_ = mode.stuck;
   positive_ = mode.positive;
-  beyond_ = mode.beyond;
+  note_touches(mode.beyond, at);
   has_mode_ = true;
   if (same_stuck) return;
   find_free_directions();
   const bool held = free_directions_.cols() == 0;
   if (!held || std::isnan(held_since_)) held_since_ = held ? at : kNone;
+}
+
+// The bends that are beyond their places from here on, and those that no longer are.
+void Trajectory::note_touches(ContactMask beyond, double at) {
+  const ContactMask changed = beyond ^ beyond_;
+  for (std::size_t j = 0; changed != 0 && j < touches_.size(); ++j) {
+    const auto bend = static_cast<Index>(j);
+    if (!contains(changed, bend)) continue;
+    if (contains(beyond, bend)) {
+      touches_[j].push_back({at, kNone});
+    } else {
+      touches_[j].back().end = at;
+    }
+  }
+  beyond_ = beyond;
 }
 
 // The directions in which the masses move while the contacts that are held stick.

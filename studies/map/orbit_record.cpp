@@ -24,12 +24,13 @@ struct KeptOrbit {
   std::vector<std::vector<double>> sliding;  // of each element with a contact in turn: displacement, velocity
 };
 
-// Displacement and velocity of the prescribed nodes at a time: y_0 + Re sum_k Y_k e^{i order_k omega t}.
+// Displacement and velocity of the prescribed nodes at a time: y_0 + V t + Re sum_k Y_k e^{i order_k omega
+// t}.
 struct SupportMotion {
   Eigen::VectorXd displacement, velocity;  // [m], [m/s]
 
   SupportMotion(const mechanics::LinearSystem& system, double time)
-      : displacement(system.constant_motion), velocity(Eigen::VectorXd::Zero(displacement.size())) {
+      : displacement(system.constant_motion + time * system.belt_velocity), velocity(system.belt_velocity) {
     for (std::size_t k = 0; k < system.orders.size(); ++k) {
       const std::complex<double> i_rate(0.0, system.orders[k] * system.omega);
       const Eigen::VectorXcd motion =

@@ -46,6 +46,50 @@ std::vector<StopsOfElement> stops_of_elements(const Study& study, const ForcedMo
   return result;
 }
 
+// The times at which each gap's stops are touched, of both sides in their order.
+struct TouchesOfGap {
+  std::string name;
+  std::vector<transient::Touch> touches;
+};
+std::vector<TouchesOfGap> touches_of_gaps(const Study& study, const ForcedMotion& motion) {
+  std::vector<TouchesOfGap> result;
+  std::size_t bend = 0;
+  for (const mechanics::Element& element : study.network.elements) {
+    TouchesOfGap of{element.name, {}};
+    for (std::size_t i = 0; i < element.bends.size(); ++i, ++bend)
+      of.touches.insert(of.touches.end(), motion.touches[bend].begin(), motion.touches[bend].end());
+    if (element.type != mechanics::ElementType::gap) continue;
+    std::ranges::sort(of.touches, {}, &transient::Touch::onset);
+    result.push_back(std::move(of));
+  }
+  return result;
+}
+
+void add_touches(const Study& study, const ForcedMotion& motion, MotionColumns& columns) {
+  const auto gaps = touches_of_gaps(study, motion);
+  std::size_t rows = 1;
+  for (const auto& gap : gaps) rows = std::max(rows, gap.touches.size());
+  for (const auto& [name, touches] : gaps) {
+    std::vector<double> onsets, ends;
+    for (const transient::Touch& touch : touches) {
+      onsets.push_back(touch.onset);
+      ends.push_back(touch.end);
+    }
+    columns.add(name + "_touch", "s", "times from which " + name + " is in contact", "touch", onsets, rows);
+    columns.add(name + "_touch_end", "s", "times at which the contact of " + name + " ends", "touch", ends,
+                rows);
+  }
+}
+
+void print_touches(const Study& study, const ForcedMotion& motion, std::ostream& out) {
+  for (const auto& [name, touches] : touches_of_gaps(study, motion)) {
+    fmt::print(out, "{}: {} contact{}{}\n", name, touches.size(), touches.size() == 1 ? "" : "s",
+               touches.empty() ? ""
+                               : fmt::format(", the last from {:.10g}{}", touches.back().onset,
+                                             study.dimensionless ? "" : " s"));
+  }
+}
+
 }  // namespace
 
 transient::ForcedOptions forced_options(const Study& study) {
@@ -117,6 +161,7 @@ std::vector<results::Column> transient_columns(const Study& study, const ForcedM
     columns.add(name + "_stop_onset", "s", "times from which " + name + " sticks", "stop", onsets, rows);
     columns.add(name + "_release", "s", "times at which " + name + " lets go", "stop", releases, rows);
   }
+  add_touches(study, motion, columns);
   return columns.take();
 }
 
@@ -140,6 +185,7 @@ void print_transient(const Study& study, const ForcedMotion& motion, std::ostrea
         out, "{}\n",
         stops.empty() ? "" : fmt::format(", the last from {:.10g}{}", stops.back().onset, si ? " s" : ""));
   }
+  print_touches(study, motion, out);
   print_energies(study, motion.energy, out);
   if (!study.transient()->sweep_to) return;
   fmt::print(out,

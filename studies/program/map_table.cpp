@@ -78,8 +78,9 @@ int print_map_table(const MapPlan& plan, const std::filesystem::path& study,
     fmt::print(out, "{:<22} {} points of {}, {} computed\n", "reused", effort->reused, plan.grown_from->file,
                effort->points);
   }
-  fmt::print(out, "{:<22} {} ({} points, {} variables, {:.1f} MB)\n", "file", file.string(), points,
-             variables.size(), static_cast<double>(std::filesystem::file_size(file)) / 1e6);
+  fmt::print(out, "{:<22} {} ({} point{}, {} variable{}, {:.1f} MB)\n", "file", file.string(), points,
+             points == 1 ? "" : "s", variables.size(), variables.size() == 1 ? "" : "s",
+             static_cast<double>(std::filesystem::file_size(file)) / 1e6);
 
   const std::string lines = provenance_text(map, "failed_points");
   if (lines.empty()) return exit_code::done;

@@ -66,7 +66,7 @@ void print_file(const std::filesystem::path& file, std::ostream& out) {
   fmt::print(out, "{}: {}\n{:<22} {}\n", file.string(),
              is_partial(file) ? "a part of the result" : "finished", "title", layout.title);
   for (const results::Axis& axis : layout.axes) {
-    fmt::print(out, "{:<22} {}: {} points\n", "axis", axis.name, axis.size);
+    fmt::print(out, "{:<22} {}: {} point{}\n", "axis", axis.name, axis.size, axis.size == 1 ? "" : "s");
   }
   if (layout.axes.empty()) {
     print_groups(map, out);

@@ -70,13 +70,19 @@ std::string key_of_amplitude(const TomlSection& section) {
   return given.empty() ? "amplitude" : given;
 }
 
+// A motion of order 0 that has a velocity moves on for ever: V cos(phase) t.
+bool is_belt(const std::string& key, const Excitation& component) {
+  return component.kind == ExcitationKind::motion && key == "velocity" && component.order == 0;
+}
+
 // v cos(w t + p) is the velocity of  v/w cos(w t + p - pi/2), a cos(w t + p) the acceleration of
 // a/w^2 cos(w t + p + pi), w = order x frequency.
 void read_rate(NetworkReading& reading, const TomlSection& section, const std::string& key, int order,
                StudyValue& amplitude, StudyValue& phase) {
   const bool is_velocity = key == "velocity";
   if (order == 0)
-    section.fail(rules::key_without_use, key, "a motion of order 0 is constant; it has a displacement alone");
+    section.fail(rules::key_without_use, key,
+                 "a motion of order 0 has a constant displacement, or a constant velocity");
   amplitude = read_value(reading, section, key, is_velocity ? Quantity::speed : Quantity::acceleration,
                          Range::finite);
   const Expression rate = Expression(order) * reading.result.values.omega.expression;
@@ -90,13 +96,16 @@ void read_component(NetworkReading& reading, const TomlSection& section, Excitat
   auto& [network, values] = reading.result;
   const bool is_force = component.kind == ExcitationKind::force;
   component.order = read_order(section, "order", 0);
-  network.excitations.push_back(component);
   const std::string key = is_force ? "amplitude" : key_of_amplitude(section);
+  if (is_belt(key, component)) component.kind = ExcitationKind::belt;
+  network.excitations.push_back(component);
   StudyValue amplitude, phase = read_value(reading, section, "phase", Quantity::angle, Range::finite, 0.0);
   if (key == "amplitude") {
     const bool is_torque = is_force && mechanics::rotates(network, component.node);
     const Quantity quantity = is_torque ? Quantity::torque : is_force ? Quantity::force : Quantity::length;
     amplitude = read_value(reading, section, key, quantity, Range::finite);
+  } else if (component.kind == ExcitationKind::belt) {
+    amplitude = read_value(reading, section, key, Quantity::speed, Range::finite);
   } else {
     read_rate(reading, section, key, component.order, amplitude, phase);
   }

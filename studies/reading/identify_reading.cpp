@@ -251,6 +251,7 @@ void read_measurements(const StudyContext& context, const TomlValue& root,
   check_count(section, choice, records);
   check_stiffness(section, choice);
   check_reference_frequency(section, study, choice);
+  if (const std::string one = needs_one_response(study); !one.empty()) refuse_several_responses(study, one);
   check_start(section, study, choice);
   if (section.find("fixed_from")) read_fixed(reading, section);
 }

@@ -162,7 +162,6 @@ void refuse_names_of_energies(const StudyContext& context, const Study& study) {
 
 void read_motion(const StudyContext& context, const TomlValue& root, Study& study) {
   refuse_smooth_friction(study);
-  if (study.identify()) refuse_bends(study, "an identification does not follow it so far");
   if (!study.identify()) refuse_names_of_energies(context, study);
   NetworkReading reading(context, study.parameters);
   reading.result = {study.network, study.values};

@@ -67,4 +67,7 @@ void read_damping(NetworkReading& reading, const TomlValue& root);
 void read_prescribed_nodes(NetworkReading& reading, const TomlValue& excitation);
 void read_excitation(NetworkReading& reading, const TomlValue& excitation, bool constant_will_do);
 
+// Refuses elements and signals that ask for the displacement of a node that moves on for ever.
+void check_belts(const NetworkReading& reading);
+
 }  // namespace frahm::studies

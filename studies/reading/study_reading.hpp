@@ -111,7 +111,7 @@ struct ElementProblem {
 std::optional<ElementProblem> element_problem(const Study& study, std::size_t element,
                                               std::span<const double> parameters);
 
-// Refuses elements that bend where the motion from initial values, or the arctan law, does not know them.
+// Refuses elements that bend beside the arctan law, which does not know them.
 void refuse_bends(const Study& study, const std::string& why);
 void refuse_bends_beside_arctan(const Study& study);
 // Refuses elements with which several responses may exist; where they depend on numbers, element_problem()

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "studies/reading/study_reading.hpp"
 
 // Elements that some kinds of study do not follow.
@@ -36,6 +38,15 @@ void refuse_several_responses(const Study& study, const std::string& what_needs_
 
 std::string needs_one_response(const Study& study) {
   if (study.tune()) return "a tuning";
+  if (study.identify()) {
+    const auto is_steady = [](const RecordChoice& record) {
+      return record.motion == identification::MotionKind::periodic;
+    };
+    const auto& records = study.identify()->records;
+    const auto steady = std::ranges::find_if(records, is_steady);
+    return steady == records.end() ? ""
+                                   : fmt::format("a fit to the steady motion of record \"{}\"", steady->name);
+  }
   if (!study.sweep()) return "";
   if (study.sweep()->output.borders) return "[output] borders";
   return study.sweep()->output.resonances.empty() ? "" : "[output] resonances";

@@ -35,6 +35,11 @@ VectorXd harmonic(const mechanics::LinearSystem& s, const Eigen::MatrixXcd& ampl
   return result;
 }
 
+// Of the prescribed nodes [m/s].
+VectorXd support_velocities(const mechanics::LinearSystem& s, double t) {
+  return s.belt_velocity + harmonic(s, s.motion, t, 1);
+}
+
 // The root of a function that is positive at `lo` and not at `hi`.
 template <class Function>
 double bisect(double lo, double hi, const Function& function) {
@@ -129,8 +134,7 @@ EventIntegrator::Motion EventIntegrator::motion(const State& x, double t,
 
 double EventIntegrator::relative_velocity(const State& x, double t, Index j) const {
   double speed = system_.W.col(j).dot(velocity(x, system_.masses()));
-  if (system_.motion.rows() > 0)
-    speed += system_.W_support.col(j).dot(harmonic(system_, system_.motion, t, 1));
+  if (system_.motion.rows() > 0) speed += system_.W_support.col(j).dot(support_velocities(system_, t));
   return speed;
 }
 
@@ -147,7 +151,7 @@ double EventIntegrator::bend_force(const State& x, double t, Index j) const {
   double u = bends.W.col(j).dot(head(x, n)), v = bends.W.col(j).dot(velocity(x, n));
   if (system_.motion.rows() > 0) {
     u += bends.W_support.col(j).dot(system_.constant_motion + harmonic(system_, system_.motion, t, 0));
-    v += bends.W_support.col(j).dot(harmonic(system_, system_.motion, t, 1));
+    v += bends.W_support.col(j).dot(support_velocities(system_, t));
   }
   if (bends.law[static_cast<std::size_t>(j)]->of_velocity) return bends.damping[j] * (v - bends.place[j]);
   return bends.stiffness[j] * (u - bends.place[j]) + bends.damping[j] * v;
@@ -160,7 +164,7 @@ double EventIntegrator::bend_room(const State& x, double t, Index j) const {
   const bool has_support = system_.motion.rows() > 0;
   if (law.of_velocity) {
     double v = bends.W.col(j).dot(velocity(x, n));
-    if (has_support) v += bends.W_support.col(j).dot(harmonic(system_, system_.motion, t, 1));
+    if (has_support) v += bends.W_support.col(j).dot(support_velocities(system_, t));
     return v - bends.place[j];
   }
   double u = bends.W.col(j).dot(head(x, n));
@@ -202,7 +206,7 @@ EventIntegrator::State EventIntegrator::moved(double t, double h) const {
     // s' = k (d^T q' + p^T y') - s k / c
     VectorXd strain_rate = system_.D.transpose() * velocity(y, n);
     if (system_.motion.rows() > 0) {
-      strain_rate += system_.D_support.transpose() * harmonic(system_, system_.motion, at, 1);
+      strain_rate += system_.D_support.transpose() * support_velocities(system_, at);
     }
     for (Index e = 0; e < system_.internal_forces(); ++e) {
       const auto place = static_cast<std::size_t>(2 * n + e);

@@ -6,6 +6,7 @@
 #include "solvers/mechanics/modes.hpp"
 #include "solvers/transient/forced_motion.hpp"
 #include "solvers/transient/free_decay.hpp"
+#include "tests/known_answers/event_integrator.hpp"
 #include "tests/known_answers/responses.hpp"
 #include "tests/known_answers/single_mass.hpp"
 #include "tests/solvers/gradient_parameters.hpp"
@@ -238,6 +239,50 @@ TEST_CASE("A brace in a decay and in a forced motion shares out all energy") {
                                {.from = 1.1, .duration = 400.0, .samples = 3});
   check(forced.energy);
   CHECK_THAT(std::abs(forced.peaks[0].displacement), WithinAbs(3.3866, 0.6));  // it overshoots on its way
+}
+
+// Three storeys on a shaken ground, braces in the first and the last.
+TEST_CASE("A building whose braces slip moves from rest as the independent integration says") {
+  constexpr double kAlike = 1e-9;  // of the ground's amplitude
+  const Node base{NodeKind::prescribed, 0}, floors[] = {mass, {NodeKind::mass, 1}, {NodeKind::mass, 2}};
+  Network network{.masses = {"floor1", "floor2", "floor3"},
+                  .prescribed = {"base"},
+                  .elements = {},
+                  .excitations = {{ExcitationKind::motion, 0, 1}}};
+  NetworkValues values;
+  values.excitation = {{1.0, -0.5 * std::numbers::pi}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Node below = i == 0 ? base : floors[i - 1];
+    network.elements.push_back({"columns", ElementType::spring, below, floors[i]});
+    network.elements.push_back({"damping", ElementType::damper, below, floors[i]});
+    values.mass.push_back(1.0);
+    values.element.insert(values.element.end(), {1.0, 0.02});
+    values.second.insert(values.second.end(), {0.0, 0.0});
+    if (i == 1) continue;
+    network.elements.push_back({"brace", ElementType::jenkins, below, floors[i]});
+    values.element.push_back(1.5);
+    values.second.push_back(0.4);
+  }
+  for (const double r : {0.3, 0.55, 1.4}) {
+    INFO("r " << r);
+    values.omega = r;
+    const double duration = 30.0 / r;
+    const transient::ForcedMotion motion = transient::forced_motion(
+        network, [&](double) { return values; }, {}, {.from = r, .duration = duration, .samples = 2});
+    REQUIRE(motion.failure.empty());
+    const Assembly assembly(network);
+    LinearSystem system;
+    assembly.set_values(values, system);
+    assembly.set_forcing(values, system);
+    EventIntegrator reference(system);
+    reference.start(0.0, Eigen::VectorXd::Zero(3), Eigen::VectorXd::Zero(3), Eigen::VectorXd::Zero(2));
+    reference.advance_to(duration);
+    CHECK(reference.events() > 10);
+    for (std::size_t i = 0; i < 3; ++i)
+      CHECK_THAT(motion.history.displacement[i].back(),
+                 WithinAbs(reference.displacements()[static_cast<Eigen::Index>(i)], kAlike));
+    CHECK(motion.energy.balance < kBalance);
+  }
 }
 
 }  // namespace

@@ -68,6 +68,7 @@ TEST_CASE("A mass between elastic stops has the peaks of two independent methods
   responses.solve(between_stops(1.4));
   CHECK(responses["status"] == static_cast<double>(Status::ok));
   CHECK_THAT(responses["x_peak"], WithinAbs(1.9642744, 1e-7));  // printed so
+  CHECK(responses["stops_energy"] == 0.0);                      // they do not damp
   for (const auto& [r, small, large] : {std::tuple{1.5, 0.7943015, 2.1765907}, {1.6, 0.6376804, 2.4531427}}) {
     INFO("r " << r);
     responses.solve(between_stops(r));

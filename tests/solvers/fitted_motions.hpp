@@ -87,4 +87,18 @@ inline std::vector<FittedParameter> started_off(Model truth, const std::vector<P
   return parameters;
 }
 
+// Fits what is at the places to records made with `truth`, from starts off by `factors`.
+inline Identification fit(const mechanics::Network& network, const Model& truth,
+                          const std::vector<Place>& places, const std::vector<double>& factors,
+                          std::vector<TimeRecord> records) {
+  GreyBoxTask task{.network = network,
+                   .model_at = model_with({truth}, places),
+                   .parameters = started_off(truth, places, factors),
+                   .fixed = {},
+                   .fixed_covariance = {},
+                   .records = std::move(records),
+                   .watch = {}};
+  return grey_box(task);
+}
+
 }  // namespace frahm::identification

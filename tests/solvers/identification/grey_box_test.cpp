@@ -16,19 +16,6 @@ namespace {
 constexpr double kFound = 1e-10;  // relative, of parameters from motions without noise
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Fits what is at the places to records made with `truth`, from starts off by `factors`.
-Identification fit(const mechanics::Network& network, const Model& truth, const std::vector<Place>& places,
-                   const std::vector<double>& factors, std::vector<TimeRecord> records) {
-  GreyBoxTask task{.network = network,
-                   .model_at = model_with({truth}, places),
-                   .parameters = started_off(truth, places, factors),
-                   .fixed = {},
-                   .fixed_covariance = {},
-                   .records = std::move(records),
-                   .watch = {}};
-  return grey_box(task);
-}
-
 void check_found(const Identification& found, Model truth, const std::vector<Place>& places) {
   INFO(found.failure);
   REQUIRE(found.failure.empty());

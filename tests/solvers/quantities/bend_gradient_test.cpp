@@ -203,6 +203,29 @@ TEST_CASE("So are those of an absorber on a moving base that hits damped stops a
   check_all(network, values, 300);
 }
 
+TEST_CASE("Derivatives of a driven block on a belt, by the belt's speed too") {
+  Network network;
+  network.masses = {"block"};
+  network.prescribed = {"belt"};
+  network.elements = {{"spring", ElementType::spring, ground, first},
+                      {"damper", ElementType::damper, ground, first},
+                      {"friction", ElementType::coulomb, base, first},
+                      {"drag", ElementType::damper, base, first},
+                      {"leash", ElementType::jenkins, base, first}};
+  network.elements[3].bends = {{1.0, &damper_bend}, {-1.0, &damper_bend}};
+  network.excitations = {{ExcitationKind::belt, 0, 0}, {ExcitationKind::force, 0, 1}};
+  for (const bool has_static_force : {false, true}) {
+    network.elements[2].has_static_force = has_static_force;
+    const NetworkValues values{.omega = 0.6,
+                               .mass = {1.0},
+                               .element = {1.0, 0.1, 0.3, 0.05, 0.4},
+                               .excitation = {{0.2, 0.0}, {1.0, 0.0}},
+                               .second = {0.0, 0.0, has_static_force ? 0.4 : 0.0, 0.0, 0.1},
+                               .bends = {{}, {}, {}, {{0.3, 0.0, 0.1}, {0.25, 0.0, -0.02}}, {}}};
+    check_all(network, values, 250);
+  }
+}
+
 // Two masses that know nothing of each other, and each its stop.
 TEST_CASE("Two damped stops that are hit at one instant leave no derivative, two without damping do") {
   Network network;

@@ -63,6 +63,33 @@ TEST_CASE("A free mass between symmetric stops swings with the period of the two
   }
 }
 
+TEST_CASE("The touches of stops are told with their times, each side by itself") {
+  const double m = 1.7, k_inner = 3.0, D = 0.8, k = 11.0, a = 1.3;
+  Network network;
+  network.masses = {"mass"};
+  network.elements = {{"spring", ElementType::spring, ground, first}, stops(ground, first, true)};
+  network.excitations = {{ExcitationKind::force, 0, 0}};
+  const NetworkValues values{.omega = 1.0,
+                             .mass = {m},
+                             .element = {k_inner, k},
+                             .excitation = {{0.0, 0.0}},
+                             .bends = {{}, {{D, k, 0.0}, {D, k, 0.0}}}};
+  const double w1 = std::sqrt(k_inner / m), w2 = std::sqrt((k_inner + k) / m);
+  const double v1 = w1 * std::sqrt(a * a - D * D);
+  const double free = 2.0 * std::asin(D / a) / w1, touch = 2.0 * std::atan(v1 * w2 / (w1 * w1 * D)) / w2;
+  const ForcedMotion motion = forced_motion(network, [&](double) { return values; }, {{}, {w1 * a}},
+                                            {.from = 1.0, .duration = 10.0 * (free + touch)});
+  REQUIRE(motion.touches.size() == 2);
+  for (std::size_t side = 0; side < 2; ++side) {
+    REQUIRE(motion.touches[side].size() == 5);
+    for (std::size_t i = 0; i < 5; ++i) {
+      const double onset = 0.5 * free + static_cast<double>(2 * i + side) * (free + touch);
+      CHECK_THAT(motion.touches[side][i].onset, WithinRel(onset, kExact));
+      CHECK_THAT(motion.touches[side][i].end, WithinRel(onset + touch, kExact));
+    }
+  }
+}
+
 TEST_CASE("A free mass with a stop on one side, without clearance, swings at 2 w1 w2/(w1 + w2)") {
   const double m = 0.6, k_inner = 2.0, k = 5.0;
   Network network;
