@@ -19,6 +19,17 @@ import {
 const stepped = { curve: "step" }; // of whole numbers and flags: between two points nothing is known
 const inset = 5; // pixels between the frame and zero
 const fewPoints = 40; // up to so many, each is marked
+const comparedDash = "6 3";
+
+// The same quantity under the law, or of the response, that the study compares it with; not beside regimes.
+function comparedWith(map, variable, state) {
+  return state.regime ? undefined : map.variable(`${variable.name}_compared`);
+}
+
+// "as the frequency falls": what its long name says after the quantity's own.
+function circumstance(compared, variable) {
+  return compared.long_name?.slice((variable.long_name ?? "").length + 2) || words(compared.name);
+}
 
 // A curve's name: the coordinates in which the points differ, else all of them.
 function curveName(map, index, axis, all) {
@@ -109,7 +120,9 @@ function yAxis(variable, state, label, values) {
 // borders: where the regime changes along the axis}.
 export function responseCurves(canvas, map, variable, state) {
   const x = map.axes[state.axis].coordinates[state.coordinate];
-  const lines = state.points.map((index) => map.line(variable, index, state.axis));
+  const compared = comparedWith(map, variable, state);
+  const drawn = compared ? [variable, compared] : [variable];
+  const lines = drawn.flatMap((each) => state.points.map((index) => map.line(each, index, state.axis)));
   const all = lines.flatMap((line) => Array.from(line));
   const shown = shownUnit(variable.unit, all);
   const factor = state.scale === "dB" ? 1 : shown.factor;
@@ -119,7 +132,16 @@ export function responseCurves(canvas, map, variable, state) {
     legend = [],
     rows = [],
     seen = new Set();
-  values.forEach((y, n) => {
+  values.slice(state.points.length).forEach((y, n) => {
+    const style = { ...styleOf(n), strokeDasharray: comparedDash };
+    marks.push(curve(x.values, y, style));
+    rows.push(...tipRows(x, y, label, circumstance(compared, variable)));
+  });
+  if (compared) {
+    legend.push({ text: words(variable.name), stroke: "currentColor" });
+    legend.push({ text: circumstance(compared, variable), stroke: "currentColor", dash: comparedDash });
+  }
+  values.slice(0, state.points.length).forEach((y, n) => {
     const name = curveName(map, state.points[n], state.axis, state.points);
     const style = state.regime
       ? { stroke: "currentColor", strokeDasharray: lineDashes[n % lineDashes.length] }
@@ -131,8 +153,8 @@ export function responseCurves(canvas, map, variable, state) {
       marks.push(curve(x.values, y, { ...style, ...(variable.kind === "float" ? {} : stepped) }));
       if (y.length <= fewPoints) marks.push(dots(x.values, y, { fill: style.stroke }));
     }
-    if (values.length > 1) legend.push({ text: name, stroke: style.stroke, dash: style.strokeDasharray });
-    rows.push(...tipRows(x, y, label, values.length > 1 ? name : ""));
+    if (state.points.length > 1) legend.push({ text: name, stroke: style.stroke, dash: style.strokeDasharray });
+    rows.push(...tipRows(x, y, label, state.points.length > 1 ? name : ""));
   });
   const regimes = [...seen]
     .filter((word) => regimeColours[word])
@@ -186,6 +208,9 @@ export function responseCurvesTable(map, variable, state) {
       digits,
       values: map.line(variable, index, state.axis),
     });
+    const compared = comparedWith(map, variable, state);
+    if (compared)
+      columns.push({ name: compared.name + suffix, unit, digits, values: map.line(compared, index, state.axis) });
     if (!state.regime) continue;
     const regimes = Array.from(map.line(state.regime, index, state.axis));
     columns.push({
