@@ -163,11 +163,13 @@ typename StableSearch<N, H>::Index StableSearch<N, H>::find_near(const typename 
   return stable ? keep(orbit, of_first, found) : std::nullopt;
 }
 
-// Where an event only just happens the multipliers do not exist, and the motions beside the orbit decide.
+// Where an event only just happens, or a contact at rest only just holds, the multipliers do not exist or say
+// nothing of the motions beside the orbit on one side; they are followed.
 template <int N, int H>
 bool StableSearch<N, H>::is_stable(const Orbit<N, H>& orbit, Orbits& found) {
   constexpr double kSmall = 1e-4;
-  if (!std::isnan(orbit.floquet_radius)) return orbit.is_stable();
+  const bool has_kink = orbit.status == Status::grazing || std::isnan(orbit.floquet_radius);
+  if (!has_kink) return orbit.is_stable();
   if (known(orbit.z, kSmall, found)) return true;  // judged before
   for (const int index : {1, 2}) {
     const typename S::State by = disturbance(orbit.z, kSmall, index);

@@ -97,7 +97,7 @@ const std::vector<double> frequencies{1.0,
                                       2.0,
                                       2.001,
                                       kUpperFold - 1e-7,
-                                      kUpperFold + 1e-5,
+                                      kUpperFold + 1e-3,
                                       2.01,
                                       2.2};
 
@@ -162,18 +162,12 @@ TEST_CASE("A sweep follows an orbit through doublings of its period and back") {
 TEST_CASE("After a stretch without a periodic motion a sweep goes on from where the motion is") {
   std::vector<double> r;
   for (double each = 2.1; each < 3.3; each += 0.02) r.push_back(each);
-  const Row row = solve_row(mass_on_a_stop(), at(on_a_stop, r), {.most_multiple = 1, .show = Show::up});
-  CHECK(row.found.front().status == Status::ok);
-  const auto lost = std::ranges::find(row.found, Status::not_periodic, &ResponseSummary::status);
-  REQUIRE(lost != row.found.end());
-  CHECK(lost->reason.find("the motion of the sweep") == 0);
-  CHECK(lost->coexisting == 0);
-  // Where the single period is stable again it is found.
-  std::vector<double> further = r;
-  further.push_back(6.0);
-  const Row whole =
-      solve_row(mass_on_a_stop(), at(on_a_stop, further), {.most_multiple = 1, .show = Show::up});
-  CHECK(whole.found.back().status == Status::ok);
+  const OrbitsWanted wanted{.most_multiple = 1, .show = Show::down};
+  const Row row = solve_row(mass_on_a_stop(), at(on_a_stop, r), wanted);
+  CHECK(row.found.back().status == Status::not_periodic);
+  CHECK(row.found.back().reason.find("the motion of the sweep") == 0);
+  CHECK(row.found.back().coexisting == 0);
+  CHECK(row.found.front().status == Status::ok);  // the orbit of one period is stable again
 }
 
 // From the linear response alone the large orbit is found below 1.41 only, and the small one above.
