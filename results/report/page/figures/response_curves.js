@@ -2,6 +2,7 @@
 import * as Plot from "@observablehq/plot";
 import { extent, ticks } from "d3";
 import { axisLabel, axisScale, axisText, coordinateColumns, coordinateText } from "../axes.js";
+import { circumstance, comparedWith } from "../compared.js";
 import { meaningOf } from "../record.js";
 import { numberText, shownUnit, unitText, withUnit, words } from "../units.js";
 import {
@@ -20,16 +21,6 @@ const stepped = { curve: "step" }; // of whole numbers and flags: between two po
 const inset = 5; // pixels between the frame and zero
 const fewPoints = 40; // up to so many, each is marked
 const comparedDash = "6 3";
-
-// The same quantity under the law, or of the response, that the study compares it with; not beside regimes.
-function comparedWith(map, variable, state) {
-  return state.regime ? undefined : map.variable(`${variable.name}_compared`);
-}
-
-// "as the frequency falls": what its long name says after the quantity's own.
-function circumstance(compared, variable) {
-  return compared.long_name?.slice((variable.long_name ?? "").length + 2) || words(compared.name);
-}
 
 // A curve's name: the coordinates in which the points differ, else all of them.
 function curveName(map, index, axis, all) {
@@ -120,7 +111,7 @@ function yAxis(variable, state, label, values) {
 // borders: where the regime changes along the axis}.
 export function responseCurves(canvas, map, variable, state) {
   const x = map.axes[state.axis].coordinates[state.coordinate];
-  const compared = comparedWith(map, variable, state);
+  const compared = state.regime ? undefined : comparedWith(map, variable);
   const drawn = compared ? [variable, compared] : [variable];
   const lines = drawn.flatMap((each) => state.points.map((index) => map.line(each, index, state.axis)));
   const all = lines.flatMap((line) => Array.from(line));
@@ -208,9 +199,11 @@ export function responseCurvesTable(map, variable, state) {
       digits,
       values: map.line(variable, index, state.axis),
     });
-    const compared = comparedWith(map, variable, state);
-    if (compared)
-      columns.push({ name: compared.name + suffix, unit, digits, values: map.line(compared, index, state.axis) });
+    const compared = state.regime ? undefined : comparedWith(map, variable);
+    if (compared) {
+      const values = map.line(compared, index, state.axis);
+      columns.push({ name: compared.name + suffix, unit, digits, values });
+    }
     if (!state.regime) continue;
     const regimes = Array.from(map.line(state.regime, index, state.axis));
     columns.push({
