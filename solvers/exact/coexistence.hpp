@@ -100,7 +100,7 @@ typename Sizes<N, H>::State Coexistence<N, H>::start(int index, const mechanics:
   const double at_rest = (eq.K_inverse * eq.force).cwiseAbs().rowwise().sum().maxCoeff();
   const double size = std::max({z.head(n).cwiseAbs().maxCoeff(), places, at_rest});
   z.setZero();
-  return index == 1 ? z : search_.scattered(index, size * kReach[index % 3]);
+  return index == 1 ? z : scattered(flow_, index, size * kReach[index % 3]);
 }
 
 }  // namespace frahm::periodic

@@ -2,34 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "solvers/exact/rest_search.hpp"
+#include "solvers/exact/scattered_state.hpp"
+#include "solvers/exact/stable_orbits.hpp"
 #include "solvers/orbits/certificate.hpp"
 #include "solvers/orbits/period_multiple.hpp"
 #include "solvers/orbits/shooting.hpp"
 
 namespace frahm::periodic {
-
-template <int N, int H>
-struct StableOrbit {
-  std::vector<typename Sizes<N, H>::State> returns;  // its states at phase 0, after each period
-  double peak = 0.0;                                 // of the first mass [m]
-
-  int multiple() const { return static_cast<int>(returns.size()); }  // of the forcing's period
-};
-
-// What a search has found at one point.
-template <int N, int H>
-struct StableOrbits {
-  std::vector<StableOrbit<N, H>> stable;
-  bool found_unstable = false;
-  int passages = 0, newton_iterations = 0;
-  double step = 0.0;  // [s], in which the states count the time
-};
 
 // Finds stable orbits of systems whose laws are not all monotone, near a state or by following the motion
 // from it. The flow is set to the system each time, and again when an orbit took a multiple of its period.
@@ -77,16 +61,12 @@ class StableSearch {
 
   // Relative to the orbit's size or the static response, energy norm.
   double distance(const typename S::State& z, const StableOrbit<N, H>& orbit) const;
-  // A state of this reach [m], the same for the same index at every run.
-  typename S::State scattered(int index, double reach) const;
-  // A small change of a state of this size, as a share of it.
-  typename S::State disturbance(const typename S::State& z, double share, int index) const;
 
  private:
   Index known(const typename S::State& z, double within, const Orbits& found) const;
   int likely_multiple(const std::vector<typename S::State>& trail) const;
   bool is_stable(const Orbit<N, H>& orbit, Orbits& found);
-  bool dies_out(const typename S::State& disturbance, const Orbit<N, H>& orbit, Orbits& found);
+  bool dies_out(const typename S::State& by, const Orbit<N, H>& orbit, Orbits& found);
   double peak(const Orbit<N, H>& orbit);
   Index keep(const Orbit<N, H>& orbit, double peak, Orbits& found);
 
@@ -172,7 +152,7 @@ bool StableSearch<N, H>::is_stable(const Orbit<N, H>& orbit, Orbits& found) {
   if (!has_kink) return orbit.is_stable();
   if (known(orbit.z, kSmall, found)) return true;  // judged before
   for (const int index : {1, 2}) {
-    const typename S::State by = disturbance(orbit.z, kSmall, index);
+    const typename S::State by = disturbance(flow_, orbit.z, kSmall, index);
     if (!dies_out(by, orbit, found) || !dies_out(-by, orbit, found)) return false;
   }
   return true;
@@ -181,18 +161,17 @@ bool StableSearch<N, H>::is_stable(const Orbit<N, H>& orbit, Orbits& found) {
 // Whether the motion beside an orbit comes closer to it. The rest positions of contacts that stick throughout
 // do not count.
 template <int N, int H>
-bool StableSearch<N, H>::dies_out(const typename S::State& disturbance, const Orbit<N, H>& orbit,
-                                  Orbits& found) {
+bool StableSearch<N, H>::dies_out(const typename S::State& by, const Orbit<N, H>& orbit, Orbits& found) {
   constexpr double kGone = 0.1, kGrown = 10.0;
   const StepEquations<N, H>& eq = flow_.equations();
   const Eigen::MatrixXd rest = shift_projector(rest_directions(eq, orbit.stuck_throughout));
-  const auto size = [&](typename S::State by) {
-    if (orbit.stuck_throughout != 0) by -= (rest * by).eval();
-    return eq.energy_norm(by);
+  const auto size = [&](typename S::State off) {
+    if (orbit.stuck_throughout != 0) off -= (rest * off).eval();
+    return eq.energy_norm(off);
   };
-  const double first = size(disturbance);
+  const double first = size(by);
   double now = first;
-  typename S::State z = orbit.z + disturbance;
+  typename S::State z = orbit.z + by;
   for (int times = 0; times < kLongest && now > kGone * first; ++times) {
     walk_.pass(z, 0.0, eq.period, passage_, Tangent::none);
     found.passages += orbit.multiple;
@@ -261,32 +240,6 @@ typename StableSearch<N, H>::Index StableSearch<N, H>::known(const typename S::S
     if (distance(z, found.stable[i]) < within) return i;
   }
   return std::nullopt;
-}
-
-// A counter's bits, mixed (Steele, Lea, Flood, Proc. OOPSLA 2014, "SplitMix").
-template <int N, int H>
-typename Sizes<N, H>::State StableSearch<N, H>::scattered(int index, double reach) const {
-  const StepEquations<N, H>& eq = flow_.equations();
-  const Eigen::Index n = eq.masses();
-  std::uint64_t counter = 0x9E3779B97F4A7C15ULL * static_cast<std::uint64_t>(index);
-  const auto between = [&] {  // -1 and 1
-    std::uint64_t mixed = counter += 0x9E3779B97F4A7C15ULL;
-    mixed = (mixed ^ (mixed >> 30U)) * 0xBF58476D1CE4E5B9ULL;
-    mixed = (mixed ^ (mixed >> 27U)) * 0x94D049BB133111EBULL;
-    return static_cast<double>((mixed ^ (mixed >> 31U)) >> 11U) * 0x1p-52 - 1.0;
-  };
-  typename S::State z;
-  z.setZero(eq.states());
-  for (Eigen::Index i = 0; i < n; ++i) z[i] = reach * between();
-  for (Eigen::Index i = 0; i < n; ++i) z[n + i] = reach * flow_.fundamental_rate() * between();
-  return z;
-}
-
-template <int N, int H>
-typename Sizes<N, H>::State StableSearch<N, H>::disturbance(const typename S::State& z, double share,
-                                                            int index) const {
-  const typename S::State by = scattered(index, 1.0);
-  return by * (share * flow_.energy_scale(z) / flow_.equations().energy_norm(by));
 }
 
 }  // namespace frahm::periodic

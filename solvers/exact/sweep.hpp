@@ -71,7 +71,7 @@ void Sweep<N, H>::follow(const mechanics::LinearSystem& system) {
   found_ = search_.begin(system);
   typename S::State z = S::State::Zero(flow_.equations().states());
   if (has_begun_) z = search_.in_steps(z_, step_);
-  if (is_on_orbit_) z += search_.disturbance(z, kSlight, 1);
+  if (is_on_orbit_) z += disturbance(flow_, z, kSlight, 1);
   const auto there = search_.follow(z, system, found_);
   passages_ += found_.passages;
   newton_iterations_ += found_.newton_iterations;

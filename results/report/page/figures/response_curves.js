@@ -144,8 +144,9 @@ export function responseCurves(canvas, map, variable, state) {
       marks.push(curve(x.values, y, { ...style, ...(variable.kind === "float" ? {} : stepped) }));
       if (y.length <= fewPoints) marks.push(dots(x.values, y, { fill: style.stroke }));
     }
-    if (state.points.length > 1) legend.push({ text: name, stroke: style.stroke, dash: style.strokeDasharray });
-    rows.push(...tipRows(x, y, label, state.points.length > 1 ? name : ""));
+    const isOneOfMany = state.points.length > 1;
+    if (isOneOfMany) legend.push({ text: name, stroke: style.stroke, dash: style.strokeDasharray });
+    rows.push(...tipRows(x, y, label, isOneOfMany ? name : ""));
   });
   const regimes = [...seen]
     .filter((word) => regimeColours[word])
