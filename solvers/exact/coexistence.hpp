@@ -47,7 +47,7 @@ StableOrbits<N, H> Coexistence<N, H>::find(const mechanics::LinearSystem& system
   if (before != nullptr) continue_from(*before, system, found);
   for (int i = 0; i < wanted_.starts; ++i) {
     typename S::State z = start(i, system);
-    search_.follow(z, system, found);
+    search_.follow(z, search_.kOfStart, system, found);
   }
   return found;
 }

@@ -24,7 +24,9 @@ class StableSearch {
   using Orbits = StableOrbits<N, H>;
   using Index = std::optional<std::size_t>;  // in Orbits::stable
 
-  static constexpr int kLongest = 324;  // periods that a motion is followed for
+  // Periods that a motion is followed for at most.
+  static constexpr int kOfStart = 324;  // one of many
+  static constexpr int kOfSweep = 972;  // just beyond a fold it lingers where the orbit was
 
   // Both must outlive the search.
   StableSearch(const mechanics::Assembly& assembly, Flow<N, H>& flow, int most_multiple)
@@ -53,8 +55,9 @@ class StableSearch {
   // The stable orbit to which Newton's method leads from here; it is added to `found`.
   Index find_near(const typename S::State& z, int multiple, const mechanics::LinearSystem& system,
                   Orbits& found);
-  // The stable orbit to which the motion from z comes; it is added too. z becomes the motion's end.
-  Index follow(typename S::State& z, const mechanics::LinearSystem& system, Orbits& found);
+  // The stable orbit to which the motion from z comes within so many periods; it is added too. z becomes the
+  // motion's end.
+  Index follow(typename S::State& z, int longest, const mechanics::LinearSystem& system, Orbits& found);
   // The orbit once more, in its own multiple of the period, to which the flow is left set.
   void tell(const mechanics::LinearSystem& system, const Orbits& found, std::size_t which,
             Orbit<N, H>& orbit);
@@ -81,14 +84,13 @@ class StableSearch {
 };
 
 template <int N, int H>
-typename StableSearch<N, H>::Index StableSearch<N, H>::follow(typename S::State& z,
+typename StableSearch<N, H>::Index StableSearch<N, H>::follow(typename S::State& z, int longest,
                                                               const mechanics::LinearSystem& system,
                                                               Orbits& found) {
-  constexpr int kTries[] = {4, 12, 36, 108, kLongest};  // periods
   constexpr double kNear = 0.02, kThere = 1e-4;
   std::vector<typename S::State> trail{z};
   int periods = 0;
-  for (const int at : kTries) {
+  for (int at = 4; at <= longest; at *= 3) {
     for (; periods < at; ++periods) {
       walk_.pass(z, 0.0, flow_.equations().period, passage_, Tangent::none);
       ++found.passages;
@@ -172,7 +174,7 @@ bool StableSearch<N, H>::dies_out(const typename S::State& by, const Orbit<N, H>
   const double first = size(by);
   double now = first;
   typename S::State z = orbit.z + by;
-  for (int times = 0; times < kLongest && now > kGone * first; ++times) {
+  for (int times = 0; times < kOfStart && now > kGone * first; ++times) {
     walk_.pass(z, 0.0, eq.period, passage_, Tangent::none);
     found.passages += orbit.multiple;
     if (passage_.failure != nullptr) return false;

@@ -72,7 +72,7 @@ void Sweep<N, H>::follow(const mechanics::LinearSystem& system) {
   typename S::State z = S::State::Zero(flow_.equations().states());
   if (has_begun_) z = search_.in_steps(z_, step_);
   if (is_on_orbit_) z += disturbance(flow_, z, kSlight, 1);
-  const auto there = search_.follow(z, system, found_);
+  const auto there = search_.follow(z, search_.kOfSweep, system, found_);
   passages_ += found_.passages;
   newton_iterations_ += found_.newton_iterations;
   if (there) {
@@ -113,7 +113,7 @@ void Sweep<N, H>::tell(const mechanics::LinearSystem& system, Orbit<N, H>& orbit
   } else {
     orbit = {};
     orbit.status = Status::not_periodic;
-    orbit.reason = not_settled(search_.kLongest, most_multiple_);
+    orbit.reason = not_settled(search_.kOfSweep, most_multiple_);
     orbit.residual = kNone;
     orbit.coexisting = 0;
     orbit.passages = passages_;

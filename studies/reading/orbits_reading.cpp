@@ -5,7 +5,7 @@ namespace frahm::studies {
 namespace {
 
 constexpr std::int64_t most_starts = 10'000;
-constexpr std::int64_t longest_multiple = 64;  // the motions are followed for 324 periods at most
+constexpr std::int64_t longest_multiple = 64;  // the motions are followed for 324 periods and more
 
 int read_count(const TomlSection& section, const char* key, int otherwise, std::int64_t most) {
   const std::int64_t count = section.integer_or(key, otherwise);

@@ -97,7 +97,7 @@ const std::vector<double> frequencies{1.0,
                                       2.0,
                                       2.001,
                                       kUpperFold - 1e-7,
-                                      kUpperFold + 1e-3,
+                                      kUpperFold + 1e-5,
                                       2.01,
                                       2.2};
 
