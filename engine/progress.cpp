@@ -46,7 +46,7 @@ std::string text(const std::string& stage, const Tally& tally, double seconds) {
   const auto left = time_left(tally, seconds);
   if (left && *left > 0.0) line += fmt::format("  {} left", readable_time(*left));
   if (tally.reused > 0) line += fmt::format("  {} reused", tally.reused);
-  if (tally.failed > 0) line += fmt::format("  {} failed", tally.failed);
+  if (tally.failed > 0) line += fmt::format("  {} without a result", tally.failed);
   return line;
 }
 

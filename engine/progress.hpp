@@ -21,7 +21,7 @@ struct Tally {
   std::uint64_t done = 0;     // finished, by earlier runs too
   std::uint64_t resumed = 0;  // of these, finished by earlier runs
   std::uint64_t reused = 0;   // of those done since, not computed but found in an earlier result
-  std::uint64_t failed = 0;   // of those done, the points whose answer is a failure
+  std::uint64_t failed = 0;   // of those done, the points that have no result
 };
 
 enum class ProgressForm { bar, coloured_bar, plain, json, none };

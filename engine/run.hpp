@@ -37,7 +37,7 @@ struct Job {
   // Called once in each thread; the kernel may store its argument.
   std::function<Kernel(const StopAsked& stop_asked)> make_kernel;
   std::function<std::uint64_t(std::uint64_t tile)> points;  // points of a tile
-  // Points of a finished tile that failed; may be empty: none fail.
+  // Points of a finished tile that have no result; may be empty: all have one.
   std::function<std::uint64_t(std::uint64_t tile, std::span<const std::byte> record)> failed;
   // Points that the kernels of this process took from an earlier result; may be empty.
   std::function<std::uint64_t()> reused = {};

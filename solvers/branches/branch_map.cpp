@@ -9,7 +9,7 @@
 #include "solvers/algebra/eigenvalues.hpp"
 #include "solvers/exact/response.hpp"
 #include "solvers/orbits/certificate.hpp"
-#include "solvers/orbits/coexistence.hpp"
+#include "solvers/orbits/period_multiple.hpp"
 #include "solvers/orbits/rest_directions.hpp"
 
 namespace frahm::periodic {

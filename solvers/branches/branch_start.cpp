@@ -3,26 +3,25 @@
 #include <algorithm>
 #include <numbers>
 #include <string>
+#include <vector>
 
+#include "solvers/exact/coexistence.hpp"
 #include "solvers/exact/orbit_search.hpp"
 
 namespace frahm::periodic {
 namespace {
 
-// Searches among the orbits of one multiple of the period. Contacts that stick throughout stay where the
-// motion has left them.
-void find_of_multiple(BranchMap& map, int multiple, AnyOrbit& orbit) {
-  OrbitSearch<kAnySize, kAnySize> search(map.assembly(), map.flow());
-  const auto peak_of = [&](const AnyOrbit& each) {
-    return each.multiple == multiple ? search.first_peak(each) : -1.0;
-  };
+// The largest of those stable orbits that take this multiple of the period; of any, if it is 0.
+void find_among_several(BranchMap& map, int multiple, AnyOrbit& orbit) {
   OrbitsWanted wanted;
-  wanted.starts = 64;  // a subharmonic often has a small basin
+  if (multiple > 0) wanted.starts = 64;  // a subharmonic often has a small basin
   wanted.most_multiple = std::max(wanted.most_multiple, multiple);
-  Coexistence<kAnySize, kAnySize> coexistence(
-      map.flow(), [](AnyOrbit&) {}, peak_of, wanted);
-  coexistence.find(map.system(), orbit);
-  if (!orbit.is_found() || orbit.multiple == multiple) return;
+  Coexistence<kAnySize, kAnySize> coexistence(map.assembly(), map.flow(), wanted);
+  StableOrbits<kAnySize, kAnySize> found = coexistence.find(map.system(), nullptr);
+  if (multiple > 0)
+    std::erase_if(found.stable, [&](const auto& each) { return each.multiple() != multiple; });
+  coexistence.tell(map.system(), found, orbit);
+  if (orbit.is_found() || multiple == 0) return;
   orbit.status = Status::failed;
   orbit.reason = "no stable orbit of " + std::to_string(multiple) + " periods was found from " +
                  std::to_string(wanted.starts) + " starts";
@@ -31,16 +30,17 @@ void find_of_multiple(BranchMap& map, int multiple, AnyOrbit& orbit) {
 }  // namespace
 
 AnyOrbit find_start(BranchMap& map, int multiple) {
+  using Search = OrbitSearch<kAnySize, kAnySize>;
   AnyOrbit orbit;
   const mechanics::LinearSystem& system = map.system();
-  if (multiple > 0 && !system.monotone) {
-    find_of_multiple(map, multiple, orbit);
+  const std::vector<UndampedMode> undamped = undamped_modes(system);
+  if (!Search::serves(system, undamped)) {
+    find_among_several(map, multiple, orbit);
   } else {
-    OrbitSearch<kAnySize, kAnySize> search(map.assembly(), map.flow());
-    search.find(system, undamped_modes(system), true, orbit);
-    if (orbit.is_found() && multiple > 0 && orbit.multiple != multiple) {
+    Search(map.assembly(), map.flow()).find(system, undamped, true, orbit);
+    if (orbit.is_found() && multiple > 1) {
       orbit.status = Status::failed;
-      orbit.reason = "the orbit found takes " + std::to_string(orbit.multiple) + " periods";
+      orbit.reason = "the orbit found takes one period";
     }
   }
   if (!orbit.is_found() || orbit.section == 0.0) return orbit;

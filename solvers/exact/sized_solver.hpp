@@ -2,9 +2,11 @@
 
 #include <memory>
 
+#include "solvers/exact/coexistence.hpp"
 #include "solvers/exact/nonstop_row.hpp"
 #include "solvers/exact/orbit_search.hpp"
 #include "solvers/exact/response.hpp"
+#include "solvers/exact/sweep.hpp"
 #include "solvers/mechanics/coordinates.hpp"
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/orbits/phase.hpp"
@@ -21,7 +23,10 @@ class SizedSolver final : public ResponseSolver {
   SizedSolver(const mechanics::Network& network, const std::vector<Quantity>& quantities, Path path,
               const OrbitsWanted& wanted)
       : assembly_(network),
-        search_(assembly_, flow_, wanted),
+        wanted_(wanted),
+        search_(assembly_, flow_),
+        coexistence_(assembly_, flow_, wanted),
+        sweep_(assembly_, flow_, wanted.most_multiple),
         observables_(assembly_, flow_, quantities),
         gradient_(assembly_, flow_, quantities) {
     if (path == Path::fastest && nonstop::NonstopSolver::serves(assembly_))
@@ -30,11 +35,14 @@ class SizedSolver final : public ResponseSolver {
 
   void solve_row(std::span<const mechanics::NetworkValues> points, std::span<ResponseSummary> found,
                  std::span<double> out) override {
+    if (wanted_.is_sweep()) return sweep_row(points, found, out);
     if (nonstop_) nonstop::solve_row(*nonstop_, points, found, out);
+    if (mechanics::may_have_several_responses(assembly_.network())) return search_row(points, found, out);
     solve_rest(points, found, out);
   }
 
   void set_values(const mechanics::NetworkValues& values) override {
+    is_set_ = false;
     values_ = values;
     assembly_.set_values(values, system_);
     assembly_.set_forcing(values, system_);
@@ -42,6 +50,7 @@ class SizedSolver final : public ResponseSolver {
     flow_.set_forcing(system_);
     undamped_modes_ = undamped_modes(system_);
     observables_.set_system(system_);
+    is_set_ = true;
   }
 
   void set_forcing(const mechanics::NetworkValues& values) override {
@@ -51,8 +60,15 @@ class SizedSolver final : public ResponseSolver {
     flow_.set_forcing(system_);
   }
 
-  void forget() override { search_.forget(); }
-  void begin_row() override { search_.begin_row(); }
+  void forget() override {
+    search_.forget();
+    begin_row();
+  }
+  void begin_row() override {
+    search_.begin_row();
+    sweep_.begin();
+    before_ = {};
+  }
   const ResponseSummary& solve() override;
 
   void quantities(std::span<double> out) override {
@@ -83,13 +99,30 @@ class SizedSolver final : public ResponseSolver {
   const mechanics::LinearSystem& told() const { return orbit_.multiple > 1 ? longer_ : system_; }
   bool is_to_be_weighed() const;
   void weigh();
+  const ResponseSummary& conclude();
+
+  // Rows of systems that may have several responses (several_rows.hpp).
+  std::string set(const mechanics::NetworkValues& values);
+  void search_row(std::span<const mechanics::NetworkValues> points, std::span<ResponseSummary> found,
+                  std::span<double> out);
+  void sweep_row(std::span<const mechanics::NetworkValues> points, std::span<ResponseSummary> found,
+                 std::span<double> out);
+  std::vector<std::size_t> in_order_of_sweep(std::span<const mechanics::NetworkValues> points) const;
+  void sweep_on();
+  bool goes_on(const mechanics::NetworkValues& from, const mechanics::NetworkValues& to, int halvings);
 
   mechanics::Assembly assembly_;
   mechanics::NetworkValues values_;          // of the system
+  bool is_set_ = false;                      // to them
   mechanics::LinearSystem system_, longer_;  // longer: over the multiple of the period that the orbit takes
   std::vector<UndampedMode> undamped_modes_;
   Flow<N, H> flow_;
+  OrbitsWanted wanted_;
   OrbitSearch<N, H> search_;
+  Coexistence<N, H> coexistence_;
+  StableOrbits<N, H> before_;  // of the point before
+  Sweep<N, H> sweep_;
+  mechanics::NetworkValues swept_;  // where the sweep is
   Observables<N, H> observables_;
   Gradient<N, H> gradient_;
   Orbit<N, H> orbit_;
@@ -99,8 +132,21 @@ class SizedSolver final : public ResponseSolver {
 
 template <int N, int H>
 const ResponseSummary& SizedSolver<N, H>::solve() {
+  if (wanted_.is_sweep()) {
+    sweep_on();
+  } else if (OrbitSearch<N, H>::serves(system_, undamped_modes_)) {
+    search_.find(system_, undamped_modes_, observables_.needs_stability(), orbit_);
+  } else {
+    before_ = coexistence_.find(system_, &before_);
+    coexistence_.tell(system_, before_, orbit_);
+  }
+  return conclude();
+}
+
+// Of the orbit that was found.
+template <int N, int H>
+const ResponseSummary& SizedSolver<N, H>::conclude() {
   observables_.forget();
-  search_.find(system_, undamped_modes_, observables_.needs_stability(), orbit_);
   if (orbit_.multiple > 1) longer_ = over_multiple(system_, orbit_.multiple);
   if (orbit_.is_found() && is_to_be_weighed()) weigh();
   summary_.status = orbit_.status;
@@ -201,6 +247,12 @@ std::vector<Stretch> SizedSolver<N, H>::stretches() const {
             [](const Stretch& a, const Stretch& b) { return a.start < b.start; });
   return result;
 }
+
+}  // namespace frahm::periodic
+
+#include "solvers/exact/several_rows.hpp"
+
+namespace frahm::periodic {
 
 extern template class SizedSolver<1, 1>;
 extern template class SizedSolver<1, 2>;

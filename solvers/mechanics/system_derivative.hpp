@@ -8,7 +8,7 @@ namespace frahm::mechanics {
 // the derivative of that of `system`, laid out alike (its orders are copied; its W, D and laws, which no
 // value changes, are left empty).
 // values: those of which `assembly` made `system`, or what the same motion is over several periods
-// (orbits/coexistence.hpp).  direction: their derivative, .omega and .hysteretic_omega included, in the
+// (orbits/period_multiple.hpp).  direction: their derivative, .omega and .hysteretic_omega included, in the
 // layout of NetworkValues; an empty `second`, `bends` or `damping` means zeros. The series of a crank's even
 // orders is cut at the same order as that of the displacement.
 void differentiate(const Assembly& assembly, const NetworkValues& values, const NetworkValues& direction,

@@ -4,10 +4,16 @@ namespace frahm::periodic {
 
 // What is searched where a system may have several stable orbits, and which of them is told.
 struct OrbitsWanted {
-  enum class Show { largest, smallest };  // peak of the first mass
-  int starts = 8;                         // beside the orbits of the point before
-  int most_multiple = 4;                  // of the forcing's period
+  // Largest, smallest: by the peak of the first mass, among those found. Up, down: the one that a slow sweep
+  // of the frequency stays on, or jumps to, from one point of a row to the next; others are then not
+  // searched.
+  enum class Show { largest, smallest, up, down };
+  int starts = 8;         // beside the orbits of the points before and after
+  int most_multiple = 4;  // of the forcing's period
   Show show = Show::largest;
+
+  static bool is_sweep(Show show) { return show == Show::up || show == Show::down; }
+  bool is_sweep() const { return is_sweep(show); }
 };
 
 }  // namespace frahm::periodic

@@ -24,6 +24,11 @@ std::string none_stable(int starts, int most_multiple, bool found_unstable) {
                       found_unstable ? ", only unstable ones" : "");
 }
 
+std::string not_settled(int periods, int most_multiple) {
+  return with_numbers("the motion of the sweep came to no stable orbit of up to %d periods within %d periods",
+                      most_multiple, periods);
+}
+
 std::string unbalanced(double balance) {
   return with_numbers("the energy put in and dissipated in a period differ by %.1e of it", balance);
 }

@@ -53,7 +53,7 @@ BorderSearch::BorderSearch(const Study& study, const Grid& grid)
     : study_(study),
       grid_(grid),
       elements_(regimes_of(study.network).size()),
-      solver_(study, study.network, study.values, regimes_of(study.network)),
+      solver_(study, study.network, study.values, regimes_of(study.network), study.orbits_wanted()),
       parameters_(study.parameters.nominal()) {}
 
 void BorderSearch::find(const MapBox& tile, std::span<const std::span<const double>> known,

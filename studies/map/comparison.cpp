@@ -13,8 +13,23 @@ namespace {
 using mechanics::FrictionLaw;
 using periodic::QuantityDescription;
 
+std::string shown_text(periodic::OrbitsWanted::Show show) {
+  switch (show) {
+    case periodic::OrbitsWanted::Show::largest:
+      return "of the largest response found";
+    case periodic::OrbitsWanted::Show::smallest:
+      return "of the smallest response found";
+    case periodic::OrbitsWanted::Show::up:
+      return "as the frequency rises";
+    case periodic::OrbitsWanted::Show::down:
+      return "as the frequency falls";
+  }
+  return "";
+}
+
 // "under the arctan law", for the long names of variables.
 std::string circumstance(const Comparison& comparison) {
+  if (comparison.show) return shown_text(*comparison.show);
   if (comparison.taylor_order > 0)
     return fmt::format("with the crank cut at order {}", comparison.taylor_order);
   return comparison.law == FrictionLaw::arctan ? "under the arctan law" : "under the exact law";
@@ -35,6 +50,7 @@ bool meets_arctan_law(const Study& study) {
 mechanics::Network compared_network(const Study& study) {
   const Comparison& comparison = *study.sweep()->comparison;
   mechanics::Network network = study.network;
+  if (comparison.show) return network;
   if (comparison.taylor_order == 0) {
     for (mechanics::Element& element : network.elements) {
       if (mechanics::kind_of(element).can_be_smoothed()) element.law = comparison.law;
@@ -52,11 +68,17 @@ mechanics::Network compared_network(const Study& study) {
 StudyValues compared_values(const Study& study) {
   const Comparison& comparison = *study.sweep()->comparison;
   StudyValues values = study.values;
-  if (comparison.taylor_order > 0 || comparison.law == FrictionLaw::exact) return values;
+  if (comparison.show || comparison.taylor_order > 0 || comparison.law == FrictionLaw::exact) return values;
   for (std::size_t e = 0; e < study.network.elements.size(); ++e) {
     if (mechanics::kind_of(study.network.elements[e]).can_be_smoothed()) values.second[e] = comparison.slope;
   }
   return values;
+}
+
+periodic::OrbitsWanted compared_orbits(const Study& study) {
+  periodic::OrbitsWanted wanted = study.orbits_wanted();
+  wanted.show = study.sweep()->comparison->show.value_or(wanted.show);
+  return wanted;
 }
 
 std::vector<periodic::Quantity> compared_quantities(const Study& study) {

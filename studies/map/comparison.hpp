@@ -6,7 +6,8 @@
 #include "solvers/quantities/quantity.hpp"
 #include "studies/reading/study.hpp"
 
-// [compare]: the same points under another friction law or crank profile, beside the study's own.
+// [compare]: the same points under another friction law or crank profile, or another of several responses,
+// beside the study's own.
 namespace frahm::studies {
 
 // Whether the study or what it is compared with follows the arctan law.
@@ -15,6 +16,7 @@ bool meets_arctan_law(const Study& study);
 // The functions below need a study with a comparison. The network and the values of the other response:
 mechanics::Network compared_network(const Study& study);
 StudyValues compared_values(const Study& study);
+periodic::OrbitsWanted compared_orbits(const Study& study);
 
 // The quantities of the other response: the compared ones, then the status.
 std::vector<periodic::Quantity> compared_quantities(const Study& study);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "studies/map/orbit_cost.hpp"
 
@@ -41,13 +42,18 @@ std::uint64_t even_extent(std::uint64_t size, std::uint64_t most) {
 
 // A tile is some tenths of a second of work at most, so that all threads have some, progress moves and a stop
 // is obeyed soon; of dear points up to a second's, as each orbit starts the search for the next.
+// Rows that are swept are never cut.
 TileSizes sizes_of(const Study& study) {
   constexpr double kMostSeconds = 0.25, kFewestPoints = 4.0;
   const double seconds = predicted_orbit_seconds(study);
+  TileSizes sizes = cheap_tiles;
   const double affordable = std::max({1.0, kMostSeconds / seconds, std::min(kFewestPoints, 1.0 / seconds)});
-  if (affordable >= static_cast<double>(cheap_tiles.most)) return cheap_tiles;
-  const auto most = static_cast<std::uint64_t>(affordable);
-  return {.longest_row = most, .least = std::min(most, cheap_tiles.least), .most = most};
+  if (affordable < static_cast<double>(cheap_tiles.most)) {
+    const auto most = static_cast<std::uint64_t>(affordable);
+    sizes = {.longest_row = most, .least = std::min(most, cheap_tiles.least), .most = most};
+  }
+  if (study.sweep()->sweeps_frequency()) sizes.longest_row = std::numeric_limits<std::uint64_t>::max();
+  return sizes;
 }
 
 void cut_into_tiles(const TileSizes& sizes, Grid& grid) {

@@ -52,7 +52,7 @@ struct Grid {
 
 // A tile holds whole rows, as many as make a few hundred to two thousand points; rows longer than 4000 are
 // cut. Where a point takes more than a tenth of a millisecond (orbit_cost.hpp), it holds fewer points, of a
-// part of a row.
+// part of a row. Where the frequency is swept, rows are whole.
 Grid grid_of(const Study& study);
 
 // The values of a derived coordinate along its dimension.

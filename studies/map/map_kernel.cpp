@@ -45,7 +45,7 @@ MapKernel::MapKernel(const Study& study, const Grid& grid, std::vector<periodic:
       earlier_(earlier),
       quantities_(quantities.size()),
       digits_(study, output_variables(study, quantities)),
-      own_(study, study.network, study.values, asked_for(study, quantities)),
+      own_(study, study.network, study.values, asked_for(study, quantities), study.orbits_wanted()),
       parameters_(study.parameters.nominal()),
       point_(quantities.size()) {
   if (study.sweep()->output.borders) {
@@ -60,7 +60,8 @@ MapKernel::MapKernel(const Study& study, const Grid& grid, std::vector<periodic:
   }
   own_compared_.resize(compared_.size());
   point_.resize(quantities_ + compared_variables(study).size());
-  other_.emplace(study, compared_network(study), compared_values(study), compared_quantities(study));
+  other_.emplace(study, compared_network(study), compared_values(study), compared_quantities(study),
+                 compared_orbits(study));
 }
 
 void MapKernel::operator()(std::uint64_t tile, engine::Bytes& out) {
@@ -96,6 +97,14 @@ std::vector<std::span<const double>> MapKernel::regimes_of(const MapBox& box) co
   return regimes;
 }
 
+// Whether all points of a row are known. A sweep needs those before it.
+bool MapKernel::is_known(std::uint64_t offset, std::uint64_t step, std::uint64_t count) const {
+  for (std::uint64_t i = 0; i < count; ++i) {
+    if (known_[offset + i * step] == 0) return false;
+  }
+  return true;
+}
+
 // The points of the row that begins at index_, along the last dimension in the order of computation.
 void MapKernel::compute_row(const MapBox& box) {
   const std::size_t along = grid_.order.back();
@@ -103,6 +112,9 @@ void MapKernel::compute_row(const MapBox& box) {
   for (std::size_t d = 0; d < index_.size(); ++d) {
     if (d > along) step *= box.count[d];
     if (d != along) set_along(*study_.sweep(), d, index_[d], parameters_);
+  }
+  if (study_.sweep()->sweeps_frequency() && !is_known(offset, step, box.count[along])) {
+    for (std::uint64_t i = 0; i < box.count[along]; ++i) known_[offset + i * step] = 0;
   }
   own_.begin_row();
   if (other_) other_->begin_row();

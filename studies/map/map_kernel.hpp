@@ -36,6 +36,7 @@ class MapKernel {
 
  private:
   void compute_row(const MapBox& box);
+  bool is_known(std::uint64_t offset, std::uint64_t step, std::uint64_t count) const;
   std::vector<std::span<const double>> regimes_of(const MapBox& box) const;
   void record_point(std::size_t i, std::uint64_t offset, std::uint64_t points);
 

@@ -22,9 +22,16 @@ double with_contacts(const Study& study, double masses, double contacts) {
 }
 
 // [s] of the search for several orbits, measured: 0.12 ms a start of one mass with stops, 2 ms of two masses.
-double of_search(const Study& study, double masses) {
+// A sweep and the responses of the points beside count as a start.
+double of_search(const Study& study, const periodic::OrbitsWanted& wanted, double masses) {
   if (!mechanics::may_have_several_responses(study.network)) return 0.0;
-  return 2e-4 * study.orbits_wanted().starts * std::pow(masses, 3.0);
+  return 2e-4 * (1.0 + (wanted.is_sweep() ? 0 : wanted.starts)) * std::pow(masses, 3.0);
+}
+
+double of_searches(const Study& study, double masses) {
+  const double own = of_search(study, study.orbits_wanted(), masses);
+  const bool compares = study.sweep() && study.sweep()->comparison;
+  return compares ? own + of_search(study, compared_orbits(study), masses) : own;
 }
 
 }  // namespace
@@ -35,7 +42,7 @@ double predicted_orbit_seconds(const Study& study) {
   const auto contacts = static_cast<double>(std::ranges::count_if(
       study.network.elements,
       [](const mechanics::Element& element) { return mechanics::has_contact(element); }));
-  const double exact = of_search(study, masses) + kOneMass +
+  const double exact = of_searches(study, masses) + kOneMass +
                        (contacts == 0.0 ? kOneMass * masses * masses / 16.0  // a matrix and a vector
                                         : with_contacts(study, masses, contacts));
   return meets_arctan_law(study) ? exact + kArctan * std::max(1.0, 0.5 * masses) : exact;

@@ -10,6 +10,7 @@
 #include "solvers/orbits/orbit.hpp"
 #include "solvers/response/periodic_response.hpp"
 #include "studies/map/map_record.hpp"
+#include "studies/map/way_of_sweep.hpp"
 #include "studies/record/assembly_stage.hpp"
 
 namespace frahm::studies {
@@ -75,15 +76,19 @@ KeptOrbit keep_orbit(const MapPlan& plan, const std::vector<Assignment>& point) 
   KeptOrbit orbit{.parameters = study.parameters.nominal(), .history = {}, .sliding = {}};
   for (const Assignment& assignment : point) orbit.parameters[assignment.parameter] = assignment.value;
   mechanics::NetworkValues values;
-  evaluate(study.values, study.parameters, orbit.parameters, values);
   periodic::PeriodicResponse response(study.network, plan.quantities, periodic::Path::fastest,
                                       study.orbits_wanted());
-  try {
-    response.set_values(values);
-  } catch (const mechanics::MechanicsError&) {
-    return orbit;  // the point fails as it would in the map
+  periodic::Status status = periodic::Status::not_computed;
+  for (std::vector<double>& point : way_of_sweep(study, study.orbits_wanted(), orbit.parameters)) {
+    evaluate(study.values, study.parameters, point, values);
+    try {
+      response.set_values(values);
+      status = response.solve().status;
+    } catch (const mechanics::MechanicsError&) {
+      status = periodic::Status::not_computed;  // the point fails as it would in the map
+    }
   }
-  if (periodic::has_response(response.solve().status)) {
+  if (periodic::has_response(status)) {
     orbit.history = response.history(periodic::phases_of_a_period(samples_in_period));
     orbit.sliding = sliding_motions(study.network, values, orbit.history);
   }

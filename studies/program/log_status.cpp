@@ -76,7 +76,7 @@ void print_done(const engine::Survey& survey, const LoggedJob& known, std::ostre
   const auto& points = survey.points;
   fmt::print(out, "{:<22} {} of {} done ({:.1f} %), ", known.unit, points.done, points.points,
              100.0 * static_cast<double>(points.done) / static_cast<double>(points.points));
-  if (known.job.failed) fmt::print(out, "{} of them failed, ", points.failed);
+  if (known.job.failed) fmt::print(out, "{} of them without a response, ", points.failed);
   fmt::print(out, "{} missing\n", points.points - points.done);
   if (known.unit != "points") return;
   fmt::print(out, "{:<22} {} of {} done, {} missing\n", "tiles", known.job.tiles - survey.missing.size(),

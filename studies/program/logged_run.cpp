@@ -119,7 +119,7 @@ int tell_shard(const engine::RunOptions& run, const engine::Summary& summary, st
   fmt::print(out, "shard {}/{}: {} tiles are kept beside {}\nwhen all shards are done: frahm merge {}\n",
              run.shard.index, run.shard.count, summary.tiles, run.output.string(), run.output.string());
   if (summary.points.failed == 0) return exit_code::done;
-  fmt::print(std::cerr, "{} points failed; the merged file lists them\n", summary.points.failed);
+  fmt::print(std::cerr, "{} points have no response; the merged file lists them\n", summary.points.failed);
   return exit_code::some_failed;
 }
 

@@ -9,6 +9,7 @@
 #include "solvers/orbits/orbit.hpp"
 #include "studies/map/comparison.hpp"
 #include "studies/map/row_solver.hpp"
+#include "studies/map/way_of_sweep.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -50,12 +51,23 @@ void describe_all(const Study& study, const std::vector<periodic::Quantity>& qua
   }
 }
 
-// False where the values cannot be set; the report has the reason.
-bool solve(periodic::PeriodicResponse& response, const mechanics::NetworkValues& values,
+// The values of the points on the way to a point, that point last (way_of_sweep).
+std::vector<mechanics::NetworkValues> values_on_way(const Study& study, std::span<const double> parameters) {
+  std::vector<mechanics::NetworkValues> way;
+  for (std::vector<double>& point : way_of_sweep(study, study.orbits_wanted(), parameters))
+    evaluate(study.values, study.parameters, point, way.emplace_back());
+  return way;
+}
+
+// False where the values of the last point cannot be set; the report has the reason.
+bool solve(periodic::PeriodicResponse& response, std::span<const mechanics::NetworkValues> way,
            PointReport& report) {
-  periodic::ResponseSummary summary;
-  std::vector<double> found(report.quantities.size());
-  response.solve_row({&values, 1}, {&summary, 1}, found);
+  const std::size_t quantities = report.quantities.size();
+  std::vector<periodic::ResponseSummary> summaries(way.size());
+  std::vector<double> row(way.size() * quantities);
+  response.solve_row(way, summaries, row);
+  const periodic::ResponseSummary& summary = summaries.back();
+  const auto found = std::span(row).last(quantities);
   report.reason = summary.reason;
   if (summary.status == periodic::Status::not_computed) {
     report.residual = kNone;
@@ -70,17 +82,25 @@ bool solve(periodic::PeriodicResponse& response, const mechanics::NetworkValues&
 }
 
 // Its motion, from an orbit of its own.
-void add_motion(periodic::PeriodicResponse& response, const mechanics::NetworkValues& values,
+void add_motion(periodic::PeriodicResponse& response, std::span<const mechanics::NetworkValues> way,
                 std::size_t history_samples, PointReport& report) {
   response.forget();
-  response.set_values(values);
-  if (!periodic::has_response(response.solve().status)) return;
+  periodic::Status status = periodic::Status::not_computed;
+  for (const mechanics::NetworkValues& values : way) {
+    try {
+      response.set_values(values);
+      status = response.solve().status;
+    } catch (const mechanics::MechanicsError&) {
+      status = periodic::Status::not_computed;
+    }
+  }
+  if (!periodic::has_response(status)) return;
   report.stretches = response.stretches();
   if (history_samples > 0) report.history = response.history(periodic::phases_of_a_period(history_samples));
 }
 
 // Adds the study's comparison at the point. parameters: complete.
-void add_comparison(const Study& study, std::vector<double> parameters,
+void add_comparison(const Study& study, std::span<const double> parameters,
                     const std::vector<periodic::Quantity>& quantities, PointReport& report) {
   if (!study.sweep() || !study.sweep()->comparison) return;
   std::vector<double> own;
@@ -88,14 +108,16 @@ void add_comparison(const Study& study, std::vector<double> parameters,
     const auto place = std::find(quantities.begin(), quantities.end(), compared) - quantities.begin();
     own.push_back(report.quantities[static_cast<std::size_t>(place)].value);
   }
-  RowSolver other(study, compared_network(study), compared_values(study), compared_quantities(study));
+  RowSolver other(study, compared_network(study), compared_values(study), compared_quantities(study),
+                  compared_orbits(study));
+  std::vector<std::vector<double>> way = way_of_sweep(study, compared_orbits(study), parameters);
   other.begin_row();
-  other.add_point(parameters);
+  for (std::vector<double>& point : way) other.add_point(point);
   other.solve();
   const std::vector<periodic::QuantityDescription> variables = compared_variables(study);
   std::vector<double> values(variables.size());
-  const std::string& reason = other.reason(0);
-  compare(own, other.quantities(0), values);
+  const std::string& reason = other.reason(way.size() - 1);
+  compare(own, other.quantities(way.size() - 1), values);
   for (std::size_t i = 0; i < values.size(); ++i) report.quantities.push_back({variables[i], values[i]});
   if (report.reason.empty() && !reason.empty()) report.reason = fmt::format("compared: {}", reason);
 }
@@ -120,7 +142,8 @@ PointReport tell_point(const Study& study, std::vector<double> parameters, perio
   describe_all(study, quantities, report);
 
   periodic::PeriodicResponse response = response_of(study, quantities, path);
-  const bool is_set = solve(response, values, report);
+  const std::vector<mechanics::NetworkValues> way = values_on_way(study, parameters);
+  const bool is_set = solve(response, way, report);
   report.status = status_of(report);
   if (!is_set) {  // as in a map, such a point has failed
     if (gradient) report.gradient = PointGradient{"there is no response", {}, {}};
@@ -129,7 +152,7 @@ PointReport tell_point(const Study& study, std::vector<double> parameters, perio
   report.modes = modes_at_point(study, values);
   add_comparison(study, parameters, quantities, report);
   if (report.status == "ok" || report.status == "grazing" || report.status == "several")
-    add_motion(response, values, history_samples, report);
+    add_motion(response, way, history_samples, report);
   if (gradient) report.gradient = gradient_at(study, parameters);
   return report;
 }

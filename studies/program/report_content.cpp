@@ -25,9 +25,15 @@ std::optional<Study> study_of(const results::MapReader& result, const std::files
   }
 }
 
-// The quantities marked for an atlas in the table of quantities, and the differences of a comparison.
+bool compares_responses(const std::optional<Study>& study) {
+  return study && study->sweep() && study->sweep()->comparison && study->sweep()->comparison->show;
+}
+
+// The quantities marked for an atlas in the table of quantities, and the differences of a comparison; of two
+// of several responses, which differ much, the other one too.
 bool is_shown_by_default(const std::string& name, const std::optional<Study>& study) {
   if (name.ends_with("_difference")) return true;
+  if (compares_responses(study) && name.ends_with("_compared")) return true;
   const auto quantity = study ? periodic::find_quantity(name, study->network) : std::nullopt;
   return quantity ? periodic::is_shown(*quantity, study->network) : periodic::is_shown(name);
 }

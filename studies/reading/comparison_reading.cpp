@@ -1,7 +1,9 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
+#include "solvers/mechanics/bends.hpp"
 #include "solvers/mechanics/element_table.hpp"
 #include "studies/reading/network_reading.hpp"
 #include "studies/reading/spelling.hpp"
@@ -84,25 +86,46 @@ periodic::Quantity read_quantity(const TomlSection& section, const OutputChoice:
   return *quantity;
 }
 
+TomlSection section_of(const StudyContext& context, const TomlEntry& entry) {
+  return {context.source, entry.value, "[compare]", {"law", "slope", "taylor_order", "show", "quantities"}};
+}
+
+// "law", "taylor_order" or "show".
+std::string subject_of(const TomlSection& section) {
+  std::vector<std::string> given;
+  for (const char* key : {"law", "taylor_order", "show"}) {
+    if (section.find(key)) given.emplace_back(key);
+  }
+  if (given.size() != 1)
+    section.fail_here(rules::one_of_two_keys,
+                      "needs either \"law\", another friction law, \"taylor_order\", another crank profile, "
+                      "or \"show\", another of several responses; it has {}",
+                      given.empty() ? "none of them" : fmt::format("{}", fmt::join(given, " and ")));
+  return given.front();
+}
+
+void read_compared_show(const TomlSection& section, const Study& study, Comparison& comparison) {
+  if (section.find("slope"))
+    section.fail(rules::key_without_use, "slope", "belongs to a compared law, not to another response");
+  if (!mechanics::may_have_several_responses(study.network))
+    section.fail(rules::key_without_use, "show",
+                 "has no effect: several responses are searched where an element is a gap, has a table or a "
+                 "static_force; here there is one alone");
+  comparison.show = read_show(section);
+}
+
 }  // namespace
 
 void read_comparison(const StudyContext& context, const TomlValue& root, Study& study) {
   const TomlEntry* entry = find_entry(root, "compare");
   if (!entry) return;
-  const TomlSection section(context.source, entry->value, "[compare]",
-                            {"law", "slope", "taylor_order", "quantities"});
-  if ((section.find("law") != nullptr) == (section.find("taylor_order") != nullptr))
-    section.fail_here(rules::one_of_two_keys,
-                      "needs either \"law\", another friction law, or \"taylor_order\", another crank "
-                      "profile; it has {}",
-                      section.find("law") ? "both" : "neither");
+  const TomlSection section = section_of(context, *entry);
+  const std::string subject = subject_of(section);
   Comparison comparison;
   NetworkReading reading(context, study.parameters);
-  if (section.find("law")) {
-    read_compared_law(reading, section, study, comparison);
-  } else {
-    read_compared_profile(section, study, comparison);
-  }
+  if (subject == "law") read_compared_law(reading, section, study, comparison);
+  if (subject == "taylor_order") read_compared_profile(section, study, comparison);
+  if (subject == "show") read_compared_show(section, study, comparison);
   if (section.find("quantities")) {
     for (const OutputChoice::Name& name : read_quantity_names(section))
       comparison.quantities.push_back(read_quantity(section, name, study));
@@ -110,6 +133,15 @@ void read_comparison(const StudyContext& context, const TomlValue& root, Study& 
     comparison.quantities = {{periodic::Measure::peak, 0}};
   }
   study.sweep()->comparison = std::move(comparison);
+}
+
+void check_compared_show(const StudyContext& context, const TomlValue& root, const Study& study) {
+  const auto& comparison = study.sweep()->comparison;
+  if (!comparison || !comparison->show) return;
+  const TomlSection section = section_of(context, *find_entry(root, "compare"));
+  if (*comparison->show == study.sweep()->orbits.show)
+    section.fail(rules::key_without_use, "show", "the study itself shows this response; write another");
+  if (periodic::OrbitsWanted::is_sweep(*comparison->show)) check_frequency_axis(section, study);
 }
 
 }  // namespace frahm::studies

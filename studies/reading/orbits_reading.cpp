@@ -5,7 +5,7 @@ namespace frahm::studies {
 namespace {
 
 constexpr std::int64_t most_starts = 10'000;
-constexpr std::int64_t longest_multiple = 64;  // the motions are followed for 324 periods at most
+constexpr std::int64_t longest_multiple = 64;  // the motions are followed for 324 periods and more
 
 int read_count(const TomlSection& section, const char* key, int otherwise, std::int64_t most) {
   const std::int64_t count = section.integer_or(key, otherwise);
@@ -15,6 +15,18 @@ int read_count(const TomlSection& section, const char* key, int otherwise, std::
 }
 
 }  // namespace
+
+void check_frequency_axis(const TomlSection& section, const Study& study) {
+  if (!study.sweep()->frequency_dimension)
+    section.fail(rules::unfit_axis, "show",
+                 "sweeps the excitation frequency, which changes along no [[axis]]");
+}
+
+periodic::OrbitsWanted::Show read_show(const TomlSection& section) {
+  using enum periodic::OrbitsWanted::Show;
+  const std::string show = section.choice_or("show", {"largest", "smallest", "up", "down"});
+  return show == "smallest" ? smallest : show == "up" ? up : show == "down" ? down : largest;
+}
 
 void read_orbits_wanted(const StudyContext& context, const TomlValue& root, Study& study) {
   const TomlEntry* entry = find_entry(root, "orbits");
@@ -27,8 +39,15 @@ void read_orbits_wanted(const StudyContext& context, const TomlValue& root, Stud
   periodic::OrbitsWanted& wanted = study.sweep()->orbits;
   wanted.starts = read_count(section, "starts", wanted.starts, most_starts);
   wanted.most_multiple = read_count(section, "most_multiple", wanted.most_multiple, longest_multiple);
-  const bool smallest = section.choice_or("show", {"largest", "smallest"}) == "smallest";
-  wanted.show = smallest ? periodic::OrbitsWanted::Show::smallest : periodic::OrbitsWanted::Show::largest;
+  wanted.show = read_show(section);
+  if (!wanted.is_sweep()) return;
+  check_frequency_axis(section, study);
+  const auto& comparison = study.sweep()->comparison;
+  const bool searches =
+      comparison && comparison->show && !periodic::OrbitsWanted::is_sweep(*comparison->show);
+  if (section.find("starts") && !searches)
+    section.fail(rules::key_without_use, "starts",
+                 "has no effect: a sweep begins at rest and goes on from point to point");
 }
 
 }  // namespace frahm::studies

@@ -187,6 +187,7 @@ Study parse_study(std::string text, const std::filesystem::path& name, DataFiles
     find_frequency_dimension(study);
     read_output(context, root, study);
     read_orbits_wanted(context, root, study);
+    check_compared_show(context, root, study);
     read_report(context, root, study);
   } else if (study.kind() == StudyKind::tune) {
     read_tuning(context, root, study);
@@ -267,6 +268,11 @@ std::vector<const StudyValue*> Study::values_of_its_kind() const {
     all.insert(all.end(), more.begin(), more.end());
   }
   return all;
+}
+
+bool SweepChoice::sweeps_frequency() const {
+  return orbits.is_sweep() ||
+         (comparison && comparison->show && periodic::OrbitsWanted::is_sweep(*comparison->show));
 }
 
 std::vector<const StudyValue*> SweepChoice::values() const {

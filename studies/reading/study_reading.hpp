@@ -61,6 +61,8 @@ void read_motion(const StudyContext& context, const TomlValue& root, Study& stud
 
 // [compare] into the choice of a sweep, once the network is there. Sets the quantity of a slope parameter.
 void read_comparison(const StudyContext& context, const TomlValue& root, Study& study);
+// Refuses a `show` of [compare] that does not fit what the study shows itself, once that is read.
+void check_compared_show(const StudyContext& context, const TomlValue& root, const Study& study);
 
 // [tune], [[design]], [[constraint]], [[scenario]] and [[column]] into the study's choice, once units are
 // converted.
@@ -125,6 +127,9 @@ void read_axes(const StudyContext& context, const TomlValue& root, Study& study)
 void read_coordinates(const StudyContext& context, const TomlValue& root, Study& study);
 void read_output(const StudyContext& context, const TomlValue& root, Study& study);
 void read_orbits_wanted(const StudyContext& context, const TomlValue& root, Study& study);
+// The key `show`: which of several responses, by default the largest; a sweep needs an axis of the frequency.
+periodic::OrbitsWanted::Show read_show(const TomlSection& section);
+void check_frequency_axis(const TomlSection& section, const Study& study);
 void read_report(const StudyContext& context, const TomlValue& root, Study& study);
 
 // The names in the array `quantities` of a section, and patterns of names (name_pattern.hpp), each once.

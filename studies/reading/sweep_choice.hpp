@@ -64,11 +64,13 @@ struct OutputChoice {
   std::vector<std::size_t> resonances;  // coordinates whose resonance is sought along the frequency axis
 };
 
-// A second response at the same points: another friction law, or the cranks' motion cut at another order.
+// A second response at the same points: another friction law, the cranks' motion cut at another order, or
+// another of several responses.
 struct Comparison {
   int taylor_order = 0;  // of every crank: 1, 2 or 4; 0: the law differs
   mechanics::FrictionLaw law = mechanics::FrictionLaw::exact;  // of every coulomb element
   StudyValue slope;                                            // of the arctan law
+  std::optional<periodic::OrbitsWanted::Show> show;            // the law is then that of the study
   std::vector<periodic::Quantity> quantities;                  // real-valued, at least one
 };
 
@@ -87,6 +89,10 @@ struct SweepChoice {
   // The dimension along which the excitation frequency changes, which runs innermost in the computation; if
   // there are several, the last one along which the masses and elements stay the same, else the last.
   std::optional<std::size_t> frequency_dimension;
+
+  // Whether it, or what it is compared with, sweeps the frequency: each point of a row then follows from the
+  // one before it.
+  bool sweeps_frequency() const;
 
   // The values that are expressions of parameters.
   std::vector<const StudyValue*> values() const;

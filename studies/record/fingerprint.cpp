@@ -145,6 +145,7 @@ void add_comparison(const Study& study, CanonicalText& text) {
   const Comparison& comparison = *study.sweep()->comparison;
   text.line("compare law {} slope {} taylor order {}", static_cast<int>(comparison.law),
             comparison.slope.expression.canonical_text(study.parameters.names()), comparison.taylor_order);
+  if (comparison.show) text.line("compare show {}", static_cast<int>(*comparison.show));
   for (const periodic::Quantity& quantity : comparison.quantities)
     text.line("compare {}", periodic::describe(quantity, study.network, study.dimensionless).name);
 }
@@ -230,6 +231,15 @@ void add_identification(const Study& study, CanonicalText& text) {
   add_records(study, text);
 }
 
+// The points of a sweep depend on all frequencies of their row.
+void add_swept_frequencies(const SweepChoice& sweep, const Parameters& parameters, CanonicalText& text) {
+  if (!sweep.sweeps_frequency()) return;
+  for (const std::size_t a : sweep.dimensions[*sweep.frequency_dimension].axes) {
+    const ParameterAxis& axis = sweep.axes[a];
+    text.line("swept {} {}", parameters.list[axis.parameter].name, fmt::join(axis.si_values, " "));
+  }
+}
+
 std::string physics_hash(const Study& study, std::span<const periodic::Quantity> quantities) {
   CanonicalText text;
   text.line("solver {}", solver_version);
@@ -240,6 +250,7 @@ std::string physics_hash(const Study& study, std::span<const periodic::Quantity>
     if (mechanics::may_have_several_responses(study.network)) {
       const periodic::OrbitsWanted& wanted = study.sweep()->orbits;
       text.line("orbits {} {} {}", wanted.starts, wanted.most_multiple, static_cast<int>(wanted.show));
+      add_swept_frequencies(*study.sweep(), study.parameters, text);
     }
   }
   text.line("units {}", study.dimensionless ? "dimensionless" : "SI");

@@ -29,16 +29,32 @@ results::MapLayout file_layout(const StudyPlan& plan, const RunRecord& run) {
 
 namespace {
 
+std::string search_text(const Study& study, const periodic::OrbitsWanted& wanted) {
+  using enum periodic::OrbitsWanted::Show;
+  if (wanted.is_sweep())
+    return fmt::format(
+        "a sweep of the frequency {}, from rest at its first point of a row; at each point the stable "
+        "response "
+        "of the point before is continued, and where it ends the motion is followed to another, multiples of "
+        "the period up to {}. Others were not searched",
+        wanted.show == up ? "up" : "down", wanted.most_multiple);
+  return fmt::format(
+      "{} starts and the responses of the points before and after on the row, within a tile, multiples of "
+      "the "
+      "period up to {}; told is the {} peak of {}. Others may have been missed",
+      wanted.starts, wanted.most_multiple, wanted.show == largest ? "largest" : "smallest",
+      study.network.masses.front());
+}
+
 // What was searched where there may be several responses, "" where there is one alone.
 std::string searched_orbits(const Study& study) {
   if (!study.sweep() || !mechanics::may_have_several_responses(study.network)) return "";
-  const periodic::OrbitsWanted wanted = study.orbits_wanted();
-  const bool largest = wanted.show == periodic::OrbitsWanted::Show::largest;
-  return fmt::format(
-      "where the laws are not monotone: {} starts and the responses of the point before, multiples of the "
-      "period "
-      "up to {}; told is the {} peak of {}. Others may have been missed",
-      wanted.starts, wanted.most_multiple, largest ? "largest" : "smallest", study.network.masses.front());
+  periodic::OrbitsWanted wanted = study.orbits_wanted();
+  std::string text = "where the laws are not monotone: " + search_text(study, wanted);
+  const auto& comparison = study.sweep()->comparison;
+  if (!comparison || !comparison->show) return text;
+  wanted.show = *comparison->show;
+  return text + ". Compared: " + search_text(study, wanted);
 }
 
 }  // namespace

@@ -149,13 +149,16 @@ orbits = [{ zeta = 0.1, f = 0.2, r = 0.9 }, { zeta = 0.1, f = 0.7, r = 0.4 }, { 
 
 
 def check_several_responses(program, source):
-    """Maps of stops, where several responses are searched, and of a shock absorber's table, where there is one."""
-    changes = {
-        "machine_on_stops": [("points = 141", "points = 71"),
-                             ("[[axis]]", "[[axis]]\nparameter = \"D\"\nfrom = 0.4\nto = 1.5\npoints = 8\n\n[[axis]]")],
-        "bump_and_rebound": [("values = [600, 1200, 2400]", "from = 600\nto = 2400\npoints = 60")],
-    }
-    for name, replacements in changes.items():
+    """Maps of stops, where several responses are searched or the frequency is swept, and of a shock absorber's table,
+    where there is one."""
+    swept = [("points = 141", "points = 71"),
+             ("[[axis]]", "[[axis]]\nparameter = \"D\"\nfrom = 0.4\nto = 1.5\npoints = 8\n\n[[axis]]")]
+    changes = [
+        ("machine_on_stops", swept),
+        ("machine_on_stops", [*swept, ('show = "up"\n\n[compare]\nshow = "down"', "starts = 16")]),
+        ("bump_and_rebound", [("values = [600, 1200, 2400]", "from = 600\nto = 2400\npoints = 60")]),
+    ]
+    for name, replacements in changes:
         with open(os.path.join(source, "studies", "stops", name + ".toml")) as file:
             text = file.read()
         for passage, by in replacements:

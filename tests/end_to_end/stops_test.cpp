@@ -1,4 +1,6 @@
 // The studies of stops, play, shock absorbers and static friction.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -31,8 +33,86 @@ double linear_peak(double r, double zeta = 0.05) {
   return 1.0 / std::hypot(1.0 - r * r, 2.0 * zeta * r);
 }
 
-TEST_CASE("machine_on_stops.toml: two orbits between the folds, and the jump at either one") {
-  const std::string text = runs::reduced("machine_on_stops", {});
+// The study with other [orbits], and with nothing compared.
+std::string machine_on_stops(const std::string& orbits, int points = 141) {
+  const std::string text = runs::reduced("machine_on_stops", {{"r", points}});
+  return text.substr(0, text.find("[orbits]")) + "[orbits]\n" + orbits;
+}
+
+TEST_CASE(
+    "machine_on_stops.toml: a machine that runs up jumps at the upper fold, one that runs down at the "
+    "lower") {
+  constexpr double kUpper = 2.0018066685, kLower = 1.4086707284;
+  const Map map = runs::run_study(runs::reduced("machine_on_stops", {}));
+  const std::vector<double>&r = map.coordinate("r"), &up = map["machine_peak"],
+        &down = map["machine_peak_compared"];
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    INFO("r " << r[i] << " up " << up[i] << " down " << down[i]);
+    CHECK(map["status"][i] == kOk);
+    CHECK(map["status_compared"][i] == kOk);
+    CHECK(map["coexisting"][i] == 1.0);
+    CHECK(map["energy_balance"][i] < kBalance);
+    CHECK((map["machine_peak_difference"][i] > 0.4) == (r[i] > kLower && r[i] < kUpper));
+    if (r[i] > kUpper) CHECK_THAT(up[i], WithinRel(linear_peak(r[i]), kClosed));
+    if (r[i] > 1.411) CHECK_THAT(down[i], WithinRel(linear_peak(r[i]), kClosed));
+    if (i == 0 || r[i] > kUpper) continue;
+    CHECK(up[i] > up[i - 1]);
+    if (r[i] < kLower) CHECK_THAT(down[i], WithinRel(up[i], kClosed));
+  }
+  CHECK_THAT(up[index_of(r, 1.4)], WithinAbs(1.9642744, kTold));
+  CHECK_THAT(up[index_of(r, 1.5)], WithinAbs(2.1765907, kTold));
+  CHECK_THAT(down[index_of(r, 1.6)], WithinAbs(0.6376804, kTold));
+}
+
+TEST_CASE("a sweep has the same bytes on any number of threads, and a point alone is swept to") {
+  const runs::Folder folder;
+  const std::string text = runs::replaced(
+      runs::reduced("machine_on_stops", {{"r", 71}}), "[orbits]",
+      "[[axis]]\nparameter = \"zeta\"\nvalues = [0.04, 0.05, 0.06]\n[output]\norbits = [{ r = 1.8, zeta = "
+      "0.05 }]\n[orbits]");
+  const std::string study = folder.write("study.toml", text);
+  CHECK(runs::frahm({"run", study, "-o", folder / "one.h5", "--threads", "1"}).code == 0);
+  CHECK(runs::frahm({"run", study, "-o", folder / "two.h5", "--threads", "2"}).code == 0);
+  const Map one = runs::read_map(folder / "one.h5"), two = runs::read_map(folder / "two.h5");
+  for (const auto& [name, values] : one.values) {
+    INFO(name);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (!std::isnan(values[i])) CHECK(values[i] == two[name][i]);
+    }
+  }
+  const std::size_t at = index_of(one.coordinate("r"), 1.8) * 3 + 1;
+  const auto point = runs::frahm({"point", study, "--at", "r=1.8,zeta=0.05"});
+  CHECK(one["machine_peak"][at] > 2.5);
+  CHECK_THAT(point.out, Catch::Contains(fmt::format("{:.6g}", one["machine_peak"][at])));
+  CHECK_THAT(point.out, Catch::Contains(fmt::format("{:.6g}", one["machine_peak_compared"][at])));
+  const frahm::results::MapReader reader(folder / "one.h5");
+  CHECK(reader.layout().variables.size() == one.values.size());
+}
+
+TEST_CASE("a swept map grows by rows; with other frequencies it is another sweep") {
+  const runs::Folder folder;
+  const auto write = [&](const std::string& name, const std::string& values, const std::string& to) {
+    std::string text = runs::reduced("machine_on_stops", {{"r", 15}});
+    text = runs::replaced(text, "to     = 2.4", "to     = " + to);
+    return folder.write(name,
+                        runs::replaced(text, "[orbits]",
+                                       "[[axis]]\nparameter = \"zeta\"\nvalues = " + values + "\n[orbits]"));
+  };
+  const std::string small = write("small.toml", "[0.05]", "2.4"),
+                    large = write("large.toml", "[0.04, 0.05]", "2.4"),
+                    other = write("other.toml", "[0.04, 0.05]", "2.3");
+  CHECK(runs::frahm({"run", small, "-o", folder / "small.h5"}).code == 0);
+  const auto grown = runs::frahm({"run", large, "-o", folder / "grown.h5", "--from", folder / "small.h5"});
+  CHECK(grown.code == 0);
+  CHECK_THAT(grown.out, Catch::Contains("15 points of"));
+  CHECK(runs::frahm({"run", large, "-o", folder / "fresh.h5"}).code == 0);
+  CHECK(runs::read_map(folder / "grown.h5")["machine_peak"] ==
+        runs::read_map(folder / "fresh.h5")["machine_peak"]);
+  CHECK(runs::frahm({"run", other, "-o", folder / "other.h5", "--from", folder / "small.h5"}).code == 5);
+}
+
+TEST_CASE("machine_on_stops.toml searched: two orbits between the folds") {
+  const std::string text = machine_on_stops("starts = 16\nshow = \"largest\"\n");
   const Map large = runs::run_study(text);
   const Map small = runs::run_study(runs::replaced(text, "\"largest\"", "\"smallest\""));
   const std::vector<double>& r = large.coordinate("r");
@@ -290,15 +370,23 @@ force = 0.1
 
 TEST_CASE("a map of a system with several responses says what was searched") {
   const runs::Folder folder;
-  const std::string study = folder.write("study.toml", runs::reduced("machine_on_stops", {{"r", 3}}));
-  const auto outcome = runs::frahm({"run", study, "-o", folder / "map.h5"});
-  CHECK(outcome.code == 0);
-  const frahm::results::MapReader reader(folder / "map.h5");
-  const std::vector<frahm::results::Text> texts = reader.texts("provenance");
-  const auto searched = std::find_if(texts.begin(), texts.end(),
-                                     [](const auto& text) { return text.first == "orbits_searched"; });
-  REQUIRE(searched != texts.end());
-  CHECK_THAT(searched->second, Catch::Contains("16 starts") && Catch::Contains("largest peak of machine"));
+  const auto searched = [&](const std::string& name, const std::string& text) {
+    const std::string study = folder.write(name, text);
+    const auto outcome = runs::frahm({"run", study, "-o", folder / (name + ".h5")});
+    CHECK(outcome.code == 0);
+    const frahm::results::MapReader reader(folder / (name + ".h5"));
+    const std::vector<frahm::results::Text> texts = reader.texts("provenance");
+    const auto found = std::find_if(texts.begin(), texts.end(),
+                                    [](const auto& text) { return text.first == "orbits_searched"; });
+    return found == texts.end() ? "" : found->second;
+  };
+  CHECK_THAT(searched("search.toml", machine_on_stops("starts = 16\n", 3)),
+             Catch::Contains("16 starts") && Catch::Contains("before and after") &&
+                 Catch::Contains("largest peak of machine"));
+  const std::string sweeps = searched("sweep.toml", runs::reduced("machine_on_stops", {{"r", 3}}));
+  CHECK_THAT(sweeps, Catch::Contains("sweep of the frequency up, from rest") &&
+                         Catch::Contains("Compared: a sweep of the frequency down") &&
+                         !Catch::Contains("starts"));
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ TEST_CASE("plain progress says points, rate, time left and failures") {
   Watched watched(ProgressForm::plain);
   watched.time = 10s;
   watched.progress.update({.points = 3000, .done = 1500, .resumed = 500, .failed = 7});
-  CHECK(watched.out.str() == " 50.0 %  1500/3000 points  100 points/s  15 s left  7 failed\n");
+  CHECK(watched.out.str() == " 50.0 %  1500/3000 points  100 points/s  15 s left  7 without a result\n");
 }
 
 TEST_CASE("points found in an earlier result are told and do not count as computed") {

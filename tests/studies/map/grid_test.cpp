@@ -110,6 +110,20 @@ TEST_CASE("a map that meets the arctan law is cut into small tiles, as its point
   CHECK(grid.tiles() == 10 * 6);
 }
 
+TEST_CASE("a row along which the frequency is swept is in one tile, however long or dear") {
+  std::string stops = small_studies::oscillator();
+  stops +=
+      "[[element]]\nname = \"stops\"\ntype = \"gap\"\nbetween = [\"ground\", \"main\"]\n"
+      "clearance = 1\nstiffness = 4\n";
+  const std::string axes = axis("f", 0, 1, 5) + axis("r", 0.1, 2, 5000);
+  const auto points_of_tile = [&](const std::string& more) {
+    return grid_of(parse_study(stops + axes + more, "stops.toml")).tile;
+  };
+  CHECK(points_of_tile("").back() < 500);
+  CHECK(points_of_tile("[orbits]\nshow = \"up\"\n") == std::vector<std::uint64_t>{1, 5000});
+  CHECK(points_of_tile("[compare]\nshow = \"down\"\n") == std::vector<std::uint64_t>{1, 5000});
+}
+
 TEST_CASE("a row of a building's frequencies is cut, so that every core has some of it") {
   const auto points_of_tile = [](int storeys) {
     const Grid grid = grid_of(parse_study(small_studies::building(storeys, 3, 200), "building.toml"));

@@ -161,6 +161,23 @@ TEST_CASE("the orbits that are searched are part of a sweep's choice") {
   CHECK(wanted.most_multiple == 2);
   CHECK(wanted.show == periodic::OrbitsWanted::Show::smallest);
   CHECK(study_of(gap).orbits_wanted().show == periodic::OrbitsWanted::Show::largest);
+  CHECK_FALSE(study_of(gap).sweep()->sweeps_frequency());
+}
+
+TEST_CASE("a sweep and the response it is compared with are each one of largest, smallest, up and down") {
+  using enum periodic::OrbitsWanted::Show;
+  const std::string gap = element("gap", "clearance = 1\nstiffness = 4\n");
+  const Study study = study_of(gap, "[orbits]\nshow = \"up\"\n[compare]\nshow = \"down\"\n");
+  CHECK(study.orbits_wanted().show == up);
+  CHECK(study.sweep()->comparison->show == down);
+  CHECK(study.sweep()->sweeps_frequency());
+  const Study of_search = study_of(gap, "[orbits]\nstarts = 5\n[compare]\nshow = \"smallest\"\n");
+  CHECK(of_search.sweep()->comparison->show == smallest);
+  CHECK_FALSE(of_search.sweep()->sweeps_frequency());
+  // The starts are those of the search beside the sweep.
+  CHECK(study_of(gap, "[orbits]\nstarts = 5\nshow = \"up\"\n[compare]\nshow = \"largest\"\n")
+            .orbits_wanted()
+            .starts == 5);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 import * as Plot from "@observablehq/plot";
 import { extent, ticks } from "d3";
 import { axisLabel, axisScale, axisText, coordinateColumns, coordinateText } from "../axes.js";
+import { circumstance, comparedWith } from "../compared.js";
 import { meaningOf } from "../record.js";
 import { numberText, shownUnit, unitText, withUnit, words } from "../units.js";
 import {
@@ -19,6 +20,7 @@ import {
 const stepped = { curve: "step" }; // of whole numbers and flags: between two points nothing is known
 const inset = 5; // pixels between the frame and zero
 const fewPoints = 40; // up to so many, each is marked
+const comparedDash = "6 3";
 
 // A curve's name: the coordinates in which the points differ, else all of them.
 function curveName(map, index, axis, all) {
@@ -109,7 +111,9 @@ function yAxis(variable, state, label, values) {
 // borders: where the regime changes along the axis}.
 export function responseCurves(canvas, map, variable, state) {
   const x = map.axes[state.axis].coordinates[state.coordinate];
-  const lines = state.points.map((index) => map.line(variable, index, state.axis));
+  const compared = state.regime ? undefined : comparedWith(map, variable);
+  const drawn = compared ? [variable, compared] : [variable];
+  const lines = drawn.flatMap((each) => state.points.map((index) => map.line(each, index, state.axis)));
   const all = lines.flatMap((line) => Array.from(line));
   const shown = shownUnit(variable.unit, all);
   const factor = state.scale === "dB" ? 1 : shown.factor;
@@ -119,7 +123,16 @@ export function responseCurves(canvas, map, variable, state) {
     legend = [],
     rows = [],
     seen = new Set();
-  values.forEach((y, n) => {
+  values.slice(state.points.length).forEach((y, n) => {
+    const style = { ...styleOf(n), strokeDasharray: comparedDash };
+    marks.push(curve(x.values, y, style));
+    rows.push(...tipRows(x, y, label, circumstance(compared, variable)));
+  });
+  if (compared) {
+    legend.push({ text: words(variable.name), stroke: "currentColor" });
+    legend.push({ text: circumstance(compared, variable), stroke: "currentColor", dash: comparedDash });
+  }
+  values.slice(0, state.points.length).forEach((y, n) => {
     const name = curveName(map, state.points[n], state.axis, state.points);
     const style = state.regime
       ? { stroke: "currentColor", strokeDasharray: lineDashes[n % lineDashes.length] }
@@ -131,8 +144,9 @@ export function responseCurves(canvas, map, variable, state) {
       marks.push(curve(x.values, y, { ...style, ...(variable.kind === "float" ? {} : stepped) }));
       if (y.length <= fewPoints) marks.push(dots(x.values, y, { fill: style.stroke }));
     }
-    if (values.length > 1) legend.push({ text: name, stroke: style.stroke, dash: style.strokeDasharray });
-    rows.push(...tipRows(x, y, label, values.length > 1 ? name : ""));
+    const isOneOfMany = state.points.length > 1;
+    if (isOneOfMany) legend.push({ text: name, stroke: style.stroke, dash: style.strokeDasharray });
+    rows.push(...tipRows(x, y, label, isOneOfMany ? name : ""));
   });
   const regimes = [...seen]
     .filter((word) => regimeColours[word])
@@ -186,6 +200,11 @@ export function responseCurvesTable(map, variable, state) {
       digits,
       values: map.line(variable, index, state.axis),
     });
+    const compared = state.regime ? undefined : comparedWith(map, variable);
+    if (compared) {
+      const values = map.line(compared, index, state.axis);
+      columns.push({ name: compared.name + suffix, unit, digits, values });
+    }
     if (!state.regime) continue;
     const regimes = Array.from(map.line(state.regime, index, state.axis));
     columns.push({

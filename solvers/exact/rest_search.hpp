@@ -1,0 +1,172 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "solvers/algebra/no_value.hpp"
+#include "solvers/flow/linear_form.hpp"
+#include "solvers/orbits/certificate.hpp"
+#include "solvers/orbits/rest_position.hpp"
+#include "solvers/orbits/shooting.hpp"
+#include "solvers/quantities/extremes.hpp"
+#include "solvers/quantities/integrals.hpp"
+#include "solvers/quantities/orbit_steps.hpp"
+
+namespace frahm::periodic {
+
+// The rest position of an orbit whose contacts stick throughout: of all that their forces allow, that of
+// least energy (orbits/rest_position.hpp).
+template <int N, int H>
+class RestSearch {
+ public:
+  // Both must outlive the search.
+  RestSearch(const mechanics::Assembly& assembly, Flow<N, H>& flow)
+      : forms_(assembly, flow), flow_(flow), shooting_(flow), steps_(flow) {}
+
+  // Moves the only orbit of a system to its rest position. Contacts that barely slide are held, if that gives
+  // an orbit.
+  void settle(Orbit<N, H>& orbit);
+
+  // How far an orbit was from its rest position. Newton's method may leave a rest position far off; the orbit
+  // has then lost digits and is searched again from the corrected position.
+  enum class Shift { none, near, far };
+  // Moves `orbit` to the rest position of least energy; if a force reaches its limit there, the orbit is
+  // grazing. `orbit` is unchanged if no rest position keeps the forces within their limits.
+  Shift shift(Orbit<N, H>& orbit);
+
+  // Whether an orbit exists with these contacts held by forces within their limits; sets `orbit` to it.
+  bool try_held(ContactMask held, Orbit<N, H>& orbit);
+  // Contacts that slide for less than this share of the passage, or by a negligible distance.
+  ContactMask sliding_less_than(double share, const Orbit<N, H>& orbit) const;
+
+ private:
+  static constexpr double kFar = 10.0;  // of the orbit's own size: a digit
+  std::vector<StuckForce> stuck_forces(ContactMask contacts, const Orbit<N, H>& orbit);
+  double distance_slid(Eigen::Index contact, const Orbit<N, H>& orbit) const;
+
+  Forms<N, H> forms_;
+  Flow<N, H>& flow_;
+  Shooting<N, H> shooting_;
+  OrbitSteps<N, H> steps_;
+  Integrals<N, H> integrals_;
+  Orbit<N, H> trial_;
+};
+
+// How far a contact slides in a passage [m]; infinite on a moving support, where it is not needed.
+template <int N, int H>
+double RestSearch<N, H>::distance_slid(Eigen::Index j, const Orbit<N, H>& orbit) const {
+  const StepEquations<N, H>& eq = flow_.equations();
+  if (!eq.support_velocity.row(j).isZero(0.0)) return kInfinity;
+  const auto& segments = orbit.passage.segments;
+  double distance = 0.0;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    if (contains(flow_.mode(segments[i].mode).stuck, j)) continue;
+    const auto& end = i + 1 < segments.size() ? segments[i + 1].z : orbit.passage.end;
+    distance += std::abs(eq.W.col(j).dot((end - segments[i].z).head(eq.masses())));
+  }
+  return distance;
+}
+
+template <int N, int H>
+ContactMask RestSearch<N, H>::sliding_less_than(double share, const Orbit<N, H>& orbit) const {
+  constexpr double kNothing = 1e-6;  // of the displacement that the orbit's energy can reach
+  const StepEquations<N, H>& eq = flow_.equations();
+  const double energy = std::max(eq.energy_norm(orbit.z), flow_.static_norm());
+  ContactMask result = 0;
+  for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
+    if (eq.limit[j] == 0.0) continue;
+    double sliding = 0.0;
+    for (const Segment<N, H>& segment : orbit.passage.segments) {
+      if (!contains(flow_.mode(segment.mode).stuck, j)) sliding += segment.length;
+    }
+    const double reach = std::sqrt(2.0 * eq.W.col(j).dot(eq.K_inverse * eq.W.col(j))) * energy;
+    if (sliding < share * eq.period || distance_slid(j, orbit) < kNothing * reach) result |= bit(j);
+  }
+  return result;
+}
+
+// Contacts that stick throughout rest where the energy is least. The search may end on the edge of the set of
+// such orbits and accept ever smaller slips as the answer (the residual falls like slip^1.5). So contacts
+// that barely slide are held; if their forces then stay within their limits, this is the orbit, as there is
+// only one. In an orbit without an error bound, contacts that slide rarely are held too.
+template <int N, int H>
+void RestSearch<N, H>::settle(Orbit<N, H>& orbit) {
+  if (orbit.half_period) {
+    if (orbit.is_found() && orbit.stuck_throughout != 0) centre_rest_position(flow_, orbit);
+    return;
+  }
+  ContactMask tried = 0;
+  if (orbit.is_found() && orbit.stuck_throughout != 0) {
+    tried = orbit.stuck_throughout;
+    if (shift(orbit) == Shift::far) try_held(tried, orbit);
+  }
+  const ContactMask barely = sliding_less_than(orbit.is_found() ? 0.01 : 0.5, orbit);
+  if (barely != 0 && barely != tried && try_held(barely, orbit)) return;
+  const ContactMask rarely = sliding_less_than(0.1, orbit);
+  if (rarely == 0 || rarely == tried || rarely == barely || !orbit.is_found()) return;
+  judge_stability(flow_, orbit);
+  if (std::isnan(orbit.error_bound)) try_held(rarely, orbit);
+}
+
+template <int N, int H>
+bool RestSearch<N, H>::try_held(ContactMask held, Orbit<N, H>& orbit) {
+  trial_ = orbit;
+  trial_.z = flow_.brought_to_rest(trial_.z, trial_.section, held & flow_.equations().holding);
+  Shift moved = Shift::far;
+  for (int tries = 0; tries < 3 && moved == Shift::far; ++tries) {
+    shooting_.find(trial_, held);
+    moved = trial_.is_found() ? shift(trial_) : Shift::none;
+  }
+  if (moved != Shift::near) return false;
+  std::swap(orbit, trial_);
+  return true;
+}
+
+// The forces of these contacts over the orbit, while they stick.
+template <int N, int H>
+std::vector<StuckForce> RestSearch<N, H>::stuck_forces(ContactMask contacts, const Orbit<N, H>& orbit) {
+  steps_.lay_out(orbit);
+  std::vector<StuckForce> forces;
+  for (Eigen::Index j = 0; j < flow_.equations().contacts(); ++j) {
+    if (!contains(contacts, j)) continue;
+    const auto form = [&](const Mode<N, H>& mode) {
+      return contains(mode.stuck, j) ? forms_.stuck_contact_force(j, mode) : forms_.zero();
+    };
+    const Extremes force = find_extremes(steps_, flow_, orbit.section, form);
+    forces.push_back({force.least, force.most, flow_.equations().static_limit[j]});
+  }
+  return forces;
+}
+
+template <int N, int H>
+typename RestSearch<N, H>::Shift RestSearch<N, H>::shift(Orbit<N, H>& orbit) {
+  const StepEquations<N, H>& eq = flow_.equations();
+  const std::vector<StuckForce> forces = stuck_forces(orbit.stuck_throughout, orbit);
+  integrals_.integrate(steps_, flow_, orbit.half_period, {},
+                       [](const auto&, auto& powers) { powers.clear(); });
+  const double period = eq.period * eq.step;
+  const Eigen::VectorXd mean = integrals_.gram().col(eq.states()).head(eq.states()) / period;
+  const RestDirections rest = rest_directions(eq, orbit.stuck_throughout);
+  const RestShift found = least_energy_shift(rest, mean, forces);
+  if (found.verdict == RestShift::Verdict::none) return Shift::none;
+  const typename Sizes<N, H>::State by = rest.E * found.delta;
+  shift_orbit<N, H>(by, orbit);
+  // Part of the shift's forces may strain a loop alone; no state contains this part. If the reported shares
+  // then break a limit, or a force was at its limit before the shift, the motion is followed once more from
+  // the shifted state.
+  const bool stood_at_limit = orbit.status == Status::grazing && found.verdict == RestShift::Verdict::inside;
+  const bool breaks_limit =
+      eq.has_loops && std::ranges::any_of(stuck_forces(eq.holding, orbit), &StuckForce::breaks_limit);
+  if (stood_at_limit || breaks_limit) {
+    shooting_.find(orbit);
+    if (!orbit.is_found()) return Shift::none;
+  }
+  if (found.verdict == RestShift::Verdict::at_limit) orbit.status = Status::grazing;
+  const double size = std::max(eq.energy_norm(orbit.z), flow_.static_norm());
+  return eq.energy_norm(by) > kFar * size ? Shift::far : Shift::near;
+}
+
+}  // namespace frahm::periodic

@@ -1,0 +1,247 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "solvers/exact/rest_search.hpp"
+#include "solvers/exact/scattered_state.hpp"
+#include "solvers/exact/stable_orbits.hpp"
+#include "solvers/orbits/certificate.hpp"
+#include "solvers/orbits/period_multiple.hpp"
+#include "solvers/orbits/shooting.hpp"
+
+namespace frahm::periodic {
+
+// Finds stable orbits of systems whose laws are not all monotone, near a state or by following the motion
+// from it. The flow is set to the system each time, and again when an orbit took a multiple of its period.
+template <int N, int H>
+class StableSearch {
+ public:
+  using S = Sizes<N, H>;
+  using Orbits = StableOrbits<N, H>;
+  using Index = std::optional<std::size_t>;  // in Orbits::stable
+
+  // Periods that a motion is followed for at most.
+  static constexpr int kOfStart = 324;  // one of many
+  static constexpr int kOfSweep = 972;  // just beyond a fold it lingers where the orbit was
+
+  // Both must outlive the search.
+  StableSearch(const mechanics::Assembly& assembly, Flow<N, H>& flow, int most_multiple)
+      : forms_(assembly, flow),
+        flow_(flow),
+        walk_(flow),
+        shooting_(flow),
+        steps_(flow),
+        rest_(assembly, flow),
+        most_multiple_(most_multiple) {}
+
+  // Sets the flow to the frequency of `system`. Nothing is found yet.
+  Orbits begin(const mechanics::LinearSystem& system) {
+    flow_.set_forcing(system);
+    Orbits found;
+    found.step = flow_.equations().step;
+    return found;
+  }
+  // A state that counts the time in `step` [s], at the flow's frequency.
+  typename S::State in_steps(typename S::State z, double step) const {
+    const Eigen::Index n = flow_.equations().masses();
+    z.segment(n, n) *= flow_.equations().step / step;
+    return z;
+  }
+
+  // The stable orbit to which Newton's method leads from here; it is added to `found`.
+  Index find_near(const typename S::State& z, int multiple, const mechanics::LinearSystem& system,
+                  Orbits& found);
+  // The stable orbit to which the motion from z comes within so many periods; it is added too. z becomes the
+  // motion's end.
+  Index follow(typename S::State& z, int longest, const mechanics::LinearSystem& system, Orbits& found);
+  // The orbit once more, in its own multiple of the period, to which the flow is left set.
+  void tell(const mechanics::LinearSystem& system, const Orbits& found, std::size_t which,
+            Orbit<N, H>& orbit);
+
+  // Relative to the orbit's size or the static response, energy norm.
+  double distance(const typename S::State& z, const StableOrbit<N, H>& orbit) const;
+
+ private:
+  Index known(const typename S::State& z, double within, const Orbits& found) const;
+  int likely_multiple(const std::vector<typename S::State>& trail) const;
+  bool is_stable(const Orbit<N, H>& orbit, Orbits& found);
+  bool dies_out(const typename S::State& by, const Orbit<N, H>& orbit, Orbits& found);
+  double peak(const Orbit<N, H>& orbit);
+  Index keep(const Orbit<N, H>& orbit, double peak, Orbits& found);
+
+  Forms<N, H> forms_;
+  Flow<N, H>& flow_;
+  Walk<N, H> walk_;
+  Shooting<N, H> shooting_;
+  OrbitSteps<N, H> steps_;
+  RestSearch<N, H> rest_;
+  int most_multiple_;
+  Passage<N, H> passage_;
+};
+
+template <int N, int H>
+typename StableSearch<N, H>::Index StableSearch<N, H>::follow(typename S::State& z, int longest,
+                                                              const mechanics::LinearSystem& system,
+                                                              Orbits& found) {
+  constexpr double kNear = 0.02, kThere = 1e-4;
+  std::vector<typename S::State> trail{z};
+  int periods = 0;
+  for (int at = 4; at <= longest; at *= 3) {
+    for (; periods < at; ++periods) {
+      walk_.pass(z, 0.0, flow_.equations().period, passage_, Tangent::none);
+      ++found.passages;
+      if (passage_.failure != nullptr) return std::nullopt;
+      z = passage_.end;
+      trail.push_back(z);
+      if (const Index there = known(z, kThere, found)) return there;
+    }
+    const Index near = find_near(z, likely_multiple(trail), system, found);
+    if (near && distance(z, found.stable[*near]) < kNear) return near;
+  }
+  return std::nullopt;
+}
+
+// The multiple of the period after which the motion comes back closest.
+template <int N, int H>
+int StableSearch<N, H>::likely_multiple(const std::vector<typename S::State>& trail) const {
+  constexpr double kMuchCloser = 0.2, kRounding = 1e-9;
+  const auto gap = [&](int m) {
+    return flow_.equations().energy_norm(trail.back() -
+                                         trail[trail.size() - 1 - static_cast<std::size_t>(m)]);
+  };
+  const int most = std::min(most_multiple_, static_cast<int>(trail.size()) - 1);
+  int best = 1;
+  for (int m = 2; m <= most; ++m) {
+    const bool is_back = gap(best) < kRounding * flow_.energy_scale(trail.back());
+    if (!is_back && gap(m) < kMuchCloser * gap(best)) best = m;
+  }
+  return best;
+}
+
+template <int N, int H>
+typename StableSearch<N, H>::Index StableSearch<N, H>::find_near(const typename S::State& z, int multiple,
+                                                                 const mechanics::LinearSystem& system,
+                                                                 Orbits& found) {
+  Orbit<N, H> orbit;
+  orbit.z = z;
+  orbit.multiple = multiple;
+  if (multiple > 1) flow_.set_forcing(over_multiple(system, multiple));
+  shooting_.find(orbit);
+  found.passages += multiple * orbit.passages;
+  found.newton_iterations += orbit.newton_iterations;
+  bool stable = false;
+  if (orbit.is_found()) {
+    if (orbit.stuck_throughout != 0) rest_.shift(orbit);
+    judge_stability(flow_, orbit);
+    stable = is_stable(orbit, found);
+    found.found_unstable = found.found_unstable || !stable;
+  }
+  const double of_first = stable ? peak(orbit) : 0.0;
+  if (multiple > 1) flow_.set_forcing(system);
+  return stable ? keep(orbit, of_first, found) : std::nullopt;
+}
+
+// Where an event only just happens, or a contact at rest only just holds, the multipliers do not exist or say
+// nothing of the motions beside the orbit on one side; they are followed.
+template <int N, int H>
+bool StableSearch<N, H>::is_stable(const Orbit<N, H>& orbit, Orbits& found) {
+  constexpr double kSmall = 1e-4;
+  const bool has_kink = orbit.status == Status::grazing || std::isnan(orbit.floquet_radius);
+  if (!has_kink) return orbit.is_stable();
+  if (known(orbit.z, kSmall, found)) return true;  // judged before
+  for (const int index : {1, 2}) {
+    const typename S::State by = disturbance(flow_, orbit.z, kSmall, index);
+    if (!dies_out(by, orbit, found) || !dies_out(-by, orbit, found)) return false;
+  }
+  return true;
+}
+
+// Whether the motion beside an orbit comes closer to it. The rest positions of contacts that stick throughout
+// do not count.
+template <int N, int H>
+bool StableSearch<N, H>::dies_out(const typename S::State& by, const Orbit<N, H>& orbit, Orbits& found) {
+  constexpr double kGone = 0.1, kGrown = 10.0;
+  const StepEquations<N, H>& eq = flow_.equations();
+  const Eigen::MatrixXd rest = shift_projector(rest_directions(eq, orbit.stuck_throughout));
+  const auto size = [&](typename S::State off) {
+    if (orbit.stuck_throughout != 0) off -= (rest * off).eval();
+    return eq.energy_norm(off);
+  };
+  const double first = size(by);
+  double now = first;
+  typename S::State z = orbit.z + by;
+  for (int times = 0; times < kOfStart && now > kGone * first; ++times) {
+    walk_.pass(z, 0.0, eq.period, passage_, Tangent::none);
+    found.passages += orbit.multiple;
+    if (passage_.failure != nullptr) return false;
+    z = passage_.end;
+    now = size(z - orbit.z);
+    if (now > kGrown * first) return false;
+  }
+  return now < first;
+}
+
+template <int N, int H>
+double StableSearch<N, H>::peak(const Orbit<N, H>& orbit) {
+  LinearForm<N, H> form = forms_.zero();
+  form.z[0] = 1.0;
+  steps_.lay_out(orbit);
+  return find_extremes(steps_, flow_, orbit.section, [&](const Mode<N, H>&) { return form; }).magnitude();
+}
+
+// Adds a stable orbit to those known. None where a multiple of the period is that of a shorter orbit.
+template <int N, int H>
+typename StableSearch<N, H>::Index StableSearch<N, H>::keep(const Orbit<N, H>& orbit, double peak,
+                                                            Orbits& found) {
+  constexpr double kSame = 1e-7;
+  if (const Index same = known(orbit.z, kSame, found)) return same;
+  StableOrbit<N, H> kept{.returns = {orbit.z}, .peak = peak};
+  for (int m = 1; m < orbit.multiple; ++m) {
+    walk_.pass(kept.returns.back(), 0.0, flow_.equations().period, passage_, Tangent::none);
+    ++found.passages;
+    if (passage_.failure != nullptr) return std::nullopt;
+    const double gap = flow_.equations().energy_norm(passage_.end - orbit.z);
+    if (gap < kSame * flow_.energy_scale(orbit.z)) return std::nullopt;
+    kept.returns.push_back(passage_.end);
+  }
+  found.stable.push_back(std::move(kept));
+  return found.stable.size() - 1;
+}
+
+template <int N, int H>
+void StableSearch<N, H>::tell(const mechanics::LinearSystem& system, const Orbits& found, std::size_t which,
+                              Orbit<N, H>& orbit) {
+  const StableOrbit<N, H>& told = found.stable[which];
+  orbit = {};
+  orbit.z = told.returns.front();
+  orbit.multiple = told.multiple();
+  if (orbit.multiple > 1) flow_.set_forcing(over_multiple(system, orbit.multiple));
+  shooting_.find(orbit);
+  if (orbit.stuck_throughout != 0) rest_.shift(orbit);
+  judge_stability(flow_, orbit);
+  orbit.passages += found.passages;
+  orbit.newton_iterations += found.newton_iterations;
+}
+
+template <int N, int H>
+double StableSearch<N, H>::distance(const typename S::State& z, const StableOrbit<N, H>& orbit) const {
+  double least = HUGE_VAL;
+  for (const auto& state : orbit.returns)
+    least = std::min(least, flow_.equations().energy_norm(z - state) / flow_.energy_scale(state));
+  return least;
+}
+
+template <int N, int H>
+typename StableSearch<N, H>::Index StableSearch<N, H>::known(const typename S::State& z, double within,
+                                                             const Orbits& found) const {
+  for (std::size_t i = 0; i < found.stable.size(); ++i) {
+    if (distance(z, found.stable[i]) < within) return i;
+  }
+  return std::nullopt;
+}
+
+}  // namespace frahm::periodic
