@@ -53,6 +53,14 @@ class OrbitSearch {
   static constexpr int kOtherWays = 2;
   bool find_otherwise(int way, const mechanics::LinearSystem& system, bool certify, Orbit<N, H>& orbit);
 
+  // Where several orbits may exist: coexistence.hpp.
+  const std::vector<KnownOrbit>& known() const { return coexistence_.known(); }
+  void start_from(std::span<const KnownOrbit> known) { coexistence_.start_from(known); }
+  int motions() const { return coexistence_.motions(); }
+  void tell(const mechanics::LinearSystem& system, int which, Orbit<N, H>& orbit) {
+    coexistence_.tell(system, which, orbit);
+  }
+
   // Peak of the first mass over an orbit [m].
   double first_peak(const Orbit<N, H>& orbit);
 

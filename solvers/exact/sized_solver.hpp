@@ -54,9 +54,13 @@ class SizedSolver final : public ResponseSolver {
   void forget() override { search_.forget(); }
   void begin_row() override { search_.begin_row(); }
   const ResponseSummary& solve() override;
+  void start_from(std::span<const KnownOrbit> known) override { search_.start_from(known); }
+  std::vector<KnownOrbit> known() const override { return search_.known(); }
+  void tell(int which) override;
+  int multiple() const override { return orbit_.multiple; }
 
   void quantities(std::span<double> out) override {
-    if (has_response())
+    if (has_response() || tells_motion_)
       observables_.evaluate(orbit_, told(), out);
     else
       observables_.fill_missing(orbit_.status, out);
@@ -93,6 +97,7 @@ class SizedSolver final : public ResponseSolver {
   Observables<N, H> observables_;
   Gradient<N, H> gradient_;
   Orbit<N, H> orbit_;
+  bool tells_motion_ = false;  // one that did not settle, in place of an orbit
   ResponseSummary summary_;
   std::unique_ptr<nonstop::NonstopSolver> nonstop_;  // none where it does not serve, or is not wanted
 };
@@ -100,6 +105,7 @@ class SizedSolver final : public ResponseSolver {
 template <int N, int H>
 const ResponseSummary& SizedSolver<N, H>::solve() {
   observables_.forget();
+  tells_motion_ = false;
   search_.find(system_, undamped_modes_, observables_.needs_stability(), orbit_);
   if (orbit_.multiple > 1) longer_ = over_multiple(system_, orbit_.multiple);
   if (orbit_.is_found() && is_to_be_weighed()) weigh();
@@ -111,7 +117,17 @@ const ResponseSummary& SizedSolver<N, H>::solve() {
   summary_.half_period = orbit_.half_period;
   summary_.multiple = orbit_.multiple;
   summary_.coexisting = orbit_.coexisting;
+  summary_.motions = orbit_.status == Status::not_periodic ? search_.motions() : 0;
   return summary_;
+}
+
+template <int N, int H>
+void SizedSolver<N, H>::tell(int which) {
+  observables_.forget();
+  search_.tell(system_, which, orbit_);
+  if (orbit_.multiple > 1) longer_ = over_multiple(system_, orbit_.multiple);
+  tells_motion_ = orbit_.status == Status::not_periodic && orbit_.passage.failure == nullptr;
+  if (orbit_.is_found() && is_to_be_weighed()) weigh();
 }
 
 // The energy balance is checked where it is requested, and wherever an event is close to another outcome.

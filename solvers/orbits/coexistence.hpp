@@ -4,11 +4,13 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "solvers/algebra/no_value.hpp"
 #include "solvers/mechanics/steady_response.hpp"
 #include "solvers/orbits/certificate.hpp"
+#include "solvers/orbits/known_orbit.hpp"
 #include "solvers/orbits/orbits_wanted.hpp"
 #include "solvers/orbits/reasons.hpp"
 #include "solvers/orbits/shooting.hpp"
@@ -43,18 +45,22 @@ class Coexistence {
   // period.
   void find(const mechanics::LinearSystem& system, Orbit<N, H>& orbit);
 
+  // The stable orbits that the last find() found: where the next one looks first.
+  const std::vector<KnownOrbit>& known() const { return before_; }
+  void start_from(std::span<const KnownOrbit> known) { before_.assign(known.begin(), known.end()); }
+  // Makes another of those that the last find() found the orbit; the flow is then set to its multiple of the
+  // period. 0 <= which < orbit.coexisting; of status not_periodic 0 <= which < motions(): a motion that did
+  // not settle, over kMotion periods.
+  void tell(const mechanics::LinearSystem& system, int which, Orbit<N, H>& orbit);
+  int motions() const { return static_cast<int>(unsettled_.size()); }
+  static constexpr int kMotion = 64;  // periods: several of the slow beats that such motions show
+
  private:
   struct Found {
     Orbit<N, H> orbit;
     std::vector<typename S::State> returns;  // its states at phase 0, after each period
     double peak = 0.0;                       // of the first mass [m]
   };
-  // An orbit of the point before, in SI.
-  struct Earlier {
-    typename S::State z;
-    int multiple = 1;
-  };
-
   void follow(typename S::State z, const mechanics::LinearSystem& system);
   int likely_multiple(const std::vector<typename S::State>& trail) const;
   bool find_near(const typename S::State& z, int multiple, const mechanics::LinearSystem& system);
@@ -62,7 +68,9 @@ class Coexistence {
   double distance(const typename S::State& z, const Found& found) const;
   bool is_known(const typename S::State& z, double within) const;
   typename S::State random_start(int index, const mechanics::LinearSystem& system);
-  void tell(const mechanics::LinearSystem& system, Orbit<N, H>& orbit);
+  void tell_wanted(const mechanics::LinearSystem& system, Orbit<N, H>& orbit);
+  void tell_found(const mechanics::LinearSystem& system, const Found& told, Orbit<N, H>& orbit);
+  void tell_motion(const mechanics::LinearSystem& system, const typename S::State& z, Orbit<N, H>& orbit);
   void remember();
 
   Flow<N, H>& flow_;
@@ -72,8 +80,9 @@ class Coexistence {
   PeakOf peak_of_;
   OrbitsWanted wanted_;
 
-  std::vector<Earlier> before_;  // of the point before
-  std::vector<Found> stable_;    // of this point
+  std::vector<KnownOrbit> before_;            // of the point before
+  std::vector<Found> stable_;                 // of this point
+  std::vector<typename S::State> unsettled_;  // where motions were given up that came near no orbit
   bool found_unstable_ = false;
   int passages_ = 0, newton_iterations_ = 0;
   Passage<N, H> passage_;
@@ -83,16 +92,17 @@ template <int N, int H>
 void Coexistence<N, H>::find(const mechanics::LinearSystem& system, Orbit<N, H>& orbit) {
   flow_.set_forcing(system);
   stable_.clear();
+  unsettled_.clear();
   found_unstable_ = false;
   passages_ = newton_iterations_ = 0;
-  for (const Earlier& earlier : before_) {
-    typename S::State z = earlier.z;
+  for (const KnownOrbit& earlier : before_) {
+    typename S::State z = earlier.state;
     z.segment(system.masses(), system.masses()) *= flow_.equations().step;
     find_near(z, earlier.multiple, system);
   }
   for (int start = 0; start < wanted_.starts; ++start) follow(random_start(start, system), system);
   remember();
-  tell(system, orbit);
+  tell_wanted(system, orbit);
 }
 
 // Follows the motion until an orbit is found near it.
@@ -113,6 +123,7 @@ void Coexistence<N, H>::follow(typename S::State z, const mechanics::LinearSyste
     }
     if (find_near(z, likely_multiple(trail), system) && is_known(z, kNear)) return;
   }
+  unsettled_.push_back(z);
 }
 
 // The multiple of the period after which the motion comes back closest.
@@ -221,7 +232,7 @@ typename Sizes<N, H>::State Coexistence<N, H>::random_start(int index,
 
 // The orbit that is told, found once more in its own multiple of the period.
 template <int N, int H>
-void Coexistence<N, H>::tell(const mechanics::LinearSystem& system, Orbit<N, H>& orbit) {
+void Coexistence<N, H>::tell_wanted(const mechanics::LinearSystem& system, Orbit<N, H>& orbit) {
   orbit.passages = passages_;
   orbit.newton_iterations = newton_iterations_;
   orbit.coexisting = static_cast<int>(stable_.size());
@@ -234,8 +245,25 @@ void Coexistence<N, H>::tell(const mechanics::LinearSystem& system, Orbit<N, H>&
   const bool largest = wanted_.show == OrbitsWanted::Show::largest;
   const Found& told = *std::ranges::max_element(
       stable_, {}, [&](const Found& found) { return largest ? found.peak : -found.peak; });
+  tell_found(system, told, orbit);
+}
+
+template <int N, int H>
+void Coexistence<N, H>::tell(const mechanics::LinearSystem& system, int which, Orbit<N, H>& orbit) {
+  const auto index = static_cast<std::size_t>(which);
+  if (stable_.empty())
+    tell_motion(system, unsettled_[index], orbit);
+  else
+    tell_found(system, stable_[index], orbit);
+}
+
+template <int N, int H>
+void Coexistence<N, H>::tell_found(const mechanics::LinearSystem& system, const Found& told,
+                                   Orbit<N, H>& orbit) {
+  flow_.set_forcing(system);
   if (told.orbit.multiple > 1) flow_.set_forcing(over_multiple(system, told.orbit.multiple));
-  const int passages = passages_, iterations = newton_iterations_, coexisting = orbit.coexisting;
+  const int passages = passages_, iterations = newton_iterations_;
+  const auto coexisting = static_cast<int>(stable_.size());
   orbit = told.orbit;
   shooting_.find(orbit);
   if (orbit.stuck_throughout != 0) settle_(orbit);
@@ -246,13 +274,27 @@ void Coexistence<N, H>::tell(const mechanics::LinearSystem& system, Orbit<N, H>&
   if (coexisting > 1 && orbit.status == Status::ok) orbit.status = Status::several;
 }
 
+// The motion goes on from z as if it were an orbit of kMotion periods; its status stays not_periodic.
+template <int N, int H>
+void Coexistence<N, H>::tell_motion(const mechanics::LinearSystem& system, const typename S::State& z,
+                                    Orbit<N, H>& orbit) {
+  flow_.set_forcing(over_multiple(system, kMotion));
+  orbit.z = z;
+  orbit.section = 0.0;
+  orbit.half_period = false;
+  orbit.multiple = kMotion;
+  orbit.stuck_throughout = 0;
+  orbit.contraction = orbit.error_bound = orbit.floquet_radius = kNone;
+  walk_.pass(z, 0.0, flow_.equations().period, orbit.passage, Tangent::none);
+}
+
 template <int N, int H>
 void Coexistence<N, H>::remember() {
   const Eigen::Index n = flow_.equations().masses();
   before_.clear();
   for (const Found& found : stable_) {
     before_.push_back({found.orbit.z, found.orbit.multiple});
-    before_.back().z.segment(n, n) /= flow_.equations().step;
+    before_.back().state.segment(n, n) /= flow_.equations().step;
   }
 }
 

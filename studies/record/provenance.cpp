@@ -31,8 +31,15 @@ namespace {
 
 // What was searched where there may be several responses, "" where there is one alone.
 std::string searched_orbits(const Study& study) {
-  if (!study.sweep() || !mechanics::may_have_several_responses(study.network)) return "";
   const periodic::OrbitsWanted wanted = study.orbits_wanted();
+  if (study.tune() && tuning::may_take_several_orbits(study.network))
+    return fmt::format(
+        "at each frequency: {} starts and the responses found near it, multiples of the period up to {}; the "
+        "worst counts, and where none is stable and periodic the worst of the motions over 64 periods. "
+        "Others "
+        "may have been missed",
+        wanted.starts, wanted.most_multiple);
+  if (!study.sweep() || !mechanics::may_have_several_responses(study.network)) return "";
   const bool largest = wanted.show == periodic::OrbitsWanted::Show::largest;
   return fmt::format(
       "where the laws are not monotone: {} starts and the responses of the point before, multiples of the "
