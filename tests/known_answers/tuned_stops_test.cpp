@@ -17,8 +17,10 @@ using namespace frahm;
 using tuning::Optimum;
 using tuning::Task;
 
-constexpr double kTuned = 1e-6;       // of f, zeta and the peak of the linear optimum, as promised
-constexpr double kIntegrated = 2e-3;  // of a worst peak: sampled at 0.005, integrated with fixed steps
+constexpr double kTuned = 1e-6;  // of f, zeta and the peak of the linear optimum, as promised
+// Of a worst peak by fixed steps, which pass over the places where the stops' force jumps: with 1024 steps a
+// period it is right to 2e-4, with 256 to 3e-3.
+constexpr double kFine = 1e-3, kCoarse = 5e-3;
 
 constexpr double kMu = 0.05;  // mass ratio
 
@@ -93,19 +95,19 @@ TEST_CASE("an absorber whose stops are never reached has the classical optimum",
   CHECK(optimum.objective == Approx(form.peak).epsilon(kTuned));
 }
 
-// The machine and its absorber by the classical Runge-Kutta method, 256 steps a period, without events.
+// The machine and its absorber by the classical Runge-Kutta method with fixed steps, without events.
 class Integration {
  public:
-  Integration(const Machine& machine, double f, double zeta)
-      : machine_(machine), k_(kMu * f * f), c_(2.0 * zeta * kMu * f) {}
+  Integration(const Machine& machine, double f, double zeta, int steps_a_period)
+      : machine_(machine), k_(kMu * f * f), c_(2.0 * zeta * kMu * f), steps_(steps_a_period) {}
 
   // Largest |x| of the machine over the last of many periods at r, from where the motion is.
   double peak_at(double r) {
-    constexpr int kSteps = 256, kPeriods = 80, kLooked = 12;
-    const double h = 2.0 * std::numbers::pi / r / kSteps;
+    constexpr int kPeriods = 50, kLooked = 10;
+    const double h = 2.0 * std::numbers::pi / r / steps_;
     double peak = 0.0;
     for (int period = 0; period < kPeriods; ++period) {
-      for (int i = 0; i < kSteps; ++i) {
+      for (int i = 0; i < steps_; ++i) {
         step(r, h * i, h);
         if (period >= kPeriods - kLooked) peak = std::max(peak, std::abs(z_[0]));
       }
@@ -140,12 +142,14 @@ class Integration {
 
   Machine machine_;
   double k_, c_;
+  int steps_;
   State z_{};
 };
 
 // The worst peak by sweeping up and down the band.
-double swept_worst(const Machine& machine, double f, double zeta, const tuning::Band& band, double spacing) {
-  Integration motion(machine, f, zeta);
+double swept_worst(const Machine& machine, double f, double zeta, const tuning::Band& band, double spacing,
+                   int steps_a_period) {
+  Integration motion(machine, f, zeta, steps_a_period);
   const auto places = static_cast<int>(std::round((band.to - band.from) / spacing));
   double worst = 0.0;
   for (int i = -places; i <= places; ++i)
@@ -162,13 +166,13 @@ TEST_CASE("an absorber that hits its stops: no design of a dense grid has a lowe
   INFO("f = " << f << ", zeta = " << zeta << ", worst " << optimum.objective << ", orbits "
               << optimum.orbits);
   CHECK(optimum.outcome == tuning::Outcome::converged);
-  CHECK(swept_worst(machine, f, zeta, band, 0.005) == Approx(optimum.objective).epsilon(kIntegrated));
+  CHECK(swept_worst(machine, f, zeta, band, 0.01, 1024) == Approx(optimum.objective).epsilon(kFine));
   double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i <= 12; ++i) {
-    for (int j = 0; j <= 9; ++j)
-      least = std::min(least, swept_worst(machine, 0.68 + 0.02 * i, 0.03 + 0.02 * j, band, 0.01));
+  for (int i = 0; i <= 8; ++i) {
+    for (int j = 0; j <= 7; ++j)
+      least = std::min(least, swept_worst(machine, 0.70 + 0.03 * i, 0.03 + 0.025 * j, band, 0.01, 256));
   }
-  CHECK(optimum.objective <= least * (1.0 + kIntegrated));
+  CHECK(optimum.objective <= least * (1.0 + kCoarse));
 }
 
 }  // namespace

@@ -96,22 +96,20 @@ TEST_CASE("a scan follows the branch of large responses to its fold, which few s
   BandScan scan(task, space, curves, effort, kGoOn);
   const Scan found = scan.of(std::vector<double>{0.1}, 0.5, 1e-7);
   CHECK_FALSE(found.failed);
-  // The highest point lies just before the fold, and the branch ends no later than there.
-  CHECK(found.worst >= 4.9326330 - kPrinted);
-  CHECK(found.worst < 4.94);
+  // Followed by arclength the branch is highest just before its fold, with 5.0474009 at the point r
+  // = 1.995959.
+  CHECK(found.worst >= 5.0474009 - kPrinted);
+  CHECK(found.worst < 5.0475);
   REQUIRE_FALSE(found.maxima.empty());
   const auto top = std::ranges::max_element(found.maxima, {}, &Scan::Maximum::value);
-  CHECK(top->at <= 2.0018066685 + kPrinted);
-  CHECK(top->at > 1.99);
+  CHECK_THAT(top->at, WithinAbs(1.996, 1e-3));
   CHECK_FALSE(top->is_end);
 }
 
-TEST_CASE("a single design variable: the damping that brings the worst orbit below a limit is found") {
-  // The least damping with the worst peak held at 3: the worst peak falls with the damping.
-  Task task = mass_between_stops();
-  task.quantity = {.measure = periodic::Measure::peak, .index = 0};
-  const Optimum optimum = tune(task, 0, kGoOn).at(0);
+TEST_CASE("the worst peak between stops falls with the damping, to its upper bound") {
+  const Optimum optimum = tune(mass_between_stops(), 0, kGoOn).at(0);
   INFO(optimum.reason);
+  CHECK(optimum.outcome == Outcome::converged);
   CHECK(optimum.parameters[0].at_bound[0] == AtBound::upper);
   CHECK(optimum.objective < 2.0);
 }
@@ -152,7 +150,7 @@ Task restless_absorber() {
   };
   task.scenarios = {"as it is"};
   task.parameters = {{.name = "damping", .lower = 0.05, .upper = 0.06, .nominal = 0.05, .schedule = {}}};
-  task.band = {1.12, 1.14};
+  task.band = {1.13, 1.13};
   task.quantity = {.measure = periodic::Measure::peak, .index = 0};
   return task;
 }
