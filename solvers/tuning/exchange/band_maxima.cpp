@@ -56,7 +56,9 @@ class Search {
     if (!is_finite(a) || !is_finite(b)) {
       // A point without a value between two that have one is left to the samples; its surroundings are
       // searched down to a thousandth of the seeds' spacing.
-      if (h < 1e6 * narrowest || (!is_finite(a) && !is_finite(b))) return;
+      const bool may_be_top = may_jump_ && rises_to_top(a, b);
+      if (may_be_top && h <= narrowest) return add_end(is_finite(a) ? a : b);
+      if ((h < 1e6 * narrowest && !may_be_top) || (!is_finite(a) && !is_finite(b))) return;
       const CurvePoint m = ask(0.5 * (a.at + b.at));
       search(a, m, narrowest);
       search(m, b, narrowest);
@@ -119,6 +121,13 @@ class Search {
 
   void consider_kink(const CurvePoint& a, const CurvePoint& b) {
     if (a.slope_right > 0.0 && b.slope_left < 0.0) found_.maxima.push_back(a.value > b.value ? a : b);
+  }
+
+  // Whether the curve rises from one of two points towards the other, which has no slope, and may there be
+  // the highest of all.
+  bool rises_to_top(const CurvePoint& a, const CurvePoint& b) const {
+    const double rise = (b.at - a.at) * (is_finite(a) ? a.slope_right : -b.slope_left);
+    return rise > 0.0 && (is_finite(a) ? a : b).value + rise > 0.98 * largest_;
   }
 
   // Where the curve jumps it ends on its higher side.
