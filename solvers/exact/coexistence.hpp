@@ -31,6 +31,9 @@ class Coexistence {
   void add(const mechanics::LinearSystem& system, const Orbits& after, Orbits& found);
   // Sets `orbit` to the one to be told; the flow is then set to its multiple of the period.
   void tell(const mechanics::LinearSystem& system, const Orbits& found, Orbit<N, H>& orbit);
+  // The same of any of those found; if none was, of a motion that did not settle, over kMotion periods.
+  void tell(const mechanics::LinearSystem& system, const Orbits& found, std::size_t which,
+            Orbit<N, H>& orbit);
 
  private:
   typename S::State start(int index, const mechanics::LinearSystem& system) const;
@@ -47,7 +50,7 @@ StableOrbits<N, H> Coexistence<N, H>::find(const mechanics::LinearSystem& system
   if (before != nullptr) continue_from(*before, system, found);
   for (int i = 0; i < wanted_.starts; ++i) {
     typename S::State z = start(i, system);
-    search_.follow(z, search_.kOfStart, system, found);
+    if (!search_.follow(z, search_.kOfStart, system, found)) found.unsettled.push_back(z);
   }
   return found;
 }
@@ -81,7 +84,14 @@ void Coexistence<N, H>::tell(const mechanics::LinearSystem& system, const Orbits
   const double sign = wanted_.show == OrbitsWanted::Show::smallest ? -1.0 : 1.0;
   const auto told = std::ranges::max_element(found.stable, {},
                                              [&](const StableOrbit<N, H>& each) { return sign * each.peak; });
-  search_.tell(system, found, static_cast<std::size_t>(told - found.stable.begin()), orbit);
+  tell(system, found, static_cast<std::size_t>(told - found.stable.begin()), orbit);
+}
+
+template <int N, int H>
+void Coexistence<N, H>::tell(const mechanics::LinearSystem& system, const Orbits& found, std::size_t which,
+                             Orbit<N, H>& orbit) {
+  if (found.stable.empty()) return search_.tell_motion(system, found.unsettled[which], orbit);
+  search_.tell(system, found, which, orbit);
   orbit.coexisting = static_cast<int>(found.stable.size());
   if (orbit.coexisting > 1 && orbit.status == Status::ok) orbit.status = Status::several;
 }

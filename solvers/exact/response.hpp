@@ -9,6 +9,7 @@
 #include "solvers/mechanics/coordinates.hpp"
 #include "solvers/mechanics/network.hpp"
 #include "solvers/mechanics/rotation.hpp"
+#include "solvers/orbits/known_orbit.hpp"
 #include "solvers/quantities/observed_motion.hpp"
 
 // A summary of a periodic response, and the interface of its solvers.
@@ -33,6 +34,7 @@ struct ResponseSummary {
   int passages = 0;          // periods (or half periods) of the flow that the search took; 0 from phases
   int multiple = 1;          // of the excitation's period, that the response takes
   int coexisting = 1;        // stable responses that were found
+  int motions = 0;           // of status not_periodic: those followed that did not settle
   bool half_period = false;  // the response repeats with the opposite sign: x(t + T/2) = -x(t), T the
                              // period of the orders divided by their common divisor
 };
@@ -95,6 +97,11 @@ class ResponseSolver {
   virtual void forget() = 0;
   virtual void begin_row() = 0;
   virtual const ResponseSummary& solve() = 0;
+  // Of a system that may have several responses; another has nothing to tell.
+  virtual void start_from(std::span<const KnownOrbit>) {}
+  virtual std::vector<KnownOrbit> known() const { return {}; }
+  virtual void tell(int) {}
+  virtual int multiple() const { return 1; }  // of the excitation's period, that what is told takes
   virtual void quantities(std::span<double> out) = 0;
   virtual const char* gradient(std::span<const mechanics::NetworkValues> directions,
                                std::span<double> out) = 0;

@@ -70,9 +70,13 @@ class SizedSolver final : public ResponseSolver {
     before_ = {};
   }
   const ResponseSummary& solve() override;
+  void start_from(std::span<const KnownOrbit> known) override { before_ = stable_orbits<N, H>(known); }
+  std::vector<KnownOrbit> known() const override { return known_orbits(before_); }
+  void tell(int which) override;
+  int multiple() const override { return orbit_.multiple; }
 
   void quantities(std::span<double> out) override {
-    if (has_response())
+    if (has_response() || tells_motion_)
       observables_.evaluate(orbit_, told(), out);
     else
       observables_.fill_missing(orbit_.status, out);
@@ -126,6 +130,7 @@ class SizedSolver final : public ResponseSolver {
   Observables<N, H> observables_;
   Gradient<N, H> gradient_;
   Orbit<N, H> orbit_;
+  bool tells_motion_ = false;  // one that did not settle, in place of an orbit
   ResponseSummary summary_;
   std::unique_ptr<nonstop::NonstopSolver> nonstop_;  // none where it does not serve, or is not wanted
 };
@@ -147,6 +152,7 @@ const ResponseSummary& SizedSolver<N, H>::solve() {
 template <int N, int H>
 const ResponseSummary& SizedSolver<N, H>::conclude() {
   observables_.forget();
+  tells_motion_ = false;
   if (orbit_.multiple > 1) longer_ = over_multiple(system_, orbit_.multiple);
   if (orbit_.is_found() && is_to_be_weighed()) weigh();
   summary_.status = orbit_.status;
@@ -157,7 +163,18 @@ const ResponseSummary& SizedSolver<N, H>::conclude() {
   summary_.half_period = orbit_.half_period;
   summary_.multiple = orbit_.multiple;
   summary_.coexisting = orbit_.coexisting;
+  summary_.motions = orbit_.status == Status::not_periodic ? static_cast<int>(before_.unsettled.size()) : 0;
   return summary_;
+}
+
+template <int N, int H>
+void SizedSolver<N, H>::tell(int which) {
+  observables_.forget();
+  flow_.set_forcing(system_);
+  coexistence_.tell(system_, before_, static_cast<std::size_t>(which), orbit_);
+  if (orbit_.multiple > 1) longer_ = over_multiple(system_, orbit_.multiple);
+  tells_motion_ = orbit_.status == Status::not_periodic && orbit_.passage.failure == nullptr;
+  if (orbit_.is_found() && is_to_be_weighed()) weigh();
 }
 
 // The energy balance is checked where it is requested, and wherever an event is close to another outcome.

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "solvers/flow/flow.hpp"
+#include "solvers/orbits/known_orbit.hpp"
 
 namespace frahm::periodic {
 
@@ -18,9 +20,34 @@ struct StableOrbit {
 template <int N, int H>
 struct StableOrbits {
   std::vector<StableOrbit<N, H>> stable;
+  std::vector<typename Sizes<N, H>::State> unsettled;  // where motions were given up that came near no orbit
   bool found_unstable = false;
   int passages = 0, newton_iterations = 0;
   double step = 0.0;  // [s], in which the states count the time
+  Eigen::Index masses = 0;
 };
+
+// Starts of a search.
+template <int N, int H>
+StableOrbits<N, H> stable_orbits(std::span<const KnownOrbit> known) {
+  StableOrbits<N, H> orbits;
+  orbits.step = 1.0;
+  for (const KnownOrbit& each : known) {
+    StableOrbit<N, H>& orbit = orbits.stable.emplace_back();
+    orbit.returns.assign(static_cast<std::size_t>(each.multiple), each.state);
+  }
+  return orbits;
+}
+
+template <int N, int H>
+std::vector<KnownOrbit> known_orbits(const StableOrbits<N, H>& orbits) {
+  std::vector<KnownOrbit> known;
+  for (const StableOrbit<N, H>& orbit : orbits.stable) {
+    known.push_back({orbit.returns.front(), orbit.multiple()});
+    Eigen::VectorXd& z = known.back().state;
+    z.segment(orbits.masses, orbits.masses) /= orbits.step;
+  }
+  return known;
+}
 
 }  // namespace frahm::periodic

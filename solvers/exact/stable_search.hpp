@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/exact/rest_search.hpp"
 #include "solvers/exact/scattered_state.hpp"
 #include "solvers/exact/stable_orbits.hpp"
@@ -43,6 +44,7 @@ class StableSearch {
     flow_.set_forcing(system);
     Orbits found;
     found.step = flow_.equations().step;
+    found.masses = flow_.equations().masses();
     return found;
   }
   // A state that counts the time in `step` [s], at the flow's frequency.
@@ -61,6 +63,11 @@ class StableSearch {
   // The orbit once more, in its own multiple of the period, to which the flow is left set.
   void tell(const mechanics::LinearSystem& system, const Orbits& found, std::size_t which,
             Orbit<N, H>& orbit);
+
+  // The motion from z over kMotion periods, as if it were an orbit of that multiple, to which the flow is
+  // left set; the status of `orbit` stays.
+  void tell_motion(const mechanics::LinearSystem& system, const typename S::State& z, Orbit<N, H>& orbit);
+  static constexpr int kMotion = 64;  // several of the slow beats that motions without period show
 
   // Relative to the orbit's size or the static response, energy norm.
   double distance(const typename S::State& z, const StableOrbit<N, H>& orbit) const;
@@ -225,6 +232,19 @@ void StableSearch<N, H>::tell(const mechanics::LinearSystem& system, const Orbit
   judge_stability(flow_, orbit);
   orbit.passages += found.passages;
   orbit.newton_iterations += found.newton_iterations;
+}
+
+template <int N, int H>
+void StableSearch<N, H>::tell_motion(const mechanics::LinearSystem& system, const typename S::State& z,
+                                     Orbit<N, H>& orbit) {
+  flow_.set_forcing(over_multiple(system, kMotion));
+  orbit.z = z;
+  orbit.section = 0.0;
+  orbit.half_period = false;
+  orbit.multiple = kMotion;
+  orbit.stuck_throughout = 0;
+  orbit.contraction = orbit.error_bound = orbit.floquet_radius = kNone;
+  walk_.pass(z, 0.0, flow_.equations().period, orbit.passage, Tangent::none);
 }
 
 template <int N, int H>

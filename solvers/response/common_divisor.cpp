@@ -68,6 +68,14 @@ class DividedOrders final : public ResponseSolver {
     return summary_;
   }
 
+  void start_from(std::span<const KnownOrbit> known) override { solver_->start_from(known); }
+  std::vector<KnownOrbit> known() const override { return solver_->known(); }
+  void tell(int which) override {
+    solver_->tell(which);
+    multiple_ = solver_->multiple();
+  }
+  int multiple() const override { return whole_periods(multiple_); }
+
   void quantities(std::span<double> out) override {
     solver_->quantities(out);
     for (std::size_t i = 0; i < quantities_.size(); ++i)

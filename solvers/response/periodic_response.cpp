@@ -54,6 +54,15 @@ void PeriodicResponse::begin_row() {
 const ResponseSummary& PeriodicResponse::solve() {
   return solver_->solve();
 }
+void PeriodicResponse::start_from(std::span<const KnownOrbit> known) {
+  solver_->start_from(known);
+}
+std::vector<KnownOrbit> PeriodicResponse::known() const {
+  return solver_->known();
+}
+void PeriodicResponse::tell(int which) {
+  solver_->tell(which);
+}
 void PeriodicResponse::quantities(std::span<double> out) {
   solver_->quantities(out);
 }

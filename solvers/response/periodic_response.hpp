@@ -54,6 +54,16 @@ class PeriodicResponse {
   // The periodic response at the values set. Never throws: every point ends in a status.
   const ResponseSummary& solve();
 
+  // Of a system that may have several responses. start_from: where the next solve() looks first, beside its
+  // own starts. known: the stable responses that the last one found, for a point near it.
+  void start_from(std::span<const KnownOrbit> known);
+  std::vector<KnownOrbit> known() const;
+  // Makes another one that solve() found the response of quantities(), gradient() and history(): one of
+  // summary.coexisting (0 <= which < their number), in no particular order. Where no stable one was found
+  // (not_periodic), one of summary.motions that did not settle, over 64 periods of the excitation: it has
+  // quantities, but no gradient.
+  void tell(int which);
+
   // The quantities given to the constructor, in their order; NaN (counts -1, flags 0) where the response is
   // unbounded or failed. `out` has one entry for each.
   void quantities(std::span<double> out);

@@ -98,9 +98,17 @@ struct Curve {
   double worst = 0.0;  // the objective of the curve's design: true maximum, mean square, variance
 };
 
+// How often the curve "after" was of one of several responses, of a network that may have them.
+struct SearchedPoints {
+  std::size_t points = 0;        // of all scenarios
+  std::size_t several = 0;       // more than one stable response was found
+  std::size_t not_periodic = 0;  // none was: the worst over the motions that were followed counts
+};
+
 struct Assessment {
   std::vector<double> band;  // SI, where the curves are sampled: the peaks among them
   std::vector<Curve> curves;
+  SearchedPoints searched;
   Detuning detuning;
 };
 

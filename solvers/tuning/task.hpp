@@ -8,6 +8,7 @@
 
 #include "solvers/algebra/no_value.hpp"
 #include "solvers/mechanics/network.hpp"
+#include "solvers/orbits/orbits_wanted.hpp"
 #include "solvers/quantities/quantity.hpp"
 #include "solvers/tuning/problem/solver.hpp"
 #include "solvers/tuning/variance/noise.hpp"
@@ -95,6 +96,8 @@ struct Task {
   std::vector<QuantityLimit> limits;
   std::optional<TradeOff> trade_off;
   Noise noise;  // of Objective::variance
+  // Of a network that may have several responses, in a minimax: at each frequency the worst one found counts.
+  periodic::OrbitsWanted orbits;
   // Scheduled parameters only: at no frequency may the response exceed that of the best constant design.
   bool dominate_constant = false;
 
@@ -106,5 +109,9 @@ struct Task {
       1e-6;  // of the certificate gap, relative: work goes on until it is below or falls no more
   int most_rounds = 60;
 };
+
+// Whether a network may have several responses at a frequency: with static friction or an element that bends
+// over its displacement. (Bends over the velocity are taken for rising.)
+bool may_take_several_orbits(const mechanics::Network& network);
 
 }  // namespace frahm::tuning

@@ -28,19 +28,27 @@ periodic::OrbitsWanted::Show read_show(const TomlSection& section) {
   return show == "smallest" ? smallest : show == "up" ? up : show == "down" ? down : largest;
 }
 
-void read_orbits_wanted(const StudyContext& context, const TomlValue& root, Study& study) {
+periodic::OrbitsWanted read_orbits_wanted(const StudyContext& context, const TomlValue& root,
+                                          const Study& study) {
+  periodic::OrbitsWanted wanted;
   const TomlEntry* entry = find_entry(root, "orbits");
-  if (!entry) return;
+  if (!entry) return wanted;
   const TomlSection section(context.source, entry->value, "[orbits]", {"starts", "most_multiple", "show"});
-  if (!mechanics::may_have_several_responses(study.network))
+  const bool has_one = study.tune() ? !tuning::may_take_several_orbits(study.network)
+                                    : !mechanics::may_have_several_responses(study.network);
+  if (has_one)
     section.fail_here(rules::key_without_use,
                       "has no effect: several responses are searched where an element is a gap, has a table "
                       "or a static_force; here there is one alone");
-  periodic::OrbitsWanted& wanted = study.sweep()->orbits;
   wanted.starts = read_count(section, "starts", wanted.starts, most_starts);
   wanted.most_multiple = read_count(section, "most_multiple", wanted.most_multiple, longest_multiple);
+  if (study.tune()) {
+    if (section.find("show"))
+      section.fail(rules::key_without_use, "show", "has no effect: in a tuning the worst response counts");
+    return wanted;
+  }
   wanted.show = read_show(section);
-  if (!wanted.is_sweep()) return;
+  if (!wanted.is_sweep()) return wanted;
   check_frequency_axis(section, study);
   const auto& comparison = study.sweep()->comparison;
   const bool searches =
@@ -48,6 +56,7 @@ void read_orbits_wanted(const StudyContext& context, const TomlValue& root, Stud
   if (section.find("starts") && !searches)
     section.fail(rules::key_without_use, "starts",
                  "has no effect: a sweep begins at rest and goes on from point to point");
+  return wanted;
 }
 
 }  // namespace frahm::studies

@@ -24,8 +24,8 @@ const std::array<std::vector<std::string>, 5> sections_of_kind{
       "output", "orbits", "compare", "report"},
      {"study", "parameters", "mass", "matrices", "element", "damping", "decay", "initial"},
      {"study", "parameters", "mass", "matrices", "element", "damping", "excitation", "transient", "initial"},
-     {"study", "parameters", "mass", "matrices", "element", "damping", "excitation", "tune", "design",
-      "constraint", "scenario", "column"},
+     {"study", "parameters", "mass", "matrices", "element", "damping", "excitation", "orbits", "tune",
+      "design", "constraint", "scenario", "column"},
      {"study", "parameters", "mass", "matrices", "element", "damping", "excitation", "initial", "identify"}}};
 
 const std::vector<std::string>& sections(StudyKind kind) {
@@ -186,7 +186,7 @@ Study parse_study(std::string text, const std::filesystem::path& name, DataFiles
     read_coordinates(context, root, study);
     find_frequency_dimension(study);
     read_output(context, root, study);
-    read_orbits_wanted(context, root, study);
+    study.sweep()->orbits = read_orbits_wanted(context, root, study);
     check_compared_show(context, root, study);
     read_report(context, root, study);
   } else if (study.kind() == StudyKind::tune) {
@@ -241,6 +241,7 @@ MotionChoice* Study::motion() {
 }
 
 periodic::OrbitsWanted Study::orbits_wanted() const {
+  if (tune()) return tune()->orbits;
   return sweep() ? sweep()->orbits : periodic::OrbitsWanted{};
 }
 

@@ -122,11 +122,14 @@ void refuse_several_responses(const Study& study, const std::string& what_needs_
 // What of the study needs that there is one response, "" if nothing does.
 std::string needs_one_response(const Study& study);
 
-// [[axis]], [[coordinate]], [output], [orbits] and [report] into the choice of a sweep.
+// [orbits] of a sweep or a tuning.
+periodic::OrbitsWanted read_orbits_wanted(const StudyContext& context, const TomlValue& root,
+                                          const Study& study);
+
+// [[axis]], [[coordinate]], [output] and [report] into the choice of a sweep.
 void read_axes(const StudyContext& context, const TomlValue& root, Study& study);
 void read_coordinates(const StudyContext& context, const TomlValue& root, Study& study);
 void read_output(const StudyContext& context, const TomlValue& root, Study& study);
-void read_orbits_wanted(const StudyContext& context, const TomlValue& root, Study& study);
 // The key `show`: which of several responses, by default the largest; a sweep needs an axis of the frequency.
 periodic::OrbitsWanted::Show read_show(const TomlSection& section);
 void check_frequency_axis(const TomlSection& section, const Study& study);

@@ -83,6 +83,7 @@ struct TuneChoice {
   bool dominate_constant = false;
   std::optional<TradeOffChoice> trade_off;
   tuning::Noise noise;
+  periodic::OrbitsWanted orbits;      // of a system that may have several responses
   std::vector<DesignChoice> designs;  // at least one
   std::vector<LimitChoice> limits;
   std::vector<ScenarioChoice> scenarios;  // none: the study alone

@@ -296,7 +296,6 @@ StudyValue read_formula(const TuneReading& reading, const TomlSection& section, 
 
 void read_tuning(const StudyContext& context, const TomlValue& root, Study& study) {
   refuse_smooth_friction(study);
-  refuse_several_responses(study, needs_one_response(study));
   const TomlEntry* entry = find_entry(root, "tune");
   if (!entry)
     throw context.source.error_at(rules::missing_section, root.position,
@@ -307,6 +306,9 @@ void read_tuning(const StudyContext& context, const TomlValue& root, Study& stud
   TuneReading reading{context, root, study};
   TuneChoice& choice = reading.choice;
   read_objective(section, choice);
+  if (choice.objective == Objective::mean_square) refuse_several_responses(study, "a mean square");
+  if (choice.objective == Objective::variance) refuse_several_responses(study, "a variance");
+  choice.orbits = read_orbits_wanted(context, root, study);
   choice.quantity = read_real_quantity(reading, section, "quantity");
   choice.quantity_name = section.text("quantity");
   if (choice.objective == Objective::variance) check_variance(reading, section);

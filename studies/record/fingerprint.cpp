@@ -247,11 +247,13 @@ std::string physics_hash(const Study& study, std::span<const periodic::Quantity>
     const OutputChoice& output = study.sweep()->output;
     text.line("precision {}", precision_names[static_cast<std::size_t>(output.precision)]);
     if (output.general_path) text.line("path general");
-    if (mechanics::may_have_several_responses(study.network)) {
-      const periodic::OrbitsWanted& wanted = study.sweep()->orbits;
-      text.line("orbits {} {} {}", wanted.starts, wanted.most_multiple, static_cast<int>(wanted.show));
-      add_swept_frequencies(*study.sweep(), study.parameters, text);
-    }
+  }
+  const bool searches = study.sweep() ? mechanics::may_have_several_responses(study.network)
+                                      : study.tune() && tuning::may_take_several_orbits(study.network);
+  if (searches) {
+    const periodic::OrbitsWanted wanted = study.orbits_wanted();
+    text.line("orbits {} {} {}", wanted.starts, wanted.most_multiple, static_cast<int>(wanted.show));
+    if (study.sweep()) add_swept_frequencies(*study.sweep(), study.parameters, text);
   }
   text.line("units {}", study.dimensionless ? "dimensionless" : "SI");
   add_parameters(study, text);

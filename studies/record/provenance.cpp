@@ -48,8 +48,14 @@ std::string search_text(const Study& study, const periodic::OrbitsWanted& wanted
 
 // What was searched where there may be several responses, "" where there is one alone.
 std::string searched_orbits(const Study& study) {
-  if (!study.sweep() || !mechanics::may_have_several_responses(study.network)) return "";
   periodic::OrbitsWanted wanted = study.orbits_wanted();
+  if (study.tune() && tuning::may_take_several_orbits(study.network))
+    return fmt::format(
+        "at each frequency: {} starts and the responses found near it, multiples of the period up to {}; the "
+        "worst counts, and where none is stable and periodic the worst of the motions over 64 periods. "
+        "Others may have been missed",
+        wanted.starts, wanted.most_multiple);
+  if (!study.sweep() || !mechanics::may_have_several_responses(study.network)) return "";
   std::string text = "where the laws are not monotone: " + search_text(study, wanted);
   const auto& comparison = study.sweep()->comparison;
   if (!comparison || !comparison->show) return text;

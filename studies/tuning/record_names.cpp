@@ -119,6 +119,15 @@ void add_noise(const Study& study, std::vector<results::Text>& texts) {
 
 }  // namespace
 
+std::string not_proved(const Study& study) {
+  if (!tuning::may_take_several_orbits(study.network)) return "";
+  return fmt::format(
+      "at each frequency that was looked at, the worst is that of the stable responses found from {} starts "
+      "and from responses near it, and where none was found that of the motions followed; it is not proved "
+      "that none was missed, nor that the response does not jump between these frequencies",
+      study.orbits_wanted().starts);
+}
+
 std::vector<results::Text> optimum_texts(const Study& study, const TuningResult& result) {
   const TuneChoice& tune = *study.tune();
   const TuningAbout about(study, result);
@@ -136,6 +145,8 @@ std::vector<results::Text> optimum_texts(const Study& study, const TuningResult&
                                       {"start", start_text(tune)}};
   if (tune.objective == tuning::Objective::variance) add_noise(study, texts);
   if (tune.dominate_constant) texts.emplace_back("dominate", "constant");
+  if (const std::string limits_of_it = not_proved(study); !limits_of_it.empty())
+    texts.emplace_back("not_proved", limits_of_it);
   return texts;
 }
 

@@ -157,6 +157,18 @@ void add_detuning(const TuningAbout& about, GroupColumns& columns) {
                 "change", detuning.growth[i]);
 }
 
+void add_search(const TuningAbout& about, GroupColumns& columns) {
+  if (not_proved(about.study).empty()) return;
+  const tuning::SearchedPoints& searched = about.result.assessment.searched;
+  const auto add = [&](const char* name, const char* what, std::size_t count) {
+    columns.add_count(name, what, "", {static_cast<double>(count)});
+  };
+  add("searched_points", "points of the band at the optimum, of all scenarios", searched.points);
+  add("several_points", "of these, points with more than one stable response found", searched.several);
+  add("not_periodic_points", "of these, points where no stable periodic response was found",
+      searched.not_periodic);
+}
+
 void add_rounds(const TuningAbout& about, GroupColumns& columns) {
   std::vector<double> active, iterations, bound, worst, violation;
   for (const tuning::Round& round : about.optimum.rounds) {
@@ -226,6 +238,7 @@ std::vector<results::Column> optimum_columns(const Study& study, const TuningRes
   add_limits(about, columns);
   add_band(about, columns);
   add_detuning(about, columns);
+  add_search(about, columns);
   add_rounds(about, columns);
   add_starts(about, columns);
   return columns.take();

@@ -33,6 +33,10 @@ std::vector<NamedLimit> named_limits(const Study& study, double trade_off);
 std::string quantity_unit(const Study& study);
 std::string objective_unit(const Study& study);
 
+// What the worst of several responses does not prove, as a sentence without its full stop; "" where there is
+// one response at each frequency.
+std::string not_proved(const Study& study);
+
 // The white noise of a variance: "a force on main", "the acceleration of base".
 std::string noise_words(const Study& study);
 

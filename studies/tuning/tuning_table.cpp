@@ -89,6 +89,16 @@ void print_objective(const TuningAbout& about, std::ostream& out) {
   if (optimum.violation > 0.0) fmt::print(out, "{:<24}{:.3g}\n", "violation", optimum.violation);
 }
 
+void print_search(const TuningAbout& about, std::ostream& out) {
+  const std::string limits_of_it = not_proved(about.study);
+  if (limits_of_it.empty()) return;
+  const tuning::SearchedPoints& searched = about.result.assessment.searched;
+  fmt::print(out,
+             "\n{:<24}of {} points of the band at the optimum {} have several stable responses, {} none\n",
+             "responses", searched.points, searched.several, searched.not_periodic);
+  fmt::print(out, "{:<24}{}\n", "not proved", limits_of_it);
+}
+
 void print_peaks(const TuningAbout& about, std::ostream& out) {
   const auto is_active = [](const tuning::Peak& peak) { return peak.multiplier > 0.0; };
   if (std::none_of(about.optimum.peaks.begin(), about.optimum.peaks.end(), is_active)) return;
@@ -202,6 +212,7 @@ void print_tuning(const Study& study, const TuningResult& result, std::ostream& 
   print_peaks(about, out);
   print_limits(about, out);
   print_detuning(about, out);
+  print_search(about, out);
   print_effort(about, out);
 }
 

@@ -89,6 +89,7 @@ tuning::Task tuning_task(const Study& study) {
   if (tune.trade_off)
     task.trade_off = tuning::TradeOff{tune.trade_off->name, tune.trade_off->quantity, tune.trade_off->limits};
   task.noise = tune.noise;
+  task.orbits = tune.orbits;
   task.dominate_constant = tune.dominate_constant;
   task.solver = tune.solver;
   task.global_solver = tune.global_solver;

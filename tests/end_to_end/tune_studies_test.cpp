@@ -303,4 +303,17 @@ TEST_CASE("tune_rig_robust.toml: the worst of all scenarios is pressed down, and
   CHECK(most(tuned.swept(2000)["main_peak"]) <= tuned.of("objective") * (1.0 + 1e-9));
 }
 
+TEST_CASE("tune_absorber_stops.toml: the worst of the stable responses found, and the stops out of reach") {
+  const Tuned tuned("tune_absorber_stops");
+  CHECK(tuned.of("nu") == Approx(0.816843644).epsilon(exact));
+  CHECK(tuned.of("za") == Approx(0.08116239).epsilon(exact));
+  CHECK(tuned.of("objective") == Approx(5.240108495).epsilon(exact));
+  CHECK(tuned.of("certificate_gap") < certified);
+  CHECK(tuned.of("searched_points") > 400.0);
+  CHECK(most(tuned.swept(2000)["machine_peak"]) <= tuned.of("objective") * (1.0 + exact));
+  const Tuned without("tune_absorber_stops", {"D=40"});
+  CHECK(without.of("nu") == Approx(0.946090997).epsilon(exact));
+  CHECK(without.of("objective") == Approx(5.267157494).epsilon(exact));
+}
+
 }  // namespace

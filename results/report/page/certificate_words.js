@@ -6,13 +6,13 @@ const roundingGap = 1e-12; // relative
 
 // The gap between the worst peak and the bound that the tuning found; no sentence if there is no gap, as where no
 // design meets the limits.
-function gapSentences({ kind, band, group, converged }) {
+function gapSentences({ kind, band, group, texts, converged }) {
   const gap = Math.abs(group.number("certificate_gap"));
   if (kind !== "minimax" || !band || Number.isNaN(gap)) return [];
   const near = gap < roundingGap ? "rounding" : `${numberText(gap, 2)} (relative)`;
   return converged
     ? [
-        `Certificate: all peaks of the band were solved; the worst of them and the bound of the tuning agree to ${near}.`,
+        `${texts?.not_proved ? "Among the responses found" : "Certificate"}: all peaks of the band were solved; the worst of them and the bound of the tuning agree to ${near}.`,
       ]
     : [`There is no certificate; the worst peak and the bound of the tuning differ by ${near}.`];
 }
@@ -38,6 +38,12 @@ function startsText(group) {
   );
 }
 
+// Where several responses may exist: what their search leaves open.
+function searchSentences({ texts }) {
+  const text = texts?.not_proved ?? "";
+  return text ? [`Several responses may exist: ${text}.`] : [];
+}
+
 export function certificateSentences(tuning) {
   const { group, converged } = tuning;
   const starts = group.values("start_objective")?.length ?? 1;
@@ -47,7 +53,7 @@ export function certificateSentences(tuning) {
       : converged
         ? ["That no better design lies elsewhere within the bounds is not proved: one start was made."]
         : [];
-  return [...gapSentences(tuning), ...conditionSentences(tuning), ...elsewhere];
+  return [...gapSentences(tuning), ...conditionSentences(tuning), ...elsewhere, ...searchSentences(tuning)];
 }
 
 const outcomeWords = {

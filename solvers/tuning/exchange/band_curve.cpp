@@ -22,7 +22,8 @@ BandCurve::BandCurve(const Task& task, const DesignSpace& space, const CurveKind
     : task_(task),
       kind_(kind),
       sides_(periodic::has_sides(kind.quantity.measure) ? 2 : 1),
-      response_(task, space, kind.scenario, sides_of(kind.quantity), effort) {
+      response_(task, space, kind.scenario, sides_of(kind.quantity), effort,
+                kind.of == CurveKind::Of::lower_limit ? Worst::smallest : Worst::largest) {
   if (kind.of == CurveKind::Of::dominated)
     constant_.emplace(task, space, kind.scenario, std::vector<Quantity>{kind.quantity}, effort);
 }

@@ -47,8 +47,11 @@ class BandCurve {
   double derivative(std::size_t side, std::size_t parameter) const;  // d value / d parameter, all else held
   double slope_left(std::size_t side) const;                         // d value / d band along the schedules
   double slope_right(std::size_t side) const;
-  // Sides that need a bound each: both of a peak without symmetry, else only the first.
-  std::size_t sides() const { return sides_ == 2 && !response_.is_symmetric() ? 2 : 1; }
+  // Sides that need a bound each: both of a peak without symmetry, else only the first. Of several orbits the
+  // worst has the larger side, which alone counts.
+  std::size_t sides() const {
+    return sides_ == 2 && !response_.is_symmetric() && !response_.may_jump() ? 2 : 1;
+  }
   double quantity(std::size_t side) const { return response_.value(side_of(side)); }  // unscaled, unweighted
 
   const TunedResponse& response() const { return response_; }

@@ -24,8 +24,8 @@ bool is_finite(const CurvePoint& point) {
 
 class Search {
  public:
-  Search(const CurveAt& curve, double floor, double accuracy)
-      : curve_(curve), floor_(floor), accuracy_(accuracy) {}
+  Search(const CurveAt& curve, double floor, double accuracy, bool may_jump)
+      : curve_(curve), floor_(floor), accuracy_(accuracy), may_jump_(may_jump) {}
 
   BandMaxima over(std::span<const double> seeds) {
     std::vector<CurvePoint> points;
@@ -56,7 +56,9 @@ class Search {
     if (!is_finite(a) || !is_finite(b)) {
       // A point without a value between two that have one is left to the samples; its surroundings are
       // searched down to a thousandth of the seeds' spacing.
-      if (h < 1e6 * narrowest || (!is_finite(a) && !is_finite(b))) return;
+      const bool may_be_top = may_jump_ && rises_to_top(a, b);
+      if (may_be_top && h <= narrowest) return add_end(is_finite(a) ? a : b);
+      if ((h < 1e6 * narrowest && !may_be_top) || (!is_finite(a) && !is_finite(b))) return;
       const CurvePoint m = ask(0.5 * (a.at + b.at));
       search(a, m, narrowest);
       search(m, b, narrowest);
@@ -64,7 +66,7 @@ class Search {
     }
     if (reach(a, b) < floor_ * largest_) return;
     if (h <= narrowest) {
-      consider_kink(a, b);
+      may_jump_ ? consider_jump(a, b) : consider_kink(a, b);
       return;
     }
     const CurvePoint m = ask(0.5 * (a.at + b.at));
@@ -92,9 +94,10 @@ class Search {
   // The maximum between two points on a stretch where the slope changes its sign at most once.
   void climb(const CurvePoint& a, const CurvePoint& b) {
     if (!(a.slope_right > 0.0 && b.slope_left < 0.0)) return;
-    CurvePoint last = a;
+    CurvePoint last = a, highest = a.value > b.value ? a : b;
     const auto slope = [&](double at) {
       last = ask(at);
+      if (last.value > highest.value) highest = last;
       const double mean = 0.5 * (last.slope_left + last.slope_right);
       return std::isnan(mean) ? 0.0 : mean;
     };
@@ -104,6 +107,10 @@ class Search {
         boost::math::tools::toms748_solve(slope, a.at, b.at, a.slope_right, b.slope_left,
                                           boost::math::tools::eps_tolerance<double>(46), evaluations);
     const CurvePoint top = ask(0.5 * (left + right));
+    if (may_jump_ && highest.value > top.value * (1.0 + 1e-12)) {
+      add_end(highest);  // the slopes changed their sign by a jump
+      return;
+    }
     found_.maxima.push_back(std::isfinite(top.value) ? top : last);
   }
 
@@ -114,6 +121,24 @@ class Search {
 
   void consider_kink(const CurvePoint& a, const CurvePoint& b) {
     if (a.slope_right > 0.0 && b.slope_left < 0.0) found_.maxima.push_back(a.value > b.value ? a : b);
+  }
+
+  // Whether the curve rises from one of two points towards the other, which has no slope, and may there be
+  // the highest of all.
+  bool rises_to_top(const CurvePoint& a, const CurvePoint& b) const {
+    const double rise = (b.at - a.at) * (is_finite(a) ? a.slope_right : -b.slope_left);
+    return rise > 0.0 && (is_finite(a) ? a : b).value + rise > 0.98 * largest_;
+  }
+
+  // Where the curve jumps it ends on its higher side.
+  void consider_jump(const CurvePoint& a, const CurvePoint& b) {
+    if (a.value >= b.value && a.slope_right > 0.0) add_end(a);
+    if (b.value > a.value && b.slope_left < 0.0) add_end(b);
+  }
+
+  void add_end(CurvePoint point) {
+    point.is_end = true;
+    found_.maxima.push_back(point);
   }
 
   void consider_seeds(const std::vector<CurvePoint>& points) {
@@ -144,6 +169,7 @@ class Search {
 
   const CurveAt& curve_;
   double floor_, accuracy_;
+  bool may_jump_;
   double largest_ = 0.0;
   BandMaxima found_;
 };
@@ -151,8 +177,8 @@ class Search {
 }  // namespace
 
 BandMaxima find_band_maxima(const CurveAt& curve, std::span<const double> seeds, double floor,
-                            double accuracy) {
-  return Search(curve, floor, accuracy).over(seeds);
+                            double accuracy, bool may_jump) {
+  return Search(curve, floor, accuracy, may_jump).over(seeds);
 }
 
 }  // namespace frahm::tuning

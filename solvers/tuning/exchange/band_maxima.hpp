@@ -11,6 +11,7 @@ struct CurvePoint {
   double at = 0.0;
   double value = 0.0;                          // NaN: no value there; infinite: without bound
   double slope_left = 0.0, slope_right = 0.0;  // exact; they differ at a kink known in advance
+  bool is_end = false;                         // a maximum beside which the curve jumps down
 };
 using CurveAt = std::function<CurvePoint(double at)>;
 
@@ -29,7 +30,10 @@ struct BandMaxima {
 // only if a curve without it has the same value and slope at both ends and the middle. Intervals whose cubic
 // cannot come near `floor` times the largest value are left out. accuracy: of the values, relative to the
 // largest.
+// may_jump: the curve is the worst of several orbits. Where one of them ends it falls by a jump, or goes on
+// without a slope, and its last point is a maximum if the curve rises towards it. Two jumps between
+// neighbouring points may hide.
 BandMaxima find_band_maxima(const CurveAt& curve, std::span<const double> seeds, double floor,
-                            double accuracy);
+                            double accuracy, bool may_jump = false);
 
 }  // namespace frahm::tuning

@@ -37,9 +37,13 @@ BandScan::BandScan(const Task& task, const DesignSpace& space, const std::vector
 void BandScan::scan_curve(std::span<const double> x, std::size_t c, double floor, double accuracy,
                           Scan& scan) {
   BandCurve& curve = *responses_[c];
+  Scan::Extreme motion;  // the highest that is not periodic
   const auto point_at = [&](double band) -> CurvePoint {
     if (stop_asked_()) return {band, kNone, kNone, kNone};
     const auto state = curve.solve(x, band, Derivatives::along_band);
+    if (state == TunedResponse::State::solved && !curve.response().is_periodic() &&
+        curve.value(BandCurve::larger) > motion.value)
+      motion = {band, curve.value(BandCurve::larger), false};
     if (state == TunedResponse::State::solved) {
       constexpr std::size_t side = BandCurve::larger;
       return {band, curve.value(side), curve.slope_left(side), curve.slope_right(side)};
@@ -52,17 +56,22 @@ void BandScan::scan_curve(std::span<const double> x, std::size_t c, double floor
     }
     return {band, unbounded ? kInfinity : kNone, kNone, kNone};
   };
-  const BandMaxima found =
-      find_band_maxima(point_at, places_of(task_, space_, curves_[c], x, kIntervals), floor, accuracy);
+  const std::vector<double> places = places_of(task_, space_, curves_[c], x, kIntervals);
+  const bool may_jump = curve.response().may_jump();
+  // Downwards first: the orbits found on the way are starts of the way up.
+  for (auto place = places.rbegin(); may_jump && place != places.rend() && !stop_asked_(); ++place)
+    curve.solve(x, *place, Derivatives::none);
+  const BandMaxima found = find_band_maxima(point_at, places, floor, accuracy, may_jump);
   for (const CurvePoint& maximum : found.maxima) {
     const auto state = curve.solve(x, maximum.at, Derivatives::none);
     const std::size_t sides = state == TunedResponse::State::solved ? curve.sides() : 1;
-    scan.maxima.push_back({c, maximum.at, maximum.value, sides});
+    scan.maxima.push_back({c, maximum.at, maximum.value, sides, maximum.is_end});
   }
   Scan::Extreme highest;
   for (const CurvePoint& sample : found.samples) {
     if (sample.value > highest.value) highest = {sample.at, sample.value};
   }
+  if (motion.value >= highest.value) highest = motion;
   scan.tightest.push_back(highest);
   if (curves_[c].of == CurveKind::Of::objective)
     scan.worst = std::max(scan.worst, highest.value);

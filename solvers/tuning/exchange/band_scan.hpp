@@ -16,9 +16,11 @@ struct Scan {
     std::size_t curve = 0;
     double at = 0.0, value = 0.0;
     std::size_t sides = 1;
+    bool is_end = false;  // the curve jumps down beside it
   };
   struct Extreme {
     double at = 0.0, value = -kInfinity;
+    bool periodic = true;  // its point is that of an orbit
   };
   std::vector<Maximum> maxima;    // by curve, then along the band
   std::vector<Extreme> tightest;  // of each curve, where it is highest, however low that is

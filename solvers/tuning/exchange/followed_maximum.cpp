@@ -20,6 +20,11 @@ class Climb {
   // false: no response there
   bool ask(double at, Slope& slope) {
     if (curve_.solve(x_, at, Derivatives::along_band) != TunedResponse::State::solved) return false;
+    value_ = curve_.value(side_);
+    if (std::isnan(highest_at_) || value_ > highest_) {
+      highest_ = value_;
+      highest_at_ = at;
+    }
     slope = {at, 0.5 * (curve_.slope_left(side_) + curve_.slope_right(side_))};
     return std::isfinite(slope.value);
   }
@@ -27,11 +32,14 @@ class Climb {
   bool is_top(const Slope& here, double step) const {
     return std::abs(here.value * step) <= 1e-16 * std::abs(curve_.value(side_));
   }
+  double value() const { return value_; }            // of the curve where it was asked last
+  double highest_at() const { return highest_at_; }  // where it was highest; NaN: nowhere
 
  private:
   BandCurve& curve_;
   std::span<const double> x_;
   std::size_t side_;
+  double value_ = kNone, highest_ = kNone, highest_at_ = kNone;
 };
 
 // Where a straight line through two slopes is zero.
@@ -39,11 +47,24 @@ double secant(const Slope& a, const Slope& b) {
   return b.at - b.value * (b.at - a.at) / (b.value - a.value);
 }
 
-// Leaves the curve solved at its maximum. Returns the maximum's place; NaN: no response.
-double climb_to_maximum(BandCurve& curve, std::span<const double> x, double near, double from, double to,
-                        std::size_t side) {
+// Between a place on a stretch that rises and one beyond its end, where the curve is lower: closes in on the
+// end.
+void close_in_on_end(Climb& climb, double on, double beyond) {
+  constexpr int kHalvings = 30;
+  double least = kNone;
+  Slope slope;
+  if (climb.ask(on, slope)) least = climb.value();
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (on + beyond);
+    const bool on_stretch = climb.ask(middle, slope) && climb.value() >= least;
+    (on_stretch ? on : beyond) = middle;
+  }
+}
+
+// Leaves the curve solved at its maximum. Returns the maximum's place; NaN: no response, or the end of a
+// stretch.
+double climb_to_maximum(BandCurve& curve, Climb& climb, double near, double from, double to) {
   constexpr int kMostSteps = 60;
-  Climb climb(curve, x, side);
   // 1. Uphill from `near`, by longer and longer steps, until the slope turns: the maximum is between low and
   // high.
   Slope low, high;
@@ -54,8 +75,13 @@ double climb_to_maximum(BandCurve& curve, std::span<const double> x, double near
     if (low.value == 0.0) return low.at;
     const double next = std::clamp(low.at + direction * stride, from, to);
     if (next == low.at) return low.at;  // the end of the stretch is the highest
+    const double value = climb.value();
     if (!climb.ask(next, high)) return kNone;
     turned = high.value * direction <= 0.0;
+    if (!turned && curve.response().may_jump() && climb.value() < value) {
+      close_in_on_end(climb, low.at, next);
+      return kNone;
+    }
     if (!turned) low = high;
   }
   // 2. The root of the slope between them: secants, halves where these do not help (Dekker 1969).
@@ -76,7 +102,12 @@ double climb_to_maximum(BandCurve& curve, std::span<const double> x, double near
 
 bool follow_maximum(BandCurve& curve, std::span<const double> x, double near, double from, double to,
                     std::size_t side, Derivatives derivatives) {
-  const double at = climb_to_maximum(curve, x, near, from, to, side);
+  Climb climb(curve, x, side);
+  double at = climb_to_maximum(curve, climb, near, from, to);
+  if (curve.response().may_jump() && at != climb.highest_at()) {
+    at = climb.highest_at();
+    return !std::isnan(at) && curve.solve(x, at, derivatives) == TunedResponse::State::solved;
+  }
   if (std::isnan(at)) return false;
   return derivatives != Derivatives::all || curve.solve(x, at, derivatives) == TunedResponse::State::solved;
 }

@@ -34,10 +34,25 @@ std::vector<std::vector<Eigen::Index>> configurations(Eigen::Index contacts) {
   return sets;
 }
 
+// Stiffness and damping with the bends of one side (+1, -1) passed.
+struct Held {
+  Eigen::MatrixXd K, C;
+};
+Held beyond(const mechanics::LinearSystem& system, double side) {
+  Held held{system.K, system.C};
+  for (Eigen::Index b = 0; b < system.bends.count(); ++b) {
+    if (system.bends.side[static_cast<std::size_t>(b)] != side) continue;
+    const Eigen::VectorXd w = system.bends.W.col(b);
+    held.K += system.bends.stiffness[b] * w * w.transpose();
+    held.C += system.bends.damping[b] * w * w.transpose();
+  }
+  return held;
+}
+
 // Poles of z' = A z, z = (eta, eta', s), q = B eta: the motions that the held contacts leave free. A slider
 // behind a spring has s' = k u' while it sticks, and s' = 0 while it slides.
-void add_poles(const mechanics::LinearSystem& system, const std::vector<Eigen::Index>& stuck,
-               std::vector<Pole>& poles) {
+void add_poles(const mechanics::LinearSystem& system, const Held& held_by,
+               const std::vector<Eigen::Index>& stuck, std::vector<Pole>& poles) {
   const Eigen::Index m = system.internal_forces();
   std::vector<Eigen::Index> held;
   Eigen::VectorXd spring = system.internal_stiffness;
@@ -56,8 +71,8 @@ void add_poles(const mechanics::LinearSystem& system, const std::vector<Eigen::I
   const Eigen::MatrixXd mass_inverse = algebra::inverse(B.transpose() * system.M * B);
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * k + m, 2 * k + m);
   A.block(0, k, k, k).setIdentity();
-  A.block(k, 0, k, k) = -mass_inverse * (B.transpose() * system.K * B);
-  A.block(k, k, k, k) = -mass_inverse * (B.transpose() * system.C * B);
+  A.block(k, 0, k, k) = -mass_inverse * (B.transpose() * held_by.K * B);
+  A.block(k, k, k, k) = -mass_inverse * (B.transpose() * held_by.C * B);
   A.block(k, 2 * k, k, m) = -mass_inverse * (B.transpose() * system.D);
   A.block(2 * k, k, m, k) = spring.asDiagonal() * (system.D.transpose() * B);
   A.block(2 * k, 2 * k, m, m).diagonal() = -system.internal_rate;
@@ -70,11 +85,16 @@ void add_poles(const mechanics::LinearSystem& system, const std::vector<Eigen::I
 // In an order that is the same along the band: by configuration, then frequency.
 std::vector<Pole> poles_of(const mechanics::LinearSystem& system) {
   std::vector<Pole> poles;
-  for (const auto& stuck : configurations(system.contacts())) {
-    const auto first = static_cast<std::ptrdiff_t>(poles.size());
-    add_poles(system, stuck, poles);
-    std::sort(poles.begin() + first, poles.end(),
-              [](const Pole& a, const Pole& b) { return a.omega_d < b.omega_d; });
+  std::vector<Held> springs{{system.K, system.C}};
+  if (!system.monotone && system.bends.count() > 0)
+    springs.insert(springs.end(), {beyond(system, 1.0), beyond(system, -1.0)});
+  for (const Held& held_by : springs) {
+    for (const auto& stuck : configurations(system.contacts())) {
+      const auto first = static_cast<std::ptrdiff_t>(poles.size());
+      add_poles(system, held_by, stuck, poles);
+      std::sort(poles.begin() + first, poles.end(),
+                [](const Pole& a, const Pole& b) { return a.omega_d < b.omega_d; });
+    }
   }
   return poles;
 }

@@ -17,7 +17,8 @@ using ValuesAt = std::function<const mechanics::NetworkValues&(double band)>;
 // Between events the network is linear: one of the configurations with some contacts stuck and the others
 // sliding. So its response is made of pieces whose poles -decay +- i omega_d are known, and friction only
 // adds damping: a peak about omega_d/order is at least decay/order wide. The configurations used are all
-// contacts sliding, all stuck, and each alone in either state.
+// contacts sliding, all stuck, and each alone in either state. Of elements that bend over their displacement,
+// also with all bends of one side passed; but a peak of theirs may lie anywhere between, and be narrower.
 std::vector<double> resonance_places(const mechanics::Network& network, const ValuesAt& values_at,
                                      const Band& band, const std::vector<double>& kinks, int intervals);
 

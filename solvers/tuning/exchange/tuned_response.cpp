@@ -1,7 +1,9 @@
 #include "solvers/tuning/exchange/tuned_response.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/mechanics/linear_system.hpp"
 #include "solvers/orbits/orbit.hpp"
 
@@ -38,17 +40,22 @@ void add(const mechanics::NetworkValues& values, double factor, mechanics::Netwo
 }  // namespace
 
 TunedResponse::TunedResponse(const Task& task, const DesignSpace& space, std::size_t scenario,
-                             std::vector<periodic::Quantity> quantities, Effort& effort)
+                             std::vector<periodic::Quantity> quantities, Effort& effort, Worst worst)
     : task_(task),
       space_(space),
       scenario_(scenario),
-      response_(task.network, quantities),
+      response_(task.network, quantities, periodic::Path::fastest, task.orbits),
       effort_(effort),
       interpolations_(space.parameters()),
+      quantities_(quantities),
+      worst_(worst),
+      may_jump_(may_take_several_orbits(task.network)),
       at_(space.parameters() + 1),
       value_(quantities.size()),
       derivative_(at_.size() * quantities.size()),
-      slope_(quantities.size()) {}
+      slope_(quantities.size()) {
+  effort.seen.resize(task.scenarios.size());
+}
 
 TunedResponse::State TunedResponse::solve(std::span<const double> x, double band, Derivatives derivatives) {
   const State state = solve_at(x, band, derivatives);
@@ -73,21 +80,57 @@ TunedResponse::State TunedResponse::solve_at(std::span<const double> x, double b
     return State::failed;
   }
   response_.begin_row();
+  if (may_jump_) response_.start_from(effort_.seen[scenario_].near(band));
   const periodic::ResponseSummary& summary = response_.solve();
   ++effort_.orbits;
+  if (may_jump_) effort_.seen[scenario_].keep(band, response_.known());
   is_symmetric_ = summary.half_period;
+  is_periodic_ = summary.status != periodic::Status::not_periodic;
+  coexisting_ = summary.coexisting;
   reason_ = summary.reason;
   if (summary.status == periodic::Status::unbounded) return State::unbounded;
-  if (summary.status == periodic::Status::failed || summary.status == periodic::Status::not_periodic)
+  if (summary.status == periodic::Status::failed) return State::failed;
+  if (coexisting_ == 1)
+    response_.quantities(value_);
+  else if (!tell_worst(is_periodic_ ? coexisting_ : summary.motions))
     return State::failed;
-  response_.quantities(value_);
-  if (derivatives != Derivatives::none) {
+  if (derivatives != Derivatives::none && is_periodic_) {
     ++effort_.gradients;
     const std::string why_none = differentiate(derivatives);
     gradient_missing_ = !why_none.empty();
     if (gradient_missing_) reason_ = why_none;
+  } else if (derivatives != Derivatives::none) {
+    std::ranges::fill(derivative_, 0.0);
+    std::ranges::fill(slope_, Slopes{kNone, kNone});
   }
   return State::solved;
+}
+
+// Leaves the response at the worst of those found, by the larger side of a peak. Returns whether there is
+// one.
+bool TunedResponse::tell_worst(int responses) {
+  constexpr int kMotion = 64;  // periods that what is told of a motion takes
+  std::vector<double> values(value_.size());
+  double worst = kNone;
+  int last = -1, told = -1;
+  const auto size_of = [&](int which) {
+    response_.tell(last = which);
+    response_.quantities(values);
+    for (std::size_t q = 0; q < values.size() && !is_periodic_; ++q) {
+      if (periodic::is_of_a_period(quantities_[q].measure)) values[q] /= kMotion;
+    }
+    return *std::ranges::max_element(values);
+  };
+  for (int which = 0; which < responses; ++which) {
+    const double size = size_of(which);
+    const bool is_worse = worst_ == Worst::largest ? size > worst : size < worst;
+    if (!std::isfinite(size) || !(std::isnan(worst) || is_worse)) continue;
+    worst = size;
+    told = which;
+    value_ = values;
+  }
+  if (told >= 0 && told != last) size_of(told);
+  return told >= 0;
 }
 
 // Returns why there are none, as PeriodicResponse::gradient().

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "solvers/response/periodic_response.hpp"
+#include "solvers/tuning/exchange/seen_orbits.hpp"
 #include "solvers/tuning/schedules/design_space.hpp"
 #include "solvers/tuning/task.hpp"
 
@@ -15,17 +16,23 @@ namespace frahm::tuning {
 // those by every design parameter.
 enum class Derivatives { none, along_band, all };
 
+// What a tuning took, and what it met on its way.
 struct Effort {
   std::uint64_t orbits = 0, gradients = 0;
+  std::vector<SeenOrbits> seen;  // of each scenario; of a network that may have several responses
 };
 
+// Which of several responses counts.
+enum class Worst { largest, smallest };
+
 // Responses of one scenario of a task at designs and frequencies one after the other, each search starting
-// from the orbit before.
+// from the orbit before. Of several stable orbits the worst one found counts; where none is found, the worst
+// over 64 periods of the motions that were followed: such a point has a value but no derivative.
 class TunedResponse {
  public:
   // task, space, effort: must outlive the response. quantities: a peak with its side.
   TunedResponse(const Task& task, const DesignSpace& space, std::size_t scenario,
-                std::vector<periodic::Quantity> quantities, Effort& effort);
+                std::vector<periodic::Quantity> quantities, Effort& effort, Worst worst = Worst::largest);
 
   enum class State { solved, unbounded, failed };
   // Solves at the design x and a point of the band. If a derivative is needed and the orbit grazes, the orbit
@@ -44,6 +51,11 @@ class TunedResponse {
   double slope_right(std::size_t quantity) const { return slope_[quantity].right; }
   // x(t + T/2) = -x(t): both sides of every peak are equal.
   bool is_symmetric() const { return is_symmetric_; }
+  // The worst one may change from one orbit to another, and the curve jumps there.
+  bool may_jump() const { return may_jump_; }
+  // Whether the point is that of an orbit; its derivatives are 0 and its slopes NaN where it is not.
+  bool is_periodic() const { return is_periodic_; }
+  int coexisting() const { return coexisting_; }  // stable orbits found
   const mechanics::NetworkValues& values() const { return values_; }
   const DesignSpace::Interpolation& interpolation(std::size_t parameter) const {
     return interpolations_[parameter];
@@ -51,6 +63,7 @@ class TunedResponse {
 
  private:
   State solve_at(std::span<const double> x, double band, Derivatives derivatives);
+  bool tell_worst(int responses);
   std::string differentiate(Derivatives derivatives);
   bool is_smooth() const;
   std::string differentiate_along_band();
@@ -69,10 +82,14 @@ class TunedResponse {
   mechanics::NetworkValues values_;
   std::vector<mechanics::NetworkValues> directions_;
   std::vector<DesignSpace::Interpolation> interpolations_;
+  const std::vector<periodic::Quantity> quantities_;
+  const Worst worst_;
+  const bool may_jump_;
   std::vector<double> at_, value_, derivative_;
   std::vector<Slopes> slope_;  // of each quantity
   std::string reason_;
-  bool is_symmetric_ = false, gradient_missing_ = false;
+  bool is_symmetric_ = false, gradient_missing_ = false, is_periodic_ = true;
+  int coexisting_ = 1;
 };
 
 }  // namespace frahm::tuning

@@ -47,7 +47,9 @@ class Assessor {
     std::vector<double> nominal;
     for (const DesignParameter& parameter : task_.parameters) nominal.push_back(parameter.nominal);
     result.curves.push_back(curve("before", tuning_, constants(tuning_.space(), nominal), result.band));
+    searched_ = {};
     result.curves.push_back(curve("after", tuning_, x_, result.band));
+    result.searched = searched_;
     if (!optimum_.constant.empty())
       result.curves.push_back(
           curve("constant", tuning_, constants(tuning_.space(), optimum_.constant), result.band));
@@ -81,6 +83,10 @@ class Assessor {
       for (const double at : band) {
         const bool solved = response.solve(x, at, Derivatives::none) == TunedResponse::State::solved;
         value.push_back(solved ? response.value(BandCurve::larger) : kNone);
+        ++searched_.points;
+        if (!solved) continue;
+        if (!response.response().is_periodic()) ++searched_.not_periodic;
+        if (response.response().coexisting() > 1) ++searched_.several;
       }
     }
     result.worst = worst(tuning, x);
@@ -137,6 +143,7 @@ class Assessor {
 
   const Task task_;
   Effort effort_;
+  SearchedPoints searched_;
   const std::function<bool()> never_stop_ = [] { return false; };
   DesignTuning tuning_;
   const Optimum& optimum_;

@@ -4,6 +4,7 @@
 
 #include "studies/reading/study.hpp"
 #include "studies/tuning/tuned_design.hpp"
+#include "studies/tuning/tuning_record.hpp"
 #include "studies/tuning/tuning_task.hpp"
 #include "tests/studies/small_tunings.hpp"
 
@@ -59,6 +60,21 @@ TEST_CASE("a tuning has its defaults, and its choices where they are made") {
   const Study global = parse(heading + absorber + minimax + "start = \"nlopt\"\nglobal = \"isres\"\n" + of_f);
   CHECK(global.tune()->start == Start::global);
   CHECK(global.tune()->global_solver == frahm::tuning::SolverKind::isres);
+}
+
+TEST_CASE("a least worst peak takes elements with several responses, and [orbits] says how they are searched") {
+  const std::string stops =
+      "[[element]]\nname = \"stops\"\ntype = \"gap\"\nbetween = [\"main\", \"tmd\"]\nclearance = 3\n"
+      "stiffness = 0.1\n";
+  const std::string searched = "[orbits]\nstarts = 5\nmost_multiple = 2\n";
+  const Study study = parse(heading + absorber + stops + searched + minimax + of_f);
+  CHECK(study.tune()->orbits.starts == 5);
+  CHECK(study.tune()->orbits.most_multiple == 2);
+  const frahm::tuning::Task task = frahm::studies::tuning_task(study);
+  CHECK(task.orbits.starts == 5);
+  CHECK(frahm::tuning::may_take_several_orbits(task.network));
+  CHECK_FALSE(frahm::studies::not_proved(study).empty());
+  CHECK(frahm::studies::not_proved(parse(classical)).empty());
 }
 
 TEST_CASE("bands, bounds, knots and slopes are in the units the study gives, SI within") {

@@ -67,6 +67,30 @@ TEST_CASE("a peak of a millionth of the band's width is found between two broad 
   CHECK(highest(found) >= curve(23.456789).value);
 }
 
+TEST_CASE("the worst of two branches: where the higher one ends, its last point is a maximum") {
+  constexpr double end = 20.123456789, place = 1e-8;  // relative: the search stops there
+  const auto curve = [](double x) {
+    return x <= end ? CurvePoint{x, 1.0 + 0.1 * (x - 15.0), 0.1, 0.1}
+                    : CurvePoint{x, 0.5 - 0.01 * (x - 15.0), -0.01, -0.01};
+  };
+  const BandMaxima found = find_band_maxima(curve, seeds(15, 35, {}), 0.1, 1e-7, true);
+  REQUIRE(found.maxima.size() == 1);
+  CHECK(found.maxima[0].is_end);
+  CHECK(found.maxima[0].at == Approx(end).epsilon(place));
+  CHECK(found.maxima[0].at <= end);
+}
+
+TEST_CASE("where a branch ends before places with values but no slopes, its last point is a maximum") {
+  constexpr double end = 20.123456789, place = 1e-8;
+  const auto curve = [](double x) {
+    return x <= end ? CurvePoint{x, 1.0 + 0.1 * (x - 15.0), 0.1, 0.1} : CurvePoint{x, 0.5, NAN, NAN};
+  };
+  const BandMaxima found = find_band_maxima(curve, seeds(15, 35, {}), 0.1, 1e-7, true);
+  REQUIRE(found.maxima.size() == 1);
+  CHECK(found.maxima[0].is_end);
+  CHECK(found.maxima[0].at == Approx(end).epsilon(place));
+}
+
 TEST_CASE("random sums of resonances: no sample of 20,000 lies above the highest maximum found") {
   std::mt19937_64 random(20261121);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
