@@ -218,6 +218,8 @@ std::vector<StuckForce> OrbitSearch<N, H>::stuck_forces(ContactMask contacts, co
 // grazing. `orbit` is unchanged if no rest position keeps the forces within their limits.
 template <int N, int H>
 typename OrbitSearch<N, H>::Shift OrbitSearch<N, H>::settle_rest_position(Orbit<N, H>& orbit) {
+  if (orbit.stuck_throughout == 0)
+    return Shift::none;  // a Jenkins slider that was to be held slid from the start
   const StepEquations<N, H>& eq = flow_.equations();
   const std::vector<StuckForce> forces = stuck_forces(orbit.stuck_throughout, orbit);
   integrals_.integrate(steps_, flow_, orbit.half_period, {},
