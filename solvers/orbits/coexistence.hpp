@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "solvers/algebra/no_value.hpp"
@@ -44,10 +45,13 @@ class Coexistence {
   void find(const mechanics::LinearSystem& system, Orbit<N, H>& orbit);
 
  private:
+  // Contacts that stick and bends that act, one after the other.
+  using Sequence = std::vector<std::pair<ContactMask, ContactMask>>;
   struct Found {
     Orbit<N, H> orbit;
     std::vector<typename S::State> returns;  // its states at phase 0, after each period
     double peak = 0.0;                       // of the first mass [m]
+    Sequence sequence{};
   };
   // An orbit of the point before, in SI.
   struct Earlier {
@@ -58,7 +62,10 @@ class Coexistence {
   void follow(typename S::State z, const mechanics::LinearSystem& system);
   int likely_multiple(const std::vector<typename S::State>& trail) const;
   bool find_near(const typename S::State& z, int multiple, const mechanics::LinearSystem& system);
-  bool keep(Orbit<N, H>& orbit, double peak);
+  void bring_to_rest(Orbit<N, H>& orbit);
+  Sequence sequence_of(const Orbit<N, H>& orbit) const;
+  bool is_of_known_family(const Orbit<N, H>& orbit, const Sequence& sequence) const;
+  bool keep(Orbit<N, H>& orbit, double peak, const Sequence& sequence);
   double distance(const typename S::State& z, const Found& found) const;
   bool is_known(const typename S::State& z, double within) const;
   typename S::State random_start(int index, const mechanics::LinearSystem& system);
@@ -145,21 +152,65 @@ bool Coexistence<N, H>::find_near(const typename S::State& z, int multiple,
   newton_iterations_ += orbit.newton_iterations;
   bool is_stable = false;
   if (orbit.is_found()) {
-    if (orbit.stuck_throughout != 0) settle_(orbit);
+    if (orbit.stuck_throughout != 0) bring_to_rest(orbit);
     judge_stability(flow_, orbit);
     is_stable = orbit.is_stable() || std::isnan(orbit.floquet_radius);
     found_unstable_ = found_unstable_ || !is_stable;
   }
   const double peak = is_stable ? peak_of_(orbit) : 0.0;
+  const Sequence sequence = is_stable ? sequence_of(orbit) : Sequence{};
   if (multiple > 1) flow_.set_forcing(system);
-  return is_stable && keep(orbit, peak);
+  return is_stable && keep(orbit, peak, sequence);
+}
+
+// Moves an orbit with contacts that stick throughout to its rest position. The shift leaves the rest of the
+// motion as it is, but where stops or springs bend: there the orbit is found again from the shifted one,
+// until both agree. Where they do not, or the contacts then slip, it stays where it was found.
+template <int N, int H>
+void Coexistence<N, H>::bring_to_rest(Orbit<N, H>& orbit) {
+  constexpr int kMostShifts = 30;
+  constexpr double kAgrees = 1e-10;  // of the orbit's size
+  if (flow_.equations().bends.count() == 0) return settle_(orbit);
+  const Orbit<N, H> as_found = orbit;
+  for (int shift = 0; shift < kMostShifts; ++shift) {
+    const typename S::State before = orbit.z;
+    settle_(orbit);
+    const double moved = flow_.equations().energy_norm(orbit.z - before);
+    if (moved == 0.0) return;
+    const Status status = orbit.status;  // grazing, where a force is at its limit
+    shooting_.find(orbit);
+    passages_ += orbit.multiple * orbit.passages;
+    if (!orbit.is_found() || orbit.stuck_throughout != as_found.stuck_throughout) break;
+    if (status == Status::grazing) orbit.status = status;
+    if (moved <= kAgrees * flow_.energy_scale(orbit.z)) return;
+  }
+  orbit = as_found;
+}
+
+template <int N, int H>
+typename Coexistence<N, H>::Sequence Coexistence<N, H>::sequence_of(const Orbit<N, H>& orbit) const {
+  Sequence sequence;
+  for (const Segment<N, H>& segment : orbit.passage.segments)
+    sequence.emplace_back(flow_.mode(segment.mode).stuck, flow_.mode(segment.mode).beyond);
+  return sequence;
+}
+
+// Contacts that stick throughout may rest anywhere in an interval, and where stops are touched the motion
+// differs from place to place: orbits that pass through the same states are then one.
+template <int N, int H>
+bool Coexistence<N, H>::is_of_known_family(const Orbit<N, H>& orbit, const Sequence& sequence) const {
+  if (orbit.stuck_throughout == 0 || flow_.equations().bends.count() == 0) return false;
+  return std::ranges::any_of(stable_, [&](const Found& found) {
+    return found.orbit.stuck_throughout == orbit.stuck_throughout && found.orbit.multiple == orbit.multiple &&
+           found.sequence == sequence;
+  });
 }
 
 // Adds a stable orbit to those known. False where a multiple of the period is that of a shorter orbit.
 template <int N, int H>
-bool Coexistence<N, H>::keep(Orbit<N, H>& orbit, double peak) {
+bool Coexistence<N, H>::keep(Orbit<N, H>& orbit, double peak, const Sequence& sequence) {
   constexpr double kSame = 1e-7;
-  if (is_known(orbit.z, kSame)) return true;
+  if (is_known(orbit.z, kSame) || is_of_known_family(orbit, sequence)) return true;
   Found found;
   found.returns.push_back(orbit.z);
   for (int m = 1; m < orbit.multiple; ++m) {
@@ -172,6 +223,7 @@ bool Coexistence<N, H>::keep(Orbit<N, H>& orbit, double peak) {
   }
   found.orbit = std::move(orbit);
   found.peak = peak;
+  found.sequence = sequence;
   stable_.push_back(std::move(found));
   return true;
 }
@@ -238,7 +290,7 @@ void Coexistence<N, H>::tell(const mechanics::LinearSystem& system, Orbit<N, H>&
   const int passages = passages_, iterations = newton_iterations_, coexisting = orbit.coexisting;
   orbit = told.orbit;
   shooting_.find(orbit);
-  if (orbit.stuck_throughout != 0) settle_(orbit);
+  if (orbit.stuck_throughout != 0) bring_to_rest(orbit);
   judge_stability(flow_, orbit);
   orbit.passages += passages;
   orbit.newton_iterations += iterations;

@@ -48,8 +48,18 @@ Totals compare(unsigned first, unsigned count, int starts, const OrbitsWanted& w
 }
 
 TEST_CASE("The search finds every stable orbit that random starts of an independent integration reach") {
-  const Totals totals = compare(0, 20, 20, {});
+  const Totals totals = compare(0, 40, 20, {});
   CHECK(totals.missed == 0);
+  CHECK(totals.unclosed == 0);
+  CHECK(totals.found >= totals.reached);
+}
+
+// Ten minutes and more: test_known_answers "[thorough]". What is missed are subharmonics of small basins.
+TEST_CASE("In 300 systems, from 500 starts each, it misses few", "[.thorough]") {
+  constexpr double kFew = 0.03;  // of the orbits reached
+  const Totals totals = compare(0, 300, 500, {});
+  WARN(totals.reached << " orbits reached, " << totals.found << " found, " << totals.missed << " missed");
+  CHECK(totals.missed <= kFew * totals.reached);
   CHECK(totals.unclosed == 0);
 }
 
