@@ -143,6 +143,7 @@ std::vector<StuckForce> RestSearch<N, H>::stuck_forces(ContactMask contacts, con
 
 template <int N, int H>
 typename RestSearch<N, H>::Shift RestSearch<N, H>::shift(Orbit<N, H>& orbit) {
+  if (orbit.stuck_throughout == 0) return Shift::none;  // a slider that was to be held slid from the start
   const StepEquations<N, H>& eq = flow_.equations();
   const std::vector<StuckForce> forces = stuck_forces(orbit.stuck_throughout, orbit);
   integrals_.integrate(steps_, flow_, orbit.half_period, {},

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "solvers/flow/flow.hpp"
@@ -8,10 +9,15 @@
 
 namespace frahm::periodic {
 
+// Contacts that stick and bends that act, one after the other.
+using Sequence = std::vector<std::pair<ContactMask, ContactMask>>;
+
 template <int N, int H>
 struct StableOrbit {
   std::vector<typename Sizes<N, H>::State> returns;  // its states at phase 0, after each period
   double peak = 0.0;                                 // of the first mass [m]
+  ContactMask stuck_throughout = 0;
+  Sequence sequence{};
 
   int multiple() const { return static_cast<int>(returns.size()); }  // of the forcing's period
 };

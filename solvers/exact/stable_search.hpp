@@ -75,10 +75,13 @@ class StableSearch {
  private:
   Index known(const typename S::State& z, double within, const Orbits& found) const;
   int likely_multiple(const std::vector<typename S::State>& trail) const;
+  void bring_to_rest(Orbit<N, H>& orbit, int& passages);
+  Sequence sequence_of(const Orbit<N, H>& orbit) const;
+  Index of_known_family(const StableOrbit<N, H>& orbit, const Orbits& found) const;
   bool is_stable(const Orbit<N, H>& orbit, Orbits& found);
   bool dies_out(const typename S::State& by, const Orbit<N, H>& orbit, Orbits& found);
   double peak(const Orbit<N, H>& orbit);
-  Index keep(const Orbit<N, H>& orbit, double peak, Orbits& found);
+  Index keep(const Orbit<N, H>& orbit, StableOrbit<N, H> kept, Orbits& found);
 
   Forms<N, H> forms_;
   Flow<N, H>& flow_;
@@ -142,14 +145,68 @@ typename StableSearch<N, H>::Index StableSearch<N, H>::find_near(const typename 
   found.newton_iterations += orbit.newton_iterations;
   bool stable = false;
   if (orbit.is_found()) {
-    if (orbit.stuck_throughout != 0) rest_.shift(orbit);
+    if (orbit.stuck_throughout != 0) bring_to_rest(orbit, found.passages);
     judge_stability(flow_, orbit);
     stable = is_stable(orbit, found);
     found.found_unstable = found.found_unstable || !stable;
   }
-  const double of_first = stable ? peak(orbit) : 0.0;
+  StableOrbit<N, H> kept{.returns = {orbit.z}, .stuck_throughout = orbit.stuck_throughout};
+  if (stable) {
+    kept.peak = peak(orbit);
+    kept.sequence = sequence_of(orbit);
+  }
   if (multiple > 1) flow_.set_forcing(system);
-  return stable ? keep(orbit, of_first, found) : std::nullopt;
+  return stable ? keep(orbit, std::move(kept), found) : std::nullopt;
+}
+
+// Moves an orbit with contacts that stick throughout to its rest position. The shift leaves the rest of the
+// motion as it is, but where stops or springs bend: there the orbit is found again from the shifted one,
+// until both agree. Where they do not, or the contacts then slip, it stays where it was found.
+template <int N, int H>
+void StableSearch<N, H>::bring_to_rest(Orbit<N, H>& orbit, int& passages) {
+  constexpr int kMostShifts = 30;
+  constexpr double kAgrees = 1e-10;  // of the orbit's size
+  if (flow_.equations().bends.count() == 0) {
+    rest_.shift(orbit);
+    return;
+  }
+  const Orbit<N, H> as_found = orbit;
+  for (int shift = 0; shift < kMostShifts; ++shift) {
+    const typename S::State before = orbit.z;
+    rest_.shift(orbit);
+    const double moved = flow_.equations().energy_norm(orbit.z - before);
+    if (moved == 0.0) return;
+    const Status status = orbit.status;  // grazing, where a force is at its limit
+    shooting_.find(orbit);
+    passages += orbit.multiple * orbit.passages;
+    if (!orbit.is_found() || orbit.stuck_throughout != as_found.stuck_throughout) break;
+    if (status == Status::grazing) orbit.status = status;
+    if (moved <= kAgrees * flow_.energy_scale(orbit.z)) return;
+  }
+  orbit = as_found;
+}
+
+template <int N, int H>
+Sequence StableSearch<N, H>::sequence_of(const Orbit<N, H>& orbit) const {
+  Sequence sequence;
+  for (const Segment<N, H>& segment : orbit.passage.segments)
+    sequence.emplace_back(flow_.mode(segment.mode).stuck, flow_.mode(segment.mode).beyond);
+  return sequence;
+}
+
+// Contacts that stick throughout may rest anywhere in an interval, and where stops are touched the motion
+// differs from place to place: orbits that pass through the same states are then one.
+template <int N, int H>
+typename StableSearch<N, H>::Index StableSearch<N, H>::of_known_family(const StableOrbit<N, H>& orbit,
+                                                                       const Orbits& found) const {
+  if (orbit.stuck_throughout == 0 || flow_.equations().bends.count() == 0) return std::nullopt;
+  for (std::size_t i = 0; i < found.stable.size(); ++i) {
+    const StableOrbit<N, H>& other = found.stable[i];
+    if (other.multiple() == orbit.multiple() && other.stuck_throughout == orbit.stuck_throughout &&
+        other.sequence == orbit.sequence)
+      return i;
+  }
+  return std::nullopt;
 }
 
 // Where an event only just happens, or a contact at rest only just holds, the multipliers do not exist or say
@@ -202,11 +259,10 @@ double StableSearch<N, H>::peak(const Orbit<N, H>& orbit) {
 
 // Adds a stable orbit to those known. None where a multiple of the period is that of a shorter orbit.
 template <int N, int H>
-typename StableSearch<N, H>::Index StableSearch<N, H>::keep(const Orbit<N, H>& orbit, double peak,
+typename StableSearch<N, H>::Index StableSearch<N, H>::keep(const Orbit<N, H>& orbit, StableOrbit<N, H> kept,
                                                             Orbits& found) {
   constexpr double kSame = 1e-7;
   if (const Index same = known(orbit.z, kSame, found)) return same;
-  StableOrbit<N, H> kept{.returns = {orbit.z}, .peak = peak};
   for (int m = 1; m < orbit.multiple; ++m) {
     walk_.pass(kept.returns.back(), 0.0, flow_.equations().period, passage_, Tangent::none);
     ++found.passages;
@@ -215,6 +271,7 @@ typename StableSearch<N, H>::Index StableSearch<N, H>::keep(const Orbit<N, H>& o
     if (gap < kSame * flow_.energy_scale(orbit.z)) return std::nullopt;
     kept.returns.push_back(passage_.end);
   }
+  if (const Index family = of_known_family(kept, found)) return family;
   found.stable.push_back(std::move(kept));
   return found.stable.size() - 1;
 }
@@ -228,9 +285,10 @@ void StableSearch<N, H>::tell(const mechanics::LinearSystem& system, const Orbit
   orbit.multiple = told.multiple();
   if (orbit.multiple > 1) flow_.set_forcing(over_multiple(system, orbit.multiple));
   shooting_.find(orbit);
-  if (orbit.stuck_throughout != 0) rest_.shift(orbit);
+  int passages = orbit.passages + found.passages;
+  if (orbit.stuck_throughout != 0) bring_to_rest(orbit, passages);
   judge_stability(flow_, orbit);
-  orbit.passages += found.passages;
+  orbit.passages = passages;
   orbit.newton_iterations += found.newton_iterations;
 }
 

@@ -114,6 +114,21 @@ TEST_CASE("A stiffer and stiffer brace approaches a slider alone, as 1/sqrt(k_t)
   }
 }
 
+// The brace rings at sqrt(k_t) where the slider turns, by an amplitude that falls as 1/sqrt(k_t).
+TEST_CASE("Where nothing sticks for long, it comes no closer than 1/sqrt(k_t)") {
+  for (const double r : {0.8, 1.1}) {
+    Responses braced(braced_mass()), sliding(single_mass());
+    sliding.solve(single_mass_values(r, 0.05, 0.3));
+    const auto off = [&](double k_t) {
+      braced.solve(braced_values(r, 0.05, k_t, 0.3));
+      return std::sqrt(k_t) * std::abs(braced["x_peak"] - sliding["x_peak"]);
+    };
+    INFO("r " << r);
+    CHECK_THAT(off(1e6) / off(1e4), WithinAbs(1.0, 3e-3));
+    CHECK_THAT(off(1e8) / off(1e6), WithinAbs(1.0, 3e-4));
+  }
+}
+
 TEST_CASE("A constant load leaves a brace that never slips without a part of it where the energy is least") {
   Network network = braced_mass();
   network.excitations.push_back({ExcitationKind::force, 0, 0});

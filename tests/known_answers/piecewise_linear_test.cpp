@@ -105,6 +105,25 @@ TEST_CASE("Stops far away leave the linear response, stops without clearance sti
   }
 }
 
+TEST_CASE("A clearance of 1e-10 is none to 1e-9, and a stop just out of reach is not there") {
+  constexpr double kLimit = 1e-9;
+  Responses responses(mass_between_stops());
+  for (const double r : {0.7, 1.3, 2.6}) {
+    INFO("r " << r);
+    const double stiff = 1.0 / std::hypot(5.0 - r * r, 0.1 * r),
+                 soft = 1.0 / std::hypot(1.0 - r * r, 0.1 * r);
+    for (const double clearance : {1e-6, 1e-8, 1e-10}) {  // the distance falls in proportion
+      responses.solve(between_stops(r, 0.0, clearance));
+      CHECK(std::abs(responses["x_peak"] / stiff - 1.0) < 10.0 * clearance);
+    }
+    CHECK_THAT(responses["x_peak"], WithinRel(stiff, kLimit));
+    NetworkValues values = between_stops(r, 0.0, soft * (1.0 + 1e-6));
+    responses.solve(values);
+    CHECK(responses["x_peak"] >= soft * (1.0 - kLimit));  // a larger one may coexist
+    if (responses["coexisting"] == 1.0) CHECK_THAT(responses["x_peak"], WithinRel(soft, kLimit));
+  }
+}
+
 TEST_CASE("Static over kinetic friction has the peaks of two independent methods, two stops a period") {
   struct Figure {
     double zeta, F, F_s, r, peak;
@@ -246,6 +265,22 @@ TEST_CASE("Random networks with stops and static friction move as the independen
                  checked);
   }
   CHECK(checked >= 33);  // the others have no stable orbit of up to four periods
+}
+
+// The stop and the contact hold the same motion: a shift of the rest position alone would be no orbit.
+TEST_CASE("A contact that sticks throughout beside a stop that is touched leaves an orbit that balances") {
+  int checked = 0;
+  std::mt19937 random(257);
+  check_random(random_network({.masses = 3,
+                               .contacts = 1,
+                               .stops = 1,
+                               .static_friction = true,
+                               .orders = {1},
+                               .shaken = false,
+                               .largest_friction = 0.5},
+                              random),
+               checked);
+  CHECK(checked == 1);
 }
 
 TEST_CASE("So does a chain of nine masses with damped stops, tables and static friction") {

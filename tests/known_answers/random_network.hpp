@@ -10,6 +10,7 @@
 
 #include "solvers/laws/damper_bend.hpp"
 #include "solvers/laws/elastic_stop.hpp"
+#include "solvers/laws/spring_bend.hpp"
 #include "solvers/mechanics/network.hpp"
 
 // Networks drawn at random: a chain of masses on springs and dampers, with further springs, an inerter,
@@ -34,6 +35,9 @@ struct RandomNetworkOptions {
   std::vector<int> orders = {1};  // of the forces and of the support's motion
   bool shaken = true;             // a prescribed node exists
   double largest_friction = 1.0;  // of the amplitude of the force, 1 N
+  int two_sided_stops = 0;        // gaps on both sides, half of them with damping
+  int spring_tables = 0;          // that bend twice on both sides, and may fall between
+  int falling_dampers = 0;        // whose tables fall on both sides and rise again
 };
 
 inline RandomNetwork random_network(const RandomNetworkOptions& options, std::mt19937& random) {
@@ -130,6 +134,34 @@ inline RandomNetwork random_network(const RandomNetworkOptions& options, std::mt
     values.second.back() = c;
     network.elements.back().bends = {{uniform(random) < 0.5 ? 1.0 : -1.0, &laws::elastic_stop}};
     values.bends.push_back({{uniform(random), k, c}});
+  }
+  for (int j = 0; j < options.two_sided_stops; ++j) {
+    const auto [a, b] = between();
+    const double k = 4.0 * spread(1.0), c = uniform(random) < 0.5 ? 0.0 : 0.3 * uniform(random);
+    add(ElementType::gap, a, b, k);
+    values.second.back() = c;
+    network.elements.back().bends = {{1.0, &laws::elastic_stop}, {-1.0, &laws::elastic_stop}};
+    values.bends.push_back({{uniform(random), k, c}, {uniform(random), k, c}});
+  }
+  for (int j = 0; j < options.spring_tables; ++j) {
+    const auto [a, b] = between();
+    const double k = spread(1.0), inner = 0.2 + uniform(random), outer = inner + 0.2 + uniform(random);
+    const double softer = -1.5 * k * uniform(random), stiffer = 3.0 * k * uniform(random) - softer;
+    add(ElementType::spring, a, b, k);
+    const auto bend = [](double side) { return BendPlace{side, &laws::spring_bend}; };
+    network.elements.back().bends = {bend(1.0), bend(1.0), bend(-1.0), bend(-1.0)};
+    values.bends.push_back(
+        {{inner, softer, 0.0}, {outer, stiffer, 0.0}, {inner, softer, 0.0}, {outer, stiffer, 0.0}});
+  }
+  for (int j = 0; j < options.falling_dampers; ++j) {
+    const auto [a, b] = between();
+    const double c = 0.2 * spread(1.0), inner = 0.2 + uniform(random), outer = inner + 0.2 + uniform(random);
+    const double falls = -c * (1.0 + 0.5 * uniform(random)), rises = c - falls;
+    add(ElementType::damper, a, b, c);
+    const auto bend = [](double side) { return BendPlace{side, &laws::damper_bend}; };
+    network.elements.back().bends = {bend(1.0), bend(1.0), bend(-1.0), bend(-1.0)};
+    values.bends.push_back(
+        {{inner, 0.0, falls}, {outer, 0.0, rises}, {inner, 0.0, falls}, {outer, 0.0, rises}});
   }
   for (std::size_t e = 0; options.static_friction && e < network.elements.size(); ++e) {
     if (network.elements[e].type != ElementType::coulomb) continue;
