@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "solvers/exact/orbit_search.hpp"
 
@@ -28,6 +29,15 @@ void find_of_multiple(BranchMap& map, int multiple, AnyOrbit& orbit) {
                  std::to_string(wanted.starts) + " starts";
 }
 
+// On to phase 0 of the next period.
+void move_to_phase_0(BranchMap& map, AnyOrbit& orbit) {
+  if (orbit.section == 0.0) return;
+  const double steps = (2.0 * std::numbers::pi - orbit.section) / map.flow().fundamental_rate();
+  Walk<kAnySize, kAnySize>(map.flow()).pass(orbit.z, orbit.section, steps, orbit.passage, Tangent::none);
+  orbit.z = orbit.passage.end;
+  orbit.section = 0.0;
+}
+
 }  // namespace
 
 AnyOrbit find_start(BranchMap& map, int multiple) {
@@ -43,13 +53,29 @@ AnyOrbit find_start(BranchMap& map, int multiple) {
       orbit.reason = "the orbit found takes " + std::to_string(orbit.multiple) + " periods";
     }
   }
-  if (!orbit.is_found() || orbit.section == 0.0) return orbit;
-  // On to phase 0 of the next period.
-  const double steps = (2.0 * std::numbers::pi - orbit.section) / map.flow().fundamental_rate();
-  Walk<kAnySize, kAnySize>(map.flow()).pass(orbit.z, orbit.section, steps, orbit.passage, Tangent::none);
-  orbit.z = orbit.passage.end;
-  orbit.section = 0.0;
+  if (orbit.is_found()) move_to_phase_0(map, orbit);
   return orbit;
+}
+
+std::vector<AnyOrbit> find_stable(BranchMap& map, double parameter, const OrbitsWanted& wanted) {
+  std::vector<AnyOrbit> orbits;
+  try {
+    map.set(parameter);
+  } catch (const mechanics::MechanicsError&) {
+    return orbits;
+  }
+  const mechanics::LinearSystem& system = map.system();
+  OrbitSearch<kAnySize, kAnySize> search(map.assembly(), map.flow(), wanted);
+  AnyOrbit told;
+  search.find(system, undamped_modes(system), true, told);
+  if (system.monotone) {
+    if (told.is_found()) orbits.push_back(std::move(told));
+  } else {
+    for (const auto& found : search.stable()) orbits.push_back(found.orbit);
+  }
+  map.set(parameter);  // the search may leave the flow at a multiple of the period
+  for (AnyOrbit& orbit : orbits) move_to_phase_0(map, orbit);
+  return orbits;
 }
 
 }  // namespace frahm::periodic

@@ -53,6 +53,9 @@ class OrbitSearch {
   static constexpr int kOtherWays = 2;
   bool find_otherwise(int way, const mechanics::LinearSystem& system, bool certify, Orbit<N, H>& orbit);
 
+  // Of a system that may have several orbits: the stable ones that the last find() found.
+  const auto& stable() const { return coexistence_.stable(); }
+
   // Peak of the first mass over an orbit [m].
   double first_peak(const Orbit<N, H>& orbit);
 

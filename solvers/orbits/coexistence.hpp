@@ -38,17 +38,20 @@ class Coexistence {
   Coexistence(Flow<N, H>& flow, Settle settle, PeakOf peak_of, const OrbitsWanted& wanted = {})
       : flow_(flow), walk_(flow), shooting_(flow), settle_(settle), peak_of_(peak_of), wanted_(wanted) {}
 
-  void forget() { before_.clear(); }
-  // Finds the orbit to be told; the flow, which is set to `system`, is then set to its multiple of the
-  // period.
-  void find(const mechanics::LinearSystem& system, Orbit<N, H>& orbit);
-
- private:
   struct Found {
     Orbit<N, H> orbit;
     std::vector<typename S::State> returns;  // its states at phase 0, after each period
     double peak = 0.0;                       // of the first mass [m]
   };
+
+  void forget() { before_.clear(); }
+  // Finds the orbit to be told; the flow, which is set to `system`, is then set to its multiple of the
+  // period.
+  void find(const mechanics::LinearSystem& system, Orbit<N, H>& orbit);
+  // All stable orbits that the last search found.
+  const std::vector<Found>& stable() const { return stable_; }
+
+ private:
   // An orbit of the point before, in SI.
   struct Earlier {
     typename S::State z;

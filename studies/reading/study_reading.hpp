@@ -124,6 +124,7 @@ std::string needs_one_response(const Study& study);
 void read_axes(const StudyContext& context, const TomlValue& root, Study& study);
 void read_coordinates(const StudyContext& context, const TomlValue& root, Study& study);
 void read_output(const StudyContext& context, const TomlValue& root, Study& study);
+void read_branches(const StudyContext& context, const TomlSection& output, Study& study);
 void read_orbits_wanted(const StudyContext& context, const TomlValue& root, Study& study);
 void read_report(const StudyContext& context, const TomlValue& root, Study& study);
 
