@@ -40,6 +40,8 @@ const char* end_name(BranchEnd end) {
       return "origin";
     case BranchEnd::jump:
       return "jump";
+    case BranchEnd::joined:
+      return "joined";
     case BranchEnd::rule:
       return "rule";
     case BranchEnd::lost:
@@ -60,6 +62,8 @@ const char* end_sentence(BranchEnd end) {
       return "it meets the orbits of half its period, from which it branches off";
     case BranchEnd::jump:
       return "an event begins that throws the motion elsewhere";
+    case BranchEnd::joined:
+      return "it goes on as a branch that was followed before";
     case BranchEnd::rule:
       return "beyond, a value breaks a rule";
     case BranchEnd::lost:
@@ -74,7 +78,7 @@ Branch follow_branch(const mechanics::Network& network, const std::vector<Quanti
   followed.map().set(wanted.start);
   const AnyOrbit orbit = find_start(followed.map(), wanted.multiple);
   if (orbit.is_found()) {
-    followed.follow(orbit, progress);
+    followed.follow(orbit, {}, progress);
   } else {
     followed.branch().reason = orbit.reason;
   }

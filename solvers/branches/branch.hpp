@@ -60,6 +60,7 @@ enum class BranchEnd {
   closed,
   origin,  // it comes back into the orbits of half its period, from which it branches off
   jump,    // the map jumps there: no orbit beside the last one continues it
+  joined,  // it goes on as a branch that was followed before
   rule,    // beyond it the values break a rule
   lost,
 };

@@ -45,7 +45,7 @@ class BranchWalk {
       ++points;
       const bool closes = points > kLeastLoop && passes(first_, *next);
       if (closes) return accept(first_), BranchEnd::closed;
-      accept(*next);
+      if (!accept(*next)) return BranchEnd::joined;
       if (here_.section_is_near_event) move_section();
     }
     return BranchEnd::points;
@@ -162,15 +162,17 @@ class BranchWalk {
            (to_first - along * here_.tangent).norm() < 0.5 * step_ && here_.tangent.dot(first.tangent) > 0.9;
   }
 
-  void accept(const BranchPlace& next) {
+  // False: the branch is known from there on.
+  bool accept(const BranchPlace& next) {
     constexpr double kGrow = 1.5;
     constexpr int kFast = 4;  // Newton's steps
     const double angle = std::acos(std::clamp(here_.tangent.dot(next.tangent), -1.0, 1.0));
-    found_({here_, &next, special_places(map_, here_, next)});
+    const bool is_new = found_({here_, &next, special_places(map_, here_, next)});
     if (next.newton_iterations <= kFast && angle < 0.5 * limits_.most_angle)
       step_ = std::min(kGrow * step_, wanted_.largest_step * std::max(1.0, next.y.norm()));
     here_ = next;
     passed_.push_back(here_.y);
+    return is_new;
   }
 
   // Away from events: where one passes the section, the curve of states there has a kink. Its tangent is

@@ -14,7 +14,8 @@ struct BranchStep {
   std::vector<SpecialPlace> special;  // between
 };
 
-using FoundOnBranch = std::function<void(const BranchStep&)>;
+// False: the branch goes on as one that is known.
+using FoundOnBranch = std::function<bool(const BranchStep&)>;
 
 // Follows a branch from a place of it, the way its tangent leads. Returns why it ends.
 BranchEnd walk_branch(BranchMap& map, const BranchWanted& wanted, const BranchPlace& first,

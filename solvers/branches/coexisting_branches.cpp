@@ -31,14 +31,17 @@ std::vector<Branch> follow_branches(const mechanics::Network& network,
                                     std::span<const SearchedPlace> places, const BranchProgress& progress) {
   BranchMap map(network, values, wanted.low, wanted.high);
   FollowedBranches branches;
+  const auto is_known = [&](double parameter, const AnyOrbit& orbit) {
+    return std::ranges::any_of(branches,
+                               [&](const auto& branch) { return branch->passes(parameter, orbit); });
+  };
   for (const SearchedPlace& place : places) {
     if (are_all(branches, place)) continue;
     for (const AnyOrbit& orbit : find_stable(map, place.parameter, searched)) {
-      const auto is_of = [&](const auto& branch) { return branch->passes(place.parameter, orbit); };
-      if (std::ranges::any_of(branches, is_of)) continue;
+      if (is_known(place.parameter, orbit)) continue;
       auto branch = std::make_unique<FollowedBranch>(network, quantities, values, wanted);
       branch->map().set(place.parameter);
-      branch->follow(orbit, progress);
+      branch->follow(orbit, is_known, progress);
       if (branch->branch().reason.empty()) branches.push_back(std::move(branch));
     }
   }

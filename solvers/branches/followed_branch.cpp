@@ -61,29 +61,43 @@ BranchPoint FollowedBranch::tell(const Eigen::VectorXd& y) {
   return point;
 }
 
+bool FollowedBranch::is_known_at(const Eigen::VectorXd& y, const IsKnown& is_known) {
+  if (!is_known) return false;
+  const Eigen::VectorXd at_phase_0 = map_.moved(y, 0.0);
+  if (at_phase_0.size() == 0) return false;
+  AnyOrbit orbit;
+  orbit.z = map_.state(at_phase_0);
+  orbit.multiple = map_.multiple();
+  return is_known(map_.parameter(y), orbit);
+}
+
 FollowedBranch::OneWay FollowedBranch::follow_way(const BranchPlace& first, bool stable, double sign,
-                                                  const BranchProgress& progress) {
+                                                  const IsKnown& is_known, const BranchProgress& progress) {
+  constexpr int kJoined = 2;  // points in turn: one alone is where two branches cross
   OneWay way;
   double arclength = 0.0;
+  int known = 0;
   const FoundOnBranch found = [&](const BranchStep& step) {
     for (const SpecialPlace& each : step.special) {
       BranchPoint at = tell(each.place.y);
       at.arclength = sign * (arclength + (each.place.y - step.from.y).norm());
       way.special.push_back({each.kind, std::move(at), way.points.size(), each.element, each.residual});
     }
-    if (step.to == nullptr) return;
+    if (step.to == nullptr) return true;
     arclength += (step.to->y - step.from.y).norm();
     way.points.push_back(tell(step.to->y));
     way.points.back().arclength = sign * arclength;
     const bool now = way.points.back().stable;
     steps_.push_back({step.from.y, step.to->y, map_.section(), std::exchange(stable, now), now});
     if (progress) progress(way.points.back());
+    known = is_known_at(step.to->y, is_known) ? known + 1 : 0;
+    return known < kJoined;
   };
   way.end = walk_branch(map_, wanted_, first, found);
   return way;
 }
 
-void FollowedBranch::follow(const AnyOrbit& orbit, const BranchProgress& progress) {
+void FollowedBranch::follow(const AnyOrbit& orbit, const IsKnown& is_known, const BranchProgress& progress) {
   const Eigen::VectorXd y = map_.begin(orbit);
   const Eigen::VectorXd along = Eigen::VectorXd::Unit(y.size(), y.size() - 1);
   auto first = correct(map_, y, along, along);
@@ -93,10 +107,10 @@ void FollowedBranch::follow(const AnyOrbit& orbit, const BranchProgress& progres
   }
   const BranchPoint point = tell(first->y);
   if (progress) progress(point);
-  OneWay on = follow_way(*first, point.stable, 1.0, progress), back;
+  OneWay on = follow_way(*first, point.stable, 1.0, is_known, progress), back;
   if (on.end != BranchEnd::closed) {
     first->tangent *= -1.0;
-    back = follow_way(*first, point.stable, -1.0, progress);
+    back = follow_way(*first, point.stable, -1.0, is_known, progress);
   } else {
     back.end = BranchEnd::closed;
   }
@@ -135,7 +149,9 @@ bool FollowedBranch::lies_on(const Step& step, const Eigen::VectorXd& y) {
 }
 
 bool FollowedBranch::passes(double parameter, const AnyOrbit& orbit) {
-  if (orbit.multiple != map_.multiple()) return false;
+  const auto [least, most] = std::ranges::minmax(branch_.points, {}, &BranchPoint::parameter);
+  if (orbit.multiple != map_.multiple() || parameter < least.parameter || parameter > most.parameter)
+    return false;
   const double turn = 2.0 * std::numbers::pi;
   for (int later = 0; later < orbit.multiple; ++later) {  // periods of the excitation
     double section = -1.0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -16,10 +17,13 @@ class FollowedBranch {
   FollowedBranch(const FollowedBranch&) = delete;
   FollowedBranch& operator=(const FollowedBranch&) = delete;
 
+  // Whether an orbit of a parameter, at phase 0 and in the units of the map's flow, is known already.
+  using IsKnown = std::function<bool(double parameter, const AnyOrbit& orbit)>;
+
   // The map, to which the parameter of the first orbit is to be set.
   BranchMap& map() { return map_; }
-  // Follows the branch both ways from an orbit of the parameter set, at phase 0.
-  void follow(const AnyOrbit& orbit, const BranchProgress& progress = {});
+  // Follows the branch both ways from an orbit of the parameter set, at phase 0, until its orbits are known.
+  void follow(const AnyOrbit& orbit, const IsKnown& is_known, const BranchProgress& progress);
 
   const Branch& branch() const { return branch_; }
   Branch& branch() { return branch_; }
@@ -27,7 +31,7 @@ class FollowedBranch {
   // How many stable orbits of the branch there are at a value of the parameter; none where that is not clear:
   // its stability changes near there.
   std::optional<int> stable_at(double parameter) const;
-  // Whether an orbit, at phase 0 and in the units of the map's flow, is one of the branch.
+  // Whether an orbit (as of IsKnown) is one of the branch.
   bool passes(double parameter, const AnyOrbit& orbit);
 
  private:
@@ -46,7 +50,9 @@ class FollowedBranch {
 
   BranchPoint tell(const Eigen::VectorXd& y);
   // sign: of the arclength.
-  OneWay follow_way(const BranchPlace& first, bool stable, double sign, const BranchProgress& progress);
+  OneWay follow_way(const BranchPlace& first, bool stable, double sign, const IsKnown& is_known,
+                    const BranchProgress& progress);
+  bool is_known_at(const Eigen::VectorXd& y, const IsKnown& is_known);
   bool lies_on(const Step& step, const Eigen::VectorXd& y);
 
   BranchWanted wanted_;

@@ -38,8 +38,8 @@ struct BranchRoot {
   BranchPlace place;
   double value;  // of the function there
   double width;  // of the bracket
-  // The function jumps across zero: the bracket is closed, and there is no root.
-  bool is_jump() const { return std::abs(value) > kJump && width < kClosed; }
+  // The function jumps across zero, within the bracket.
+  bool is_jump() const { return std::abs(value) > kJump; }
 };
 
 // The root of a function that has different signs at both ends.

@@ -118,6 +118,49 @@ TEST_CASE("Every stable orbit that is found lies on one branch, subharmonics too
   }
 }
 
+// Of a mass that rubs with force f_k and is held by up to f_s, from r = 0.2 to 1.8.
+std::vector<Branch> held_branches(double f_k, double f_s) {
+  Network network{.masses = {"x"},
+                  .prescribed = {},
+                  .elements = {{"spring", ElementType::spring, ground, mass},
+                               {"damper", ElementType::damper, ground, mass},
+                               {"friction", ElementType::coulomb, ground, mass}},
+                  .excitations = {{ExcitationKind::force, 0, 1}}};
+  network.elements[2].has_static_force = true;
+  const auto values = [=](double r) {
+    return NetworkValues{.omega = r,
+                         .mass = {1.0},
+                         .element = {1.0, 0.1, f_k},
+                         .excitation = {{1.0, 0.0}},
+                         .second = {0.0, 0.0, f_s}};
+  };
+  return follow_branches(network, asked, values, {.low = 0.2, .high = 1.8}, {}, places(0.2, 1.8, 65));
+}
+
+TEST_CASE("A branch that goes into another ends there, so that no part is followed twice") {
+  const std::vector<Branch> branches = held_branches(0.3, 1.2);
+  const auto joins = [](const Branch& each) { return each.last_end == BranchEnd::joined; };
+  const auto joining = std::ranges::find_if(branches, joins);
+  REQUIRE(joining != branches.begin());
+  REQUIRE(joining != branches.end());
+  CHECK(joining->first_end == BranchEnd::joined);
+  // The sliding response without stops, and rest.
+  CHECK(std::ranges::count(branches, BranchEnd::range, &Branch::last_end) == 2);
+  for (const BranchPoint& point : joining->points) CHECK(point.parameter < 0.77);
+}
+
+TEST_CASE("A branch ends where the static force throws the motion elsewhere, and says so") {
+  const std::vector<Branch> branches = held_branches(0.2, 1.2);
+  const auto thrown = std::ranges::find(branches, BranchEnd::jump, &Branch::last_end);
+  REQUIRE(thrown != branches.end());
+  CHECK(thrown->first_end == BranchEnd::jump);
+  for (const SpecialPoint& end : {thrown->special.front(), thrown->special.back()}) {
+    CHECK(end.kind == SpecialKind::jump);
+    CHECK(end.element == 2U);
+    CHECK(end.residual < 1e-9);
+  }
+}
+
 TEST_CASE("A system of one response has one branch, followed once") {
   Network network{.masses = {"x"},
                   .prescribed = {},
