@@ -92,6 +92,10 @@ void check_elements(const TomlSection& section, const Study& study) {
     if (element.law != mechanics::FrictionLaw::exact)
       section.fail(rules::wrong_law, "branches",
                    "element \"{}\" follows the arctan law, and branches follow the exact one", element.name);
+    if (element.name == "none" || element.name == "not_computed")
+      section.fail(rules::name_taken, "branches",
+                   "\"{}\" says in their record that no element is meant; name this one otherwise",
+                   element.name);
   }
   const std::size_t with_events = elements_with_events(study.network).size();
   if (with_events > most_elements)

@@ -15,7 +15,7 @@ async function drawn(page, figure, isDashed) {
         x = svg.scale("x"),
         y = svg.scale("y");
       const lines = [...svg.querySelectorAll("[aria-label=line]")].filter(
-        (g) => g.hasAttribute("stroke-dasharray") === wanted && !g.hasAttribute("stroke-opacity"),
+        (g) => Boolean(g.getAttribute("stroke-dasharray")) === wanted && !g.hasAttribute("stroke-opacity"),
       );
       return lines
         .flatMap((g) => [...g.querySelectorAll("path")])
