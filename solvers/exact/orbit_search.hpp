@@ -247,4 +247,14 @@ typename OrbitSearch<N, H>::Shift OrbitSearch<N, H>::settle_rest_position(Orbit<
   return eq.energy_norm(by) > kFar * size ? Shift::far : Shift::near;
 }
 
+// Each once, in sized_solver_<N>_<H>.cpp.
+extern template class Coexistence<1, 1>;
+extern template class Coexistence<1, 2>;
+extern template class Coexistence<2, 1>;
+extern template class Coexistence<Eigen::Dynamic, Eigen::Dynamic>;
+extern template class OrbitSearch<1, 1>;
+extern template class OrbitSearch<1, 2>;
+extern template class OrbitSearch<2, 1>;
+extern template class OrbitSearch<Eigen::Dynamic, Eigen::Dynamic>;
+
 }  // namespace frahm::periodic
