@@ -55,7 +55,7 @@ BranchPoint FollowedBranch::tell(const Eigen::VectorXd& y) {
   observables_.set_system(map_.system());
   observables_.evaluate(orbit, map_.system(), point.quantities);
   point.floquet_radius = orbit.floquet_radius;
-  point.stable = orbit.is_stable();
+  point.stable = orbit.is_stable() || map_.system().monotone;  // then motions never part
   point.multiple = orbit.multiple;
   point.residual = orbit.residual;
   return point;
@@ -134,6 +134,12 @@ std::optional<int> FollowedBranch::stable_at(double parameter) const {
   return count;
 }
 
+// Whether a place at this value of the parameter (scaled) may lie on the step.
+bool FollowedBranch::Step::is_near(double at) const {
+  const double a = from[from.size() - 1], b = to[to.size() - 1], reach = (to - from).norm();
+  return at >= std::min(a, b) - reach && at <= std::max(a, b) + reach;
+}
+
 // Solved where the plane through y across the step meets the branch: regular at folds too.
 bool FollowedBranch::lies_on(const Step& step, const Eigen::VectorXd& y) {
   constexpr double kSame = 1e-6, kNear = 0.5;
@@ -152,11 +158,12 @@ bool FollowedBranch::passes(double parameter, const AnyOrbit& orbit) {
   const auto [least, most] = std::ranges::minmax(branch_.points, {}, &BranchPoint::parameter);
   if (orbit.multiple != map_.multiple() || parameter < least.parameter || parameter > most.parameter)
     return false;
-  const double turn = 2.0 * std::numbers::pi;
+  const double turn = 2.0 * std::numbers::pi, at = (parameter - wanted_.low) / (wanted_.high - wanted_.low);
   for (int later = 0; later < orbit.multiple; ++later) {  // periods of the excitation
     double section = -1.0;
     Eigen::VectorXd y;
     for (const Step& step : steps_) {
+      if (!step.is_near(at)) continue;
       if (step.section != section) {
         section = step.section;
         map_.set(parameter);

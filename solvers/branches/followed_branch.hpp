@@ -40,6 +40,8 @@ class FollowedBranch {
     Eigen::VectorXd from, to;
     double section = 0.0;
     bool from_stable = false, to_stable = false;
+
+    bool is_near(double at) const;
   };
   // One way of the branch, from the first point on.
   struct OneWay {

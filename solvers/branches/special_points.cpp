@@ -60,6 +60,8 @@ void add_grazings(const PartOfBranch& stretch, std::vector<SpecialPlace>& found)
 // A real multiplier that passes +1 where the parameter turns belongs to the fold.
 void add_stability_change(const PartOfBranch& stretch, bool has_fold, std::vector<SpecialPlace>& found) {
   constexpr double kAxis = 1e-4;
+  // Where all laws are monotone nothing is unstable: without damping the moduli are 1 but for rounding.
+  if (stretch.map().system().monotone) return;
   const int before = stretch.from().unstable(), after = stretch.to().unstable();
   const int change = std::abs(after - before);
   if (change == 0 || (has_fold && change == 1)) return;
