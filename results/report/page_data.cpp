@@ -18,6 +18,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr int page_format = 1;
 constexpr const char* provenance_group = "provenance";
+constexpr const char* branches_group = "branches";
 
 const char* kind_of(Type type) {
   switch (type) {
@@ -138,12 +139,26 @@ Json group_json(const std::vector<Text>& texts, const std::vector<Column>& colum
   return json;
 }
 
+// Without the quantities of the map that the page leaves out.
+std::vector<Column> shown_columns(const MapReader& result, const PageContent& content,
+                                  const std::string& group) {
+  std::vector<Column> columns = result.columns(group);
+  if (group != branches_group) return columns;
+  std::erase_if(columns, [&](const Column& column) {
+    const auto has_name = [&](const Variable& each) { return each.name == column.variable.name; };
+    return std::ranges::any_of(result.layout().variables, has_name) &&
+           std::ranges::find(content.variables, column.variable.name) == content.variables.end() &&
+           column.dimension != "branch";
+  });
+  return columns;
+}
+
 // Every group of the file except the provenance, by its path.
 Json groups_json(const MapReader& result, const PageContent& content) {
   Json json = Json::object();
   for (const std::string& name : result.groups()) {
     if (name == provenance_group) continue;
-    json[name] = group_json(result.texts(name), result.columns(name));
+    json[name] = group_json(result.texts(name), shown_columns(result, content, name));
   }
   for (const PageGroup& group : content.groups) json[group.name] = group_json(group.texts, group.columns);
   return json;

@@ -19,6 +19,7 @@ using ValuesAlong = std::function<mechanics::NetworkValues(double parameter)>;
 
 struct BranchPoint {
   double parameter = 0.0;
+  double arclength = 0.0;          // from the first point, of the scaled curve (BranchMap)
   std::vector<double> quantities;  // those asked for
   double floquet_radius = 0.0;     // of the orbit's whole period; NaN where an event only just happens
   bool stable = false;
@@ -35,6 +36,7 @@ enum class SpecialKind {
   stability_jump,   // a multiplier jumps across the unit circle where an event begins
   grazing,          // an event begins or ends to happen: a stop is only just touched, a contact only just
                     // stops or lets go
+  jump,             // where the branch ends: an event begins that throws the motion elsewhere
   corner,           // a grazing where the map has a kink and the parameter turns back: dp/ds jumps across 0
 };
 const char* kind_name(SpecialKind kind);  // "fold", "period_doubling"
@@ -43,16 +45,26 @@ struct SpecialPoint {
   SpecialKind kind = SpecialKind::fold;
   BranchPoint at;
   std::size_t after = 0;  // index of the point of the branch before it
-  // Of a grazing, and of a corner where it is known: whose event it is, index in Network::elements.
+  // Of a grazing, a jump, and of a corner where it is known: whose event it is, index in Network::elements.
   std::optional<std::size_t> element{};
   // Of the equation that makes it special, 1: dp/ds of the scaled curve; a multiplier's modulus less 1; the
-  // distance of a bend's guard from zero, relative. Of a contact's event and of a jump the width of the
+  // distance of a bend's guard from zero, relative. Of a contact's event and of jumps the width of the
   // bracket on the scaled curve.
   double residual = 0.0;
 };
 
 // Why a branch ends.
-enum class BranchEnd { range, points, closed, lost };
+enum class BranchEnd {
+  range,   // of the parameter
+  points,  // as many as were asked for
+  closed,
+  origin,  // it comes back into the orbits of half its period, from which it branches off
+  jump,    // the map jumps there: no orbit beside the last one continues it
+  joined,  // it goes on as a branch that was followed before
+  rule,    // beyond it the values break a rule
+  lost,
+};
+const char* end_name(BranchEnd end);  // "range"
 const char* end_sentence(BranchEnd end);
 
 struct Branch {

@@ -29,6 +29,7 @@ void BranchMap::set(double parameter) {
   flow_.set_forcing(system());
   last_ = now;
   has_last_ = true;
+  at_ = parameter;
 }
 
 Eigen::VectorXd BranchMap::begin(const AnyOrbit& orbit) {
@@ -42,13 +43,18 @@ Eigen::VectorXd BranchMap::begin(const AnyOrbit& orbit) {
   root_.block(n, n, n, n) = eq.M_root * eq.step;
   root_.bottomRightCorner(internal, internal).diagonal() = eq.internal_stiffness.cwiseSqrt().cwiseInverse();
   root_inverse_ = root_.inverse();
-  Eigen::VectorXd z = orbit.z;
-  z.segment(n, n) /= eq.step;
   const double size = std::sqrt(2.0) * flow_.energy_scale(orbit.z);
   scale_ = size > 0.0 ? size : 1.0;
   has_last_ = false;
+  return place_of(orbit);
+}
+
+Eigen::VectorXd BranchMap::place_of(const AnyOrbit& orbit) const {
+  const Eigen::Index n = flow_.equations().masses();
+  Eigen::VectorXd z = orbit.z;
+  z.segment(n, n) /= flow_.equations().step;
   Eigen::VectorXd y(z.size() + 1);
-  y << root_ * z / scale_, 0.0;
+  y << root_ * z / scale_, (at_ - low_) / (high_ - low_);
   return y;
 }
 
@@ -171,6 +177,18 @@ Eigen::VectorXd BranchMap::moved(const Eigen::VectorXd& y, double section) {
   Eigen::VectorXd there = y;
   there.head(z.size()) = root_ * z / scale_;
   return there;
+}
+
+Eigen::VectorXd BranchMap::half_way(const Eigen::VectorXd& y) {
+  set(parameter(y));
+  AnyPassage passage;
+  const Eigen::VectorXd z = state(y);
+  walk_.pass(z, section_, 0.5 * length(), passage, Tangent::none);
+  if (passage.failure != nullptr) return {};
+  const Eigen::Index n = flow_.equations().masses();
+  Eigen::VectorXd gap = passage.end - z;
+  gap.segment(n, n) /= flow_.equations().step;
+  return root_ * gap / scale_;
 }
 
 std::optional<double> BranchMap::better_section(const Shot& shot) const {

@@ -33,6 +33,9 @@ class BranchMap {
   // Takes scale, period and symmetry of this orbit, which belongs to the parameter set and starts at phase 0.
   // Returns its place.
   Eigen::VectorXd begin(const AnyOrbit& orbit);
+  // The place of another orbit of the parameter set that takes as many periods and starts at phase 0.
+  Eigen::VectorXd place_of(const AnyOrbit& orbit) const;
+  int multiple() const { return multiple_; }  // of the excitation's period
 
   // Leaves the flow set to the parameter of y.
   Shot shoot(const Eigen::VectorXd& y);
@@ -42,9 +45,13 @@ class BranchMap {
   void set_section(double section) { section_ = section; }
   // The place of the same orbit at another section; empty where the motion there cannot be followed.
   Eigen::VectorXd moved(const Eigen::VectorXd& y, double section);
+  // Of an orbit of an even multiple of the period: how far the motion is from y after half of that time,
+  // scaled as y. Zero where the orbit takes half as long. Empty where the motion cannot be followed.
+  Eigen::VectorXd half_way(const Eigen::VectorXd& y);
   // Where an event has come within 2 % of the map's length: a section that is far from all; else none.
   std::optional<double> better_section(const Shot& shot) const;
 
+  Eigen::VectorXd state(const Eigen::VectorXd& y) const;  // in the units of the flow
   double parameter(const Eigen::VectorXd& y) const { return low_ + (high_ - low_) * y[y.size() - 1]; }
   // The orbit of a shot that closes, at the parameter set.
   AnyOrbit orbit(const Eigen::VectorXd& y, Shot&& shot);
@@ -52,13 +59,14 @@ class BranchMap {
   Eigen::VectorXcd multipliers(const Shot& shot);
 
   const mechanics::Assembly& assembly() const { return assembly_; }
+  // The period map of the same system for orbits of any multiple, without one yet.
+  BranchMap another() const { return {assembly_.network(), values_, low_, high_}; }
   const mechanics::LinearSystem& system() const { return multiple_ > 1 ? longer_ : system_; }
   AnyFlow& flow() { return flow_; }
   const AnyFlow& flow() const { return flow_; }
 
  private:
   double length() const { return (half_period_ ? 0.5 : 1.0) * flow_.equations().period; }
-  Eigen::VectorXd state(const Eigen::VectorXd& y) const;  // in the units of the flow
   void pass(const Eigen::VectorXd& y, Tangent tangent, Shot& shot);
   Eigen::MatrixXd scaled(const Eigen::MatrixXd& by_state) const;
   Eigen::VectorXd by_parameter(const Eigen::VectorXd& y, bool& failed);
@@ -70,7 +78,7 @@ class BranchMap {
 
   mechanics::Assembly assembly_;
   ValuesAlong values_;
-  double low_, high_;
+  double low_, high_, at_ = 0.0;  // at_: the parameter set
   mechanics::NetworkValues last_;
   bool has_last_ = false;
   mechanics::LinearSystem system_, longer_;

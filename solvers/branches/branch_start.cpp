@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "solvers/exact/coexistence.hpp"
@@ -27,6 +28,15 @@ void find_among_several(BranchMap& map, int multiple, AnyOrbit& orbit) {
                  std::to_string(wanted.starts) + " starts";
 }
 
+// On to phase 0 of the next period.
+void move_to_phase_0(BranchMap& map, AnyOrbit& orbit) {
+  if (orbit.section == 0.0) return;
+  const double steps = (2.0 * std::numbers::pi - orbit.section) / map.flow().fundamental_rate();
+  Walk<kAnySize, kAnySize>(map.flow()).pass(orbit.z, orbit.section, steps, orbit.passage, Tangent::none);
+  orbit.z = orbit.passage.end;
+  orbit.section = 0.0;
+}
+
 }  // namespace
 
 AnyOrbit find_start(BranchMap& map, int multiple) {
@@ -43,13 +53,36 @@ AnyOrbit find_start(BranchMap& map, int multiple) {
       orbit.reason = "the orbit found takes one period";
     }
   }
-  if (!orbit.is_found() || orbit.section == 0.0) return orbit;
-  // On to phase 0 of the next period.
-  const double steps = (2.0 * std::numbers::pi - orbit.section) / map.flow().fundamental_rate();
-  Walk<kAnySize, kAnySize>(map.flow()).pass(orbit.z, orbit.section, steps, orbit.passage, Tangent::none);
-  orbit.z = orbit.passage.end;
-  orbit.section = 0.0;
+  if (orbit.is_found()) move_to_phase_0(map, orbit);
   return orbit;
+}
+
+std::vector<AnyOrbit> find_stable(BranchMap& map, double parameter, const OrbitsWanted& wanted) {
+  std::vector<AnyOrbit> orbits;
+  try {
+    map.set(parameter);
+  } catch (const mechanics::MechanicsError&) {
+    return orbits;
+  }
+  using Search = OrbitSearch<kAnySize, kAnySize>;
+  const mechanics::LinearSystem& system = map.system();
+  const std::vector<UndampedMode> undamped = undamped_modes(system);
+  AnyOrbit orbit;
+  if (Search::serves(system, undamped)) {
+    Search(map.assembly(), map.flow()).find(system, undamped, true, orbit);
+    if (orbit.is_found()) orbits.push_back(std::move(orbit));
+  } else {
+    Coexistence<kAnySize, kAnySize> coexistence(map.assembly(), map.flow(), wanted);
+    const StableOrbits<kAnySize, kAnySize> found = coexistence.find(system, nullptr);
+    for (std::size_t i = 0; i < found.stable.size(); ++i) {
+      map.flow().set_forcing(system);
+      coexistence.tell(system, found, i, orbit);
+      if (orbit.is_found()) orbits.push_back(orbit);
+    }
+  }
+  map.set(parameter);  // the search may leave the flow at a multiple of the period
+  for (AnyOrbit& each : orbits) move_to_phase_0(map, each);
+  return orbits;
 }
 
 }  // namespace frahm::periodic

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <vector>
+
 #include "solvers/branches/branch_map.hpp"
+#include "solvers/orbits/orbits_wanted.hpp"
 
 namespace frahm::periodic {
 
@@ -8,5 +11,9 @@ namespace frahm::periodic {
 // `frahm point` tells (the largest peak of the first mass), or of those that take `multiple` periods of the
 // excitation, if that is not 0. Its status says whether one was found.
 AnyOrbit find_start(BranchMap& map, int multiple);
+
+// The stable orbits that are found at a parameter, at phase 0, in the units of the map's flow; of a system of
+// one response that one. None where the values break a rule. The map must not have begun.
+std::vector<AnyOrbit> find_stable(BranchMap& map, double parameter, const OrbitsWanted& wanted);
 
 }  // namespace frahm::periodic

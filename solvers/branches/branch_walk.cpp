@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "solvers/branches/doubling_origin.hpp"
+
 namespace frahm::periodic {
 namespace {
 
@@ -31,15 +33,19 @@ class BranchWalk {
       const auto next = take_step();
       if (!next) {
         step_ *= 0.5;
-        if (step_ < limits_.least && !pass_corner()) return BranchEnd::lost;
+        if (step_ < limits_.least && !pass_corner()) return end_here();
         continue;
+      }
+      if (const auto origin = origin_of_doubling(map_, here_, *next)) {
+        found_({here_, nullptr, {*origin}});
+        return BranchEnd::origin;
       }
       const double p = next->y[next->y.size() - 1];
       if (p <= 0.0 || p >= 1.0) return accept(*next), BranchEnd::range;
       ++points;
       const bool closes = points > kLeastLoop && passes(first_, *next);
       if (closes) return accept(first_), BranchEnd::closed;
-      accept(*next);
+      if (!accept(*next)) return BranchEnd::joined;
       if (here_.section_is_near_event) move_section();
     }
     return BranchEnd::points;
@@ -84,7 +90,7 @@ class BranchWalk {
       // Nearer by as much as the step is shorter, or the map jumps and the branch ends here.
       const auto next = beyond_corner(way, limits_.corner);
       if (!next || !beyond_corner(way, 0.1 * limits_.corner)) continue;
-      found_(*next, {corner_before(*next)});
+      found_({here_, &*next, {corner_before(*next)}});
       here_ = *next;
       passed_.push_back(here_.y);
       step_ = limits_.corner;
@@ -120,10 +126,32 @@ class BranchWalk {
 
   SpecialPlace corner_before(const BranchPlace& next) const {
     const bool turns = (here_.parameter_rate() > 0.0) != (next.parameter_rate() > 0.0);
-    const auto differs = std::ranges::mismatch(here_.events, next.events).in1 - here_.events.begin();
-    const auto event = static_cast<std::size_t>(differs);
+    const std::size_t event = event_before(next.events);
     return {turns ? SpecialKind::corner : SpecialKind::grazing, here_,
             element_of_event(map_.assembly(), event), residual_of_grazing(map_, here_, limits_.least, event)};
+  }
+
+  // The first that happens more or less often there than here.
+  std::size_t event_before(const std::vector<int>& there) const {
+    return static_cast<std::size_t>(std::ranges::mismatch(here_.events, there).in1 - here_.events.begin());
+  }
+
+  // Why no place continues the branch.
+  BranchEnd end_here() {
+    Eigen::VectorXd beyond = here_.y + limits_.corner * here_.tangent;
+    beyond[beyond.size() - 1] = std::clamp(beyond[beyond.size() - 1], 0.0, 1.0);
+    try {
+      map_.set(map_.parameter(beyond));
+    } catch (const mechanics::MechanicsError&) {
+      return BranchEnd::rule;
+    }
+    const Shot shot = map_.shoot(beyond);
+    if (shot.failed) return BranchEnd::lost;
+    const std::vector<int> there = count_events(map_.flow(), shot.passage);
+    if (there == here_.events) return BranchEnd::lost;
+    const std::size_t element = element_of_event(map_.assembly(), event_before(there));
+    found_({here_, nullptr, {{SpecialKind::jump, here_, element, limits_.least}}});
+    return BranchEnd::jump;
   }
 
   // The step that led to the first place again, or past it.
@@ -134,15 +162,17 @@ class BranchWalk {
            (to_first - along * here_.tangent).norm() < 0.5 * step_ && here_.tangent.dot(first.tangent) > 0.9;
   }
 
-  void accept(const BranchPlace& next) {
+  // False: the branch is known from there on.
+  bool accept(const BranchPlace& next) {
     constexpr double kGrow = 1.5;
     constexpr int kFast = 4;  // Newton's steps
     const double angle = std::acos(std::clamp(here_.tangent.dot(next.tangent), -1.0, 1.0));
-    found_(next, special_places(map_, here_, next));
+    const bool is_new = found_({here_, &next, special_places(map_, here_, next)});
     if (next.newton_iterations <= kFast && angle < 0.5 * limits_.most_angle)
       step_ = std::min(kGrow * step_, wanted_.largest_step * std::max(1.0, next.y.norm()));
     here_ = next;
     passed_.push_back(here_.y);
+    return is_new;
   }
 
   // Away from events: where one passes the section, the curve of states there has a kink. Its tangent is

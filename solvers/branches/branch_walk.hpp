@@ -7,8 +7,15 @@
 
 namespace frahm::periodic {
 
-// Called with each place after the first, and the special places before it.
-using FoundOnBranch = std::function<void(const BranchPlace&, const std::vector<SpecialPlace>&)>;
+// A step along a branch, at the section of the map.
+struct BranchStep {
+  const BranchPlace& from;
+  const BranchPlace* to;              // null where the branch ends without another place
+  std::vector<SpecialPlace> special;  // between
+};
+
+// False: the branch goes on as one that is known.
+using FoundOnBranch = std::function<bool(const BranchStep&)>;
 
 // Follows a branch from a place of it, the way its tangent leads. Returns why it ends.
 BranchEnd walk_branch(BranchMap& map, const BranchWanted& wanted, const BranchPlace& first,

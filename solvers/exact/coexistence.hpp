@@ -113,4 +113,10 @@ typename Sizes<N, H>::State Coexistence<N, H>::start(int index, const mechanics:
   return index == 1 ? z : scattered(flow_, index, size * kReach[index % 3]);
 }
 
+// Each once, in sized_solver_<N>_<H>.cpp.
+extern template class Coexistence<1, 1>;
+extern template class Coexistence<1, 2>;
+extern template class Coexistence<2, 1>;
+extern template class Coexistence<Eigen::Dynamic, Eigen::Dynamic>;
+
 }  // namespace frahm::periodic

@@ -9,6 +9,7 @@
 #include "engine/io_error.hpp"
 #include "engine/tile_index.hpp"
 #include "results/map_writer.hpp"
+#include "studies/map/branch_record.hpp"
 #include "studies/map/first_modes.hpp"
 #include "studies/map/tile_record.hpp"
 #include "studies/record/array_tasks.hpp"
@@ -165,6 +166,7 @@ Assembly make_file(const MapPlan& plan, const RunRecord& run, const AssemblyOpti
   const Failures failures = write_map(plan, layout, index, options, writer);
   write_orbits(plan, options, writer);
   write_resonances(plan, options, writer);
+  write_branches(plan, index, options, writer);
   write_modes(plan.study, writer);
   writer.write_texts("provenance", provenance(plan, run, failures.texts(plan.study), missing.size()));
   writer.finish();

@@ -38,6 +38,8 @@ std::vector<results::Axis> axes_of(const Study& study) {
   return axes;
 }
 
+}  // namespace
+
 results::Variable variable_of(const Study& study, const periodic::QuantityDescription& description) {
   results::Variable variable{
       .name = description.name, .unit = description.unit, .long_name = description.long_name};
@@ -55,8 +57,6 @@ results::Variable variable_of(const Study& study, const periodic::QuantityDescri
   }
   return variable;
 }
-
-}  // namespace
 
 results::MapLayout map_layout(const MapPlan& plan, const RunRecord& run) {
   results::MapLayout layout = file_layout(plan, run);

@@ -17,6 +17,9 @@ namespace frahm::studies {
 // and variables.
 results::MapLayout map_layout(const MapPlan& plan, const RunRecord& run);
 
+// How a quantity is recorded.
+results::Variable variable_of(const Study& study, const periodic::QuantityDescription& description);
+
 // The time histories of the points that the study lists, solved and written to /orbits; nothing if it lists
 // none. An orbit that does not exist has a row without samples. Throws AssemblyStopped.
 void write_orbits(const MapPlan& plan, const AssemblyOptions& options, results::MapWriter& writer);

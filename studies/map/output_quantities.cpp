@@ -86,6 +86,12 @@ std::vector<std::pair<std::string, std::string>> names_of_groups(const Study& st
     for (const char* name : {"border", "element", "axis", "regime_below", "regime_above"})
       add(name, "a variable of the borders");
   }
+  if (study.sweep()->output.branches) {
+    add("branches", "a group of the file");
+    for (const char* name : {"branch", "place", "row_start", "period_multiple", "first_end", "last_end",
+                             "arclength", "stability", "special", "special_residual", "special_element"})
+      add(name, "a variable of the branches");
+  }
   if (study.sweep()->output.resonances.empty()) return names;
   add("resonance", "a group of the file");
   add("curve", "the index of the resonances");

@@ -8,15 +8,21 @@
 #include <functional>
 #include <iostream>
 
+#include "engine/output_lock.hpp"
+#include "results/map_writer.hpp"
 #include "solvers/branches/branch.hpp"
 #include "solvers/mechanics/linear_system.hpp"
-#include "studies/map/output_quantities.hpp"
+#include "studies/map/branch_record.hpp"
+#include "studies/map/branch_rows.hpp"
 #include "studies/program/branch_table.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/whole_file.hpp"
 #include "studies/reading/assignment.hpp"
 #include "studies/reading/settings.hpp"
 #include "studies/reading/spelling.hpp"
+#include "studies/record/fingerprint.hpp"
+#include "studies/record/finished_file.hpp"
+#include "studies/record/provenance.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -125,12 +131,39 @@ periodic::BranchWanted wanted_branch(const Study& study, std::size_t along,
   return wanted;
 }
 
+bool is_result(const std::filesystem::path& output) {
+  return output.extension() == ".h5";
+}
+
+void check_place(const BranchCommandOptions& options) {
+  if (!options.output) return;
+  if (is_result(*options.output))
+    check_result_place(*options.output, options.study);
+  else
+    check_output_is_not_input(*options.output, options.study);
+}
+
+// A result that has this branch alone.  parameters: SI, of the branch.
+void write_result(const BranchCommandOptions& options, const Study& study, std::size_t along,
+                  std::span<const double> parameters, const std::vector<periodic::Quantity>& quantities,
+                  const periodic::Branch& branch, const std::string& started) {
+  const engine::OutputLock lock(*options.output);
+  const StudyPlan plan{.study = study, .set = options.set, .fingerprint = fingerprint(study)};
+  const RunRecord run{.command = options.command, .threads = 1, .started = started};
+  results::MapWriter writer(*options.output, file_layout(plan, run));
+  BranchRecord(study, along, axis_parameters_beside(study, along), quantities, writer)
+      .append(parameters, branch);
+  writer.write_texts("provenance", provenance(plan, run, {}));
+  writer.finish();
+}
+
 }  // namespace
 
 int branch_command(const BranchCommandOptions& options, std::ostream& out) {
   Study study = read_study_with(options.study, options.set);
   check_options(study, options);
-  if (options.output) check_output_is_not_input(*options.output, options.study);
+  check_place(options);
+  const std::string started = utc_now();
   const std::size_t along = parameter_along(study, options.along);
   const periodic::BranchWanted wanted = wanted_branch(study, along, options);
   std::vector<double> parameters = parameters_at(study, options.at);
@@ -139,7 +172,7 @@ int branch_command(const BranchCommandOptions& options, std::ostream& out) {
     check_point(study, parameters);
     set_crank_orders_at(study, parameters);
   }
-  const std::vector<periodic::Quantity> quantities = output_quantities(study);
+  const std::vector<periodic::Quantity> quantities = branch_quantities(study);
   const auto values_at = [&](double value) {
     parameters[along] = value;
     mechanics::NetworkValues values;
@@ -158,7 +191,10 @@ int branch_command(const BranchCommandOptions& options, std::ostream& out) {
     table.print_failure(wanted.start, branch.reason, out);
     return exit_code::some_failed;
   }
-  if (options.output) write_whole_file(*options.output, table.csv(branch));
+  if (options.output && is_result(*options.output))
+    write_result(options, study, along, parameters, quantities, branch, started);
+  else if (options.output)
+    write_whole_file(*options.output, table.csv(branch));
   table.print(branch, out);
   return exit_code::done;
 }

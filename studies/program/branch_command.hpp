@@ -18,13 +18,15 @@ struct BranchCommandOptions {
   std::vector<std::string> set = {};                 // applied to the study before
   int steps = 2000;                                  // most points each way
   int multiple = 0;                                  // of the excitation's period; 0: any
-  std::optional<std::filesystem::path> output = {};  // CSV file of all points
+  std::optional<std::filesystem::path> output = {};  // of all points: CSV, or a result where it ends in .h5
+  std::string command = {};                          // for the result's history
   engine::ProgressStyle progress = engine::ProgressStyle::automatic;
 };
 
 // Follows the branch of the periodic response along a parameter, stable and unstable, through its folds;
-// prints the special points. Returns 0, or 3 where there is no response to start from. Throws StudyError for
-// a wrong study, name or value; engine::IoError for a file that cannot be written.
+// prints the special points. An interrupted one leaves no file. Returns 0, or 3 where there is no response to
+// start from. Throws StudyError for a wrong study, name or value; engine::IoError for a file that cannot be
+// written.
 int branch_command(const BranchCommandOptions& options, std::ostream& out);
 
 }  // namespace frahm::studies

@@ -18,6 +18,7 @@
 #include "studies/map/map_sample.hpp"
 #include "studies/motion/motion_record.hpp"
 #include "studies/program/array_job.hpp"
+#include "studies/program/branch_cost.hpp"
 #include "studies/program/check_tuning.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/modes_table.hpp"
@@ -191,6 +192,7 @@ int check_command(const CheckOptions& options, std::ostream& out) {
   }
   print_grid(study, plan.grid, out);
   print_prediction(plan.grid, sample, options.threads, out);
+  print_branch_cost(plan, options.threads, out);
   print_array(options, plan, "map", core_seconds, out);
   if (options.simulate_ranks > 0) {
     print_rank_table(plan.grid, sample, options.simulate_ranks, std::max(1, options.threads), start_seconds,

@@ -48,6 +48,7 @@ Examples (a bare number is in the unit in which the study speaks of the paramete
 inline constexpr const char* branch_examples = R"(
 Examples:
   frahm branch den_hartog.toml --along r --at f=0.4 -o branch.csv
+  frahm branch stops.toml --along r -o branch.h5    a result: frahm report, frahm export
   frahm branch stops.toml --along omega --from "10 Hz" --to "40 Hz"
   frahm branch stops.toml --along r --at r=3.2 --multiple 2    a subharmonic, from where it is stable)";
 

@@ -155,7 +155,7 @@ void add_branch(CLI::App& program, BranchCommandOptions& options, Action& action
       ->add_option("--multiple", options.multiple,
                    "follow a response that takes so many periods of the excitation; else any")
       ->check(CLI::Range(1, 64));
-  branch->add_option("-o,--output", options.output, "write all points to this CSV file");
+  branch->add_option("-o,--output", options.output, "write all points to this file: CSV, or a result where it ends in .h5");
   add_progress(*branch, options.progress);
   branch->callback([&] { action = [&](std::ostream& out) { return branch_command(options, out); }; });
 }
@@ -184,7 +184,7 @@ void add_export(CLI::App& program, ExportOptions& options, Action& action) {
       help::export_examples);
   command->add_option("FILE", options.file, "result file")->required();
   command->add_option("--group", options.group,
-                      "a group instead of the map: resonance, orbits, identification ...");
+                      "a group instead of the map: resonance, orbits, branches, identification ...");
   command->add_flag("--csv", options.csv, "CSV, which is the default");
   command->add_flag("--schedule", options.schedule, "of a tuning: its schedule for a controller");
   command->add_option("--step", options.step, "of --schedule: its step, in the unit of the band; else 1 rpm");
@@ -258,6 +258,7 @@ std::optional<int> parse_command_line(int argc, const char* const* argv, Command
   CLI::App program(help::overview, "frahm");
   describe(program, line);
   for (int i = 0; i < argc; ++i) line.run.command += (i == 0 ? "frahm" : std::string(" ") + argv[i]);
+  line.branch.command = line.run.command;
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -93,6 +93,36 @@ void write_map(const results::MapReader& map, std::ostream& out) {
   }
 }
 
+// Of a ragged group, what a row says beside each of its samples: one table of samples. Others are unchanged.
+std::vector<results::Column> beside_samples(std::vector<results::Column> columns) {
+  const auto is_start = [](const results::Column& each) { return each.variable.name == "row_start"; };
+  const auto found = std::ranges::find_if(columns, is_start);
+  if (found == columns.end()) return columns;
+  const results::Column starts = *found;
+  columns.erase(found);
+  const auto is_of_samples = [&](const results::Column& each) { return each.dimension != starts.dimension; };
+  const auto sample = std::ranges::find_if(columns, is_of_samples);
+  const std::size_t samples = sample == columns.end() ? 0 : sample->values.size();
+  for (results::Column& column : columns) {
+    if (is_of_samples(column)) continue;
+    std::vector<double> repeated;
+    for (std::size_t row = 0; row < starts.values.size(); ++row) {
+      const auto end =
+          row + 1 < starts.values.size() ? static_cast<std::size_t>(starts.values[row + 1]) : samples;
+      repeated.resize(end, column.values[row]);
+    }
+    column.values = std::move(repeated);
+  }
+  return columns;
+}
+
+// A flag is a word where it stands in a group.
+std::string cell(const results::Variable& variable, double value) {
+  if (is_missing(variable, value)) return "";
+  const auto flag = std::ranges::find(variable.flags, static_cast<int>(value), &results::Flag::value);
+  return flag == variable.flags.end() ? fmt::format("{:.17g}", value) : flag->meaning;
+}
+
 // The columns of a group side by side, single numbers in the first row, missing cells empty.
 void write_columns(const std::vector<results::Column>& columns, std::ostream& out) {
   std::size_t rows = 0;
@@ -109,18 +139,18 @@ void write_columns(const std::vector<results::Column>& columns, std::ostream& ou
     for (std::size_t c = 0; c < columns.size(); ++c) {
       const auto& [variable, dimension, values] = columns[c];
       if (c > 0) text += ',';
-      if (row < values.size() && !is_missing(variable, values[row]))
-        fmt::format_to(std::back_inserter(text), "{:.17g}", values[row]);
+      if (row < values.size()) text += cell(variable, values[row]);
     }
     out << text << '\n';
   }
 }
 
-// Writes the requested group, else the map, or in a file without a map the motion or optimum.
+// Writes the requested group, else the map, or in a file without a map the motion, optimum or branch.
 void write_table(const results::MapReader& map, const std::string& asked, std::ostream& out) {
-  if (!asked.empty()) return write_columns(map.columns(asked), out);
-  for (const char* group : {"decay", "transient", optimum_group, identification_group}) {
-    if (map.layout().axes.empty() && map.has_group(group)) return write_columns(map.columns(group), out);
+  if (!asked.empty()) return write_columns(beside_samples(map.columns(asked)), out);
+  for (const char* group : {"decay", "transient", optimum_group, identification_group, "branches"}) {
+    if (map.layout().axes.empty() && map.has_group(group))
+      return write_columns(beside_samples(map.columns(group)), out);
   }
   write_map(map, out);
 }

@@ -153,8 +153,9 @@ std::vector<OutputChoice::Name> read_quantity_names(const TomlSection& section) 
 void read_output(const StudyContext& context, const TomlValue& root, Study& study) {
   const TomlEntry* entry = find_entry(root, "output");
   if (!entry) return;
-  const TomlSection section(context.source, entry->value, "[output]",
-                            {"quantities", "precision", "path", "borders", "orbits", "resonances", "signal"});
+  const TomlSection section(
+      context.source, entry->value, "[output]",
+      {"quantities", "precision", "path", "borders", "branches", "orbits", "resonances", "signal"});
   read_quantities(section, study.sweep()->output);
   study.sweep()->output.general_path = section.choice_or("path", {"fastest", "general"}) == "general";
   const auto precision = std::ranges::find(precision_names, section.choice_or("precision", precision_names));
@@ -162,6 +163,7 @@ void read_output(const StudyContext& context, const TomlValue& root, Study& stud
   read_borders(section, study);
   read_orbits(context, section, study);
   read_resonances(context, section, study);
+  read_branches(context, section, study);
   if (const std::string one = needs_one_response(study); !one.empty()) refuse_several_responses(study, one);
 }
 

@@ -133,6 +133,7 @@ void read_output(const StudyContext& context, const TomlValue& root, Study& stud
 // The key `show`: which of several responses, by default the largest; a sweep needs an axis of the frequency.
 periodic::OrbitsWanted::Show read_show(const TomlSection& section);
 void check_frequency_axis(const TomlSection& section, const Study& study);
+void read_branches(const StudyContext& context, const TomlSection& output, Study& study);
 void read_report(const StudyContext& context, const TomlValue& root, Study& study);
 
 // The names in the array `quantities` of a section, and patterns of names (name_pattern.hpp), each once.

@@ -48,6 +48,18 @@ struct DerivedCoordinate {
 enum class Precision { known_digits, single, full };
 inline const std::vector<std::string> precision_names{"double", "single", "full"};
 
+// Branches of responses along an axis, through rows of the map.
+struct BranchChoice {
+  std::size_t axis = 0;  // index in SweepChoice::axes; alone in its dimension
+  std::vector<std::vector<Assignment>> at =
+      {};  // the rows: those with the values of one of these; empty: all
+};
+
+// Whether a number is a value of an axis, but for the rounding of units.
+bool is_on_axis(double value, double of_axis);
+// The elements that may begin to stick, to stop or to touch: indices in Network::elements.
+std::vector<std::size_t> elements_with_events(const mechanics::Network& network);
+
 struct OutputChoice {
   enum class Quantities { standard, all, listed };
   struct Name {
@@ -61,6 +73,7 @@ struct OutputChoice {
   bool general_path = false;                    // every orbit by shooting, also where nothing sticks
   bool borders = false;                         // whether borders of regimes are solved; exact law only
   std::vector<std::vector<Assignment>> orbits;  // points whose time histories are recorded
+  std::optional<BranchChoice> branches;         // exact law only
   std::vector<std::size_t> resonances;  // coordinates whose resonance is sought along the frequency axis
 };
 

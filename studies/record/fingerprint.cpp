@@ -281,6 +281,13 @@ void add_map(const Study& study, const SweepChoice& sweep, CanonicalText& text) 
     text.line("orbit ends");
   }
   if (sweep.output.borders) text.line("borders");
+  if (const auto& branches = sweep.output.branches) {
+    text.line("branches {}", study.parameters.list[sweep.axes[branches->axis].parameter].name);
+    for (const auto& row : branches->at) {
+      for (const Assignment& at : row) text.line("branches at {} {}", at.parameter, at.value);
+      text.line("branches row ends");
+    }
+  }
   text.line("resonances {}", fmt::join(sweep.output.resonances, " "));
 }
 

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <complex>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -134,6 +135,79 @@ TEST_CASE("machine_on_stops.toml searched: two orbits between the folds") {
   CHECK_THAT(small["machine_peak"][index_of(r, 1.5)], WithinAbs(0.7943015, kTold));
   CHECK_THAT(large["machine_peak"][index_of(r, 1.6)], WithinAbs(2.4531427, kTold));
   CHECK_THAT(small["machine_peak"][index_of(r, 1.6)], WithinAbs(0.6376804, kTold));
+}
+
+// The columns of a group by name.
+std::map<std::string, std::vector<double>> group_of(const std::string& file, const std::string& group) {
+  std::map<std::string, std::vector<double>> columns;
+  for (const frahm::results::Column& column : frahm::results::MapReader(file).columns(group))
+    columns[column.variable.name] = column.values;
+  return columns;
+}
+
+constexpr double kFold = 2.0, kStable = 1.0, kUnstable = 2.0;  // flags of /branches
+
+TEST_CASE("machine_on_stops.toml: one branch through both folds, unstable between them") {
+  const runs::Folder folder;
+  const std::string study = folder.write("study.toml", runs::reduced("machine_on_stops", {{"r", 29}}));
+  REQUIRE(runs::frahm({"run", study, "-o", folder / "map.h5"}).code == 0);
+  auto branch = group_of(folder / "map.h5", "branches");
+  CHECK(branch["row_start"] == std::vector<double>{0.0});
+  CHECK(branch["period_multiple"] == std::vector<double>{1.0});
+  std::vector<std::size_t> folds;
+  for (std::size_t i = 0; i < branch["special"].size(); ++i)
+    if (branch["special"][i] == kFold) folds.push_back(i);
+  REQUIRE(folds.size() == 2);
+  CHECK_THAT(branch["r"][folds[0]], WithinAbs(2.00180666851, kTold));
+  CHECK_THAT(branch["machine_peak"][folds[0]], WithinAbs(4.9326330, kTold));
+  CHECK_THAT(branch["r"][folds[1]], WithinAbs(1.40867072840, kTold));
+  for (std::size_t i = 0; i < branch["r"].size(); ++i) {
+    if (i == folds[0] || i == folds[1]) continue;
+    INFO("r " << branch["r"][i]);
+    CHECK(branch["stability"][i] == (i > folds[0] && i < folds[1] ? kUnstable : kStable));
+    CHECK(std::isnan(branch["special_residual"][i]) == (branch["special"][i] == 1.0));
+    if (i > 0) CHECK(branch["arclength"][i] > branch["arclength"][i - 1]);
+  }
+  CHECK(runs::frahm({"check", study}).out.find("branches through 1 row") != std::string::npos);
+}
+
+TEST_CASE("Branches are the same whatever the threads, and CSV has each point of each row") {
+  const runs::Folder folder;
+  const std::string study = folder.write(
+      "study.toml", runs::replaced(runs::reduced("machine_on_stops", {{"r", 15}}), "[orbits]",
+                                   "[[axis]]\nparameter = \"zeta\"\nvalues = [0.05, 0.1, 0.2]\n\n[orbits]"));
+  std::vector<std::map<std::string, std::vector<double>>> found;
+  for (const std::string threads : {"1", "2"}) {
+    const std::string file = folder / ("map" + threads + ".h5");
+    REQUIRE(runs::frahm({"run", study, "-o", file, "--threads", threads}).code == 0);
+    found.push_back(group_of(file, "branches"));
+    for (auto& [name, values] : found.back())
+      std::ranges::replace_if(
+          values, [](double each) { return std::isnan(each); }, -1e300);
+  }
+  CHECK(found[0] == found[1]);
+  CHECK(found[0]["zeta"] == std::vector<double>{0.05, 0.1, 0.2});
+  const std::string csv = runs::frahm({"export", folder / "map1.h5", "--group", "branches", "-o", "-"}).out;
+  CHECK(static_cast<std::size_t>(std::ranges::count(csv, '\n')) == found[0]["r"].size() + 1);
+  CHECK(csv.find(",fold,") != std::string::npos);
+  CHECK(csv.starts_with("zeta,"));
+}
+
+TEST_CASE("Branches of chosen rows alone, and of one as a result of its own") {
+  const runs::Folder folder;
+  const std::string text =
+      runs::replaced(runs::replaced(runs::reduced("machine_on_stops", {{"r", 15}}), "[orbits]",
+                                    "[[axis]]\nparameter = \"zeta\"\nvalues = [0.05, 0.1, 0.2]\n\n[orbits]"),
+                     "branches = true", "branches = { along = \"r\", at = [{ zeta = 0.1 }] }");
+  const std::string study = folder.write("study.toml", text);
+  REQUIRE(runs::frahm({"run", study, "-o", folder / "map.h5"}).code == 0);
+  CHECK(group_of(folder / "map.h5", "branches")["zeta"] == std::vector<double>{0.1});
+  REQUIRE(runs::frahm({"branch", study, "--along", "r", "--at", "zeta=0.1", "-o", folder / "one.h5"}).code ==
+          0);
+  auto of_map = group_of(folder / "map.h5", "branches"), alone = group_of(folder / "one.h5", "branches");
+  CHECK(alone["zeta"] == of_map["zeta"]);
+  CHECK(alone["r"].size() == of_map["r"].size());
+  CHECK(runs::frahm({"run", study, "-o", folder / "one.h5"}).code == 5);
 }
 
 TEST_CASE("bump_and_rebound.toml: the spring carries the mean of the absorber's force") {

@@ -217,31 +217,40 @@ NetworkValues one_stop_values(double r) {
           .bends = {{}, {}, {{0.3, 20.0, 0.0}}}};
 }
 
-TEST_CASE("A subharmonic is followed in its own period until the branch closes") {
-  const Branch branch = follow_branch(mass_before_a_stop(), asked, one_stop_values,
-                                      {.low = 1.0, .high = 5.0, .start = 3.2, .multiple = 2});
-  check_points(branch);
-  CHECK(branch.last_end == BranchEnd::closed);
-  CHECK(branch.points.front().multiple == 2);
-  CHECK_THAT(branch.points.back().parameter, WithinAbs(branch.points.front().parameter, kExact));
-  CHECK_THAT(branch.points.back().quantities[0], WithinAbs(branch.points.front().quantities[0], kExact));
-  CHECK(of_kind(branch, SpecialKind::period_doubling).size() >= 4);
-}
-
-TEST_CASE("A branch of two periods meets that of one where its period doubles") {
+TEST_CASE("A branch of two periods ends where those of one double theirs, at both ends") {
   const auto followed = [](double start, int multiple) {
     return follow_branch(mass_before_a_stop(), asked, one_stop_values,
                          {.low = 1.0, .high = 5.0, .start = start, .multiple = multiple});
   };
   const Branch one = followed(1.2, 1), two = followed(3.2, 2);
-  // The corrector is singular there: where the parameter turns back is told as a fold, or as a corner.
-  const auto meets = [&](const SpecialPoint& doubling) {
-    return std::ranges::any_of(two.special, [&](const SpecialPoint& each) {
-      const bool turns = each.kind == SpecialKind::fold || each.kind == SpecialKind::corner;
-      return turns && std::abs(each.at.parameter - doubling.at.parameter) < kExact;
-    });
-  };
-  CHECK(std::ranges::count_if(of_kind(one, SpecialKind::period_doubling), meets) == 2);
+  check_points(two);
+  CHECK(two.points.front().multiple == 2);
+  CHECK(two.first_end == BranchEnd::origin);
+  CHECK(two.last_end == BranchEnd::origin);
+  const auto known = of_kind(one, SpecialKind::period_doubling);
+  for (const SpecialPoint& end : {two.special.front(), two.special.back()}) {
+    INFO("at " << end.at.parameter);
+    CHECK(end.kind == SpecialKind::period_doubling);
+    CHECK(end.residual < kExact);
+    CHECK(std::ranges::any_of(known, [&](const SpecialPoint& each) {
+      return std::abs(each.at.parameter - end.at.parameter) < kExact &&
+             std::abs(each.at.quantities[0] - end.at.quantities[0]) < kExact;
+    }));
+  }
+  const auto turns = [](const SpecialPoint& each) { return each.kind == SpecialKind::corner; };
+  CHECK(std::ranges::none_of(two.special, turns));
+}
+
+TEST_CASE("The arclength of a branch grows from its first point, special ones between") {
+  const Branch branch = stop_branch(0.05, 4.0, 0.0, {.low = 1.1, .high = 2.5, .start = 1.8});
+  REQUIRE(branch.points.size() > 10);
+  CHECK(branch.points.front().arclength == 0.0);
+  for (std::size_t i = 1; i < branch.points.size(); ++i)
+    CHECK(branch.points[i].arclength > branch.points[i - 1].arclength);
+  for (const SpecialPoint& each : branch.special) {
+    CHECK(each.at.arclength >= branch.points[each.after].arclength);
+    CHECK(each.at.arclength <= branch.points[each.after + 1].arclength);
+  }
 }
 
 // The forcing of a subharmonic is still that of one period.

@@ -1,10 +1,12 @@
 // Response curves: a quantity along one axis through one or several points of the map.
 import * as Plot from "@observablehq/plot";
 import { extent, ticks } from "d3";
-import { axisLabel, axisScale, axisText, coordinateColumns, coordinateText } from "../axes.js";
+import { axisLabel, axisScale, axisText, coordinateColumns, coordinateText, symbolText } from "../axes.js";
+import { branchColumns, branchCurve, branchesThrough, placesBy, specialPoints } from "../branches.js";
 import { circumstance, comparedWith } from "../compared.js";
 import { meaningOf } from "../record.js";
 import { numberText, shownUnit, unitText, withUnit, words } from "../units.js";
+import { branchLegend, branchLines, specialDots, specialTips } from "./branch_marks.js";
 import {
   curve,
   dots,
@@ -107,8 +109,25 @@ function yAxis(variable, state, label, values) {
   return { label, domain: shown, nice: true, inset, ...asPowers, ...whole };
 }
 
+// For each point of the state the branches through it, on the scale of the figure; none of a quantity that they do not
+// have.
+function branchCurves(map, variable, state, x, factor) {
+  const { followed } = state,
+    quantity = followed?.group.column(variable.name);
+  if (!quantity || quantity.kind !== "float") return state.points.map(() => []);
+  const places = placesBy(followed, map.axes[state.axis], x),
+    y = quantity.values.map((value) => onScale(state.scale, value) * factor);
+  return state.points.map((index) =>
+    branchesThrough(followed, map, state.axis, index).map((branch) =>
+      branchCurve(followed, branch, places, y),
+    ),
+  );
+}
+
+const under = { strokeWidth: 6, strokeOpacity: 0.25 }; // the map's own curve, under branches
+
 // state: {axis, coordinate, scale: "linear", "log" or "dB", points: [index], regime: variable or undefined,
-// borders: where the regime changes along the axis}.
+// borders: where the regime changes along the axis, followed: branches (branches.js) or null}.
 export function responseCurves(canvas, map, variable, state) {
   const x = map.axes[state.axis].coordinates[state.coordinate];
   const compared = state.regime ? undefined : comparedWith(map, variable);
@@ -119,6 +138,7 @@ export function responseCurves(canvas, map, variable, state) {
   const factor = state.scale === "dB" ? 1 : shown.factor;
   const values = lines.map((line) => line.map((value) => onScale(state.scale, value) * factor));
   const label = yLabel(variable, state.scale, shown);
+  const branches = branchCurves(map, variable, state, x, factor);
   const marks = [],
     legend = [],
     rows = [],
@@ -141,9 +161,11 @@ export function responseCurves(canvas, map, variable, state) {
       const runs = regimeRuns(map, state.regime, state.points[n], state.axis);
       marks.push(...marksByRegime(runs, x.values, y, style.strokeDasharray, seen));
     } else {
-      marks.push(curve(x.values, y, { ...style, ...(variable.kind === "float" ? {} : stepped) }));
+      const look = branches[n].length ? under : variable.kind === "float" ? {} : stepped;
+      marks.push(curve(x.values, y, { ...style, ...look }));
       if (y.length <= fewPoints) marks.push(dots(x.values, y, { fill: style.stroke }));
     }
+    marks.push(...branchLines(branches[n], style));
     const isOneOfMany = state.points.length > 1;
     if (isOneOfMany) legend.push({ text: name, stroke: style.stroke, dash: style.strokeDasharray });
     rows.push(...tipRows(x, y, label, isOneOfMany ? name : ""));
@@ -151,6 +173,9 @@ export function responseCurves(canvas, map, variable, state) {
   const regimes = [...seen]
     .filter((word) => regimeColours[word])
     .map((word) => ({ text: words(word), stroke: regimeColours[word] }));
+  const followed = branches.flat(),
+    special = specialPoints(followed);
+  rows.push(...specialTips(special, symbolText(x.name), label));
   const nothing = [Plot.text(["no number along this line"], { frameAnchor: "middle", fontSize: 13 })];
   return drawFrame(canvas, {
     x: {
@@ -158,9 +183,11 @@ export function responseCurves(canvas, map, variable, state) {
       type: axisScale(x.values),
       domain: extent(x.values),
     },
-    y: yAxis(variable, state, label, values),
-    legend: [...legend, ...regimes],
-    marks: rows.length ? [...grid(), ...borderRules(state), ...marks, ...tips(canvas, rows)] : nothing,
+    y: yAxis(variable, state, label, [...values, ...followed.map(({ y }) => y)]),
+    legend: [...legend, ...regimes, ...branchLegend(followed)],
+    marks: rows.length
+      ? [...grid(), ...borderRules(state), ...marks, ...specialDots(special), ...tips(canvas, rows)]
+      : nothing,
   });
 }
 
@@ -179,7 +206,17 @@ function logDomain(positive) {
   return from < high ? [from / 1.15, high * 1.15] : [from / 2, from * 2];
 }
 
-// The curves side by side, with the axis's coordinates; of a single one every coordinate of its points.
+// The branches of the curves side by side.
+function branchTable(map, variable, state) {
+  const quantity = state.followed?.group.column(variable.name);
+  if (!quantity || quantity.kind !== "float") return [];
+  return state.points
+    .flatMap((index) => branchesThrough(state.followed, map, state.axis, index))
+    .flatMap((branch, n) => branchColumns(state.followed, branch, quantity, ` of branch ${n + 1}`));
+}
+
+// The curves side by side, with the axis's coordinates; of a single one every coordinate of its points. Then the
+// branches through them.
 export function responseCurvesTable(map, variable, state) {
   const axis = map.axes[state.axis];
   const [first] = state.points;
@@ -213,5 +250,5 @@ export function responseCurvesTable(map, variable, state) {
       values: regimes.map((value) => meaningOf(state.regime, value)),
     });
   }
-  return columns;
+  return [...columns, ...branchTable(map, variable, state)];
 }

@@ -6,7 +6,7 @@ import { figureCard } from "../parts/figure_card.js";
 import { followPointer } from "../parts/map_pointer.js";
 import { pointCard, pointTip } from "../parts/point_table.js";
 import { mostListed } from "../profile.js";
-import { budgetFigure, curveFigure, mapFigure, regimeOf } from "./map_figures.js";
+import { budgetFigure, curveFigure, hasBranches, mapFigure, regimeOf } from "./map_figures.js";
 import { profileFigures } from "./profile.js";
 import { curvePoints, firstState, listedQuantities, profilePoints, sliding } from "./sweep_state.js";
 
@@ -160,6 +160,9 @@ function controlsOfCurves(view) {
     ),
     regimeOf(map, state.contact)
       ? tick("colour by regime", state.colourByRegime, (colourByRegime) => change(view, { colourByRegime }))
+      : null,
+    hasBranches(map, state)
+      ? tick("branches", state.showBranches, (showBranches) => change(view, { showBranches }))
       : null,
     wide.length > 1 ? button("keep", "keep this curve", () => [...curvePoints(state)]) : null,
     wide.length > 1 ? button("clear", "clear kept", () => []) : null,

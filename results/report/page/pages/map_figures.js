@@ -76,6 +76,17 @@ export function regimeOf(map, contact) {
   return map.variable(`${contact}_regime`);
 }
 
+// Whether branches go along the curves.
+export function hasBranches(map, { followed, curveAxis }) {
+  return followed !== null && map.axes[curveAxis].coordinates.some(({ name }) => name === followed.along);
+}
+
+function branchNote(map, state) {
+  const isDrawn =
+    state.showBranches && hasBranches(map, state) && state.followed.group.has(state.variable.name);
+  return isDrawn ? "branches over the map's own curve: stable solid, unstable dashed" : "";
+}
+
 export function curveFigure(map, state) {
   const curves = () => ({
     axis: state.curveAxis,
@@ -84,6 +95,7 @@ export function curveFigure(map, state) {
     points: curvePoints(state),
     borders: bordersAlong(map, state),
     regime: state.colourByRegime ? regimeOf(map, shownContact(state)) : undefined,
+    followed: state.showBranches ? state.followed : null,
   });
   return {
     get name() {
@@ -103,7 +115,9 @@ export function curveFigure(map, state) {
       const rules = dashed
         ? `; upright lines: where the regime of ${words(shownContact(state))} changes`
         : "";
-      return placeWithout(map, { ...state, index: points[0] }, [state.curveAxis, ...differing]) + rules;
+      const place =
+        placeWithout(map, { ...state, index: points[0] }, [state.curveAxis, ...differing]) + rules;
+      return [place, branchNote(map, state)].filter(Boolean).join("; ");
     },
     draw: (canvas) => responseCurves(canvas, map, state.variable, curves()),
     table: () => responseCurvesTable(map, state.variable, curves()),

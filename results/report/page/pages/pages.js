@@ -1,4 +1,5 @@
 // The parts of a result's page: those of its map, and those of each of its groups.
+import { branchFigures, branchParts } from "./branches.js";
 import { tuningFigures, tuningParts } from "./tuning.js";
 import { identificationFigures, identificationParts } from "./identification.js";
 import { crankFigures, crankParts } from "./crank.js";
@@ -13,6 +14,11 @@ const kinds = [
     has: (record) => record.groups.has("identification"),
     parts: identificationParts,
     figures: identificationFigures,
+  },
+  {
+    has: (record) => record.map === null && record.groups.has("branches"),
+    parts: branchParts,
+    figures: branchFigures,
   },
   { has: hasMotion, parts: motionParts, figures: motionFigures },
   { has: (record) => record.groups.has("crank"), parts: crankParts, figures: crankFigures },

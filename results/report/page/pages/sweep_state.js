@@ -1,5 +1,6 @@
 // The state of a map's view: quantity, axes, the sliders' point and the points picked for curves.
 import { fractionalIndex } from "../axes.js";
+import { branchesOf } from "../branches.js";
 import { headlines, profileOf } from "../profile.js";
 import { meaningOf } from "../record.js";
 
@@ -125,6 +126,8 @@ export function firstState(record) {
     colourByRegime: false,
     kept: [],
     crossings,
+    followed: branchesOf(record),
+    showBranches: true,
   };
 }
 

@@ -1,0 +1,35 @@
+#include "solvers/branches/part_of_branch.hpp"
+
+#include <cmath>
+
+namespace frahm::periodic {
+
+std::optional<BranchPlace> PartOfBranch::place(double s, const BranchPlace& a, const BranchPlace& b) const {
+  const double part = (s - at(a)) / (at(b) - at(a));
+  return correct(map_, a.y + part * (b.y - a.y), from_.tangent, part < 0.5 ? a.tangent : b.tangent);
+}
+
+// By regula falsi with halved ends (Illinois), each third step by halving the bracket.
+BranchRoot root(const PartOfBranch& part, const PlaceFunction& function) {
+  constexpr int kMostSteps = 100;
+  constexpr double kTolerance = 1e-11, kNoLength = 1e-15;
+  BranchPlace a = part.from(), b = part.to();
+  double fa = function(a), fb = function(b);
+  BranchPlace best = std::abs(fa) < std::abs(fb) ? a : b;
+  for (int i = 0; i < kMostSteps && part.at(b) - part.at(a) > kNoLength; ++i) {
+    const double sa = part.at(a), sb = part.at(b);
+    const auto place = part.place(i % 3 == 2 ? 0.5 * (sa + sb) : (sa * fb - sb * fa) / (fb - fa), a, b);
+    if (!place) break;
+    const double f = function(*place);
+    if (std::abs(f) <= std::abs(function(best))) best = *place;
+    if (std::abs(f) <= kTolerance) break;
+    if ((f > 0.0) == (fb > 0.0)) {
+      b = *place, fb = f, fa *= 0.5;
+    } else {
+      a = *place, fa = f, fb *= 0.5;
+    }
+  }
+  return {best, function(best), part.at(b) - part.at(a)};
+}
+
+}  // namespace frahm::periodic

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <optional>
+
+#include "solvers/branches/corrector.hpp"
+
+namespace frahm::periodic {
+
+// The part of a branch between two places, by the arclength s from the first along its tangent. The places
+// must outlive it.
+class PartOfBranch {
+ public:
+  PartOfBranch(BranchMap& map, const BranchPlace& from, const BranchPlace& to)
+      : map_(map), from_(from), to_(to) {}
+
+  const BranchPlace& from() const { return from_; }
+  const BranchPlace& to() const { return to_; }
+  BranchMap& map() const { return map_; }
+  double at(const BranchPlace& place) const { return from_.tangent.dot(place.y - from_.y); }
+  // The place at s, searched from the chord between two that are known.
+  std::optional<BranchPlace> place(double s, const BranchPlace& a, const BranchPlace& b) const;
+
+ private:
+  BranchMap& map_;
+  const BranchPlace& from_;
+  const BranchPlace& to_;
+};
+
+// Of a place, what is to be zero.
+using PlaceFunction = std::function<double(const BranchPlace&)>;
+
+struct BranchRoot {
+  static constexpr double kJump = 1e-6;     // what is left of an equation that a jump crosses is larger
+  static constexpr double kClosed = 1e-12;  // a bracket
+
+  BranchPlace place;
+  double value;  // of the function there
+  double width;  // of the bracket
+  // The function jumps across zero, within the bracket.
+  bool is_jump() const { return std::abs(value) > kJump; }
+};
+
+// The root of a function that has different signs at both ends.
+BranchRoot root(const PartOfBranch& part, const PlaceFunction& function);
+
+}  // namespace frahm::periodic

@@ -1,0 +1,182 @@
+#include "solvers/branches/coexisting_branches.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <vector>
+
+#include "solvers/laws/elastic_stop.hpp"
+#include "solvers/response/periodic_response.hpp"
+
+namespace frahm::periodic {
+namespace {
+
+using Catch::Matchers::WithinAbs;
+using namespace mechanics;
+
+constexpr double kPrinted = 1e-7;  // of figures by two independent methods
+constexpr double kSame = 1e-8;     // of one orbit found in two ways
+const Node ground{}, mass{NodeKind::mass, 0};
+const std::vector<Quantity> asked{{Measure::peak, 0}, {Measure::mean, 0}};
+
+// x'' + c x' + x + a stop of stiffness k beyond x = D, on the other side too where both: cos(r tau).
+struct Stopped {
+  double c, k, D;
+  bool both;
+
+  Network network() const {
+    Network network{.masses = {"x"},
+                    .prescribed = {},
+                    .elements = {{"spring", ElementType::spring, ground, mass},
+                                 {"damper", ElementType::damper, ground, mass},
+                                 {"stops", ElementType::gap, ground, mass}},
+                    .excitations = {{ExcitationKind::force, 0, 1}}};
+    network.elements[2].bends = {{1.0, &laws::elastic_stop}};
+    if (both) network.elements[2].bends.push_back({-1.0, &laws::elastic_stop});
+    return network;
+  }
+  NetworkValues operator()(double r) const {
+    NetworkValues values{.omega = r,
+                         .mass = {1.0},
+                         .element = {1.0, c, k},
+                         .excitation = {{1.0, 0.0}},
+                         .second = {0.0, 0.0, 0.0},
+                         .bends = {{}, {}, {{D, k, 0.0}}}};
+    if (both) values.bends[2].push_back({D, k, 0.0});
+    return values;
+  }
+};
+
+const Stopped between_stops{0.1, 4.0, 1.0, true}, before_a_stop{0.05, 20.0, 0.3, false};
+
+std::vector<SearchedPlace> places(double low, double high, int count) {
+  std::vector<SearchedPlace> places;
+  for (int i = 0; i < count; ++i) places.push_back({low + (high - low) * i / (count - 1)});
+  return places;
+}
+
+std::vector<Branch> followed(const Stopped& system, double low, double high,
+                             const std::vector<SearchedPlace>& searched) {
+  return follow_branches(system.network(), asked, system, {.low = low, .high = high}, {.starts = 16},
+                         searched);
+}
+
+TEST_CASE("The orbits of a mass between stops are one branch, however many are searched") {
+  const std::vector<Branch> branches = followed(between_stops, 1.0, 2.4, places(1.0, 2.4, 29));
+  REQUIRE(branches.size() == 1);
+  const Branch& branch = branches.front();
+  CHECK(branch.first_end == BranchEnd::range);
+  CHECK(branch.last_end == BranchEnd::range);
+  REQUIRE(branch.special.size() == 3);
+  CHECK_THAT(branch.special[0].at.parameter, WithinAbs(2.0018066685, kPrinted));
+  CHECK_THAT(branch.special[1].at.parameter, WithinAbs(1.4086707284, kPrinted));
+}
+
+TEST_CASE("Numbers of orbits known beforehand save the search and change no branch") {
+  std::vector<SearchedPlace> known = places(1.0, 2.4, 29);
+  for (SearchedPlace& each : known)
+    each.stable = each.parameter > 1.4086707284 && each.parameter < 2.0018066685 ? 2 : 1;
+  const auto with = followed(between_stops, 1.0, 2.4, known);
+  const auto without = followed(between_stops, 1.0, 2.4, places(1.0, 2.4, 29));
+  REQUIRE(with.size() == without.size());
+  CHECK(with.front().points.size() == without.front().points.size());
+  // A number that the branch has already: nothing is searched where it would be missed.
+  for (SearchedPlace& each : known) each.stable = 0;
+  CHECK(followed(between_stops, 1.0, 2.4, known).empty());
+}
+
+// The stable orbits of a branch at a parameter: the quantities, between its points.
+std::vector<double> stable_peaks(const Branch& branch, double parameter) {
+  std::vector<double> peaks;
+  for (std::size_t i = 1; i < branch.points.size(); ++i) {
+    const BranchPoint &a = branch.points[i - 1], &b = branch.points[i];
+    if ((a.parameter <= parameter) == (b.parameter <= parameter) || !a.stable || !b.stable) continue;
+    const double part = (parameter - a.parameter) / (b.parameter - a.parameter);
+    peaks.push_back(std::lerp(a.quantities[0], b.quantities[0], part));
+  }
+  return peaks;
+}
+
+TEST_CASE("Every stable orbit that is found lies on one branch, subharmonics too") {
+  constexpr double kCurve = 2e-3;  // of a chord between two points of a branch
+  const std::vector<Branch> branches = followed(before_a_stop, 1.0, 5.0, places(1.0, 5.0, 33));
+  CHECK(branches.size() >= 2);
+  CHECK(std::ranges::any_of(branches, [](const Branch& each) { return each.points.front().multiple > 1; }));
+  PeriodicResponse response(before_a_stop.network(), {{Measure::peak, 0}, {Measure::coexisting, 0}},
+                            Path::fastest, {.starts = 16});
+  for (const double r : {1.3, 1.9, 2.6, 3.2, 4.1, 4.9}) {
+    INFO("r " << r);
+    response.set_values(before_a_stop(r));
+    if (response.solve().coexisting == 0) continue;
+    double found[2];
+    response.quantities(found);
+    int here = 0;
+    for (const Branch& branch : branches) {
+      for (const double peak : stable_peaks(branch, r)) here += std::abs(peak - found[0]) < kCurve ? 1 : 0;
+    }
+    CHECK(here == 1);
+  }
+}
+
+// Of a mass that rubs with force f_k and is held by up to f_s, from r = 0.2 to 1.8.
+std::vector<Branch> held_branches(double f_k, double f_s) {
+  Network network{.masses = {"x"},
+                  .prescribed = {},
+                  .elements = {{"spring", ElementType::spring, ground, mass},
+                               {"damper", ElementType::damper, ground, mass},
+                               {"friction", ElementType::coulomb, ground, mass}},
+                  .excitations = {{ExcitationKind::force, 0, 1}}};
+  network.elements[2].has_static_force = true;
+  const auto values = [=](double r) {
+    return NetworkValues{.omega = r,
+                         .mass = {1.0},
+                         .element = {1.0, 0.1, f_k},
+                         .excitation = {{1.0, 0.0}},
+                         .second = {0.0, 0.0, f_s}};
+  };
+  return follow_branches(network, asked, values, {.low = 0.2, .high = 1.8}, {}, places(0.2, 1.8, 65));
+}
+
+TEST_CASE("A branch that goes into another ends there, so that no part is followed twice") {
+  const std::vector<Branch> branches = held_branches(0.3, 1.2);
+  const auto joins = [](const Branch& each) { return each.last_end == BranchEnd::joined; };
+  const auto joining = std::ranges::find_if(branches, joins);
+  REQUIRE(joining != branches.begin());
+  REQUIRE(joining != branches.end());
+  CHECK(joining->first_end == BranchEnd::joined);
+  // The sliding response without stops, and rest.
+  CHECK(std::ranges::count(branches, BranchEnd::range, &Branch::last_end) == 2);
+  for (const BranchPoint& point : joining->points) CHECK(point.parameter < 0.77);
+}
+
+TEST_CASE("A branch ends where the static force throws the motion elsewhere, and says so") {
+  const std::vector<Branch> branches = held_branches(0.2, 1.2);
+  const auto thrown = std::ranges::find(branches, BranchEnd::jump, &Branch::last_end);
+  REQUIRE(thrown != branches.end());
+  CHECK(thrown->first_end == BranchEnd::jump);
+  for (const SpecialPoint& end : {thrown->special.front(), thrown->special.back()}) {
+    CHECK(end.kind == SpecialKind::jump);
+    CHECK(end.element == 2U);
+    CHECK(end.residual < 1e-9);
+  }
+}
+
+TEST_CASE("A system of one response has one branch, followed once") {
+  Network network{.masses = {"x"},
+                  .prescribed = {},
+                  .elements = {{"spring", ElementType::spring, ground, mass},
+                               {"damper", ElementType::damper, ground, mass},
+                               {"friction", ElementType::coulomb, ground, mass}},
+                  .excitations = {{ExcitationKind::force, 0, 1}}};
+  const auto values = [](double r) {
+    return NetworkValues{.omega = r, .mass = {1.0}, .element = {1.0, 0.1, 0.2}, .excitation = {{1.0, 0.0}}};
+  };
+  const auto branches =
+      follow_branches(network, asked, values, {.low = 0.5, .high = 2.0}, {}, places(0.5, 2.0, 7));
+  REQUIRE(branches.size() == 1);
+  CHECK(branches.front().points.front().parameter == 0.5);
+  CHECK_THAT(branches.front().points.back().parameter, WithinAbs(2.0, kSame));
+}
+
+}  // namespace
+}  // namespace frahm::periodic
