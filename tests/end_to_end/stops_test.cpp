@@ -377,7 +377,7 @@ TEST_CASE("a map of a system with several responses says what was searched") {
     const frahm::results::MapReader reader(folder / (name + ".h5"));
     const std::vector<frahm::results::Text> texts = reader.texts("provenance");
     const auto found = std::find_if(texts.begin(), texts.end(),
-                                    [](const auto& text) { return text.first == "orbits_searched"; });
+                                    [](const auto& each) { return each.first == "orbits_searched"; });
     return found == texts.end() ? "" : found->second;
   };
   CHECK_THAT(searched("search.toml", machine_on_stops("starts = 16\n", 3)),
