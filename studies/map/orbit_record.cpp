@@ -79,8 +79,8 @@ KeptOrbit keep_orbit(const MapPlan& plan, const std::vector<Assignment>& point) 
   periodic::PeriodicResponse response(study.network, plan.quantities, periodic::Path::fastest,
                                       study.orbits_wanted());
   periodic::Status status = periodic::Status::not_computed;
-  for (std::vector<double>& point : way_of_sweep(study, study.orbits_wanted(), orbit.parameters)) {
-    evaluate(study.values, study.parameters, point, values);
+  for (std::vector<double>& passed : way_of_sweep(study, study.orbits_wanted(), orbit.parameters)) {
+    evaluate(study.values, study.parameters, passed, values);
     try {
       response.set_values(values);
       status = response.solve().status;

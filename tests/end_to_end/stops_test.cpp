@@ -57,7 +57,7 @@ TEST_CASE(
     if (r[i] > kUpper) CHECK_THAT(up[i], WithinRel(linear_peak(r[i]), kClosed));
     if (r[i] > 1.411) CHECK_THAT(down[i], WithinRel(linear_peak(r[i]), kClosed));
     if (i == 0 || r[i] > kUpper) continue;
-    CHECK(up[i] > up[i - 1]);
+    if (r[i] < 1.995) CHECK(up[i] > up[i - 1]);  // its maximum lies a little before the fold
     if (r[i] < kLower) CHECK_THAT(down[i], WithinRel(up[i], kClosed));
   }
   CHECK_THAT(up[index_of(r, 1.4)], WithinAbs(1.9642744, kTold));
@@ -84,8 +84,8 @@ TEST_CASE("a sweep has the same bytes on any number of threads, and a point alon
   const std::size_t at = index_of(one.coordinate("r"), 1.8) * 3 + 1;
   const auto point = runs::frahm({"point", study, "--at", "r=1.8,zeta=0.05"});
   CHECK(one["machine_peak"][at] > 2.5);
-  CHECK_THAT(point.out, Catch::Contains(fmt::format("{:.6g}", one["machine_peak"][at])));
-  CHECK_THAT(point.out, Catch::Contains(fmt::format("{:.6g}", one["machine_peak_compared"][at])));
+  CHECK_THAT(point.out, Catch::Contains(fmt::format("{:.10g}", one["machine_peak"][at])));
+  CHECK_THAT(point.out, Catch::Contains(fmt::format("{:.10g}", one["machine_peak_compared"][at])));
   const frahm::results::MapReader reader(folder / "one.h5");
   CHECK(reader.layout().variables.size() == one.values.size());
 }
@@ -113,9 +113,8 @@ TEST_CASE("a swept map grows by rows; with other frequencies it is another sweep
 }
 
 TEST_CASE("machine_on_stops.toml searched: two orbits between the folds") {
-  const std::string text = machine_on_stops("starts = 16\nshow = \"largest\"\n");
-  const Map large = runs::run_study(text);
-  const Map small = runs::run_study(runs::replaced(text, "\"largest\"", "\"smallest\""));
+  const Map large = runs::run_study(machine_on_stops("starts = 16\nshow = \"largest\"\n"));
+  const Map small = runs::run_study(machine_on_stops("starts = 16\nshow = \"smallest\"\n"));
   const std::vector<double>& r = large.coordinate("r");
   for (std::size_t i = 0; i < r.size(); ++i) {
     INFO("r " << r[i]);
@@ -451,7 +450,7 @@ TEST_CASE("a map of a system with several responses says what was searched") {
     const frahm::results::MapReader reader(folder / (name + ".h5"));
     const std::vector<frahm::results::Text> texts = reader.texts("provenance");
     const auto found = std::find_if(texts.begin(), texts.end(),
-                                    [](const auto& text) { return text.first == "orbits_searched"; });
+                                    [](const auto& each) { return each.first == "orbits_searched"; });
     return found == texts.end() ? "" : found->second;
   };
   CHECK_THAT(searched("search.toml", machine_on_stops("starts = 16\n", 3)),
