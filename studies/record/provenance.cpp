@@ -36,8 +36,7 @@ std::string searched_orbits(const Study& study) {
     return fmt::format(
         "at each frequency: {} starts and the responses found near it, multiples of the period up to {}; the "
         "worst counts, and where none is stable and periodic the worst of the motions over 64 periods. "
-        "Others "
-        "may have been missed",
+        "Others may have been missed",
         wanted.starts, wanted.most_multiple);
   if (!study.sweep() || !mechanics::may_have_several_responses(study.network)) return "";
   const bool largest = wanted.show == periodic::OrbitsWanted::Show::largest;
