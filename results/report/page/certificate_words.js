@@ -10,9 +10,10 @@ function gapSentences({ kind, band, group, texts, converged }) {
   const gap = Math.abs(group.number("certificate_gap"));
   if (kind !== "minimax" || !band || Number.isNaN(gap)) return [];
   const near = gap < roundingGap ? "rounding" : `${numberText(gap, 2)} (relative)`;
+  const claim = texts?.not_proved ? "Of the responses found" : "Certificate";
   return converged
     ? [
-        `${texts?.not_proved ? "Among the responses found" : "Certificate"}: all peaks of the band were solved; the worst of them and the bound of the tuning agree to ${near}.`,
+        `${claim}: all peaks of the band were solved; the worst of them and the bound of the tuning agree to ${near}.`,
       ]
     : [`There is no certificate; the worst peak and the bound of the tuning differ by ${near}.`];
 }

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "solvers/algebra/no_value.hpp"
+#include "solvers/tuning/stages/held_without_derivative.hpp"
 
 namespace frahm::tuning {
 namespace {
@@ -13,13 +14,12 @@ constexpr double kBroken = 1e-9;  // a limit exceeded by less is met
 constexpr double kSlip =
     1e-6;  // by which a bound may lie above the worst peak: constraints are met to a tolerance
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
-
 std::string sentence(Outcome outcome, const Stages& stages) {
+  const auto number = [](double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", value);
+    return std::string(text);
+  };
   const Scan& scan = stages.best.scan;
   switch (outcome) {
     case Outcome::converged:
@@ -113,35 +113,12 @@ class Report {
         "the limits are met, but the rounds of exchange do not tell how near the objective is to its least";
   }
 
-  // Where several responses may exist: what holds the design although nothing says how it moves with it, ""
-  // if nothing does.
-  std::string held_without_derivative() const {
-    constexpr double kHolds = 1.0 - 1e-6;
-    const auto holds = [&](std::size_t curve, double value) {
-      const CurveKind& kind = tuning_.curves()[curve];
-      return value >= kHolds * (kind.of == CurveKind::Of::objective ? scan_.worst : kind.most());
-    };
-    for (std::size_t c = 0; c < scan_.tightest.size(); ++c) {
-      const Scan::Extreme& highest = scan_.tightest[c];
-      if (!highest.periodic && holds(c, highest.value))
-        return "at " + number(highest.at) +
-               " of the band no stable periodic response was found, and the worst of the motion there, which "
-               "has no derivative, holds the design";
-    }
-    for (const Scan::Maximum& maximum : scan_.maxima) {
-      if (maximum.is_end && holds(maximum.curve, maximum.value))
-        return "the stable branch that holds the design ends at " + number(maximum.at) +
-               " of the band, and the derivatives there do not say how its end moves";
-    }
-    return "";
-  }
-
   // The last scan includes low peaks and starts from other points: its result is the certificate.
   void judge_certificate(Optimum& optimum) const {
     // The KKT residual is that of the active frequencies: if some are missing it does not judge the design.
     if (std::abs(optimum.certificate_gap) > std::max(task_.tolerance, kSlip)) optimum.kkt_residual = kNone;
     if (optimum.outcome != Outcome::converged) return;
-    if (const std::string held = held_without_derivative(); !held.empty()) {
+    if (const std::string held = held_without_derivative(scan_, tuning_.curves()); !held.empty()) {
       optimum.outcome = Outcome::not_converged;
       optimum.reason = held;
     } else if (std::isnan(optimum.certificate_gap)) {

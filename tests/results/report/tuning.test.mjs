@@ -398,3 +398,12 @@ test("the end of the band is no peak", () => {
   assert.match(text, /held by the response at 20 rad\/s, the end of the band, share 100 %/);
   assert.doesNotMatch(text, /peak at 20/);
 });
+
+test("of several responses the page claims no more than what was found", () => {
+  const text = (texts) => whatItMeans(tuningOf(minimax({}, 1, texts))).flat().join(" ");
+  assert.match(text({}), /Certificate: all peaks/);
+  assert.doesNotMatch(text({}), /Several responses/);
+  const searched = text({ not_proved: "it is not proved that none was missed" });
+  assert.match(searched, /Of the responses found: all peaks/);
+  assert.match(searched, /Several responses may exist: it is not proved that none was missed\./);
+});

@@ -7,6 +7,7 @@
 #include "solvers/laws/elastic_stop.hpp"
 #include "solvers/tuning/exchange/band_scan.hpp"
 #include "solvers/tuning/optimum.hpp"
+#include "solvers/tuning/stages/held_without_derivative.hpp"
 
 namespace frahm::tuning {
 namespace {
@@ -169,6 +170,21 @@ TEST_CASE("where no motion is periodic its worst counts, and nothing is said to 
   INFO(optimum.reason);
   CHECK(optimum.outcome == Outcome::not_converged);
   CHECK(optimum.objective >= 1.0);
+}
+
+TEST_CASE(
+    "a design is held without derivative by the end of the highest branch or the highest motion alone") {
+  const std::vector<CurveKind> curves{kind_of(restless_absorber(), CurveKind::Of::objective)};
+  Scan scan;
+  scan.worst = 2.0;
+  scan.tightest = {{.at = 1.1, .value = 2.0}};
+  scan.maxima = {{.curve = 0, .at = 1.1, .value = 2.0},
+                 {.curve = 0, .at = 1.2, .value = 1.9, .is_end = true}};
+  CHECK(held_without_derivative(scan, curves).empty());
+  scan.maxima[1].value = 2.0;
+  CHECK(held_without_derivative(scan, curves).find("ends at 1.2 of the band") != std::string::npos);
+  scan.tightest[0].periodic = false;
+  CHECK(held_without_derivative(scan, curves).find("at 1.1 of the band no stable") != std::string::npos);
 }
 
 }  // namespace
