@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -11,6 +10,7 @@
 #include "solvers/orbits/certificate.hpp"
 #include "solvers/orbits/orbits_wanted.hpp"
 #include "solvers/orbits/reasons.hpp"
+#include "solvers/orbits/repeatable_numbers.hpp"
 #include "solvers/orbits/shooting.hpp"
 
 // Orbits of a system whose laws are not all monotone: several may be stable, some take a multiple of the
@@ -190,7 +190,6 @@ bool Coexistence<N, H>::is_known(const typename S::State& z, double within) cons
 }
 
 // The linear response, rest, and states of several times their displacements and the places of the bends.
-// The same at every run: a counter's bits, mixed (Steele, Lea, Flood, Proc. OOPSLA 2014, "SplitMix").
 template <int N, int H>
 typename Sizes<N, H>::State Coexistence<N, H>::random_start(int index,
                                                             const mechanics::LinearSystem& system) {
@@ -206,16 +205,10 @@ typename Sizes<N, H>::State Coexistence<N, H>::random_start(int index,
   const double size = std::max({z.head(n).cwiseAbs().maxCoeff(), places, at_rest});
   z.setZero();
   if (index == 1) return z;
-  std::uint64_t counter = 0x9E3779B97F4A7C15ULL * static_cast<std::uint64_t>(index);
-  const auto between = [&] {  // -1 and 1
-    std::uint64_t mixed = counter += 0x9E3779B97F4A7C15ULL;
-    mixed = (mixed ^ (mixed >> 30U)) * 0xBF58476D1CE4E5B9ULL;
-    mixed = (mixed ^ (mixed >> 27U)) * 0x94D049BB133111EBULL;
-    return static_cast<double>((mixed ^ (mixed >> 31U)) >> 11U) * 0x1p-52 - 1.0;
-  };
+  RepeatableNumbers numbers(index);
   const double reach = size * kReach[index % 3];
-  for (Eigen::Index i = 0; i < n; ++i) z[i] = reach * between();
-  for (Eigen::Index i = 0; i < n; ++i) z[n + i] = reach * flow_.fundamental_rate() * between();
+  for (Eigen::Index i = 0; i < n; ++i) z[i] = reach * numbers.next();
+  for (Eigen::Index i = 0; i < n; ++i) z[n + i] = reach * flow_.fundamental_rate() * numbers.next();
   return z;
 }
 

@@ -34,6 +34,8 @@ enum class Measure {
   reversals,
   stuck_fraction,
   regime,
+  // of an iwan element
+  slipping,
   // of the response
   status,
   floquet_radius,
@@ -100,8 +102,9 @@ QuantityDescription describe(const Quantity& quantity, const mechanics::Network&
 std::vector<Quantity> all_quantities(const mechanics::Network& network);
 
 // Record of an atlas: peak, amplitude, mean, rms and phase of each mass and signal; stroke of each spring;
-// stops, stuck fraction, regime and energy of each element with a contact; status, floquet_radius,
-// energy_balance, residual, error_bound, transmitted_force.
+// stops, stuck fraction, regime and energy of each element with a contact (of an iwan element how many
+// sliders slip, and their energy); status, floquet_radius, energy_balance, residual, error_bound,
+// transmitted_force.
 std::vector<Quantity> standard_quantities(const mechanics::Network& network);
 
 // Whether the page of an atlas shows the quantity unasked: peaks of masses and signals, strokes of the

@@ -12,6 +12,15 @@ namespace {
 using mechanics::ExcitationKind;
 using mechanics::FrictionLaw;
 
+// Of which there is no exact law to compare with.
+void refuse_other_smooth_laws(const TomlSection& section, const Study& study) {
+  for (const mechanics::Element& each : study.network.elements) {
+    if (!each.has_cubic && each.law != FrictionLaw::stribeck) continue;
+    section.fail(rules::wrong_law, "law", "element \"{}\" has a {}, which no other law knows", each.name,
+                 each.has_cubic ? "cubic" : "table");
+  }
+}
+
 void read_compared_law(NetworkReading& reading, const TomlSection& section, const Study& study,
                        Comparison& comparison) {
   const auto& elements = study.network.elements;
@@ -20,6 +29,7 @@ void read_compared_law(NetworkReading& reading, const TomlSection& section, cons
   });
   if (rubbing == elements.end())
     section.fail(rules::no_contact, "law", "the study has no coulomb element that could follow it");
+  refuse_other_smooth_laws(section, study);
   const bool arctan = section.choice_or("law", {"exact", "arctan"}) == "arctan";
   comparison.law = arctan ? FrictionLaw::arctan : FrictionLaw::exact;
   if (arctan) {

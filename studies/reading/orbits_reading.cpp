@@ -22,8 +22,8 @@ void read_orbits_wanted(const StudyContext& context, const TomlValue& root, Stud
   const TomlSection section(context.source, entry->value, "[orbits]", {"starts", "most_multiple", "show"});
   if (!mechanics::may_have_several_responses(study.network))
     section.fail_here(rules::key_without_use,
-                      "has no effect: several responses are searched where an element is a gap, has a table "
-                      "or a static_force; here there is one alone");
+                      "has no effect: several responses are searched where an element is a gap, has a table, "
+                      "a cubic or a static_force; here there is one alone");
   periodic::OrbitsWanted& wanted = study.sweep()->orbits;
   wanted.starts = read_count(section, "starts", wanted.starts, most_starts);
   wanted.most_multiple = read_count(section, "most_multiple", wanted.most_multiple, longest_multiple);

@@ -84,9 +84,6 @@ void check_identification(Study& study);
 // highest corner and those that differ from either in one dimension.
 std::vector<std::vector<bool>> corners(std::size_t dimensions);
 
-// Refuses the smoothed friction law in a study whose solver follows the exact one.
-void refuse_smooth_friction(const Study& study);
-
 // Every mass must be held: by a chain of springs from ground or a node of prescribed motion.
 // masses: their positions in the study.
 void check_masses_are_held(const StudyContext& context, const NetworkOfStudy& system,
@@ -111,9 +108,12 @@ struct ElementProblem {
 std::optional<ElementProblem> element_problem(const Study& study, std::size_t element,
                                               std::span<const double> parameters);
 
-// Refuses elements that bend where the motion from initial values, or the arctan law, does not know them.
+// Refuses elements that bend.
 void refuse_bends(const Study& study, const std::string& why);
-void refuse_bends_beside_arctan(const Study& study);
+// Refuses smooth laws in a study whose solver follows the exact ones.
+void refuse_smooth_laws(const Study& study, std::string_view what_is_exact);
+// Refuses smooth laws beside contacts that are followed exactly, and beside elements that bend.
+void refuse_mixed_laws(const Study& study);
 // Refuses elements with which several responses may exist; where they depend on numbers, element_problem()
 // does.
 void refuse_several_responses(const Study& study, const std::string& what_needs_one);

@@ -295,7 +295,7 @@ StudyValue read_formula(const TuneReading& reading, const TomlSection& section, 
 }
 
 void read_tuning(const StudyContext& context, const TomlValue& root, Study& study) {
-  refuse_smooth_friction(study);
+  refuse_smooth_laws(study, kind_noun(study.kind()));
   refuse_several_responses(study, needs_one_response(study));
   const TomlEntry* entry = find_entry(root, "tune");
   if (!entry)
