@@ -96,7 +96,7 @@ struct QuantityDescription {
 
 QuantityDescription describe(const Quantity& quantity, const mechanics::Network& network, bool dimensionless);
 
-// Every quantity that a network has, in a fixed order. Under the arctan law nothing ever sticks: stops,
+// Every quantity that a network has, in a fixed order. Under smooth laws nothing ever sticks: stops,
 // reversals and events are -1 (not computed), stuck_fraction is NaN and the regime not_computed; nor is there
 // an error_bound, as that of the integration is not one.
 std::vector<Quantity> all_quantities(const mechanics::Network& network);

@@ -174,23 +174,23 @@ TEST_CASE("A hard spring has two stable orbits at one frequency, as harmonic bal
 }
 
 TEST_CASE("Hard and soft springs have the peaks of harmonic balance, damped and undamped") {
-  Responses response(duffing());
   struct Point {
     Duffing of;
     double first_amplitude;
+    int starts;  // undamped, a motion from elsewhere never comes to the orbit
   };
-  for (const auto& [of, first] : {Point{{0.7, 0.1, 0.5, 1.0}, 1.0}, Point{{2.5, 0.1, 0.5, 1.0}, 0.2},
-                                  Point{{0.5, 0.2, -0.05, 0.3}, 0.4}, Point{{3.0, 0.0, 0.5, 1.0}, 0.12}}) {
+  for (const auto& [of, first, starts] :
+       {Point{{0.7, 0.1, 0.5, 1.0}, 1.0, 4}, Point{{2.5, 0.1, 0.5, 1.0}, 0.2, 2},
+        Point{{0.5, 0.2, -0.05, 0.3}, 0.4, 4}, Point{{3.0, 0.0, 0.5, 1.0}, 0.12, 1}}) {
     INFO("r " << of.r << ", c " << of.c << ", cubic " << of.a);
     const HarmonicBalance balance(of, first);
     REQUIRE(balance.residual() < 1e-12);
-    PeriodicResponse own(duffing(), {{Measure::peak, 0}}, Path::fastest,
-                         {.most_multiple = 1, .show = OrbitsWanted::Show::smallest});
-    own.set_values(values_of(of));
-    const Status status = own.solve().status;
-    CHECK((status == Status::ok || status == Status::several));
+    PeriodicResponse response(duffing(), {{Measure::peak, 0}}, Path::fastest,
+                              {.starts = starts, .most_multiple = 1, .show = OrbitsWanted::Show::smallest});
+    response.set_values(values_of(of));
+    REQUIRE(has_response(response.solve().status));
     double peak = 0.0;
-    own.quantities({&peak, 1});
+    response.quantities({&peak, 1});
     CHECK_THAT(peak, WithinRel(balance.peak(), kBalanced));
   }
 }
