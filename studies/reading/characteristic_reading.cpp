@@ -60,6 +60,7 @@ void read_points(NetworkReading& reading, const TomlSection& section, bool rotat
   if (points->size() < 2)
     section.fail(rules::too_few, "table", "{} point{}; two are needed at least, for a slope", points->size(),
                  points->size() == 1 ? "" : "s");
+  const Range range = of.kind == StudyCharacteristic::Kind::curve ? Range::not_negative : Range::finite;
   std::size_t number = 0;
   for (const TomlValue& point : *points) {
     const std::string where = fmt::format("{}: point {}", of.where, ++number);
@@ -67,8 +68,8 @@ void read_points(NetworkReading& reading, const TomlSection& section, bool rotat
     if (!pair || pair->size() != 2)
       throw section.source().error_at(rules::wrong_type, point.position, "{}: {}, found {}", where, expected,
                                       pair ? fmt::format("{} values", pair->size()) : described(point));
-    add_value(reading, of, read_value_at(reading, where, pair->front(), quantities.place, Range::finite));
-    add_value(reading, of, read_value_at(reading, where, pair->back(), quantities.force, Range::finite));
+    add_value(reading, of, read_value_at(reading, where, pair->front(), quantities.place, range));
+    add_value(reading, of, read_value_at(reading, where, pair->back(), quantities.force, range));
   }
 }
 

@@ -52,6 +52,10 @@ mechanics::FrictionLaw read_law(const TomlSection& section, const mechanics::Ele
 void check_one_law(const NetworkReading& reading, const TomlSection& section,
                    const mechanics::ElementKind& kind, mechanics::FrictionLaw law);
 
+// Refuses more contacts than are followed exactly: the exact law knows which stick by the bits of a word.
+void check_number_of_contacts(const NetworkReading& reading, const TomlSection& section,
+                              const mechanics::Element& element);
+
 // A spring in series with a slider, as one of those of an iwan element.
 struct StudySlider {
   StudyValue stiffness, force;
