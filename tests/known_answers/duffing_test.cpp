@@ -195,5 +195,43 @@ TEST_CASE("Hard and soft springs have the peaks of harmonic balance, damped and 
   }
 }
 
+// A light reed that answers to a third of the frequency shows the orbit of three periods as its largest peak.
+TEST_CASE("An orbit of three periods of the force is found and told as one", "[slow]") {
+  const Node machine{NodeKind::mass, 1};
+  Network network{.masses = {"reed", "machine"},
+                  .prescribed = {},
+                  .elements = {{"spring", ElementType::spring, ground, machine},
+                               {"damper", ElementType::damper, ground, machine},
+                               {"leaf", ElementType::spring, machine, mass},
+                               {"air", ElementType::damper, machine, mass}},
+                  .excitations = {{ExcitationKind::force, 1, 1}}};
+  network.elements[0].has_cubic = true;
+  const NetworkValues values{.omega = 6.0,
+                             .mass = {1e-4, 1.0},
+                             .element = {1.0, 0.04, 4e-4, 4e-6},
+                             .excitation = {{8.0, 0.0}},
+                             .smooth = {{.cubic = 1.0}, {}, {}, {}}};
+  const std::vector<Quantity> quantities = {{Measure::coexisting, 0},
+                                            {Measure::period_multiple, 0},
+                                            {Measure::energy_balance, 0},
+                                            {Measure::floquet_radius, 0},
+                                            {Measure::peak, 1}};
+  PeriodicResponse response(network, quantities, Path::fastest, {.starts = 6, .most_multiple = 3});
+  response.set_values(values);
+  CHECK(response.solve().status == Status::several);
+  std::vector<double> found(quantities.size());
+  response.quantities(found);
+  CHECK(found[0] == 3.0);
+  CHECK(found[1] == 3.0);
+  CHECK(found[2] < kEnergyBalance);
+  CHECK(found[3] < 1.0);
+  // Its history goes through three periods, and the machine's largest displacement is met there.
+  const History history = response.history(phases_of_a_period(721));
+  CHECK_THAT(history.time.back(), WithinRel(3.0 * 2.0 * pi / values.omega, kLinear));
+  double largest = 0.0;
+  for (const double x : history.columns[2]) largest = std::max(largest, std::abs(x));
+  CHECK_THAT(largest, WithinRel(found[4], 1e-4));  // by its samples
+}
+
 }  // namespace
 }  // namespace frahm::periodic
