@@ -9,7 +9,7 @@ namespace frahm::periodic {
 
 bool have_same_elements(const mechanics::NetworkValues& a, const mechanics::NetworkValues& b) {
   return a.mass == b.mass && a.element == b.element && a.second == b.second && a.bends == b.bends &&
-         a.damping == b.damping;
+         a.smooth == b.smooth && a.damping == b.damping;
 }
 
 // Where one of them fails, the whole row is solved so, each point from the one before: the start that the

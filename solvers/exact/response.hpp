@@ -68,8 +68,9 @@ struct History {
       add_of_coordinate(i, "_displacement", "m");
       add_of_coordinate(i, "_velocity", "m s-1");
     }
-    for (const auto& element : network.elements)
-      add_column(element.name + "_force", mechanics::unit_of_element(element, "N"));
+    for (const auto& element : network.elements) {
+      if (element.parts > 0) add_column(element.name + "_force", mechanics::unit_of_element(element, "N"));
+    }
     for (std::size_t i = 0; i < network.masses.size(); ++i) add_of_coordinate(i, "_acceleration", "m s-2");
     for (std::size_t i = network.masses.size(); i < mechanics::coordinate_count(network); ++i) {
       add_of_coordinate(i, "_displacement", "m");

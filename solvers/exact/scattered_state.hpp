@@ -1,28 +1,20 @@
 #pragma once
 
-#include <cstdint>
-
 #include "solvers/flow/flow.hpp"
+#include "solvers/orbits/repeatable_numbers.hpp"
 
 namespace frahm::periodic {
 
-// A state of this reach [m] in all directions, the same for the same index at every run: a counter's bits,
-// mixed (Steele, Lea, Flood, Proc. OOPSLA 2014, "SplitMix").
+// A state of this reach [m] in all directions, the same for the same index at every run.
 template <int N, int H>
 typename Sizes<N, H>::State scattered(const Flow<N, H>& flow, int index, double reach) {
   const StepEquations<N, H>& eq = flow.equations();
   const Eigen::Index n = eq.masses();
-  std::uint64_t counter = 0x9E3779B97F4A7C15ULL * static_cast<std::uint64_t>(index);
-  const auto between = [&] {  // -1 and 1
-    std::uint64_t mixed = counter += 0x9E3779B97F4A7C15ULL;
-    mixed = (mixed ^ (mixed >> 30U)) * 0xBF58476D1CE4E5B9ULL;
-    mixed = (mixed ^ (mixed >> 27U)) * 0x94D049BB133111EBULL;
-    return static_cast<double>((mixed ^ (mixed >> 31U)) >> 11U) * 0x1p-52 - 1.0;
-  };
+  RepeatableNumbers numbers(index);
   typename Sizes<N, H>::State z;
   z.setZero(eq.states());
-  for (Eigen::Index i = 0; i < n; ++i) z[i] = reach * between();
-  for (Eigen::Index i = 0; i < n; ++i) z[n + i] = reach * flow.fundamental_rate() * between();
+  for (Eigen::Index i = 0; i < n; ++i) z[i] = reach * numbers.next();
+  for (Eigen::Index i = 0; i < n; ++i) z[n + i] = reach * flow.fundamental_rate() * numbers.next();
   return z;
 }
 

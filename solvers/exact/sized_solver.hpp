@@ -224,8 +224,9 @@ History SizedSolver<N, H>::history(std::span<const double> phases) {
       result.columns[column++].push_back(sign * instant.z[n + mass] / step);
     }
     for (std::size_t e = 0; e < network.elements.size(); ++e) {
-      result.columns[column++].push_back(
-          sign * forms.element_force(e, system_.coefficients[e], mode).at(instant).value);
+      if (const std::size_t parts = network.elements[e].parts; parts > 0)
+        result.columns[column++].push_back(sign *
+                                           force_form(forms, e, parts, system_, mode).at(instant).value);
     }
     for (Eigen::Index mass = 0; mass < n; ++mass)
       result.columns[column++].push_back(sign * instant.a[mass] / (step * step));
@@ -249,7 +250,7 @@ std::vector<Stretch> SizedSolver<N, H>::stretches() const {
       stretch.start = whole_turns_removed(orbit_.section + segment.start * rate + half * std::numbers::pi);
       stretch.length = segment.length * rate;
       for (std::size_t e = 0; e < assembly_.network().elements.size(); ++e) {
-        if (!mechanics::has_contact(assembly_.network().elements[e])) continue;
+        if (!mechanics::has_own_contact(assembly_.network().elements[e])) continue;
         const mechanics::ContactShare& place = assembly_.shares()[e];
         const auto contact = static_cast<Eigen::Index>(place.contact);
         const double sign = (half == 0 ? 1.0 : -1.0) * place.orientation * mode.sign(contact);

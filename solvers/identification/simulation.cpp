@@ -9,6 +9,7 @@
 #include "solvers/identification/measured_forcing.hpp"
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/modes.hpp"
+#include "solvers/mechanics/smooth_laws.hpp"
 #include "solvers/mechanics/system_derivative.hpp"
 #include "solvers/response/periodic_response.hpp"
 #include "solvers/transient/motion_sensitivity.hpp"
@@ -227,9 +228,9 @@ struct SteadyMotion final : Simulation::Kind {
 std::unique_ptr<Simulation::Kind> make_kind(const Network& network, const TimeRecord& record,
                                             const transient::Watch& watch) {
   for (const mechanics::Element& element : network.elements) {
-    if (mechanics::has_contact(element) && element.law != mechanics::FrictionLaw::exact)
-      throw mechanics::MechanicsError("friction '" + element.name +
-                                      "' follows the arctan law: only the exact law can be fitted");
+    if (mechanics::has_smooth_law(element))
+      throw mechanics::MechanicsError("element '" + element.name +
+                                      "' follows a smooth law: only exact laws can be fitted");
   }
   switch (record.motion) {
     case MotionKind::free:

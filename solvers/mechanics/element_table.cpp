@@ -18,6 +18,7 @@ constexpr ElementKind kKinds[] = {
      .value = {"stiffness", Dimension::stiffness, Range::finite},
      .adds = [](auto k, auto, auto) { return Added<decltype(k)>{.stiffness = k}; },
      .holds = true,
+     .cubic = {"cubic", Dimension::cubic_stiffness, Range::finite},
      .stroke_is_standard = true,
      .table = &laws::spring_bend},
     // c v
@@ -40,7 +41,7 @@ constexpr ElementKind kKinds[] = {
      .adds = [](auto F, auto, auto) { return Added<decltype(F)>{.limit = F}; },
      .law = &laws::coulomb,
      .dissipates = true,
-     .smoothed = {"slope", Dimension::inverse_speed, Range::positive},
+     .slope = {"slope", Dimension::inverse_speed, Range::positive},
      .second_is_optional = true},
     // k u + (eta k / omega_h) v: the complex stiffness k (1 + i eta) at omega_h
     {.type = ElementType::hysteretic,
@@ -117,9 +118,9 @@ bool ElementKind::is_inertia_alone() const {
          stop == nullptr;
 }
 
-const ValueKey& second_key(const Element& element) {
-  const ElementKind& kind = kind_of(element);
-  return element.law == FrictionLaw::arctan && kind.can_be_smoothed() ? kind.smoothed : kind.second;
+std::size_t told_by(const Network& network, std::size_t e) {
+  while (network.elements[e].parts == 0) --e;
+  return e;
 }
 
 const Element* frequency_dependent_element(const Network& network) {
@@ -129,7 +130,7 @@ const Element* frequency_dependent_element(const Network& network) {
 const Element* element_unfit_for_noise(const Network& network) {
   const auto is_unfit = [](const Element& element) {
     const ElementKind& kind = kind_of(element);
-    return kind.law != nullptr || kind.depends_on_frequency || !element.bends.empty();
+    return kind.law != nullptr || kind.depends_on_frequency || !element.bends.empty() || element.has_cubic;
   };
   const auto found = std::ranges::find_if(network.elements, is_unfit);
   return found == network.elements.end() ? nullptr : &*found;
@@ -140,8 +141,7 @@ double second_value(const NetworkValues& values, std::size_t element) {
 }
 
 double static_force(const Element& element, const NetworkValues& values, std::size_t index) {
-  const bool has_one = element.has_static_force && element.law == FrictionLaw::exact;
-  return has_one ? second_value(values, index) : 0.0;
+  return element.has_static_force ? second_value(values, index) : 0.0;
 }
 
 }  // namespace frahm::mechanics

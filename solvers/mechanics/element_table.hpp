@@ -16,12 +16,13 @@ namespace frahm::mechanics {
 
 // What a value of an element measures, with its SI unit.
 enum class Dimension {
-  number,         // 1
-  stiffness,      // N/m
-  damping,        // N s/m
-  inertance,      // kg
-  force,          // N
-  inverse_speed,  // s/m
+  number,           // 1
+  stiffness,        // N/m
+  damping,          // N s/m
+  inertance,        // kg
+  force,            // N
+  inverse_speed,    // s/m
+  cubic_stiffness,  // N/m3
 };
 
 // The range in which a value must lie; every value must be finite.
@@ -80,15 +81,15 @@ struct ElementKind {
   bool dissipates = false;
   bool depends_on_frequency = false;  // what it adds depends on omega_h
   bool holds = false;                 // holds a mass in position, if its other end is held
-  // The second value under the arctan law, which smooths its contact; none: nothing smooths it.
-  ValueKey smoothed{};
+  ValueKey slope{};                 // of the arctan law, which smooths its contact; none: nothing smooths it
+  ValueKey cubic{};                 // of what it may add in u^3
   bool stroke_is_standard = false;  // its stroke is among what an atlas shows
   bool second_is_optional = false;  // 0 where it is left out
   // How it bends: at the points of a table that it may have in place of its value; at its stops, which only
   // push, or pull as well. None: it does not.
   const laws::Bend *table = nullptr, *stop = nullptr, *pulling_stop = nullptr;
 
-  constexpr bool can_be_smoothed() const { return smoothed.exists(); }
+  constexpr bool can_be_smoothed() const { return slope.exists(); }
   // It feels the acceleration across it and nothing else.
   bool is_inertia_alone() const;
 };
@@ -103,14 +104,19 @@ inline bool has_contact(const Element& element) {
   return kind_of(element).law != nullptr;
 }
 
+// Whether it has one that is told by itself; the sliders of an iwan element are told together.
+inline bool has_own_contact(const Element& element) {
+  return has_contact(element) && element.parts == 1;
+}
+
+// The element by which element e is told: the first of an iwan element's parts, or itself.
+std::size_t told_by(const Network& network, std::size_t e);
+
 // The first element whose values depend on the frequency (hysteretic), or null.
 const Element* frequency_dependent_element(const Network& network);
 
 // The first element that is not linear with constant values, or null.
 const Element* element_unfit_for_noise(const Network& network);
-
-// The second value that this element has, if any: of its kind, or of the law that smooths it.
-const ValueKey& second_key(const Element& element);
 
 // The second value of the element; 0 if it has none.
 double second_value(const NetworkValues& values, std::size_t element);

@@ -10,6 +10,7 @@
 #include "solvers/mechanics/crank.hpp"
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/rotation.hpp"
+#include "solvers/mechanics/smooth_laws.hpp"
 #include "solvers/mechanics/structural_damping.hpp"
 
 namespace frahm::mechanics {
@@ -134,8 +135,9 @@ void Assembly::check_values(const NetworkValues& values) const {
   for (std::size_t e = 0; e < network_.elements.size(); ++e) {
     const Element& element = network_.elements[e];
     check_value(kind_of(element).value, element, values.element[e]);
-    if (const ValueKey& second = second_key(element); second.exists())
+    if (const ValueKey& second = kind_of(element).second; second.exists())
       check_value(second, element, second_value(values, e));
+    check_smooth_law(element, smooth_value(values, e));
     if (const double at_rest = static_force(element, values, e); at_rest < values.element[e] && at_rest > 0.0)
       refuse("static_force of '" + element.name + "'", at_rest, "must not be below its force");
   }
@@ -232,7 +234,8 @@ void Assembly::set_values(const NetworkValues& values, LinearSystem& system) con
 
 // One response alone follows the symmetry of its system.
 void Assembly::weigh_laws(const NetworkValues& values, LinearSystem& system) const {
-  system.monotone = are_monotone(network_, values) && system.static_limit == system.limit;
+  system.monotone = are_monotone(network_, values) && smooth_laws_are_monotone(network_, values) &&
+                    system.static_limit == system.limit;
   system.odd_response = odd_forcing_ && system.monotone && system.bends.count() == 0;
 }
 

@@ -50,7 +50,7 @@ inline bool is_between_two_nodes(const Direction& u) {
 // Force of an element on its displacement u (of two nodes the relative one, q_b - q_a) and velocity v = u';
 // it acts on each node by its factor. Of a rotational element u is in rad, k in N m/rad, c in N m s/rad, b in
 // kg m2 and F in N m:
-//   spring      k u                          value = stiffness k [N/m]
+//   spring      k u (+ cubic u^3)            value = stiffness k [N/m]
 //   damper      c v                          value = damping c [N s/m]
 //   inerter     b v'                         value = inertance b [kg]
 //   coulomb     F Sgn(v), Sgn(0) = [-1, 1]   value = friction force F [N], second = static limit F_s >= F of
@@ -71,8 +71,9 @@ struct BendPlace {
   const laws::Bend* law = nullptr;
 };
 
-// Of a coulomb element. arctan smooths it: F (2/pi) arctan(slope v), second value = slope [s/m].
-enum class FrictionLaw { exact, arctan };
+// Of a coulomb element. Two are smooth: arctan, F (2/pi) arctan(slope v), and stribeck, a curve of the force
+// over the speed in place of F. Their numbers are NetworkValues::smooth.
+enum class FrictionLaw { exact, arctan, stribeck };
 
 struct Element {
   Element() = default;
@@ -87,9 +88,13 @@ struct Element {
   Direction along;  // its displacement u; each node once
   FrictionLaw law = FrictionLaw::exact;
   std::vector<BendPlace> bends;
-  bool has_static_force = false;  // of a coulomb element: its second value is one
-  bool rotational = false;        // u is an angle
-  bool twists_ground = false;     // its factor there is of an angle: what the ground takes of it is a torque
+  bool has_static_force = false;  // of a coulomb element that follows the exact law: it is given one
+  bool has_cubic = false;         // of a spring: it adds cubic u^3
+  // Of an iwan element: how many jenkins elements in parallel it is, from this one on, the first, by which
+  // all are told as one; 0 of those that follow.
+  std::size_t parts = 1;
+  bool rotational = false;     // u is an angle
+  bool twists_ground = false;  // its factor there is of an angle: what the ground takes of it is a torque
 };
 
 enum class ExcitationKind {
@@ -175,6 +180,22 @@ struct BendValue {
   friend bool operator==(const BendValue&, const BendValue&) = default;
 };
 
+// A point of a curve of friction over the speed; of a rotation in rad/s and N m.
+struct CurvePoint {
+  double speed = 0.0, force = 0.0;  // [m/s], [N]
+
+  friend bool operator==(const CurvePoint&, const CurvePoint&) = default;
+};
+
+// The numbers of an element's smooth law, where it follows one.
+struct SmoothValue {
+  double slope = 0.0;               // of arctan [s/m], of a rotation [s/rad]
+  double cubic = 0.0;               // of a spring [N/m3], of a rotation [N m/rad3]
+  std::vector<CurvePoint> curve{};  // of stribeck, from (0, 0)
+
+  friend bool operator==(const SmoothValue&, const SmoothValue&) = default;
+};
+
 // The numbers of a network at one point of a map, in the order of the lists in `Network`.
 struct NetworkValues {
   double omega = 0.0;  // fundamental angular frequency [rad/s], > 0
@@ -184,6 +205,7 @@ struct NetworkValues {
   std::vector<ExcitationValue> excitation;  // of each excitation component
   std::vector<double> second{};  // of each element, 0 where it has none; may be empty where none has one
   std::vector<std::vector<BendValue>> bends{};  // of each element; may be empty where none has any
+  std::vector<SmoothValue> smooth{};            // of each element; may be empty where no law is smooth
   double hysteretic_omega = 0.0;  // omega_h [rad/s] of hysteretic elements; 0: reference order x omega
   // modal: ratios [1] of the first modes, the last one of all higher modes too; rayleigh: a [1/s], b [s]
   std::vector<double> damping{};

@@ -105,8 +105,11 @@ double trace_derivative(const Trace& trace, const InstantMotion& motion, const m
       return velocity(trace.at, motion).by;
     case TraceKind::acceleration:
       return acceleration(trace.at, motion).by;
-    case TraceKind::element_force:
-      return forces.of_element(trace.element);
+    case TraceKind::element_force: {
+      double force = 0.0;
+      for (std::size_t e = trace.element; e < trace.element + trace.parts; ++e) force += forces.of_element(e);
+      return force;
+    }
     case TraceKind::support_force:
       return forces.at_node(trace.node);
     case TraceKind::displacement:

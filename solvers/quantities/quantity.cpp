@@ -24,6 +24,7 @@ std::string owner_name(Owner owner, std::size_t index, const Network& network) {
       return mechanics::coordinate_name(network, index);
     case Owner::element:
     case Owner::contact:
+    case Owner::sliders:
       return network.elements[index].name;
     case Owner::mode:
       return std::to_string(index + 1);
@@ -45,6 +46,7 @@ std::size_t owner_count(Owner owner, const Network& network) {
       return network.masses.size();
     case Owner::element:
     case Owner::contact:
+    case Owner::sliders:
       return network.elements.size();
     case Owner::support:
       return 1 + network.prescribed.size();
@@ -77,6 +79,7 @@ std::string name_of(const QuantityRow& row, std::size_t index, const Network& ne
     case Owner::mass:
     case Owner::element:
     case Owner::contact:
+    case Owner::sliders:
       break;
   }
   return joined(owner_name(row.owner, index, network), row.suffix);
@@ -91,6 +94,7 @@ std::string unit_of(const QuantityRow& row, std::size_t index, const Network& ne
       return std::string(mechanics::coordinate_unit(network, index, row.unit));
     case Owner::element:
     case Owner::contact:
+    case Owner::sliders:
       return std::string(mechanics::unit_of_element(network.elements[index], row.unit));
     case Owner::support:
       return std::string(index == 0 && mechanics::ground_takes_torque(network)
@@ -104,6 +108,24 @@ std::string unit_of(const QuantityRow& row, std::size_t index, const Network& ne
       break;
   }
   return row.unit;
+}
+
+// Whether an element has the quantities of such an owner. The parts of another have none.
+bool is_owner(Owner owner, const mechanics::Element& element) {
+  switch (owner) {
+    case Owner::element:
+      return element.parts > 0;
+    case Owner::contact:
+      return mechanics::has_own_contact(element);
+    case Owner::sliders:
+      return element.parts > 1;
+    default:
+      return false;
+  }
+}
+
+bool is_owned_by_elements(Owner owner) {
+  return owner == Owner::element || owner == Owner::contact || owner == Owner::sliders;
 }
 
 // The indices of the owners that have a quantity in the standard record.
@@ -161,7 +183,7 @@ std::vector<Quantity> all_quantities(const Network& network) {
   std::vector<Quantity> result;
   for (const QuantityRow& row : quantity_table()) {
     for (std::size_t i = 0; i < owner_count(row.owner, network); ++i) {
-      if (row.owner == Owner::contact && !mechanics::has_contact(network.elements[i])) continue;
+      if (is_owned_by_elements(row.owner) && !is_owner(row.owner, network.elements[i])) continue;
       if (is_of_displacement(row) && mechanics::is_on_belt(network, network.elements[i].along)) continue;
       result.push_back({row.measure, i});
     }
@@ -179,7 +201,10 @@ std::vector<Quantity> standard_quantities(const Network& network) {
     }
     std::ranges::sort(rows, {}, [](const QuantityRow* row) { return row->standard.rank; });
     for (const std::size_t owner : owners(of, network)) {
-      for (const QuantityRow* row : rows) result.push_back({row->measure, owner});
+      for (const QuantityRow* row : rows) {
+        if (is_owned_by_elements(row->owner) && !is_owner(row->owner, network.elements[owner])) continue;
+        result.push_back({row->measure, owner});
+      }
     }
   }
   return result;

@@ -34,6 +34,8 @@ enum class Measure {
   reversals,
   stuck_fraction,
   regime,
+  // of an iwan element
+  slipping,
   // of the response
   status,
   floquet_radius,
@@ -94,14 +96,15 @@ struct QuantityDescription {
 
 QuantityDescription describe(const Quantity& quantity, const mechanics::Network& network, bool dimensionless);
 
-// Every quantity that a network has, in a fixed order. Under the arctan law nothing ever sticks: stops,
+// Every quantity that a network has, in a fixed order. Under smooth laws nothing ever sticks: stops,
 // reversals and events are -1 (not computed), stuck_fraction is NaN and the regime not_computed; nor is there
 // an error_bound, as that of the integration is not one.
 std::vector<Quantity> all_quantities(const mechanics::Network& network);
 
 // Record of an atlas: peak, amplitude, mean, rms and phase of each mass and signal; stroke of each spring;
-// stops, stuck fraction, regime and energy of each element with a contact; status, floquet_radius,
-// energy_balance, residual, error_bound, transmitted_force.
+// stops, stuck fraction, regime and energy of each element with a contact (of an iwan element how many
+// sliders slip, and their energy); status, floquet_radius, energy_balance, residual, error_bound,
+// transmitted_force.
 std::vector<Quantity> standard_quantities(const mechanics::Network& network);
 
 // Whether the page of an atlas shows the quantity unasked: peaks of masses and signals, strokes of the

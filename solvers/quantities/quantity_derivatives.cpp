@@ -129,6 +129,7 @@ void add_up_losses(const Measured& m, MeasuredDerivative& d) {
   d.dissipated = d.structural_loss;
   for (std::size_t e = 0; e < d.loss.size(); ++e) d.loss[e] = loss(m, d, e);
   for (std::size_t j = 0; j < d.bend_loss.size(); ++j) d.loss[m.system->bends.element[j]] += d.bend_loss[j];
+  value::tell_together(m.assembly->network(), d.loss);
   for (const double of_element : d.loss) d.dissipated += of_element;
 }
 

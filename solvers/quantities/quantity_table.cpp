@@ -230,6 +230,19 @@ constexpr QuantityRow kTable[] = {
      .value = value::regime,
      .why_not_differentiated = kNoNumber},
 
+    // Of an iwan element.
+    {.measure = Measure::slipping,
+     .owner = Owner::sliders,
+     .suffix = "slipping",
+     .unit = "1",
+     .meaning = "sliders of {} that slip in a period",
+     .kind = QuantityKind::count,
+     .standard = {StandardOf::contacts, 1},
+     .shown = Shown::of_all,
+     .needs = kHistories,
+     .value = value::slipping,
+     .why_not_differentiated = kNoNumber},
+
     // Of the response.
     {.measure = Measure::status,
      .owner = Owner::point,

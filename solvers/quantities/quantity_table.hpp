@@ -8,10 +8,11 @@
 // their derivatives follow from that.
 namespace frahm::periodic {
 
-// The owner of a quantity; `mass` is a mass or a signal, `support` the ground or a prescribed node,
+// The owner of a quantity; `mass` is a mass or a signal, `contact` an element with one contact, `sliders` one
+// with several (iwan), `support` the ground or a prescribed node,
 // `structure` the damping of the structure as a whole, where there is one, `coexistence` the search for
 // several responses, where there may be.
-enum class Owner { mass, element, contact, point, mode, support, structure, coexistence };
+enum class Owner { mass, element, contact, sliders, point, mode, support, structure, coexistence };
 
 // Whether the standard record of an atlas has the quantity, and for which of its owners.
 enum class StandardOf { none, masses, springs, contacts, point, coexistence };

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "solvers/algebra/no_value.hpp"
 #include "solvers/mechanics/coordinates.hpp"
+#include "solvers/mechanics/element_table.hpp"
 #include "solvers/quantities/fundamental_response.hpp"
 
 namespace frahm::periodic::value {
@@ -91,6 +93,13 @@ double square_of_velocity(const Measured& m, const mechanics::Incidence& at) {
   return sum;
 }
 
+void tell_together(const mechanics::Network& network, std::vector<double>& of_elements) {
+  for (std::size_t e = 0; e < of_elements.size(); ++e) {
+    if (network.elements[e].parts == 0)
+      of_elements[mechanics::told_by(network, e)] += std::exchange(of_elements[e], 0.0);
+  }
+}
+
 void add_up_friction(Measured& m) {
   m.friction_loss.assign(m.system->coefficients.size(), 0.0);
   for (std::size_t e = 0; e < m.friction_loss.size(); ++e) {
@@ -105,6 +114,7 @@ void add_up_losses(Measured& m) {
   m.dissipated = m.structural_loss;
   for (std::size_t e = 0; e < m.loss.size(); ++e) m.loss[e] = loss(m, e);
   for (std::size_t j = 0; j < m.bend_loss.size(); ++j) m.loss[m.system->bends.element[j]] += m.bend_loss[j];
+  tell_together(m.assembly->network(), m.loss);
   for (const double of_element : m.loss) m.dissipated += of_element;
 }
 
@@ -199,6 +209,16 @@ double stuck_fraction(const Measured& m, const Asked& asked) {
 double regime(const Measured& m, const Asked& asked) {
   const double force = m.system->coefficients[asked.quantity.index].friction;
   return static_cast<double>(regime_of(force, history(m, asked)));
+}
+
+double slipping(const Measured& m, const Asked& asked) {
+  const std::size_t first = asked.quantity.index;
+  int count = 0;
+  for (std::size_t e = first; e < first + m.assembly->network().elements[first].parts; ++e) {
+    const double force = m.system->coefficients[e].friction;
+    if (regime_of(force, m.histories[m.assembly->shares()[e].contact]) != Regime::stuck) ++count;
+  }
+  return count;
 }
 
 double status(const Measured& m, const Asked&) {

@@ -25,6 +25,7 @@ double stops(const Measured&, const Asked&);
 double reversals(const Measured&, const Asked&);
 double stuck_fraction(const Measured&, const Asked&);
 double regime(const Measured&, const Asked&);
+double slipping(const Measured&, const Asked&);
 double status(const Measured&, const Asked&);
 double floquet_radius(const Measured&, const Asked&);
 double coexisting(const Measured&, const Asked&);
@@ -57,6 +58,8 @@ void add_up_friction(Measured& measured);
 Eigen::MatrixXd velocity_rows(const Measured& measured, const Eigen::MatrixXd& motion_velocity);
 // What the damping of the structure dissipates in a period [J], by the whole Gram matrix.
 double structural_loss(const Measured& measured);
+// Adds what the parts of an element have to that of the first, and leaves them zero.
+void tell_together(const mechanics::Network& network, std::vector<double>& of_elements);
 // Fills in what each element dissipates, and all together; from integrals, what friction takes out, and the
 // structure's loss.
 void add_up_losses(Measured& measured);

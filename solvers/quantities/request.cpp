@@ -18,6 +18,7 @@ Trace trace_of(const QuantityRow& row, std::size_t index, const mechanics::Assem
       break;
     case TraceKind::element_force:
       trace.element = index;
+      trace.parts = assembly.network().elements[index].parts;
       break;
     case TraceKind::support_force:
       if (index > 0) trace.node = {mechanics::NodeKind::prescribed, index - 1};

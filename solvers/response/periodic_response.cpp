@@ -1,6 +1,7 @@
 #include "solvers/response/periodic_response.hpp"
 
 #include "solvers/exact/exact_solver.hpp"
+#include "solvers/mechanics/smooth_laws.hpp"
 #include "solvers/response/common_divisor.hpp"
 #include "solvers/smooth/smooth_solver.hpp"
 
@@ -11,7 +12,7 @@ namespace {
 std::unique_ptr<ResponseSolver> make_solver(const mechanics::Network& network,
                                             std::vector<Quantity> quantities, Path path,
                                             const OrbitsWanted& wanted) {
-  if (smooth::is_smooth(network)) return smooth::make_solver(network, std::move(quantities));
+  if (mechanics::has_smooth_law(network)) return smooth::make_solver(network, std::move(quantities), wanted);
   return make_exact_solver(network, std::move(quantities), path, wanted);
 }
 

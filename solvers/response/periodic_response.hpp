@@ -12,9 +12,9 @@
 namespace frahm::periodic {
 
 // Periodic responses of one network, one point of a map after the other. Not for use by two threads at once;
-// each thread has its own. A network whose Coulomb elements follow the exact law is solved exactly
-// (exact/exact_solver.hpp), one with the arctan law by integration of its smooth equation (smooth/); one
-// with both is refused. Orders with a common divisor are divided by it first (response/common_divisor.hpp).
+// each thread has its own. A network whose laws are linear piece by piece is solved exactly
+// (exact/exact_solver.hpp), one with smooth laws by integration of its equation (smooth/); one with both is
+// refused. Orders with a common divisor are divided by it first (response/common_divisor.hpp).
 //
 //   PeriodicResponse response(network, quantities);
 //   response.solve_row(points, found, out);  // many points at once, and the fastest way
@@ -74,8 +74,8 @@ class PeriodicResponse {
   // included) by parameter d.  out: directions x quantities, row d from out[d * quantities]; in the unit of
   // the quantity per that of the parameter, NaN where a quantity has no derivative.
   // Returns "", or why the response has no derivatives, and then every entry of `out` is NaN: it is grazing
-  // (an event only just happens, and the derivative differs on both sides), unbounded or failed, of the
-  // arctan law, or several contacts come to rest, or let go of static limits or hit damped stops, at one
+  // (an event only just happens, and the derivative differs on both sides), unbounded or failed, of a
+  // smooth law, or several contacts come to rest, or let go of static limits or hit damped stops, at one
   // instant. Of several responses they are those of the one that is told.
   std::string gradient(std::span<const mechanics::NetworkValues> directions, std::span<double> out);
   // Why a quantity of the last gradient() has none; "" where it has.
@@ -84,7 +84,7 @@ class PeriodicResponse {
   // What sensors show of a response that is ok, several or grazing.
   // times: [s], at any of which the excitation's phase is omega t.  directions: as of gradient(); may be
   // none. Returns "", or why there are no derivatives (as gradient() says); `out` then has the values alone.
-  // Of the arctan law there are neither.
+  // Of a smooth law there are neither.
   std::string observe(std::span<const double> times, std::span<const Observed> observed,
                       std::span<const mechanics::NetworkValues> directions, ObservedMotion& out);
 

@@ -53,6 +53,7 @@ class Integrator::Cvodes {
 
   void pass(const Eigen::VectorXd& start, double t, double duration, const Eigen::VectorXd& scale,
             Passage& passage);
+  bool follow(Eigen::VectorXd& state, double t, double duration, const Eigen::VectorXd& scale);
 
  private:
   static int rates(realtype t, N_Vector z, N_Vector dz, void* self);
@@ -180,6 +181,20 @@ void Integrator::Cvodes::pass(const Eigen::VectorXd& start, double t, double dur
   for (int k = 0; k < size_; ++k) passage.tangent.col(k) = view(sensitivity_[k]);
 }
 
+bool Integrator::Cvodes::follow(Eigen::VectorXd& state, double t, double duration,
+                                const Eigen::VectorXd& scale) {
+  view(state_) = state;
+  view(tolerance_) = options_.follow_tolerance * scale;
+  require(CVodeReInit(memory_, t, state_), "CVodeReInit");
+  require(CVodeSVtolerances(memory_, options_.follow_tolerance, tolerance_), "CVodeSVtolerances");
+  require(CVodeSensToggleOff(memory_), "CVodeSensToggleOff");
+  require(CVodeSetStopTime(memory_, t + duration), "CVodeSetStopTime");
+  realtype reached = t;
+  if (CVode(memory_, t + duration, state_, &reached, CV_NORMAL) < 0) return false;
+  state = view(state_);
+  return true;
+}
+
 // The step's estimated error, and the Taylor coefficients of the interpolating polynomial about its end,
 // z^(k)/k!.
 void Integrator::Cvodes::record_step(Passage& passage) {
@@ -206,6 +221,10 @@ Integrator::~Integrator() = default;
 void Integrator::pass(const Eigen::VectorXd& start, double t, double duration, const Eigen::VectorXd& scale,
                       Passage& passage) {
   cvodes_->pass(start, t, duration, scale, passage);
+}
+
+bool Integrator::follow(Eigen::VectorXd& state, double t, double duration, const Eigen::VectorXd& scale) {
+  return cvodes_->follow(state, t, duration, scale);
 }
 
 }  // namespace frahm::smooth

@@ -1,26 +1,26 @@
 #include "solvers/smooth/equation.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
 
 #include "solvers/algebra/solve.hpp"
-#include "solvers/mechanics/element_table.hpp"
+#include "solvers/mechanics/smooth_laws.hpp"
 
 namespace frahm::smooth {
 
 Equation::Equation(const mechanics::Assembly& assembly) : assembly_(assembly), orders_(assembly.orders()) {
   const auto& network = assembly.network();
   for (std::size_t e = 0; e < network.elements.size(); ++e) {
-    if (mechanics::kind_of(network.elements[e]).can_be_smoothed()) elements_.push_back(e);
+    if (mechanics::has_smooth_law(network.elements[e])) elements_.push_back(e);
   }
   masses_ = static_cast<Eigen::Index>(network.masses.size());
   size_ = 2 * masses_ + static_cast<Eigen::Index>(assembly.internal_forces());
   u_.resize(oscillators());
-  v_.resize(terms());
-  friction_.resize(terms());
-  gain_.resize(terms());
+  x_.resize(terms());
+  phi_.resize(terms());
 }
 
 double Equation::period() const {
@@ -29,13 +29,15 @@ double Equation::period() const {
 
 void Equation::set(const mechanics::LinearSystem& system, const mechanics::NetworkValues& values) {
   omega_ = system.omega;
+  orders_ = system.orders;
   motion_ = rows_of(system.constant_motion, system.motion);
   motion_velocity_ = differentiated(motion_);
   motion_acceleration_ = differentiated(motion_velocity_);
   motion_velocity_.col(0) += system.belt_velocity;
   applied_force_ = rows_of(system.constant_applied_force, system.applied_force);
   set_linear_part(system);
-  set_friction(system, values);
+  set_terms(system, values);
+  internal_stiffness_ = system.internal_stiffness;
   energy_root_.setZero(size_, size_);
   energy_root_.topLeftCorner(masses_, masses_) = algebra::upper_root(system.K);
   energy_root_.block(masses_, masses_, masses_, masses_) = algebra::upper_root(system.M);
@@ -66,22 +68,32 @@ void Equation::set_linear_part(const mechanics::LinearSystem& system) {
   B_.bottomRows(s) = stiffness * (system.D_support.transpose() * motion_velocity_);
 }
 
-void Equation::set_friction(const mechanics::LinearSystem& system, const mechanics::NetworkValues& values) {
+// w_j^T q' + r_j u of friction, w_j^T q + r_j u of a spring.
+void Equation::set_terms(const mechanics::LinearSystem& system, const mechanics::NetworkValues& values) {
   const Eigen::LLT<Eigen::MatrixXd> mass(system.M);
   G_.setZero(size_, terms());
-  W_.resize(terms(), masses_);
+  W_.setZero(terms(), size_);
   support_.resize(terms(), oscillators());
   limit_.resize(terms());
-  slope_.resize(terms());
+  forces_.clear();
+  bent_displacement_ = 0.0;
   for (Eigen::Index j = 0; j < terms(); ++j) {
     const std::size_t element = elements_[static_cast<std::size_t>(j)];
     const mechanics::Incidence& at = assembly_.incidences()[element];
-    G_.col(j).segment(masses_, masses_) = -mass.solve(at.w);
-    W_.row(j) = at.w.transpose();
-    support_.row(j) = at.p.transpose() * motion_velocity_;
     limit_[j] = system.coefficients[element].friction;
-    slope_[j] = values.second[element];
+    const SmoothForce& force = forces_.emplace_back(assembly_.network().elements[element],
+                                                    mechanics::smooth_value(values, element), limit_[j]);
+    const bool of_velocity = force.is_of_velocity();
+    G_.col(j).segment(masses_, masses_) = -mass.solve(at.w);
+    W_.row(j).segment(of_velocity ? masses_ : 0, masses_) = at.w.transpose();
+    support_.row(j) = at.p.transpose() * (of_velocity ? motion_velocity_ : motion_);
+    const double compliance = at.w.dot(algebra::solve_positive(system.K, at.w));
+    bent_displacement_ = std::max(bent_displacement_, force.bent_displacement(lowest_rate(), compliance));
   }
+}
+
+bool Equation::rubs(Eigen::Index term) const {
+  return forces_[static_cast<std::size_t>(term)].is_of_velocity();
 }
 
 void Equation::oscillate(double t) {
@@ -93,33 +105,27 @@ void Equation::oscillate(double t) {
   }
 }
 
-const Eigen::VectorXd& Equation::speeds(double t, const Eigen::Ref<const Eigen::VectorXd>& z) {
+const Eigen::VectorXd& Equation::arguments(double t, const Eigen::Ref<const Eigen::VectorXd>& z) {
   oscillate(t);
-  v_.noalias() = W_ * z.segment(masses_, masses_);
-  v_.noalias() += support_ * u_;
-  return v_;
+  x_.noalias() = W_ * z;
+  x_.noalias() += support_ * u_;
+  return x_;
 }
 
 void Equation::rates(double t, const Eigen::Ref<const Eigen::VectorXd>& z, Eigen::Ref<Eigen::VectorXd> dz) {
-  speeds(t, z);
-  for (Eigen::Index j = 0; j < terms(); ++j) {
-    // F (2/pi) arctan(slope v)
-    friction_[j] = limit_[j] * (2.0 / std::numbers::pi) * std::atan(slope_[j] * v_[j]);
-  }
+  arguments(t, z);
+  for (Eigen::Index j = 0; j < terms(); ++j) phi_[j] = forces_[static_cast<std::size_t>(j)].at(x_[j]).force;
   dz.noalias() = A_ * z;
   dz.noalias() += B_ * u_;
-  dz.noalias() += G_ * friction_;
+  dz.noalias() += G_ * phi_;
 }
 
+// A + sum_j g_j phi_j' w_j^T
 void Equation::jacobian(double t, const Eigen::Ref<const Eigen::VectorXd>& z, Eigen::Ref<Eigen::MatrixXd> J) {
-  speeds(t, z);
+  arguments(t, z);
   J = A_;
-  for (Eigen::Index j = 0; j < terms(); ++j) {
-    // d/dv F (2/pi) arctan(slope v) = F (2/pi) slope / (1 + (slope v)^2)
-    const double steepness = slope_[j] * v_[j];
-    gain_[j] = limit_[j] * (2.0 / std::numbers::pi) * slope_[j] / (1.0 + steepness * steepness);
-    J.middleCols(masses_, masses_).noalias() += gain_[j] * G_.col(j) * W_.row(j);
-  }
+  for (Eigen::Index j = 0; j < terms(); ++j)
+    J.noalias() += forces_[static_cast<std::size_t>(j)].at(x_[j]).slope * G_.col(j) * W_.row(j);
 }
 
 void Equation::look(double t, const Eigen::Ref<const Eigen::VectorXd>& z, Instant& instant) {
@@ -127,7 +133,7 @@ void Equation::look(double t, const Eigen::Ref<const Eigen::VectorXd>& z, Instan
   instant.dz.resize(size_);
   rates(t, z, instant.dz);
   instant.u = u_;
-  instant.friction = friction_;
+  instant.bent = phi_;
   instant.du.setZero(oscillators());
   for (std::size_t k = 0; k < orders_.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
@@ -135,16 +141,13 @@ void Equation::look(double t, const Eigen::Ref<const Eigen::VectorXd>& z, Instan
     instant.du[2 + 2 * i] = orders_[k] * omega_ * u_[1 + 2 * i];
   }
   instant.rate.resize(terms());
-  for (Eigen::Index j = 0; j < terms(); ++j) {
-    const double steepness = slope_[j] * v_[j];
-    const double gain = limit_[j] * (2.0 / std::numbers::pi) * slope_[j] / (1.0 + steepness * steepness);
-    instant.rate[j] =
-        gain * (W_.row(j).dot(instant.dz.segment(masses_, masses_)) + support_.row(j).dot(instant.du));
-  }
+  for (Eigen::Index j = 0; j < terms(); ++j)
+    instant.rate[j] = forces_[static_cast<std::size_t>(j)].at(x_[j]).slope *
+                      (W_.row(j).dot(instant.dz) + support_.row(j).dot(instant.du));
 }
 
 // Of each harmonic (i Omega - A) Z = b, and A Z = -b of the constant.
-Eigen::VectorXd Equation::response_without_friction(double t) const {
+Eigen::VectorXd Equation::linear_response(double t) const {
   Eigen::VectorXd z = algebra::solve(A_, -B_.col(0));
   for (std::size_t k = 0; k < orders_.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
@@ -166,6 +169,17 @@ double Equation::energy_norm(const Eigen::VectorXd& z) const {
 // ||A||_E = ||R A R^-1||_2
 double Equation::energy_norm_of_map(const Eigen::MatrixXd& map) const {
   return energy_root_.triangularView<Eigen::Upper>().solve<Eigen::OnTheRight>(energy_root_ * map).norm();
+}
+
+Eigen::VectorXd Equation::scale(double displacement, double velocity) const {
+  const double rate = lowest_rate();
+  double q = std::max({displacement, velocity / rate, 1e-3 * static_displacement_});
+  if (!(q > 0.0)) q = 1.0;
+  Eigen::VectorXd result(size_);
+  result.head(masses_).setConstant(q);
+  result.segment(masses_, masses_).setConstant(q * rate);
+  result.tail(size_ - 2 * masses_) = q * internal_stiffness_;
+  return result;
 }
 
 // Re(c e^{i theta}) = Re c cos(theta) - Im c sin(theta)

@@ -39,9 +39,9 @@ Form Forms::element_force(std::size_t element, const mechanics::ElementCoefficie
   const mechanics::Incidence& at = assembly_.incidences()[element];
   Form form = mechanics::smooth_force(*this, at, law);
   if (law.internal >= 0) form.z[2 * equation_.masses() + law.internal] += 1.0;
-  const auto& rubbing = equation_.elements();
-  const auto term = std::find(rubbing.begin(), rubbing.end(), element);
-  if (term != rubbing.end()) form.f[term - rubbing.begin()] += 1.0;
+  const auto& bent = equation_.elements();
+  const auto term = std::find(bent.begin(), bent.end(), element);
+  if (term != bent.end()) form.f[term - bent.begin()] += 1.0;
   return form;
 }
 

@@ -5,12 +5,12 @@
 
 namespace frahm::smooth {
 
-// A quantity that is linear in state, forcing and friction: g = z . state + u . u(t) + f . phi(t).
-// Displacements, velocities, accelerations, element forces and sums of them are all of this kind.
+// A quantity that is linear in state, forcing and the forces of smooth laws: g = z . state + u . u(t) + f .
+// phi(t). Displacements, velocities, accelerations, element forces and sums of them are all of this kind.
 struct Form {
   Eigen::VectorXd z, u, f;
 
-  double value(const Instant& at) const { return z.dot(at.z) + u.dot(at.u) + f.dot(at.friction); }
+  double value(const Instant& at) const { return z.dot(at.z) + u.dot(at.u) + f.dot(at.bent); }
   double slope(const Instant& at) const { return z.dot(at.dz) + u.dot(at.du) + f.dot(at.rate); }
 
   Form& add(double factor, const Form& other) {

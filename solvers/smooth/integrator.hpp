@@ -15,6 +15,7 @@ struct IntegratorOptions {
   // Of the sensitivities, whose columns are scaled to order 1: Newton's method tolerates such errors, and the
   // Floquet multipliers are wanted to 1e-6 or so.
   double sensitivity_tolerance = 1e-8;
+  double follow_tolerance = 1e-7;  // of motions that are followed only until they come near an orbit
   long most_steps = 200000;  // of one passage: some ten times what two stops a period take at a slope of 1e6
 };
 
@@ -43,6 +44,9 @@ class Integrator {
   // component for its errors.
   void pass(const Eigen::VectorXd& start, double t, double duration, const Eigen::VectorXd& scale,
             Passage& passage);
+  // The same to a looser tolerance and without sensitivities: `state` moves to its end. False where it does
+  // not reach it.
+  bool follow(Eigen::VectorXd& state, double t, double duration, const Eigen::VectorXd& scale);
 
  private:
   class Cvodes;

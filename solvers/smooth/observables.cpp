@@ -39,6 +39,8 @@ void Observables::measure(const Orbit& orbit, const mechanics::LinearSystem& sys
   measured_.half_period = orbit.half_period;
   measured_.status = orbit.status;
   measured_.residual = orbit.residual;
+  measured_.multiple = orbit.multiple;
+  measured_.coexisting = orbit.coexisting;
   if (request_.needs.stability) measured_.floquet_radius = orbit.floquet_radius();
   measured_.newton_iterations = orbit.newton_iterations;
   measured_.static_norm = equation_.static_norm();
@@ -137,7 +139,7 @@ void Observables::integrate(const Orbit& orbit) {
   const Trajectory& trajectory = orbit.passage.trajectory;
   const Eigen::Index size = equation_.size(), both = size + equation_.oscillators();
   const auto inputs = powers();
-  const std::vector<std::size_t>& rubbing = equation_.elements();
+  const std::vector<std::size_t>& bent = equation_.elements();
   measured_.gram.setZero(both, both);
   std::vector<Form> signals;
   for (const mechanics::Incidence& at : signals_) signals.push_back(forms_.displacement(at));
@@ -162,10 +164,11 @@ void Observables::integrate(const Orbit& orbit) {
         products.row(s).head(oscillators) += weight * value * instant_.u.transpose();
         products(s, oscillators) += weight * value * value;
       }
-      const Eigen::VectorXd& speeds = equation_.speeds(t, state_);
-      for (Eigen::Index j = 0; j < speeds.size(); ++j)
-        measured_.friction_loss[rubbing[static_cast<std::size_t>(j)]] +=
-            weight * instant_.friction[j] * speeds[j];
+      const Eigen::VectorXd& x = equation_.arguments(t, state_);
+      for (Eigen::Index j = 0; j < x.size(); ++j) {
+        if (equation_.rubs(j))
+          measured_.friction_loss[bent[static_cast<std::size_t>(j)]] += weight * instant_.bent[j] * x[j];
+      }
       double power = 0.0;
       for (const auto& [force, velocity] : inputs) power += force.value(instant_) * velocity.value(instant_);
       measured_.input += weight * power;

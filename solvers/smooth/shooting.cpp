@@ -43,7 +43,7 @@ void Shooting::find(const Eigen::VectorXd& scale, Orbit& orbit) {
   int maps = 1;
   while (may_go_on(orbit) && orbit.residual > options_.tolerance) {
     if (newton(scale, orbit)) continue;
-    if (orbit.residual <= options_.good_enough) break;
+    if (orbit.residual <= options_.good_enough || !options_.applies_map) break;
     march(scale, maps, orbit);
     maps = 2 * maps;
   }

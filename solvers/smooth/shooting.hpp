@@ -13,7 +13,7 @@ using periodic::Status;
 // A periodic motion, known over a period from its section, or over half a period where it repeats with the
 // opposite sign, z(t + T/2) = -z(t).
 struct Orbit {
-  Status status = Status::not_computed;  // ok, unbounded or failed; a smooth law does not graze
+  Status status = Status::not_computed;  // a smooth law does not graze
   std::string reason;                    // why it failed
   Eigen::VectorXd z;                     // state at the section
   double section = 0.0;                  // time [s] from omega t = 0
@@ -22,7 +22,10 @@ struct Orbit {
   double residual = 0.0;  // of the periodic condition, relative, energy norm
   int newton_iterations = 0;
   int passages = 0;
+  int multiple = 1;    // of the forcing's period, that the orbit takes
+  int coexisting = 1;  // stable orbits that were found
 
+  bool is_found() const { return periodic::has_response(status); }
   double sign() const { return half_period ? -1.0 : 1.0; }
   // Largest modulus of the Floquet multipliers of the full period.
   double floquet_radius() const;
@@ -33,12 +36,13 @@ struct ShootingOptions {
   double good_enough = 1e-9;    // accepted where that keeps it from falling further
   double largest_error = 1e-6;  // estimated, of the orbit, relative, energy norm: a larger one is a failure
   int most_passages = 60;       // each some hundredths of a second
-  int most_rejections = 3;      // halvings of a Newton step before the map itself is applied
+  int most_rejections = 3;      // shorter Newton steps that are tried before the map itself is applied
+  bool applies_map = true;      // else the search ends there
 };
 
 // The periodic orbit as a fixed point of the period map, by Newton's method with the integrator's
-// sensitivities. The arctan law is monotone as the exact law is, so the map expands no distance in the energy
-// norm: if a Newton step does not reduce the residual, the map itself is applied.
+// sensitivities. If a Newton step does not reduce the residual, the map itself is applied where that is
+// wanted: under monotone laws (arctan, a curve that rises) it expands no distance in the energy norm.
 class Shooting {
  public:
   // Both must outlive the shooting.

@@ -8,8 +8,11 @@
 #include "solvers/exact/exact_solver.hpp"
 #include "solvers/mechanics/coordinates.hpp"
 #include "solvers/mechanics/element_table.hpp"
+#include "solvers/mechanics/smooth_laws.hpp"
 #include "solvers/mechanics/undamped_resonance.hpp"
+#include "solvers/orbits/period_multiple.hpp"
 #include "solvers/orbits/phase.hpp"
+#include "solvers/smooth/coexistence.hpp"
 #include "solvers/smooth/observables.hpp"
 #include "solvers/smooth/shooting.hpp"
 
@@ -21,36 +24,44 @@ using mechanics::FrictionLaw;
 using mechanics::Network;
 using periodic::History;
 
-bool rubs(const Element& element, FrictionLaw law) {
-  return mechanics::has_contact(element) && element.law == law;
+bool follows_arctan(const Element& element) {
+  return mechanics::has_smooth_law(element) && element.law == FrictionLaw::arctan;
 }
 
-Network under_exact_law(Network network) {
-  for (Element& element : network.elements) element.law = FrictionLaw::exact;
-  return network;
+// Where all that is smooth is arctan, the exact law's orbit is near.
+std::unique_ptr<periodic::ResponseSolver> solver_of_exact_law(Network network) {
+  for (Element& element : network.elements) {
+    if (mechanics::has_smooth_law(element) && !follows_arctan(element)) return nullptr;
+    element.law = FrictionLaw::exact;
+  }
+  return periodic::make_exact_solver(network, {});
 }
 
 const Network& without_mixed_laws(const Network& network) {
   for (const Element& element : network.elements) {
-    if (!rubs(element, FrictionLaw::exact)) continue;
+    const bool rubs_exactly = mechanics::has_contact(element) && !mechanics::has_smooth_law(element);
+    if (!rubs_exactly && element.bends.empty()) continue;
     throw mechanics::MechanicsError("element '" + element.name +
-                                    "' follows the exact law and others the arctan law: one law for all");
+                                    "' follows an exact law and others a smooth one: one kind for all");
   }
   return network;
 }
 
 class SmoothSolver final : public periodic::ResponseSolver {
  public:
-  SmoothSolver(const Network& network, const std::vector<Quantity>& quantities)
+  SmoothSolver(const Network& network, const std::vector<Quantity>& quantities,
+               const periodic::OrbitsWanted& wanted)
       : assembly_(without_mixed_laws(network)),
-        exact_(periodic::make_exact_solver(under_exact_law(network), {})),
+        exact_(solver_of_exact_law(network)),
         equation_(assembly_),
         integrator_(equation_),
         shooting_(equation_, integrator_),
+        coexistence_(equation_, integrator_, wanted),
         observables_(assembly_, equation_, quantities) {}
 
   void set_values(const mechanics::NetworkValues& values) override {
-    exact_->set_values(values);
+    if (exact_) exact_->set_values(values);
+    values_ = values;
     assembly_.set_values(values, system_);
     assembly_.set_forcing(values, system_);
     equation_.set(system_, values);
@@ -60,18 +71,25 @@ class SmoothSolver final : public periodic::ResponseSolver {
 
   void set_forcing(const mechanics::NetworkValues& values) override {
     if (assembly_.matrices_depend_on_frequency()) return set_values(values);
-    exact_->set_forcing(values);
+    if (exact_) exact_->set_forcing(values);
+    values_ = values;
     assembly_.set_forcing(values, system_);
     equation_.set(system_, values);
   }
 
-  void forget() override { exact_->forget(); }
-  void begin_row() override { exact_->begin_row(); }
+  void forget() override {
+    if (exact_) exact_->forget();
+    coexistence_.forget();
+  }
+  void begin_row() override {
+    if (exact_) exact_->begin_row();
+    coexistence_.forget();
+  }
   const periodic::ResponseSummary& solve() override;
 
   void quantities(std::span<double> out) override {
-    if (orbit_.status == Status::ok)
-      observables_.evaluate(orbit_, system_, out);
+    if (orbit_.is_found())
+      observables_.evaluate(orbit_, told(), out);
     else
       observables_.fill_missing(orbit_.status, out);
   }
@@ -81,7 +99,7 @@ class SmoothSolver final : public periodic::ResponseSolver {
     return why_no_derivative(0);
   }
   const char* why_no_derivative(std::size_t) const override {
-    return "a response under the arctan law is integrated, and has no exact derivative";
+    return "a response under a smooth law is integrated, and has no exact derivative";
   }
 
   const char* observe(std::span<const double>, std::span<const periodic::Observed>,
@@ -93,19 +111,22 @@ class SmoothSolver final : public periodic::ResponseSolver {
   std::vector<periodic::Stretch> stretches() const override { return {}; }  // nothing ever sticks
 
  private:
+  const mechanics::LinearSystem& told() const { return orbit_.multiple > 1 ? longer_ : system_; }
   void search();
+  void search_one();
   bool guess_from_exact_law();
-  void guess_without_friction();
-  Eigen::VectorXd scale(double displacement, double velocity) const;
+  void guess_linear_response();
   void state_at(double phase, Eigen::VectorXd& z) const;
 
   mechanics::Assembly assembly_;
-  mechanics::LinearSystem system_;
+  mechanics::NetworkValues values_;          // of the system
+  mechanics::LinearSystem system_, longer_;  // longer: over the multiple of the period that the orbit takes
   std::vector<periodic::UndampedMode> undamped_modes_;
-  std::unique_ptr<periodic::ResponseSolver> exact_;
+  std::unique_ptr<periodic::ResponseSolver> exact_;  // may be none
   Equation equation_;
   Integrator integrator_;
   Shooting shooting_;
+  Coexistence coexistence_;
   Observables observables_;
   Orbit orbit_;
   Eigen::VectorXd scale_;
@@ -116,7 +137,10 @@ const periodic::ResponseSummary& SmoothSolver::solve() {
   orbit_.residual = kNone;
   orbit_.newton_iterations = orbit_.passages = 0;
   orbit_.half_period = system_.odd_response;
-  if (periodic::is_unbounded(system_, undamped_modes_)) {  // arctan friction dissipates less than exact
+  orbit_.multiple = orbit_.coexisting = 1;
+  // Friction that is smooth dissipates less than its limit; a spring that hardens may hold what no friction
+  // does.
+  if (system_.monotone && periodic::is_unbounded(system_, undamped_modes_)) {
     orbit_.status = Status::unbounded;
     orbit_.reason = "an undamped mode is driven at its resonance, and no friction holds it";
   } else {
@@ -132,22 +156,32 @@ const periodic::ResponseSummary& SmoothSolver::solve() {
               .residual = orbit_.residual,
               .newton_iterations = orbit_.newton_iterations,
               .passages = orbit_.passages,
+              .multiple = orbit_.multiple,
+              .coexisting = orbit_.coexisting,
               .half_period = orbit_.half_period};
   return summary_;
 }
 
 void SmoothSolver::search() {
+  equation_.set(system_, values_);  // after an orbit of several periods
+  if (system_.monotone) return search_one();
+  coexistence_.find(system_, values_, orbit_);
+  if (orbit_.multiple > 1) longer_ = periodic::over_multiple(system_, orbit_.multiple);
+}
+
+void SmoothSolver::search_one() {
   if (guess_from_exact_law()) {
     shooting_.find(scale_, orbit_);
     if (orbit_.status == Status::ok) return;
   }
-  guess_without_friction();
+  guess_linear_response();
   shooting_.find(scale_, orbit_);
 }
 
 // The exact orbit at the instant at which all contacts slide fastest, each relative to its own maximum: there
 // the smooth orbit is nearest, and its motion least sensitive. False if the exact law has no orbit.
 bool SmoothSolver::guess_from_exact_law() {
+  if (!exact_) return false;
   const Status status = exact_->solve().status;
   if (status != Status::ok && status != Status::grazing) return false;
   constexpr Eigen::Index kSamples = 64;
@@ -166,7 +200,7 @@ bool SmoothSolver::guess_from_exact_law() {
       if (internal >= 0)
         states(2 * n + internal, i) = history.columns[static_cast<std::size_t>(2 * n) + e][sample];
     }
-    speeds.col(i) = equation_.speeds(history.time[sample], states.col(i)).cwiseAbs();
+    speeds.col(i) = equation_.arguments(history.time[sample], states.col(i)).cwiseAbs();
   }
   Eigen::VectorXd slowest = Eigen::VectorXd::Ones(kSamples);
   const double fastest = speeds.size() > 0 ? speeds.maxCoeff() : 0.0;
@@ -179,38 +213,26 @@ bool SmoothSolver::guess_from_exact_law() {
   slowest.maxCoeff(&best);
   orbit_.z = states.col(best);
   orbit_.section = history.time[static_cast<std::size_t>(best)];
-  scale_ = scale(states.topRows(n).cwiseAbs().maxCoeff(), states.middleRows(n, n).cwiseAbs().maxCoeff());
+  scale_ =
+      equation_.scale(states.topRows(n).cwiseAbs().maxCoeff(), states.middleRows(n, n).cwiseAbs().maxCoeff());
   return true;
 }
 
-void SmoothSolver::guess_without_friction() {
+void SmoothSolver::guess_linear_response() {
   orbit_.section = 0.0;
-  orbit_.z = equation_.response_without_friction(0.0);
+  orbit_.z = equation_.linear_response(0.0);
   const double limit = 1e6 * equation_.static_norm();
   if (!orbit_.z.allFinite() || equation_.energy_norm(orbit_.z) > limit) orbit_.z.setZero();
   const Eigen::Index n = equation_.masses();
-  scale_ = scale(orbit_.z.head(n).cwiseAbs().maxCoeff(), orbit_.z.segment(n, n).cwiseAbs().maxCoeff());
-}
-
-// Scales of displacements, velocities and Maxwell forces for their errors: the largest values, and at least a
-// thousandth of the static ones.
-Eigen::VectorXd SmoothSolver::scale(double displacement, double velocity) const {
-  const Eigen::Index n = equation_.masses();
-  const double least = 1e-3 * equation_.static_displacement();
-  double q = std::max({displacement, velocity / system_.omega, least});
-  if (!(q > 0.0)) q = 1.0;
-  Eigen::VectorXd result(equation_.size());
-  result.head(n).setConstant(q);
-  result.segment(n, n).setConstant(q * system_.omega);
-  result.tail(result.size() - 2 * n) = q * system_.internal_stiffness;
-  return result;
+  scale_ =
+      equation_.scale(orbit_.z.head(n).cwiseAbs().maxCoeff(), orbit_.z.segment(n, n).cwiseAbs().maxCoeff());
 }
 
 // The orbit at omega t = phase.
 void SmoothSolver::state_at(double phase, Eigen::VectorXd& z) const {
   const periodic::PlaceOnOrbit place =
-      periodic::place_on_orbit(phase, system_.omega * orbit_.section, orbit_.half_period);
-  const double t = orbit_.section + place.from_section / system_.omega;
+      periodic::place_on_orbit(phase, told().omega * orbit_.section, orbit_.half_period);
+  const double t = orbit_.section + place.from_section / told().omega;
   const Trajectory& trajectory = orbit_.passage.trajectory;
   trajectory.state(trajectory.step_at(t), t, z);
   z *= place.sign;
@@ -231,8 +253,8 @@ History SmoothSolver::history(std::span<const double> phases) {
   Eigen::VectorXd z;
   for (const double phase : phases) {
     state_at(phase, z);
-    equation_.look(phase / system_.omega, z, instant);
-    result.time.push_back(phase / system_.omega);
+    equation_.look(phase / told().omega, z, instant);
+    result.time.push_back(phase / told().omega);
     std::size_t column = 0;
     for (Eigen::Index mass = 0; mass < equation_.masses(); ++mass) {
       result.columns[column++].push_back(z[mass]);
@@ -248,14 +270,10 @@ History SmoothSolver::history(std::span<const double> phases) {
 
 }  // namespace
 
-bool is_smooth(const Network& network) {
-  return std::any_of(network.elements.begin(), network.elements.end(),
-                     [](const Element& element) { return rubs(element, FrictionLaw::arctan); });
-}
-
 std::unique_ptr<periodic::ResponseSolver> make_solver(const Network& network,
-                                                      std::vector<Quantity> quantities) {
-  return std::make_unique<SmoothSolver>(network, std::move(quantities));
+                                                      std::vector<Quantity> quantities,
+                                                      const periodic::OrbitsWanted& wanted) {
+  return std::make_unique<SmoothSolver>(network, quantities, wanted);
 }
 
 }  // namespace frahm::smooth

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <span>
 
+#include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/structural_damping.hpp"
 #include "solvers/quantities/integrals.hpp"
 
@@ -107,17 +108,19 @@ std::vector<EnergyAccount::Form> EnergyAccount::loss_forms(const Mode& mode) {
   losses_.clear();
   for (std::size_t e = 0; e < system_.coefficients.size(); ++e) {
     const mechanics::ElementCoefficients& law = system_.coefficients[e];
+    const std::size_t told = mechanics::told_by(assembly_.network(), e);
     if (law.damping != 0.0) {
-      losses_.push_back({e, law.damping});
+      losses_.push_back({told, law.damping});
       forms.push_back(forms_.velocity(assembly_.incidences()[e]));
     }
     if (law.internal_damping != 0.0) {
-      losses_.push_back({e, 1.0 / law.internal_damping});
+      losses_.push_back({told, 1.0 / law.internal_damping});
       forms.push_back(forms_.zero());
       forms.back().z[2 * flow_.equations().masses() + law.internal] = 1.0;
     }
     if (law.friction != 0.0) {
-      losses_.push_back({e, law.friction, Power::sliding, static_cast<Index>(assembly_.shares()[e].contact)});
+      losses_.push_back(
+          {told, law.friction, Power::sliding, static_cast<Index>(assembly_.shares()[e].contact)});
       forms.push_back(forms_.velocity(assembly_.incidences()[e]));
     }
   }

@@ -40,7 +40,7 @@ std::size_t create_borders(const MapPlan& plan, results::MapWriter& writer) {
   std::vector<std::string> elements, dimensions;
   std::size_t one_contact = 0;
   for (std::size_t e = 0; e < study.network.elements.size(); ++e) {
-    if (!mechanics::has_contact(study.network.elements[e])) continue;
+    if (!mechanics::has_own_contact(study.network.elements[e])) continue;
     elements.push_back(study.network.elements[e].name);
     one_contact = e;
   }

@@ -13,7 +13,7 @@ using periodic::Regime;
 std::vector<periodic::Quantity> regimes_of(const mechanics::Network& network) {
   std::vector<periodic::Quantity> regimes;
   for (std::size_t e = 0; e < network.elements.size(); ++e) {
-    if (mechanics::has_contact(network.elements[e])) regimes.push_back({periodic::Measure::regime, e});
+    if (mechanics::has_own_contact(network.elements[e])) regimes.push_back({periodic::Measure::regime, e});
   }
   return regimes;
 }

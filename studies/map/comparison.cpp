@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "solvers/algebra/no_value.hpp"
+#include "solvers/mechanics/element_table.hpp"
+#include "solvers/mechanics/smooth_laws.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -37,14 +39,9 @@ std::string circumstance(const Comparison& comparison) {
 
 }  // namespace
 
-bool meets_arctan_law(const Study& study) {
-  const auto follows = [](const mechanics::Network& network) {
-    return std::any_of(network.elements.begin(), network.elements.end(), [](const mechanics::Element& each) {
-      return mechanics::has_contact(each) && each.law == FrictionLaw::arctan;
-    });
-  };
-  return follows(study.network) ||
-         (study.sweep() && study.sweep()->comparison && follows(compared_network(study)));
+bool meets_smooth_laws(const Study& study) {
+  return mechanics::has_smooth_law(study.network) ||
+         (study.sweep() && study.sweep()->comparison && mechanics::has_smooth_law(compared_network(study)));
 }
 
 mechanics::Network compared_network(const Study& study) {
@@ -70,7 +67,7 @@ StudyValues compared_values(const Study& study) {
   StudyValues values = study.values;
   if (comparison.show || comparison.taylor_order > 0 || comparison.law == FrictionLaw::exact) return values;
   for (std::size_t e = 0; e < study.network.elements.size(); ++e) {
-    if (mechanics::kind_of(study.network.elements[e]).can_be_smoothed()) values.second[e] = comparison.slope;
+    if (mechanics::kind_of(study.network.elements[e]).can_be_smoothed()) values.slope[e] = comparison.slope;
   }
   return values;
 }

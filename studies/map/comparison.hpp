@@ -10,8 +10,8 @@
 // beside the study's own.
 namespace frahm::studies {
 
-// Whether the study or what it is compared with follows the arctan law.
-bool meets_arctan_law(const Study& study);
+// Whether the study or what it is compared with follows smooth laws.
+bool meets_smooth_laws(const Study& study);
 
 // The functions below need a study with a comparison. The network and the values of the other response:
 mechanics::Network compared_network(const Study& study);

@@ -28,7 +28,7 @@ std::vector<std::size_t> places_of_regimes(const mechanics::Network& network,
                                            const std::vector<periodic::Quantity>& quantities) {
   std::vector<std::size_t> places;
   for (std::size_t e = 0; e < network.elements.size(); ++e) {
-    if (!mechanics::has_contact(network.elements[e])) continue;
+    if (!mechanics::has_own_contact(network.elements[e])) continue;
     const auto found = std::ranges::find(quantities, periodic::Quantity{periodic::Measure::regime, e});
     if (found == quantities.end()) return {};
     places.push_back(static_cast<std::size_t>(found - quantities.begin()));

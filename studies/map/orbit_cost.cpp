@@ -37,7 +37,8 @@ double of_searches(const Study& study, double masses) {
 }  // namespace
 
 double predicted_orbit_seconds(const Study& study) {
-  constexpr double kOneMass = 3e-6, kArctan = 20e-3;  // [s], of one mass; of one or two under the arctan law
+  // [s], of one mass; of one or two under a smooth law, and of each start of its search
+  constexpr double kOneMass = 3e-6, kSmooth = 20e-3, kSmoothStart = 50e-3;
   const auto masses = static_cast<double>(study.network.masses.size());
   const auto contacts = static_cast<double>(std::ranges::count_if(
       study.network.elements,
@@ -45,7 +46,10 @@ double predicted_orbit_seconds(const Study& study) {
   const double exact = of_searches(study, masses) + kOneMass +
                        (contacts == 0.0 ? kOneMass * masses * masses / 16.0  // a matrix and a vector
                                         : with_contacts(study, masses, contacts));
-  return meets_arctan_law(study) ? exact + kArctan * std::max(1.0, 0.5 * masses) : exact;
+  if (!meets_smooth_laws(study)) return exact;
+  const bool searches = mechanics::may_have_several_responses(study.network);
+  const double smooth = searches ? kSmoothStart * study.orbits_wanted().starts : kSmooth;
+  return exact + smooth * std::max(1.0, 0.5 * masses);
 }
 
 }  // namespace frahm::studies

@@ -42,6 +42,11 @@ struct SupportMotion {
   }
 };
 
+// Whether the motion across the element is recorded; the parts of one move as the first.
+bool tells_sliding(const mechanics::Element& element) {
+  return mechanics::has_contact(element) && element.parts > 0;
+}
+
 // Relative displacement u = w^T q + p^T y of each element with a contact and its velocity, at the instants of
 // a history, whose first columns are q and q' of one mass after the other.
 std::vector<std::vector<double>> sliding_motions(const mechanics::Network& network,
@@ -51,7 +56,7 @@ std::vector<std::vector<double>> sliding_motions(const mechanics::Network& netwo
   mechanics::LinearSystem system;
   assembly.set_values(values, system);
   assembly.set_forcing(values, system);
-  const auto contacts = std::ranges::count_if(network.elements, mechanics::has_contact);
+  const auto contacts = std::ranges::count_if(network.elements, tells_sliding);
   std::vector<std::vector<double>> motions(2 * static_cast<std::size_t>(contacts));
   Eigen::VectorXd q(system.masses()), v(system.masses());
   for (std::size_t i = 0; i < history.time.size(); ++i) {
@@ -62,7 +67,7 @@ std::vector<std::vector<double>> sliding_motions(const mechanics::Network& netwo
     const SupportMotion support(system, history.time[i]);
     auto column = motions.begin();
     for (std::size_t e = 0; e < network.elements.size(); ++e) {
-      if (!mechanics::has_contact(network.elements[e])) continue;
+      if (!tells_sliding(network.elements[e])) continue;
       const mechanics::Incidence& incidence = assembly.incidences()[e];
       (column++)->push_back(incidence.w.dot(q) + incidence.p.dot(support.displacement));
       (column++)->push_back(incidence.w.dot(v) + incidence.p.dot(support.velocity));
@@ -116,7 +121,9 @@ std::vector<results::Variable> sample_variables(const Study& study) {
     add_of_coordinate(i, "m", "displacement");
     add_of_coordinate(i, "m s-1", "velocity");
   }
-  for (const auto& element : network.elements) add_of_element(element, "_force", "N", "force of");
+  for (const auto& element : network.elements) {
+    if (element.parts > 0) add_of_element(element, "_force", "N", "force of");
+  }
   for (std::size_t i = 0; i < network.masses.size(); ++i) add_of_coordinate(i, "m s-2", "acceleration");
   for (std::size_t i = network.masses.size(); i < mechanics::coordinate_count(network); ++i) {
     add_of_coordinate(i, "m", "displacement");
@@ -124,7 +131,7 @@ std::vector<results::Variable> sample_variables(const Study& study) {
     add_of_coordinate(i, "m s-2", "acceleration");
   }
   for (const auto& element : network.elements) {
-    if (!mechanics::has_contact(element)) continue;
+    if (!tells_sliding(element)) continue;
     add_of_element(element, "_displacement", "m", "relative displacement across");
     add_of_element(element, "_sliding_velocity", "m s-1", "relative velocity across");
   }

@@ -14,7 +14,7 @@ namespace frahm::studies {
 void add_energies(const Study& study, const transient::EnergyBudget& energy, MotionColumns& columns) {
   const auto& elements = study.network.elements;
   for (std::size_t e = 0; e < elements.size(); ++e) {
-    if (!mechanics::kind_of(elements[e]).dissipates) continue;
+    if (!mechanics::kind_of(elements[e]).dissipates || elements[e].parts == 0) continue;
     const std::string& name = elements[e].name;
     columns.add_number(name + "_energy", "J", "energy dissipated by " + name, energy.dissipated[e]);
     columns.add_number(name + "_energy_share", "1", "share of " + name + " in the energy dissipated",
@@ -44,7 +44,7 @@ void print_energies(const Study& study, const transient::EnergyBudget& energy, s
   if (study.kind() == StudyKind::transient) line("work of the excitation", energy.input, "");
   const auto& elements = study.network.elements;
   for (std::size_t e = 0; e < elements.size(); ++e) {
-    if (!mechanics::kind_of(elements[e]).dissipates) continue;
+    if (!mechanics::kind_of(elements[e]).dissipates || elements[e].parts == 0) continue;
     line("lost in " + elements[e].name, energy.dissipated[e],
          fmt::format("{:.2f} %", 100.0 * energy.share[e]));
   }

@@ -37,8 +37,9 @@ void MotionColumns::add_samples(const transient::Samples& samples) {
       add(name + "_acceleration", unit("m s-2"), "acceleration of " + name, "time", samples.acceleration[i]);
   }
   for (std::size_t e = 0; e < study_.network.elements.size(); ++e) {
-    if (!mechanics::kind_of(study_.network.elements[e]).dissipates) continue;
-    const std::string& name = study_.network.elements[e].name;
+    const mechanics::Element& element = study_.network.elements[e];
+    if (!mechanics::kind_of(element).dissipates || element.parts == 0) continue;
+    const std::string& name = element.name;
     add(name + "_dissipated", "J", "energy dissipated by " + name + " until then", "time",
         samples.dissipated[e]);
   }

@@ -40,7 +40,7 @@ std::vector<StopsOfElement> stops_of_elements(const Study& study, const ForcedMo
   std::vector<StopsOfElement> result;
   for (std::size_t e = 0; e < study.network.elements.size(); ++e) {
     const mechanics::Element& element = study.network.elements[e];
-    if (!mechanics::has_contact(element)) continue;
+    if (!mechanics::has_own_contact(element)) continue;
     result.push_back({element.name, motion.stops[assembly.shares()[e].contact]});
   }
   return result;

@@ -20,6 +20,7 @@
 #include "studies/reading/assignment.hpp"
 #include "studies/reading/settings.hpp"
 #include "studies/reading/spelling.hpp"
+#include "studies/reading/study_reading.hpp"
 #include "studies/record/fingerprint.hpp"
 #include "studies/record/finished_file.hpp"
 #include "studies/record/provenance.hpp"
@@ -45,14 +46,7 @@ void check_options(const Study& study, const BranchCommandOptions& options) {
     throw StudyError(rules::other_kind, "{}: {} has no branches; they are those of a sweep's responses",
                      study.source.name, kind_noun(study.kind()));
   }
-  const auto is_smooth = [](const mechanics::Element& each) {
-    return each.law == mechanics::FrictionLaw::arctan;
-  };
-  if (std::ranges::any_of(study.network.elements, is_smooth)) {
-    throw StudyError(rules::wrong_law,
-                     "{}: branches follow the exact law; an element here has law = \"arctan\"",
-                     study.source.name);
-  }
+  refuse_smooth_laws(study, "a branch");
   if (options.output == "-") {
     throw StudyError(rules::wrong_option,
                      "--output \"-\": the special points go to standard output; name a file");

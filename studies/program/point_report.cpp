@@ -28,7 +28,7 @@ std::vector<PointReport::Parameter> numbers_of(const Study& study, const std::ve
 std::vector<std::string> friction_elements(const mechanics::Network& network) {
   std::vector<std::string> names;
   for (const mechanics::Element& element : network.elements) {
-    if (mechanics::has_contact(element)) names.push_back(element.name);
+    if (mechanics::has_own_contact(element)) names.push_back(element.name);
   }
   return names;
 }

@@ -52,6 +52,7 @@ class Excerpt {
         return std::ranges::find(masses_, quantity.index) != masses_.end();
       case periodic::Owner::element:
       case periodic::Owner::contact:
+      case periodic::Owner::sliders:
         return std::ranges::find(elements_, quantity.index) != elements_.end();
       case periodic::Owner::mode:
         return quantity.index < most_owners;

@@ -50,7 +50,9 @@ results::PageGroup profile_group(const Study& study, const Profile& profile) {
   for (const std::size_t mass : profile.masses) masses.push_back(network.masses[mass]);
   for (const std::size_t spring : springs_below(study, profile))
     springs.push_back(spring == none ? "" : network.elements[spring].name);
-  for (const Element& element : network.elements) owners.push_back(element.name);
+  for (const Element& element : network.elements) {
+    if (element.parts > 0) owners.push_back(element.name);
+  }
   const auto list = [](const std::vector<std::string>& names) {
     return fmt::format("{}", fmt::join(names, ","));
   };

@@ -9,17 +9,20 @@
 
 namespace frahm::studies {
 
-// How an element of a study bends (solvers/laws/bend.hpp): at stops, or at the points of a table. Its values
-// are in StudyValues::points: of stops a clearance each; of a table the place and the force of each point, by
-// turns. A table bends at all points but the first and the last, as its ends go on with their slope.
+// How an element of a study bends (solvers/laws/bend.hpp): at stops, or at the points of a table; or the
+// curve of its friction, which is smooth. Its values are in StudyValues::points: of stops a clearance each;
+// of a table or a curve the place and the force of each point, by turns. A table bends at all points but the
+// first and the last, as its ends go on with their slope.
 struct StudyCharacteristic {
-  enum class Kind { none, stops, table };
+  enum class Kind { none, stops, table, curve };
   Kind kind = Kind::none;
   bool of_velocity = false;          // a table of forces over velocities
   std::size_t first = 0, count = 0;  // of its values
   std::vector<double> sides{};       // of each bend: +1 right of the origin, -1 left of it or at it
   std::string where;                 // for messages: `element "stop": clearance`
   Position position;                 // of that key
+
+  bool bends() const { return kind == Kind::stops || kind == Kind::table; }
 };
 
 // The numbers of a table at one point of a map. Number: double, or one with a derivative.

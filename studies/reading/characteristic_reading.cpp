@@ -50,8 +50,8 @@ PointQuantities quantities_of_table(const StudyCharacteristic& of, bool rotation
   return {of.of_velocity ? of_velocity : of_displacement, rotational ? Quantity::torque : Quantity::force};
 }
 
-void read_points(NetworkReading& reading, const TomlSection& section, const ElementKind& kind,
-                 bool rotational, StudyCharacteristic& of, mechanics::Element& element) {
+void read_points(NetworkReading& reading, const TomlSection& section, bool rotational,
+                 StudyCharacteristic& of) {
   const PointQuantities quantities = quantities_of_table(of, rotational);
   const std::string expected = fmt::format("points [{}, {}] are expected", written_si_unit(quantities.place),
                                            written_si_unit(quantities.force));
@@ -60,6 +60,7 @@ void read_points(NetworkReading& reading, const TomlSection& section, const Elem
   if (points->size() < 2)
     section.fail(rules::too_few, "table", "{} point{}; two are needed at least, for a slope", points->size(),
                  points->size() == 1 ? "" : "s");
+  const Range range = of.kind == StudyCharacteristic::Kind::curve ? Range::not_negative : Range::finite;
   std::size_t number = 0;
   for (const TomlValue& point : *points) {
     const std::string where = fmt::format("{}: point {}", of.where, ++number);
@@ -67,12 +68,16 @@ void read_points(NetworkReading& reading, const TomlSection& section, const Elem
     if (!pair || pair->size() != 2)
       throw section.source().error_at(rules::wrong_type, point.position, "{}: {}, found {}", where, expected,
                                       pair ? fmt::format("{} values", pair->size()) : described(point));
-    add_value(reading, of, read_value_at(reading, where, pair->front(), quantities.place, Range::finite));
-    add_value(reading, of, read_value_at(reading, where, pair->back(), quantities.force, Range::finite));
+    add_value(reading, of, read_value_at(reading, where, pair->front(), quantities.place, range));
+    add_value(reading, of, read_value_at(reading, where, pair->back(), quantities.force, range));
   }
-  // Their sides follow from the numbers: set_characteristics().
-  of.sides.assign(points->size() - 2, 1.0);
-  element.bends.assign(points->size() - 2, {1.0, kind.table});
+}
+
+// Their sides follow from the numbers: set_characteristics().
+void bend_at_inner_points(const ElementKind& kind, StudyCharacteristic& of, mechanics::Element& element) {
+  const std::size_t inner = of.count / 2 - 2;
+  of.sides.assign(inner, 1.0);
+  element.bends.assign(inner, {1.0, kind.table});
 }
 
 // The exact law knows which bends an element is beyond by the bits of a word.
@@ -95,18 +100,22 @@ StudyCharacteristic read_characteristic(NetworkReading& reading, const TomlSecti
   StudyCharacteristic of;
   of.first = reading.result.values.points.size();
   const bool has_table = kind.table != nullptr && section.find("table");
-  if (!has_table && kind.stop == nullptr) return of;
-  of.kind = has_table ? Kind::table : Kind::stops;
-  of.of_velocity = has_table && kind.table->of_velocity;
-  const char* key = has_table ? "table" : "clearance";
+  const bool has_curve = element.law == mechanics::FrictionLaw::stribeck;
+  if (!has_table && !has_curve && kind.stop == nullptr) return of;
+  of.kind = has_curve ? Kind::curve : has_table ? Kind::table : Kind::stops;
+  of.of_velocity = has_curve || (has_table && kind.table->of_velocity);
+  const char* key = of.kind == Kind::stops ? "clearance" : "table";
   of.where = fmt::format("{}: {}", section.where(), key);
   of.position = section.require(key).position;
   if (has_table && section.find(kind.value.key))
     section.fail(rules::one_of_two_keys, kind.value.key,
                  "its table already says how the force rises; give one of the two");
-  if (has_table) {
-    read_points(reading, section, kind, rotational, of, element);
-  } else {
+  if (has_table && kind.cubic.exists() && section.find(kind.cubic.key))
+    section.fail(rules::one_of_two_keys, kind.cubic.key,
+                 "its table is linear between its points; give one of the two");
+  if (of.kind != Kind::stops) read_points(reading, section, rotational, of);
+  if (has_table) bend_at_inner_points(kind, of, element);
+  if (of.kind == Kind::stops) {
     read_stops(reading, section, kind, rotational, of, element);
   }
   check_number_of_bends(reading, section, element);

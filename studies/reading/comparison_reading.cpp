@@ -14,6 +14,15 @@ namespace {
 using mechanics::ExcitationKind;
 using mechanics::FrictionLaw;
 
+// Of which there is no exact law to compare with.
+void refuse_other_smooth_laws(const TomlSection& section, const Study& study) {
+  for (const mechanics::Element& each : study.network.elements) {
+    if (!each.has_cubic && each.law != FrictionLaw::stribeck) continue;
+    section.fail(rules::wrong_law, "law", "element \"{}\" has a {}, which no other law knows", each.name,
+                 each.has_cubic ? "cubic" : "table");
+  }
+}
+
 void read_compared_law(NetworkReading& reading, const TomlSection& section, const Study& study,
                        Comparison& comparison) {
   const auto& elements = study.network.elements;
@@ -22,6 +31,7 @@ void read_compared_law(NetworkReading& reading, const TomlSection& section, cons
   });
   if (rubbing == elements.end())
     section.fail(rules::no_contact, "law", "the study has no coulomb element that could follow it");
+  refuse_other_smooth_laws(section, study);
   const bool arctan = section.choice_or("law", {"exact", "arctan"}) == "arctan";
   comparison.law = arctan ? FrictionLaw::arctan : FrictionLaw::exact;
   if (arctan) {
@@ -141,7 +151,7 @@ void check_compared_show(const StudyContext& context, const TomlValue& root, con
   const TomlSection section = section_of(context, *find_entry(root, "compare"));
   if (*comparison->show == study.sweep()->orbits.show)
     section.fail(rules::key_without_use, "show", "the study itself shows this response; write another");
-  if (periodic::OrbitsWanted::is_sweep(*comparison->show)) check_frequency_axis(section, study);
+  if (periodic::OrbitsWanted::is_sweep(*comparison->show)) check_sweep(section, study);
 }
 
 }  // namespace frahm::studies

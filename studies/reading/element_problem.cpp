@@ -90,6 +90,37 @@ Problem problem_of_table(const Study& study, std::size_t e, std::span<const doub
   return of.of_velocity ? problem_of_damping(study, told, table) : Problem{};
 }
 
+// A curve of friction starts at the origin, its speeds rise, and where there must be one response its forces
+// do not fall.
+Problem problem_of_curve(const Study& study, std::size_t e, std::span<const double> parameters) {
+  const std::span<const StudyValue> values = study.values.points_of(e);
+  const auto number = [&](std::size_t i) { return values[i].expression.evaluate(parameters); };
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (number(i) != 0.0)
+      return ElementProblem{rules::out_of_range, &values[i],
+                            fmt::format("is {}", with_unit(study, values[i], number(i))),
+                            "must be 0: a curve of friction starts at [0, 0], and is odd"};
+  }
+  for (std::size_t i = 2; i < values.size(); i += 2) {
+    if (number(i) > number(i - 2)) continue;
+    return ElementProblem{rules::wrong_order, &values[i],
+                          fmt::format("is {} after {}", with_unit(study, values[i], number(i)),
+                                      with_unit(study, values[i], number(i - 2))),
+                          "the points of a table must rise"};
+  }
+  const std::string one = needs_one_response(study);
+  for (std::size_t i = 3; !one.empty() && i < values.size(); i += 2) {
+    if (number(i) < number(i - 2))
+      return ElementProblem{
+          rules::several_responses, &values[i],
+          fmt::format("is {} after {}", with_unit(study, values[i], number(i)),
+                      with_unit(study, values[i], number(i - 2))),
+          fmt::format("where friction falls several responses may exist, and {} needs that there is one",
+                      one)};
+  }
+  return {};
+}
+
 }  // namespace
 
 std::optional<ElementProblem> element_problem(const Study& study, std::size_t e,
@@ -97,6 +128,8 @@ std::optional<ElementProblem> element_problem(const Study& study, std::size_t e,
   if (study.network.elements[e].has_static_force) return problem_of_static_force(study, e, parameters);
   if (study.values.characteristic[e].kind == StudyCharacteristic::Kind::table)
     return problem_of_table(study, e, parameters);
+  if (study.values.characteristic[e].kind == StudyCharacteristic::Kind::curve)
+    return problem_of_curve(study, e, parameters);
   return {};
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "solvers/flow/sizes.hpp"
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/rotation.hpp"
 #include "studies/reading/direction_reading.hpp"
@@ -33,9 +32,15 @@ Quantity quantity_of(Dimension dimension, bool rotational) {
       return rotational ? Quantity::torque : Quantity::force;
     case Dimension::inverse_speed:
       return rotational ? Quantity::inverse_rate : Quantity::inverse_speed;
+    case Dimension::cubic_stiffness:
+      return rotational ? Quantity::torsional_cubic_stiffness : Quantity::cubic_stiffness;
   }
   return Quantity::number;
 }
+
+constexpr const char* iwan = "iwan";  // which is of jenkins elements
+constexpr const char* iwan_keys[] = {"stiffnesses", "forces",   "distribution", "stiffness",
+                                     "force",       "elements", "chi"};
 
 // The keys of elements beside name, type and between, each once: values, then the choice of a law and its
 // slope.
@@ -47,8 +52,10 @@ std::vector<std::string> keys_of_kinds() {
   for (const ElementKind& kind : mechanics::element_kinds()) add(kind.value.key);
   for (const ElementKind& kind : mechanics::element_kinds()) add(kind.second.key);
   add("law");
-  for (const ElementKind& kind : mechanics::element_kinds()) add(kind.smoothed.key);
+  for (const ElementKind& kind : mechanics::element_kinds()) add(kind.slope.key);
+  for (const ElementKind& kind : mechanics::element_kinds()) add(kind.cubic.key);
   for (const char* key : {"table", "clearance", "tension"}) add(key);
+  for (const char* key : iwan_keys) add(key);
   return keys;
 }
 
@@ -59,14 +66,16 @@ const ElementKind& read_kind(const TomlSection& section) {
     if (kind.name == type) return kind;
     known.push_back(kind.name);
   }
+  known.emplace_back(iwan);
   section.fail(rules::unknown_name, "type", "no element is of type \"{}\"{}", type, suggestion(type, known));
 }
 
 // Each type has its values and no key of another type.
 void check_keys_of_kind(const TomlSection& section, const ElementKind& kind) {
   for (const std::string& key : keys_of_kinds()) {
-    const bool of_law = kind.can_be_smoothed() && (key == "law" || key == kind.smoothed.key);
-    const bool of_table = kind.table != nullptr && key == "table";
+    const bool of_law = (kind.can_be_smoothed() && (key == "law" || key == kind.slope.key)) ||
+                        (kind.cubic.exists() && key == kind.cubic.key);
+    const bool of_table = (kind.table != nullptr || kind.can_be_smoothed()) && key == "table";
     const bool of_stops = kind.stop != nullptr && (key == "clearance" || key == "tension");
     if (of_law || of_table || of_stops || key == kind.value.key || key == kind.second.key ||
         !section.find(key))
@@ -74,44 +83,6 @@ void check_keys_of_kind(const TomlSection& section, const ElementKind& kind) {
     const std::string second = kind.second.exists() ? fmt::format(" and a {}", kind.second.key) : "";
     section.fail(rules::unknown_key, key, "a {} has a {}{}, no {}", kind.name, kind.value.key, second, key);
   }
-}
-
-mechanics::FrictionLaw read_law(const TomlSection& section, const ElementKind& kind) {
-  if (!kind.can_be_smoothed()) return mechanics::FrictionLaw::exact;
-  if (section.choice_or("law", {"exact", "arctan"}) == "arctan") {
-    if (section.find(kind.second.key))
-      section.fail(rules::key_without_use, kind.second.key, "only the law \"exact\" has a {}",
-                   kind.second.key);
-    return mechanics::FrictionLaw::arctan;
-  }
-  if (section.find(kind.smoothed.key))
-    section.fail(rules::key_without_use, kind.smoothed.key, "only the law \"arctan\" has a {}",
-                 kind.smoothed.key);
-  return mechanics::FrictionLaw::exact;
-}
-
-// All contacts follow their law exactly, or all are smoothed.
-void check_one_law(const NetworkReading& reading, const TomlSection& section, const ElementKind& kind,
-                   mechanics::FrictionLaw law) {
-  const auto& elements = reading.result.network.elements;
-  const auto other = std::find_if(elements.begin(), elements.end(), [&](const auto& element) {
-    return mechanics::has_contact(element) && element.law != law;
-  });
-  if (other == elements.end()) return;
-  const ElementKind& other_kind = mechanics::kind_of(*other);
-  if (!kind.can_be_smoothed() || !other_kind.can_be_smoothed()) {
-    const bool own = !kind.can_be_smoothed();
-    section.fail_here(rules::wrong_law, "a {} has no arctan law, which {} follows",
-                      own ? kind.name : other_kind.name,
-                      own ? fmt::format("element \"{}\"", other->name) : "this element");
-  }
-  const bool arctan = law == mechanics::FrictionLaw::arctan;
-  const std::string message = fmt::format(
-      "\"{}\"{}, but element \"{}\" follows \"{}\"; all coulomb elements of a study follow one law",
-      arctan ? "arctan" : "exact", section.find("law") ? "" : " by default", other->name,
-      arctan ? "exact" : "arctan");
-  section.find("law") ? section.fail(rules::wrong_law, "law", "{}", message)
-                      : section.fail_here(rules::wrong_law, "{}", message);
 }
 
 std::array<Node, 2> read_between(const NetworkReading& reading, const TomlSection& section) {
@@ -186,44 +157,62 @@ ReadDirection read_ends(const NetworkReading& reading, const TomlSection& sectio
   return read;
 }
 
-bool join_the_same_nodes(const mechanics::Direction& a, const mechanics::Direction& b) {
-  if (!mechanics::is_between_two_nodes(a) || !mechanics::is_between_two_nodes(b)) return a == b;
-  return (a[0].node == b[0].node && a[1].node == b[1].node) ||
-         (a[0].node == b[1].node && a[1].node == b[0].node);
-}
-
-// Elements along one direction whose law merges are one contact.
-std::size_t number_of_contacts(const mechanics::Network& network) {
-  std::size_t contacts = 0;
-  for (std::size_t e = 0; e < network.elements.size(); ++e) {
-    const mechanics::Element& element = network.elements[e];
-    const ElementKind& kind = mechanics::kind_of(element);
-    const auto is_the_same = [&](const mechanics::Element& other) {
-      return other.type == element.type && join_the_same_nodes(other.along, element.along);
-    };
-    const auto own = network.elements.begin() + static_cast<std::ptrdiff_t>(e);
-    const bool joins =
-        kind.law != nullptr && kind.law->merges && std::any_of(network.elements.begin(), own, is_the_same);
-    contacts += kind.law != nullptr && !joins;
-  }
-  return contacts;
-}
-
-// The exact law knows which contacts stick by the bits of a word.
-void check_number_of_contacts(const NetworkReading& reading, const TomlSection& section,
-                              const mechanics::Element& element) {
-  if (!mechanics::has_contact(element) || element.law != mechanics::FrictionLaw::exact) return;
-  const std::size_t contacts = number_of_contacts(reading.result.network);
-  if (contacts <= periodic::kMostContacts) return;
-  section.fail_here(
-      rules::too_large,
-      "the {}th friction contact; at most {} are followed exactly (law = \"arctan\" has no limit)", contacts,
-      periodic::kMostContacts);
-}
-
 // The value of an element with a table follows from its points.
 StudyValue value_of_table(const StudyCharacteristic& table) {
   return {.where = table.where, .position = table.position};
+}
+
+void add_element(NetworkReading& reading, const TomlSection& section, mechanics::Element element,
+                 const StudyDirection& along, StudyValue value, StudyValue second) {
+  StudyValues& values = reading.result.values;
+  reading.result.network.elements.push_back(std::move(element));
+  check_number_of_contacts(reading, section, reading.result.network.elements.back());
+  values.element.push_back(std::move(value));
+  values.second.push_back(std::move(second));
+  values.slope.emplace_back();
+  values.cubic.emplace_back();
+  values.along.push_back(along);
+  values.characteristic.emplace_back();
+}
+
+// The first of its sliders stands for all.
+void add_iwan(NetworkReading& reading, const TomlSection& section, mechanics::Element element,
+              const StudyDirection& along) {
+  for (const std::string& key : keys_of_kinds()) {
+    if (section.find(key) && std::ranges::find(iwan_keys, key) == std::end(iwan_keys))
+      section.fail(rules::unknown_key, key, "an iwan has sliders, no {}", key);
+  }
+  const std::vector<StudySlider> sliders = read_sliders(reading, section, element.rotational);
+  check_one_law(reading, section, mechanics::kind_of(element), element.law);
+  element.parts = sliders.size();
+  for (const StudySlider& slider : sliders) {
+    add_element(reading, section, element, along, slider.stiffness, slider.force);
+    element.parts = 0;
+  }
+}
+
+void add_of_kind(NetworkReading& reading, const TomlSection& section, const ElementKind& kind,
+                 mechanics::Element element, const StudyDirection& along) {
+  check_keys_of_kind(section, kind);
+  element.law = read_law(section, kind);
+  if (kind.law != nullptr) check_one_law(reading, section, kind, element.law);
+  StudyCharacteristic characteristic = read_characteristic(reading, section, element.rotational, element);
+  element.has_static_force = kind.can_be_smoothed() && section.find(kind.second.key) != nullptr;
+  element.has_cubic = kind.cubic.exists() && section.find(kind.cubic.key) != nullptr;
+  const auto read = [&](const ValueKey& value, bool may_be_absent = false) {
+    return read_value(reading, section, value.key, quantity_of(value.dimension, element.rotational),
+                      value.range, may_be_absent ? std::optional(0.0) : std::nullopt);
+  };
+  const bool has_table = characteristic.kind == StudyCharacteristic::Kind::table ||
+                         characteristic.kind == StudyCharacteristic::Kind::curve;
+  const mechanics::Element added = element;
+  StudyValue value = has_table ? value_of_table(characteristic) : read(kind.value);
+  StudyValue second = kind.second.exists() ? read(kind.second, kind.second_is_optional) : StudyValue{};
+  add_element(reading, section, std::move(element), along, std::move(value), std::move(second));
+  StudyValues& values = reading.result.values;
+  if (added.law == mechanics::FrictionLaw::arctan) values.slope.back() = read(kind.slope);
+  if (added.has_cubic) values.cubic.back() = read(kind.cubic);
+  values.characteristic.back() = std::move(characteristic);
 }
 
 }  // namespace
@@ -235,29 +224,15 @@ void read_element(NetworkReading& reading, const TomlValue& table, std::size_t n
                             keys);
   const std::string name = section.identifier("name");
   take_name(reading, section, name, section.where());
-  const ElementKind& kind = read_kind(section);
-  check_keys_of_kind(section, kind);
+  const bool is_iwan = section.text("type") == iwan;
+  const ElementKind& kind =
+      is_iwan ? mechanics::kind_of(mechanics::ElementType::jenkins) : read_kind(section);
   auto [direction, given, rotational] = read_ends(reading, section);
-  const mechanics::FrictionLaw law = read_law(section, kind);
-  if (kind.law != nullptr) check_one_law(reading, section, kind, law);
-  mechanics::Element element{name, kind.type, std::move(direction), law};
+  mechanics::Element element{name, kind.type, std::move(direction)};
   element.rotational = rotational;
   element.twists_ground = given.is_given() ? given.twists_ground : rotational;
-  StudyCharacteristic characteristic = read_characteristic(reading, section, rotational, element);
-  element.has_static_force = kind.can_be_smoothed() && section.find(kind.second.key) != nullptr;
-  reading.result.network.elements.push_back(element);
-  check_number_of_contacts(reading, section, element);
-  const auto read = [&](const ValueKey& value) {
-    const bool may_be_absent = kind.second_is_optional && std::string(value.key) == kind.second.key;
-    return read_value(reading, section, value.key, quantity_of(value.dimension, rotational), value.range,
-                      may_be_absent ? std::optional(0.0) : std::nullopt);
-  };
-  const ValueKey& second = mechanics::second_key(element);
-  const bool has_table = characteristic.kind == StudyCharacteristic::Kind::table;
-  reading.result.values.element.push_back(has_table ? value_of_table(characteristic) : read(kind.value));
-  reading.result.values.second.push_back(second.exists() ? read(second) : StudyValue{});
-  reading.result.values.along.push_back(std::move(given));
-  reading.result.values.characteristic.push_back(std::move(characteristic));
+  if (is_iwan) return add_iwan(reading, section, std::move(element), given);
+  add_of_kind(reading, section, kind, std::move(element), given);
 }
 
 }  // namespace frahm::studies

@@ -48,7 +48,9 @@ std::vector<Checked> all_checked(const Study& study) {
   }
   for (const StudyValue* value : study.values_of_its_kind()) add(*value);
   for (std::size_t e = 0; e < study.network.elements.size(); ++e) {
-    const bool has_table = values.characteristic[e].kind == StudyCharacteristic::Kind::table;
+    const StudyCharacteristic::Kind kind = values.characteristic[e].kind;
+    const bool has_table =
+        kind == StudyCharacteristic::Kind::table || kind == StudyCharacteristic::Kind::curve;
     if (has_table || study.network.elements[e].has_static_force)
       all.push_back({.reads = reads_of_element(values, e), .element = e});
   }

@@ -136,16 +136,6 @@ void read_transient(NetworkReading& reading, const TomlValue& root, TransientCho
 
 }  // namespace
 
-void refuse_smooth_friction(const Study& study) {
-  for (std::size_t e = 0; e < study.network.elements.size(); ++e) {
-    if (study.network.elements[e].law != mechanics::FrictionLaw::arctan) continue;
-    const StudyValue& slope = study.values.second[e];
-    throw study.source.error_at(rules::wrong_law, slope.position,
-                                "{}: the law \"arctan\" is for sweeps only; {} follows the exact law",
-                                slope.where, kind_noun(study.kind()));
-  }
-}
-
 // The energies of a motion are recorded beside those of its elements, <element>_energy.
 void refuse_names_of_energies(const StudyContext& context, const Study& study) {
   const auto& elements = study.network.elements;
@@ -161,7 +151,7 @@ void refuse_names_of_energies(const StudyContext& context, const Study& study) {
 }
 
 void read_motion(const StudyContext& context, const TomlValue& root, Study& study) {
-  refuse_smooth_friction(study);
+  refuse_smooth_laws(study, kind_noun(study.kind()));
   if (!study.identify()) refuse_names_of_energies(context, study);
   NetworkReading reading(context, study.parameters);
   reading.result = {study.network, study.values};

@@ -46,9 +46,27 @@ std::optional<StudyValue> read_optional(NetworkReading& reading, const TomlSecti
                                         const std::string& key, Quantity quantity,
                                         Range range = Range::positive);
 
+// The law of a coulomb element; exact of every other. Refuses keys of other laws.
+mechanics::FrictionLaw read_law(const TomlSection& section, const mechanics::ElementKind& kind);
+// Refuses a contact beside others of which some are followed exactly and some are smooth.
+void check_one_law(const NetworkReading& reading, const TomlSection& section,
+                   const mechanics::ElementKind& kind, mechanics::FrictionLaw law);
+
+// Refuses more contacts than are followed exactly: the exact law knows which stick by the bits of a word.
+void check_number_of_contacts(const NetworkReading& reading, const TomlSection& section,
+                              const mechanics::Element& element);
+
+// A spring in series with a slider, as one of those of an iwan element.
+struct StudySlider {
+  StudyValue stiffness, force;
+};
+// Those of an iwan element: listed, or of a distribution.
+std::vector<StudySlider> read_sliders(NetworkReading& reading, const TomlSection& section, bool rotational);
+
 // An [[element]], after the masses and the nodes of prescribed motion. number: from 1.
 void read_element(NetworkReading& reading, const TomlValue& table, std::size_t number);
-// Its stops or table, if its kind has such and, of a table, the key is there; the bends go to the element.
+// Its stops, table or curve of friction, if its kind has such and, of a table, the key is there; the bends go
+// to the element.
 StudyCharacteristic read_characteristic(NetworkReading& reading, const TomlSection& section, bool rotational,
                                         mechanics::Element& element);
 // The same of what stands at one place, by its name in messages: [damping]: rayleigh: a.

@@ -16,7 +16,8 @@ int read_count(const TomlSection& section, const char* key, int otherwise, std::
 
 }  // namespace
 
-void check_frequency_axis(const TomlSection& section, const Study& study) {
+void check_sweep(const TomlSection& section, const Study& study) {
+  refuse_smooth_laws(study, "a sweep up or down");
   if (!study.sweep()->frequency_dimension)
     section.fail(rules::unfit_axis, "show",
                  "sweeps the excitation frequency, which changes along no [[axis]]");
@@ -38,8 +39,8 @@ periodic::OrbitsWanted read_orbits_wanted(const StudyContext& context, const Tom
                                     : !mechanics::may_have_several_responses(study.network);
   if (has_one)
     section.fail_here(rules::key_without_use,
-                      "has no effect: several responses are searched where an element is a gap, has a table "
-                      "or a static_force; here there is one alone");
+                      "has no effect: several responses are searched where an element is a gap, has a table, "
+                      "a cubic or a static_force; here there is one alone");
   wanted.starts = read_count(section, "starts", wanted.starts, most_starts);
   wanted.most_multiple = read_count(section, "most_multiple", wanted.most_multiple, longest_multiple);
   if (study.tune()) {
@@ -49,7 +50,7 @@ periodic::OrbitsWanted read_orbits_wanted(const StudyContext& context, const Tom
   }
   wanted.show = read_show(section);
   if (!wanted.is_sweep()) return wanted;
-  check_frequency_axis(section, study);
+  check_sweep(section, study);
   const auto& comparison = study.sweep()->comparison;
   const bool searches =
       comparison && comparison->show && !periodic::OrbitsWanted::is_sweep(*comparison->show);

@@ -57,10 +57,10 @@ void read_borders(const TomlSection& section, Study& study) {
   if (!study.sweep()->output.borders) return;
   std::size_t contacts = 0;
   for (const mechanics::Element& element : study.network.elements) {
-    if (!mechanics::has_contact(element)) continue;
+    if (!mechanics::has_own_contact(element)) continue;
     if (element.law != mechanics::FrictionLaw::exact) {
       section.fail(rules::wrong_law, "borders",
-                   "element \"{}\" follows the arctan law, under which nothing sticks "
+                   "element \"{}\" follows a smooth law, under which nothing sticks "
                    "and there are no regimes to border on each other",
                    element.name);
     }

@@ -109,8 +109,9 @@ std::vector<std::size_t> read_by_matrices(const Study& study) {
   const auto add = [&](const StudyValue& value) {
     reads.insert(reads.end(), value.expression.reads().begin(), value.expression.reads().end());
   };
-  for (const auto* values : {&study.values.mass, &study.values.element, &study.values.second,
-                             &study.values.damping, &study.values.points}) {
+  for (const auto* values :
+       {&study.values.mass, &study.values.element, &study.values.second, &study.values.slope,
+        &study.values.cubic, &study.values.damping, &study.values.points}) {
     for (const StudyValue& value : *values) add(value);
   }
   if (mechanics::frequency_dependent_element(study.network)) add(study.values.omega);
@@ -172,7 +173,7 @@ Study parse_study(std::string text, const std::filesystem::path& name, DataFiles
     auto [network, values] = read_network(context, root, name.parent_path(), study.parameters, study.kind());
     study.network = std::move(network);
     study.values = std::move(values);
-    refuse_bends_beside_arctan(study);
+    refuse_mixed_laws(study);
   }
   if (study.kind() == StudyKind::sweep) {
     read_comparison(context, root, study);

@@ -86,9 +86,6 @@ void check_identification(Study& study);
 // highest corner and those that differ from either in one dimension.
 std::vector<std::vector<bool>> corners(std::size_t dimensions);
 
-// Refuses the smoothed friction law in a study whose solver follows the exact one.
-void refuse_smooth_friction(const Study& study);
-
 // Every mass must be held: by a chain of springs from ground or a node of prescribed motion.
 // masses: their positions in the study.
 void check_masses_are_held(const StudyContext& context, const NetworkOfStudy& system,
@@ -113,9 +110,12 @@ struct ElementProblem {
 std::optional<ElementProblem> element_problem(const Study& study, std::size_t element,
                                               std::span<const double> parameters);
 
-// Refuses elements that bend beside the arctan law, which does not know them.
+// Refuses elements that bend.
 void refuse_bends(const Study& study, const std::string& why);
-void refuse_bends_beside_arctan(const Study& study);
+// Refuses smooth laws in a study whose solver follows the exact ones.
+void refuse_smooth_laws(const Study& study, std::string_view what_is_exact);
+// Refuses smooth laws beside contacts that are followed exactly, and beside elements that bend.
+void refuse_mixed_laws(const Study& study);
 // Refuses elements with which several responses may exist; where they depend on numbers, element_problem()
 // does.
 void refuse_several_responses(const Study& study, const std::string& what_needs_one);
@@ -130,9 +130,10 @@ periodic::OrbitsWanted read_orbits_wanted(const StudyContext& context, const Tom
 void read_axes(const StudyContext& context, const TomlValue& root, Study& study);
 void read_coordinates(const StudyContext& context, const TomlValue& root, Study& study);
 void read_output(const StudyContext& context, const TomlValue& root, Study& study);
-// The key `show`: which of several responses, by default the largest; a sweep needs an axis of the frequency.
+// The key `show`: which of several responses, by default the largest; a sweep needs exact laws and an axis of
+// the frequency.
 periodic::OrbitsWanted::Show read_show(const TomlSection& section);
-void check_frequency_axis(const TomlSection& section, const Study& study);
+void check_sweep(const TomlSection& section, const Study& study);
 void read_branches(const StudyContext& context, const TomlSection& output, Study& study);
 void read_report(const StudyContext& context, const TomlValue& root, Study& study);
 

@@ -1,5 +1,7 @@
 #include "studies/reading/study_values.hpp"
 
+#include <algorithm>
+
 namespace frahm::studies {
 namespace {
 
@@ -12,7 +14,7 @@ void fill_bends(const StudyValues& values, std::span<const Number> parameters, P
   for (std::size_t e = 0; e < values.characteristic.size(); ++e) {
     const StudyCharacteristic& of = values.characteristic[e];
     out.bends[e].resize(of.sides.size());
-    if (of.kind == StudyCharacteristic::Kind::none) continue;
+    if (!of.bends()) continue;
     numbers.clear();
     for (const StudyValue& value : values.points_of(e))
       numbers.push_back(value.expression.evaluate(parameters));
@@ -28,6 +30,21 @@ void fill_bends(const StudyValues& values, std::span<const Number> parameters, P
       out.bends[e][b] = of.of_velocity ? mechanics::BendValue{place, 0.0, change}
                                        : mechanics::BendValue{place, change, 0.0};
     }
+  }
+}
+
+// The numbers of smooth laws.
+template <class Number, class Part>
+void fill_smooth(const StudyValues& values, std::span<const Number> parameters, Part part,
+                 mechanics::NetworkValues& out) {
+  const auto at = [&](const StudyValue& value) { return part(value.expression.evaluate(parameters)); };
+  out.smooth.resize(values.slope.size());
+  for (std::size_t e = 0; e < out.smooth.size(); ++e) {
+    out.smooth[e] = {.slope = at(values.slope[e]), .cubic = at(values.cubic[e])};
+    if (values.characteristic[e].kind != StudyCharacteristic::Kind::curve) continue;
+    const std::span<const StudyValue> points = values.points_of(e);
+    for (std::size_t i = 0; i + 1 < points.size(); i += 2)
+      out.smooth[e].curve.push_back({at(points[i]), at(points[i + 1])});
   }
 }
 
@@ -50,9 +67,19 @@ void fill(const StudyValues& values, std::span<const Number> parameters, Part pa
     out.excitation[i] = {at(values.amplitude[i]), at(values.phase[i]), at(values.rod[i])};
   }
   if (!values.points.empty()) fill_bends(values, parameters, part, out);
+  if (values.has_smooth_laws()) fill_smooth(values, parameters, part, out);
 }
 
 }  // namespace
+
+bool StudyValues::has_smooth_laws() const {
+  const auto is_given = [](const StudyValue& value) { return !value.where.empty(); };
+  const auto is_curve = [](const StudyCharacteristic& of) {
+    return of.kind == StudyCharacteristic::Kind::curve;
+  };
+  return std::ranges::any_of(slope, is_given) || std::ranges::any_of(cubic, is_given) ||
+         std::ranges::any_of(characteristic, is_curve);
+}
 
 std::vector<std::size_t> StudyValues::read_by_factors() const {
   std::vector<std::size_t> reads;

@@ -43,6 +43,8 @@ struct StudyValues {
   StudyValue omega;
   std::vector<StudyValue> mass, element, amplitude, phase;
   std::vector<StudyValue> second;     // of each element, the constant 0 where it has none
+  std::vector<StudyValue> slope;      // of each element, of the arctan law; 0 where it does not follow it
+  std::vector<StudyValue> cubic;      // of each element, 0 where it has none
   std::vector<StudyValue> rod;        // of each excitation, the constant 0 where it is no crank
   std::vector<StudyDirection> along;  // of each element, not given where it is between two nodes
   std::vector<StudyDirection> signals{};
@@ -51,13 +53,14 @@ struct StudyValues {
   std::vector<StudyValue> points{};                   // of all characteristics
 
   // All but the frequency.
-  std::array<const std::vector<StudyValue>*, 8> lists() const {
-    return {&mass, &element, &second, &amplitude, &phase, &rod, &damping, &points};
+  std::array<const std::vector<StudyValue>*, 10> lists() const {
+    return {&mass, &element, &second, &slope, &cubic, &amplitude, &phase, &rod, &damping, &points};
   }
   // Those of an element's characteristic.
   std::span<const StudyValue> points_of(std::size_t e) const {
     return std::span(points).subspan(characteristic[e].first, characteristic[e].count);
   }
+  bool has_smooth_laws() const;
   // Indices of the parameters that the factors of directions read.
   std::vector<std::size_t> read_by_factors() const;
 };

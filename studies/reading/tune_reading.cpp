@@ -295,7 +295,7 @@ StudyValue read_formula(const TuneReading& reading, const TomlSection& section, 
 }
 
 void read_tuning(const StudyContext& context, const TomlValue& root, Study& study) {
-  refuse_smooth_friction(study);
+  refuse_smooth_laws(study, kind_noun(study.kind()));
   const TomlEntry* entry = find_entry(root, "tune");
   if (!entry)
     throw context.source.error_at(rules::missing_section, root.position,

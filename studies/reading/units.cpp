@@ -18,7 +18,7 @@ struct QuantityEntry {
 };
 
 // In the order of Quantity.
-constexpr std::array<QuantityEntry, 21> quantities{{
+constexpr std::array<QuantityEntry, 23> quantities{{
     {"a pure number", "1", "1", "1 or %", {0, 0, 0}},
     {"a length", "m", "m", "m, mm or um", {1, 0, 0}},
     {"a mass", "kg", "kg", "kg, g or t", {0, 1, 0}},
@@ -40,6 +40,8 @@ constexpr std::array<QuantityEntry, 21> quantities{{
     {"a torsional damping", "N m s rad-1", "N m s/rad", "N m s/rad or N m s", {2, 1, -1}},
     {"an inverse angular speed", "s rad-1", "s/rad", "s/rad or s", {0, 0, 1}},
     {"a rate", "s-1", "1/s", "1/s or 1/min", {0, 0, -1}},
+    {"a cubic stiffness", "N m-3", "N/m3", "N/m3, kN/m3 or N/mm3", {-2, 1, -2}},
+    {"a torsional cubic stiffness", "N m rad-3", "N m/rad3", "N m/rad3 or N m", {2, 1, -2}},
 }};
 
 const QuantityEntry& entry(Quantity quantity) {
@@ -54,7 +56,8 @@ bool has_dimension(const Unit& unit, Quantity quantity) {
   }
   const bool by_angle = quantity == Quantity::torsional_stiffness ||
                         quantity == Quantity::torsional_damping || quantity == Quantity::inverse_rate;
-  return unit.radians == 0 || (by_angle && unit.radians == -1);
+  const bool by_cube = quantity == Quantity::torsional_cubic_stiffness;
+  return unit.radians == 0 || (by_angle && unit.radians == -1) || (by_cube && unit.radians == -3);
 }
 
 // A unit as the visitor of UDUNITS reads it; proportional = false for temperatures, logarithms and dates.

@@ -12,27 +12,29 @@ namespace frahm::studies {
 
 // The kinds of quantity a study has, each with its SI unit.
 enum class Quantity {
-  number,                // 1
-  length,                // m
-  mass,                  // kg
-  inertance,             // kg
-  force,                 // N
-  stiffness,             // N/m
-  damping,               // N s/m
-  angle,                 // rad
-  angular_frequency,     // rad/s
-  speed,                 // m/s
-  time,                  // s
-  inverse_speed,         // s/m
-  angular_acceleration,  // rad/s2
-  acceleration,          // m/s2
-  energy,                // J
-  inertia,               // kg m2
-  torque,                // N m
-  torsional_stiffness,   // N m/rad
-  torsional_damping,     // N m s/rad
-  inverse_rate,          // s/rad
-  rate,                  // 1/s, of a decay: no cycles
+  number,                     // 1
+  length,                     // m
+  mass,                       // kg
+  inertance,                  // kg
+  force,                      // N
+  stiffness,                  // N/m
+  damping,                    // N s/m
+  angle,                      // rad
+  angular_frequency,          // rad/s
+  speed,                      // m/s
+  time,                       // s
+  inverse_speed,              // s/m
+  angular_acceleration,       // rad/s2
+  acceleration,               // m/s2
+  energy,                     // J
+  inertia,                    // kg m2
+  torque,                     // N m
+  torsional_stiffness,        // N m/rad
+  torsional_damping,          // N m s/rad
+  inverse_rate,               // s/rad
+  rate,                       // 1/s, of a decay: no cycles
+  cubic_stiffness,            // N/m3
+  torsional_cubic_stiffness,  // N m/rad3
 };
 
 std::string_view quantity_name(Quantity quantity);    // with its article: "a stiffness"

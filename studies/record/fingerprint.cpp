@@ -91,7 +91,9 @@ void add_network(const Study& study, CanonicalText& text) {
     const mechanics::Element& element = network.elements[i];
     text.line("element {} {} {} {} {} {}", element.name, static_cast<int>(element.type),
               direction_text(element), value(values.element[i]), static_cast<int>(element.law),
-              value(values.second[i]));
+              value(element.law == mechanics::FrictionLaw::arctan ? values.slope[i] : values.second[i]));
+    if (element.has_cubic) text.line("cubic {}", value(values.cubic[i]));
+    if (element.parts != 1) text.line("parts {}", element.parts);
   }
   for (std::size_t i = 0; i < network.elements.size(); ++i) {
     const StudyCharacteristic& of = values.characteristic[i];

@@ -193,7 +193,7 @@ void compare_peers(const Work& work, double (*peer_peak)(const NetworkValues&, c
       exact.solve_row({&values, 1}, {&summary, 1}, {&reference, 1});
       timed(loose, reference, [&] { return peer_peak(values, {}); });
       timed(tight, reference, [&] { return peer_peak(values, {1e-8, 1e-8, 1e-8}); });
-      values.second.assign(values.element.size(), 1e5);
+      values.smooth.assign(values.element.size(), {.slope = 1e5});
       timed(cvodes, reference, [&] {
         double found = 0.0;
         shooting.forget();

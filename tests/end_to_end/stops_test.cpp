@@ -209,6 +209,39 @@ TEST_CASE("Branches of chosen rows alone, and of one as a result of its own") {
   CHECK(runs::frahm({"run", study, "-o", folder / "one.h5"}).code == 5);
 }
 
+TEST_CASE("bolted_joint.toml: until all of it slips a loop takes K^2 X^3/(3 F)") {
+  constexpr double kOfSpread = 1.5 / (20.0 * 20.0);  // of a joint of 20 sliders, over the loss at X = 2 F/K
+  const Map map = runs::run_study(runs::reduced("bolted_joint", {}));
+  const double K = 1.0, F = 2.0, largest = 2.0 * F / K;
+  int slipping = 0;
+  for (std::size_t point = 0; point < map["part_peak"].size(); ++point) {
+    const double X = map["part_peak"][point];
+    INFO("point " << point << ", X " << X);
+    CHECK(map["status"][point] == kOk);
+    CHECK(map["energy_balance"][point] < kBalance);
+    REQUIRE(X < largest);
+    CHECK_THAT(map["joint_energy"][point], WithinAbs(K * K * X * X * X / (3.0 * F),
+                                                     kOfSpread * K * K * std::pow(largest, 3) / (3.0 * F)));
+    // Slider i of 20 slips beyond (i - 1/2)/20 of the largest displacement.
+    CHECK(map["joint_slipping"][point] == std::floor(20.0 * X / largest + 0.5));
+    if (map["joint_slipping"][point] > 4.0) ++slipping;
+  }
+  CHECK(slipping > 20);
+}
+
+TEST_CASE("duffing_jump.toml: two orbits at r = 1.6, as harmonic balance has them") {
+  constexpr double kPrinted = 1e-7, kIntegrated = 1e-8;
+  const std::string text = runs::replaced(runs::reduced("duffing_jump", {}),
+                                          "from   = 1.0\nto     = 2.2\npoints = 13", "values = [0.5, 1.6]");
+  const Map large = runs::run_study(text);
+  const Map small = runs::run_study(runs::replaced(text, "\"largest\"", "\"smallest\""));
+  CHECK(large["coexisting"] == std::vector<double>{1.0, 2.0});
+  CHECK(large["status"] == std::vector<double>{kOk, kSeveral});
+  CHECK_THAT(large["machine_peak"][1], WithinAbs(3.5225667, kPrinted));
+  CHECK_THAT(small["machine_peak"][1], WithinAbs(0.66645785, kPrinted));
+  for (const double balance : large["energy_balance"]) CHECK(balance < kIntegrated);
+}
+
 TEST_CASE("bump_and_rebound.toml: the spring carries the mean of the absorber's force") {
   const Map map = runs::run_study(runs::reduced("bump_and_rebound", {}));
   const double k = 20e3, rebound = 2400.0;

@@ -12,9 +12,9 @@ inline mechanics::Network under_arctan(mechanics::Network network) {
   return network;
 }
 
-// slope [s/m] of every element; those without friction do not read it.
+// slope [s/m] of every element; those of another law do not read it.
 inline mechanics::NetworkValues with_slope(mechanics::NetworkValues values, double slope) {
-  values.second.assign(values.element.size(), slope);
+  values.smooth.assign(values.element.size(), {.slope = slope});
   return values;
 }
 

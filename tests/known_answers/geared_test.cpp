@@ -36,7 +36,8 @@ NetworkValues plain_values(double omega, double friction, double slope = 0.0) {
           .mass = {1.0, 0.3},
           .element = {1.0, 0.05, 0.4, 0.03, friction, 0.1},
           .excitation = {{1.0, 0.2}, {0.3, 0.0}},
-          .second = {0.0, 0.0, 0.0, 0.0, slope, 0.0}};
+          .second = std::vector<double>(6, 0.0),
+          .smooth = {{}, {}, {}, {}, {.slope = slope}, {}}};
 }
 
 Network geared(Network network) {

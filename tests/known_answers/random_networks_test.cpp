@@ -161,6 +161,8 @@ TEST_CASE("Other units of length, time and force change the numbers and not the 
           return kForce;
         case mechanics::Dimension::inverse_speed:
           return kTime / kLength;
+        case mechanics::Dimension::cubic_stiffness:
+          return per_length / (kLength * kLength);
         case mechanics::Dimension::number:
           break;
       }

@@ -202,7 +202,7 @@ TEST_CASE("The arctan law too keeps the balance with damping of the structure") 
   network.elements.back().law = FrictionLaw::arctan;
   network.damping = DampingModel::modal;
   NetworkValues values = chain_values(network, 0.5);
-  values.second = {0.0, 0.0, 200.0};
+  values.smooth.assign(3, {.slope = 200.0});
   values.damping = {0.05, 0.03};
   const auto out = quantities_of(network, values,
                                  {{Measure::energy_balance, 0}, {Measure::damping_energy_share, 0}}, true);

@@ -25,6 +25,7 @@ std::string name_on_page(const QuantityRow& row) {
       return "`<node>_" + suffix + "`";
     case Owner::element:
     case Owner::contact:
+    case Owner::sliders:
       return "`<element>_" + suffix + "`";
     case Owner::mode:
       return "`" + suffix + "_<k>`";
@@ -91,7 +92,9 @@ TEST_CASE("Over several periods energies and counts add up, and nothing else doe
   for (const QuantityRow& row : quantity_table()) {
     INFO(row.suffix);
     const bool is_of_search = row.owner == Owner::coexistence || row.measure == Measure::newton_iterations;
-    const bool adds_up = std::string(row.unit) == "J" || (row.kind == QuantityKind::count && !is_of_search);
+    const bool counts_sliders = row.owner == Owner::sliders;
+    const bool counts_events = row.kind == QuantityKind::count && !is_of_search && !counts_sliders;
+    const bool adds_up = std::string(row.unit) == "J" || counts_events;
     CHECK(is_of_a_period(row.measure) == adds_up);
   }
 }

@@ -298,7 +298,7 @@ TEST_CASE("under the arctan law a signal of one mass is that mass, and one along
                              .mass = {1.0, 0.5},
                              .element = {1.0, 0.8, 0.1, 0.1},
                              .excitation = {{1.0}},
-                             .second = {0.0, 0.0, 0.0, 50.0}};
+                             .smooth = {{}, {}, {}, {.slope = 50.0}}};
   const Found found = solved(network, values, Path::fastest);
   REQUIRE(found.summary.status == Status::ok);
   check_alike(network, found, 1, 2, kSame);

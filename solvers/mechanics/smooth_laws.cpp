@@ -1,0 +1,69 @@
+#include "solvers/mechanics/smooth_laws.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "solvers/mechanics/linear_system.hpp"
+
+namespace frahm::mechanics {
+namespace {
+
+void require(bool is_met, const Element& element, const char* key, double value, const char* rule) {
+  if (is_met) return;
+  std::ostringstream message;
+  message << key << " of '" << element.name << "' = " << value << ": " << rule;
+  throw MechanicsError(message.str());
+}
+
+void check_curve(const Element& element, const std::vector<CurvePoint>& curve) {
+  const char* table = "a point of the table";
+  const auto count = static_cast<double>(curve.size());
+  require(curve.size() >= 2, element, "points of the table", count, "must be two at least");
+  require(curve.front() == CurvePoint{}, element, table, curve.front().force, "the first must be [0, 0]");
+  for (std::size_t i = 1; i < curve.size(); ++i) {
+    const auto [speed, force] = curve[i];
+    require(std::isfinite(speed) && speed > curve[i - 1].speed, element, table, speed, "must rise");
+    require(std::isfinite(force) && force >= 0.0, element, table, force, "must not be negative");
+  }
+}
+
+bool never_falls(const std::vector<CurvePoint>& curve) {
+  return std::ranges::is_sorted(curve, {}, &CurvePoint::force);
+}
+
+}  // namespace
+
+bool has_smooth_law(const Element& element) {
+  const bool rubs_smoothly = element.type == ElementType::coulomb && element.law != FrictionLaw::exact;
+  return rubs_smoothly || element.has_cubic;
+}
+
+bool has_smooth_law(const Network& network) {
+  return std::ranges::any_of(network.elements, [](const Element& each) { return has_smooth_law(each); });
+}
+
+const SmoothValue& smooth_value(const NetworkValues& values, std::size_t element) {
+  static const SmoothValue none;
+  return element < values.smooth.size() ? values.smooth[element] : none;
+}
+
+void check_smooth_law(const Element& element, const SmoothValue& value) {
+  if (!has_smooth_law(element)) return;
+  require(std::isfinite(value.cubic), element, "cubic", value.cubic, "must be finite");
+  if (element.law == FrictionLaw::arctan)
+    require(std::isfinite(value.slope) && value.slope > 0.0, element, "slope", value.slope,
+            "must be finite and positive");
+  if (element.law == FrictionLaw::stribeck) check_curve(element, value.curve);
+}
+
+bool smooth_laws_are_monotone(const Network& network, const NetworkValues& values) {
+  for (std::size_t e = 0; e < network.elements.size(); ++e) {
+    const SmoothValue& value = smooth_value(values, e);
+    if (network.elements[e].has_cubic && value.cubic != 0.0) return false;
+    if (network.elements[e].law == FrictionLaw::stribeck && !never_falls(value.curve)) return false;
+  }
+  return true;
+}
+
+}  // namespace frahm::mechanics

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "solvers/mechanics/network.hpp"
+
+// Laws that are smooth and not linear: friction by arctan or by a curve over the speed, and springs with a
+// cubic part. Their motion is integrated (smooth/).
+namespace frahm::mechanics {
+
+bool has_smooth_law(const Element& element);
+bool has_smooth_law(const Network& network);
+
+// The numbers of the element's smooth law; zero where it has none.
+const SmoothValue& smooth_value(const NetworkValues& values, std::size_t element);
+
+// Throws MechanicsError, naming element, value and rule, where a number of the element's smooth law breaks
+// one: a slope is positive, a cubic finite; a curve starts at (0, 0), its speeds rise, and its forces are not
+// negative.
+void check_smooth_law(const Element& element, const SmoothValue& value);
+
+// Whether two motions can only come nearer to each other by these laws: no spring has a cubic part, and no
+// curve falls.
+bool smooth_laws_are_monotone(const Network& network, const NetworkValues& values);
+
+}  // namespace frahm::mechanics

@@ -1,0 +1,36 @@
+#include "solvers/smooth/smooth_force.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace frahm::smooth {
+
+// d/dv F (2/pi) arctan(slope v) = F (2/pi) slope / (1 + (slope v)^2)
+ForceAndSlope Arctan::at(double v) const {
+  const double steepness = slope * v, F = limit * (2.0 / std::numbers::pi);
+  return {F * std::atan(steepness), F * slope / (1.0 + steepness * steepness)};
+}
+
+ForceAndSlope Cubic::at(double u) const {
+  return {cubic * u * u * u, 3.0 * cubic * u * u};
+}
+
+SmoothForce::SmoothForce(const mechanics::Element& element, const mechanics::SmoothValue& value, double limit)
+    : law_(Cubic{value.cubic}) {
+  if (element.has_cubic) return;
+  if (element.law == mechanics::FrictionLaw::stribeck) {
+    law_ = FrictionCurve(value.curve);
+  } else {
+    law_ = Arctan{limit, value.slope};
+  }
+}
+
+// cubic u^3 = u / compliance; the end of a curve.
+double SmoothForce::bent_displacement(double omega, double compliance) const {
+  if (const auto* spring = std::get_if<Cubic>(&law_))
+    return spring->cubic != 0.0 ? 1.0 / std::sqrt(std::abs(spring->cubic) * compliance) : 0.0;
+  if (const auto* curve = std::get_if<FrictionCurve>(&law_)) return curve->last_speed() / omega;
+  return 0.0;
+}
+
+}  // namespace frahm::smooth
