@@ -155,7 +155,8 @@ void add_branch(CLI::App& program, BranchCommandOptions& options, Action& action
       ->add_option("--multiple", options.multiple,
                    "follow a response that takes so many periods of the excitation; else any")
       ->check(CLI::Range(1, 64));
-  branch->add_option("-o,--output", options.output, "write all points to this file: CSV, or a result where it ends in .h5");
+  branch->add_option("-o,--output", options.output,
+                     "write all points to this file: CSV, or a result where it ends in .h5");
   add_progress(*branch, options.progress);
   branch->callback([&] { action = [&](std::ostream& out) { return branch_command(options, out); }; });
 }
