@@ -115,8 +115,11 @@ std::vector<periodic::Branch> RowBranches::follow(const std::vector<std::uint64_
     evaluate(study.values, study.parameters, parameters, values);
     return values;
   };
+  constexpr int most_points =
+      1000;  // each way: a plain branch takes some hundred, one among chaos any number
   const auto [low, high] = std::ranges::minmax(axis().si_values);
-  return periodic::follow_branches(study.network, quantities_, values_at, {.low = low, .high = high},
+  return periodic::follow_branches(study.network, quantities_, values_at,
+                                   {.low = low, .high = high, .most_points = most_points},
                                    study.orbits_wanted(), places, progress);
 }
 
