@@ -59,8 +59,8 @@ void print_prediction(const Grid& grid, const MapSample& sample, int wanted_thre
              readable_size(static_cast<double>(sample.stored_bytes) * share),
              readable_size(static_cast<double>(sample.raw_bytes) * share));
   if (sample.failed > 0) {
-    fmt::print(out, "without a response: {} of the {} points tried, the first at {}: {}\n", sample.failed, sample.points,
-               sample.failed_at, sample.reason);
+    fmt::print(out, "without a response: {} of the {} points tried, the first at {}: {}\n", sample.failed,
+               sample.points, sample.failed_at, sample.reason);
   }
 }
 
