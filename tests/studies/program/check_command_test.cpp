@@ -91,7 +91,8 @@ TEST_CASE("Checking a study of which nothing is computed ends like a run of fail
   const std::string text = out.str();
   INFO(text);
   CHECK(has(text, "slow.toml can be read, but none of the points tried has a response\n"));
-  CHECK(has(text, "without a response: 2 of the 2 points tried, the first at r=1e-08: the excitation is too slow"));
+  CHECK(has(text,
+            "without a response: 2 of the 2 points tried, the first at r=1e-08: the excitation is too slow"));
 }
 
 TEST_CASE("Checking a large building shows twelve modes at eight floors, and all of them when asked") {
