@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "solvers/exact/orbit_search.hpp"
+#include "solvers/exact/coexistence.hpp"
 #include "tests/known_answers/exponential_integrator.hpp"
 #include "tests/known_answers/random_network.hpp"
 
@@ -91,18 +91,8 @@ class OrbitComparison {
     assembly.set_forcing(drawn_.values, system);
     Flow<Eigen::Dynamic, Eigen::Dynamic> flow;
     flow.set_system(system);
-    std::vector<std::pair<Eigen::VectorXd, int>> found;
-    Coexistence<Eigen::Dynamic, Eigen::Dynamic> coexistence(
-        flow, [](Orbit<Eigen::Dynamic, Eigen::Dynamic>&) {},
-        [&](const Orbit<Eigen::Dynamic, Eigen::Dynamic>& orbit) {
-          Eigen::VectorXd z = orbit.z;
-          z.segment(system.masses(), system.masses()) /= flow.equations().step;
-          found.emplace_back(z, orbit.multiple);
-          return 0.0;
-        },
-        wanted_);
-    Orbit<Eigen::Dynamic, Eigen::Dynamic> told;
-    coexistence.find(system, told);
+    Coexistence<Eigen::Dynamic, Eigen::Dynamic> coexistence(assembly, flow, wanted_);
+    const std::vector<KnownOrbit> found = known_orbits(coexistence.find(system, nullptr));
     const Eigen::Index n = system.masses();
     for (const auto& [z, multiple] : found) size_ = std::max(size_, z.head(n).cwiseAbs().maxCoeff());
     for (const auto& [z, multiple] : found) {

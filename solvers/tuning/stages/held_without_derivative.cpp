@@ -5,7 +5,7 @@
 namespace frahm::tuning {
 namespace {
 
-constexpr double kHolds = 1.0 - 1e-6;  // of the worst peak or a limit
+constexpr double kAtWorst = 1.0 - 1e-6;  // of the worst peak or a limit
 
 std::string number(double value) {
   char text[32];
@@ -18,7 +18,7 @@ std::string number(double value) {
 std::string held_without_derivative(const Scan& scan, const std::vector<CurveKind>& curves) {
   const auto holds = [&](std::size_t curve, double value) {
     const CurveKind& kind = curves[curve];
-    return value >= kHolds * (kind.of == CurveKind::Of::objective ? scan.worst : kind.most());
+    return value >= kAtWorst * (kind.of == CurveKind::Of::objective ? scan.worst : kind.most());
   };
   for (std::size_t c = 0; c < scan.tightest.size(); ++c) {
     const Scan::Extreme& highest = scan.tightest[c];
