@@ -68,9 +68,9 @@ TEST_CASE(
 TEST_CASE("a sweep has the same bytes on any number of threads, and a point alone is swept to") {
   const runs::Folder folder;
   const std::string text = runs::replaced(
-      runs::reduced("machine_on_stops", {{"r", 71}}), "[orbits]",
+      runs::reduced("machine_on_stops", {{"r", 71}}), "[output]",
       "[[axis]]\nparameter = \"zeta\"\nvalues = [0.04, 0.05, 0.06]\n[output]\norbits = [{ r = 1.8, zeta = "
-      "0.05 }]\n[orbits]");
+      "0.05 }]");
   const std::string study = folder.write("study.toml", text);
   CHECK(runs::frahm({"run", study, "-o", folder / "one.h5", "--threads", "1"}).code == 0);
   CHECK(runs::frahm({"run", study, "-o", folder / "two.h5", "--threads", "2"}).code == 0);

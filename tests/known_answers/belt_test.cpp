@@ -171,10 +171,9 @@ TEST_CASE("The smoothed law on a belt differs from the exact one as its slope le
   smooth.elements[1].law = FrictionLaw::arctan;
   NetworkValues values = drive(0.8, 0.3, 0.0);
   values.element = {1.0, 0.3, 0.2};
-  values.second = {0.0, 0.0, 0.0};
   Responses of_exact(exact), of_smooth(smooth);
   of_exact.solve(values);
-  values.second[1] = 1e5;
+  values.smooth = {{}, {.slope = 1e5}, {}};
   of_smooth.solve(values);
   CHECK_THAT(of_smooth["block_peak"], WithinRel(of_exact["block_peak"], kSmoothed));
   CHECK_THAT(of_smooth["energy_input"], WithinRel(of_exact["energy_input"], kSmoothed));

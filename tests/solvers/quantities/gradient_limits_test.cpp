@@ -41,7 +41,7 @@ TEST_CASE("No gradient is given at grazing, beyond a resonance without bounds, o
   }
   check_refused(single_mass(), single_mass_values(1.0, 0.0, 0.1), "the response is unbounded");
   check_refused(under_arctan(single_mass()), with_slope(single_mass_values(0.8, 0.1, 0.2), 1e3),
-                "a response under the arctan law");
+                "a response under a smooth law");
 }
 
 TEST_CASE("Nor where two contacts come to rest at one instant") {

@@ -244,6 +244,7 @@ TEST_CASE("signals have the same values from phases and by shooting, and leave a
 
 TEST_CASE("a signal's derivatives are those of its mass, and of differences where the base has a share") {
   constexpr double kDifference = 1e-6;  // of a difference, relative
+  constexpr double kZero = 1e-13;       // rounding of a derivative that is zero
   int compared = 0;
   for (unsigned seed = 0; seed < 24; ++seed) {
     INFO("seed " << seed);
@@ -275,7 +276,7 @@ TEST_CASE("a signal's derivatives are those of its mass, and of differences wher
         if (!relative.why_none.empty() || std::isnan(relative.difference)) continue;
         const double apart = std::abs(relative.exact - relative.difference);
         INFO(relative.exact << " and " << relative.difference << " +- " << relative.uncertainty);
-        CHECK(apart <= kDifference * std::abs(relative.exact) + 10.0 * relative.uncertainty);
+        CHECK(apart <= kDifference * std::abs(relative.exact) + 10.0 * relative.uncertainty + kZero);
         ++compared;
       }
     }
