@@ -48,7 +48,7 @@ template <int N, int H>
 StableOrbits<N, H> Coexistence<N, H>::find(const mechanics::LinearSystem& system, const Orbits* before) {
   Orbits found = search_.begin(system);
   if (before != nullptr) continue_from(*before, system, found);
-  for (int i = 0; i < wanted_.starts; ++i) {
+  for (int i = 0; found.failure == nullptr && i < wanted_.starts; ++i) {
     typename S::State z = start(i, system);
     if (!search_.follow(z, search_.kOfStart, system, found)) found.unsettled.push_back(z);
   }
@@ -73,8 +73,10 @@ template <int N, int H>
 void Coexistence<N, H>::tell(const mechanics::LinearSystem& system, const Orbits& found, Orbit<N, H>& orbit) {
   if (found.stable.empty()) {
     orbit = {};
-    orbit.status = Status::not_periodic;
-    orbit.reason = none_stable(wanted_.starts, wanted_.most_multiple, found.found_unstable);
+    orbit.status = found.failure != nullptr ? Status::failed : Status::not_periodic;
+    orbit.reason = found.failure != nullptr
+                       ? found.failure
+                       : none_stable(wanted_.starts, wanted_.most_multiple, found.found_unstable);
     orbit.residual = kNone;
     orbit.coexisting = 0;
     orbit.passages = found.passages;

@@ -12,6 +12,7 @@
 #include "solvers/exact/stable_orbits.hpp"
 #include "solvers/orbits/certificate.hpp"
 #include "solvers/orbits/period_multiple.hpp"
+#include "solvers/orbits/reasons.hpp"
 #include "solvers/orbits/shooting.hpp"
 
 namespace frahm::periodic {
@@ -45,6 +46,7 @@ class StableSearch {
     Orbits found;
     found.step = flow_.equations().step;
     found.masses = flow_.equations().masses();
+    if (flow_.equations().period > ShootingOptions{}.most_steps_a_period) found.failure = kTooManySteps;
     return found;
   }
   // A state that counts the time in `step` [s], at the flow's frequency.
@@ -97,7 +99,9 @@ template <int N, int H>
 typename StableSearch<N, H>::Index StableSearch<N, H>::follow(typename S::State& z, int longest,
                                                               const mechanics::LinearSystem& system,
                                                               Orbits& found) {
-  constexpr double kNear = 0.02, kThere = 1e-4;
+  constexpr double kNear = 0.02, kThere = 1e-4, kMostSteps = 1e7;  // half a second of a single mass
+  if (found.failure != nullptr) return std::nullopt;
+  longest = std::min(longest, static_cast<int>(kMostSteps / flow_.equations().period));
   std::vector<typename S::State> trail{z};
   int periods = 0;
   for (int at = 4; at <= longest; at *= 3) {
@@ -136,6 +140,7 @@ template <int N, int H>
 typename StableSearch<N, H>::Index StableSearch<N, H>::find_near(const typename S::State& z, int multiple,
                                                                  const mechanics::LinearSystem& system,
                                                                  Orbits& found) {
+  if (found.failure != nullptr) return std::nullopt;
   Orbit<N, H> orbit;
   orbit.z = z;
   orbit.multiple = multiple;

@@ -112,8 +112,8 @@ void Sweep<N, H>::tell(const mechanics::LinearSystem& system, Orbit<N, H>& orbit
     orbit.newton_iterations += newton_iterations_ - found_.newton_iterations;
   } else {
     orbit = {};
-    orbit.status = Status::not_periodic;
-    orbit.reason = not_settled(search_.kOfSweep, most_multiple_);
+    orbit.status = found_.failure != nullptr ? Status::failed : Status::not_periodic;
+    orbit.reason = found_.failure != nullptr ? found_.failure : not_settled(search_.kOfSweep, most_multiple_);
     orbit.residual = kNone;
     orbit.coexisting = 0;
     orbit.passages = passages_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -71,6 +72,9 @@ void Flow<N, H>::set_system(const mechanics::LinearSystem& system) {
                                     " stops and points of tables: at most " + std::to_string(kMostContacts) +
                                     " can be followed");
   fastest_rate_ = periodic::fastest_rate(system);
+  if (!std::isfinite(fastest_rate_))
+    throw mechanics::MechanicsError(
+        "masses, stiffness and damping differ so much in size that the fastest motion has no finite rate");
   matrices_changed_ = true;
 }
 
@@ -112,6 +116,32 @@ void Flow<N, H>::scale_matrices(const mechanics::LinearSystem& system) {
   configuration_keys_.clear();
 }
 
+// 1/2 sum_k f_k^H K^-1 f_k of the forcing's amplitudes [J].
+template <int N, int H>
+double static_energy(const StepEquations<N, H>& eq) {
+  double energy = 0.0;
+  for (Eigen::Index i = 0; i < eq.force.cols(); ++i) {
+    energy += 0.5 * eq.force.col(i).dot(eq.K_inverse * eq.force.col(i));
+  }
+  return energy;
+}
+
+// What moving supports can give by the contacts that rub on them: 1/2 F^2 w^T K^-1 w by its force, and no
+// more than 1/2 |p^T Y|^2 / (w^T K^-1 w) where it is dragged along by Y; a belt drags on for ever.
+template <int N, int H>
+double dragged_energy(const StepEquations<N, H>& eq, const mechanics::LinearSystem& system) {
+  double energy = 0.0;
+  for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
+    if (eq.support_velocity.row(j).isZero(0.0)) continue;
+    const double give = eq.W.col(j).dot(eq.K_inverse * eq.W.col(j));
+    const double dragged = (system.W_support.col(j).transpose() * eq.motion).squaredNorm();
+    const double by_force = 0.5 * eq.static_limit[j] * eq.static_limit[j] * give;
+    const bool on_belt = eq.support_velocity(j, 0) != 0.0;
+    energy += on_belt || give == 0.0 ? by_force : std::min(by_force, 0.5 * dragged / give);
+  }
+  return energy;
+}
+
 template <int N, int H>
 void Flow<N, H>::set_forcing(const mechanics::LinearSystem& system) {
   StepEquations<N, H>& eq = equations_;
@@ -139,12 +169,7 @@ void Flow<N, H>::set_forcing(const mechanics::LinearSystem& system) {
   eq.internal_drive.noalias() =
       eq.internal_stiffness.asDiagonal() * (system.D_support.transpose() * eq.motion_velocity);
 
-  // sqrt(1/2 sum_k f_k^H K^-1 f_k)
-  static_norm_ = 0.0;
-  for (Eigen::Index i = 0; i < eq.force.cols(); ++i) {
-    static_norm_ += 0.5 * eq.force.col(i).dot(eq.K_inverse * eq.force.col(i));
-  }
-  static_norm_ = std::sqrt(static_norm_);
+  static_norm_ = std::sqrt(static_energy(eq) + dragged_energy(eq, system));
 
   bound_tables();
   for (Configuration<N, H>& configuration : configurations_) configuration.has_forcing = false;

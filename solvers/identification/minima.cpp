@@ -41,7 +41,10 @@ Minima::Minima(const GreyBoxTask& task, Misfit& misfit, int& iterations)
       misfit_(misfit),
       iterations_(iterations),
       residuals_([&misfit](const VectorXd& p, VectorXd& r, MatrixXd* by) { return misfit(p, r, by); }),
-      rubs_(std::ranges::any_of(task.network.elements, mechanics::has_contact)),
+      switches_(std::ranges::any_of(task.network.elements,
+                                    [](const mechanics::Element& each) {
+                                      return mechanics::has_contact(each) || !each.bends.empty();
+                                    })),
       free_(std::ranges::any_of(
           task.records, [](const TimeRecord& record) { return record.motion == MotionKind::free; })) {}
 
@@ -114,7 +117,7 @@ LeastSquaresFit Minima::from_start() {
   LeastSquaresFit best;
   search(misfit_.start(), best);
   const bool found = best.jacobian.size() > 0;
-  if (rubs_ && found && misses(best, kNowhere)) loosen(best);
+  if (switches_ && found && misses(best, kNowhere)) loosen(best);
   LeastSquaresFit fit = from(found ? best.p : misfit_.start());
   exact_ = fit.p.size() > 0 && !misses(fit, kExactly);
   return beside(std::move(fit));
@@ -122,7 +125,7 @@ LeastSquaresFit Minima::from_start() {
 
 // Starts for a half swing more or fewer before rest, for one half of that, and for two: the friction is
 // changed accordingly, alone and together with the other unknowns as they follow it. Then both ways along the
-// least determined direction, the only starts for motions that are driven.
+// least determined direction; and without the static forces, below which nothing may stick.
 std::vector<VectorXd> Minima::starts_beside(const LeastSquaresFit& fit) {
   constexpr double kSwings[] = {-2.0, -1.0, -0.5, 0.5, 1.0, 2.0};
   constexpr double kLengths[] = {-0.6, 0.6, -0.2, 0.2};
@@ -145,6 +148,7 @@ std::vector<VectorXd> Minima::starts_beside(const LeastSquaresFit& fit) {
   const VectorXd direction = least_determined(fit, scales);
   for (const double length : std::span(kLengths).first(free_ ? 4 : 2))
     starts.push_back(fit.p + length * direction);
+  for (const VectorXd& p : misfit_.without_static_forces(fit.p)) starts.push_back(p);
   for (VectorXd& p : starts) {
     for (Index i = 0; i < p.size(); ++i) {
       const Unknown& unknown = unknowns[static_cast<std::size_t>(i)];
@@ -163,14 +167,19 @@ void Minima::keep_rival(const LeastSquaresFit& other, const LeastSquaresFit& fit
   const double free = std::max(1.0, static_cast<double>(fit.residuals.size() - fit.p.size()));
   const double variance = fit.sum_of_squares() / free;
   const bool alike = other.sum_of_squares() <= fit.sum_of_squares() + kAlike * variance;
-  if (alike && (fit.jacobian * (other.p - fit.p)).squaredNorm() > kApart * variance)
-    rivals_.push_back(other.p);
+  if (!alike || (fit.jacobian * (other.p - fit.p)).squaredNorm() <= kApart * variance) return;
+  VectorXd rival = other.p;
+  for (Index i = 0; i < rival.size(); ++i) {
+    // Beyond it nothing changes any more: a clearance that is never reached.
+    if (rival[i] > fit.p[i] && other.jacobian.col(i).isZero(0.0)) rival[i] = HUGE_VAL;
+  }
+  rivals_.push_back(rival);
 }
 
 LeastSquaresFit Minima::beside(LeastSquaresFit fit) {
   constexpr int kMostRounds = 5;
   constexpr LeastSquaresOptions kGlance = {.tolerance = 1e-4, .most_evaluations = 15};
-  if (!rubs_ || exact_ || fit.jacobian.size() == 0) return fit;
+  if (!switches_ || exact_ || fit.jacobian.size() == 0) return fit;
   for (int round = 0; round < kMostRounds; ++round) {
     LeastSquaresFit best = fit;
     rivals_.clear();

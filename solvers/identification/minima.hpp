@@ -16,7 +16,7 @@ class Minima {
   LeastSquaresFit from_start();
   // The nearest minimum.
   LeastSquaresFit from(const Eigen::VectorXd& p);
-  // Of a model with contacts also minima beside `fit`, as long as one is lower.
+  // Of a model with contacts, stops or tables also minima beside `fit`, as long as one is lower.
   LeastSquaresFit beside(LeastSquaresFit fit);
   // The unknowns at separate minima beside the last one returned that are as low to within noise.
   const std::vector<Eigen::VectorXd>& rivals() const { return rivals_; }
@@ -35,9 +35,9 @@ class Minima {
   Misfit& misfit_;
   int& iterations_;
   Residuals residuals_;
-  bool rubs_ = false;   // there are contacts
-  bool free_ = false;   // there are free motions, which come to rest
-  bool exact_ = false;  // the data are followed to rounding
+  bool switches_ = false;  // there are contacts, stops or tables
+  bool free_ = false;      // there are free motions, which come to rest
+  bool exact_ = false;     // the data are followed to rounding
   std::vector<Eigen::VectorXd> rivals_;
 };
 

@@ -211,6 +211,24 @@ std::vector<Index> Misfit::frictions(const VectorXd& p) const {
   return list;
 }
 
+std::vector<VectorXd> Misfit::without_static_forces(const VectorXd& p) const {
+  std::vector<VectorXd> moved;
+  std::vector<Model> by;
+  for (std::size_t record = 0; record < task_.records.size(); ++record) {
+    const Model at = model(record, p, &by);
+    for (std::size_t i = 0; i < task_.parameters.size(); ++i) {
+      for (std::size_t e = 0; e < task_.network.elements.size(); ++e) {
+        const double rate = mechanics::second_value(by[i].values, e);
+        if (!task_.network.elements[e].has_static_force || rate == 0.0 || by[i].values.element[e] != 0.0)
+          continue;
+        moved.push_back(p);
+        moved.back()[place(record, i)] += (at.values.element[e] - at.values.second[e]) / rate;
+      }
+    }
+  }
+  return moved;
+}
+
 // A channel's residuals have as many degrees of freedom as samples, less those that the fit uses: the trace
 // of the channel's part of the projection J (J^T J)^-1 J^T = Q Q^T.
 double Misfit::weigh_by_residuals(const VectorXd& p) {

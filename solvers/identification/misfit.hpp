@@ -54,6 +54,10 @@ class Misfit {
   // Unknowns that change the friction force of a contact.
   std::vector<Eigen::Index> frictions(const Eigen::VectorXd& p) const;
 
+  // p with one unknown moved to where a static force equals its force, for each that makes static forces
+  // alone.
+  std::vector<Eigen::VectorXd> without_static_forces(const Eigen::VectorXd& p) const;
+
   // 1 / standard deviation of each channel's residuals at p.  Returns by what factor, minus 1, the weights
   // change most against each other.
   double weigh_by_residuals(const Eigen::VectorXd& p);

@@ -33,4 +33,8 @@ std::string unbalanced(double balance) {
   return with_numbers("the energy put in and dissipated in a period differ by %.1e of it", balance);
 }
 
+std::string unbalanced_motion(double balance) {
+  return with_numbers("its energies differ by %.1e of the largest of them: an event was missed", balance);
+}
+
 }  // namespace frahm::periodic

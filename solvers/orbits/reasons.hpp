@@ -20,5 +20,7 @@ std::string none_stable(int starts, int most_multiple, bool found_unstable);
 std::string not_settled(int periods, int most_multiple);
 // The energies put in and dissipated in a period differ by this fraction.
 std::string unbalanced(double balance);
+// The same over a motion, relative to the largest of them.
+std::string unbalanced_motion(double balance);
 
 }  // namespace frahm::periodic

@@ -7,6 +7,7 @@
 
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/structural_damping.hpp"
+#include "solvers/orbits/reasons.hpp"
 #include "solvers/quantities/integrals.hpp"
 
 namespace frahm::transient {
@@ -220,6 +221,12 @@ EnergyBudget EnergyAccount::budget(double energy_now) const {
   const bool nothing = dissipated <= loss_rounding * std::max(forcing, stored);
   for (const double each : budget.dissipated) budget.share.push_back(nothing ? 0.0 : each / dissipated);
   return budget;
+}
+
+std::string why_unbalanced(const EnergyBudget& energy) {
+  constexpr double kBalanced = 1e-7;
+  if (energy.balance <= kBalanced) return "";
+  return periodic::unbalanced_motion(energy.balance);
 }
 
 }  // namespace frahm::transient

@@ -160,6 +160,7 @@ ForcedMotion run(const Problem& problem, int stairs) {
   if (!complete) motion.failure = driven.trajectory.failure();
   if (complete) driven.trajectory.finish();
   motion.energy = driven.trajectory.energy_budget();
+  if (motion.failure.empty()) motion.failure = why_unbalanced(motion.energy);
   motion.history = driven.trajectory.samples();
   for (const double t : motion.history.time) motion.frequency.push_back(sweep.frequency(t));
   motion.peaks = peaks_of(driven.trajectory, mechanics::coordinate_count(problem.assembly.network()));

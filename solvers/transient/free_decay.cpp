@@ -80,7 +80,7 @@ std::optional<DecayEnd> seen_end(const Trajectory& trajectory, double left) {
 Ending march(const Decaying& decaying, double duration, Trajectory& trajectory) {
   const double period = decaying.period(), last = last_time(duration, period, trajectory.step());
   const double start_norm = trajectory.energy_norm();
-  Ending ending;
+  Ending ending{.energy = trajectory.energy_budget()};
   while (!has_reached(trajectory, last)) {
     const bool within = !has_reached(trajectory, duration) || duration == 0.0;
     const double next = within && duration > 0.0 ? duration : last;
@@ -176,7 +176,11 @@ FreeDecay free_decay(const mechanics::Network& network, mechanics::NetworkValues
   decay.end = ending.end;
   decay.remainder = ending.remainder;
   decay.energy = ending.energy;
-  if (decay.end == DecayEnd::failed) decay.reason = trajectory.failure();
+  if (decay.end == DecayEnd::failed) {
+    decay.reason = trajectory.failure();
+  } else if (decay.reason = why_unbalanced(decay.energy); !decay.reason.empty()) {
+    decay.end = DecayEnd::failed;
+  }
   decay.duration = given ? options.duration : found_duration(decaying, trajectory, ending);
   const double rest = decay.end == DecayEnd::at_rest ? rest_since(trajectory, ending) : kNone;
   decay.stop_time = rest <= decay.duration ? rest : kNone;

@@ -63,6 +63,10 @@ struct EnergyBudget {
   std::vector<double> share = {};  // of each of them in all that is dissipated; 0 where nothing is
 };
 
+// Why a motion is not told: its energies balance to worse than 1e-7, so that an event was missed. Empty: they
+// do.
+std::string why_unbalanced(const EnergyBudget& energy);
+
 // Called every few hundred steps while a motion is followed; what it throws ends the motion and is passed on.
 // Empty: nothing is called.
 using Watch = std::function<void()>;

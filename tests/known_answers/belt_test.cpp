@@ -69,6 +69,23 @@ TEST_CASE("A block on a belt sticks and slips with the period and the amplitude 
   }
 }
 
+// The belt drags with 0.5, the ground holds with 0.2: from rest x = -0.3 (1 - cos t) until the block stands at
+// -0.6 for ever, where the spring, the belt and the ground balance. Nothing but the belt moves it.
+TEST_CASE("A block that a belt alone drags over rubbing ground comes to rest") {
+  Network network = block_on_belt(false);
+  network.elements.push_back({"ground", ElementType::coulomb, ground, block});
+  const NetworkValues values{
+      .omega = 0.5, .mass = {1.0}, .element = {1.0, 0.5, 0.2}, .excitation = {{-0.4, 0.0}}};
+  const ForcedMotion motion = forced_motion(network, [&](double) { return values; }, {},
+                                            {.from = 0.5, .duration = 20.0, .samples = 21});
+  REQUIRE(motion.failure.empty());
+  for (std::size_t i = 0; i < motion.history.time.size(); ++i) {
+    const double t = std::min(motion.history.time[i], std::numbers::pi);
+    CHECK_THAT(motion.history.displacement[0][i], WithinAbs(-0.3 * (1.0 - std::cos(t)), kExact));
+  }
+  CHECK(motion.energy.balance < kBalance);
+}
+
 // Over whole periods the belt's work is what friction takes: f_k times the way it slides, D D' = V slip + 2
 // D.
 TEST_CASE("The belt puts in what friction takes and the spring and the block have") {

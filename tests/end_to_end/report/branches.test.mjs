@@ -14,9 +14,10 @@ async function drawn(page, figure, isDashed) {
       const svg = document.querySelector(`[data-figure^=${name}] svg`),
         x = svg.scale("x"),
         y = svg.scale("y");
-      const lines = [...svg.querySelectorAll("[aria-label=line]")].filter(
-        (g) => Boolean(g.getAttribute("stroke-dasharray")) === wanted && !g.hasAttribute("stroke-opacity"),
-      );
+      const lines = [...svg.querySelectorAll("[aria-label=line]")].filter((g) => {
+        const dash = g.getAttribute("stroke-dasharray"); // a compared curve is dotted
+        return (wanted ? dash?.startsWith("5") : !dash) && !g.hasAttribute("stroke-opacity");
+      });
       return lines
         .flatMap((g) => [...g.querySelectorAll("path")])
         .flatMap((path) => path.getAttribute("d").slice(1).split(/[LM]/))

@@ -193,5 +193,43 @@ TEST_CASE("Under noise the intervals of a stop, of static friction and of tables
   for (const Case& of : {bouncing(), dragging(), shaken_tables()}) check_intervals(of, 20, 16);
 }
 
+Identification found_under_noise(const Case& of) {
+  TimeRecord record = of.record(800);
+  double peak = 0.0;
+  for (const double x : record.channels[0].values) peak = std::max(peak, std::abs(x));
+  std::mt19937 random(20261124);
+  add_noise(record, kNoise * peak, random);
+  return fit(of.network, of.truth, of.places, of.factors, {record});
+}
+
+// Up to a static force of 1.2 or so the block never sticks: the data say that it is below, and no more.
+TEST_CASE("The interval of a static force that never holds reaches down to the force") {
+  Case of = dragging();
+  of.truth.values.omega = 0.8;
+  of.truth.values.second[2] = 0.4;
+  of.places = {element("F", 2), second_value("F_s", 2)};
+  for (const double start : {1.2, 3.0}) {
+    INFO("from " << start);
+    of.factors = {0.9, start};
+    const Identification found = found_under_noise(of);
+    REQUIRE(found.failure.empty());
+    CHECK(found.estimates[1].low <= 0.35);
+    CHECK(found.estimates[1].high >= 0.4);
+  }
+}
+
+TEST_CASE("A clearance that the motion does not reach is not determined upwards") {
+  Case of = bouncing();
+  of.truth.values.bends[2][0].place = 3.0;
+  of.places = {element("k", 0), clearance(2)};
+  for (const double start : {0.3, 0.5}) {
+    INFO("from " << start);
+    of.factors = {1.05, start};
+    const Identification found = found_under_noise(of);
+    REQUIRE(found.failure.empty());
+    CHECK(std::isinf(found.estimates[1].high));
+  }
+}
+
 }  // namespace
 }  // namespace frahm::identification

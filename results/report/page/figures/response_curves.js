@@ -22,7 +22,7 @@ import {
 const stepped = { curve: "step" }; // of whole numbers and flags: between two points nothing is known
 const inset = 5; // pixels between the frame and zero
 const fewPoints = 40; // up to so many, each is marked
-const comparedDash = "6 3";
+const comparedDash = "1.5 3"; // dotted: what is unstable is dashed
 
 // A curve's name: the coordinates in which the points differ, else all of them.
 function curveName(map, index, axis, all) {
