@@ -27,7 +27,7 @@ template <int N, int H>
 struct StableOrbits {
   std::vector<StableOrbit<N, H>> stable;
   std::vector<typename Sizes<N, H>::State> unsettled;  // where motions were given up that came near no orbit
-  const char* failure = nullptr;                       // why nothing could be followed at all
+  const char* failure = nullptr;                       // why nothing more is followed
   bool found_unstable = false;
   int passages = 0, newton_iterations = 0;
   double step = 0.0;  // [s], in which the states count the time

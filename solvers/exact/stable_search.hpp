@@ -75,6 +75,7 @@ class StableSearch {
   double distance(const typename S::State& z, const StableOrbit<N, H>& orbit) const;
 
  private:
+  bool is_over(Orbits& found) const;
   Index known(const typename S::State& z, double within, const Orbits& found) const;
   int likely_multiple(const std::vector<typename S::State>& trail) const;
   void bring_to_rest(Orbit<N, H>& orbit, int& passages);
@@ -99,13 +100,12 @@ template <int N, int H>
 typename StableSearch<N, H>::Index StableSearch<N, H>::follow(typename S::State& z, int longest,
                                                               const mechanics::LinearSystem& system,
                                                               Orbits& found) {
-  constexpr double kNear = 0.02, kThere = 1e-4, kMostSteps = 1e7;  // half a second of a single mass
-  if (found.failure != nullptr) return std::nullopt;
-  longest = std::min(longest, static_cast<int>(kMostSteps / flow_.equations().period));
+  constexpr double kNear = 0.02, kThere = 1e-4;
   std::vector<typename S::State> trail{z};
   int periods = 0;
   for (int at = 4; at <= longest; at *= 3) {
     for (; periods < at; ++periods) {
+      if (is_over(found)) return std::nullopt;
       walk_.pass(z, 0.0, flow_.equations().period, passage_, Tangent::none);
       ++found.passages;
       if (passage_.failure != nullptr) return std::nullopt;
@@ -117,6 +117,15 @@ typename StableSearch<N, H>::Index StableSearch<N, H>::follow(typename S::State&
     if (near && distance(z, found.stable[*near]) < kNear) return near;
   }
   return std::nullopt;
+}
+
+// Whether all motions of a point together have taken as many steps as some seconds allow.
+template <int N, int H>
+bool StableSearch<N, H>::is_over(Orbits& found) const {
+  const double most_steps = 6e7 / static_cast<double>(flow_.equations().states());
+  if (found.failure == nullptr && found.passages * flow_.equations().period > most_steps)
+    found.failure = kSearchIsLong;
+  return found.failure != nullptr;
 }
 
 // The multiple of the period after which the motion comes back closest.
@@ -140,7 +149,7 @@ template <int N, int H>
 typename StableSearch<N, H>::Index StableSearch<N, H>::find_near(const typename S::State& z, int multiple,
                                                                  const mechanics::LinearSystem& system,
                                                                  Orbits& found) {
-  if (found.failure != nullptr) return std::nullopt;
+  if (is_over(found)) return std::nullopt;
   Orbit<N, H> orbit;
   orbit.z = z;
   orbit.multiple = multiple;

@@ -3,12 +3,30 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solvers/flow/equations.hpp"
 #include "solvers/mechanics/bends.hpp"
 #include "solvers/mechanics/element_table.hpp"
+#include "solvers/mechanics/linear_system.hpp"
 #include "studies/map/comparison.hpp"
+#include "studies/map/first_modes.hpp"
 
 namespace frahm::studies {
 namespace {
+
+// How many more steps a period takes than in a chain of as many storeys: where some motion is fast, as in
+// most imported matrices.
+double extra_steps(const Study& study, double masses) {
+  constexpr double kOfChain = 4.0, kMost = 100.0;
+  try {
+    const mechanics::NetworkValues values = values_at_first_point(study);
+    mechanics::LinearSystem system;
+    mechanics::Assembly(study.network).set_values(values, system);
+    const double ratio = periodic::fastest_rate(system) / (values.omega * kOfChain * masses);
+    return ratio > 1.0 ? std::min(ratio, kMost) : 1.0;
+  } catch (const mechanics::MechanicsError&) {
+    return 1.0;  // the first point fails
+  }
+}
 
 // [s] of an orbit with stops, measured: small systems by tables, 0.1 ms at 5 masses with three contacts;
 // large ones by their equation, 0.7 to 1.2 ms at 20 with seven, 15 to 20 at 60 with twenty; some
@@ -18,7 +36,8 @@ double with_contacts(const Study& study, double masses, double contacts) {
   if (masses < kFromMasses) return 3e-6 * std::pow(masses / 2.5, 3.3) * std::max(1.0, 0.5 * (1.0 + contacts));
   const bool full =
       study.network.damping == mechanics::DampingModel::modal || !study.network.matrices.empty();
-  return (full ? 4.0 : 1.0) * 1.15e-3 * std::pow(masses / 20.0, 2.1) * std::sqrt(contacts / 7.0);
+  const double of_chain = 1.15e-3 * std::pow(masses / 20.0, 2.1) * std::sqrt(contacts / 7.0);
+  return (full ? 4.0 : 1.0) * of_chain * extra_steps(study, masses);
 }
 
 // [s] of the search for several orbits, measured: 0.12 ms a start of one mass with stops, 2 ms of two masses.

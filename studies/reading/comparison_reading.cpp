@@ -118,9 +118,10 @@ void read_compared_show(const TomlSection& section, const Study& study, Comparis
   if (section.find("slope"))
     section.fail(rules::key_without_use, "slope", "belongs to a compared law, not to another response");
   if (!mechanics::may_have_several_responses(study.network))
-    section.fail(rules::key_without_use, "show",
-                 "has no effect: several responses are searched where an element is a gap, has a table or a "
-                 "static_force; here there is one alone");
+    section.fail(
+        rules::key_without_use, "show",
+        "has no effect: several responses are searched where an element is a gap, has a table, a cubic or a "
+        "static_force; here there is one alone");
   comparison.show = read_show(section);
 }
 

@@ -55,17 +55,20 @@ Problem problem_of_places(const Study& study, std::span<const StudyValue> values
 // The slopes of a damper's table: at rest it must not drive, and where there must be one response the force
 // must not fall.
 Problem problem_of_damping(const Study& study, const StudyValue& told, const TableOfForces<double>& table) {
-  const double at_rest = table.slope(table.central());
+  const std::size_t i = table.central();
+  double at_rest = table.slope(i);
+  if (i > 0 && table.place(i) == 0.0) at_rest = std::min(at_rest, table.slope(i - 1));  // on either side
   if (at_rest < 0.0)
     return ElementProblem{rules::out_of_range, &told,
                           fmt::format("falls at velocity 0, by {:.6g} a unit", -at_rest),
                           "at rest a damper must not drive the motion"};
   const std::string one = needs_one_response(study);
   if (one.empty()) return {};
-  for (std::size_t i = 0; i + 1 < table.points(); ++i) {
-    if (table.slope(i) < 0.0)
+  for (std::size_t piece = 0; piece + 1 < table.points(); ++piece) {
+    if (table.slope(piece) < 0.0)
       return ElementProblem{
-          rules::several_responses, &told, fmt::format("falls between its points {} and {}", i + 1, i + 2),
+          rules::several_responses, &told,
+          fmt::format("falls between its points {} and {}", piece + 1, piece + 2),
           fmt::format("then several responses may exist, and {} needs that there is one", one)};
   }
   return {};

@@ -54,7 +54,9 @@ double read_exponent(const TomlSection& section, bool is_power) {
     return 0.0;
   }
   const double chi = section.number("chi");
-  if (!(chi > -1.0)) section.fail(rules::out_of_range, "chi", "is {}; must be > -1", chi);
+  constexpr double most_chi = 100.0;  // beyond, all slip forces are one but for the last digits
+  if (!(chi > -1.0 && chi <= most_chi))
+    section.fail(rules::out_of_range, "chi", "is {}; must be > -1 and at most {}", chi, most_chi);
   return chi;
 }
 
