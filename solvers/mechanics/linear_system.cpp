@@ -321,8 +321,9 @@ void Assembly::set_forcing(const NetworkValues& values, LinearSystem& system) co
 
   // What the supports exert: f = -(K_s y + C_s y' + M_s y''), harmonic by harmonic. What they exert through
   // Maxwell elements is in those elements' forces.
-  system.constant_force.noalias() -=
-      system.K_support * system.constant_motion + system.C_support * system.belt_velocity;
+  system.constant_force.noalias() -= system.K_support * system.constant_motion;
+  if (!system.belt_velocity.isZero(0.0))
+    system.constant_force.noalias() -= system.C_support * system.belt_velocity;
   for (Eigen::Index k = 0; k < harmonics; ++k) {
     const std::complex<double> i_omega(0.0, orders_[static_cast<std::size_t>(k)] * values.omega);
     for (Eigen::Index row = 0; row < n; ++row) {

@@ -63,6 +63,7 @@ struct ElementCoefficients {
 //                                                              others do, their law says (solvers/laws)
 //   y(t) = y_0 + V t + Re sum_k Y_k e^{i order_k omega t}; V only of nodes whose displacement no law asks for
 //   f(t) = f_0 + Re sum_k f_k e^{i order_k omega t}, which includes what the prescribed nodes exert
+// and to y and f what is recorded.
 //
 // Shapes: M, C, K n x n; M_support, C_support, K_support n x p; W n x m; W_support p x m; D n x s; D_support
 // p x s.
@@ -99,6 +100,11 @@ struct LinearSystem {
   Eigen::VectorXd constant_motion;         // y_0 [m], size p
   Eigen::MatrixXcd motion;                 // column k is Y_k [m]
   Eigen::VectorXd belt_velocity;           // V [m/s], size p
+  // Of each recorded excitation, at each instant, four numbers r, r', r'', r''' more: a measured force [N],
+  // or displacement [m], and its derivatives by time (transient/record.hpp). What they exert on the masses,
+  // the part of it that acts from outside, and the displacements of the prescribed nodes: four columns each.
+  Eigen::MatrixXd recorded_force, recorded_applied_force;  // n x 4r
+  Eigen::MatrixXd recorded_motion;                         // p x 4r
   SupportForce support_force;
   Eigen::RowVectorXd felt_inertia, felt_inertia_support;  // its parts by -q'' and by -y''
 

@@ -102,13 +102,19 @@ enum class ExcitationKind {
   motion,  // displacement A cos(order omega t + phase) of a prescribed node [m]
   crank,   // displacement of a prescribed node by a crank that turns with omega t + phase (crank.hpp)
   belt,  // displacement V cos(phase) t of a prescribed node, for ever: nothing may ask for it but by its rate
+  recorded_force,   // A cos(phase) times a record, a force on a mass: of a transient (transient/record.hpp)
+  recorded_motion,  // likewise a displacement of a prescribed node
 };
+
+inline bool is_recorded(ExcitationKind kind) {
+  return kind == ExcitationKind::recorded_force || kind == ExcitationKind::recorded_motion;
+}
 
 // One component of the excitation; order 0 is a constant. Components on one node add up.
 struct Excitation {
   ExcitationKind kind = ExcitationKind::force;
   std::size_t node = 0;  // index into Network::masses (force) or Network::prescribed (motion, crank)
-  int order = 1;         // of a crank: 1; of a belt: 0
+  int order = 1;         // of a crank: 1; of a belt or a record: 0
   int even_orders = 0;   // of a crank: how many of its orders 2, 4, 6 ... are included
   int taylor_order = 0;  // of a crank: 1, 2 or 4 cuts its Taylor series in crank/rod there; 0: exact
 };
@@ -151,7 +157,12 @@ inline bool has_belt(const Network& network) {
   return std::ranges::any_of(network.excitations,
                              [](const Excitation& each) { return each.kind == ExcitationKind::belt; });
 }
-// Whether a combination of coordinates has a share of such a node: it grows for ever.
+// Whether a part of the excitation is a record.
+inline bool has_records(const Network& network) {
+  return std::ranges::any_of(network.excitations,
+                             [](const Excitation& each) { return is_recorded(each.kind); });
+}
+// Whether a combination of coordinates has a share of a node that moves on for ever: it grows for ever.
 inline bool is_on_belt(const Network& network, const Direction& u) {
   return std::ranges::any_of(u, [&](const Share& share) {
     return share.node.kind == NodeKind::prescribed &&
@@ -163,7 +174,7 @@ inline bool is_on_belt(const Network& network, const Direction& u) {
 
 struct ExcitationValue {
   // [N] for a force ([N m] on a rotation), [m] for a motion; radius [m] of a crank; velocity V [m/s] of a
-  // belt
+  // belt; what multiplies a record [1]
   double amplitude = 0.0;
   double phase = 0.0;  // [rad]
   double rod = 0.0;    // length [m] of a crank's rod, > amplitude

@@ -55,13 +55,26 @@ class Growing:
         os.remove(output)
         return found
 
-    def killed(self, expected, output, source, how):
-        """Started again and again, each time killed at a random moment; then to the end."""
+    def killed(self, expected, output, how, in_place=False):
+        """Started again and again, each time killed at a random moment; then to the end. Where a run was done before
+        the first kill, all begins anew with kills that come twice as early."""
+        longest, stopped = 0.4, 0
+        while stopped == 0:
+            if in_place:
+                shutil.copy(self.earlier, output)
+            elif os.path.exists(output):
+                os.remove(output)
+            stopped = self.stopped_runs(expected, output, output if in_place else self.earlier, how, longest)
+            longest /= 2
+        self.finish(*self.grow(output, output if in_place else self.earlier))
+
+    def stopped_runs(self, expected, output, source, how, longest):
+        """How many of the runs were killed before they were done; after one that was done there is no other."""
         before = raw_bytes(source)
         stopped = 0
         for _ in range(KILLS):
             process = self.start(*self.grow(output, source, "--threads", "2"))
-            time.sleep(random.uniform(0.0, 0.4))
+            time.sleep(random.uniform(0.0, longest))
             process.send_signal(how)
             process.communicate(timeout=LONGEST)
             stopped += process.returncode != 0
@@ -69,8 +82,7 @@ class Growing:
             assert raw_bytes(source) in ([before, expected] if source == output else [before]), "a half file"
             if os.path.exists(output) and raw_bytes(output) == expected:
                 break
-        assert stopped > 0
-        self.finish(*self.grow(output, source))
+        return stopped
 
 
 def check(program, source, folder):
@@ -92,12 +104,11 @@ def check(program, source, folder):
     assert growing.taken(output) == one, "shards"
 
     for how in signal.SIGKILL, signal.SIGTERM:
-        growing.killed(one, output, growing.earlier, how)
+        growing.killed(one, output, how)
         assert growing.taken(output) == one, how
 
     for how in signal.SIGKILL, signal.SIGTERM:
-        shutil.copy(growing.earlier, output)
-        growing.killed(one, output, output, how)
+        growing.killed(one, output, how, in_place=True)
         assert growing.taken(output) == one, how
 
 

@@ -58,15 +58,17 @@ class Runs:
         return found
 
     def killed(self, expected, output, how, *options):
-        """Starts again and again, each time killed at a random moment of its work; then to the end."""
-        stopped = 0
-        for _ in range(KILLS):
+        """Starts again and again, each time killed at a random moment of its work; then to the end. A run that is done
+        before its kill does not count, and the next kill comes earlier."""
+        stopped, longest = 0, 0.15
+        while stopped < KILLS:
             process = self.start(output, *options)
-            time.sleep(random.uniform(0.0, 0.15))
+            time.sleep(random.uniform(0.0, longest))
             process.send_signal(how)
             process.communicate()
-            if process.returncode == 0:  # it was faster: the next one begins anew
+            if process.returncode == 0:
                 os.remove(output)
+                longest *= 0.7
                 continue
             codes = {signal.SIGKILL: (-signal.SIGKILL,), signal.SIGTERM: (4, -signal.SIGTERM)}[how]
             assert process.returncode in codes, process.returncode
@@ -74,7 +76,6 @@ class Runs:
             if os.path.exists(output):  # killed behind its work: the file is whole, its logs may still be there
                 assert raw_bytes(output) == expected, "a half file"
                 break
-        assert stopped > 0
         assert self.finish(output, *options) == expected, how
 
 
