@@ -81,7 +81,9 @@ void Flow<N, H>::expand_by_recurrence(const Instant<N, H>& at, const Mode<N, H>&
     x.z.row(k) = z.transpose();
     if (k + 1 == kTerms) break;
     pull(eq.sparse, c.held, z.data(), z.data() + n, z.data() + 2 * n, a.data(), ds.data());
-    a.noalias() += c.Au.lazyProduct(x.u.row(k).transpose());
+    for (Eigen::Index j = 0; j < eq.oscillators(); ++j) {
+      if (const double u = x.u(k, j); u != 0.0) a += u * c.Au.col(j);  // of a record few are not zero
+    }
     if (k == 0) a += mode.acceleration;
     const double share = 1.0 / (k + 1.0);
     z.head(n) = z.segment(n, n) * share;
