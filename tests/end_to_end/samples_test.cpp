@@ -206,6 +206,17 @@ TEST_CASE("statistics and tornado are exported as tables over the other axes") {
   }
 }
 
+TEST_CASE(
+    "absorber_scatter.toml: the 95 % quantile is largest, 8.065, at r = 1.06, by the frequency above all") {
+  const Result result(runs::reduced("absorber_scatter", {}));
+  const auto quantiles = result.of("statistics", "machine_peak_q95");
+  const auto worst = static_cast<std::size_t>(std::ranges::max_element(quantiles) - quantiles.begin());
+  CHECK_THAT(runs::read_map(result.file()).coordinate("r")[worst], Catch::WithinAbs(1.06, 1e-9));
+  CHECK_THAT(quantiles[worst], Catch::WithinAbs(8.065, 0.005));
+  CHECK_THAT(result.of("statistics", "machine_peak_q50")[worst], Catch::WithinAbs(6.343, 0.005));
+  CHECK_THAT(result.of("tornado", "machine_peak_share_nu")[worst], Catch::WithinAbs(0.91, 0.005));
+}
+
 TEST_CASE("absorber_scatter.toml: quantiles are those of the closed form of two masses") {
   const Result result(runs::reduced("absorber_scatter", {{"r", 13}}));
   const Map map = runs::read_map(result.file());
