@@ -50,10 +50,8 @@ std::vector<std::string> auxiliary_names(const hdf5::Group& root) {
   return names;
 }
 
-MapLayout read_layout(const hdf5::Group& root) {
-  MapLayout layout{.title = required_text(root, "title"),
-                   .source = required_text(root, "source"),
-                   .history = required_text(root, "history")};
+// The axes, coordinates and variables of a group.
+void read_contents(const hdf5::Group& root, MapLayout& layout) {
   const std::vector<std::string> auxiliary = auxiliary_names(root);
   for (const std::string& name : root.dataset_names()) {
     const hdf5::Dataset dataset = root.dataset(name);
@@ -70,7 +68,6 @@ MapLayout read_layout(const hdf5::Group& root) {
       layout.chunk = dataset.chunk();
     }
   }
-  return layout;
 }
 
 // Appends the paths of all groups within `group`, whose path is `path` (ends in a slash; root: empty).
@@ -86,11 +83,23 @@ void add_groups(const hdf5::Group& group, const std::string& path, std::vector<s
 MapReader::MapReader(const std::filesystem::path& path) : file_(hdf5::File::open(path)) {
   const hdf5::Group root = file_.root();
   check_format(root);
-  layout_ = read_layout(root);
-  Shape shape;
-  for (const Axis& axis : layout_.axes) shape.push_back(axis.size);
+  layout_ = {.title = required_text(root, "title"),
+             .source = required_text(root, "source"),
+             .history = required_text(root, "history")};
+  read_map(root);
+}
+
+MapReader::MapReader(const std::filesystem::path& path, const std::string& group)
+    : file_(hdf5::File::open(path)) {
+  check_format(file_.root());
+  read_map(file_.root().group(group));
+}
+
+void MapReader::read_map(const hdf5::Group& group) {
+  read_contents(group, layout_);
+  const Shape shape = shape_of(layout_);
   for (const Variable& variable : layout_.variables) {
-    datasets_.push_back(root.dataset(variable.name));
+    datasets_.push_back(group.dataset(variable.name));
     if (datasets_.back().shape() != shape)
       throw StoreError(datasets_.back().where(), "must lie on all axes", "");
   }

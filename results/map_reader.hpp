@@ -18,7 +18,11 @@ class MapReader {
  public:
   explicit MapReader(const std::filesystem::path& path);
 
-  // The layout of the file; its chunk is that of the variables, empty if there are none.
+  // The map in a group of the file (MapWriter::create_map), or numbers on no axis. StoreError if there is no
+  // such group. The texts and groups are those of the file.
+  MapReader(const std::filesystem::path& path, const std::string& group);
+
+  // The layout of the map; its chunk is that of the variables, empty if there are none.
   const MapLayout& layout() const { return layout_; }
 
   // A box of a variable (index into layout().variables), row-major, in its unit; missing values as stored:
@@ -38,6 +42,8 @@ class MapReader {
   std::vector<Column> columns(const std::string& group) const;
 
  private:
+  void read_map(const hdf5::Group& group);
+
   hdf5::File file_;
   MapLayout layout_;
   std::vector<hdf5::Dataset> datasets_;  // of the variables

@@ -69,6 +69,30 @@ void write_auxiliary_coordinates(hdf5::Group& root, const Axis& axis) {
   }
 }
 
+std::vector<hdf5::Dataset> create_variables(hdf5::Group& group, const MapLayout& layout,
+                                            const std::string& auxiliary) {
+  const Shape shape = shape_of(layout), chunk = chunk_shape(layout);
+  std::vector<hdf5::Dataset> variables;
+  for (const Variable& variable : layout.variables) {
+    hdf5::Dataset dataset =
+        group.create_dataset(variable.name, {.type = variable.type, .shape = shape, .chunk = chunk});
+    describe(dataset, variable, true);
+    if (!auxiliary.empty()) dataset.write_text("coordinates", auxiliary);
+    for (unsigned k = 0; k < shape.size(); ++k) dataset.attach_scale(k, group.dataset(layout.axes[k].name));
+    variables.push_back(std::move(dataset));
+  }
+  return variables;
+}
+
+// The axes of a map and its variables, which are returned.
+std::vector<hdf5::Dataset> create_axes_and_variables(hdf5::Group& group, const MapLayout& layout,
+                                                     const std::string& auxiliary) {
+  // All scales before any other coordinate: netCDF orders its dimensions by the creation of their scales.
+  for (const Axis& axis : layout.axes) write_scale(group, axis);
+  for (const Axis& axis : layout.axes) write_auxiliary_coordinates(group, axis);
+  return create_variables(group, layout, auxiliary);
+}
+
 }  // namespace
 
 MapWriter::MapWriter(const std::filesystem::path& path, const MapLayout& layout)
@@ -76,33 +100,33 @@ MapWriter::MapWriter(const std::filesystem::path& path, const MapLayout& layout)
   hdf5::Group root = file_.root();
   const std::string auxiliary = auxiliary_coordinates(layout);
   describe_file(root, layout, auxiliary);
-  // All scales before any other coordinate: netCDF orders its dimensions by the creation of their scales.
-  for (const Axis& axis : layout.axes) write_scale(root, axis);
-  for (const Axis& axis : layout.axes) write_auxiliary_coordinates(root, axis);
-  create_variables(root, layout, auxiliary);
+  maps_.push_back(create_axes_and_variables(root, layout, auxiliary));
 }
 
-void MapWriter::create_variables(hdf5::Group& root, const MapLayout& layout, const std::string& auxiliary) {
-  Shape shape;
-  for (const Axis& axis : layout.axes) shape.push_back(axis.size);
-  const Shape chunk = chunk_shape(layout);
-  for (const Variable& variable : layout.variables) {
-    hdf5::Dataset dataset =
-        root.create_dataset(variable.name, {.type = variable.type, .shape = shape, .chunk = chunk});
-    describe(dataset, variable, true);
-    if (!auxiliary.empty()) dataset.write_text("coordinates", auxiliary);
-    for (unsigned k = 0; k < shape.size(); ++k) dataset.attach_scale(k, root.dataset(layout.axes[k].name));
-    variables_.push_back(std::move(dataset));
-  }
+std::size_t MapWriter::create_map(const std::string& name, const MapLayout& layout) {
+  check(layout);
+  hdf5::Group to = group(name);
+  const std::string auxiliary = auxiliary_coordinates(layout);
+  if (!auxiliary.empty()) to.write_text("coordinates", auxiliary);
+  maps_.push_back(create_axes_and_variables(to, layout, auxiliary));
+  return maps_.size() - 1;
 }
 
 void MapWriter::write_chunk(const EncodedChunk& chunk) {
-  if (chunk.variables.size() != variables_.size()) {
-    throw std::invalid_argument(fmt::format("chunk of {} variables: must be {}, those of the map",
-                                            chunk.variables.size(), variables_.size()));
+  write_chunk(0, chunk);
+}
+
+void MapWriter::write_chunk(std::size_t map, const EncodedChunk& chunk) {
+  if (map >= maps_.size()) {
+    throw std::invalid_argument(fmt::format("map {}: must be below {}", map, maps_.size()));
   }
-  for (std::size_t v = 0; v < variables_.size(); ++v)
-    variables_[v].write_chunk(chunk.start, chunk.variables[v]);
+  std::vector<hdf5::Dataset>& variables = maps_[map];
+  if (chunk.variables.size() != variables.size()) {
+    throw std::invalid_argument(fmt::format("chunk of {} variables: must be {}, those of the map",
+                                            chunk.variables.size(), variables.size()));
+  }
+  for (std::size_t v = 0; v < variables.size(); ++v)
+    variables[v].write_chunk(chunk.start, chunk.variables[v]);
 }
 
 hdf5::Group MapWriter::group(const std::string& name) {
@@ -138,7 +162,7 @@ void MapWriter::append_ragged(std::size_t table, std::span<const double> row,
 void MapWriter::finish() {
   for (RaggedTable& table : tables_) table.flush();
   // HDF5 closes the file with its last object.
-  variables_.clear();
+  maps_.clear();
   tables_.clear();
   file_.close();
   part_.publish();

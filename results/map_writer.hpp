@@ -31,6 +31,11 @@ class MapWriter {
   // Writes one chunk of every variable (MapChunk::encoded). A chunk never written is missing.
   void write_chunk(const EncodedChunk& chunk);
 
+  // A map of its own in a group, created if missing: of the statistics of the map over one of its axes.
+  // Returns its number, for the other write_chunk(). Title, source and history of the layout are not written.
+  std::size_t create_map(const std::string& group, const MapLayout& layout);
+  void write_chunk(std::size_t map, const EncodedChunk& chunk);
+
   // Texts, UTF-8 of any length, as attributes of a group, created if missing: /provenance.
   void write_texts(const std::string& group, const std::vector<Text>& texts);
 
@@ -49,12 +54,11 @@ class MapWriter {
   void finish();  // the file is complete, on the disk and at its path; nothing is written after
 
  private:
-  void create_variables(hdf5::Group& root, const MapLayout& layout, const std::string& auxiliary);
   hdf5::Group group(const std::string& name);
 
   PartFile part_;
   hdf5::File file_;
-  std::vector<hdf5::Dataset> variables_;  // of MapLayout::variables
+  std::vector<std::vector<hdf5::Dataset>> maps_;  // of each map the variables, of the root's first
   std::vector<RaggedTable> tables_;
 };
 

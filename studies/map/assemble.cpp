@@ -11,7 +11,9 @@
 #include "results/map_writer.hpp"
 #include "studies/map/branch_record.hpp"
 #include "studies/map/first_modes.hpp"
+#include "studies/map/statistics_record.hpp"
 #include "studies/map/tile_record.hpp"
+#include "studies/map/tornado_record.hpp"
 #include "studies/record/array_tasks.hpp"
 #include "studies/record/assembly_stage.hpp"
 
@@ -164,6 +166,8 @@ Assembly make_file(const MapPlan& plan, const RunRecord& run, const AssemblyOpti
   const results::MapLayout layout = map_layout(plan, run);
   results::MapWriter writer(options.output, layout);
   const Failures failures = write_map(plan, layout, index, options, writer);
+  write_statistics(plan, layout, index, options, writer);
+  write_tornado(plan, layout, options, writer);
   write_orbits(plan, options, writer);
   write_resonances(plan, options, writer);
   write_branches(plan, index, options, writer);

@@ -60,7 +60,7 @@ void BorderSearch::find(const MapBox& tile, std::span<const std::span<const doub
                         std::vector<Border>& borders) {
   tile_ = wide_ = tile;
   for (std::size_t d = 0; d < tile.start.size(); ++d) {
-    if (tile.start[d] + tile.count[d] < grid_.shape[d]) ++wide_.count[d];
+    if (has_neighbours(d) && tile.start[d] + tile.count[d] < grid_.shape[d]) ++wide_.count[d];
   }
   regimes_.assign(wide_.points() * elements_, Regime::not_computed);
   if (!known.empty()) take_regimes(known);
@@ -69,8 +69,16 @@ void BorderSearch::find(const MapBox& tile, std::span<const std::span<const doub
   const auto rows = grid_.row_dimensions();
   Index row = tile.start;
   do {
-    for (std::size_t d = 0; d < row.size(); ++d) search_row(row, d, borders);
+    for (std::size_t d = 0; d < row.size(); ++d) {
+      if (has_neighbours(d)) search_row(row, d, borders);
+    }
   } while (next_point(tile, rows, row));
+}
+
+// Samples lie in no order.
+bool BorderSearch::has_neighbours(std::size_t dimension) const {
+  const auto& samples = study_.sweep()->samples;
+  return !samples || samples->dimension != dimension;
 }
 
 // Whether a point of wide_ lies beyond the tile's upper face along a dimension.

@@ -32,6 +32,7 @@ class BorderSearch {
  private:
   using Index = std::vector<std::uint64_t>;
 
+  bool has_neighbours(std::size_t dimension) const;
   bool is_beyond(const Index& index, std::size_t dimension) const;
   std::size_t offset_of(const Index& index) const;
   void take_regimes(std::span<const std::span<const double>> known);

@@ -8,6 +8,7 @@
 #include "studies/map/known_points.hpp"
 #include "studies/map/map_kernel.hpp"
 #include "studies/map/output_quantities.hpp"
+#include "studies/map/sample_names.hpp"
 #include "studies/map/tile_record.hpp"
 #include "studies/record/fingerprint.hpp"
 
@@ -24,6 +25,7 @@ MapPlan plan_map(Study study, std::vector<std::string> set) {
   plan.tiles = plan.grid.tiles();
   plan.quantities = output_quantities(plan.study);
   plan.variables = output_variables(plan.study, plan.quantities);
+  check_sample_names(plan);
   plan.fingerprint = fingerprint(plan.study, {plan.grid.order, plan.grid.tile}, plan.quantities);
   return plan;
 }

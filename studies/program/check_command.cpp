@@ -23,6 +23,7 @@
 #include "studies/program/exit_code.hpp"
 #include "studies/program/modes_table.hpp"
 #include "studies/program/rank_table.hpp"
+#include "studies/program/scatter_table.hpp"
 #include "studies/reading/settings.hpp"
 
 namespace frahm::studies {
@@ -191,6 +192,7 @@ int check_command(const CheckOptions& options, std::ostream& out) {
                study.title);
   }
   print_grid(study, plan.grid, out);
+  print_samples(study, out);
   print_prediction(plan.grid, sample, options.threads, out);
   print_branch_cost(plan, options.threads, out);
   print_array(options, plan, "map", core_seconds, out);

@@ -12,6 +12,7 @@
 #include "results/map_reader.hpp"
 #include "studies/identification/identification_record.hpp"
 #include "studies/identification/identified_study.hpp"
+#include "studies/map/beside_samples.hpp"
 #include "studies/map/grid.hpp"
 #include "studies/program/whole_file.hpp"
 #include "studies/record/finished_file.hpp"
@@ -156,6 +157,10 @@ void write_table(const results::MapReader& map, const std::string& asked, std::o
 }
 
 void write_export(const ExportOptions& options, const results::MapReader& map, std::ostream& out) {
+  if (options.group == statistics_group || options.group == tornado_group) {
+    const results::MapReader of_group(options.file, options.group);
+    if (!of_group.layout().axes.empty()) return write_map(of_group, out);
+  }
   if (!options.schedule) return write_table(map, options.group, out);
   out << schedule_table(read_stored_tuning(options.file), options.step);
 }

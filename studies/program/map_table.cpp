@@ -12,6 +12,7 @@
 #include "studies/map/output_quantities.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/logged_run.hpp"
+#include "studies/program/scatter_table.hpp"
 #include "studies/record/finished_file.hpp"
 
 namespace frahm::studies {
@@ -67,10 +68,13 @@ int print_map_table(const MapPlan& plan, const std::filesystem::path& study,
   const auto& variables = map.layout().variables;
   const std::uint64_t points = points_of(map.layout());
   const auto headline = std::ranges::find(variables, headline_of(plan.study), &results::Variable::name);
-  if (headline != variables.end()) {
+  const auto& samples = plan.study.sweep()->samples;
+  const bool along_samples = samples && samples->dimension == 0;  // which lie in no order
+  if (headline != variables.end() && !along_samples) {
     const auto variable = static_cast<std::size_t>(headline - variables.begin());
     print_worst(map, worst_along_slowest_axis(map, variable), out);
   }
+  print_scatter(plan, file, out);
   const std::vector<FlagCounts> flags = count_flags(map);
   print_flags(flags, points, out);
   if (effort) print_effort(*effort, out);

@@ -1,71 +1,106 @@
+#include "studies/reading/axis_reading.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "studies/reading/spelling.hpp"
-#include "studies/reading/study_reading.hpp"
 
 namespace frahm::studies {
-namespace {
-
-constexpr std::int64_t most_points = 1'000'000;  // on one axis
-constexpr double most_grid_points = 1e12;        // ages of computing, and far from overflow
-
-const std::vector<std::string> axis_keys{"parameter", "unit",    "from",   "to",
-                                         "points",    "spacing", "values", "zip"};
-
-std::size_t read_axis_parameter(const TomlSection& section, const Study& study) {
-  const std::string name = section.text("parameter");
+std::optional<AxisProblem> axis_problem(const Study& study, const std::string& name) {
   const auto index = study.parameters.find(name);
   if (!index) {
-    section.fail(rules::unknown_name, "parameter", "no parameter is called \"{}\"{}", name,
-                 suggestion(name, study.parameters.names()));
+    return AxisProblem{rules::unknown_name, fmt::format("no parameter is called \"{}\"{}", name,
+                                                        suggestion(name, study.parameters.names()))};
   }
   if (!study.parameters.list[*index].is_number()) {
-    section.fail(rules::computed_parameter, "parameter",
-                 "\"{}\" is computed from other parameters; an axis needs one that is a "
-                 "number",
-                 name);
+    return AxisProblem{
+        rules::computed_parameter,
+        fmt::format("\"{}\" is computed from other parameters; an axis needs one that is a number", name)};
   }
   for (const ParameterAxis& other : study.sweep()->axes) {
     if (other.parameter != *index) continue;
-    section.fail(rules::given_twice, "parameter", "\"{}\" has an axis already (line {})", name,
-                 other.position.line);
+    return AxisProblem{rules::given_twice,
+                       fmt::format("\"{}\" has an axis already (line {})", name, other.position.line)};
   }
-  return *index;
+  return std::nullopt;
 }
 
-// Without a unit the values are SI, like every bare number. This is refused if the parameter itself is given
-// in another unit, because it is easily overlooked.
-void read_axis_unit(const StudyContext& context, const TomlSection& section, Parameter& parameter,
-                    ParameterAxis& axis) {
-  if (context.dimensionless) {
-    axis.unit = si_unit(Quantity::number);
-    if (const TomlValue* unit = section.find("unit")) read_unit(context, section.where(), *unit);
-    return;
-  }
-  if (const TomlValue* value = section.find("unit")) {
-    const auto unit = read_unit(context, section.where(), *value);
-    try {
-      axis.si_factor = si_factor(parameter, *unit);
-    } catch (const UnitError& error) {
-      section.fail(error.rule(), "unit", "{}", error.what());
-    }
+std::size_t read_axis_parameter(const TomlSection& section, const Study& study) {
+  const std::string name = section.text("parameter");
+  if (const auto problem = axis_problem(study, name))
+    section.fail(problem->rule, "parameter", "{}", problem->text);
+  return *study.parameters.find(name);
+}
+
+void set_axis_unit(const std::optional<Unit>& unit, Parameter& parameter, ParameterAxis& axis) {
+  if (unit) {
+    axis.si_factor = si_factor(parameter, *unit);
     axis.unit = unit->text;
     parameter.unit_of_range = unit;
   } else if (parameter.unit) {
     if (si_factor(parameter, *parameter.unit) != 1.0) {
-      section.fail_here(rules::missing_unit,
-                        "the parameter is given in \"{0}\" and its axis in no unit; add unit = \"{0}\" or "
-                        "another",
-                        parameter.unit->text);
+      throw UnitError(rules::missing_unit,
+                      fmt::format("the parameter is given in \"{0}\" and its axis in no unit; add unit = "
+                                  "\"{0}\" or another",
+                                  parameter.unit->text));
     }
     axis.unit = parameter.unit->text;
   } else if (parameter.quantity) {
     axis.unit = si_unit(*parameter.quantity);
   }
 }
+
+void read_axis_unit(const StudyContext& context, const TomlSection& section, Parameter& parameter,
+                    ParameterAxis& axis) {
+  const TomlValue* value = section.find("unit");
+  std::optional<Unit> unit;
+  if (value) unit = read_unit(context, section.where(), *value);
+  if (context.dimensionless) {
+    axis.unit = si_unit(Quantity::number);
+    return;
+  }
+  try {
+    set_axis_unit(unit, parameter, axis);
+  } catch (const UnitError& error) {
+    if (!value) section.fail_here(error.rule(), "{}", error.what());
+    section.fail(error.rule(), "unit", "{}", error.what());
+  }
+}
+
+void convert_axis(const TomlSection& section, ParameterAxis& axis) {
+  for (const double value : axis.values) {
+    axis.si_values.push_back(value * axis.si_factor);
+    if (!std::isfinite(axis.si_values.back()))
+      section.fail_here(rules::not_finite, "{} is out of range in SI units", value);
+  }
+}
+
+void add_to_grid(const TomlSection& section, std::size_t index, Study& study) {
+  const ParameterAxis& axis = study.sweep()->axes[index];
+  for (GridDimension& dimension : study.sweep()->dimensions) {
+    const ParameterAxis& other = study.sweep()->axes[dimension.axes.front()];
+    if (axis.zip.empty() || other.zip != axis.zip) continue;
+    if (axis.values.size() != dimension.size) {
+      section.fail(rules::wrong_length, "zip",
+                   "{} values cannot advance together with the {} of axis \"{}\" (line {})",
+                   axis.values.size(), dimension.size, study.parameters.list[other.parameter].name,
+                   other.position.line);
+    }
+    dimension.axes.push_back(index);
+    return;
+  }
+  const std::string& name = axis.zip.empty() ? study.parameters.list[axis.parameter].name : axis.zip;
+  study.sweep()->dimensions.push_back({name, {index}, axis.values.size()});
+}
+
+namespace {
+
+constexpr double most_grid_points = 1e12;  // ages of computing, and far from overflow
+
+const std::vector<std::string> axis_keys{"parameter", "unit",    "from",   "to",
+                                         "points",    "spacing", "values", "zip"};
 
 // n values from a to b, both exactly; equal steps or equal ratios.
 std::vector<double> spaced(double from, double to, std::size_t points, bool logarithmic) {
@@ -83,9 +118,9 @@ std::vector<double> read_range(const TomlSection& section) {
   const double to = section.number("to");
   section.require("points");
   const std::int64_t points = section.integer_or("points", 0);
-  if (points < 1 || points > most_points) {
+  if (points < 1 || points > most_axis_points) {
     section.fail(rules::out_of_range, "points", "{} is out of range: a whole number from 2 to {}", points,
-                 most_points);
+                 most_axis_points);
   }
   if (points == 1)
     section.fail(rules::out_of_range, "points",
@@ -132,34 +167,6 @@ void check_values_differ(const TomlSection& section, const ParameterAxis& axis) 
   }
 }
 
-void convert_axis(const TomlSection& section, ParameterAxis& axis) {
-  for (const double value : axis.values) {
-    axis.si_values.push_back(value * axis.si_factor);
-    if (!std::isfinite(axis.si_values.back()))
-      section.fail_here(rules::not_finite, "{} is out of range in SI units", value);
-  }
-}
-
-// Adds the axis to the dimension of its zip, or as a new dimension.
-void add_to_grid(const TomlSection& section, Study& study) {
-  const ParameterAxis& axis = study.sweep()->axes.back();
-  const std::size_t index = study.sweep()->axes.size() - 1;
-  for (GridDimension& dimension : study.sweep()->dimensions) {
-    const ParameterAxis& other = study.sweep()->axes[dimension.axes.front()];
-    if (axis.zip.empty() || other.zip != axis.zip) continue;
-    if (axis.values.size() != dimension.size) {
-      section.fail(rules::wrong_length, "zip",
-                   "{} values cannot advance together with the {} of axis \"{}\" (line {})",
-                   axis.values.size(), dimension.size, study.parameters.list[other.parameter].name,
-                   other.position.line);
-    }
-    dimension.axes.push_back(index);
-    return;
-  }
-  const std::string& name = axis.zip.empty() ? study.parameters.list[axis.parameter].name : axis.zip;
-  study.sweep()->dimensions.push_back({name, {index}, axis.values.size()});
-}
-
 void read_axis(const StudyContext& context, const TomlValue& table, std::size_t number, Study& study) {
   const TomlSection section(context.source, table, label(table, "axis", "parameter", "axis", number),
                             axis_keys);
@@ -179,7 +186,7 @@ void read_axis(const StudyContext& context, const TomlValue& table, std::size_t 
   convert_axis(section, axis);
   check_values_differ(section, axis);
   study.sweep()->axes.push_back(std::move(axis));
-  add_to_grid(section, study);
+  add_to_grid(section, study.sweep()->axes.size() - 1, study);
 }
 
 // Dimensions, axes and coordinates share the names of the record.
@@ -197,12 +204,18 @@ void check_zip_names(const StudyContext& context, const Study& study) {
 
 }  // namespace
 
-void read_axes(const StudyContext& context, const TomlValue& root, Study& study) {
+void read_axes(const StudyContext& context, const TomlValue& root, const std::filesystem::path& folder,
+               DataFiles data, Study& study) {
   const auto tables = read_tables(context.source, root, "axis");
   if (tables.empty())
     throw context.source.error_at(rules::missing_section, root.position,
                                   "the study has no [[axis]]: a sweep needs one");
-  for (std::size_t i = 0; i < tables.size(); ++i) read_axis(context, *tables[i], i + 1, study);
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    if (is_axis_of_samples(*tables[i]))
+      read_axis_of_samples(context, *tables[i], i + 1, folder, data, study);
+    else
+      read_axis(context, *tables[i], i + 1, study);
+  }
   check_zip_names(context, study);
   double points = 1.0;
   for (const GridDimension& dimension : study.sweep()->dimensions)

@@ -17,6 +17,10 @@ const std::string& name_of(const Study& study, const ParameterAxis& axis) {
 
 // Refuses an axis along which nothing can be followed. where: of `along`, or of `branches`.
 void check_axis(const TomlSection& section, const char* key, const Study& study, const ParameterAxis& axis) {
+  const auto& samples = study.sweep()->samples;
+  if (samples && axis.zip == study.sweep()->dimensions[samples->dimension].name)
+    section.fail(rules::unfit_axis, key, "a branch goes along a range, but \"{}\" has samples, in no order",
+                 name_of(study, axis));
   if (!axis.zip.empty())
     section.fail(rules::unfit_axis, key,
                  "a branch goes along one parameter, but \"{}\" advances with the others of \"{}\"",

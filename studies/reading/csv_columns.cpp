@@ -24,35 +24,6 @@ std::string called(const CsvReading& reading, std::size_t column) {
   return fmt::format("column {} \"{}\"", column + 1, reading.header[column]);
 }
 
-const char* separator_name(char separator) {
-  switch (separator) {
-    case '\t':
-      return "tabs";
-    case ';':
-      return "semicolons";
-    case ',':
-      return "commas";
-  }
-  return "nothing";
-}
-
-// All rows have as many cells and are separated alike: else a decimal comma may have cut a number in two.
-void check_even(const CsvReading& reading) {
-  const CsvRow& first = reading.rows.front();
-  for (const CsvRow& row : reading.rows) {
-    const bool alike = row.separator == first.separator;
-    if (alike && row.cells.size() == first.cells.size()) continue;
-    const std::string hint = row.separator == ',' ? ", and decimals are written with a point" : "";
-    const std::string place = fmt::format("{}:{}", reading.result.file, row.line);
-    if (alike)
-      reading.fail_at_file(rules::wrong_length, "{}: {} cells, but {} in line {}; all rows have as many{}",
-                           place, row.cells.size(), first.cells.size(), first.line, hint);
-    reading.fail_at_file(rules::wrong_row,
-                         "{}: separated by {}, but line {} by {}; all rows are separated alike{}", place,
-                         separator_name(row.separator), first.line, separator_name(first.separator), hint);
-  }
-}
-
 void take_header(CsvReading& reading) {
   if (!is_header(reading.rows.front())) return;
   reading.header = reading.rows.front().cells;
@@ -204,11 +175,11 @@ RawColumn numbers_of(const CsvReading& reading, const Role& role, std::size_t in
 RawRecord read_columns_of(CsvReading reading, const std::filesystem::path& path) {
   try {
     reading.rows = read_csv(path, reading.result.file);
+    if (!reading.rows.empty()) check_even(reading.rows, reading.result.file);
   } catch (const StudyError& error) {
     reading.fail_at_file(error.rule(), "{}", error.what());
   }
   if (reading.rows.empty()) reading.fail_at_file(rules::too_few, "{}: has no rows", reading.result.file);
-  check_even(reading);
   take_header(reading);
   std::vector<WantedColumn> wanted = read_wanted(reading.record, reading.forms);
   const bool by_header = wanted.empty();

@@ -56,6 +56,18 @@ bool is_decimal_comma(std::string_view cell) {
   return with_point != cell && cell_number(with_point);
 }
 
+const char* separator_name(char separator) {
+  switch (separator) {
+    case '\t':
+      return "tabs";
+    case ';':
+      return "semicolons";
+    case ',':
+      return "commas";
+  }
+  return "nothing";
+}
+
 }  // namespace
 
 std::vector<CsvRow> read_csv(const std::filesystem::path& path, const std::string& name) {
@@ -75,6 +87,21 @@ std::vector<CsvRow> read_csv(const std::filesystem::path& path, const std::strin
     rows.push_back({number, separator, split(separator == '\t' ? line : content, separator)});
   }
   return rows;
+}
+
+void check_even(const std::vector<CsvRow>& rows, const std::string& name) {
+  const CsvRow& first = rows.front();
+  for (const CsvRow& row : rows) {
+    const bool alike = row.separator == first.separator;
+    if (alike && row.cells.size() == first.cells.size()) continue;
+    const std::string hint = row.separator == ',' ? ", and decimals are written with a point" : "";
+    if (alike)
+      throw StudyError(rules::wrong_length, "{}:{}: {} cells, but {} in line {}; all rows have as many{}",
+                       name, row.line, row.cells.size(), first.cells.size(), first.line, hint);
+    throw StudyError(
+        rules::wrong_row, "{}:{}: separated by {}, but line {} by {}; all rows are separated alike{}", name,
+        row.line, separator_name(row.separator), first.line, separator_name(first.separator), hint);
+  }
 }
 
 bool is_header(const CsvRow& row) {

@@ -3,96 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "results/map_reader.hpp"
-#include "results/store_error.hpp"
-#include "solvers/algebra/no_value.hpp"
+#include "studies/reading/earlier_estimates.hpp"
 #include "studies/reading/identify_reading.hpp"
-#include "studies/reading/readable_file.hpp"
 #include "studies/reading/spelling.hpp"
 
 namespace frahm::studies {
 namespace {
-
-const std::string covariance_ending = "_covariance";
-
-// The estimates of a result file that have a covariance, and that covariance in the same order.
-struct EarlierEstimates {
-  std::string file;  // as the study names it
-  std::vector<std::string> names, units;
-  std::vector<double> values, degrees_of_freedom;
-  std::vector<std::vector<double>> covariance;
-};
-
-using Columns = std::vector<results::Column>;
-
-const results::Column* find_number(const Columns& columns, const std::string& name) {
-  const auto found = std::find_if(columns.begin(), columns.end(), [&](const results::Column& column) {
-    return column.variable.name == name && column.dimension.empty() && column.values.size() == 1;
-  });
-  return found == columns.end() ? nullptr : &*found;
-}
-
-// The estimates are in the order of the rows of the covariance matrix.
-EarlierEstimates estimates_among(const Columns& columns, const std::string& file) {
-  EarlierEstimates earlier;
-  earlier.file = file;
-  for (const results::Column& row : columns) {
-    const std::string& name = row.variable.name;
-    if (row.dimension.empty() || !name.ends_with(covariance_ending)) continue;
-    const std::string of = name.substr(0, name.size() - covariance_ending.size());
-    const results::Column* number = find_number(columns, of);
-    if (!number) continue;
-    earlier.names.push_back(of);
-    earlier.units.push_back(number->variable.unit);
-    earlier.values.push_back(number->values.front());
-    const results::Column* freedom = find_number(columns, of + "_degrees_of_freedom");
-    earlier.degrees_of_freedom.push_back(freedom ? freedom->values.front() : kInfinity);
-    earlier.covariance.push_back(row.values);
-  }
-  return earlier;
-}
-
-EarlierEstimates read_earlier(const std::filesystem::path& path, const std::string& file) {
-  EarlierEstimates earlier;
-  check_readable(path, file);
-  try {
-    const results::MapReader reader(path);
-    if (!reader.has_group(identification_group))
-      throw StudyError(rules::wrong_file, "{}: is the result of no identification", file);
-    const Columns columns = reader.columns(identification_group);
-    const results::Column* outcome = find_number(columns, "outcome");
-    if (outcome && outcome->values.front() != converged_outcome)
-      throw StudyError(rules::wrong_file, "{}: its fit did not converge, and fixes nothing", file);
-    earlier = estimates_among(columns, file);
-  } catch (const results::StoreError& error) {
-    throw StudyError(rules::wrong_file, "{}", error.what());
-  }
-  for (const auto& row : earlier.covariance) {
-    if (row.size() != earlier.names.size())
-      throw StudyError(rules::wrong_file,
-                       "{}: a row of its covariance has {} numbers, but it has {} estimates", file,
-                       row.size(), earlier.names.size());
-  }
-  return earlier;
-}
-
-// The unit of an estimate is the SI one of its parameter, where that is known.
-void check_unit(const IdentifyReading& reading, const EarlierEstimates& earlier, std::size_t i,
-                const Parameter& parameter) {
-  const std::string& unit = earlier.units[i];
-  const auto fail = [&](Rule rule, const std::string& problem) {
-    throw StudyError(rule, "{}: the estimate \"{}\": {}", earlier.file, earlier.names[i], problem);
-  };
-  if (unit.empty() || unit == "1") return;
-  if (reading.study.dimensionless)
-    fail(rules::unit_in_dimensionless,
-         fmt::format("its unit \"{}\" has no meaning in a dimensionless study", unit));
-  try {
-    if (parameter.quantity) si_factor(reading.context.units.parse(unit), *parameter.quantity);
-  } catch (const UnitError& error) {
-    fail(error.rule(), fmt::format("{}; the parameter is used as {}", error.what(), parameter.used_as));
-  }
-}
 
 bool is_fitted(const IdentifyChoice& choice, std::size_t parameter) {
   return std::any_of(choice.parameters.begin(), choice.parameters.end(),
@@ -129,7 +45,7 @@ std::vector<Taken> taken_from(const IdentifyReading& reading, const EarlierEstim
   for (std::size_t i = 0; i < earlier.names.size(); ++i) {
     const auto index = parameters.find(earlier.names[i]);
     if (!index || !parameters.list[*index].is_number() || is_fitted(reading.choice, *index)) continue;
-    check_unit(reading, earlier, i, parameters.list[*index]);
+    check_unit(reading.context, earlier, i, parameters.list[*index]);
     check_free_to_fix(reading, earlier, i, *index);
     taken.push_back({i, *index});
   }

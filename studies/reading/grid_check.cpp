@@ -57,6 +57,25 @@ std::vector<Checked> all_checked(const Study& study) {
   return all;
 }
 
+bool depends_on_samples(const Study& study, std::span<const std::size_t> reads) {
+  const auto moving = dimensions_moving(study, reads);
+  return std::ranges::find(moving, study.sweep()->samples->dimension) != moving.end();
+}
+
+// The number of the sample, from 0, whose parameters these are; nothing if they are of none.
+std::optional<std::size_t> sample_at(const Study& study, std::span<const double> parameters) {
+  if (!study.sweep() || !study.sweep()->samples) return std::nullopt;
+  const std::vector<ParameterAxis>& axes = study.sweep()->axes;
+  const SampleChoice& samples = *study.sweep()->samples;
+  for (std::size_t i = 0; i < study.sweep()->dimensions[samples.dimension].size; ++i) {
+    if (std::ranges::all_of(samples.axes, [&](std::size_t a) {
+          return axes[a].si_values[i] == parameters[axes[a].parameter];
+        }))
+      return i;
+  }
+  return std::nullopt;
+}
+
 // " at omega = 400 rpm, I = 6.36 kg": the numbers on which it depends.
 std::string place_name(const Study& study, const Checked& checked, std::span<const double> parameters) {
   std::string text;
@@ -66,6 +85,8 @@ std::string place_name(const Study& study, const Checked& checked, std::span<con
     text += fmt::format("{} {} = {:.6g}{}{}", text.empty() ? " at" : ",", study.parameters.list[i].name,
                         parameters[i] / unit.si_factor, shown ? " " : "", shown ? unit.text : "");
   }
+  if (const auto sample = sample_at(study, parameters); sample && depends_on_samples(study, checked.reads))
+    text += fmt::format(", sample {}", *sample);
   if (!checked.origin.empty()) text += fmt::format(" ({})", checked.origin);
   return text;
 }
@@ -130,7 +151,8 @@ void check(const Study& study, const Checked& checked, std::span<double> paramet
   }
 }
 
-// Walks over the product of the dimensions along which `reads` change, all points or only the corners.
+// Walks over the product of the dimensions along which `reads` change, all points, or of those that are too
+// many only the corners: of samples, which have none, every one.
 // visit(): at each point, with `parameters` set there but not completed.
 template <class Visit>
 void walk(const Study& study, std::span<const std::size_t> reads, std::vector<double>& parameters,
@@ -149,9 +171,11 @@ void walk(const Study& study, std::span<const std::size_t> reads, std::vector<do
     visit();
     // The next index, like the digits of a counter.
     for (turned = 0; turned < moving.size(); ++turned) {
+      const auto& samples = study.sweep()->samples;
+      const bool jumps = corners && !(samples && samples->dimension == moving[turned]);
       const std::size_t last = study.sweep()->dimensions[moving[turned]].size - 1;
       if (index[turned] < last) {
-        index[turned] = corners ? last : index[turned] + 1;
+        index[turned] = jumps ? last : index[turned] + 1;
         break;
       }
       index[turned] = 0;

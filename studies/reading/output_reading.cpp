@@ -52,6 +52,35 @@ void read_orbits(const StudyContext& context, const TomlSection& section, Study&
   }
 }
 
+// The shares of the quantiles over the axis of samples.
+void read_quantiles(const TomlSection& section, Study& study) {
+  const TomlValue* value = section.find("quantiles");
+  if (!value) return;
+  auto& samples = study.sweep()->samples;
+  if (!samples)
+    section.fail(rules::key_without_use, "quantiles", "has no effect: no [[axis]] is one of samples");
+  const auto* items = value->as<TomlArray>();
+  if (!items || items->empty())
+    section.fail(rules::wrong_type, "quantiles", "expected an array of shares such as [0.05, 0.5, 0.95]");
+  samples->quantiles.clear();
+  for (const TomlValue& item : *items) {
+    const double share = read_number(section.source(), section.where() + ": quantiles", item);
+    if (!(share > 0.0 && share < 1.0))
+      throw section.source().error_at(
+          rules::out_of_range, item.position,
+          "{}: quantiles: {} is no share; must be between 0 and 1, 0.5 is the median", section.where(),
+          share);
+    const bool rises =
+        samples->quantiles.empty() || (share > samples->quantiles.back() &&
+                                       quantile_name(share) != quantile_name(samples->quantiles.back()));
+    if (!rises)
+      throw section.source().error_at(rules::wrong_order, item.position,
+                                      "{}: quantiles: {} is not above {}, the one before it", section.where(),
+                                      share, samples->quantiles.back());
+    samples->quantiles.push_back(share);
+  }
+}
+
 void read_borders(const TomlSection& section, Study& study) {
   study.sweep()->output.borders = section.boolean_or("borders", false);
   if (!study.sweep()->output.borders) return;
@@ -120,6 +149,10 @@ void read_resonances(const StudyContext& context, const TomlSection& section, St
         "a resonance is sought along an axis of the excitation frequency: one that is zipped with no "
         "other and has at least 3 points");
   }
+  const auto& samples = study.sweep()->samples;
+  if (samples && samples->dimension == *dimension)
+    section.fail(rules::unfit_axis, "resonances",
+                 "a resonance is sought along an axis of the excitation frequency, not along samples of it");
   if (!frequencies_differ(study, *dimension))
     section.fail(rules::unfit_axis, "resonances",
                  "the excitation frequency must rise, or fall, all along its axis");
@@ -153,13 +186,14 @@ std::vector<OutputChoice::Name> read_quantity_names(const TomlSection& section) 
 void read_output(const StudyContext& context, const TomlValue& root, Study& study) {
   const TomlEntry* entry = find_entry(root, "output");
   if (!entry) return;
-  const TomlSection section(
-      context.source, entry->value, "[output]",
-      {"quantities", "precision", "path", "borders", "branches", "orbits", "resonances", "signal"});
+  const TomlSection section(context.source, entry->value, "[output]",
+                            {"quantities", "precision", "path", "borders", "branches", "orbits", "resonances",
+                             "quantiles", "signal"});
   read_quantities(section, study.sweep()->output);
   study.sweep()->output.general_path = section.choice_or("path", {"fastest", "general"}) == "general";
   const auto precision = std::ranges::find(precision_names, section.choice_or("precision", precision_names));
   study.sweep()->output.precision = static_cast<Precision>(precision - precision_names.begin());
+  read_quantiles(section, study);
   read_borders(section, study);
   read_orbits(context, section, study);
   read_resonances(context, section, study);

@@ -120,8 +120,11 @@ std::vector<std::size_t> read_by_matrices(const Study& study) {
 }
 
 void find_frequency_dimension(Study& study) {
-  const auto moving = dimensions_moving(study, study.values.omega.expression.reads());
+  auto moving = dimensions_moving(study, study.values.omega.expression.reads());
   if (moving.empty()) return;
+  // Samples lie in no order: a row goes along them only if it goes along nothing else.
+  const auto& samples = study.sweep()->samples;
+  if (samples && moving.size() > 1) std::erase(moving, samples->dimension);
   const auto matrices = dimensions_moving(study, read_by_matrices(study));
   const auto moves_matrices = [&](std::size_t d) {
     return std::find(matrices.begin(), matrices.end(), d) != matrices.end();
@@ -183,7 +186,7 @@ Study parse_study(std::string text, const std::filesystem::path& name, DataFiles
   if (study.kind() == StudyKind::identify) read_identification(context, root, study);
   convert_parameters(context, study.parameters);
   if (study.kind() == StudyKind::sweep) {
-    read_axes(context, root, study);
+    read_axes(context, root, name.parent_path(), data, study);
     read_coordinates(context, root, study);
     find_frequency_dimension(study);
     read_output(context, root, study);

@@ -126,8 +126,10 @@ std::string needs_one_response(const Study& study);
 periodic::OrbitsWanted read_orbits_wanted(const StudyContext& context, const TomlValue& root,
                                           const Study& study);
 
-// [[axis]], [[coordinate]], [output] and [report] into the choice of a sweep.
-void read_axes(const StudyContext& context, const TomlValue& root, Study& study);
+// [[axis]], [[coordinate]], [output] and [report] into the choice of a sweep. folder: of the axes' files.
+// data: where earlier results are left, samples of their estimates all stand at the values of the study.
+void read_axes(const StudyContext& context, const TomlValue& root, const std::filesystem::path& folder,
+               DataFiles data, Study& study);
 void read_coordinates(const StudyContext& context, const TomlValue& root, Study& study);
 void read_output(const StudyContext& context, const TomlValue& root, Study& study);
 // The key `show`: which of several responses, by default the largest; a sweep needs exact laws and an axis of

@@ -10,6 +10,7 @@
 #include "solvers/quantities/quantity.hpp"
 #include "studies/reading/parameters.hpp"
 #include "studies/reading/profile.hpp"
+#include "studies/reading/sample_choice.hpp"
 #include "studies/reading/study_source.hpp"
 #include "studies/reading/study_values.hpp"
 
@@ -92,6 +93,7 @@ struct SweepChoice {
   std::vector<ParameterAxis> axes;
   std::vector<GridDimension> dimensions;  // the first varies slowest; at least one
   std::vector<DerivedCoordinate> coordinates;
+  std::optional<SampleChoice> samples;  // of the dimension of samples, if there is one
   OutputChoice output;
   periodic::OrbitsWanted orbits;                      // of a system that may have several responses
   std::vector<OutputChoice::Name> report_quantities;  // of the report's page; empty: its default

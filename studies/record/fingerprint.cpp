@@ -278,6 +278,8 @@ void add_map(const Study& study, const SweepChoice& sweep, CanonicalText& text) 
       text.line("axis {} {}", study.parameters.list[axis.parameter].name, fmt::join(axis.si_values, " "));
     }
   }
+  if (sweep.samples)
+    text.line("samples {} {}", sweep.samples->dimension, fmt::join(sweep.samples->quantiles, " "));
   for (const auto& orbit : sweep.output.orbits) {
     for (const Assignment& at : orbit) text.line("orbit {} {}", at.parameter, at.value);
     text.line("orbit ends");

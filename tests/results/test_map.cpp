@@ -9,6 +9,7 @@
 
 #include "results/map_reader.hpp"
 #include "results/map_writer.hpp"
+#include "results/store_error.hpp"
 #include "sample.hpp"
 #include "temporary_directory.hpp"
 #include "whole_map.hpp"
@@ -146,6 +147,46 @@ TEST_CASE("a map of one axis keeps variables and derived coordinates apart") {
   CHECK(reader.layout().axes[0].coordinates[1].values == std::vector<double>{5, 10, 15});
   CHECK(same(reader.read(0, std::array<std::uint64_t, 1>{0}, std::array<std::uint64_t, 1>{3}),
              {1.0, missing, 3.0}));
+}
+
+TEST_CASE("a group may hold a map of its own, on its own axes") {
+  const TemporaryDirectory directory;
+  Axis r{.name = "r", .size = 2}, design{.name = "design", .size = 3};
+  r.coordinates = {{"r", "1", "frequency ratio", {0.5, 1.0}}};
+  design.coordinates = {{"k", "N m-1", "stiffness", {1, 2, 3}}};
+  const Variable x{.name = "x", .unit = "m", .long_name = "x"};
+  const MapLayout map{.axes = {r}, .variables = {x}, .chunk = {2}};
+  const MapLayout of_group{
+      .axes = {design, r},
+      .variables = {{.name = "x_mean", .unit = "m", .long_name = "mean"},
+                    {.name = "n", .unit = "1", .long_name = "number", .type = Type::int32}},
+      .chunk = {2, 2}};
+  {
+    MapWriter writer(directory / "map.h5", map);
+    const std::size_t number = writer.create_map("statistics", of_group);
+    MapChunk chunk(of_group);
+    for (const std::uint64_t start : {0U, 2U}) {
+      const Box box{{start, 0}, {start == 0 ? 2U : 1U, 2}};
+      chunk.begin({start, 0});
+      chunk.put(0, box, start == 0 ? std::vector<double>{1, 2, 3, missing} : std::vector<double>{5, 6});
+      writer.write_chunk(number, chunk.encoded());
+    }
+    write_whole_map(writer, map, {{7.0, 8.0}});
+    CHECK_THROWS_AS(writer.write_chunk(2, chunk.encoded()), std::invalid_argument);
+    writer.finish();
+  }
+  const MapReader root(directory / "map.h5"), group(directory / "map.h5", "statistics");
+  CHECK(root.layout().variables.size() == 1);
+  CHECK(root.read(0, std::array<std::uint64_t, 1>{0}, std::array<std::uint64_t, 1>{2}) ==
+        std::vector<double>{7.0, 8.0});
+  REQUIRE(group.layout().axes.size() == 2);
+  CHECK(group.layout().axes[0].name == "design");
+  CHECK(group.layout().axes[0].coordinates.at(0).values == std::vector<double>{1, 2, 3});
+  CHECK(group.layout().axes[1].coordinates.at(0).values == std::vector<double>{0.5, 1.0});
+  const std::array<std::uint64_t, 2> all{3, 2};
+  CHECK(same(group.read(0, origin, all), {1, 2, 3, missing, 5, 6}));
+  CHECK(group.read(1, origin, all) == std::vector<double>(6, -1));
+  CHECK_THROWS_AS(MapReader(directory / "map.h5", "tornado"), StoreError);
 }
 
 TEST_CASE("a file may hold groups only, without a map") {

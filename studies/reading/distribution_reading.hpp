@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "solvers/samples/distribution.hpp"
+#include "studies/reading/toml_section.hpp"
+
+namespace frahm::studies {
+
+// The keys of a distribution in an [[axis.of]], beside its parameter and unit.
+inline const std::vector<std::string> distribution_keys{"distribution", "mean",      "median", "mode",
+                                                        "deviation",    "variation", "lower",  "upper"};
+
+struct ReadDistribution {
+  samples::Distribution distribution;  // in the unit of the section
+  std::string told;                    // for readers, without the unit: "normal, mean 5, deviation 0.5"
+};
+
+// distribution = "normal" with mean and deviation, or variation (deviation over mean); "lognormal" with mean
+// or median, and deviation or variation; both with lower and upper, where they are cut off, if they are;
+// "uniform" with lower and upper; "triangular" with lower, mode and upper.
+ReadDistribution read_distribution(const TomlSection& section);
+
+}  // namespace frahm::studies
