@@ -15,7 +15,7 @@ void erase_at(std::vector<Value>& values, std::size_t index) {
 }  // namespace
 
 Grid grid_beside_samples(const MapPlan& plan) {
-  const std::size_t samples = plan.study.sweep()->samples->dimension;
+  const std::size_t samples = plan.study.map()->samples->dimension;
   Grid grid = plan.grid;
   for (auto* sizes : {&grid.shape, &grid.tile, &grid.chunk}) erase_at(*sizes, samples);
   std::erase(grid.order, samples);
@@ -28,8 +28,8 @@ Grid grid_beside_samples(const MapPlan& plan) {
 results::MapLayout layout_beside_samples(const MapPlan& plan, const results::MapLayout& map,
                                          std::vector<results::Variable> variables) {
   results::MapLayout layout{.axes = map.axes, .variables = std::move(variables), .chunk = map.chunk};
-  erase_at(layout.axes, plan.study.sweep()->samples->dimension);
-  erase_at(layout.chunk, plan.study.sweep()->samples->dimension);
+  erase_at(layout.axes, plan.study.map()->samples->dimension);
+  erase_at(layout.chunk, plan.study.map()->samples->dimension);
   return layout;
 }
 

@@ -77,7 +77,7 @@ void BorderSearch::find(const MapBox& tile, std::span<const std::span<const doub
 
 // Samples lie in no order.
 bool BorderSearch::has_neighbours(std::size_t dimension) const {
-  const auto& samples = study_.sweep()->samples;
+  const auto& samples = study_.map()->samples;
   return !samples || samples->dimension != dimension;
 }
 
@@ -178,8 +178,8 @@ std::vector<RegimeCrossing> BorderSearch::crossings_on_edge(const Index& lower, 
 RegimePoint BorderSearch::point_on_edge(const Index& lower, std::size_t dimension, std::size_t element,
                                         double at) {
   for (std::size_t d = 0; d < lower.size(); ++d) set_along(*study_.sweep(), d, lower[d], parameters_);
-  for (const std::size_t a : study_.sweep()->dimensions[dimension].axes) {
-    const ParameterAxis& axis = study_.sweep()->axes[a];
+  for (const std::size_t a : study_.map()->dimensions[dimension].axes) {
+    const ParameterAxis& axis = study_.map()->axes[a];
     parameters_[axis.parameter] =
         std::lerp(axis.si_values[lower[dimension]], axis.si_values[lower[dimension] + 1], at);
   }

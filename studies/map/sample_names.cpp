@@ -9,8 +9,8 @@
 namespace frahm::studies {
 
 void check_sample_names(const MapPlan& plan) {
-  const SweepChoice& sweep = *plan.study.sweep();
-  if (!sweep.samples) return;
+  const MapChoice& map = *plan.study.map();
+  if (!map.samples) return;
   std::set<std::string> needed{statistics_group, tornado_group};
   for (const auto& variables : {statistics_variables(plan), tornado_variables(plan)}) {
     for (const results::Variable& variable : variables) needed.insert(variable.name);
@@ -21,11 +21,11 @@ void check_sample_names(const MapPlan& plan) {
           rules::name_taken, position,
           "\"{}\" is a name in the statistics of the samples, in the same file; rename it", name);
   };
-  for (const GridDimension& dimension : sweep.dimensions)
-    check(dimension.name, sweep.axes[dimension.axes.front()].position);
-  for (const ParameterAxis& axis : sweep.axes)
+  for (const GridDimension& dimension : map.dimensions)
+    check(dimension.name, map.axes[dimension.axes.front()].position);
+  for (const ParameterAxis& axis : map.axes)
     check(plan.study.parameters.list[axis.parameter].name, axis.position);
-  for (const DerivedCoordinate& coordinate : sweep.coordinates)
+  for (const DerivedCoordinate& coordinate : map.coordinates)
     check(coordinate.name, coordinate.value.position);
 }
 

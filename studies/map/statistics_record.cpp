@@ -42,10 +42,10 @@ class StatisticsMaking {
         index_(index),
         reader_(reader),
         group_(group),
-        along_(plan.study.sweep()->samples->dimension),
+        along_(plan.study.map()->samples->dimension),
         samples_(plan.grid.shape[along_]),
         variables_(described_variables(plan)),
-        scatter_(plan.study.sweep()->samples->quantiles) {}
+        scatter_(plan.study.map()->samples->quantiles) {}
 
   std::function<void()> make(std::uint64_t number) {
     const MapBox box = beside_.chunk_box(number);
@@ -64,7 +64,7 @@ class StatisticsMaking {
   void take(const MapBox& column, GroupBesideSamples::Chunk& chunk) {
     const std::size_t points = column.points(), slots = points * variables_.size();
     const std::size_t together = std::clamp<std::size_t>(most_values / samples_, 1, slots);
-    const std::size_t each = 5 + 3 * plan_.study.sweep()->samples->quantiles.size();
+    const std::size_t each = 5 + 3 * plan_.study.map()->samples->quantiles.size();
     table_.assign(each * slots, kNone);
     for (std::size_t first = 0; first < slots; first += together) {
       const std::size_t last = std::min(slots, first + together);
@@ -143,7 +143,7 @@ std::vector<results::Variable> statistics_variables(const MapPlan& plan) {
     add("_mean_low", low + "mean");
     add("_mean_high", high + "mean");
     add("_deviation", "standard deviation");
-    for (const double share : plan.study.sweep()->samples->quantiles) {
+    for (const double share : plan.study.map()->samples->quantiles) {
       const std::string suffix = "_" + quantile_name(share),
                         quantile = fmt::format("{:.6g} % quantile", 100 * share);
       add(suffix, quantile);
@@ -160,7 +160,7 @@ std::vector<results::Variable> statistics_variables(const MapPlan& plan) {
 
 void write_statistics(const MapPlan& plan, const results::MapLayout& map, const engine::TileIndex& index,
                       const AssemblyOptions& options, results::MapWriter& writer) {
-  if (!plan.study.sweep()->samples) return;
+  if (!plan.study.map()->samples) return;
   std::vector<results::Variable> variables = statistics_variables(plan);
   if (variables.empty()) return;
   GroupBesideSamples group(writer, statistics_group, layout_beside_samples(plan, map, std::move(variables)));

@@ -79,7 +79,7 @@ class TornadoMaking {
     const std::size_t n = uncertain_.parameters.size();
     row_.assign((2 + 2 * n) * quantities_.size(), kNone);
     for (std::size_t d = 0; d < index.size(); ++d)
-      set_along(*study.sweep(), d < study.sweep()->samples->dimension ? d : d + 1, index[d], parameters_);
+      set_along(*study.sweep(), d < study.map()->samples->dimension ? d : d + 1, index[d], parameters_);
     for (std::size_t p = 0; p < n; ++p)
       parameters_[uncertain_.parameters[p]] = uncertain_.mean(static_cast<Eigen::Index>(p));
     evaluate(study.values, study.parameters, parameters_, values_);
@@ -168,7 +168,7 @@ std::vector<results::Variable> tornado_variables(const MapPlan& plan) {
 
 void write_tornado(const MapPlan& plan, const results::MapLayout& map, const AssemblyOptions& options,
                    results::MapWriter& writer) {
-  if (!plan.study.sweep()->samples) return;
+  if (!plan.study.map()->samples) return;
   std::vector<results::Variable> variables = tornado_variables(plan);
   if (variables.empty()) return;
   GroupBesideSamples group(writer, tornado_group, layout_beside_samples(plan, map, std::move(variables)));

@@ -16,6 +16,7 @@
 #include "studies/map/first_modes.hpp"
 #include "studies/map/map_plan.hpp"
 #include "studies/map/map_sample.hpp"
+#include "studies/map/map_summary.hpp"
 #include "studies/motion/motion_record.hpp"
 #include "studies/program/array_job.hpp"
 #include "studies/program/branch_cost.hpp"
@@ -39,14 +40,15 @@ std::string readable_size(double bytes) {
 
 void print_grid(const Study& study, const Grid& grid, std::ostream& out) {
   fmt::print(out, "points  {} = ", grid.points());
-  for (std::size_t d = 0; d < study.sweep()->dimensions.size(); ++d) {
-    fmt::print(out, "{}{} {}", d == 0 ? "" : " x ", grid.shape[d], study.sweep()->dimensions[d].name);
+  for (std::size_t d = 0; d < study.map()->dimensions.size(); ++d) {
+    fmt::print(out, "{}{} {}", d == 0 ? "" : " x ", grid.shape[d], study.map()->dimensions[d].name);
   }
   fmt::print(out, "\ntiles   {} of {} points\n", grid.tiles(), grid.box(0).points());
 }
 
 // A thread computes whole tiles, so that some threads may wait for the last.
-void print_prediction(const Grid& grid, const MapSample& sample, int wanted_threads, std::ostream& out) {
+void print_prediction(const Study& study, const Grid& grid, const MapSample& sample, int wanted_threads,
+                      std::ostream& out) {
   const double share = static_cast<double>(grid.points()) / static_cast<double>(sample.points);
   const int threads = engine::team_size(wanted_threads, grid.tiles());
   const std::uint64_t turns =
@@ -54,15 +56,16 @@ void print_prediction(const Grid& grid, const MapSample& sample, int wanted_thre
   const double seconds =
       sample.seconds * share * static_cast<double>(turns) / static_cast<double>(grid.tiles());
   const double rate = static_cast<double>(sample.points) / sample.seconds;
-  fmt::print(out, "time    {} on {} thread{} of this machine ({:.3g} orbits/s on one, from {} points)\n",
+  fmt::print(out, "time    {} on {} thread{} of this machine ({:.3g} {}/s on one, from {} points)\n",
              seconds < 1.0 ? "less than a second" : "about " + engine::readable_time(seconds), threads,
-             threads == 1 ? "" : "s", rate, sample.points);
+             threads == 1 ? "" : "s", rate, answers_noun(study), sample.points);
   fmt::print(out, "file    about {} ({} before compression)\n",
              readable_size(static_cast<double>(sample.stored_bytes) * share),
              readable_size(static_cast<double>(sample.raw_bytes) * share));
   if (sample.failed > 0) {
-    fmt::print(out, "without a response: {} of the {} points tried, the first at {}: {}\n", sample.failed,
-               sample.points, sample.failed_at, sample.reason);
+    fmt::print(out, "without {}: {} of the {} points tried, the first at {}: {}\n",
+               study.transient() ? "a motion" : "a response", sample.failed, sample.points, sample.failed_at,
+               sample.reason);
   }
 }
 
@@ -170,13 +173,13 @@ int check_command(const CheckOptions& options, std::ostream& out) {
   constexpr double sample_seconds = 1.0;
   const auto start = Clock::now();
   Study read = read_study_with(options.study, options.set);
-  if (options.simulate_ranks > 0 && read.kind() != StudyKind::sweep)
+  if (options.simulate_ranks > 0 && !read.map())
     throw StudyError(rules::other_kind, "{}",
                      options.study.string() + ": --simulate-ranks is for maps; this study is " +
                          std::string(kind_noun(read.kind())));
   if (read.kind() == StudyKind::tune) return check_tuning(options, std::move(read), out);
   if (read.identify()) return check_identification(options, std::move(read), out);
-  if (read.kind() != StudyKind::sweep) return check_motion(read, options.listing(), out);
+  if (!read.map()) return check_motion(read, options.listing(), out);
   const MapPlan plan = plan_map(std::move(read), options.set);
   const double start_seconds = std::chrono::duration<double>(Clock::now() - start).count();
   const Study& study = plan.study;
@@ -186,15 +189,16 @@ int check_command(const CheckOptions& options, std::ostream& out) {
 
   const bool has_none = sample.failed == sample.points;
   if (has_none) {
-    fmt::print(out, "{} can be read, but none of the points tried has a response\n\n", study.source.name);
+    fmt::print(out, "{} can be read, but none of the points tried has {}\n\n", study.source.name,
+               study.transient() ? "a motion" : "a response");
   } else {
     fmt::print(out, "{} is a valid study{}{}\n\n", study.source.name, study.title.empty() ? "" : ": ",
                study.title);
   }
   print_grid(study, plan.grid, out);
   print_samples(study, out);
-  print_prediction(plan.grid, sample, options.threads, out);
-  print_branch_cost(plan, options.threads, out);
+  print_prediction(study, plan.grid, sample, options.threads, out);
+  if (study.sweep()) print_branch_cost(plan, options.threads, out);
   print_array(options, plan, "map", core_seconds, out);
   if (options.simulate_ranks > 0) {
     print_rank_table(plan.grid, sample, options.simulate_ranks, std::max(1, options.threads), start_seconds,

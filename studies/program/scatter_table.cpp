@@ -78,10 +78,10 @@ void print_shares(const MapPlan& plan, const results::MapReader& tornado, const 
     std::string name;
     double by, share;
   };
-  const SweepChoice& sweep = *plan.study.sweep();
+  const MapChoice& map = *plan.study.map();
   std::vector<Bar> bars;
-  for (const std::size_t axis : sweep.samples->axes) {
-    const std::string& name = plan.study.parameters.list[sweep.axes[axis].parameter].name;
+  for (const std::size_t axis : map.samples->axes) {
+    const std::string& name = plan.study.parameters.list[map.axes[axis].parameter].name;
     bars.push_back({name, value_at(tornado, of + "_by_" + name, index),
                     value_at(tornado, of + "_share_" + name, index)});
     if (std::isnan(bars.back().by)) return;  // no derivative there
@@ -96,21 +96,21 @@ void print_shares(const MapPlan& plan, const results::MapReader& tornado, const 
 }  // namespace
 
 void print_samples(const Study& study, std::ostream& out) {
-  const SweepChoice* sweep = study.sweep();
-  if (!sweep || !sweep->samples) return;
-  fmt::print(out, "samples {}\n", sweep->samples->drawn);
-  for (std::size_t p = 0; p < sweep->samples->axes.size(); ++p) {
-    const ParameterAxis& axis = sweep->axes[sweep->samples->axes[p]];
+  const MapChoice* map = study.map();
+  if (!map || !map->samples) return;
+  fmt::print(out, "samples {}\n", map->samples->drawn);
+  for (std::size_t p = 0; p < map->samples->axes.size(); ++p) {
+    const ParameterAxis& axis = map->axes[map->samples->axes[p]];
     const Eigen::Map<const Eigen::VectorXd> values(axis.values.data(),
                                                    static_cast<Eigen::Index>(axis.values.size()));
     fmt::print(out, "  {:<16} {}; sampled mean {:.6g}, deviation {:.6g}\n",
-               study.parameters.list[axis.parameter].name, sweep->samples->told[p], samples::means(values)(0),
+               study.parameters.list[axis.parameter].name, map->samples->told[p], samples::means(values)(0),
                std::sqrt(samples::covariance(values)(0, 0)));
   }
 }
 
 void print_scatter(const MapPlan& plan, const std::filesystem::path& file, std::ostream& out) {
-  const auto& samples = plan.study.sweep()->samples;
+  const auto& samples = plan.study.map()->samples;
   if (!samples) return;
   const results::MapReader map(file);
   if (!map.has_group(statistics_group)) return;

@@ -17,8 +17,8 @@ const std::string& name_of(const Study& study, const ParameterAxis& axis) {
 
 // Refuses an axis along which nothing can be followed. where: of `along`, or of `branches`.
 void check_axis(const TomlSection& section, const char* key, const Study& study, const ParameterAxis& axis) {
-  const auto& samples = study.sweep()->samples;
-  if (samples && axis.zip == study.sweep()->dimensions[samples->dimension].name)
+  const auto& samples = study.map()->samples;
+  if (samples && axis.zip == study.map()->dimensions[samples->dimension].name)
     section.fail(rules::unfit_axis, key, "a branch goes along a range, but \"{}\" has samples, in no order",
                  name_of(study, axis));
   if (!axis.zip.empty())
@@ -37,7 +37,7 @@ std::size_t innermost_axis(const SweepChoice& sweep) {
 }
 
 std::size_t axis_called(const TomlSection& section, const Study& study, const std::string& name) {
-  const auto& axes = study.sweep()->axes;
+  const auto& axes = study.map()->axes;
   const auto found =
       std::ranges::find_if(axes, [&](const ParameterAxis& axis) { return name_of(study, axis) == name; });
   if (found != axes.end()) return static_cast<std::size_t>(found - axes.begin());
@@ -55,7 +55,7 @@ std::vector<Assignment> read_row(const StudyContext& context, const Study& study
     throw context.source.error_at(rules::wrong_type, value.position,
                                   "{}: a row is a table such as {{ f = 0.1 }}, found {}", where,
                                   entries ? "an empty table" : described(value));
-  const auto& axes = study.sweep()->axes;
+  const auto& axes = study.map()->axes;
   const auto axis_of = [&](std::size_t parameter) {
     return std::ranges::find(axes, parameter, &ParameterAxis::parameter);
   };
@@ -133,9 +133,9 @@ void read_branches(const StudyContext& context, const TomlSection& output, Study
     choice.axis = section.find("along") ? axis_called(section, study, section.text("along"))
                                         : innermost_axis(*study.sweep());
     if (section.find("along"))
-      check_axis(section, "along", study, study.sweep()->axes[choice.axis]);
+      check_axis(section, "along", study, study.map()->axes[choice.axis]);
     else
-      check_axis(output, "branches", study, study.sweep()->axes[choice.axis]);
+      check_axis(output, "branches", study, study.map()->axes[choice.axis]);
     read_rows(context, section, study, choice);
   } else {
     if (!value->as<bool>())
@@ -144,10 +144,10 @@ void read_branches(const StudyContext& context, const TomlSection& output, Study
                   described(*value));
     if (!*value->as<bool>()) return;
     choice.axis = innermost_axis(*study.sweep());
-    check_axis(output, "branches", study, study.sweep()->axes[choice.axis]);
+    check_axis(output, "branches", study, study.map()->axes[choice.axis]);
   }
   check_elements(output, study);
-  study.sweep()->output.branches = std::move(choice);
+  study.sweep()->branches = std::move(choice);
 }
 
 }  // namespace frahm::studies

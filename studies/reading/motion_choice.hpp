@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "studies/reading/map_choice.hpp"
 #include "studies/reading/study_values.hpp"
 
 // The options of a study of kind "decay" or "transient".
@@ -31,6 +32,7 @@ struct DecayChoice : MotionChoice {
 struct TransientChoice : MotionChoice {
   std::optional<StudyValue> sweep_to;    // of a run-up or run-down: the last frequency [rad/s]
   std::optional<StudyValue> sweep_rate;  // its angular acceleration, without sign [rad/s2]
+  std::optional<MapChoice> map;          // a motion at each point of its axes; nothing: one motion
 };
 
 }  // namespace frahm::studies

@@ -21,7 +21,7 @@ void check_sweep(const TomlSection& section, const Study& study) {
   if (!study.sweep()->frequency_dimension)
     section.fail(rules::unfit_axis, "show",
                  "sweeps the excitation frequency, which changes along no [[axis]]");
-  const auto& samples = study.sweep()->samples;
+  const auto& samples = study.map()->samples;
   if (samples && study.sweep()->frequency_dimension == samples->dimension)
     section.fail(rules::unfit_axis, "show",
                  "sweeps the excitation frequency, which here is that of samples in no order");

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "solvers/mechanics/coordinates.hpp"
 #include "studies/reading/name_pattern.hpp"
@@ -30,33 +31,10 @@ void read_quantities(const TomlSection& section, OutputChoice& output) {
   output.names = read_quantity_names(section);
 }
 
-void read_orbits(const StudyContext& context, const TomlSection& section, Study& study) {
-  const TomlValue* value = section.find("orbits");
-  if (!value) return;
-  const auto* points = value->as<TomlArray>();
-  if (!points)
-    section.fail(rules::wrong_type, "orbits",
-                 "expected an array of points such as [{{ omega = 250, I = 6.36 }}]");
-  for (const TomlValue& point : *points) {
-    const auto* entries = point.as<TomlTable>();
-    if (!entries) {
-      throw context.source.error_at(rules::wrong_type, point.position,
-                                    "[output]: orbits: a point is a table such as {{ omega = 250 }}, found "
-                                    "{}",
-                                    described(point));
-    }
-    std::vector<Assignment> assignments;
-    for (const TomlEntry& entry : *entries)
-      assignments.push_back(read_assignment(context, study, "[output]: orbits", entry));
-    study.sweep()->output.orbits.push_back(std::move(assignments));
-  }
-}
-
 // The shares of the quantiles over the axis of samples.
-void read_quantiles(const TomlSection& section, Study& study) {
+void read_quantiles(const TomlSection& section, std::optional<SampleChoice>& samples) {
   const TomlValue* value = section.find("quantiles");
   if (!value) return;
-  auto& samples = study.sweep()->samples;
   if (!samples)
     section.fail(rules::key_without_use, "quantiles", "has no effect: no [[axis]] is one of samples");
   const auto* items = value->as<TomlArray>();
@@ -82,8 +60,8 @@ void read_quantiles(const TomlSection& section, Study& study) {
 }
 
 void read_borders(const TomlSection& section, Study& study) {
-  study.sweep()->output.borders = section.boolean_or("borders", false);
-  if (!study.sweep()->output.borders) return;
+  study.sweep()->borders = section.boolean_or("borders", false);
+  if (!study.sweep()->borders) return;
   std::size_t contacts = 0;
   for (const mechanics::Element& element : study.network.elements) {
     if (!mechanics::has_own_contact(element)) continue;
@@ -106,12 +84,12 @@ void read_borders(const TomlSection& section, Study& study) {
 // Whether each frequency along a dimension belongs to one value of its axis.
 bool frequencies_differ(const Study& study, std::size_t dimension) {
   std::vector<double> parameters = study.parameters.nominal(), omega;
-  for (std::size_t i = 0; i < study.sweep()->dimensions[dimension].size; ++i) {
+  for (std::size_t i = 0; i < study.map()->dimensions[dimension].size; ++i) {
     set_along(*study.sweep(), dimension, i, parameters);
     study.parameters.complete(std::span<double>(parameters));
     omega.push_back(study.values.omega.expression.evaluate(std::span<const double>(parameters)));
   }
-  const auto& places = study.sweep()->axes[study.sweep()->dimensions[dimension].axes.front()].si_values;
+  const auto& places = study.map()->axes[study.map()->dimensions[dimension].axes.front()].si_values;
   for (std::size_t i = 2; i < omega.size(); ++i) {
     const double before = (omega[i - 1] - omega[i - 2]) * (places[i - 1] - places[i - 2]);
     if (before * (omega[i] - omega[i - 1]) * (places[i] - places[i - 1]) <= 0.0) return false;
@@ -135,21 +113,21 @@ void read_resonances(const StudyContext& context, const TomlSection& section, St
                                     suggestion(name, coordinates));
     }
     const auto index = static_cast<std::size_t>(found - coordinates.begin());
-    auto& chosen = study.sweep()->output.resonances;
+    auto& chosen = study.sweep()->resonances;
     if (std::find(chosen.begin(), chosen.end(), index) != chosen.end())
       throw context.source.error_at(rules::given_twice, item.position, "{}: \"{}\" appears twice", where,
                                     name);
     chosen.push_back(index);
   }
   const auto dimension = study.sweep()->frequency_dimension;
-  if (!dimension || study.sweep()->dimensions[*dimension].axes.size() > 1 ||
-      study.sweep()->dimensions[*dimension].size < 3) {
+  if (!dimension || study.map()->dimensions[*dimension].axes.size() > 1 ||
+      study.map()->dimensions[*dimension].size < 3) {
     section.fail(
         rules::unfit_axis, "resonances",
         "a resonance is sought along an axis of the excitation frequency: one that is zipped with no "
         "other and has at least 3 points");
   }
-  const auto& samples = study.sweep()->samples;
+  const auto& samples = study.map()->samples;
   if (samples && samples->dimension == *dimension)
     section.fail(rules::unfit_axis, "resonances",
                  "a resonance is sought along an axis of the excitation frequency, not along samples of it");
@@ -158,7 +136,52 @@ void read_resonances(const StudyContext& context, const TomlSection& section, St
                  "the excitation frequency must rise, or fall, all along its axis");
 }
 
+// The number of a record on its axis, from 0.
+std::size_t read_record_number(const StudyContext& context, const RecordAxis& records,
+                               const std::string& where, const TomlValue& value) {
+  const double number = read_number(context.source, where, value);
+  if (number >= 0.0 && number < static_cast<double>(records.names.size()) && number == std::floor(number))
+    return static_cast<std::size_t>(number);
+  throw context.source.error_at(rules::out_of_range, value.position,
+                                "{}: record: {} is out of range: a whole number from 0 to {}", where, number,
+                                records.names.size() - 1);
+}
+
 }  // namespace
+
+void read_recorded(const TomlSection& section, MapChoice& map) {
+  OutputChoice& output = map.output;
+  read_quantiles(section, map.samples);
+  read_quantities(section, output);
+  const auto precision = std::ranges::find(precision_names, section.choice_or("precision", precision_names));
+  output.precision = static_cast<Precision>(precision - precision_names.begin());
+}
+
+void read_histories(const StudyContext& context, const TomlSection& section, const char* key, Study& study) {
+  const TomlValue* value = section.find(key);
+  if (!value) return;
+  const auto* points = value->as<TomlArray>();
+  if (!points)
+    section.fail(rules::wrong_type, key, "expected an array of points such as [{{ omega = 250, I = 6.36 }}]");
+  const std::string where = fmt::format("[output]: {}", key);
+  for (const TomlValue& point : *points) {
+    const auto* entries = point.as<TomlTable>();
+    if (!entries) {
+      throw context.source.error_at(rules::wrong_type, point.position,
+                                    "{}: a point is a table such as {{ omega = 250 }}, found {}", where,
+                                    described(point));
+    }
+    KeptPoint kept;
+    for (const TomlEntry& entry : *entries) {
+      if (study.map()->records && entry.key == "record") {
+        kept.record = read_record_number(context, *study.map()->records, where, entry.value);
+      } else {
+        kept.at.push_back(read_assignment(context, study, where, entry));
+      }
+    }
+    study.map()->output.histories.push_back(std::move(kept));
+  }
+}
 
 std::vector<OutputChoice::Name> read_quantity_names(const TomlSection& section) {
   const TomlValue& value = section.require("quantities");
@@ -189,13 +212,10 @@ void read_output(const StudyContext& context, const TomlValue& root, Study& stud
   const TomlSection section(context.source, entry->value, "[output]",
                             {"quantities", "precision", "path", "borders", "branches", "orbits", "resonances",
                              "quantiles", "signal"});
-  read_quantities(section, study.sweep()->output);
-  study.sweep()->output.general_path = section.choice_or("path", {"fastest", "general"}) == "general";
-  const auto precision = std::ranges::find(precision_names, section.choice_or("precision", precision_names));
-  study.sweep()->output.precision = static_cast<Precision>(precision - precision_names.begin());
-  read_quantiles(section, study);
+  read_recorded(section, *study.sweep());
+  study.sweep()->general_path = section.choice_or("path", {"fastest", "general"}) == "general";
   read_borders(section, study);
-  read_orbits(context, section, study);
+  read_histories(context, section, "orbits", study);
   read_resonances(context, section, study);
   read_branches(context, section, study);
   if (const std::string one = needs_one_response(study); !one.empty()) refuse_several_responses(study, one);
@@ -226,15 +246,17 @@ OutputChoice::Name read_headline(const TomlSection& section, const Study& study)
 
 void read_report(const StudyContext& context, const TomlValue& root, Study& study) {
   const TomlEntry* entry = find_entry(root, "report");
+  SweepChoice* sweep = study.sweep();
   if (!entry) {
-    study.sweep()->profile = read_profile(nullptr, study.network);
+    if (sweep) sweep->profile = read_profile(nullptr, study.network);
     return;
   }
-  const TomlSection section(context.source, entry->value, "[report]",
-                            {"quantities", "headline", "profile", "height"});
-  if (section.find("headline")) study.sweep()->headline = read_headline(section, study);
-  if (section.find("quantities")) study.sweep()->report_quantities = read_quantity_names(section);
-  study.sweep()->profile = read_profile(&section, study.network);
+  std::vector<std::string> keys{"quantities", "headline"};
+  if (sweep) keys.insert(keys.end(), {"profile", "height"});
+  const TomlSection section(context.source, entry->value, "[report]", keys);
+  if (section.find("headline")) study.map()->headline = read_headline(section, study);
+  if (section.find("quantities")) study.map()->report_quantities = read_quantity_names(section);
+  if (sweep) sweep->profile = read_profile(&section, study.network);
 }
 
 }  // namespace frahm::studies

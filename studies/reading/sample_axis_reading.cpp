@@ -43,7 +43,7 @@ double to_twelve_digits(double value) {
 }
 
 void set_values(SampleReading& reading, std::size_t i, const Eigen::VectorXd& drawn) {
-  ParameterAxis& axis = reading.study.sweep()->axes[reading.choice.axes[i]];
+  ParameterAxis& axis = reading.study.map()->axes[reading.choice.axes[i]];
   for (Eigen::Index k = 0; k < drawn.size(); ++k) {
     axis.values.push_back(to_twelve_digits(drawn(k)));
     if (!std::isfinite(axis.values.back()))
@@ -116,7 +116,7 @@ void take_table(SampleReading& reading, const std::filesystem::path& folder) {
     section.fail(error.rule(), "from", "{}", error.what());
   }
   reading.choice.drawn =
-      fmt::format("{} of {}", reading.study.sweep()->axes[reading.choice.axes.front()].values.size(), file);
+      fmt::format("{} of {}", reading.study.map()->axes[reading.choice.axes.front()].values.size(), file);
 }
 
 bool is_of_file(const TomlValue& table) {
@@ -125,10 +125,10 @@ bool is_of_file(const TomlValue& table) {
 }
 
 void check_alone(const SampleReading& reading) {
-  if (reading.study.sweep()->samples)
+  if (reading.study.map()->samples)
     reading.section.fail_here(rules::given_twice,
                               "a map has one axis of samples; list all that is uncertain in that one");
-  for (const ParameterAxis& axis : reading.study.sweep()->axes) {
+  for (const ParameterAxis& axis : reading.study.map()->axes) {
     if (axis.zip == reading.zip)
       reading.section.fail_here(rules::name_taken,
                                 "its dimension is called \"{}\", as an earlier zip is; give another by zip",
@@ -144,7 +144,7 @@ ParameterAxis& add_axis(SampleReading& reading, std::size_t parameter) {
   axis.position = reading.section.position();
   axis.zip = reading.zip;
   axis.zip_position = reading.zip_position;
-  std::vector<ParameterAxis>& axes = reading.study.sweep()->axes;
+  std::vector<ParameterAxis>& axes = reading.study.map()->axes;
   axes.push_back(std::move(axis));
   reading.choice.axes.push_back(axes.size() - 1);
   reading.choice.told.emplace_back();
@@ -184,11 +184,11 @@ void read_axis_of_samples(const StudyContext& context, const TomlValue& table, s
   else
     draw(reading, table, folder, data);
   for (const std::size_t axis : reading.choice.axes) {
-    convert_axis(section, study.sweep()->axes[axis]);
+    convert_axis(section, study.map()->axes[axis]);
     add_to_grid(section, axis, study);
   }
-  reading.choice.dimension = study.sweep()->dimensions.size() - 1;
-  study.sweep()->samples = std::move(reading.choice);
+  reading.choice.dimension = study.map()->dimensions.size() - 1;
+  study.map()->samples = std::move(reading.choice);
 }
 
 }  // namespace frahm::studies

@@ -23,7 +23,8 @@ const std::array<std::vector<std::string>, 5> sections_of_kind{
     {{"study", "parameters", "mass", "matrices", "element", "damping", "excitation", "axis", "coordinate",
       "output", "orbits", "compare", "report"},
      {"study", "parameters", "mass", "matrices", "element", "damping", "decay", "initial"},
-     {"study", "parameters", "mass", "matrices", "element", "damping", "excitation", "transient", "initial"},
+     {"study", "parameters", "mass", "matrices", "element", "damping", "excitation", "transient", "initial",
+      "axis", "coordinate", "output", "report"},
      {"study", "parameters", "mass", "matrices", "element", "damping", "excitation", "orbits", "tune",
       "design", "constraint", "scenario", "column"},
      {"study", "parameters", "mass", "matrices", "element", "damping", "excitation", "initial", "identify"}}};
@@ -50,7 +51,7 @@ void check_top_keys(const StudySource& source, const TomlValue& root) {
 std::string why_without(StudyKind kind, const std::string& section) {
   const bool of_a_map =
       section == "axis" || section == "coordinate" || section == "output" || section == "orbits";
-  const bool one_motion = kind == StudyKind::decay || kind == StudyKind::transient;
+  const bool one_motion = kind == StudyKind::decay;
   if (kind == StudyKind::tune && of_a_map)
     return ": the band of [tune] and the bounds of [[design]] are its ranges";
   if (one_motion && of_a_map) return ": it computes one motion, not a map";
@@ -119,11 +120,34 @@ std::vector<std::size_t> read_by_matrices(const Study& study) {
   return reads;
 }
 
+// A transient without axes is one motion, of whose [output] the signals alone have a meaning.
+void check_motion_without_axes(const Study& study, const TomlValue& root) {
+  const std::string why = ": without an [[axis]] it computes one motion, not a map";
+  for (const TomlEntry& entry : *root.as<TomlTable>()) {
+    if (entry.key == "output" && entry.value.as<TomlTable>())
+      check_output_has_signals_alone(study, entry, why);
+    if (entry.key == "coordinate" || entry.key == "report")
+      throw study.source.error_at(rules::other_kind, entry.position, "the section \"{}\" is not part of {}{}",
+                                  entry.key, kind_noun(study.kind()), why);
+  }
+}
+
+// The axes of a transient and what is recorded along them.
+void read_map_of_motions(const StudyContext& context, const TomlValue& root,
+                         const std::filesystem::path& folder, DataFiles data, Study& study) {
+  if (!find_entry(root, "axis")) return check_motion_without_axes(study, root);
+  study.transient()->map.emplace();
+  read_axes(context, root, folder, data, study);
+  read_coordinates(context, root, study);
+  read_motion_output(context, root, study);
+  read_report(context, root, study);
+}
+
 void find_frequency_dimension(Study& study) {
   auto moving = dimensions_moving(study, study.values.omega.expression.reads());
   if (moving.empty()) return;
   // Samples lie in no order: a row goes along them only if it goes along nothing else.
-  const auto& samples = study.sweep()->samples;
+  const auto& samples = study.map()->samples;
   if (samples && moving.size() > 1) std::erase(moving, samples->dimension);
   const auto matrices = dimensions_moving(study, read_by_matrices(study));
   const auto moves_matrices = [&](std::size_t d) {
@@ -193,6 +217,8 @@ Study parse_study(std::string text, const std::filesystem::path& name, DataFiles
     study.sweep()->orbits = read_orbits_wanted(context, root, study);
     check_compared_show(context, root, study);
     read_report(context, root, study);
+  } else if (study.kind() == StudyKind::transient) {
+    read_map_of_motions(context, root, name.parent_path(), data, study);
   } else if (study.kind() == StudyKind::tune) {
     read_tuning(context, root, study);
   } else if (study.kind() == StudyKind::identify) {
@@ -235,6 +261,15 @@ std::string_view kind_noun(StudyKind kind) {
   return "a study";
 }
 
+const MapChoice* Study::map() const {
+  if (sweep()) return sweep();
+  return transient() && transient()->map ? &*transient()->map : nullptr;
+}
+
+MapChoice* Study::map() {
+  return const_cast<MapChoice*>(std::as_const(*this).map());
+}
+
 const MotionChoice* Study::motion() const {
   if (decay()) return decay();
   return transient();
@@ -257,6 +292,9 @@ std::span<const InitialValues> Study::initial() const {
 std::vector<const StudyValue*> Study::values_of_its_kind() const {
   std::vector<const StudyValue*> all;
   if (sweep()) all = sweep()->values();
+  if (map()) {
+    for (const DerivedCoordinate& coordinate : map()->coordinates) all.push_back(&coordinate.value);
+  }
   const auto add = [&](const std::optional<StudyValue>& value) {
     if (value) all.push_back(&*value);
   };
@@ -283,7 +321,6 @@ bool SweepChoice::sweeps_frequency() const {
 std::vector<const StudyValue*> SweepChoice::values() const {
   std::vector<const StudyValue*> all;
   if (comparison && comparison->law == mechanics::FrictionLaw::arctan) all.push_back(&comparison->slope);
-  for (const DerivedCoordinate& coordinate : coordinates) all.push_back(&coordinate.value);
   return all;
 }
 
@@ -295,31 +332,30 @@ Study with_parameters(Study study, std::span<const Assignment> assignments) {
   return study;
 }
 
-void set_along(const SweepChoice& sweep, std::size_t dimension, std::size_t index,
-               std::span<double> parameters) {
-  for (const std::size_t axis : sweep.dimensions[dimension].axes) {
-    parameters[sweep.axes[axis].parameter] = sweep.axes[axis].si_values[index];
+void set_along(const MapChoice& map, std::size_t dimension, std::size_t index, std::span<double> parameters) {
+  for (const std::size_t axis : map.dimensions[dimension].axes) {
+    parameters[map.axes[axis].parameter] = map.axes[axis].si_values[index];
   }
 }
 
 std::vector<std::size_t> dimensions_moving(const Study& study, std::span<const std::size_t> reads) {
   std::vector<std::size_t> moving;
-  const SweepChoice* sweep = study.sweep();
-  if (!sweep) return moving;
+  const MapChoice* map = study.map();
+  if (!map) return moving;
   const auto inputs = study.parameters.inputs_of(reads);
   const auto is_input = [&](std::size_t axis) {
-    return std::find(inputs.begin(), inputs.end(), sweep->axes[axis].parameter) != inputs.end();
+    return std::find(inputs.begin(), inputs.end(), map->axes[axis].parameter) != inputs.end();
   };
-  for (std::size_t d = 0; d < sweep->dimensions.size(); ++d) {
-    const auto& axes = sweep->dimensions[d].axes;
+  for (std::size_t d = 0; d < map->dimensions.size(); ++d) {
+    const auto& axes = map->dimensions[d].axes;
     if (std::any_of(axes.begin(), axes.end(), is_input)) moving.push_back(d);
   }
   return moving;
 }
 
 UsualUnit usual_unit(const Study& study, std::size_t parameter) {
-  if (study.sweep()) {
-    for (const ParameterAxis& axis : study.sweep()->axes) {
+  if (study.map()) {
+    for (const ParameterAxis& axis : study.map()->axes) {
       if (axis.parameter == parameter) return {axis.unit, axis.si_factor};
     }
   }

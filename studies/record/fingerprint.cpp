@@ -36,9 +36,8 @@ class CanonicalText {
 void add_parameters(const Study& study, CanonicalText& text) {
   const auto on_axis = [&](std::size_t i) {
     if (study.tune() && study.tune()->band && study.tune()->band->parameter == i) return true;
-    return study.sweep() && std::ranges::any_of(study.sweep()->axes, [&](const ParameterAxis& axis) {
-             return axis.parameter == i;
-           });
+    return study.map() && std::ranges::any_of(study.map()->axes,
+                                              [&](const ParameterAxis& axis) { return axis.parameter == i; });
   };
   const auto names = study.parameters.names();
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -135,6 +134,9 @@ void add_motion(const Study& study, CanonicalText& text) {
   if (study.transient()) {
     add("sweep to", study.transient()->sweep_to);
     add("sweep rate", study.transient()->sweep_rate);
+    if (study.map()) add("duration", study.transient()->duration);
+    // The stairs of a run-up are refined until its samples stand.
+    if (study.map() && study.transient()->sweep_to) text.line("samples {}", study.transient()->samples);
   }
   for (const InitialValues& initial : study.initial()) {
     text.line("initial {} {} {}", initial.mass, initial.displacement.expression.canonical_text(names),
@@ -242,14 +244,12 @@ void add_swept_frequencies(const SweepChoice& sweep, const Parameters& parameter
   }
 }
 
-std::string physics_hash(const Study& study, std::span<const periodic::Quantity> quantities) {
+std::string physics_hash(const Study& study, std::span<const std::string> quantities) {
   CanonicalText text;
   text.line("solver {}", solver_version);
-  if (study.sweep()) {
-    const OutputChoice& output = study.sweep()->output;
-    text.line("precision {}", precision_names[static_cast<std::size_t>(output.precision)]);
-    if (output.general_path) text.line("path general");
-  }
+  if (study.map())
+    text.line("precision {}", precision_names[static_cast<std::size_t>(study.map()->output.precision)]);
+  if (study.sweep() && study.sweep()->general_path) text.line("path general");
   const bool searches = study.sweep() ? mechanics::may_have_several_responses(study.network)
                                       : study.tune() && tuning::may_take_several_orbits(study.network);
   if (searches) {
@@ -264,40 +264,43 @@ std::string physics_hash(const Study& study, std::span<const periodic::Quantity>
   add_tuning(study, text);
   add_identification(study, text);
   add_comparison(study, text);
-  for (const periodic::Quantity& quantity : quantities) {
-    text.line("quantity {}", periodic::describe(quantity, study.network, study.dimensionless).name);
-  }
+  for (const std::string& quantity : quantities) text.line("quantity {}", quantity);
   return text.hash();
 }
 
-void add_map(const Study& study, const SweepChoice& sweep, CanonicalText& text) {
-  for (const GridDimension& dimension : sweep.dimensions) {
+void add_axes(const Study& study, const MapChoice& map, CanonicalText& text) {
+  for (const GridDimension& dimension : map.dimensions) {
     text.line("dimension {}", dimension.size);
+    if (dimension.axes.empty()) text.line("records {}", fmt::join(map.records->names, "\n"));
     for (const std::size_t a : dimension.axes) {
-      const ParameterAxis& axis = sweep.axes[a];
+      const ParameterAxis& axis = map.axes[a];
       text.line("axis {} {}", study.parameters.list[axis.parameter].name, fmt::join(axis.si_values, " "));
     }
   }
-  if (sweep.samples)
-    text.line("samples {} {}", sweep.samples->dimension, fmt::join(sweep.samples->quantiles, " "));
-  for (const auto& orbit : sweep.output.orbits) {
-    for (const Assignment& at : orbit) text.line("orbit {} {}", at.parameter, at.value);
+  if (map.samples) text.line("samples {} {}", map.samples->dimension, fmt::join(map.samples->quantiles, " "));
+  for (const KeptPoint& point : map.output.histories) {
+    if (map.records) text.line("orbit under {}", point.record);
+    for (const Assignment& at : point.at) text.line("orbit {} {}", at.parameter, at.value);
     text.line("orbit ends");
   }
-  if (sweep.output.borders) text.line("borders");
-  if (const auto& branches = sweep.output.branches) {
+}
+
+void add_sweep(const Study& study, const SweepChoice& sweep, CanonicalText& text) {
+  if (sweep.borders) text.line("borders");
+  if (const auto& branches = sweep.branches) {
     text.line("branches {}", study.parameters.list[sweep.axes[branches->axis].parameter].name);
     for (const auto& row : branches->at) {
       for (const Assignment& at : row) text.line("branches at {} {}", at.parameter, at.value);
       text.line("branches row ends");
     }
   }
-  text.line("resonances {}", fmt::join(sweep.output.resonances, " "));
+  text.line("resonances {}", fmt::join(sweep.resonances, " "));
 }
 
 std::string grid_hash(const Study& study, Tiling tiling) {
   CanonicalText text;
-  if (study.sweep()) add_map(study, *study.sweep(), text);
+  if (study.map()) add_axes(study, *study.map(), text);
+  if (study.sweep()) add_sweep(study, *study.sweep(), text);
   if (const MotionChoice* motion = study.motion()) {
     text.line("samples {}", motion->samples);
     if (motion->duration)
@@ -311,8 +314,7 @@ std::string grid_hash(const Study& study, Tiling tiling) {
 
 }  // namespace
 
-engine::Fingerprint fingerprint(const Study& study, Tiling tiling,
-                                std::span<const periodic::Quantity> quantities) {
+engine::Fingerprint fingerprint(const Study& study, Tiling tiling, std::span<const std::string> quantities) {
   return {.physics = physics_hash(study, quantities), .grid = grid_hash(study, tiling)};
 }
 
