@@ -105,7 +105,11 @@ transient::ForcedOptions forced_options(const Study& study) {
     }
     options.duration = std::abs(options.sweep.to - options.from) / options.sweep.rate;
   }
-  if (motion.duration) options.duration = stated(study, *motion.duration);
+  if (motion.duration) {
+    options.duration = stated(study, *motion.duration);
+  } else if (!motion.sweep_to) {
+    options.duration = motion.end_of_records();
+  }
   return options;
 }
 

@@ -44,6 +44,7 @@ struct Study {
   const TuneChoice* tune() const { return std::get_if<TuneChoice>(&choice); }
   const IdentifyChoice* identify() const { return std::get_if<IdentifyChoice>(&choice); }
   SweepChoice* sweep() { return std::get_if<SweepChoice>(&choice); }
+  TransientChoice* transient() { return std::get_if<TransientChoice>(&choice); }
   TuneChoice* tune() { return std::get_if<TuneChoice>(&choice); }
   IdentifyChoice* identify() { return std::get_if<IdentifyChoice>(&choice); }
   // Of a decay or a transient.
@@ -65,8 +66,8 @@ struct Study {
 // key`) and for a file that cannot be read.
 Study read_study(const std::filesystem::path& path);
 
-// Whether the measurements and earlier results of an identification are read too. If not, its records have no
-// columns and no parameter is fixed.
+// Whether the measurements and earlier results of an identification, and the records that drive a transient,
+// are read too. If not, its records have no columns, no samples, and no parameter is fixed.
 enum class DataFiles { read, leave };
 
 // The same for a given text; name: of the file, for messages; its folder holds the tables.
