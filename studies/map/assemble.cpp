@@ -115,7 +115,7 @@ class ChunkMaking {
 Failures write_map(const MapPlan& plan, const results::MapLayout& layout, const engine::TileIndex& index,
                    const AssemblyOptions& options, results::MapWriter& writer) {
   Failures failures;
-  const std::size_t borders = plan.study.sweep()->output.borders ? create_borders(plan, writer) : 0;
+  const std::size_t borders = plan.study.sweep()->borders ? create_borders(plan, writer) : 0;
   engine::TileReader reader(index);
   const auto make_work = [&]() -> engine::PieceWork {
     // Shared, as a PieceWork has to be copyable.

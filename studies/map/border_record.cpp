@@ -31,7 +31,7 @@ results::Variable regime(const Study& study, std::size_t element, const std::str
 std::size_t create_borders(const MapPlan& plan, results::MapWriter& writer) {
   const Study& study = plan.study;
   std::vector<results::Variable> variables;
-  for (const ParameterAxis& axis : study.sweep()->axes) {
+  for (const ParameterAxis& axis : study.map()->axes) {
     const std::string& name = study.parameters.list[axis.parameter].name;
     variables.push_back({.name = name,
                          .unit = axis.unit.empty() ? "1" : axis.unit,
@@ -44,7 +44,7 @@ std::size_t create_borders(const MapPlan& plan, results::MapWriter& writer) {
     elements.push_back(study.network.elements[e].name);
     one_contact = e;
   }
-  for (const GridDimension& dimension : study.sweep()->dimensions) dimensions.push_back(dimension.name);
+  for (const GridDimension& dimension : study.map()->dimensions) dimensions.push_back(dimension.name);
   variables.push_back(flag_of("element", "coulomb element whose regime changes", elements));
   variables.push_back(flag_of("axis", "dimension of the map along which it was found to change", dimensions));
   variables.push_back(
@@ -55,12 +55,12 @@ std::size_t create_borders(const MapPlan& plan, results::MapWriter& writer) {
 }
 
 std::vector<double> border_row(const Study& study, const MapBox& tile, const Border& border) {
-  std::vector<double> row(study.sweep()->axes.size());
+  std::vector<double> row(study.map()->axes.size());
   std::uint64_t rest = border.offset;
-  for (std::size_t d = study.sweep()->dimensions.size(); d-- > 0; rest /= tile.count[d]) {
+  for (std::size_t d = study.map()->dimensions.size(); d-- > 0; rest /= tile.count[d]) {
     const std::size_t index = tile.start[d] + rest % tile.count[d];
-    for (const std::size_t a : study.sweep()->dimensions[d].axes) {
-      const std::vector<double>& values = study.sweep()->axes[a].values;
+    for (const std::size_t a : study.map()->dimensions[d].axes) {
+      const std::vector<double>& values = study.map()->axes[a].values;
       row[a] = d == border.dimension ? std::lerp(values[index], values[index + 1], border.crossing.at)
                                      : values[index];
     }

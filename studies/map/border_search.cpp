@@ -170,8 +170,8 @@ std::vector<RegimeCrossing> BorderSearch::crossings_on_edge(const Index& lower, 
 RegimePoint BorderSearch::point_on_edge(const Index& lower, std::size_t dimension, std::size_t element,
                                         double at) {
   for (std::size_t d = 0; d < lower.size(); ++d) set_along(*study_.sweep(), d, lower[d], parameters_);
-  for (const std::size_t a : study_.sweep()->dimensions[dimension].axes) {
-    const ParameterAxis& axis = study_.sweep()->axes[a];
+  for (const std::size_t a : study_.map()->dimensions[dimension].axes) {
+    const ParameterAxis& axis = study_.map()->axes[a];
     parameters_[axis.parameter] =
         std::lerp(axis.si_values[lower[dimension]], axis.si_values[lower[dimension] + 1], at);
   }

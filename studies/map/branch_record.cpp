@@ -138,7 +138,7 @@ void BranchRecord::append(std::span<const double> parameters, const periodic::Br
 
 std::vector<std::size_t> axis_parameters_beside(const Study& study, std::size_t along) {
   std::vector<std::size_t> parameters;
-  for (const ParameterAxis& axis : study.sweep()->axes)
+  for (const ParameterAxis& axis : study.map()->axes)
     if (axis.parameter != along) parameters.push_back(axis.parameter);
   return parameters;
 }
@@ -146,8 +146,8 @@ std::vector<std::size_t> axis_parameters_beside(const Study& study, std::size_t 
 void write_branches(const MapPlan& plan, const engine::TileIndex& index, const AssemblyOptions& options,
                     results::MapWriter& writer) {
   const Study& study = plan.study;
-  if (!study.sweep()->output.branches) return;
-  const ParameterAxis& axis = study.sweep()->axes[study.sweep()->output.branches->axis];
+  if (!study.sweep()->branches) return;
+  const ParameterAxis& axis = study.map()->axes[study.sweep()->branches->axis];
   BranchRecord record(study, axis.parameter, axis_parameters_beside(study, axis.parameter),
                       branch_quantities(study), writer);
   const std::vector<std::vector<std::uint64_t>> rows = branch_rows(study);

@@ -30,7 +30,7 @@ std::size_t dimension_of(const SweepChoice& sweep, std::size_t axis) {
 
 std::vector<std::vector<std::uint64_t>> branch_rows(const Study& study) {
   const SweepChoice& sweep = *study.sweep();
-  const BranchChoice& choice = *sweep.output.branches;
+  const BranchChoice& choice = *sweep.branches;
   MapBox box{std::vector<std::uint64_t>(sweep.dimensions.size(), 0), {}};
   std::vector<std::size_t> across;
   for (std::size_t d = 0; d < sweep.dimensions.size(); ++d) {
@@ -69,7 +69,7 @@ RowBranches::RowBranches(const MapPlan& plan)
 
 const ParameterAxis& RowBranches::axis() const {
   const SweepChoice& sweep = *plan_.study.sweep();
-  return sweep.axes[sweep.output.branches->axis];
+  return sweep.axes[sweep.branches->axis];
 }
 
 std::vector<periodic::SearchedPlace> RowBranches::places() const {
@@ -85,7 +85,7 @@ std::vector<periodic::SearchedPlace> RowBranches::places(const std::vector<std::
                                                          const engine::TileIndex& index,
                                                          engine::TileReader& reader) {
   const std::vector<periodic::SearchedPlace> all = places();
-  const std::size_t along = dimension_of(*plan_.study.sweep(), plan_.study.sweep()->output.branches->axis);
+  const std::size_t along = dimension_of(*plan_.study.sweep(), plan_.study.sweep()->branches->axis);
   std::vector<periodic::SearchedPlace> places;
   std::optional<std::uint64_t> in_hand;
   std::vector<std::uint64_t> point = row;

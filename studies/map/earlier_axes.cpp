@@ -36,8 +36,8 @@ std::vector<double> si_values(const Parameter& parameter, const results::Coordin
 std::vector<CommonParameter> parameters_on(const Study& study, const results::Axis& earlier,
                                            const UnitSystem& units, const std::string& file) {
   std::vector<CommonParameter> found;
-  for (std::size_t a = 0; a < study.sweep()->axes.size(); ++a) {
-    const Parameter& parameter = study.parameters.list[study.sweep()->axes[a].parameter];
+  for (std::size_t a = 0; a < study.map()->axes.size(); ++a) {
+    const Parameter& parameter = study.parameters.list[study.map()->axes[a].parameter];
     const auto coordinate =
         std::ranges::find(earlier.coordinates, parameter.name, &results::Coordinate::name);
     if (coordinate == earlier.coordinates.end()) continue;
@@ -54,8 +54,8 @@ std::vector<CommonParameter> parameters_on(const Study& study, const results::Ax
 // The dimension of the study that holds all these parameters.
 std::size_t common_dimension(const Study& study, const std::vector<CommonParameter>& parameters,
                              const std::string& earlier, const std::string& file) {
-  for (std::size_t d = 0; d < study.sweep()->dimensions.size(); ++d) {
-    const auto& axes = study.sweep()->dimensions[d].axes;
+  for (std::size_t d = 0; d < study.map()->dimensions.size(); ++d) {
+    const auto& axes = study.map()->dimensions[d].axes;
     const auto is_here = [&](const CommonParameter& each) {
       return std::ranges::find(axes, each.axis) != axes.end();
     };
@@ -85,7 +85,7 @@ EarlierDimension match(const Study& study, const results::Axis& earlier, const U
       .along = common_dimension(study, parameters, earlier.name, file), .index = {}, .places = 0};
   std::vector<std::vector<std::uint32_t>> known, wanted;
   for (const CommonParameter& each : parameters) {
-    ValueMatch same = match_values(each.earlier_values, study.sweep()->axes[each.axis].si_values);
+    ValueMatch same = match_values(each.earlier_values, study.map()->axes[each.axis].si_values);
     known.push_back(std::move(same.known));
     wanted.push_back(std::move(same.wanted));
   }
@@ -93,7 +93,7 @@ EarlierDimension match(const Study& study, const results::Axis& earlier, const U
   for (std::uint64_t i = 0; i < earlier.size; ++i) index_of.emplace(*place_of(known, i), i);
   dimension.places = index_of.size();
   bool any = false;
-  for (std::size_t i = 0; i < study.sweep()->dimensions[dimension.along].size; ++i) {
+  for (std::size_t i = 0; i < study.map()->dimensions[dimension.along].size; ++i) {
     const auto place = place_of(wanted, i);
     const auto found = place ? index_of.find(*place) : index_of.end();
     any = any || found != index_of.end();

@@ -40,8 +40,8 @@ std::vector<results::Column> mode_columns(const Study& study, periodic::LinearMo
 
 mechanics::NetworkValues values_at_first_point(const Study& study) {
   std::vector<double> parameters = study.parameters.nominal();
-  for (std::size_t d = 0; d < study.sweep()->dimensions.size(); ++d)
-    set_along(*study.sweep(), d, 0, parameters);
+  for (std::size_t d = 0; d < study.map()->dimensions.size(); ++d)
+    set_along(*study.map(), d, 0, parameters);
   mechanics::NetworkValues values;
   evaluate(study.values, study.parameters, parameters, values);
   return values;
@@ -54,7 +54,7 @@ void write_modes(const Study& study, results::MapWriter& writer) {
   } catch (const mechanics::MechanicsError&) {
     return;  // the point fails for the same reason, which the record gives
   }
-  const std::vector<std::uint64_t> first(study.sweep()->dimensions.size(), 0);
+  const std::vector<std::uint64_t> first(study.map()->dimensions.size(), 0);
   writer.write_columns("modes", mode_columns(study, std::move(modes)));
   writer.write_texts("modes", {{"point", point_text(study, first)},
                                {"masses", fmt::format("{}", fmt::join(study.network.masses, ","))}});

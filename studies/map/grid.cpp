@@ -52,7 +52,8 @@ TileSizes sizes_of(const Study& study) {
     const auto most = static_cast<std::uint64_t>(affordable);
     sizes = {.longest_row = most, .least = std::min(most, cheap_tiles.least), .most = most};
   }
-  if (study.sweep()->sweeps_frequency()) sizes.longest_row = std::numeric_limits<std::uint64_t>::max();
+  if (study.sweep() && study.sweep()->sweeps_frequency())
+    sizes.longest_row = std::numeric_limits<std::uint64_t>::max();
   return sizes;
 }
 
@@ -142,9 +143,10 @@ std::uint64_t Grid::tile_of(std::span<const std::uint64_t> index) const {
 
 Grid grid_of(const Study& study) {
   Grid grid;
-  for (const GridDimension& dimension : study.sweep()->dimensions) grid.shape.push_back(dimension.size);
-  const std::size_t row = study.sweep()->frequency_dimension.value_or(study.sweep()->dimensions.size() - 1);
-  for (std::size_t d = 0; d < study.sweep()->dimensions.size(); ++d) {
+  for (const GridDimension& dimension : study.map()->dimensions) grid.shape.push_back(dimension.size);
+  const std::size_t last = study.map()->dimensions.size() - 1;
+  const std::size_t row = study.sweep() ? study.sweep()->frequency_dimension.value_or(last) : last;
+  for (std::size_t d = 0; d < study.map()->dimensions.size(); ++d) {
     if (d != row) grid.order.push_back(d);
   }
   grid.order.push_back(row);
@@ -155,9 +157,9 @@ Grid grid_of(const Study& study) {
 
 std::vector<double> coordinate_values(const Study& study, const DerivedCoordinate& coordinate) {
   std::vector<double> parameters = study.parameters.nominal();
-  std::vector<double> values(study.sweep()->dimensions[coordinate.dimension].size);
+  std::vector<double> values(study.map()->dimensions[coordinate.dimension].size);
   for (std::size_t i = 0; i < values.size(); ++i) {
-    set_along(*study.sweep(), coordinate.dimension, i, parameters);
+    set_along(*study.map(), coordinate.dimension, i, parameters);
     study.parameters.complete(std::span<double>(parameters));
     values[i] = coordinate.value.expression.evaluate(std::span<const double>(parameters));
   }
@@ -179,9 +181,11 @@ std::string with_unit(double value, const std::string& unit) {
 
 std::string point_text(const Study& study, std::span<const std::uint64_t> index) {
   std::string text;
-  for (std::size_t d = 0; d < study.sweep()->dimensions.size(); ++d) {
-    for (const std::size_t a : study.sweep()->dimensions[d].axes) {
-      const ParameterAxis& axis = study.sweep()->axes[a];
+  for (std::size_t d = 0; d < study.map()->dimensions.size(); ++d) {
+    if (const auto& records = study.map()->records; records && records->dimension == d)
+      text += fmt::format("{}record={}", text.empty() ? "" : ",", index[d]);
+    for (const std::size_t a : study.map()->dimensions[d].axes) {
+      const ParameterAxis& axis = study.map()->axes[a];
       text += fmt::format("{}{}={}", text.empty() ? "" : ",", study.parameters.list[axis.parameter].name,
                           with_unit(axis.values[index[d]], axis.unit));
     }

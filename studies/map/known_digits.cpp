@@ -18,7 +18,7 @@ double rounded(double x, int bits) {
 }
 
 int bits_of(const Study& study, const periodic::QuantityDescription& variable) {
-  if (variable.kind != periodic::QuantityKind::real || study.sweep()->output.precision == Precision::full)
+  if (variable.kind != periodic::QuantityKind::real || study.map()->output.precision == Precision::full)
     return 0;
   const bool is_diagnostic =
       variable.name == "residual" || variable.name == "error_bound" || variable.name == "energy_balance";
@@ -26,7 +26,7 @@ int bits_of(const Study& study, const periodic::QuantityDescription& variable) {
 }
 
 KnownDigits::KnownDigits(const Study& study, const std::vector<periodic::QuantityDescription>& variables)
-    : keeps_all_(study.sweep()->output.precision == Precision::full), error_bound_(variables.size()) {
+    : keeps_all_(study.map()->output.precision == Precision::full), error_bound_(variables.size()) {
   for (std::size_t i = 0; i < variables.size(); ++i) {
     bits_.push_back(bits_of(study, variables[i]));
     if (variables[i].name == "error_bound") error_bound_ = i;

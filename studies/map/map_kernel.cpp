@@ -48,7 +48,7 @@ MapKernel::MapKernel(const Study& study, const Grid& grid, std::vector<periodic:
       own_(study, study.network, study.values, asked_for(study, quantities), study.orbits_wanted()),
       parameters_(study.parameters.nominal()),
       point_(quantities.size()) {
-  if (study.sweep()->output.borders) {
+  if (study.sweep()->borders) {
     border_search_.emplace(study, grid);
     regimes_ = places_of_regimes(study.network, quantities);
   }

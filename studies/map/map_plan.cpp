@@ -13,7 +13,7 @@
 
 namespace frahm::studies {
 MapPlan plan_map(Study study, std::vector<std::string> set) {
-  if (study.kind() != StudyKind::sweep)
+  if (!study.map())
     throw StudyError(rules::other_kind, "{}: a {} is one motion, not a map", study.source.name,
                      kind_name(study.kind()));
   refuse_overruled(study, set);

@@ -22,13 +22,13 @@ results::Coordinate coordinate_of(const Study& study, const ParameterAxis& axis)
 
 std::vector<results::Axis> axes_of(const Study& study) {
   std::vector<results::Axis> axes;
-  for (const GridDimension& dimension : study.sweep()->dimensions) {
+  for (const GridDimension& dimension : study.map()->dimensions) {
     results::Axis axis{.name = dimension.name, .size = dimension.size};
     for (const std::size_t a : dimension.axes)
-      axis.coordinates.push_back(coordinate_of(study, study.sweep()->axes[a]));
+      axis.coordinates.push_back(coordinate_of(study, study.map()->axes[a]));
     axes.push_back(std::move(axis));
   }
-  for (const DerivedCoordinate& derived : study.sweep()->coordinates) {
+  for (const DerivedCoordinate& derived : study.map()->coordinates) {
     axes[derived.dimension].coordinates.push_back(
         {.name = derived.name,
          .unit = unit_or_one(derived.unit),
@@ -46,7 +46,7 @@ results::Variable variable_of(const Study& study, const periodic::QuantityDescri
   variable.significant_bits = bits_of(study, description);
   if (description.kind == periodic::QuantityKind::count) variable.type = results::Type::int32;
   if (description.kind == periodic::QuantityKind::real &&
-      study.sweep()->output.precision == Precision::single) {
+      study.map()->output.precision == Precision::single) {
     variable.type = results::Type::float32;
     if (variable.significant_bits > diagnostic_bits) variable.significant_bits = 0;  // more than it holds
   }

@@ -140,7 +140,7 @@ std::vector<results::Variable> sample_variables(const Study& study) {
 
 std::vector<results::Variable> row_variables(const Study& study) {
   std::vector<results::Variable> variables;
-  for (const ParameterAxis& axis : study.sweep()->axes) {
+  for (const ParameterAxis& axis : study.map()->axes) {
     const std::string& name = study.parameters.list[axis.parameter].name;
     variables.push_back({.name = name,
                          .unit = axis.unit.empty() ? "1" : axis.unit,
@@ -161,7 +161,7 @@ std::vector<std::vector<double>> samples_of(const KeptOrbit& orbit, std::size_t 
 
 void write_orbits(const MapPlan& plan, const AssemblyOptions& options, results::MapWriter& writer) {
   const Study& study = plan.study;
-  const auto& points = study.sweep()->output.orbits;
+  const auto& points = study.map()->output.histories;
   if (points.empty()) return;
   const results::RaggedLayout layout{.group = "orbits",
                                      .row = "orbit",
@@ -171,7 +171,7 @@ void write_orbits(const MapPlan& plan, const AssemblyOptions& options, results::
   const std::size_t table = writer.create_ragged(layout);
   const auto append = [&](const KeptOrbit& orbit) {
     std::vector<double> row;
-    for (const ParameterAxis& axis : study.sweep()->axes)
+    for (const ParameterAxis& axis : study.map()->axes)
       row.push_back(orbit.parameters[axis.parameter] / axis.si_factor);
     writer.append_ragged(table, row, samples_of(orbit, layout.sample_variables.size()));
   };

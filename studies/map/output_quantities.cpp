@@ -40,7 +40,7 @@ std::vector<periodic::Quantity> quantities_called(const Study& study, const Outp
 
 std::vector<periodic::Quantity> listed_quantities(const Study& study) {
   std::vector<periodic::Quantity> result;
-  for (const OutputChoice::Name& name : study.sweep()->output.names) {
+  for (const OutputChoice::Name& name : study.map()->output.names) {
     for (const periodic::Quantity& quantity : quantities_called(study, name))
       if (std::find(result.begin(), result.end(), quantity) == result.end()) result.push_back(quantity);
   }
@@ -55,15 +55,15 @@ struct Taken {
 
 std::map<std::string, Taken> names_of_coordinates(const Study& study) {
   std::map<std::string, Taken> taken;
-  for (const GridDimension& dimension : study.sweep()->dimensions) {
-    const Position position = study.sweep()->axes[dimension.axes.front()].position;
+  for (const GridDimension& dimension : study.map()->dimensions) {
+    const Position position = study.map()->axes[dimension.axes.front()].position;
     taken.emplace(dimension.name, Taken{"the dimension of an axis", position});
   }
-  for (const ParameterAxis& axis : study.sweep()->axes) {
+  for (const ParameterAxis& axis : study.map()->axes) {
     taken.emplace(study.parameters.list[axis.parameter].name,
                   Taken{"the parameter of an axis", axis.position});
   }
-  for (const DerivedCoordinate& coordinate : study.sweep()->coordinates) {
+  for (const DerivedCoordinate& coordinate : study.map()->coordinates) {
     taken.emplace(coordinate.name, Taken{"a coordinate", coordinate.value.position});
   }
   return taken;
@@ -76,26 +76,26 @@ std::vector<std::pair<std::string, std::string>> names_of_groups(const Study& st
   for (const char* name : {"mode", "mode_mass", "mode_frequency", "mode_damping"})
     names.emplace_back(name, "a variable of the modes");
   const auto add = [&](const std::string& name, const char* what) { names.emplace_back(name, what); };
-  if (!study.sweep()->output.orbits.empty()) {
+  if (!study.map()->output.histories.empty()) {
     add("orbits", "a group of the file");
     for (const char* name : {"orbit", "sample", "row_start", "time"})
       add(name, "a variable of the orbits kept");
   }
-  if (study.sweep()->output.borders) {
+  if (study.sweep()->borders) {
     add("borders", "a group of the file");
     for (const char* name : {"border", "element", "axis", "regime_below", "regime_above"})
       add(name, "a variable of the borders");
   }
-  if (study.sweep()->output.branches) {
+  if (study.sweep()->branches) {
     add("branches", "a group of the file");
     for (const char* name : {"branch", "place", "row_start", "period_multiple", "first_end", "last_end",
                              "arclength", "stability", "special", "special_residual", "special_element"})
       add(name, "a variable of the branches");
   }
-  if (study.sweep()->output.resonances.empty()) return names;
+  if (study.sweep()->resonances.empty()) return names;
   add("resonance", "a group of the file");
   add("curve", "the index of the resonances");
-  for (const std::size_t mass : study.sweep()->output.resonances) {
+  for (const std::size_t mass : study.sweep()->resonances) {
     for (const char* suffix : {"_resonance_frequency", "_resonance_amplitude", "_half_power_low",
                                "_half_power_high", "_half_power_damping"})
       add(mechanics::coordinate_name(study.network, mass) + suffix, "a variable of the resonances");
@@ -114,8 +114,8 @@ void check_report(const Study& study, const std::vector<periodic::QuantityDescri
                                 "quantities chooses what is",
                                 key, name.text, suggestion(name.text, names));
   };
-  for (const OutputChoice::Name& name : study.sweep()->report_quantities) check("quantities", name);
-  if (study.sweep()->headline) check("headline", *study.sweep()->headline);
+  for (const OutputChoice::Name& name : study.map()->report_quantities) check("quantities", name);
+  if (study.map()->headline) check("headline", *study.map()->headline);
   const auto& profile = study.sweep()->profile;
   if (!profile || !profile->position) return;
   for (const std::size_t mass : profile->masses) {
@@ -131,7 +131,7 @@ void check_report(const Study& study, const std::vector<periodic::QuantityDescri
 }  // namespace
 
 std::vector<periodic::Quantity> output_quantities(const Study& study) {
-  switch (study.sweep()->output.quantities) {
+  switch (study.map()->output.quantities) {
     case OutputChoice::Quantities::all:
       return periodic::all_quantities(study.network);
     case OutputChoice::Quantities::listed:
@@ -143,7 +143,7 @@ std::vector<periodic::Quantity> output_quantities(const Study& study) {
 }
 
 std::string headline_of(const Study& study) {
-  const auto& headline = study.sweep()->headline;
+  const auto& headline = study.map()->headline;
   return headline ? headline->text : study.network.masses.front() + "_peak";
 }
 

@@ -48,7 +48,7 @@ class ResponseCurves {
   // For each mass the amplitude sought and the size of its motion.
   static std::vector<periodic::Quantity> harmonics(const Study& study) {
     std::vector<periodic::Quantity> quantities;
-    for (const std::size_t mass : study.sweep()->output.resonances) {
+    for (const std::size_t mass : study.sweep()->resonances) {
       quantities.push_back({periodic::Measure::harmonic, mass});
       quantities.push_back({periodic::Measure::peak, mass});
     }
@@ -61,7 +61,7 @@ class ResponseCurves {
   }
 
   std::vector<double> solve(double at) {
-    std::vector<double> amplitudes(study_.sweep()->output.resonances.size(), kNone);
+    std::vector<double> amplitudes(study_.sweep()->resonances.size(), kNone);
     set(at);
     try {
       response_.set_values(values_);
@@ -96,14 +96,14 @@ std::vector<results::Variable> row_variables(const Study& study, std::size_t fre
     const bool pure = unit.empty() || study.dimensionless;
     variables.push_back({.name = name, .unit = pure ? "1" : unit, .long_name = long_name});
   };
-  for (std::size_t d = 0; d < study.sweep()->dimensions.size(); ++d) {
+  for (std::size_t d = 0; d < study.map()->dimensions.size(); ++d) {
     if (d == frequency_dimension) continue;
-    for (const std::size_t a : study.sweep()->dimensions[d].axes) {
-      const std::string& name = study.parameters.list[study.sweep()->axes[a].parameter].name;
-      add(name, study.sweep()->axes[a].unit, "parameter " + name);
+    for (const std::size_t a : study.map()->dimensions[d].axes) {
+      const std::string& name = study.parameters.list[study.map()->axes[a].parameter].name;
+      add(name, study.map()->axes[a].unit, "parameter " + name);
     }
   }
-  for (const std::size_t mass : study.sweep()->output.resonances) {
+  for (const std::size_t mass : study.sweep()->resonances) {
     const std::string& name = mechanics::coordinate_name(study.network, mass);
     add(name + "_resonance_frequency", "rad s-1", "angular frequency at which " + name + " moves most");
     add(name + "_resonance_amplitude", std::string(mechanics::coordinate_unit(study.network, mass, "m")),
@@ -117,11 +117,11 @@ std::vector<results::Variable> row_variables(const Study& study, std::size_t fre
 
 // The index of a curve along each dimension, 0 along the frequency; the last dimension runs fastest.
 std::vector<std::size_t> index_of(const Study& study, std::size_t frequency_dimension, std::uint64_t curve) {
-  std::vector<std::size_t> index(study.sweep()->dimensions.size(), 0);
+  std::vector<std::size_t> index(study.map()->dimensions.size(), 0);
   for (std::size_t d = index.size(); d-- > 0;) {
     if (d == frequency_dimension) continue;
-    index[d] = curve % study.sweep()->dimensions[d].size;
-    curve /= study.sweep()->dimensions[d].size;
+    index[d] = curve % study.map()->dimensions[d].size;
+    curve /= study.map()->dimensions[d].size;
   }
   return index;
 }
@@ -129,18 +129,17 @@ std::vector<std::size_t> index_of(const Study& study, std::size_t frequency_dime
 // The row of one curve; `curves` is the workspace.
 std::vector<double> solve_row(const Study& study, std::size_t frequency_dimension, std::uint64_t number,
                               ResponseCurves& curves) {
-  const ParameterAxis& axis =
-      study.sweep()->axes[study.sweep()->dimensions[frequency_dimension].axes.front()];
+  const ParameterAxis& axis = study.map()->axes[study.map()->dimensions[frequency_dimension].axes.front()];
   const std::vector<std::size_t> index = index_of(study, frequency_dimension, number);
   std::vector<double> parameters = study.parameters.nominal(), row;
   for (std::size_t d = 0; d < index.size(); ++d) {
     if (d == frequency_dimension) continue;
     set_along(*study.sweep(), d, index[d], parameters);
-    for (const std::size_t a : study.sweep()->dimensions[d].axes)
-      row.push_back(study.sweep()->axes[a].values[index[d]]);
+    for (const std::size_t a : study.map()->dimensions[d].axes)
+      row.push_back(study.map()->axes[a].values[index[d]]);
   }
   curves.begin(std::move(parameters));
-  for (std::size_t curve = 0; curve < study.sweep()->output.resonances.size(); ++curve) {
+  for (std::size_t curve = 0; curve < study.sweep()->resonances.size(); ++curve) {
     const auto peak =
         periodic::find_resonance_peak([&](double at) { return curves.amplitude(curve, at); }, axis.si_values);
     const double resonance = curves.angular_frequency(peak.at);
@@ -156,10 +155,10 @@ std::vector<double> solve_row(const Study& study, std::size_t frequency_dimensio
 
 void write_resonances(const MapPlan& plan, const AssemblyOptions& options, results::MapWriter& writer) {
   const Study& study = plan.study;
-  if (study.sweep()->output.resonances.empty()) return;
+  if (study.sweep()->resonances.empty()) return;
   const std::size_t along = *study.sweep()->frequency_dimension;
-  const std::size_t parameter = study.sweep()->axes[study.sweep()->dimensions[along].axes.front()].parameter;
-  const std::uint64_t frequencies = study.sweep()->dimensions[along].size;
+  const std::size_t parameter = study.map()->axes[study.map()->dimensions[along].axes.front()].parameter;
+  const std::uint64_t frequencies = study.map()->dimensions[along].size;
   const std::size_t table = writer.create_ragged(
       {.group = "resonance", .row = "curve", .row_variables = row_variables(study, along)});
   const auto make_work = [&]() -> engine::PieceWork {

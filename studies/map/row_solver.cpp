@@ -18,8 +18,8 @@ std::vector<double> values_of_failure(std::span<const periodic::Quantity> quanti
 }
 
 periodic::Path path_of(const Study& study) {
-  return study.sweep() != nullptr && study.sweep()->output.general_path ? periodic::Path::general
-                                                                        : periodic::Path::fastest;
+  return study.sweep() != nullptr && study.sweep()->general_path ? periodic::Path::general
+                                                                 : periodic::Path::fastest;
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ std::vector<std::vector<double>> way_of_sweep(const Study& study, const periodic
   std::vector<std::pair<double, std::vector<double>>> passed;
   if (wanted.is_sweep()) {
     const std::size_t along = *study.sweep()->frequency_dimension;
-    for (std::size_t i = 0; i < study.sweep()->dimensions[along].size; ++i) {
+    for (std::size_t i = 0; i < study.map()->dimensions[along].size; ++i) {
       std::vector<double> point = end;
       set_along(*study.sweep(), along, i, point);
       const double at = place(point);

@@ -14,7 +14,7 @@ int assist_command(const RunCommandOptions& options) {
   Study study = read_study_with(options.study, options.set);
   engine::RunOptions run = options.run;
   if (run.output.empty()) run.output = default_output(options.study);
-  if (study.kind() == StudyKind::sweep) {
+  if (study.map()) {
     MapPlan plan = plan_map(std::move(study), options.set);
     std::optional<KnownPoints> earlier;
     if (!options.from.empty()) plan.grown_from = earlier.emplace(plan, options.from).source();

@@ -27,7 +27,7 @@ std::vector<periodic::SearchedPlace> some_places(const RowBranches& branches) {
 }  // namespace
 
 void print_branch_cost(const MapPlan& plan, int threads, std::ostream& out) {
-  if (!plan.study.sweep()->output.branches) return;
+  if (!plan.study.sweep()->branches) return;
   constexpr std::chrono::seconds most(2);
   const auto rows = branch_rows(plan.study);
   if (rows.empty()) return fmt::print(out, "branches no row has the values of [output] branches: at\n");

@@ -38,8 +38,8 @@ std::string readable_size(double bytes) {
 
 void print_grid(const Study& study, const Grid& grid, std::ostream& out) {
   fmt::print(out, "points  {} = ", grid.points());
-  for (std::size_t d = 0; d < study.sweep()->dimensions.size(); ++d) {
-    fmt::print(out, "{}{} {}", d == 0 ? "" : " x ", grid.shape[d], study.sweep()->dimensions[d].name);
+  for (std::size_t d = 0; d < study.map()->dimensions.size(); ++d) {
+    fmt::print(out, "{}{} {}", d == 0 ? "" : " x ", grid.shape[d], study.map()->dimensions[d].name);
   }
   fmt::print(out, "\ntiles   {} of {} points\n", grid.tiles(), grid.box(0).points());
 }
@@ -169,13 +169,13 @@ int check_command(const CheckOptions& options, std::ostream& out) {
   constexpr double sample_seconds = 1.0;
   const auto start = Clock::now();
   Study read = read_study_with(options.study, options.set);
-  if (options.simulate_ranks > 0 && read.kind() != StudyKind::sweep)
+  if (options.simulate_ranks > 0 && !read.map())
     throw StudyError(rules::other_kind, "{}",
                      options.study.string() + ": --simulate-ranks is for maps; this study is " +
                          std::string(kind_noun(read.kind())));
   if (read.kind() == StudyKind::tune) return check_tuning(options, std::move(read), out);
   if (read.identify()) return check_identification(options, std::move(read), out);
-  if (read.kind() != StudyKind::sweep) return check_motion(read, options.listing(), out);
+  if (!read.map()) return check_motion(read, options.listing(), out);
   const MapPlan plan = plan_map(std::move(read), options.set);
   const double start_seconds = std::chrono::duration<double>(Clock::now() - start).count();
   const Study& study = plan.study;

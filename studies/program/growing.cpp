@@ -31,7 +31,7 @@ void refuse_loss(const MapPlan& plan, const KnownPoints& earlier, const std::fil
 
 std::string advice_about_logs(const engine::ResumeRefused& refused, const StudyPlan& plan,
                               const std::filesystem::path& output) {
-  if (refused.physics_differs() || plan.study.kind() != StudyKind::sweep) return "";
+  if (refused.physics_differs() || !plan.study.map()) return "";
   constexpr const char* otherwise = "name another file with -o, or discard what is there with --fresh";
   if (refused.kept() == plan.header_of_logs(""))
     return fmt::format("it was begun without --from: leave that out to go on, {}", otherwise);

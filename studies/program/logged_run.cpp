@@ -42,7 +42,7 @@ bool is_finished(const StudyPlan& plan, const std::filesystem::path& output) {
   const auto kept = fingerprint_of_file(output);
   if (!kept) return false;
   if (*kept == plan.fingerprint) return !is_partial(output);
-  const bool could_grow = kept->physics == plan.fingerprint.physics && plan.study.kind() == StudyKind::sweep;
+  const bool could_grow = kept->physics == plan.fingerprint.physics && plan.study.map();
   throw engine::ResumeRefused(
       output, *kept, plan.fingerprint,
       could_grow

@@ -30,7 +30,7 @@ std::string csv(const periodic::History& history, bool dimensionless) {
 
 // General, if the command or the study asks for it.
 periodic::Path path_of(const Study& study, const std::string& asked) {
-  const bool general = study.sweep() != nullptr && study.sweep()->output.general_path;
+  const bool general = study.sweep() != nullptr && study.sweep()->general_path;
   return general || asked == "general" ? periodic::Path::general : periodic::Path::fastest;
 }
 

@@ -97,14 +97,14 @@ std::vector<std::string> chosen_quantities(const std::vector<std::string>& asked
                                            const std::optional<Study>& study) {
   check_quantities(asked, layout);
   if (!asked.empty()) return named_quantities(asked, layout);
-  if (!study || !study->sweep()) return default_quantities(layout, study);
-  const SweepChoice& sweep = *study->sweep();
+  if (!study || !study->map()) return default_quantities(layout, study);
+  const MapChoice& map = *study->map();
   std::vector<std::string> names;
-  for (const OutputChoice::Name& name : sweep.report_quantities) names.push_back(name.text);
+  for (const OutputChoice::Name& name : map.report_quantities) names.push_back(name.text);
   names = names.empty() ? default_quantities(layout, study) : named_quantities(names, layout);
-  if (sweep.headline) {  // a page opens with its first number
-    std::erase(names, sweep.headline->text);
-    names.insert(names.begin(), sweep.headline->text);
+  if (map.headline) {  // a page opens with its first number
+    std::erase(names, map.headline->text);
+    names.insert(names.begin(), map.headline->text);
   }
   return names;
 }
@@ -125,8 +125,8 @@ std::vector<std::string> axis_parameters(const results::MapLayout& layout,
                                          const std::optional<Study>& study) {
   std::vector<std::string> names;
   if (study) {
-    if (!study->sweep()) return names;
-    for (const ParameterAxis& axis : study->sweep()->axes)
+    if (!study->map()) return names;
+    for (const ParameterAxis& axis : study->map()->axes)
       names.push_back(study->parameters.list[axis.parameter].name);
   } else {
     for (const results::Axis& axis : layout.axes) names.push_back(axis.name);

@@ -17,7 +17,7 @@ std::filesystem::path default_output(const std::filesystem::path& study) {
 int run_command(const RunCommandOptions& options, std::ostream& out) {
   engine::let_failed_writes_return();
   Study study = read_study_with(options.study, options.set);
-  if (study.kind() == StudyKind::sweep) return run_map(options, std::move(study), out);
+  if (study.map()) return run_map(options, std::move(study), out);
   if (!options.from.empty())
     throw StudyError(rules::other_kind, "{}: {} has no points to take over from {}: --from is for maps",
                      study.source.name, kind_noun(study.kind()), options.from.string());

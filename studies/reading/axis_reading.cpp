@@ -28,7 +28,7 @@ std::size_t read_axis_parameter(const TomlSection& section, const Study& study) 
                  "number",
                  name);
   }
-  for (const ParameterAxis& other : study.sweep()->axes) {
+  for (const ParameterAxis& other : study.map()->axes) {
     if (other.parameter != *index) continue;
     section.fail(rules::given_twice, "parameter", "\"{}\" has an axis already (line {})", name,
                  other.position.line);
@@ -142,10 +142,10 @@ void convert_axis(const TomlSection& section, ParameterAxis& axis) {
 
 // Adds the axis to the dimension of its zip, or as a new dimension.
 void add_to_grid(const TomlSection& section, Study& study) {
-  const ParameterAxis& axis = study.sweep()->axes.back();
-  const std::size_t index = study.sweep()->axes.size() - 1;
-  for (GridDimension& dimension : study.sweep()->dimensions) {
-    const ParameterAxis& other = study.sweep()->axes[dimension.axes.front()];
+  const ParameterAxis& axis = study.map()->axes.back();
+  const std::size_t index = study.map()->axes.size() - 1;
+  for (GridDimension& dimension : study.map()->dimensions) {
+    const ParameterAxis& other = study.map()->axes[dimension.axes.front()];
     if (axis.zip.empty() || other.zip != axis.zip) continue;
     if (axis.values.size() != dimension.size) {
       section.fail(rules::wrong_length, "zip",
@@ -157,7 +157,7 @@ void add_to_grid(const TomlSection& section, Study& study) {
     return;
   }
   const std::string& name = axis.zip.empty() ? study.parameters.list[axis.parameter].name : axis.zip;
-  study.sweep()->dimensions.push_back({name, {index}, axis.values.size()});
+  study.map()->dimensions.push_back({name, {index}, axis.values.size()});
 }
 
 void read_axis(const StudyContext& context, const TomlValue& table, std::size_t number, Study& study) {
@@ -178,14 +178,14 @@ void read_axis(const StudyContext& context, const TomlValue& table, std::size_t 
   }
   convert_axis(section, axis);
   check_values_differ(section, axis);
-  study.sweep()->axes.push_back(std::move(axis));
+  study.map()->axes.push_back(std::move(axis));
   add_to_grid(section, study);
 }
 
 // Dimensions, axes and coordinates share the names of the record.
 void check_zip_names(const StudyContext& context, const Study& study) {
-  for (const ParameterAxis& zipped : study.sweep()->axes) {
-    for (const ParameterAxis& axis : study.sweep()->axes) {
+  for (const ParameterAxis& zipped : study.map()->axes) {
+    for (const ParameterAxis& axis : study.map()->axes) {
       if (zipped.zip != study.parameters.list[axis.parameter].name) continue;
       throw context.source.error_at(rules::name_taken, zipped.zip_position,
                                     "axis \"{}\": zip: \"{}\" is the name of a parameter "
@@ -205,7 +205,7 @@ void read_axes(const StudyContext& context, const TomlValue& root, Study& study)
   for (std::size_t i = 0; i < tables.size(); ++i) read_axis(context, *tables[i], i + 1, study);
   check_zip_names(context, study);
   double points = 1.0;
-  for (const GridDimension& dimension : study.sweep()->dimensions)
+  for (const GridDimension& dimension : study.map()->dimensions)
     points *= static_cast<double>(dimension.size);
   if (points > most_grid_points) {
     throw context.source.error_at(rules::too_large, tables.back()->position,
@@ -223,8 +223,8 @@ void read_coordinates(const StudyContext& context, const TomlValue& root, Study&
     DerivedCoordinate coordinate;
     coordinate.name = section.identifier("name");
     std::vector<std::string> taken = study.parameters.names();
-    for (const GridDimension& dimension : study.sweep()->dimensions) taken.push_back(dimension.name);
-    for (const DerivedCoordinate& other : study.sweep()->coordinates) taken.push_back(other.name);
+    for (const GridDimension& dimension : study.map()->dimensions) taken.push_back(dimension.name);
+    for (const DerivedCoordinate& other : study.map()->coordinates) taken.push_back(other.name);
     if (std::find(taken.begin(), taken.end(), coordinate.name) != taken.end()) {
       section.fail(rules::name_taken, "name",
                    "the name is taken by a parameter, a zip or another coordinate");
@@ -250,7 +250,7 @@ void read_coordinates(const StudyContext& context, const TomlValue& root, Study&
                    moving.empty() ? "no axis" : "several axes");
     }
     coordinate.dimension = moving.front();
-    study.sweep()->coordinates.push_back(std::move(coordinate));
+    study.map()->coordinates.push_back(std::move(coordinate));
   }
 }
 

@@ -33,7 +33,7 @@ std::size_t innermost_axis(const SweepChoice& sweep) {
 }
 
 std::size_t axis_called(const TomlSection& section, const Study& study, const std::string& name) {
-  const auto& axes = study.sweep()->axes;
+  const auto& axes = study.map()->axes;
   const auto found =
       std::ranges::find_if(axes, [&](const ParameterAxis& axis) { return name_of(study, axis) == name; });
   if (found != axes.end()) return static_cast<std::size_t>(found - axes.begin());
@@ -51,7 +51,7 @@ std::vector<Assignment> read_row(const StudyContext& context, const Study& study
     throw context.source.error_at(rules::wrong_type, value.position,
                                   "{}: a row is a table such as {{ f = 0.1 }}, found {}", where,
                                   entries ? "an empty table" : described(value));
-  const auto& axes = study.sweep()->axes;
+  const auto& axes = study.map()->axes;
   const auto axis_of = [&](std::size_t parameter) {
     return std::ranges::find(axes, parameter, &ParameterAxis::parameter);
   };
@@ -129,9 +129,9 @@ void read_branches(const StudyContext& context, const TomlSection& output, Study
     choice.axis = section.find("along") ? axis_called(section, study, section.text("along"))
                                         : innermost_axis(*study.sweep());
     if (section.find("along"))
-      check_axis(section, "along", study, study.sweep()->axes[choice.axis]);
+      check_axis(section, "along", study, study.map()->axes[choice.axis]);
     else
-      check_axis(output, "branches", study, study.sweep()->axes[choice.axis]);
+      check_axis(output, "branches", study, study.map()->axes[choice.axis]);
     read_rows(context, section, study, choice);
   } else {
     if (!value->as<bool>())
@@ -140,10 +140,10 @@ void read_branches(const StudyContext& context, const TomlSection& output, Study
                   described(*value));
     if (!*value->as<bool>()) return;
     choice.axis = innermost_axis(*study.sweep());
-    check_axis(output, "branches", study, study.sweep()->axes[choice.axis]);
+    check_axis(output, "branches", study, study.map()->axes[choice.axis]);
   }
   check_elements(output, study);
-  study.sweep()->output.branches = std::move(choice);
+  study.sweep()->branches = std::move(choice);
 }
 
 }  // namespace frahm::studies

@@ -143,8 +143,8 @@ struct Change {
 
 std::vector<Change> changes_of(const Study& study) {
   std::vector<Change> changes;
-  if (study.sweep()) {
-    for (const ParameterAxis& axis : study.sweep()->axes) changes.push_back({axis.parameter, "an [[axis]]"});
+  if (study.map()) {
+    for (const ParameterAxis& axis : study.map()->axes) changes.push_back({axis.parameter, "an [[axis]]"});
   }
   if (const TuneChoice* tune = study.tune()) {
     if (tune->band) changes.push_back({tune->band->parameter, "the band of [tune]"});

@@ -138,18 +138,17 @@ void walk(const Study& study, std::span<const std::size_t> reads, std::vector<do
   const auto moving = dimensions_moving(study, reads);
   std::size_t points = 1;
   for (const std::size_t d : moving) {
-    if (points <= most_points_tried) points *= study.sweep()->dimensions[d].size;
+    if (points <= most_points_tried) points *= study.map()->dimensions[d].size;
   }
   const bool corners = points > most_points_tried;
   std::vector<std::size_t> index(moving.size(), 0);
   std::size_t turned = 0;
   do {
-    for (std::size_t i = 0; i < moving.size(); ++i)
-      set_along(*study.sweep(), moving[i], index[i], parameters);
+    for (std::size_t i = 0; i < moving.size(); ++i) set_along(*study.map(), moving[i], index[i], parameters);
     visit();
     // The next index, like the digits of a counter.
     for (turned = 0; turned < moving.size(); ++turned) {
-      const std::size_t last = study.sweep()->dimensions[moving[turned]].size - 1;
+      const std::size_t last = study.map()->dimensions[moving[turned]].size - 1;
       if (index[turned] < last) {
         index[turned] = corners ? last : index[turned] + 1;
         break;
@@ -159,15 +158,15 @@ void walk(const Study& study, std::span<const std::size_t> reads, std::vector<do
   } while (turned < moving.size());
 }
 
-// The parameters (SI) of the orbits that a sweep records.
-std::vector<std::vector<double>> kept_orbits(const Study& study) {
-  std::vector<std::vector<double>> orbits;
-  if (!study.sweep()) return orbits;
-  for (const auto& orbit : study.sweep()->output.orbits) {
-    orbits.push_back(study.parameters.nominal());
-    for (const Assignment& assignment : orbit) orbits.back()[assignment.parameter] = assignment.value;
+// The parameters (SI) of the points whose histories a map records.
+std::vector<std::vector<double>> kept_points(const Study& study) {
+  std::vector<std::vector<double>> points;
+  if (!study.map()) return points;
+  for (const auto& point : study.map()->output.histories) {
+    points.push_back(study.parameters.nominal());
+    for (const Assignment& assignment : point) points.back()[assignment.parameter] = assignment.value;
   }
-  return orbits;
+  return points;
 }
 
 // The parameters that an excitation's crank and rod read.
@@ -193,7 +192,7 @@ bool is_crank(const Study& study, std::size_t excitation) {
   return study.network.excitations[excitation].kind == mechanics::ExcitationKind::crank;
 }
 
-// The largest crank/rod of an excitation on the grid and at the recorded orbits.
+// The largest crank/rod of an excitation on the grid and at the points whose histories are recorded.
 double largest_crank_ratio(const Study& study, std::size_t excitation) {
   std::vector<double> parameters = study.parameters.nominal();
   double largest = 0.0;
@@ -202,8 +201,8 @@ double largest_crank_ratio(const Study& study, std::size_t excitation) {
     largest = std::max(largest, crank_ratio(study, excitation, parameters));
   };
   walk(study, reads_of_crank(study, excitation), parameters, visit);
-  for (const std::vector<double>& orbit : kept_orbits(study)) {
-    parameters = orbit;
+  for (const std::vector<double>& point : kept_points(study)) {
+    parameters = point;
     visit();
   }
   return largest;
@@ -255,8 +254,8 @@ void check_grid(const Study& study) {
     std::vector<double> parameters = nominal;
     walk(study, checked.reads, parameters, [&] { check(study, checked, parameters); });
   }
-  for (std::vector<double> parameters : kept_orbits(study))
-    check_point(study, parameters, "[output]: orbits");
+  for (std::vector<double> parameters : kept_points(study))
+    check_point(study, parameters, study.sweep() ? "[output]: orbits" : "[output]: histories");
 }
 
 }  // namespace frahm::studies

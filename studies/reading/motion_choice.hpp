@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "solvers/transient/record.hpp"
+#include "studies/reading/map_choice.hpp"
 #include "studies/reading/study_values.hpp"
 
 // The options of a study of kind "decay" or "transient".
@@ -39,6 +40,7 @@ struct DrivingRecord {
 struct TransientChoice : MotionChoice {
   std::optional<StudyValue> sweep_to;    // of a run-up or run-down: the last frequency [rad/s]
   std::optional<StudyValue> sweep_rate;  // its angular acceleration, without sign [rad/s2]
+  std::optional<MapChoice> map;          // a motion at each point of its axes; nothing: one motion
   std::vector<DrivingRecord> records;    // without their samples where data are left (DataFiles)
 
   double end_of_records() const;  // of the longest [s]

@@ -30,31 +30,9 @@ void read_quantities(const TomlSection& section, OutputChoice& output) {
   output.names = read_quantity_names(section);
 }
 
-void read_orbits(const StudyContext& context, const TomlSection& section, Study& study) {
-  const TomlValue* value = section.find("orbits");
-  if (!value) return;
-  const auto* points = value->as<TomlArray>();
-  if (!points)
-    section.fail(rules::wrong_type, "orbits",
-                 "expected an array of points such as [{{ omega = 250, I = 6.36 }}]");
-  for (const TomlValue& point : *points) {
-    const auto* entries = point.as<TomlTable>();
-    if (!entries) {
-      throw context.source.error_at(rules::wrong_type, point.position,
-                                    "[output]: orbits: a point is a table such as {{ omega = 250 }}, found "
-                                    "{}",
-                                    described(point));
-    }
-    std::vector<Assignment> assignments;
-    for (const TomlEntry& entry : *entries)
-      assignments.push_back(read_assignment(context, study, "[output]: orbits", entry));
-    study.sweep()->output.orbits.push_back(std::move(assignments));
-  }
-}
-
 void read_borders(const TomlSection& section, Study& study) {
-  study.sweep()->output.borders = section.boolean_or("borders", false);
-  if (!study.sweep()->output.borders) return;
+  study.sweep()->borders = section.boolean_or("borders", false);
+  if (!study.sweep()->borders) return;
   std::size_t contacts = 0;
   for (const mechanics::Element& element : study.network.elements) {
     if (!mechanics::has_own_contact(element)) continue;
@@ -77,12 +55,12 @@ void read_borders(const TomlSection& section, Study& study) {
 // Whether each frequency along a dimension belongs to one value of its axis.
 bool frequencies_differ(const Study& study, std::size_t dimension) {
   std::vector<double> parameters = study.parameters.nominal(), omega;
-  for (std::size_t i = 0; i < study.sweep()->dimensions[dimension].size; ++i) {
+  for (std::size_t i = 0; i < study.map()->dimensions[dimension].size; ++i) {
     set_along(*study.sweep(), dimension, i, parameters);
     study.parameters.complete(std::span<double>(parameters));
     omega.push_back(study.values.omega.expression.evaluate(std::span<const double>(parameters)));
   }
-  const auto& places = study.sweep()->axes[study.sweep()->dimensions[dimension].axes.front()].si_values;
+  const auto& places = study.map()->axes[study.map()->dimensions[dimension].axes.front()].si_values;
   for (std::size_t i = 2; i < omega.size(); ++i) {
     const double before = (omega[i - 1] - omega[i - 2]) * (places[i - 1] - places[i - 2]);
     if (before * (omega[i] - omega[i - 1]) * (places[i] - places[i - 1]) <= 0.0) return false;
@@ -106,15 +84,15 @@ void read_resonances(const StudyContext& context, const TomlSection& section, St
                                     suggestion(name, coordinates));
     }
     const auto index = static_cast<std::size_t>(found - coordinates.begin());
-    auto& chosen = study.sweep()->output.resonances;
+    auto& chosen = study.sweep()->resonances;
     if (std::find(chosen.begin(), chosen.end(), index) != chosen.end())
       throw context.source.error_at(rules::given_twice, item.position, "{}: \"{}\" appears twice", where,
                                     name);
     chosen.push_back(index);
   }
   const auto dimension = study.sweep()->frequency_dimension;
-  if (!dimension || study.sweep()->dimensions[*dimension].axes.size() > 1 ||
-      study.sweep()->dimensions[*dimension].size < 3) {
+  if (!dimension || study.map()->dimensions[*dimension].axes.size() > 1 ||
+      study.map()->dimensions[*dimension].size < 3) {
     section.fail(
         rules::unfit_axis, "resonances",
         "a resonance is sought along an axis of the excitation frequency: one that is zipped with no "
@@ -126,6 +104,33 @@ void read_resonances(const StudyContext& context, const TomlSection& section, St
 }
 
 }  // namespace
+
+void read_recorded(const TomlSection& section, OutputChoice& output) {
+  read_quantities(section, output);
+  const auto precision = std::ranges::find(precision_names, section.choice_or("precision", precision_names));
+  output.precision = static_cast<Precision>(precision - precision_names.begin());
+}
+
+void read_histories(const StudyContext& context, const TomlSection& section, const char* key, Study& study) {
+  const TomlValue* value = section.find(key);
+  if (!value) return;
+  const auto* points = value->as<TomlArray>();
+  if (!points)
+    section.fail(rules::wrong_type, key, "expected an array of points such as [{{ omega = 250, I = 6.36 }}]");
+  const std::string where = fmt::format("[output]: {}", key);
+  for (const TomlValue& point : *points) {
+    const auto* entries = point.as<TomlTable>();
+    if (!entries) {
+      throw context.source.error_at(rules::wrong_type, point.position,
+                                    "{}: a point is a table such as {{ omega = 250 }}, found {}", where,
+                                    described(point));
+    }
+    std::vector<Assignment> assignments;
+    for (const TomlEntry& entry : *entries)
+      assignments.push_back(read_assignment(context, study, where, entry));
+    study.map()->output.histories.push_back(std::move(assignments));
+  }
+}
 
 std::vector<OutputChoice::Name> read_quantity_names(const TomlSection& section) {
   const TomlValue& value = section.require("quantities");
@@ -156,12 +161,10 @@ void read_output(const StudyContext& context, const TomlValue& root, Study& stud
   const TomlSection section(
       context.source, entry->value, "[output]",
       {"quantities", "precision", "path", "borders", "branches", "orbits", "resonances", "signal"});
-  read_quantities(section, study.sweep()->output);
-  study.sweep()->output.general_path = section.choice_or("path", {"fastest", "general"}) == "general";
-  const auto precision = std::ranges::find(precision_names, section.choice_or("precision", precision_names));
-  study.sweep()->output.precision = static_cast<Precision>(precision - precision_names.begin());
+  read_recorded(section, study.sweep()->output);
+  study.sweep()->general_path = section.choice_or("path", {"fastest", "general"}) == "general";
   read_borders(section, study);
-  read_orbits(context, section, study);
+  read_histories(context, section, "orbits", study);
   read_resonances(context, section, study);
   read_branches(context, section, study);
   if (const std::string one = needs_one_response(study); !one.empty()) refuse_several_responses(study, one);
@@ -192,15 +195,17 @@ OutputChoice::Name read_headline(const TomlSection& section, const Study& study)
 
 void read_report(const StudyContext& context, const TomlValue& root, Study& study) {
   const TomlEntry* entry = find_entry(root, "report");
+  SweepChoice* sweep = study.sweep();
   if (!entry) {
-    study.sweep()->profile = read_profile(nullptr, study.network);
+    if (sweep) sweep->profile = read_profile(nullptr, study.network);
     return;
   }
-  const TomlSection section(context.source, entry->value, "[report]",
-                            {"quantities", "headline", "profile", "height"});
-  if (section.find("headline")) study.sweep()->headline = read_headline(section, study);
-  if (section.find("quantities")) study.sweep()->report_quantities = read_quantity_names(section);
-  study.sweep()->profile = read_profile(&section, study.network);
+  std::vector<std::string> keys{"quantities", "headline"};
+  if (sweep) keys.insert(keys.end(), {"profile", "height"});
+  const TomlSection section(context.source, entry->value, "[report]", keys);
+  if (section.find("headline")) study.map()->headline = read_headline(section, study);
+  if (section.find("quantities")) study.map()->report_quantities = read_quantity_names(section);
+  if (sweep) sweep->profile = read_profile(&section, study.network);
 }
 
 }  // namespace frahm::studies

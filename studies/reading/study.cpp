@@ -120,6 +120,28 @@ std::vector<std::size_t> read_by_matrices(const Study& study) {
   return reads;
 }
 
+// A transient without axes is one motion, of whose [output] the signals alone have a meaning.
+void check_motion_without_axes(const Study& study, const TomlValue& root) {
+  const std::string why = ": without an [[axis]] it computes one motion, not a map";
+  for (const TomlEntry& entry : *root.as<TomlTable>()) {
+    if (entry.key == "output" && entry.value.as<TomlTable>())
+      check_output_has_signals_alone(study, entry, why);
+    if (entry.key == "coordinate" || entry.key == "report")
+      throw study.source.error_at(rules::other_kind, entry.position, "the section \"{}\" is not part of {}{}",
+                                  entry.key, kind_noun(study.kind()), why);
+  }
+}
+
+// The axes of a transient and what is recorded along them.
+void read_map_of_motions(const StudyContext& context, const TomlValue& root, Study& study) {
+  if (!find_entry(root, "axis")) return check_motion_without_axes(study, root);
+  study.transient()->map.emplace();
+  read_axes(context, root, study);
+  read_coordinates(context, root, study);
+  read_motion_output(context, root, study);
+  read_report(context, root, study);
+}
+
 void find_frequency_dimension(Study& study) {
   const auto moving = dimensions_moving(study, study.values.omega.expression.reads());
   if (moving.empty()) return;
@@ -192,6 +214,8 @@ Study parse_study(std::string text, const std::filesystem::path& name, DataFiles
     study.sweep()->orbits = read_orbits_wanted(context, root, study);
     check_compared_show(context, root, study);
     read_report(context, root, study);
+  } else if (study.kind() == StudyKind::transient) {
+    read_map_of_motions(context, root, study);
   } else if (study.kind() == StudyKind::tune) {
     read_tuning(context, root, study);
   } else if (study.kind() == StudyKind::identify) {
@@ -234,6 +258,15 @@ std::string_view kind_noun(StudyKind kind) {
   return "a study";
 }
 
+const MapChoice* Study::map() const {
+  if (sweep()) return sweep();
+  return transient() && transient()->map ? &*transient()->map : nullptr;
+}
+
+MapChoice* Study::map() {
+  return const_cast<MapChoice*>(std::as_const(*this).map());
+}
+
 const MotionChoice* Study::motion() const {
   if (decay()) return decay();
   return transient();
@@ -256,6 +289,9 @@ std::span<const InitialValues> Study::initial() const {
 std::vector<const StudyValue*> Study::values_of_its_kind() const {
   std::vector<const StudyValue*> all;
   if (sweep()) all = sweep()->values();
+  if (map()) {
+    for (const DerivedCoordinate& coordinate : map()->coordinates) all.push_back(&coordinate.value);
+  }
   const auto add = [&](const std::optional<StudyValue>& value) {
     if (value) all.push_back(&*value);
   };
@@ -282,7 +318,6 @@ bool SweepChoice::sweeps_frequency() const {
 std::vector<const StudyValue*> SweepChoice::values() const {
   std::vector<const StudyValue*> all;
   if (comparison && comparison->law == mechanics::FrictionLaw::arctan) all.push_back(&comparison->slope);
-  for (const DerivedCoordinate& coordinate : coordinates) all.push_back(&coordinate.value);
   return all;
 }
 
@@ -294,31 +329,30 @@ Study with_parameters(Study study, std::span<const Assignment> assignments) {
   return study;
 }
 
-void set_along(const SweepChoice& sweep, std::size_t dimension, std::size_t index,
-               std::span<double> parameters) {
-  for (const std::size_t axis : sweep.dimensions[dimension].axes) {
-    parameters[sweep.axes[axis].parameter] = sweep.axes[axis].si_values[index];
+void set_along(const MapChoice& map, std::size_t dimension, std::size_t index, std::span<double> parameters) {
+  for (const std::size_t axis : map.dimensions[dimension].axes) {
+    parameters[map.axes[axis].parameter] = map.axes[axis].si_values[index];
   }
 }
 
 std::vector<std::size_t> dimensions_moving(const Study& study, std::span<const std::size_t> reads) {
   std::vector<std::size_t> moving;
-  const SweepChoice* sweep = study.sweep();
-  if (!sweep) return moving;
+  const MapChoice* map = study.map();
+  if (!map) return moving;
   const auto inputs = study.parameters.inputs_of(reads);
   const auto is_input = [&](std::size_t axis) {
-    return std::find(inputs.begin(), inputs.end(), sweep->axes[axis].parameter) != inputs.end();
+    return std::find(inputs.begin(), inputs.end(), map->axes[axis].parameter) != inputs.end();
   };
-  for (std::size_t d = 0; d < sweep->dimensions.size(); ++d) {
-    const auto& axes = sweep->dimensions[d].axes;
+  for (std::size_t d = 0; d < map->dimensions.size(); ++d) {
+    const auto& axes = map->dimensions[d].axes;
     if (std::any_of(axes.begin(), axes.end(), is_input)) moving.push_back(d);
   }
   return moving;
 }
 
 UsualUnit usual_unit(const Study& study, std::size_t parameter) {
-  if (study.sweep()) {
-    for (const ParameterAxis& axis : study.sweep()->axes) {
+  if (study.map()) {
+    for (const ParameterAxis& axis : study.map()->axes) {
       if (axis.parameter == parameter) return {axis.unit, axis.si_factor};
     }
   }

@@ -47,6 +47,9 @@ struct Study {
   TransientChoice* transient() { return std::get_if<TransientChoice>(&choice); }
   TuneChoice* tune() { return std::get_if<TuneChoice>(&choice); }
   IdentifyChoice* identify() { return std::get_if<IdentifyChoice>(&choice); }
+  // The axes and what is recorded of a sweep, or of a transient with axes; else null.
+  const MapChoice* map() const;
+  MapChoice* map();
   // Of a decay or a transient.
   const MotionChoice* motion() const;
   MotionChoice* motion();
@@ -80,10 +83,9 @@ std::string_view kind_noun(StudyKind kind);  // in sentences: "a tuning"
 Study with_parameters(Study study, std::span<const Assignment> assignments);
 
 // Gives the parameters of a dimension of the map their SI values at one index (Parameters::list order).
-void set_along(const SweepChoice& sweep, std::size_t dimension, std::size_t index,
-               std::span<double> parameters);
+void set_along(const MapChoice& map, std::size_t dimension, std::size_t index, std::span<double> parameters);
 
-// The dimensions of the map along which these parameters change, ascending; none unless the study is a sweep.
+// The dimensions of the map along which these parameters change, ascending; none unless the study has a map.
 std::vector<std::size_t> dimensions_moving(const Study& study, std::span<const std::size_t> reads);
 
 // The unit of a number parameter in messages and for bare numbers in orbits, --at and --set: that of its

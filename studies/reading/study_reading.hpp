@@ -126,10 +126,11 @@ std::string needs_one_response(const Study& study);
 periodic::OrbitsWanted read_orbits_wanted(const StudyContext& context, const TomlValue& root,
                                           const Study& study);
 
-// [[axis]], [[coordinate]], [output] and [report] into the choice of a sweep.
+// [[axis]], [[coordinate]], [output] and [report] into the map of a study.
 void read_axes(const StudyContext& context, const TomlValue& root, Study& study);
 void read_coordinates(const StudyContext& context, const TomlValue& root, Study& study);
-void read_output(const StudyContext& context, const TomlValue& root, Study& study);
+void read_output(const StudyContext& context, const TomlValue& root, Study& study);  // of a sweep
+void read_motion_output(const StudyContext& context, const TomlValue& root, Study& study);
 // The key `show`: which of several responses, by default the largest; a sweep needs exact laws and an axis of
 // the frequency.
 periodic::OrbitsWanted::Show read_show(const TomlSection& section);
@@ -137,6 +138,10 @@ void check_sweep(const TomlSection& section, const Study& study);
 void read_branches(const StudyContext& context, const TomlSection& output, Study& study);
 void read_report(const StudyContext& context, const TomlValue& root, Study& study);
 
+// The keys `quantities` and `precision` of [output], and the points listed under a key, `orbits` or
+// `histories`.
+void read_recorded(const TomlSection& section, OutputChoice& output);
+void read_histories(const StudyContext& context, const TomlSection& section, const char* key, Study& study);
 // The names in the array `quantities` of a section, and patterns of names (name_pattern.hpp), each once.
 std::vector<OutputChoice::Name> read_quantity_names(const TomlSection& section);
 

@@ -86,8 +86,8 @@ std::string needs_one_response(const Study& study) {
                                    : fmt::format("a fit to the steady motion of record \"{}\"", steady->name);
   }
   if (!study.sweep()) return "";
-  if (study.sweep()->output.borders) return "[output] borders";
-  return study.sweep()->output.resonances.empty() ? "" : "[output] resonances";
+  if (study.sweep()->borders) return "[output] borders";
+  return study.sweep()->resonances.empty() ? "" : "[output] resonances";
 }
 
 }  // namespace frahm::studies

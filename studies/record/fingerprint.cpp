@@ -36,9 +36,8 @@ class CanonicalText {
 void add_parameters(const Study& study, CanonicalText& text) {
   const auto on_axis = [&](std::size_t i) {
     if (study.tune() && study.tune()->band && study.tune()->band->parameter == i) return true;
-    return study.sweep() && std::ranges::any_of(study.sweep()->axes, [&](const ParameterAxis& axis) {
-             return axis.parameter == i;
-           });
+    return study.map() && std::ranges::any_of(study.map()->axes,
+                                              [&](const ParameterAxis& axis) { return axis.parameter == i; });
   };
   const auto names = study.parameters.names();
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -260,11 +259,9 @@ void add_swept_frequencies(const SweepChoice& sweep, const Parameters& parameter
 std::string physics_hash(const Study& study, std::span<const periodic::Quantity> quantities) {
   CanonicalText text;
   text.line("solver {}", solver_version);
-  if (study.sweep()) {
-    const OutputChoice& output = study.sweep()->output;
-    text.line("precision {}", precision_names[static_cast<std::size_t>(output.precision)]);
-    if (output.general_path) text.line("path general");
-  }
+  if (study.map())
+    text.line("precision {}", precision_names[static_cast<std::size_t>(study.map()->output.precision)]);
+  if (study.sweep() && study.sweep()->general_path) text.line("path general");
   const bool searches = study.sweep() ? mechanics::may_have_several_responses(study.network)
                                       : study.tune() && tuning::may_take_several_orbits(study.network);
   if (searches) {
@@ -286,32 +283,36 @@ std::string physics_hash(const Study& study, std::span<const periodic::Quantity>
   return text.hash();
 }
 
-void add_map(const Study& study, const SweepChoice& sweep, CanonicalText& text) {
-  for (const GridDimension& dimension : sweep.dimensions) {
+void add_axes(const Study& study, const MapChoice& map, CanonicalText& text) {
+  for (const GridDimension& dimension : map.dimensions) {
     text.line("dimension {}", dimension.size);
     for (const std::size_t a : dimension.axes) {
-      const ParameterAxis& axis = sweep.axes[a];
+      const ParameterAxis& axis = map.axes[a];
       text.line("axis {} {}", study.parameters.list[axis.parameter].name, fmt::join(axis.si_values, " "));
     }
   }
-  for (const auto& orbit : sweep.output.orbits) {
+  for (const auto& orbit : map.output.histories) {
     for (const Assignment& at : orbit) text.line("orbit {} {}", at.parameter, at.value);
     text.line("orbit ends");
   }
-  if (sweep.output.borders) text.line("borders");
-  if (const auto& branches = sweep.output.branches) {
+}
+
+void add_sweep(const Study& study, const SweepChoice& sweep, CanonicalText& text) {
+  if (sweep.borders) text.line("borders");
+  if (const auto& branches = sweep.branches) {
     text.line("branches {}", study.parameters.list[sweep.axes[branches->axis].parameter].name);
     for (const auto& row : branches->at) {
       for (const Assignment& at : row) text.line("branches at {} {}", at.parameter, at.value);
       text.line("branches row ends");
     }
   }
-  text.line("resonances {}", fmt::join(sweep.output.resonances, " "));
+  text.line("resonances {}", fmt::join(sweep.resonances, " "));
 }
 
 std::string grid_hash(const Study& study, Tiling tiling) {
   CanonicalText text;
-  if (study.sweep()) add_map(study, *study.sweep(), text);
+  if (study.map()) add_axes(study, *study.map(), text);
+  if (study.sweep()) add_sweep(study, *study.sweep(), text);
   if (const MotionChoice* motion = study.motion()) {
     text.line("samples {}", motion->samples);
     if (motion->duration)

@@ -30,8 +30,8 @@ std::string overruled_by_measurements(const IdentifyChoice& choice, std::size_t 
 // The part of the study that overrides a parameter, so that a command-line value has no effect; empty if
 // none.
 std::string overruled_by(const Study& study, std::size_t parameter) {
-  if (study.sweep()) {
-    for (const ParameterAxis& axis : study.sweep()->axes) {
+  if (study.map()) {
+    for (const ParameterAxis& axis : study.map()->axes) {
       if (axis.parameter == parameter) return "runs along an axis of the map; change the axis";
     }
   }

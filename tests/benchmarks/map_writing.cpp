@@ -173,7 +173,7 @@ int main(int argc, char** argv) {
                            .string();
   if (::mkdtemp(folder.data()) == nullptr) throw std::runtime_error("cannot make the folder " + folder);
   studies::Study rig = studies::read_study(study_path("rig_atlas"));
-  rig.sweep()->output.borders = false;  // what they cost is no writing
+  rig.sweep()->borders = false;  // what they cost is no writing
   measure(rig, folder);
   measure(single_mass(350), folder);
   measure(single_mass(3500), folder);

@@ -67,17 +67,17 @@ TEST_CASE("the rig atlas is the network and the grid of its file") {
   CHECK(rig.network.excitations[0].kind == ExcitationKind::motion);
   CHECK(rig.network.reference_order == 1);
 
-  REQUIRE(rig.sweep()->dimensions.size() == 3);
-  CHECK(rig.sweep()->dimensions[0].name == "I");
-  CHECK(rig.sweep()->dimensions[0].size == 42);
-  CHECK(rig.sweep()->dimensions[1].size == 31);
-  CHECK(rig.sweep()->dimensions[2].size == 401);
+  REQUIRE(rig.map()->dimensions.size() == 3);
+  CHECK(rig.map()->dimensions[0].name == "I");
+  CHECK(rig.map()->dimensions[0].size == 42);
+  CHECK(rig.map()->dimensions[1].size == 31);
+  CHECK(rig.map()->dimensions[2].size == 401);
   CHECK(rig.sweep()->frequency_dimension == std::size_t{2});
-  CHECK(rig.sweep()->axes[0].unit == "kg");
-  CHECK(rig.sweep()->axes[0].values.back() == 12.9);
-  CHECK(rig.sweep()->axes[2].unit == "rpm");
-  CHECK(rig.sweep()->axes[2].values[1] == 150.5);
-  CHECK_THAT(rig.sweep()->axes[2].si_values[0], Catch::WithinRel(5.0 * std::numbers::pi, rounding));
+  CHECK(rig.map()->axes[0].unit == "kg");
+  CHECK(rig.map()->axes[0].values.back() == 12.9);
+  CHECK(rig.map()->axes[2].unit == "rpm");
+  CHECK(rig.map()->axes[2].values[1] == 150.5);
+  CHECK_THAT(rig.map()->axes[2].si_values[0], Catch::WithinRel(5.0 * std::numbers::pi, rounding));
 }
 
 TEST_CASE("the rig atlas has the published values at 250 rpm and I = 6.36 kg") {
@@ -96,13 +96,13 @@ TEST_CASE("the rig atlas has the published values at 250 rpm and I = 6.36 kg") {
 
 TEST_CASE("derived coordinates lie along their dimension") {
   const Study rig = read_study(study_path("rig_atlas"));
-  REQUIRE(rig.sweep()->coordinates.size() == 2);
-  CHECK(rig.sweep()->coordinates[0].dimension == 2);
-  const auto ratios = coordinate_values(rig, rig.sweep()->coordinates[0]);
+  REQUIRE(rig.map()->coordinates.size() == 2);
+  CHECK(rig.map()->coordinates[0].dimension == 2);
+  const auto ratios = coordinate_values(rig, rig.map()->coordinates[0]);
   REQUIRE(ratios.size() == 401);
   const double natural = std::sqrt(7.0 * 8181.0 / 102.66);
   CHECK_THAT(ratios[0], Catch::WithinRel(5.0 * std::numbers::pi / natural, rounding));
-  CHECK_THAT(coordinate_values(rig, rig.sweep()->coordinates[1])[41],
+  CHECK_THAT(coordinate_values(rig, rig.map()->coordinates[1])[41],
              Catch::WithinRel(12.9 / 102.66, rounding));
 }
 
@@ -147,14 +147,14 @@ TEST_CASE("an axis runs linearly, by ratios or over given values, ends exact") {
                       "[[axis]]\nparameter = \"b\"\nfrom = 1\nto = 1000\npoints = 4\nspacing = \"log\"\n"
                       "[[axis]]\nparameter = \"omega\"\nunit = \"Hz\"\nvalues = [3, 1, 2]\n",
                   "study.toml");
-  CHECK(study.sweep()->axes[0].values.front() == 0.1);
-  CHECK(study.sweep()->axes[0].values.back() == 0.7);
-  CHECK_THAT(study.sweep()->axes[0].values[1], Catch::WithinRel(0.3, rounding));
-  CHECK_THAT(study.sweep()->axes[1].values[2], Catch::WithinRel(100.0, rounding));
-  CHECK(study.sweep()->axes[1].values[3] == 1000.0);
-  CHECK(study.sweep()->axes[1].unit.empty());
-  CHECK(study.sweep()->axes[2].values == std::vector<double>{3, 1, 2});
-  CHECK_THAT(study.sweep()->axes[2].si_values[1], Catch::WithinRel(2.0 * std::numbers::pi, rounding));
+  CHECK(study.map()->axes[0].values.front() == 0.1);
+  CHECK(study.map()->axes[0].values.back() == 0.7);
+  CHECK_THAT(study.map()->axes[0].values[1], Catch::WithinRel(0.3, rounding));
+  CHECK_THAT(study.map()->axes[1].values[2], Catch::WithinRel(100.0, rounding));
+  CHECK(study.map()->axes[1].values[3] == 1000.0);
+  CHECK(study.map()->axes[1].unit.empty());
+  CHECK(study.map()->axes[2].values == std::vector<double>{3, 1, 2});
+  CHECK_THAT(study.map()->axes[2].si_values[1], Catch::WithinRel(2.0 * std::numbers::pi, rounding));
 }
 
 TEST_CASE("zipped axes share a dimension and are placed together") {
@@ -163,9 +163,9 @@ TEST_CASE("zipped axes share a dimension and are placed together") {
                                       "[[axis]]\nparameter = \"omega\"\nvalues = [4, 5]\n"
                                       "[[axis]]\nparameter = \"b\"\nvalues = [7, 8, 9]\nzip = \"pair\"\n",
                                   "study.toml");
-  REQUIRE(study.sweep()->dimensions.size() == 2);
-  CHECK(study.sweep()->dimensions[0].name == "pair");
-  CHECK(study.sweep()->dimensions[0].axes == std::vector<std::size_t>{0, 2});
+  REQUIRE(study.map()->dimensions.size() == 2);
+  CHECK(study.map()->dimensions[0].name == "pair");
+  CHECK(study.map()->dimensions[0].axes == std::vector<std::size_t>{0, 2});
   auto parameters = study.parameters.nominal();
   set_along(*study.sweep(), 0, 2, parameters);
   CHECK(parameters == std::vector<double>{1, 3, 9});
@@ -228,17 +228,17 @@ TEST_CASE("quantities keep their places and orbits are in the units of their axe
                       "[output]\nquantities = [\"main_peak\", \"status\"]\nprecision = \"single\"\n"
                       "orbits = [{ omega = 2, I = 6 }, { omega = { value = 60, unit = \"rpm\" } }]\n",
                   "study.toml");
-  CHECK(study.sweep()->output.quantities == OutputChoice::Quantities::listed);
-  CHECK(study.sweep()->output.precision == Precision::single);
-  CHECK_FALSE(study.sweep()->output.general_path);
-  REQUIRE(study.sweep()->output.names.size() == 2);
-  const auto& name = study.sweep()->output.names[1];
+  CHECK(study.map()->output.quantities == OutputChoice::Quantities::listed);
+  CHECK(study.map()->output.precision == Precision::single);
+  CHECK_FALSE(study.sweep()->general_path);
+  REQUIRE(study.map()->output.names.size() == 2);
+  const auto& name = study.map()->output.names[1];
   CHECK_THAT(study.source.error_at(frahm::studies::rules::not_text, name.position, "{}", name.text).what(),
              Catch::StartsWith("study.toml:25:28: status\n"));
-  REQUIRE(study.sweep()->output.orbits.size() == 2);
-  CHECK_THAT(study.sweep()->output.orbits[0][0].value, Catch::WithinRel(4.0 * std::numbers::pi, rounding));
-  CHECK(study.sweep()->output.orbits[0][1].value == 6.0);
-  CHECK_THAT(study.sweep()->output.orbits[1][0].value, Catch::WithinRel(2.0 * std::numbers::pi, rounding));
+  REQUIRE(study.map()->output.histories.size() == 2);
+  CHECK_THAT(study.map()->output.histories[0][0].value, Catch::WithinRel(4.0 * std::numbers::pi, rounding));
+  CHECK(study.map()->output.histories[0][1].value == 6.0);
+  CHECK_THAT(study.map()->output.histories[1][0].value, Catch::WithinRel(2.0 * std::numbers::pi, rounding));
 }
 
 TEST_CASE("a study begins with a byte order mark or has Windows line ends and is read all the same") {

@@ -125,13 +125,13 @@ TEST_CASE("the sweep at an optimum has its design, its overrides, its scenarios 
   CHECK(nominal[*study.parameters.find("f")] == 0.95);
   CHECK(nominal[*study.parameters.find("zeta")] == 0.13);
   CHECK(nominal[*study.parameters.find("r")] == 1.25);
-  REQUIRE(study.sweep()->dimensions.size() == 2);
-  CHECK(study.sweep()->dimensions[0].name == "scenario");
-  REQUIRE(study.sweep()->axes.size() == 3);
-  CHECK(study.sweep()->axes[0].values == std::vector<double>{0.05, 0.06});
-  CHECK(study.sweep()->axes[1].values == std::vector<double>{1.0, 2.0});
-  CHECK(study.sweep()->axes[2].values == stored.band);
-  CHECK(study.sweep()->output.names.size() == 2);
+  REQUIRE(study.map()->dimensions.size() == 2);
+  CHECK(study.map()->dimensions[0].name == "scenario");
+  REQUIRE(study.map()->axes.size() == 3);
+  CHECK(study.map()->axes[0].values == std::vector<double>{0.05, 0.06});
+  CHECK(study.map()->axes[1].values == std::vector<double>{1.0, 2.0});
+  CHECK(study.map()->axes[2].values == stored.band);
+  CHECK(study.map()->output.names.size() == 2);
 }
 
 TEST_CASE("a schedule is a table beside its sweep") {
