@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "studies/reading/record_axis.hpp"
 #include "studies/reading/spelling.hpp"
 #include "studies/reading/study_reading.hpp"
 
@@ -145,6 +146,7 @@ void add_to_grid(const TomlSection& section, Study& study) {
   const ParameterAxis& axis = study.map()->axes.back();
   const std::size_t index = study.map()->axes.size() - 1;
   for (GridDimension& dimension : study.map()->dimensions) {
+    if (dimension.axes.empty()) continue;  // of records
     const ParameterAxis& other = study.map()->axes[dimension.axes.front()];
     if (axis.zip.empty() || other.zip != axis.zip) continue;
     if (axis.values.size() != dimension.size) {
@@ -202,7 +204,13 @@ void read_axes(const StudyContext& context, const TomlValue& root, Study& study)
   if (tables.empty())
     throw context.source.error_at(rules::missing_section, root.position,
                                   "the study has no [[axis]]: a sweep needs one");
-  for (std::size_t i = 0; i < tables.size(); ++i) read_axis(context, *tables[i], i + 1, study);
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    if (is_record_axis(*tables[i])) {
+      add_record_axis(context, root, *tables[i], study);
+    } else {
+      read_axis(context, *tables[i], i + 1, study);
+    }
+  }
   check_zip_names(context, study);
   double points = 1.0;
   for (const GridDimension& dimension : study.map()->dimensions)

@@ -142,13 +142,25 @@ std::optional<WrittenRecordAxis> read_record_axis(const StudyContext& context, c
   return axis;
 }
 
+void add_record_axis(const StudyContext& context, const TomlValue& root, const TomlValue& table,
+                     Study& study) {
+  if (!study.transient())
+    throw context.source.error_at(rules::other_kind, table.position,
+                                  "axis of records: is not part of {}; it is for kind = \"transient\"",
+                                  kind_noun(study.kind()));
+  const auto axis = read_record_axis(context, root);
+  check_name_of_dimension(context, study, *axis);
+  auto& dimensions = study.map()->dimensions;
+  study.map()->records = {axis->names(), dimensions.size(), axis->position};
+  dimensions.push_back({record_dimension, {}, axis->size()});
+}
+
 void read_driving_records(const StudyContext& context, const TomlValue& root,
                           const std::filesystem::path& folder, DataFiles data, Study& study) {
   const TomlEntry* excitation = find_entry(root, "excitation");
   const auto axis = read_record_axis(context, root);
   const auto components = recorded_components(study.network);
   const auto sections = record_sections(context.source, excitation->value);
-  if (axis) check_name_of_dimension(context, study, *axis);
   for (std::size_t i = 0; i < sections.size(); ++i) {
     const TomlSection& section = sections[i];
     DrivingRecord driving{.excitation = components[i], .on_axis = !section.find("file"), .records = {}};

@@ -37,6 +37,11 @@ bool is_record_axis(const TomlValue& table);
 // The axis of records, if there is one. Throws StudyError for several.
 std::optional<WrittenRecordAxis> read_record_axis(const StudyContext& context, const TomlValue& root);
 
+// The dimension of the map that is the axis of records at a table. Throws StudyError for one in a study that
+// nothing drives by records.
+void add_record_axis(const StudyContext& context, const TomlValue& root, const TomlValue& table,
+                     Study& study);
+
 // The records of a transient, once its network is read.  folder: of their files.
 void read_driving_records(const StudyContext& context, const TomlValue& root,
                           const std::filesystem::path& folder, DataFiles data, Study& study);

@@ -24,7 +24,8 @@ const std::array<std::vector<std::string>, 5> sections_of_kind{
     {{"study", "parameters", "mass", "matrices", "element", "damping", "excitation", "axis", "coordinate",
       "output", "orbits", "compare", "report"},
      {"study", "parameters", "mass", "matrices", "element", "damping", "decay", "initial"},
-     {"study", "parameters", "mass", "matrices", "element", "damping", "excitation", "transient", "initial"},
+     {"study", "parameters", "mass", "matrices", "element", "damping", "excitation", "transient", "initial",
+      "axis", "coordinate", "output", "report"},
      {"study", "parameters", "mass", "matrices", "element", "damping", "excitation", "orbits", "tune",
       "design", "constraint", "scenario", "column"},
      {"study", "parameters", "mass", "matrices", "element", "damping", "excitation", "initial", "identify"}}};
