@@ -48,8 +48,10 @@ double factor_of(const StudyContext& context, const NamedFile& file, const RawRe
                        fmt::format("{}: {}", unit_place(raw, column), error.what()));
     }
   }
-  const std::string where = fmt::format("{}: {}", file.section.where(), given_unit.key);
-  const auto given = read_unit(context, where, *given_unit.unit);
+  const std::string& section = file.section.where();
+  const bool is_key = given_unit.place.empty();
+  const std::string where = fmt::format("{}: {}", section, is_key ? "unit" : given_unit.place);
+  const auto given = read_unit(context, is_key ? section : where, *given_unit.unit);
   const auto fail = [&](Rule rule, std::string_view problem) {
     throw context.source.error_at(rule, given_unit.unit->position, "{}: {}", where, problem);
   };

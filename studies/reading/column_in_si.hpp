@@ -12,7 +12,7 @@ namespace frahm::studies {
 // The unit that the study gives a column.
 struct GivenUnit {
   const TomlValue* unit = nullptr;  // null: it gives none
-  std::string key;                  // in messages: `units: displacement`
+  std::string place{};              // in its section: `units: displacement`; empty: the key `unit`
 };
 
 // A file of measurements that a section of the study names at a position.

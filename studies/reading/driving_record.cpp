@@ -149,7 +149,7 @@ Record read_driving_record(const StudyContext& context, const TomlSection& secti
   if (raw.doubtful > 0)
     throw data_error(
         rules::doubtful_row, section, file.position,
-        fmt::format("{}: {} of its rows are marked as doubtful; a record drives the motion at all "
+        fmt::format("{}: rows marked as doubtful: {}; a record drives the motion at all "
                     "times, and none of its rows can be left out",
                     file.name, raw.doubtful));
   std::optional<TomlValue> unit;
@@ -160,7 +160,7 @@ Record read_driving_record(const StudyContext& context, const TomlSection& secti
                    {.name = file.name,
                     .of = place.of,
                     .time = in_si(context, named, raw, raw.columns[0], {}),
-                    .values = in_si(context, named, raw, raw.columns[1], {unit ? &*unit : nullptr, "unit"})});
+                    .values = in_si(context, named, raw, raw.columns[1], {unit ? &*unit : nullptr})});
 }
 
 }  // namespace frahm::studies
