@@ -6,6 +6,7 @@
 #include "solvers/events/bend_guards.hpp"
 #include "solvers/events/box_minimum.hpp"
 #include "solvers/events/loops.hpp"
+#include "solvers/events/parted_supports.hpp"
 #include "solvers/events/passage.hpp"
 #include "solvers/events/workspace.hpp"
 
@@ -70,13 +71,17 @@ class FreeAccelerations {
     }
   }
   double of(Eigen::Index j) const {
-    return equations_.W.col(j).dot(acceleration_) + equations_.support_acceleration.row(j).dot(u_);
+    return equations_.W.col(j).dot(acceleration_) + equations_.support_acceleration.row(j).dot(u_) +
+           (parted_.size() > 0 ? parted_[j] : 0.0);
   }
+  // Adds what supports that part are about to add.
+  void add(const Eigen::VectorXd& parted) { parted_ = parted; }
 
  private:
   const StepEquations<N, H>& equations_;
   const typename Sizes<N, H>::Oscillators& u_;
   typename Sizes<N, H>::Vector acceleration_;
+  Eigen::VectorXd parted_;
 };
 
 // The choice for contacts at rest.
@@ -157,12 +162,19 @@ template <int N, int H>
 void choose_modes(Flow<N, H>& flow, ContactMask at_rest, Workspace<N, H>& w) {
   const Mode<N, H>& before = flow.mode(w.mode);
   const StepEquations<N, H>& eq = flow.equations();
-  const FreeAccelerations<N, H> free(flow, at_rest, w);
-  const Choice choice = count(at_rest) == 1 ? choose_alone(eq, first(at_rest), free.of(first(at_rest)), w)
-                                            : choose_together(eq, at_rest, free, w);
+  FreeAccelerations<N, H> free(flow, at_rest, w);
+  Choice choice = count(at_rest) == 1 ? choose_alone(eq, first(at_rest), free.of(first(at_rest)), w)
+                                      : choose_together(eq, at_rest, free, w);
+  ContactMask parted = 0;
+  if (eq.has_loops && flow.moving_support() && are_parted(eq, choice.stuck)) {
+    free.add(parting(eq, w.left));
+    const ContactMask stuck_now = choice.stuck;
+    choice = choose_together(eq, at_rest, free, w);
+    parted = stuck_now & ~choice.stuck;
+  }
   const ContactMask sliding = at_rest & ~choice.stuck;
   w.fresh |= sliding;
-  w.just_released &= ~sliding;
+  w.just_released = (w.just_released & ~sliding) | parted;
   const ContactMask states = before.stuck & ~eq.holding;  // internal forces, which no choice concerns
   w.mode =
       flow.mode_index(choice.stuck | states, (before.positive & ~at_rest) | choice.forward, before.beyond);

@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <cmath>
-#include <complex>
 #include <cstdint>
 #include <vector>
 
@@ -11,19 +10,23 @@
 #include "solvers/flow/sparse_system.hpp"
 #include "solvers/flow/step_bends.hpp"
 #include "solvers/mechanics/linear_system.hpp"
+#include "solvers/mechanics/recorded_columns.hpp"
 
 namespace frahm::periodic {
 
-// Rows with row * u(t) = Re(constant + sum_k harmonic_k e^{i phi_k}):  Re(f e^{i phi}) = Re f cos phi - Im f
-// sin phi.
+// Rows with row * u(t) = Re(constant + sum_k harmonic_k e^{i phi_k}) + recorded * (r, r', ...):
+// Re(f e^{i phi}) = Re f cos phi - Im f sin phi; each number of a record is counted in its own size.
 template <class Rows>
-void on_oscillators(const Eigen::VectorXd& constant, const Eigen::MatrixXcd& harmonic, Rows& rows) {
-  rows.resize(constant.size(), 1 + 2 * harmonic.cols());
+void on_oscillators(const Eigen::VectorXd& constant, const Eigen::MatrixXcd& harmonic,
+                    const Eigen::MatrixXd& recorded, const Eigen::VectorXd& size, Rows& rows) {
+  const Eigen::Index first = 1 + 2 * harmonic.cols();
+  rows.resize(constant.size(), first + size.size());
   rows.col(0) = constant;
   for (Eigen::Index k = 0; k < harmonic.cols(); ++k) {
     rows.col(1 + 2 * k) = harmonic.col(k).real();
     rows.col(2 + 2 * k) = -harmonic.col(k).imag();
   }
+  for (Eigen::Index k = 0; k < size.size(); ++k) rows.col(first + k) = size[k] * recorded.col(k);
 }
 
 // The equation of motion with time counted in steps of length h, so that velocities are displacements a step:
@@ -56,9 +59,11 @@ struct StepEquations {
   Eigen::VectorXd internal_stiffness, internal_rate;  // k [N/m]; k/c times h, 0 without a damper
   Eigen::MatrixXd internal_drive;                     // k p^T y'(t) [N a step]
   Eigen::VectorXd phase_rate;                         // order_k omega h [rad a step], size H
-  // cos + i sin of each harmonic at phase 0. Empty: 1, as in every motion except one with a measured
-  // excitation.
-  std::vector<std::complex<double>> oscillators_at_zero;
+  // Of the records' numbers r, r', r'', r''' (mechanics/recorded_columns.hpp): the size in which each is
+  // counted [SI]; the rate at which it changes per size of the next [1/step]; their values at an instant from
+  // which on they are polynomials, none before they are set; and omega t there [rad].
+  Eigen::VectorXd recorded_size, recorded_rate, recorded_at;
+  double recorded_phase = 0.0;
   StepBends<N, H> bends;
   bool monotone = true;          // LinearSystem::monotone
   SparseSystem sparse;           // of a large system
@@ -75,14 +80,54 @@ struct StepEquations {
   Eigen::Index internal_forces() const { return internal_stiffness.size(); }
   Eigen::Index states() const { return 2 * masses() + internal_forces(); }
   Eigen::Index oscillators() const { return force.cols(); }
+  Eigen::Index first_recorded() const { return 1 + 2 * phase_rate.size(); }  // among the oscillators
 
-  // d/dt of row * u(t):  cos' = -rate sin, sin' = rate cos.
+  // d/dt of row * u(t):  cos' = -rate sin, sin' = rate cos;  of a record r' is the next number.
   template <class Rows>
   void differentiate(const Rows& rows, Rows& result) const {
     result.col(0).setZero();
     for (Eigen::Index k = 0; k < phase_rate.size(); ++k) {
       result.col(1 + 2 * k) = phase_rate[k] * rows.col(2 + 2 * k);
       result.col(2 + 2 * k) = -phase_rate[k] * rows.col(1 + 2 * k);
+    }
+    if constexpr (!S::is_fixed) {
+      for (Eigen::Index k = first_recorded(); k < rows.cols(); ++k) {
+        if ((k - first_recorded()) % mechanics::kRecordNumbers == 0) {
+          result.col(k).setZero();
+        } else {
+          result.col(k) = recorded_rate[k - 1 - first_recorded()] * rows.col(k - 1);
+        }
+      }
+    }
+  }
+
+  // du/dt of the oscillators u [1/step].
+  void oscillator_rates(const typename S::Oscillators& u, typename S::Oscillators& du) const {
+    du.resize(u.size());
+    du[0] = 0.0;
+    for (Eigen::Index k = 0; k < phase_rate.size(); ++k) {
+      du[1 + 2 * k] = -phase_rate[k] * u[2 + 2 * k];
+      du[2 + 2 * k] = phase_rate[k] * u[1 + 2 * k];
+    }
+    if constexpr (!S::is_fixed) {
+      const Eigen::Index numbers = recorded_rate.size();
+      for (Eigen::Index k = 0; k < numbers; ++k)
+        du[first_recorded() + k] = k + 1 < numbers ? recorded_rate[k] * u[first_recorded() + k + 1] : 0.0;
+    }
+  }
+
+  // The numbers of the records `s` steps after `from`, in u:  r + r' s + r'' s^2/2 + r''' s^3/6 and its
+  // derivatives.
+  template <class Numbers>
+  void move_records(double s, const Numbers& from, typename S::Oscillators& u) const {
+    constexpr Eigen::Index count = mechanics::kRecordNumbers;
+    for (Eigen::Index k = 0; k < from.size(); k += count) {
+      const auto r = from.template segment<count>(k);
+      const auto rate = s * recorded_rate.segment<count>(k);
+      const double r2 = r[2] + rate[2] * r[3];
+      const double r1 = r[1] + rate[1] * (r[2] + rate[2] / 2.0 * r[3]);
+      const double r0 = r[0] + rate[0] * (r[1] + rate[1] / 2.0 * (r[2] + rate[2] / 3.0 * r[3]));
+      u.template segment<count>(first_recorded() + k) << r0, r1, r2, r[3];
     }
   }
 
@@ -93,11 +138,10 @@ struct StepEquations {
       const auto i = static_cast<Eigen::Index>(k);
       u[1 + 2 * i] = std::cos(orders[k] * fundamental_phase);
       u[2 + 2 * i] = std::sin(orders[k] * fundamental_phase);
-      if (oscillators_at_zero.empty()) continue;
-      const std::complex<double> turned =
-          oscillators_at_zero[k] * std::complex<double>(u[1 + 2 * i], u[2 + 2 * i]);
-      u[1 + 2 * i] = turned.real();
-      u[2 + 2 * i] = turned.imag();
+    }
+    if constexpr (!S::is_fixed) {
+      u.tail(u.size() - first_recorded()).setZero();
+      move_records((fundamental_phase - recorded_phase) / (2.0 * M_PI) * period, recorded_at, u);
     }
   }
 

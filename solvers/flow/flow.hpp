@@ -1,8 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <complex>
-#include <span>
 #include <vector>
 
 #include "solvers/flow/configuration.hpp"
@@ -82,17 +80,16 @@ class Flow {
   // Matrices, friction limits and bends; call set_forcing before the next passage.
   void set_system(const mechanics::LinearSystem& system);
   void set_forcing(const mechanics::LinearSystem& system);
-  // The same forcing with other amplitudes and phases, until the next set_forcing; no matrix is computed
-  // again. at_zero: of each harmonic of the system, cos + i sin at phase 0, which is 1 otherwise.
-  void set_oscillators(std::span<const std::complex<double>> at_zero) {
-    equations_.oscillators_at_zero.assign(at_zero.begin(), at_zero.end());
-  }
+  // The numbers of the records [SI] (LinearSystem::recorded_force) at a phase, from which on they are
+  // polynomials until the next call; no matrix is computed again. set_forcing makes them 0.
+  void set_recorded(const Eigen::VectorXd& numbers, double phase);
 
   const StepEquations<N, H>& equations() const { return equations_; }
   const std::vector<int>& orders() const { return orders_; }
   double fundamental_rate() const { return fundamental_rate_; }  // omega h [rad a step]
   bool moving_support() const { return moving_support_; }        // some contact rubs on a prescribed node
-  // The energy norm of the static response to the excitation's amplitudes [sqrt(J)].
+  // The energy norm of the static response to the excitation's amplitudes, and of what moving supports drag
+  // along [sqrt(J)].
   double static_norm() const { return static_norm_; }
   // The scale of residuals and errors of a state z [sqrt(J)].
   double energy_scale(const typename Sizes<N, H>::State& z) const {

@@ -116,6 +116,18 @@ void Flow<N, H>::scale_matrices(const mechanics::LinearSystem& system) {
   configuration_keys_.clear();
 }
 
+// r' = rate r_next with each number counted in its own size.
+template <int N, int H>
+void set_record_sizes(const Eigen::VectorXd& size, StepEquations<N, H>& eq) {
+  eq.recorded_size = (size.array() > 0.0).select(size, 1.0);
+  eq.recorded_rate.setZero(size.size());
+  for (Eigen::Index k = 0; k + 1 < size.size(); ++k) {
+    const bool has_next = k % mechanics::kRecordNumbers + 1 < mechanics::kRecordNumbers;
+    if (has_next) eq.recorded_rate[k] = eq.step * size[k + 1] / eq.recorded_size[k];
+  }
+  eq.recorded_at.resize(0);
+}
+
 // 1/2 sum_k f_k^H K^-1 f_k of the forcing's amplitudes [J].
 template <int N, int H>
 double static_energy(const StepEquations<N, H>& eq) {
@@ -153,10 +165,12 @@ void Flow<N, H>::set_forcing(const mechanics::LinearSystem& system) {
     matrices_changed_ = false;
   }
   set_oscillation(system.omega);
-  on_oscillators(system.constant_force, system.force, eq.force);
+  set_record_sizes(system.recorded_size, eq);
+  on_oscillators(system.constant_force, system.force, system.recorded_force, eq.recorded_size, eq.force);
   eq.force_pull = eq.M_inverse * eq.force;
-  on_oscillators(system.constant_applied_force, system.applied_force, eq.applied_force);
-  on_oscillators(system.constant_motion, system.motion, eq.motion);
+  on_oscillators(system.constant_applied_force, system.applied_force, system.recorded_applied_force,
+                 eq.recorded_size, eq.applied_force);
+  on_oscillators(system.constant_motion, system.motion, system.recorded_motion, eq.recorded_size, eq.motion);
   eq.motion_velocity.resizeLike(eq.motion);
   eq.motion_acceleration.resizeLike(eq.motion);
   eq.differentiate(eq.motion, eq.motion_velocity);
@@ -176,12 +190,17 @@ void Flow<N, H>::set_forcing(const mechanics::LinearSystem& system) {
   mode_keys_.clear();
 }
 
+template <int N, int H>
+void Flow<N, H>::set_recorded(const Eigen::VectorXd& numbers, double phase) {
+  equations_.recorded_phase = phase;
+  equations_.recorded_at = numbers.cwiseQuotient(equations_.recorded_size);
+}
+
 // The oscillators of the forcing over a step, cos and sin of order_k omega h, and their Taylor polynomials.
 template <int N, int H>
 void Flow<N, H>::set_oscillation(double omega) {
   const auto harmonics = static_cast<Eigen::Index>(orders_.size());
   fundamental_rate_ = omega * equations_.step;
-  equations_.oscillators_at_zero.clear();
   equations_.period = 2.0 * M_PI / fundamental_rate_;
   equations_.phase_rate.resize(harmonics);
   rotation_.resize(2 * orders_.size());

@@ -11,13 +11,8 @@ inline void Flow<N, H>::instant_at(const typename S::State& z, double phase, con
   const StepEquations<N, H>& eq = equations_;
   at.z = z;
   at.u.resize(eq.oscillators());
-  at.du.resize(eq.oscillators());
   eq.oscillators_at(phase, orders_, at.u);
-  at.du[0] = 0.0;
-  for (Eigen::Index k = 0; k < eq.phase_rate.size(); ++k) {
-    at.du[1 + 2 * k] = -eq.phase_rate[k] * at.u[2 + 2 * k];
-    at.du[2 + 2 * k] = eq.phase_rate[k] * at.u[1 + 2 * k];
-  }
+  eq.oscillator_rates(at.u, at.du);
   accelerate(mode, at);
 }
 
@@ -72,6 +67,11 @@ inline void Flow<N, H>::turn_oscillators(const Instant<N, H>& from, Instant<N, H
     to.du[1 + 2 * k] = -eq.phase_rate[k] * to.u[2 + 2 * k];
     to.du[2 + 2 * k] = eq.phase_rate[k] * to.u[1 + 2 * k];
   }
+  if constexpr (!S::is_fixed) {
+    if (eq.first_recorded() == eq.oscillators()) return;
+    eq.move_records(1.0, from.u.tail(eq.oscillators() - eq.first_recorded()), to.u);
+    eq.oscillator_rates(to.u, to.du);
+  }
 }
 
 template <int N, int H>
@@ -99,6 +99,18 @@ inline void Flow<N, H>::expand_oscillators(const Instant<N, H>& at, Expansion<N,
     const Polynomial& s = rotation_series_[2 * static_cast<std::size_t>(k) + 1];
     x.u.col(1 + 2 * k) = u_cos * c - u_sin * s;
     x.u.col(2 + 2 * k) = u_sin * c + u_cos * s;
+  }
+  if constexpr (!S::is_fixed) {
+    // r + r' s + r'' s^2/2 + ... of each number
+    for (Eigen::Index k = 0; k < eq.recorded_rate.size(); ++k) {
+      auto series = x.u.col(eq.first_recorded() + k);
+      series.setZero();
+      double share = 1.0;
+      for (Eigen::Index j = 0; k % mechanics::kRecordNumbers + j < mechanics::kRecordNumbers; ++j) {
+        series[j] = share * at.u[eq.first_recorded() + k + j];
+        share *= eq.recorded_rate[k + j] / (static_cast<double>(j) + 1.0);
+      }
+    }
   }
 }
 

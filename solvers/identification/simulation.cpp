@@ -2,17 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <numbers>
 
 #include "solvers/algebra/no_value.hpp"
-#include "solvers/identification/measured_forcing.hpp"
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/modes.hpp"
 #include "solvers/mechanics/smooth_laws.hpp"
 #include "solvers/mechanics/system_derivative.hpp"
 #include "solvers/response/periodic_response.hpp"
 #include "solvers/transient/motion_sensitivity.hpp"
+#include "solvers/transient/record_course.hpp"
 
 namespace frahm::identification {
 namespace {
@@ -176,34 +175,73 @@ struct ForcedMotion final : Simulation::Kind {
   mechanics::Assembly assembly;
 };
 
-// The excitation is that of the record, from one of its times to the next.
+// The measured excitation of a record takes the place of the network's own.
+struct Measured {
+  explicit Measured(const mechanics::Network& of, const TimeRecord& record) : network(of) {
+    network.excitations.clear();
+    network.reference_order = 1;
+    for (const MeasuredExcitation& measured : record.excitation) {
+      const bool is_force = measured.kind == mechanics::ExcitationKind::force;
+      courses.push_back({.name = record.name,
+                         .of = is_force ? transient::RecordOf::force : transient::RecordOf::displacement,
+                         .time = record.time,
+                         .values = measured.values});
+      network.excitations.push_back({.kind = is_force ? mechanics::ExcitationKind::recorded_force
+                                                      : mechanics::ExcitationKind::recorded_motion,
+                                     .node = measured.node,
+                                     .order = 0});
+    }
+  }
+  transient::RecordCourse course() const {
+    std::vector<transient::RecordedExcitation> records;
+    for (std::size_t i = 0; i < courses.size(); ++i) records.push_back({i, &courses[i]});
+    return {network, records};
+  }
+  // Values of the model in the layout of that network; of a derivative, scale 0.
+  NetworkValues values_of(const NetworkValues& model, double scale) const {
+    NetworkValues values = model;
+    values.excitation.assign(courses.size(), {scale, 0.0});
+    return values;
+  }
+
+  Network network;
+  std::vector<transient::Record> courses;
+};
+
 struct MeasuredMotion final : Simulation::Kind {
   MeasuredMotion(const Network& network, const TimeRecord& of, transient::Watch watch_it)
-      : Kind(network, of, std::move(watch_it)), forcing(network, of), assembly(forcing.network()) {}
+      : Kind(network, of, std::move(watch_it)),
+        measured(network, of),
+        course(measured.course()),
+        assembly(measured.network) {}
 
   std::string run(const Model& model, std::span<const Model> by, std::span<const double> times,
                   periodic::ObservedMotion& out) override {
     need_hysteretic_omega(model);
-    const NetworkValues values = forcing.values_of(model.values);
-    std::vector<NetworkValues> directions;
-    for (const Model& each : by) directions.push_back(forcing.direction_of(each.values));
     LinearSystem system;
+    NetworkValues values = free_system(model, system);
+    values = measured.values_of(values, 1.0);
     assembly.set_values(values, system);
     assembly.set_forcing(values, system);
+    system.recorded_size = course.sizes();
+    std::vector<NetworkValues> directions;
+    for (const Model& each : by) {
+      directions.push_back(measured.values_of(each.values, 0.0));
+      directions.back().omega = 0.0;
+    }
     MotionSensitivity motion(observed, {times.begin(), times.end()}, watch);
     motion.set_system(system, derivatives(assembly, values, directions, system));
     motion.start(model.initial, initial_of(by));
-    std::vector<std::complex<double>> oscillators;
     for (std::size_t i = 0; i + 1 < times.size(); ++i) {
-      forcing.oscillators(i, system.orders, oscillators);
-      motion.set_oscillators(oscillators);
+      motion.set_recorded(course.numbers(i), 0.0);
       if (!motion.advance(times[i + 1], 0.0, kUnlimited)) break;
     }
     if (motion.failure() == nullptr) motion.finish();
     return hand_over(motion, !by.empty(), out);
   }
 
-  MeasuredForcing forcing;
+  Measured measured;
+  transient::RecordCourse course;
   mechanics::Assembly assembly;
 };
 

@@ -9,6 +9,7 @@
 
 #include "solvers/mechanics/crank.hpp"
 #include "solvers/mechanics/element_table.hpp"
+#include "solvers/mechanics/recorded_columns.hpp"
 #include "solvers/mechanics/rotation.hpp"
 #include "solvers/mechanics/smooth_laws.hpp"
 #include "solvers/mechanics/structural_damping.hpp"
@@ -299,6 +300,7 @@ void Assembly::set_forcing(const NetworkValues& values, LinearSystem& system) co
     const auto [amplitude, phase, rod] = values.excitation[k];
     if (!std::isfinite(amplitude)) refuse("an excitation's amplitude", amplitude, "must be finite");
     if (!std::isfinite(phase)) refuse("an excitation's phase", phase, "must be finite");
+    if (is_recorded(excitation.kind)) continue;
     if (excitation.kind == ExcitationKind::crank) {
       add_crank(excitation, values.excitation[k], system);
       continue;
@@ -317,6 +319,7 @@ void Assembly::set_forcing(const NetworkValues& values, LinearSystem& system) co
   }
   system.constant_applied_force = system.constant_force;
   system.applied_force = system.force;
+  set_recorded(network_, values, system);
   if (p == 0) return;
 
   // What the supports exert: f = -(K_s y + C_s y' + M_s y''), harmonic by harmonic. What they exert through

@@ -100,11 +100,12 @@ struct LinearSystem {
   Eigen::VectorXd constant_motion;         // y_0 [m], size p
   Eigen::MatrixXcd motion;                 // column k is Y_k [m]
   Eigen::VectorXd belt_velocity;           // V [m/s], size p
-  // Of each recorded excitation, at each instant, four numbers r, r', r'', r''' more: a measured force [N],
-  // or displacement [m], and its derivatives by time (transient/record.hpp). What they exert on the masses,
-  // the part of it that acts from outside, and the displacements of the prescribed nodes: four columns each.
+  // A recorded excitation has four numbers at each instant: a measured force [N] or displacement [m], and its
+  // first three derivatives by time (recorded_columns.hpp). Four columns each: what they exert on the masses;
+  // the part of it that acts from outside; the displacements of the prescribed nodes.
   Eigen::MatrixXd recorded_force, recorded_applied_force;  // n x 4r
   Eigen::MatrixXd recorded_motion;                         // p x 4r
+  Eigen::VectorXd recorded_size;  // of each number, what it is counted in (transient::RecordCourse::sizes)
   SupportForce support_force;
   Eigen::RowVectorXd felt_inertia, felt_inertia_support;  // its parts by -q'' and by -y''
 

@@ -9,6 +9,7 @@
 
 #include "solvers/mechanics/crank.hpp"
 #include "solvers/mechanics/element_table.hpp"
+#include "solvers/mechanics/recorded_columns.hpp"
 #include "solvers/mechanics/structural_damping.hpp"
 
 namespace frahm::mechanics {
@@ -148,6 +149,7 @@ void differentiate_excitation(const Assembly& assembly, const NetworkValues& val
       differentiate_crank(excitation, value, by, orders, d);
       continue;
     }
+    if (is_recorded(excitation.kind)) continue;
     const auto node = static_cast<Eigen::Index>(excitation.node);
     const bool is_force = excitation.kind == ExcitationKind::force;
     const std::complex<double> change =
@@ -205,6 +207,7 @@ void differentiate(const Assembly& assembly, const NetworkValues& values, const 
   derivative.constant_applied_force = derivative.constant_force;
   derivative.applied_force = derivative.force;
   if (system.motion.rows() > 0) differentiate_support_forces(system, derivative);
+  differentiate_recorded(assembly.network(), values, direction, system, derivative);
 }
 
 }  // namespace frahm::mechanics

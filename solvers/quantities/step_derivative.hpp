@@ -53,8 +53,8 @@ void StepDerivative<N, H>::set(const StepEquations<N, H>& eq, const mechanics::L
   M = by.M / (h * h) - 2.0 * log_step * eq.M;
   C = by.C / h - log_step * eq.C;
   K = by.K;
-  on_oscillators(by.constant_force, by.force, force);
-  on_oscillators(by.constant_motion, by.motion, motion);
+  on_oscillators(by.constant_force, by.force, by.recorded_force, eq.recorded_size, force);
+  on_oscillators(by.constant_motion, by.motion, by.recorded_motion, eq.recorded_size, motion);
   motion_velocity.resizeLike(motion);
   motion_acceleration.resizeLike(motion);
   eq.differentiate(motion, motion_velocity);

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <optional>
 
 #include "solvers/algebra/no_value.hpp"
 #include "solvers/exact/response.hpp"
 #include "solvers/mechanics/coordinates.hpp"
+#include "solvers/transient/record_course.hpp"
 #include "solvers/transient/trajectory.hpp"
 
 namespace frahm::transient {
@@ -35,12 +37,14 @@ Sweep sweep_of(const ForcedOptions& options) {
 // A motion whose excitation is set anew, at another frequency, from time to time.
 class Driven {
  public:
+  // course: of the records; null where there are none.
   Driven(const mechanics::Assembly& assembly, const ValuesAt& values_at, const InitialState& initial,
-         std::vector<double> times, Watch watch)
+         const RecordCourse* course, std::vector<double> times, Watch watch)
       : trajectory(assembly, std::move(times), std::move(watch)),
         assembly_(assembly),
         values_at_(values_at),
-        initial_(initial) {}
+        initial_(initial),
+        course_(course) {}
 
   // From here on the excitation has frequency omega, which changes at the rate alpha, and its phase is
   // `phase`.
@@ -53,12 +57,15 @@ class Driven {
       built_ = values;
     }
     assembly_.set_forcing(values, system_);
+    if (course_ != nullptr) system_.recorded_size = course_->sizes();
     add_angular_acceleration(alpha);
     if (rebuild) {
       trajectory.set_system(system_, phase);
     } else {
       trajectory.set_forcing(system_, phase);
     }
+    if (!started_ && course_ != nullptr && course_->times().front() <= 0.0)
+      trajectory.set_recorded(course_->numbers(0), phase);
     if (!started_) trajectory.start(initial_);
     started_ = true;
   }
@@ -83,6 +90,7 @@ class Driven {
   const mechanics::Assembly& assembly_;
   const ValuesAt& values_at_;
   const InitialState& initial_;
+  const RecordCourse* course_;
   mechanics::LinearSystem system_;
   mechanics::NetworkValues built_;  // of which the system's matrices are
   bool started_ = false;
@@ -98,6 +106,21 @@ bool keep_frequency(Driven& driven, double omega, double phase, double until) {
     // A rounding error of the last period is not a passage of its own.
     if (left <= 1e-12 * until) break;
     if (!driven.trajectory.advance(std::min(period, left), phase)) return false;
+  }
+  return true;
+}
+
+// Under records, from one of their times to the next, beside harmonics of one frequency.
+bool follow_records(Driven& driven, double omega, const RecordCourse& course, double until) {
+  const std::vector<double>& times = course.times();
+  driven.drive(omega, 0.0, 0.0);
+  if (!driven.trajectory.can_last(until)) return false;
+  if (times.front() > 0.0 && !driven.trajectory.advance(std::min(times.front(), until), 0.0)) return false;
+  for (std::size_t i = 0; i < times.size() && times[i] < until; ++i) {
+    const double phase = std::remainder(omega * times[i], kTurn);
+    const double end = i + 1 < times.size() ? std::min(times[i + 1], until) : until;
+    driven.trajectory.set_recorded(course.numbers(i), phase);
+    if (!driven.trajectory.advance(end - driven.trajectory.time(), phase)) return false;
   }
   return true;
 }
@@ -137,14 +160,28 @@ struct Problem {
   const InitialState& initial;
   const ForcedOptions& options;
   Sweep sweep;
+  std::optional<RecordCourse> course = std::nullopt;
 };
+
+std::optional<RecordCourse> course_of(const mechanics::Network& network, const ForcedOptions& options) {
+  if (!mechanics::has_records(network)) return std::nullopt;
+  if (options.sweep.rate != 0.0) throw mechanics::MechanicsError("a run-up cannot be driven by records too");
+  for (const RecordedExcitation& each : options.records) {
+    if (options.duration <= each.record->time.back() || is_known_behind(*each.record)) continue;
+    throw mechanics::MechanicsError(
+        "record '" + each.record->name +
+        "': ends while its support moves, so that the motion is not known beyond");
+  }
+  return RecordCourse(network, options.records);
+}
 
 // The motion with so many stairs, 0 for one frequency.
 ForcedMotion run(const Problem& problem, int stairs) {
   const ForcedOptions& options = problem.options;
   const Sweep& sweep = problem.sweep;
   Driven driven(problem.assembly, problem.values_at, problem.initial,
-                sample_times(options.duration, options.samples), options.watch);
+                problem.course ? &*problem.course : nullptr, sample_times(options.duration, options.samples),
+                options.watch);
   bool complete = true;
   double phase = 0.0;
   if (stairs > 0) {
@@ -152,7 +189,9 @@ ForcedMotion run(const Problem& problem, int stairs) {
     complete = climb(driven, sweep, until, stairs);
     phase = std::remainder(sweep.phase(until), kTurn);
   }
-  if (complete && options.duration > sweep.time * (1.0 + 1e-12))
+  if (problem.course)
+    complete = follow_records(driven, options.from, *problem.course, options.duration);
+  else if (complete && options.duration > sweep.time * (1.0 + 1e-12))
     complete = keep_frequency(driven, sweep.frequency(sweep.time), phase, options.duration);
   ForcedMotion motion;
   motion.stairs = stairs;
@@ -204,7 +243,8 @@ int first_stairs(const Problem& problem) {
 ForcedMotion forced_motion(const mechanics::Network& network, const ValuesAt& values_at,
                            const InitialState& initial, const ForcedOptions& options) {
   const mechanics::Assembly assembly(network);
-  const Problem problem{assembly, values_at, initial, options, sweep_of(options)};
+  const Problem problem{assembly, values_at,         initial,
+                        options,  sweep_of(options), course_of(network, options)};
   if (problem.sweep.time == 0.0) return run(problem, 0);
   int stairs = first_stairs(problem);
   ForcedMotion coarse = run(problem, stairs);

@@ -5,8 +5,10 @@
 
 #include "solvers/mechanics/network.hpp"
 #include "solvers/transient/motion.hpp"
+#include "solvers/transient/record.hpp"
 
-// Forced motion from given initial values, at one frequency or running through a range of them.
+// Forced motion from given initial values: at one frequency, running through a range of them, or under
+// records.
 namespace frahm::transient {
 
 // The excitation's phase: omega t at constant frequency; in a run-up or run-down
@@ -17,9 +19,10 @@ struct FrequencySweep {
 };
 
 struct ForcedOptions {
-  double from = 0.0;          // frequency at t = 0 [rad/s], > 0
-  FrequencySweep sweep = {};  // rate 0: none
-  double duration = 0.0;      // [s], > 0
+  double from = 0.0;                             // frequency at t = 0 [rad/s], > 0
+  FrequencySweep sweep = {};                     // rate 0: none; must be none beside records
+  std::vector<RecordedExcitation> records = {};  // of each recorded component of the excitation
+  double duration = 0.0;                         // [s], > 0
   int samples = 0;
   Watch watch = {};
 };
@@ -49,7 +52,10 @@ struct ForcedMotion {
 // kRunUpTolerance of its largest peak. A prescribed motion has its acceleration's part from the changing
 // frequency too: y'' = (i alpha - omega^2) Y e^{i phi}.
 //
-// Throws mechanics::MechanicsError for values without a meaning.
+// Records are exact too: polynomials from one of their samples to the next, at which passages begin.
+//
+// Throws mechanics::MechanicsError for values and records without a meaning, and for a motion that outlasts a
+// record behind whose end its support's motion is not known (is_known_behind).
 ForcedMotion forced_motion(const mechanics::Network& network, const ValuesAt& values_at,
                            const InitialState& initial, const ForcedOptions& options);
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <complex>
 #include <span>
 #include <vector>
 
@@ -24,8 +23,8 @@ class MotionSensitivity {
 
   // Matrices and forcing, and their derivatives along each direction (system_derivative.hpp).
   void set_system(const mechanics::LinearSystem& system, std::span<const mechanics::LinearSystem> by);
-  // The forcing's harmonics at phase 0 from now on, which no direction changes (Flow::set_oscillators).
-  void set_oscillators(std::span<const std::complex<double>> at_zero) { flow_.set_oscillators(at_zero); }
+  // The numbers of the records now, at this phase (RecordCourse::numbers).
+  void set_recorded(const Eigen::VectorXd& numbers, double phase) { flow_.set_recorded(numbers, phase); }
 
   // To be called once, after set_system. by: of each direction; an empty vector means zeros.
   void start(const InitialState& initial, std::span<const InitialState> by);

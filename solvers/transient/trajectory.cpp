@@ -73,6 +73,11 @@ void Trajectory::take_forcing(const mechanics::LinearSystem& system, double phas
   account_.put_in(energy_now() - energy_before);
 }
 
+void Trajectory::set_recorded(const Eigen::VectorXd& numbers, double phase) {
+  flow_.set_recorded(numbers, phase);
+  phase_ = phase;
+}
+
 void Trajectory::set_frequency(double omega, double alpha) {
   omega_ = omega;
   alpha_ = alpha;

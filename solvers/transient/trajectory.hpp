@@ -25,6 +25,10 @@ class Trajectory {
   void set_system(const mechanics::LinearSystem& system, double phase);
   void set_forcing(const mechanics::LinearSystem& system, double phase);
 
+  // The numbers of the records now, at this phase, from which on they are polynomials
+  // (RecordCourse::numbers).
+  void set_recorded(const Eigen::VectorXd& numbers, double phase);
+
   // The excitation's frequency now, and how fast it rises [rad/s], [rad/s^2]; the forcing has one for a
   // while.
   void set_frequency(double omega, double alpha);

@@ -35,11 +35,6 @@ VectorXd harmonic(const mechanics::LinearSystem& s, const Eigen::MatrixXcd& ampl
   return result;
 }
 
-// Of the prescribed nodes [m/s].
-VectorXd support_velocities(const mechanics::LinearSystem& s, double t) {
-  return s.belt_velocity + harmonic(s, s.motion, t, 1);
-}
-
 // The root of a function that is positive at `lo` and not at `hi`.
 template <class Function>
 double bisect(double lo, double hi, const Function& function) {
@@ -82,7 +77,8 @@ void EventIntegrator::start(double t, const VectorXd& q, const VectorXd& v, cons
   for (Index j = 0; j < system_.bends.count(); ++j)
     beyond_[static_cast<std::size_t>(j)] = bend_room(state_, t, j) > 0.0;
   const VectorXd static_q = system_.K.llt().solve(system_.force.cwiseAbs().rowwise().sum());
-  speed_scale_ = v.cwiseAbs().maxCoeff() + system_.omega * (static_q.norm() + system_.motion.norm());
+  speed_scale_ =
+      v.cwiseAbs().maxCoeff() + system_.omega * (static_q.norm() + system_.motion.norm()) + recorded_.speed;
   std::vector<Index> at_rest;
   for (Index j = 0; j < system_.contacts(); ++j) {
     const double speed = relative_velocity(state_, t, j);
@@ -99,6 +95,23 @@ void EventIntegrator::start(double t, const VectorXd& q, const VectorXd& v, cons
   choose(at_rest);
 }
 
+VectorXd EventIntegrator::support(double t, int derivative) const {
+  VectorXd y = harmonic(system_, system_.motion, t, derivative);
+  if (derivative == 0) y += system_.constant_motion;
+  if (derivative == 1) y += system_.belt_velocity;
+  if (recorded_.motion) y += recorded_.motion(t, derivative);
+  return y;
+}
+
+VectorXd EventIntegrator::forcing(double t) const {
+  VectorXd force = system_.constant_force + harmonic(system_, system_.force, t, 0);
+  if (recorded_.force) force += recorded_.force(t);
+  if (recorded_.motion)
+    force -= system_.K_support * recorded_.motion(t, 0) + system_.C_support * recorded_.motion(t, 1) +
+             system_.M_support * recorded_.motion(t, 2);
+  return force;
+}
+
 EventIntegrator::Motion EventIntegrator::motion(const State& x, double t,
                                                 const std::vector<Mode>& modes) const {
   const Index n = system_.masses(), m = system_.contacts();
@@ -112,8 +125,8 @@ EventIntegrator::Motion EventIntegrator::motion(const State& x, double t,
     else
       result.friction[j] = mode == Mode::forward ? system_.limit[j] : -system_.limit[j];
   }
-  VectorXd force = system_.constant_force + harmonic(system_, system_.force, t, 0) - system_.K * head(x, n) -
-                   system_.C * velocity(x, n) - system_.D * maxwell(x, n);
+  VectorXd force =
+      forcing(t) - system_.K * head(x, n) - system_.C * velocity(x, n) - system_.D * maxwell(x, n);
   for (Index j = 0; j < system_.bends.count(); ++j) {
     if (beyond_[static_cast<std::size_t>(j)]) force -= bend_force(x, t, j) * system_.bends.W.col(j);
   }
@@ -134,14 +147,13 @@ EventIntegrator::Motion EventIntegrator::motion(const State& x, double t,
 
 double EventIntegrator::relative_velocity(const State& x, double t, Index j) const {
   double speed = system_.W.col(j).dot(velocity(x, system_.masses()));
-  if (system_.motion.rows() > 0) speed += system_.W_support.col(j).dot(support_velocities(system_, t));
+  if (system_.motion.rows() > 0) speed += system_.W_support.col(j).dot(support(t, 1));
   return speed;
 }
 
 double EventIntegrator::relative_acceleration(const VectorXd& a, double t, Index j) const {
   double relative = system_.W.col(j).dot(a);
-  if (system_.motion.rows() > 0)
-    relative += system_.W_support.col(j).dot(harmonic(system_, system_.motion, t, 2));
+  if (system_.motion.rows() > 0) relative += system_.W_support.col(j).dot(support(t, 2));
   return relative;
 }
 
@@ -150,8 +162,8 @@ double EventIntegrator::bend_force(const State& x, double t, Index j) const {
   const Index n = system_.masses();
   double u = bends.W.col(j).dot(head(x, n)), v = bends.W.col(j).dot(velocity(x, n));
   if (system_.motion.rows() > 0) {
-    u += bends.W_support.col(j).dot(system_.constant_motion + harmonic(system_, system_.motion, t, 0));
-    v += bends.W_support.col(j).dot(support_velocities(system_, t));
+    u += bends.W_support.col(j).dot(support(t, 0));
+    v += bends.W_support.col(j).dot(support(t, 1));
   }
   if (bends.law[static_cast<std::size_t>(j)]->of_velocity) return bends.damping[j] * (v - bends.place[j]);
   return bends.stiffness[j] * (u - bends.place[j]) + bends.damping[j] * v;
@@ -164,12 +176,11 @@ double EventIntegrator::bend_room(const State& x, double t, Index j) const {
   const bool has_support = system_.motion.rows() > 0;
   if (law.of_velocity) {
     double v = bends.W.col(j).dot(velocity(x, n));
-    if (has_support) v += bends.W_support.col(j).dot(support_velocities(system_, t));
+    if (has_support) v += bends.W_support.col(j).dot(support(t, 1));
     return v - bends.place[j];
   }
   double u = bends.W.col(j).dot(head(x, n));
-  if (has_support)
-    u += bends.W_support.col(j).dot(system_.constant_motion + harmonic(system_, system_.motion, t, 0));
+  if (has_support) u += bends.W_support.col(j).dot(support(t, 0));
   const double past = u - bends.place[j];
   return law.pulls || bends.damping[j] == 0.0 ? past : std::min(past, bend_force(x, t, j));
 }
@@ -206,7 +217,7 @@ EventIntegrator::State EventIntegrator::moved(double t, double h) const {
     // s' = k (d^T q' + p^T y') - s k / c
     VectorXd strain_rate = system_.D.transpose() * velocity(y, n);
     if (system_.motion.rows() > 0) {
-      strain_rate += system_.D_support.transpose() * support_velocities(system_, at);
+      strain_rate += system_.D_support.transpose() * support(at, 1);
     }
     for (Index e = 0; e < system_.internal_forces(); ++e) {
       const auto place = static_cast<std::size_t>(2 * n + e);

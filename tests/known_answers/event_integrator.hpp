@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <functional>
 #include <vector>
 
 #include "solvers/mechanics/linear_system.hpp"
@@ -15,6 +16,15 @@ namespace frahm::periodic {
 class EventIntegrator {
  public:
   explicit EventIntegrator(const mechanics::LinearSystem& system);
+
+  // Beside its harmonics: displacements of the prescribed nodes, or a derivative of them, and forces on the
+  // masses, at a time. Between two calls of advance_to they must be smooth.
+  struct Recorded {
+    std::function<Eigen::VectorXd(double t, int derivative)> motion;
+    std::function<Eigen::VectorXd(double t)> force;
+    double speed = 0.0;  // the size of velocities that they make [m/s]
+  };
+  void set_recorded(Recorded recorded) { recorded_ = std::move(recorded); }
 
   // From displacements [m], velocities [m/s] and the forces [N] of Maxwell elements at time t [s].
   void start(double t, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& s = {});
@@ -35,6 +45,8 @@ class EventIntegrator {
     Eigen::VectorXd acceleration, friction;  // of the masses; of the contacts
   };
   Motion motion(const State& x, double t, const std::vector<Mode>& modes) const;
+  Eigen::VectorXd support(double t, int derivative) const;  // of the prescribed nodes [m], [m/s], [m/s^2]
+  Eigen::VectorXd forcing(double t) const;                  // on the masses [N]
   double relative_velocity(const State& x, double t, Eigen::Index contact) const;
   // Whether a bend has its force: u - D > 0, and k (u - D) + c u' > 0 where it cannot pull. More than zero
   // where it has, by the room that is left.
@@ -56,6 +68,7 @@ class EventIntegrator {
   void note_extremes(double h);
 
   const mechanics::LinearSystem& system_;
+  Recorded recorded_;
   Eigen::MatrixXd M_inverse_;
   double step_ = 0.0, speed_scale_ = 0.0;
   double t_ = 0.0;

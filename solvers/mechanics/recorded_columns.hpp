@@ -1,0 +1,18 @@
+#pragma once
+
+#include "solvers/mechanics/linear_system.hpp"
+
+// What a network's recorded excitations exert, as columns that multiply the numbers a record has at each
+// instant: r, r', r'', r''' (LinearSystem::recorded_force and those beside it).
+namespace frahm::mechanics {
+
+inline constexpr Eigen::Index kRecordNumbers = 4;
+
+// Fills the recorded columns of a system with matrices; called by Assembly::set_forcing.
+void set_recorded(const Network& network, const NetworkValues& values, LinearSystem& system);
+
+// Their derivative; called by differentiate(), when matrices are differentiated.
+void differentiate_recorded(const Network& network, const NetworkValues& values,
+                            const NetworkValues& direction, const LinearSystem& system, LinearSystem& d);
+
+}  // namespace frahm::mechanics
