@@ -28,7 +28,7 @@ transient::FreeDecay solve_decay(const Study& study, const transient::Watch& wat
 std::vector<results::Column> decay_columns(const Study& study, const transient::FreeDecay& decay);
 void print_decay(const Study& study, const transient::FreeDecay& decay, std::ostream& out);
 
-// Duration [s], samples and sweep of a transient. Throws StudyError for a sweep that goes nowhere.
+// Duration [s], samples, sweep and records (those of the study, the first of an axis) of a transient. Throws StudyError for a sweep that goes nowhere.
 transient::ForcedOptions forced_options(const Study& study);
 
 // Throws StudyError as solve_decay().

@@ -95,6 +95,7 @@ void print_touches(const Study& study, const ForcedMotion& motion, std::ostream&
 transient::ForcedOptions forced_options(const Study& study) {
   const TransientChoice& motion = *study.transient();
   transient::ForcedOptions options{.from = stated(study, study.values.omega), .samples = motion.samples};
+  options.records = motion.driven_by(0);
   if (motion.sweep_to) {
     options.sweep = {stated(study, *motion.sweep_to), stated(study, *motion.sweep_rate)};
     if (options.sweep.to == options.from) {

@@ -44,6 +44,8 @@ struct TransientChoice : MotionChoice {
   std::vector<DrivingRecord> records;    // without their samples where data are left (DataFiles)
 
   double end_of_records() const;  // of the longest [s]
+  // What drives the motion at a value of the axis of records. The records are those of this choice.
+  std::vector<transient::RecordedExcitation> driven_by(std::size_t of_axis) const;
 };
 
 }  // namespace frahm::studies

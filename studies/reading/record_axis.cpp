@@ -181,6 +181,15 @@ void read_driving_records(const StudyContext& context, const TomlValue& root,
                                   "out the \"file\" of one");
 }
 
+std::vector<transient::RecordedExcitation> TransientChoice::driven_by(std::size_t of_axis) const {
+  std::vector<transient::RecordedExcitation> all;
+  for (const DrivingRecord& driving : records) {
+    if (!driving.records.empty())
+      all.push_back({driving.excitation, &driving.records[driving.on_axis ? of_axis : 0]});
+  }
+  return all;
+}
+
 double TransientChoice::end_of_records() const {
   double end = 0.0;
   for (const DrivingRecord& driving : records) {
