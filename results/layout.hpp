@@ -36,7 +36,8 @@ struct Coordinate {
   std::string name;
   std::string unit;  // UDUNITS form
   std::string long_name;
-  std::vector<double> values;  // finite, one for each point of the axis
+  std::vector<double> values;           // finite, one for each point of the axis
+  std::vector<std::string> names = {};  // of the values, without line breaks; empty: they have none
 };
 
 // One dimension of the map. A coordinate named like the axis is the data of its dimension scale; without one

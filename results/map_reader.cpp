@@ -33,7 +33,11 @@ std::string required_text(const hdf5::Group& root, const std::string& name) {
 
 Coordinate read_coordinate(const hdf5::Dataset& dataset) {
   const Variable variable = described(dataset);
-  return {variable.name, variable.unit, variable.long_name, dataset.read(Shape{0}, dataset.shape())};
+  Coordinate coordinate{variable.name, variable.unit, variable.long_name,
+                        dataset.read(Shape{0}, dataset.shape())};
+  std::istringstream lines(dataset.text("names").value_or(""));
+  for (std::string line; std::getline(lines, line);) coordinate.names.push_back(line);
+  return coordinate;
 }
 
 Axis read_axis(const hdf5::Dataset& scale) {

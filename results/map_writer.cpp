@@ -49,11 +49,19 @@ Variable as_variable(const Coordinate& coordinate) {
   return {.name = coordinate.name, .unit = coordinate.unit, .long_name = coordinate.long_name};
 }
 
+std::string joined_lines(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += (text.empty() ? "" : "\n") + line;
+  return text;
+}
+
 void write_scale(hdf5::Group& root, const Axis& axis) {
   const auto own = std::find_if(axis.coordinates.begin(), axis.coordinates.end(),
                                 [&](const Coordinate& coordinate) { return coordinate.name == axis.name; });
   if (own != axis.coordinates.end()) {
-    write_line(root, as_variable(*own), own->values).make_scale();
+    hdf5::Dataset scale = write_line(root, as_variable(*own), own->values);
+    if (!own->names.empty()) scale.write_text("names", joined_lines(own->names));
+    scale.make_scale();
     return;
   }
   std::vector<double> index(axis.size);

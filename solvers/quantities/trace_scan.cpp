@@ -31,13 +31,7 @@ bool is_monotone(const TraceStep& step) {
 // consider(value, s): a stationary value at fraction s of the step.
 template <class Consider>
 void consider_interior(const Polynomial& p, double length, const Consider& consider) {
-  // After a stop or a release the slope starts from zero like s or s^2: that root is the step's end, divide
-  // it out.
-  Polynomial slope = derivative(p);
-  const double size = slope.cwiseAbs().sum();
-  int zeros = 0;
-  while (zeros < 3 && std::abs(slope[zeros]) <= 1e-13 * size) ++zeros;
-  const Roots stationary = sign_changes(deflate(slope, zeros));
+  const Roots stationary = stationary_points(p);
   for (int i = 0; i < stationary.count; ++i) {
     const double s = stationary.at[static_cast<std::size_t>(i)];
     if (s <= length) consider(evaluate(p, s), s);
@@ -85,6 +79,14 @@ class CandidateCollector {
 };
 
 }  // namespace
+
+Roots stationary_points(const Polynomial& p) {
+  const Polynomial slope = derivative(p);
+  const double size = slope.cwiseAbs().sum();
+  int zeros = 0;
+  while (zeros < 3 && std::abs(slope[zeros]) <= 1e-13 * size) ++zeros;
+  return sign_changes(deflate(slope, zeros));
+}
 
 Extremes scan_extremes(std::span<const TraceStep> trace, double section, double rate,
                        const StepPolynomial& polynomial) {

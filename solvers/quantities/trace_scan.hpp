@@ -21,6 +21,10 @@ struct TraceStep {
 // The trace's Taylor polynomial over a step, called where an extreme may lie within.
 using StepPolynomial = std::function<Polynomial(std::size_t step)>;
 
+// The stationary points of a step's polynomial, fractions of a whole step. After a stop or a release its
+// slope starts from zero like s or s^2: that root is the step's end, and is divided out.
+Roots stationary_points(const Polynomial& p);
+
 // section: omega t where the steps begin [rad]; rate: omega t per step [rad].
 Extremes scan_extremes(std::span<const TraceStep> trace, double section, double rate,
                        const StepPolynomial& polynomial);

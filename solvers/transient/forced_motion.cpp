@@ -9,6 +9,7 @@
 #include "solvers/algebra/no_value.hpp"
 #include "solvers/exact/response.hpp"
 #include "solvers/mechanics/coordinates.hpp"
+#include "solvers/transient/motion_measurement.hpp"
 #include "solvers/transient/record_course.hpp"
 #include "solvers/transient/trajectory.hpp"
 
@@ -39,8 +40,8 @@ class Driven {
  public:
   // course: of the records; null where there are none.
   Driven(const mechanics::Assembly& assembly, const ValuesAt& values_at, const InitialState& initial,
-         const RecordCourse* course, std::vector<double> times, Watch watch)
-      : trajectory(assembly, std::move(times), std::move(watch)),
+         const RecordCourse* course, std::vector<double> times, Watch watch, Kept kept)
+      : trajectory(assembly, std::move(times), std::move(watch), kept),
         assembly_(assembly),
         values_at_(values_at),
         initial_(initial),
@@ -141,19 +142,6 @@ bool climb(Driven& driven, const Sweep& sweep, double until, int count) {
   return true;
 }
 
-std::vector<Extremum> peaks_of(const Trajectory& trajectory, std::size_t coordinates) {
-  std::vector<Extremum> peaks(coordinates);
-  for (std::size_t i = 0; i < coordinates; ++i) {
-    peaks[i] = {0.0, trajectory.first_displacement(i)};
-    std::vector<Extremum> candidates = trajectory.turning_points(i).extrema();
-    candidates.push_back({trajectory.time(), trajectory.displacement(i)});
-    for (const Extremum& candidate : candidates) {
-      if (std::abs(candidate.displacement) > std::abs(peaks[i].displacement)) peaks[i] = candidate;
-    }
-  }
-  return peaks;
-}
-
 struct Problem {
   const mechanics::Assembly& assembly;
   const ValuesAt& values_at;
@@ -175,13 +163,40 @@ std::optional<RecordCourse> course_of(const mechanics::Network& network, const F
   return RecordCourse(network, options.records);
 }
 
+// The peaks of all coordinates: of a record, and of a run-up, which is refined until they stand.
+class CoordinatePeaks {
+ public:
+  CoordinatePeaks(const mechanics::Network& network, LargestValues& largest) : largest_(largest) {
+    for (std::size_t i = 0; i < mechanics::coordinate_count(network); ++i)
+      numbers_.push_back(
+          largest.add(periodic::TraceKind::displacement, mechanics::coordinate_incidence(network, i)));
+  }
+  std::vector<Extremum> found() const {
+    std::vector<Extremum> peaks;
+    for (const std::size_t number : numbers_) peaks.push_back(largest_.largest(number));
+    return peaks;
+  }
+
+ private:
+  const LargestValues& largest_;
+  std::vector<std::size_t> numbers_;
+};
+
 // The motion with so many stairs, 0 for one frequency.
 ForcedMotion run(const Problem& problem, int stairs) {
   const ForcedOptions& options = problem.options;
   const Sweep& sweep = problem.sweep;
+  const bool is_record = options.quantities.empty();
+  MotionMeasurement measurement(problem.assembly, options.quantities, stairs > 0);
+  std::optional<CoordinatePeaks> peaks;
+  if (is_record || stairs > 0) peaks.emplace(problem.assembly.network(), measurement.largest());
+  const Kept kept{.extrema = false,
+                  .energies = is_record || measurement.needs_energies(),
+                  .rest = false,
+                  .largest = &measurement.largest()};
   Driven driven(problem.assembly, problem.values_at, problem.initial,
                 problem.course ? &*problem.course : nullptr, sample_times(options.duration, options.samples),
-                options.watch);
+                options.watch, kept);
   bool complete = true;
   double phase = 0.0;
   if (stairs > 0) {
@@ -198,11 +213,12 @@ ForcedMotion run(const Problem& problem, int stairs) {
   motion.discretisation_error = kNone;
   if (!complete) motion.failure = driven.trajectory.failure();
   if (complete) driven.trajectory.finish();
-  motion.energy = driven.trajectory.energy_budget();
+  if (kept.energies) motion.energy = driven.trajectory.energy_budget();
   if (motion.failure.empty()) motion.failure = why_unbalanced(motion.energy);
   motion.history = driven.trajectory.samples();
   for (const double t : motion.history.time) motion.frequency.push_back(sweep.frequency(t));
-  motion.peaks = peaks_of(driven.trajectory, mechanics::coordinate_count(problem.assembly.network()));
+  if (peaks) motion.peaks = peaks->found();
+  if (complete) motion.numbers = measurement.numbers(driven.trajectory, motion.energy);
   for (std::size_t j = 0; j < problem.assembly.contacts(); ++j)
     motion.stops.push_back(driven.trajectory.stops(j));
   for (std::size_t j = 0; j < problem.assembly.bends().law.size(); ++j)
@@ -253,6 +269,10 @@ ForcedMotion forced_motion(const mechanics::Network& network, const ValuesAt& va
     ForcedMotion fine = run(problem, stairs);
     if (!fine.failure.empty()) return fine;
     fine.discretisation_error = largest_change(coarse, fine, network.masses.size());
+    for (std::size_t q = 0; q < options.quantities.size(); ++q) {
+      if (options.quantities[q].measure == MotionMeasure::discretisation_error)
+        fine.numbers[q] = fine.discretisation_error;
+    }
     if (fine.discretisation_error <= kRunUpTolerance * largest_peak(fine, network.masses.size()) ||
         2 * stairs > kMostStairs)
       return fine;

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "solvers/mechanics/network.hpp"
 #include "solvers/transient/motion.hpp"
+#include "solvers/transient/motion_quantity.hpp"
 #include "solvers/transient/record.hpp"
 
 // Forced motion from given initial values: at one frequency, running through a range of them, or under
@@ -25,6 +27,8 @@ struct ForcedOptions {
   double duration = 0.0;                         // [s], > 0
   int samples = 0;
   Watch watch = {};
+  // If not empty, ForcedMotion::numbers are these, and energies are followed only if one of them needs them.
+  std::span<const MotionQuantity> quantities = {};
 };
 
 // The values of the network at a frequency [rad/s]. In a run-up the amplitudes of forces may follow it, and
@@ -42,7 +46,8 @@ struct ForcedMotion {
   // Of a run-up: the largest change of any sample of a mass [m] when the stairs were last halved; NaN
   // otherwise. The error that remains is a fraction of it, as halving divides it by four or more.
   double discretisation_error = 0.0;
-  int stairs = 0;  // of a run-up
+  int stairs = 0;                    // of a run-up
+  std::vector<double> numbers = {};  // of the quantities asked for
 };
 
 // The flow is exact at constant frequency. A run-up is cut into stairs of constant frequency each, that of

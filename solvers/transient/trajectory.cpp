@@ -32,11 +32,12 @@ std::vector<double> sample_times(double duration, int count) {
   return times;
 }
 
-Trajectory::Trajectory(const mechanics::Assembly& assembly, std::vector<double> times, Watch watch)
+Trajectory::Trajectory(const mechanics::Assembly& assembly, std::vector<double> times, Watch watch, Kept kept)
     : assembly_(assembly),
       walk_(flow_),
       steps_(flow_),
       account_(assembly, flow_),
+      kept_(kept),
       held_since_(kNone),
       forms_(assembly, flow_),
       signals_(mechanics::signal_incidences(assembly.network())),
@@ -65,6 +66,7 @@ void Trajectory::take_forcing(const mechanics::LinearSystem& system, double phas
   const double old_step = flow_.equations().step;
   flow_.set_forcing(system);
   account_.set_system(system);
+  if (kept_.largest != nullptr) kept_.largest->set_system(flow_);
   forcing_omega_ = system.omega;
   set_frequency(system.omega, 0.0);
   phase_ = phase;
@@ -149,10 +151,24 @@ bool Trajectory::pass(double length, double phase) {
 
 void Trajectory::follow(Step& step) {
   const auto& eq = flow_.equations();
-  const Index n = eq.masses();
   const double at = time_ + step.start * eq.step;
   const auto& mode = flow_.mode(step.mode);
   note_mode(mode, at, step.left.z);
+  if (kept_.largest != nullptr) {
+    const double energy = std::max(energy_scale_, flow_.energy_scale(stretch_.passage.end));
+    kept_.largest->follow(flow_, steps_, step, at, energy);
+  }
+  if (kept_.extrema) follow_extrema(step, at);
+  keep_samples(step, at);
+  if (kept_.energies) account_.follow(mode, steps_.expand(step), step.length);
+  for (Index j = 0; j < eq.contacts(); ++j) {
+    if (!contains(mode.stuck, j)) deceleration_[j] = std::abs(flow_.sliding_speed(step.right, j).slope);
+  }
+}
+
+void Trajectory::follow_extrema(Step& step, double at) {
+  const auto& eq = flow_.equations();
+  const Index n = eq.masses();
   const auto& x = steps_.expand(step);
   for (Index i = 0; i < n; ++i) {
     turning_points_[static_cast<std::size_t>(i)].follow(
@@ -164,11 +180,6 @@ void Trajectory::follow(Step& step) {
          .speed_scale = std::sqrt(2.0 * eq.M_inverse(i, i)) * energy_scale_});
   }
   follow_signals(step, at);
-  keep_samples(step, at);
-  account_.follow(mode, x, step.length);
-  for (Index j = 0; j < eq.contacts(); ++j) {
-    if (!contains(mode.stuck, j)) deceleration_[j] = std::abs(flow_.sliding_speed(step.right, j).slope);
-  }
 }
 
 // Against the speed of a signal's masses at the motion's energy, and of its supports.

@@ -6,6 +6,7 @@
 #include "solvers/events/walk.hpp"
 #include "solvers/quantities/orbit_steps.hpp"
 #include "solvers/transient/energy_account.hpp"
+#include "solvers/transient/largest_values.hpp"
 #include "solvers/transient/motion.hpp"
 #include "solvers/transient/turning_points.hpp"
 
@@ -13,12 +14,20 @@ namespace frahm::transient {
 
 using Flow = periodic::Flow<Eigen::Dynamic, Eigen::Dynamic>;
 
+// What is kept of a motion beside its stops; the rest costs nothing.
+struct Kept {
+  bool extrema = true;               // the turning points of each mass and signal
+  bool energies = true;              // the energy budget
+  bool rest = true;                  // where the motion rests or tends to
+  LargestValues* largest = nullptr;  // these too; must outlive the trajectory
+};
+
 // A motion from given initial values on the exact flow, passage after passage, with its records: the extrema
 // of each mass and signal, the stops of each contact, the state at given times.
 class Trajectory {
  public:
   // times: at which the state is recorded, ascending [s].  `assembly` must outlive the trajectory.
-  Trajectory(const mechanics::Assembly& assembly, std::vector<double> times, Watch watch);
+  Trajectory(const mechanics::Assembly& assembly, std::vector<double> times, Watch watch, Kept kept = {});
 
   // Matrices and forcing, or only another forcing, from now on. The state is carried over; stuck contacts
   // stay stuck (a support whose velocity jumps takes them along). phase: omega t of the fundamental now.
@@ -84,6 +93,7 @@ class Trajectory {
   void carry_over(double old_step);
   bool pass(double length, double phase);
   void follow(Step& step);
+  void follow_extrema(Step& step, double at);
   void follow_signals(const Step& step, double at);
   void note_mode(const periodic::Mode<Eigen::Dynamic, Eigen::Dynamic>& mode, double at, const State& z);
   void note_touches(periodic::ContactMask beyond, double at);
@@ -110,6 +120,7 @@ class Trajectory {
   double steps_taken_ = 0.0;
   const char* failure_ = nullptr;
   double energy_scale_ = 0.0;  // [sqrt(J)] of the current passage
+  Kept kept_;
 
   bool has_mode_ = false;
   periodic::ContactMask stuck_ = 0, positive_ = 0, beyond_ = 0;

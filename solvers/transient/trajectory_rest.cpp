@@ -19,7 +19,7 @@ void Trajectory::note_mode(const periodic::Mode<Eigen::Dynamic, Eigen::Dynamic>&
   const bool same_contacts = has_mode_ && mode.stuck == stuck_ && mode.positive == positive_;
   if (same_contacts && mode.beyond == beyond_) return;
   const auto& eq = flow_.equations();
-  const State creeps_to = has_mode_ ? resting_state(z) : z;
+  const State creeps_to = has_mode_ && kept_.rest ? resting_state(z) : z;
   const ContactMask stopped = mode.stuck & ~stuck_, released = stuck_ & ~mode.stuck;
   for (Index j = 0; j < eq.contacts(); ++j) {
     auto& stops = stops_[static_cast<std::size_t>(j)];
@@ -38,7 +38,7 @@ void Trajectory::note_mode(const periodic::Mode<Eigen::Dynamic, Eigen::Dynamic>&
   positive_ = mode.positive;
   note_touches(mode.beyond, at);
   has_mode_ = true;
-  if (same_stuck) return;
+  if (same_stuck || !kept_.rest) return;
   find_free_directions();
   const bool held = free_directions_.cols() == 0;
   if (!held || std::isnan(held_since_)) held_since_ = held ? at : kNone;

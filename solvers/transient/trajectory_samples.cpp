@@ -23,6 +23,7 @@ Eigen::VectorXd acceleration_in(const StatePolynomials& z, Index masses, double 
 }  // namespace
 
 void Trajectory::keep_samples(Step& step, double at) {
+  if (samples_.time.empty()) return;
   const double h = flow_.equations().step, end = at + step.length * h;
   const auto& expansion = steps_.expand(step);
   for (; next_sample_ < samples_.time.size() && samples_.time[next_sample_] < end; ++next_sample_) {
@@ -33,8 +34,7 @@ void Trajectory::keep_samples(Step& step, double at) {
     keep_state(z, acceleration_in(expansion.z, flow_.equations().masses(), s), u,
                account_.dissipated_within(flow_.mode(step.mode), expansion, s));
   }
-  if (!samples_.time.empty())
-    acceleration_ = acceleration_in(expansion.z, flow_.equations().masses(), step.length);
+  acceleration_ = acceleration_in(expansion.z, flow_.equations().masses(), step.length);
 }
 
 void Trajectory::keep_state(const State& z, const Eigen::VectorXd& acceleration, const Oscillators& u,

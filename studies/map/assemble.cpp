@@ -115,7 +115,8 @@ class ChunkMaking {
 Failures write_map(const MapPlan& plan, const results::MapLayout& layout, const engine::TileIndex& index,
                    const AssemblyOptions& options, results::MapWriter& writer) {
   Failures failures;
-  const std::size_t borders = plan.study.sweep()->borders ? create_borders(plan, writer) : 0;
+  const std::size_t borders =
+      plan.study.sweep() && plan.study.sweep()->borders ? create_borders(plan, writer) : 0;
   engine::TileReader reader(index);
   const auto make_work = [&]() -> engine::PieceWork {
     // Shared, as a PieceWork has to be copyable.
@@ -164,9 +165,13 @@ Assembly make_file(const MapPlan& plan, const RunRecord& run, const AssemblyOpti
   const results::MapLayout layout = map_layout(plan, run);
   results::MapWriter writer(options.output, layout);
   const Failures failures = write_map(plan, layout, index, options, writer);
-  write_orbits(plan, options, writer);
-  write_resonances(plan, options, writer);
-  write_branches(plan, index, options, writer);
+  if (plan.study.sweep()) {
+    write_orbits(plan, options, writer);
+    write_resonances(plan, options, writer);
+    write_branches(plan, index, options, writer);
+  } else {
+    write_histories(plan, options, writer);
+  }
   write_modes(plan.study, writer);
   writer.write_texts("provenance", provenance(plan, run, failures.texts(plan.study), missing.size()));
   writer.finish();

@@ -38,10 +38,15 @@ std::vector<results::Column> mode_columns(const Study& study, periodic::LinearMo
 
 }  // namespace
 
-mechanics::NetworkValues values_at_first_point(const Study& study) {
+std::vector<double> parameters_at_first_point(const Study& study) {
   std::vector<double> parameters = study.parameters.nominal();
-  for (std::size_t d = 0; d < study.map()->dimensions.size(); ++d)
-    set_along(*study.map(), d, 0, parameters);
+  for (std::size_t d = 0; d < study.map()->dimensions.size(); ++d) set_along(*study.map(), d, 0, parameters);
+  study.parameters.complete(std::span<double>(parameters));
+  return parameters;
+}
+
+mechanics::NetworkValues values_at_first_point(const Study& study) {
+  std::vector<double> parameters = parameters_at_first_point(study);
   mechanics::NetworkValues values;
   evaluate(study.values, study.parameters, parameters, values);
   return values;

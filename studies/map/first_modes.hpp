@@ -6,6 +6,7 @@
 namespace frahm::studies {
 
 // The numbers of the network at the first point of a map.
+std::vector<double> parameters_at_first_point(const Study& study);
 mechanics::NetworkValues values_at_first_point(const Study& study);
 
 // The lowest modes there, with all friction sliding, into the group /modes: frequencies, damping and the

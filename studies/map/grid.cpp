@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "studies/map/motion_cost.hpp"
 #include "studies/map/orbit_cost.hpp"
 
 namespace frahm::studies {
@@ -55,6 +56,17 @@ TileSizes sizes_of(const Study& study) {
   if (study.sweep() && study.sweep()->sweeps_frequency())
     sizes.longest_row = std::numeric_limits<std::uint64_t>::max();
   return sizes;
+}
+
+// Motions share nothing, so that their tiles may be small: some milliseconds of work, and a tile for every
+// thread to take of a map of few motions.
+TileSizes sizes_for_motions(const Study& study, std::uint64_t points) {
+  constexpr double kFewestSeconds = 2e-3, kMostSeconds = 0.25;
+  const double seconds = predicted_motion_seconds(study);
+  const auto least = static_cast<std::uint64_t>(std::max(1.0, kFewestSeconds / seconds));
+  const auto most = static_cast<std::uint64_t>(std::max(1.0, kMostSeconds / seconds));
+  const std::uint64_t wanted = std::clamp(points / tiles_wanted, least, most);
+  return {.longest_row = wanted, .least = wanted, .most = wanted};
 }
 
 void cut_into_tiles(const TileSizes& sizes, Grid& grid) {
@@ -150,7 +162,7 @@ Grid grid_of(const Study& study) {
     if (d != row) grid.order.push_back(d);
   }
   grid.order.push_back(row);
-  cut_into_tiles(sizes_of(study), grid);
+  cut_into_tiles(study.transient() ? sizes_for_motions(study, grid.points()) : sizes_of(study), grid);
   join_into_chunks(grid);
   return grid;
 }

@@ -69,7 +69,7 @@ KnownPoints::KnownPoints(const MapPlan& plan, const std::filesystem::path& file)
     if (name == "status" || name == "status_compared") statuses_.push_back(q);
     if (name == "status") {
       own_status_ = q;
-    } else if (q < plan.quantities.size()) {
+    } else if (q < plan.own_variables()) {
       answers_.push_back(q);
     }
   }

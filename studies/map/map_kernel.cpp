@@ -7,7 +7,6 @@
 
 #include "solvers/mechanics/element_table.hpp"
 #include "studies/map/comparison.hpp"
-#include "studies/map/known_points.hpp"
 #include "studies/map/output_quantities.hpp"
 
 namespace frahm::studies {
@@ -42,9 +41,9 @@ MapKernel::MapKernel(const Study& study, const Grid& grid, std::vector<periodic:
                      KnownPoints* earlier)
     : study_(study),
       grid_(grid),
-      earlier_(earlier),
       quantities_(quantities.size()),
-      digits_(study, output_variables(study, quantities)),
+      tile_(output_variables(study, quantities).size(),
+            KnownDigits(study, output_variables(study, quantities)), earlier),
       own_(study, study.network, study.values, asked_for(study, quantities), study.orbits_wanted()),
       parameters_(study.parameters.nominal()),
       point_(quantities.size()) {
@@ -66,13 +65,7 @@ MapKernel::MapKernel(const Study& study, const Grid& grid, std::vector<periodic:
 
 void MapKernel::operator()(std::uint64_t tile, engine::Bytes& out) {
   const MapBox box = grid_.box(tile);
-  record_.values.resize(point_.size() * box.points());
-  record_.failed.clear();
-  if (earlier_) {
-    earlier_->take(box, record_.values, known_);
-  } else {
-    known_.assign(box.points(), 0);
-  }
+  tile_.open(box);
   own_.forget();
   if (other_) other_->forget();
 
@@ -82,25 +75,24 @@ void MapKernel::operator()(std::uint64_t tile, engine::Bytes& out) {
     compute_row(box);
   } while (next_point(box, rows, index_));
   if (border_search_) {
-    record_.borders.emplace();
-    border_search_->find(box, regimes_of(box), *record_.borders);
+    tile_.record.borders.emplace();
+    border_search_->find(box, regimes_of_tile(), *tile_.record.borders);
   }
-  encode(record_, out);
+  encode(tile_.record, out);
 }
 
 // Those of the tile as recorded, if all of it was computed here and all are recorded.
-std::vector<std::span<const double>> MapKernel::regimes_of(const MapBox& box) const {
-  if (regimes_.empty() || std::ranges::any_of(known_, [](char known) { return known != 0; })) return {};
+std::vector<std::span<const double>> MapKernel::regimes_of_tile() const {
+  if (regimes_.empty() || tile_.has_known()) return {};
   std::vector<std::span<const double>> regimes;
-  for (const std::size_t quantity : regimes_)
-    regimes.push_back(std::span(record_.values).subspan(quantity * box.points(), box.points()));
+  for (const std::size_t quantity : regimes_) regimes.push_back(tile_.values_of(quantity));
   return regimes;
 }
 
 // Whether all points of a row are known. A sweep needs those before it.
-bool MapKernel::is_known(std::uint64_t offset, std::uint64_t step, std::uint64_t count) const {
+bool MapKernel::is_row_known(std::uint64_t offset, std::uint64_t step, std::uint64_t count) const {
   for (std::uint64_t i = 0; i < count; ++i) {
-    if (known_[offset + i * step] == 0) return false;
+    if (!tile_.is_known(offset + i * step)) return false;
   }
   return true;
 }
@@ -113,14 +105,14 @@ void MapKernel::compute_row(const MapBox& box) {
     if (d > along) step *= box.count[d];
     if (d != along) set_along(*study_.sweep(), d, index_[d], parameters_);
   }
-  if (study_.sweep()->sweeps_frequency() && !is_known(offset, step, box.count[along])) {
-    for (std::uint64_t i = 0; i < box.count[along]; ++i) known_[offset + i * step] = 0;
+  if (study_.sweep()->sweeps_frequency() && !is_row_known(offset, step, box.count[along])) {
+    for (std::uint64_t i = 0; i < box.count[along]; ++i) tile_.compute_anew(offset + i * step);
   }
   own_.begin_row();
   if (other_) other_->begin_row();
   offsets_.clear();
   for (std::uint64_t i = 0; i < box.count[along]; ++i, offset += step) {
-    if (known_[offset]) continue;
+    if (tile_.is_known(offset)) continue;
     set_along(*study_.sweep(), along, box.start[along] + i, parameters_);
     own_.add_point(parameters_);
     if (other_) other_->add_point(parameters_);
@@ -128,11 +120,11 @@ void MapKernel::compute_row(const MapBox& box) {
   }
   own_.solve();
   if (other_) other_->solve();
-  for (std::size_t i = 0; i < offsets_.size(); ++i) record_point(i, offsets_[i], box.points());
+  for (std::size_t i = 0; i < offsets_.size(); ++i) record_point(i, offsets_[i]);
 }
 
 // Point i of the row that was solved, at this offset in the tile.
-void MapKernel::record_point(std::size_t i, std::uint64_t offset, std::uint64_t points) {
+void MapKernel::record_point(std::size_t i, std::uint64_t offset) {
   const std::span<const double> own = own_.quantities(i);
   std::copy_n(own.begin(), quantities_, point_.begin());
   std::string reason = own_.reason(i);
@@ -141,9 +133,7 @@ void MapKernel::record_point(std::size_t i, std::uint64_t offset, std::uint64_t 
     compare(own_compared_, other_->quantities(i), std::span(point_).subspan(quantities_));
     if (reason.empty() && !other_->reason(i).empty()) reason = fmt::format("compared: {}", other_->reason(i));
   }
-  digits_.round(point_);
-  for (std::size_t q = 0; q < point_.size(); ++q) record_.values[q * points + offset] = point_[q];
-  if (!reason.empty()) record_.failed.push_back({offset, std::move(reason)});
+  tile_.put(offset, point_, std::move(reason));
 }
 
 }  // namespace frahm::studies

@@ -9,9 +9,8 @@
 #include "engine/bytes.hpp"
 #include "studies/map/border_search.hpp"
 #include "studies/map/grid.hpp"
-#include "studies/map/known_digits.hpp"
+#include "studies/map/open_tile.hpp"
 #include "studies/map/row_solver.hpp"
-#include "studies/map/tile_record.hpp"
 #include "studies/reading/study.hpp"
 
 namespace frahm::studies {
@@ -36,25 +35,22 @@ class MapKernel {
 
  private:
   void compute_row(const MapBox& box);
-  bool is_known(std::uint64_t offset, std::uint64_t step, std::uint64_t count) const;
-  std::vector<std::span<const double>> regimes_of(const MapBox& box) const;
-  void record_point(std::size_t i, std::uint64_t offset, std::uint64_t points);
+  bool is_row_known(std::uint64_t offset, std::uint64_t step, std::uint64_t count) const;
+  std::vector<std::span<const double>> regimes_of_tile() const;
+  void record_point(std::size_t i, std::uint64_t offset);
 
   const Study& study_;
   const Grid& grid_;
-  KnownPoints* earlier_;
   std::size_t quantities_;             // of the study's own record
   std::vector<std::size_t> compared_;  // index of each compared quantity among those solved for
-  KnownDigits digits_;
+  OpenTile tile_;
   RowSolver own_;
   std::optional<RowSolver> other_;
   std::optional<BorderSearch> border_search_;
   std::vector<std::size_t> regimes_;  // index of each contact's regime among the quantities, for the borders
 
   // Workspace, of the tile, the row and the point in hand.
-  TileRecord record_;
-  std::vector<char> known_;           // of each point of the tile: its values are those of the earlier result
-  std::vector<std::uint64_t> index_;  // of the row's first point
+  std::vector<std::uint64_t> index_;    // of the row's first point
   std::vector<std::uint64_t> offsets_;  // of the points of the row that are computed
   std::vector<double> parameters_;      // SI
   std::vector<double> point_;           // its variables

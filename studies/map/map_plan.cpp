@@ -7,11 +7,36 @@
 
 #include "studies/map/known_points.hpp"
 #include "studies/map/map_kernel.hpp"
+#include "studies/map/motion_kernel.hpp"
+#include "studies/map/motion_quantities.hpp"
 #include "studies/map/output_quantities.hpp"
 #include "studies/map/tile_record.hpp"
 #include "studies/record/fingerprint.hpp"
 
 namespace frahm::studies {
+namespace {
+
+void choose_quantities(MapPlan& plan) {
+  if (plan.study.sweep()) {
+    plan.quantities = output_quantities(plan.study);
+    plan.variables = output_variables(plan.study, plan.quantities);
+  } else {
+    plan.motion_quantities = motion_quantities(plan.study);
+    plan.variables = motion_variables(plan.study, plan.motion_quantities);
+  }
+}
+
+engine::Kernel kernel_of(const MapPlan& plan, const engine::StopAsked& stop_asked, KnownPoints* earlier) {
+  // Shared, as an engine::Kernel has to be copyable.
+  const auto shared = [](auto kernel) -> engine::Kernel {
+    return [kernel](std::uint64_t tile, engine::Bytes& out) { (*kernel)(tile, out); };
+  };
+  if (plan.study.transient()) return shared(std::make_shared<MotionKernel>(plan, stop_asked, earlier));
+  return shared(std::make_shared<MapKernel>(plan.study, plan.grid, plan.quantities, earlier));
+}
+
+}  // namespace
+
 MapPlan plan_map(Study study, std::vector<std::string> set) {
   if (!study.map())
     throw StudyError(rules::other_kind, "{}: a {} is one motion, not a map", study.source.name,
@@ -22,9 +47,10 @@ MapPlan plan_map(Study study, std::vector<std::string> set) {
   plan.set = std::move(set);
   plan.grid = grid_of(plan.study);
   plan.tiles = plan.grid.tiles();
-  plan.quantities = output_quantities(plan.study);
-  plan.variables = output_variables(plan.study, plan.quantities);
-  plan.fingerprint = fingerprint(plan.study, {plan.grid.order, plan.grid.tile}, plan.quantities);
+  choose_quantities(plan);
+  std::vector<std::string> names;
+  for (std::size_t q = 0; q < plan.own_variables(); ++q) names.push_back(plan.variables[q].name);
+  plan.fingerprint = fingerprint(plan.study, {plan.grid.order, plan.grid.tile}, names);
   return plan;
 }
 
@@ -32,11 +58,10 @@ engine::Job job_of(const MapPlan& plan, KnownPoints* earlier) {
   const auto points = [&plan](std::uint64_t tile) { return plan.grid.box(tile).points(); };
   return {.tiles = plan.tiles,
           .fingerprint = plan.log_header().fingerprint,
-          .make_kernel = [&plan, earlier](const engine::StopAsked&) -> engine::Kernel {
-            // Shared, as an engine::Kernel has to be copyable.
-            auto kernel = std::make_shared<MapKernel>(plan.study, plan.grid, plan.quantities, earlier);
-            return [kernel](std::uint64_t tile, engine::Bytes& out) { (*kernel)(tile, out); };
-          },
+          .make_kernel =
+              [&plan, earlier](const engine::StopAsked& stop_asked) {
+                return kernel_of(plan, stop_asked, earlier);
+              },
           .points = points,
           .failed =
               [&plan, points](std::uint64_t tile, std::span<const std::byte> record) {

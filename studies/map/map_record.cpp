@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <numeric>
+#include <utility>
+
 #include "studies/map/known_digits.hpp"
 
 namespace frahm::studies {
@@ -20,10 +23,21 @@ results::Coordinate coordinate_of(const Study& study, const ParameterAxis& axis)
           .values = axis.values};
 }
 
+results::Coordinate coordinate_of(const RecordAxis& records, const GridDimension& dimension) {
+  std::vector<double> numbers(records.names.size());
+  std::iota(numbers.begin(), numbers.end(), 0.0);
+  return {.name = dimension.name,
+          .unit = "1",
+          .long_name = "number of the record",
+          .values = std::move(numbers),
+          .names = records.names};
+}
+
 std::vector<results::Axis> axes_of(const Study& study) {
   std::vector<results::Axis> axes;
   for (const GridDimension& dimension : study.map()->dimensions) {
     results::Axis axis{.name = dimension.name, .size = dimension.size};
+    if (dimension.axes.empty()) axis.coordinates.push_back(coordinate_of(*study.map()->records, dimension));
     for (const std::size_t a : dimension.axes)
       axis.coordinates.push_back(coordinate_of(study, study.map()->axes[a]));
     axes.push_back(std::move(axis));
@@ -39,6 +53,26 @@ std::vector<results::Axis> axes_of(const Study& study) {
 }
 
 }  // namespace
+
+std::vector<results::Variable> row_variables(const Study& study) {
+  std::vector<results::Variable> variables;
+  for (const ParameterAxis& axis : study.map()->axes) {
+    const std::string& name = study.parameters.list[axis.parameter].name;
+    variables.push_back(
+        {.name = name, .unit = unit_or_one(axis.unit), .long_name = fmt::format("parameter {}", name)});
+  }
+  if (study.map()->records)
+    variables.push_back({.name = "record", .unit = "1", .long_name = "number of the record"});
+  return variables;
+}
+
+std::vector<double> row_values(const Study& study, std::span<const double> parameters, std::size_t record) {
+  std::vector<double> row;
+  for (const ParameterAxis& axis : study.map()->axes)
+    row.push_back(parameters[axis.parameter] / axis.si_factor);
+  if (study.map()->records) row.push_back(static_cast<double>(record));
+  return row;
+}
 
 results::Variable variable_of(const Study& study, const periodic::QuantityDescription& description) {
   results::Variable variable{

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,6 +25,15 @@ results::Variable variable_of(const Study& study, const periodic::QuantityDescri
 // The time histories of the points that the study lists, solved and written to /orbits; nothing if it lists
 // none. An orbit that does not exist has a row without samples. Throws AssemblyStopped.
 void write_orbits(const MapPlan& plan, const AssemblyOptions& options, results::MapWriter& writer);
+
+// The same of the motions that a study of motions lists, in /histories. A motion that failed has a row
+// without samples.
+void write_histories(const MapPlan& plan, const AssemblyOptions& options, results::MapWriter& writer);
+
+// What tells the points whose histories are kept apart: the parameters on axes, and the record of an axis of
+// records. Names and units; and the numbers at SI values of all parameters.
+std::vector<results::Variable> row_variables(const Study& study);
+std::vector<double> row_values(const Study& study, std::span<const double> parameters, std::size_t record);
 
 // Creates the group /borders, empty. Returns its number, for MapWriter::append_ragged.
 std::size_t create_borders(const MapPlan& plan, results::MapWriter& writer);

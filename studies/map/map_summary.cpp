@@ -53,6 +53,10 @@ std::uint64_t FlagCounts::of(const std::string& meaning) const {
   return found == counts.end() ? 0 : found->second;
 }
 
+const char* answers_noun(const Study& study) {
+  return study.transient() ? "motions" : "orbits";
+}
+
 std::uint64_t points_of(const results::MapLayout& layout) {
   std::uint64_t points = 1;
   for (const results::Axis& axis : layout.axes) points *= axis.size;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "results/map_reader.hpp"
+#include "studies/reading/study.hpp"
 
 namespace frahm::studies {
 
@@ -37,6 +38,9 @@ WorstAlongAxis worst_along_slowest_axis(const results::MapReader& map, std::size
 // Tables of these for readers; of the rows at most twelve, evenly chosen.
 void print_flags(const std::vector<FlagCounts>& flags, std::uint64_t points, std::ostream& out);
 void print_worst(const results::MapReader& map, const WorstAlongAxis& worst, std::ostream& out);
+
+// What is computed at the points of a study's map: "orbits" or "motions".
+const char* answers_noun(const Study& study);
 
 std::uint64_t points_of(const results::MapLayout& layout);
 

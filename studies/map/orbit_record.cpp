@@ -76,10 +76,10 @@ std::vector<std::vector<double>> sliding_motions(const mechanics::Network& netwo
   return motions;
 }
 
-KeptOrbit keep_orbit(const MapPlan& plan, const std::vector<Assignment>& point) {
+KeptOrbit keep_orbit(const MapPlan& plan, const KeptPoint& point) {
   const Study& study = plan.study;
   KeptOrbit orbit{.parameters = study.parameters.nominal(), .history = {}, .sliding = {}};
-  for (const Assignment& assignment : point) orbit.parameters[assignment.parameter] = assignment.value;
+  for (const Assignment& assignment : point.at) orbit.parameters[assignment.parameter] = assignment.value;
   mechanics::NetworkValues values;
   periodic::PeriodicResponse response(study.network, plan.quantities, periodic::Path::fastest,
                                       study.orbits_wanted());
@@ -138,17 +138,6 @@ std::vector<results::Variable> sample_variables(const Study& study) {
   return variables;
 }
 
-std::vector<results::Variable> row_variables(const Study& study) {
-  std::vector<results::Variable> variables;
-  for (const ParameterAxis& axis : study.map()->axes) {
-    const std::string& name = study.parameters.list[axis.parameter].name;
-    variables.push_back({.name = name,
-                         .unit = axis.unit.empty() ? "1" : axis.unit,
-                         .long_name = fmt::format("parameter {}", name)});
-  }
-  return variables;
-}
-
 std::vector<std::vector<double>> samples_of(const KeptOrbit& orbit, std::size_t variables) {
   if (orbit.history.time.empty()) return std::vector<std::vector<double>>(variables);
   std::vector<std::vector<double>> samples{orbit.history.time};
@@ -170,10 +159,8 @@ void write_orbits(const MapPlan& plan, const AssemblyOptions& options, results::
                                      .sample_variables = sample_variables(study)};
   const std::size_t table = writer.create_ragged(layout);
   const auto append = [&](const KeptOrbit& orbit) {
-    std::vector<double> row;
-    for (const ParameterAxis& axis : study.map()->axes)
-      row.push_back(orbit.parameters[axis.parameter] / axis.si_factor);
-    writer.append_ragged(table, row, samples_of(orbit, layout.sample_variables.size()));
+    writer.append_ragged(table, row_values(study, orbit.parameters, 0),
+                         samples_of(orbit, layout.sample_variables.size()));
   };
   const engine::PieceWork keep = [&](std::uint64_t number) {
     return [orbit = keep_orbit(plan, points[number]), &append] { append(orbit); };

@@ -56,7 +56,8 @@ struct Taken {
 std::map<std::string, Taken> names_of_coordinates(const Study& study) {
   std::map<std::string, Taken> taken;
   for (const GridDimension& dimension : study.map()->dimensions) {
-    const Position position = study.map()->axes[dimension.axes.front()].position;
+    const Position position = dimension.axes.empty() ? study.map()->records->position
+                                                     : study.map()->axes[dimension.axes.front()].position;
     taken.emplace(dimension.name, Taken{"the dimension of an axis", position});
   }
   for (const ParameterAxis& axis : study.map()->axes) {
@@ -77,10 +78,12 @@ std::vector<std::pair<std::string, std::string>> names_of_groups(const Study& st
     names.emplace_back(name, "a variable of the modes");
   const auto add = [&](const std::string& name, const char* what) { names.emplace_back(name, what); };
   if (!study.map()->output.histories.empty()) {
-    add("orbits", "a group of the file");
-    for (const char* name : {"orbit", "sample", "row_start", "time"})
-      add(name, "a variable of the orbits kept");
+    const bool of_motions = study.transient() != nullptr;
+    add(of_motions ? "histories" : "orbits", "a group of the file");
+    for (const char* name : {of_motions ? "history" : "orbit", "sample", "row_start", "time"})
+      add(name, of_motions ? "a variable of the histories kept" : "a variable of the orbits kept");
   }
+  if (study.transient()) return names;
   if (study.sweep()->borders) {
     add("borders", "a group of the file");
     for (const char* name : {"border", "element", "axis", "regime_below", "regime_above"})
@@ -116,6 +119,7 @@ void check_report(const Study& study, const std::vector<periodic::QuantityDescri
   };
   for (const OutputChoice::Name& name : study.map()->report_quantities) check("quantities", name);
   if (study.map()->headline) check("headline", *study.map()->headline);
+  if (!study.sweep()) return;
   const auto& profile = study.sweep()->profile;
   if (!profile || !profile->position) return;
   for (const std::size_t mass : profile->masses) {
@@ -156,6 +160,11 @@ std::vector<periodic::QuantityDescription> output_variables(
     const auto compared = compared_variables(study);
     result.insert(result.end(), compared.begin(), compared.end());
   }
+  check_names_of_record(study, result);
+  return result;
+}
+
+void check_names_of_record(const Study& study, const std::vector<periodic::QuantityDescription>& variables) {
   std::map<std::string, Taken> taken = names_of_coordinates(study);
   for (const auto& [name, what] : names_of_groups(study)) {
     const auto other = taken.find(name);
@@ -164,7 +173,7 @@ std::vector<periodic::QuantityDescription> output_variables(
                                 "\"{}\" is the name of {} and of {}, which stand in one file; rename it",
                                 name, other->second.what, what);
   }
-  for (const auto& variable : result) {
+  for (const auto& variable : variables) {
     const auto [other, is_free] = taken.try_emplace(variable.name, Taken{variable.long_name, {}});
     if (is_free) continue;
     throw study.source.error_at(
@@ -172,8 +181,7 @@ std::vector<periodic::QuantityDescription> output_variables(
         "\"{}\" is the name of {} and of a result ({}), which stand in one file; rename it", variable.name,
         other->second.what, variable.long_name);
   }
-  check_report(study, result);
-  return result;
+  check_report(study, variables);
 }
 
 }  // namespace frahm::studies

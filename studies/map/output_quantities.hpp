@@ -15,6 +15,10 @@ std::vector<periodic::Quantity> output_quantities(const Study& study);
 std::vector<periodic::QuantityDescription> output_variables(
     const Study& study, const std::vector<periodic::Quantity>& quantities);
 
+// Throws StudyError where two names of a record of these variables would be the same, and for a page or
+// summary that shows what is not recorded.
+void check_names_of_record(const Study& study, const std::vector<periodic::QuantityDescription>& variables);
+
 // The name of the quantity that summaries of a sweep tell: that of its headline, else the first mass's peak.
 std::string headline_of(const Study& study);
 

@@ -70,11 +70,15 @@ mechanics::NetworkValues motion_values(const Study& study) {
 }
 
 transient::InitialState initial_state(const Study& study) {
+  return initial_state(study, study.parameters.nominal());
+}
+
+transient::InitialState initial_state(const Study& study, std::span<const double> parameters) {
   const std::size_t n = study.network.masses.size();
   transient::InitialState state{std::vector<double>(n, 0.0), std::vector<double>(n, 0.0)};
   for (const InitialValues& initial : study.initial()) {
-    state.displacement[initial.mass] = stated(study, initial.displacement);
-    state.velocity[initial.mass] = stated(study, initial.velocity);
+    state.displacement[initial.mass] = initial.displacement.expression.evaluate(parameters);
+    state.velocity[initial.mass] = initial.velocity.expression.evaluate(parameters);
   }
   return state;
 }

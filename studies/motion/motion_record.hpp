@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <iosfwd>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,17 +24,27 @@ double stated(const Study& study, const StudyValue& value);
 mechanics::NetworkValues motion_values(const Study& study);
 
 transient::InitialState initial_state(const Study& study);
+// The same at SI values of all parameters, completed.
+transient::InitialState initial_state(const Study& study, std::span<const double> parameters);
 
 // Throws StudyError for invalid values, and if the motion cannot be completed; passes on what `watch` throws.
 transient::FreeDecay solve_decay(const Study& study, const transient::Watch& watch = {});
 std::vector<results::Column> decay_columns(const Study& study, const transient::FreeDecay& decay);
 void print_decay(const Study& study, const transient::FreeDecay& decay, std::ostream& out);
 
-// Duration [s], samples, sweep and records (those of the study, the first of an axis) of a transient. Throws StudyError for a sweep that goes nowhere.
+// Duration [s], samples and sweep of a transient. Throws StudyError for a sweep that goes nowhere.
 transient::ForcedOptions forced_options(const Study& study);
+// The same at SI values of all parameters, completed.
+transient::ForcedOptions forced_options(const Study& study, std::span<const double> parameters);
 
 // Throws StudyError as solve_decay().
 transient::ForcedMotion solve_transient(const Study& study, const transient::Watch& watch = {});
+
+// The motion at a point of a map: at SI values of all parameters, completed, under one of the records of its
+// axis, 0 where it has none. It may have failed. options: of forced_options(), with what is wanted of it.
+// Throws mechanics::MechanicsError for values without a meaning, and StudyError as forced_options().
+transient::ForcedMotion motion_at(const Study& study, std::span<const double> parameters, std::size_t record,
+                                  const transient::ForcedOptions& options);
 std::vector<results::Column> transient_columns(const Study& study, const transient::ForcedMotion& motion);
 void print_transient(const Study& study, const transient::ForcedMotion& motion, std::ostream& out);
 

@@ -20,8 +20,7 @@ namespace {
 using transient::ForcedMotion, transient::Stop;
 
 // The network's values at another frequency, set through its parameter if there is one.
-mechanics::NetworkValues values_at(const Study& study, double omega) {
-  std::vector<double> parameters = study.parameters.nominal();
+mechanics::NetworkValues values_at(const Study& study, std::vector<double> parameters, double omega) {
   const auto running = study.values.omega.expression.sole_parameter();
   if (running && study.transient()->sweep_to) parameters[*running] = omega;
   mechanics::NetworkValues values;
@@ -93,11 +92,15 @@ void print_touches(const Study& study, const ForcedMotion& motion, std::ostream&
 }  // namespace
 
 transient::ForcedOptions forced_options(const Study& study) {
+  return forced_options(study, study.parameters.nominal());
+}
+
+transient::ForcedOptions forced_options(const Study& study, std::span<const double> parameters) {
   const TransientChoice& motion = *study.transient();
-  transient::ForcedOptions options{.from = stated(study, study.values.omega), .samples = motion.samples};
-  options.records = motion.driven_by(0);
+  const auto at = [&](const StudyValue& value) { return value.expression.evaluate(parameters); };
+  transient::ForcedOptions options{.from = at(study.values.omega), .samples = motion.samples};
   if (motion.sweep_to) {
-    options.sweep = {stated(study, *motion.sweep_to), stated(study, *motion.sweep_rate)};
+    options.sweep = {at(*motion.sweep_to), at(*motion.sweep_rate)};
     if (options.sweep.to == options.from) {
       throw study.source.error_at(rules::wrong_order, motion.sweep_to->position,
                                   "{}: is the frequency at which the motion begins; leave out "
@@ -107,19 +110,28 @@ transient::ForcedOptions forced_options(const Study& study) {
     options.duration = std::abs(options.sweep.to - options.from) / options.sweep.rate;
   }
   if (motion.duration) {
-    options.duration = stated(study, *motion.duration);
+    options.duration = at(*motion.duration);
   } else if (!motion.sweep_to) {
     options.duration = motion.end_of_records();
   }
   return options;
 }
 
+ForcedMotion motion_at(const Study& study, std::span<const double> parameters, std::size_t record,
+                       const transient::ForcedOptions& options) {
+  const std::vector<double> here(parameters.begin(), parameters.end());
+  transient::ForcedOptions driven = options;
+  driven.records = study.transient()->driven_by(record);
+  return transient::forced_motion(
+      study.network, [&](double omega) { return values_at(study, here, omega); },
+      initial_state(study, parameters), driven);
+}
+
 ForcedMotion solve_transient(const Study& study, const transient::Watch& watch) {
   transient::ForcedOptions options = forced_options(study);
   options.watch = watch;
   try {
-    ForcedMotion motion = transient::forced_motion(
-        study.network, [&](double omega) { return values_at(study, omega); }, initial_state(study), options);
+    ForcedMotion motion = motion_at(study, study.parameters.nominal(), 0, options);
     if (!motion.failure.empty())
       throw StudyError(rules::not_computed, "{}",
                        study.source.name + ": the motion is not computed: " + motion.failure);

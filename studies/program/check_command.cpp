@@ -16,6 +16,7 @@
 #include "studies/map/first_modes.hpp"
 #include "studies/map/map_plan.hpp"
 #include "studies/map/map_sample.hpp"
+#include "studies/map/map_summary.hpp"
 #include "studies/motion/motion_record.hpp"
 #include "studies/program/array_job.hpp"
 #include "studies/program/branch_cost.hpp"
@@ -46,7 +47,8 @@ void print_grid(const Study& study, const Grid& grid, std::ostream& out) {
 }
 
 // A thread computes whole tiles, so that some threads may wait for the last.
-void print_prediction(const Grid& grid, const MapSample& sample, int wanted_threads, std::ostream& out) {
+void print_prediction(const Study& study, const Grid& grid, const MapSample& sample, int wanted_threads,
+                      std::ostream& out) {
   const double share = static_cast<double>(grid.points()) / static_cast<double>(sample.points);
   const int threads = engine::team_size(wanted_threads, grid.tiles());
   const std::uint64_t turns =
@@ -54,15 +56,16 @@ void print_prediction(const Grid& grid, const MapSample& sample, int wanted_thre
   const double seconds =
       sample.seconds * share * static_cast<double>(turns) / static_cast<double>(grid.tiles());
   const double rate = static_cast<double>(sample.points) / sample.seconds;
-  fmt::print(out, "time    {} on {} thread{} of this machine ({:.3g} orbits/s on one, from {} points)\n",
+  fmt::print(out, "time    {} on {} thread{} of this machine ({:.3g} {}/s on one, from {} points)\n",
              seconds < 1.0 ? "less than a second" : "about " + engine::readable_time(seconds), threads,
-             threads == 1 ? "" : "s", rate, sample.points);
+             threads == 1 ? "" : "s", rate, answers_noun(study), sample.points);
   fmt::print(out, "file    about {} ({} before compression)\n",
              readable_size(static_cast<double>(sample.stored_bytes) * share),
              readable_size(static_cast<double>(sample.raw_bytes) * share));
   if (sample.failed > 0) {
-    fmt::print(out, "without a response: {} of the {} points tried, the first at {}: {}\n", sample.failed,
-               sample.points, sample.failed_at, sample.reason);
+    fmt::print(out, "without {}: {} of the {} points tried, the first at {}: {}\n",
+               study.transient() ? "a motion" : "a response", sample.failed, sample.points, sample.failed_at,
+               sample.reason);
   }
 }
 
@@ -190,14 +193,15 @@ int check_command(const CheckOptions& options, std::ostream& out) {
 
   const bool has_none = sample.failed == sample.points;
   if (has_none) {
-    fmt::print(out, "{} can be read, but none of the points tried has a response\n\n", study.source.name);
+    fmt::print(out, "{} can be read, but none of the points tried has {}\n\n", study.source.name,
+               study.transient() ? "a motion" : "a response");
   } else {
     fmt::print(out, "{} is a valid study{}{}\n\n", study.source.name, study.title.empty() ? "" : ": ",
                study.title);
   }
   print_grid(study, plan.grid, out);
-  print_prediction(plan.grid, sample, options.threads, out);
-  print_branch_cost(plan, options.threads, out);
+  print_prediction(study, plan.grid, sample, options.threads, out);
+  if (study.sweep()) print_branch_cost(plan, options.threads, out);
   print_array(options, plan, "map", core_seconds, out);
   if (options.simulate_ranks > 0) {
     print_rank_table(plan.grid, sample, options.simulate_ranks, std::max(1, options.threads), start_seconds,

@@ -19,13 +19,13 @@ namespace {
 
 constexpr int most_failures_shown = 3;
 
-void print_effort(const Effort& effort, std::ostream& out) {
+void print_effort(const Study& study, const Effort& effort, std::ostream& out) {
   const auto points = static_cast<double>(effort.points);
   fmt::print(out, "{:<22} {:.2f} s wall, {:.2f} s CPU on {}", "time", effort.seconds, effort.cpu_seconds,
              team_text(effort.threads, effort.ranks));
   if (effort.points > 0) {
-    fmt::print(out, "; {} orbits, {:.0f}/s, {:.0f} per CPU second", effort.points, points / effort.seconds,
-               points / effort.cpu_seconds);
+    fmt::print(out, "; {} {}, {:.0f}/s, {:.0f} per CPU second", effort.points, answers_noun(study),
+               points / effort.seconds, points / effort.cpu_seconds);
   }
   fmt::print(out, "\n");
 }
@@ -73,7 +73,7 @@ int print_map_table(const MapPlan& plan, const std::filesystem::path& study,
   }
   const std::vector<FlagCounts> flags = count_flags(map);
   print_flags(flags, points, out);
-  if (effort) print_effort(*effort, out);
+  if (effort) print_effort(plan.study, *effort, out);
   if (effort && plan.grown_from) {
     fmt::print(out, "{:<22} {} points of {}, {} computed\n", "reused", effort->reused, plan.grown_from->file,
                effort->points);

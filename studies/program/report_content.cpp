@@ -6,6 +6,7 @@
 #include <iostream>
 #include <optional>
 
+#include "solvers/transient/motion_quantity.hpp"
 #include "studies/program/report_facts.hpp"
 #include "studies/program/report_profile.hpp"
 #include "studies/reading/name_pattern.hpp"
@@ -34,6 +35,7 @@ bool compares_responses(const std::optional<Study>& study) {
 bool is_shown_by_default(const std::string& name, const std::optional<Study>& study) {
   if (name.ends_with("_difference")) return true;
   if (compares_responses(study) && name.ends_with("_compared")) return true;
+  if (study && study->transient()) return transient::is_shown_of_motion(name);
   const auto quantity = study ? periodic::find_quantity(name, study->network) : std::nullopt;
   return quantity ? periodic::is_shown(*quantity, study->network) : periodic::is_shown(name);
 }

@@ -106,8 +106,7 @@ std::vector<results::PageGroup> report_facts(const Study& study) {
   std::vector<results::PageGroup> groups;
   if (std::vector<results::Column> cranks = crank_motions(study); !cranks.empty())
     groups.push_back({.name = "crank", .columns = std::move(cranks)});
-  if (study.kind() == StudyKind::transient || study.kind() == StudyKind::decay)
-    groups.push_back({.name = "study", .columns = motion_facts(study)});
+  if (study.motion() && !study.map()) groups.push_back({.name = "study", .columns = motion_facts(study)});
   if (study.sweep() && study.sweep()->profile)
     groups.push_back(profile_group(study, *study.sweep()->profile));
   if (study.kind() == StudyKind::tune) groups.push_back({.name = "study", .columns = limit_bands(study)});

@@ -162,9 +162,9 @@ void walk(const Study& study, std::span<const std::size_t> reads, std::vector<do
 std::vector<std::vector<double>> kept_points(const Study& study) {
   std::vector<std::vector<double>> points;
   if (!study.map()) return points;
-  for (const auto& point : study.map()->output.histories) {
+  for (const KeptPoint& point : study.map()->output.histories) {
     points.push_back(study.parameters.nominal());
-    for (const Assignment& assignment : point) points.back()[assignment.parameter] = assignment.value;
+    for (const Assignment& assignment : point.at) points.back()[assignment.parameter] = assignment.value;
   }
   return points;
 }

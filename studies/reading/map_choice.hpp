@@ -52,6 +52,12 @@ struct RecordAxis {
   Position position;               // of the [[axis]]
 };
 
+// A point whose time history is recorded; what it leaves out has its value in [parameters].
+struct KeptPoint {
+  std::vector<Assignment> at;
+  std::size_t record = 0;  // of those of the axis, if there is one
+};
+
 struct OutputChoice {
   enum class Quantities { standard, all, listed };
   struct Name {
@@ -62,7 +68,7 @@ struct OutputChoice {
   Quantities quantities = Quantities::standard;
   std::vector<Name> names;  // or patterns, of Quantities::listed, then not empty; not checked here
   Precision precision = Precision::known_digits;
-  std::vector<std::vector<Assignment>> histories;  // points whose time histories are recorded
+  std::vector<KeptPoint> histories;
 };
 
 // The axes of a map and what is recorded of its points.

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "solvers/mechanics/coordinates.hpp"
 #include "studies/reading/name_pattern.hpp"
@@ -103,6 +104,17 @@ void read_resonances(const StudyContext& context, const TomlSection& section, St
                  "the excitation frequency must rise, or fall, all along its axis");
 }
 
+// The number of a record on its axis, from 0.
+std::size_t read_record_number(const StudyContext& context, const RecordAxis& records,
+                               const std::string& where, const TomlValue& value) {
+  const double number = read_number(context.source, where, value);
+  if (number >= 0.0 && number < static_cast<double>(records.names.size()) && number == std::floor(number))
+    return static_cast<std::size_t>(number);
+  throw context.source.error_at(rules::out_of_range, value.position,
+                                "{}: record: {} is out of range: a whole number from 0 to {}", where, number,
+                                records.names.size() - 1);
+}
+
 }  // namespace
 
 void read_recorded(const TomlSection& section, OutputChoice& output) {
@@ -125,10 +137,15 @@ void read_histories(const StudyContext& context, const TomlSection& section, con
                                     "{}: a point is a table such as {{ omega = 250 }}, found {}", where,
                                     described(point));
     }
-    std::vector<Assignment> assignments;
-    for (const TomlEntry& entry : *entries)
-      assignments.push_back(read_assignment(context, study, where, entry));
-    study.map()->output.histories.push_back(std::move(assignments));
+    KeptPoint kept;
+    for (const TomlEntry& entry : *entries) {
+      if (study.map()->records && entry.key == "record") {
+        kept.record = read_record_number(context, *study.map()->records, where, entry.value);
+      } else {
+        kept.at.push_back(read_assignment(context, study, where, entry));
+      }
+    }
+    study.map()->output.histories.push_back(std::move(kept));
   }
 }
 

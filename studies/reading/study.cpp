@@ -52,7 +52,7 @@ void check_top_keys(const StudySource& source, const TomlValue& root) {
 std::string why_without(StudyKind kind, const std::string& section) {
   const bool of_a_map =
       section == "axis" || section == "coordinate" || section == "output" || section == "orbits";
-  const bool one_motion = kind == StudyKind::decay || kind == StudyKind::transient;
+  const bool one_motion = kind == StudyKind::decay;
   if (kind == StudyKind::tune && of_a_map)
     return ": the band of [tune] and the bounds of [[design]] are its ranges";
   if (one_motion && of_a_map) return ": it computes one motion, not a map";

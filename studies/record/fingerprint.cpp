@@ -134,6 +134,9 @@ void add_motion(const Study& study, CanonicalText& text) {
   if (study.transient()) {
     add("sweep to", study.transient()->sweep_to);
     add("sweep rate", study.transient()->sweep_rate);
+    if (study.map()) add("duration", study.transient()->duration);
+    // The stairs of a run-up are refined until its samples stand.
+    if (study.map() && study.transient()->sweep_to) text.line("samples {}", study.transient()->samples);
   }
   for (const InitialValues& initial : study.initial()) {
     text.line("initial {} {} {}", initial.mass, initial.displacement.expression.canonical_text(names),
@@ -256,7 +259,7 @@ void add_swept_frequencies(const SweepChoice& sweep, const Parameters& parameter
   }
 }
 
-std::string physics_hash(const Study& study, std::span<const periodic::Quantity> quantities) {
+std::string physics_hash(const Study& study, std::span<const std::string> quantities) {
   CanonicalText text;
   text.line("solver {}", solver_version);
   if (study.map())
@@ -277,22 +280,22 @@ std::string physics_hash(const Study& study, std::span<const periodic::Quantity>
   add_tuning(study, text);
   add_identification(study, text);
   add_comparison(study, text);
-  for (const periodic::Quantity& quantity : quantities) {
-    text.line("quantity {}", periodic::describe(quantity, study.network, study.dimensionless).name);
-  }
+  for (const std::string& quantity : quantities) text.line("quantity {}", quantity);
   return text.hash();
 }
 
 void add_axes(const Study& study, const MapChoice& map, CanonicalText& text) {
   for (const GridDimension& dimension : map.dimensions) {
     text.line("dimension {}", dimension.size);
+    if (dimension.axes.empty()) text.line("records {}", fmt::join(map.records->names, "\n"));
     for (const std::size_t a : dimension.axes) {
       const ParameterAxis& axis = map.axes[a];
       text.line("axis {} {}", study.parameters.list[axis.parameter].name, fmt::join(axis.si_values, " "));
     }
   }
-  for (const auto& orbit : map.output.histories) {
-    for (const Assignment& at : orbit) text.line("orbit {} {}", at.parameter, at.value);
+  for (const KeptPoint& point : map.output.histories) {
+    if (map.records) text.line("orbit under {}", point.record);
+    for (const Assignment& at : point.at) text.line("orbit {} {}", at.parameter, at.value);
     text.line("orbit ends");
   }
 }
@@ -326,8 +329,7 @@ std::string grid_hash(const Study& study, Tiling tiling) {
 
 }  // namespace
 
-engine::Fingerprint fingerprint(const Study& study, Tiling tiling,
-                                std::span<const periodic::Quantity> quantities) {
+engine::Fingerprint fingerprint(const Study& study, Tiling tiling, std::span<const std::string> quantities) {
   return {.physics = physics_hash(study, quantities), .grid = grid_hash(study, tiling)};
 }
 

@@ -5,7 +5,6 @@
 
 #include "engine/fingerprint.hpp"
 #include "results/layout.hpp"
-#include "solvers/quantities/quantity.hpp"
 #include "studies/reading/study.hpp"
 
 namespace frahm::studies {
@@ -17,12 +16,13 @@ struct Tiling {
 };
 
 // A hash of all that the results of a study depend on (XXH3, 128 bits, as hex).
+// quantities: names of those recorded.
 // physics: network, definitions and values of the parameters (of those on an axis only that they are on one),
 // contents of tables, quantities, precision, version of the solver. grid: the axes' SI values and the tiles,
 // a motion's duration and samples, or a tuning's starts, rules and columns. Titles, comments, names of files,
 // units and coordinates beside the axes change neither.
 engine::Fingerprint fingerprint(const Study& study, Tiling tiling = {},
-                                std::span<const periodic::Quantity> quantities = {});
+                                std::span<const std::string> quantities = {});
 
 // The fingerprint of the shard logs of a map that grows from the result with this identity.
 engine::Fingerprint grown_fingerprint(const engine::Fingerprint& study, const std::string& identity);

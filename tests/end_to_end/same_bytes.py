@@ -149,6 +149,28 @@ orbits = [{ zeta = 0.1, f = 0.2, r = 0.9 }, { zeta = 0.1, f = 0.7, r = 0.4 }, { 
         runs.killed(whole["1"], output, signal.SIGKILL, "--threads", "2")
 
 
+def check_motions(program, source):
+    """A map of motions with a history, of a frame that starts to shake; shards are merged."""
+    with open(os.path.join(source, "studies", "structures", "shaken_frame.toml")) as file:
+        text = file.read()
+    assert "duration = 20\n" in text
+    with tempfile.TemporaryDirectory() as folder:
+        study_path, output = os.path.join(folder, "study.toml"), os.path.join(folder, "map.h5")
+        with open(study_path, "w") as file:
+            file.write(text)
+        runs = Runs(program, folder, study_path)
+        one = runs.finish(output, "--threads", "1")
+        assert one["floor10_peak"][1] == (13, 11) and one["histories/time"][1] == (1001,)
+        assert runs.finish(output, "--threads", "2") == one
+        for shard in "1/2", "0/2":
+            assert runs.start(output, "--shard", shard).wait() == 0
+        subprocess.run([program, "merge", output], check=True, capture_output=True)
+        assert raw_bytes(output) == one
+        os.remove(output)
+        runs.killed(one, output, signal.SIGKILL, "--threads", "2")
+        runs.killed(one, output, signal.SIGTERM, "--threads", "2")
+
+
 def check_several_responses(program, source):
     """Maps of stops, where several responses are searched or the frequency is swept, and of a shock absorber's table,
     where there is one."""
@@ -180,6 +202,7 @@ def check_several_responses(program, source):
 def main():
     random.seed(2)
     program, source = sys.argv[1:]
+    check_motions(program, source)
     check_several_responses(program, source)
     check_tuning(program, source)
     check_assembly(program, source)

@@ -236,9 +236,11 @@ TEST_CASE("quantities keep their places and orbits are in the units of their axe
   CHECK_THAT(study.source.error_at(frahm::studies::rules::not_text, name.position, "{}", name.text).what(),
              Catch::StartsWith("study.toml:25:28: status\n"));
   REQUIRE(study.map()->output.histories.size() == 2);
-  CHECK_THAT(study.map()->output.histories[0][0].value, Catch::WithinRel(4.0 * std::numbers::pi, rounding));
-  CHECK(study.map()->output.histories[0][1].value == 6.0);
-  CHECK_THAT(study.map()->output.histories[1][0].value, Catch::WithinRel(2.0 * std::numbers::pi, rounding));
+  CHECK_THAT(study.map()->output.histories[0].at[0].value,
+             Catch::WithinRel(4.0 * std::numbers::pi, rounding));
+  CHECK(study.map()->output.histories[0].at[1].value == 6.0);
+  CHECK_THAT(study.map()->output.histories[1].at[0].value,
+             Catch::WithinRel(2.0 * std::numbers::pi, rounding));
 }
 
 TEST_CASE("a study begins with a byte order mark or has Windows line ends and is read all the same") {

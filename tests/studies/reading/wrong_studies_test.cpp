@@ -110,8 +110,9 @@ TEST_CASE("a refusal says what was found, the rule and the nearest name") {
        "prescribed motion, so the stiffness matrix is not positive definite"},
       {"output_orbit_out_of_range",
        "24:11: element \"damper\": damping: is -1 N s/m at c = -1 ([output]: orbits); must be >= 0"},
-      {"transient_with_axis",
-       "36:3: the section \"axis\" is not part of a transient: it computes one motion, not a map"},
+      {"transient_coordinate_without_axis",
+       "36:3: the section \"coordinate\" is not part of a transient: without an [[axis]] it computes one motion, "
+       "not a map"},
       {"expression_function_unknown",
        "24:12: element \"damper\": damping: no function is called \"squrt\"; did you mean \"sqrt\"?"},
       {"units_unknown",

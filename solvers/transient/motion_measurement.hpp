@@ -1,0 +1,39 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "solvers/transient/largest_values.hpp"
+#include "solvers/transient/motion_quantity.hpp"
+#include "solvers/transient/trajectory.hpp"
+
+namespace frahm::transient {
+
+// What is measured of a motion, and nothing else of it: the numbers of quantities.
+class MotionMeasurement {
+ public:
+  // Both must outlive the measurement. of_run_up: the frequency runs.
+  MotionMeasurement(const mechanics::Assembly& assembly, std::span<const MotionQuantity> quantities,
+                    bool of_run_up);
+
+  // What the trajectory has to follow.
+  LargestValues& largest() { return largest_; }
+  bool needs_energies() const { return needs_energies_; }
+
+  // Of a motion that is complete, one for each quantity. NaN: the discretisation error, which the trajectory
+  // does not know; velocities and accelerations of signals with a support's part in a run-up, where the
+  // supports' rates jump from stair to stair.
+  std::vector<double> numbers(const Trajectory& trajectory, const EnergyBudget& energy) const;
+
+ private:
+  double number(const MotionQuantity& quantity, std::size_t place, const Trajectory& trajectory,
+                const EnergyBudget& energy) const;
+
+  const mechanics::Assembly& assembly_;
+  std::span<const MotionQuantity> quantities_;
+  LargestValues largest_;
+  std::vector<std::size_t> traces_;  // of each quantity its number among the largest values; kNoTrace
+  bool needs_energies_ = false;
+};
+
+}  // namespace frahm::transient
