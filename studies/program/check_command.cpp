@@ -85,7 +85,9 @@ void print_first_modes(const Study& study, const Grid& grid, Listing listing, st
   const std::vector<std::uint64_t> first(grid.shape.size(), 0);
   fmt::print(out, "\nAt the first point of the grid, {}:\n", point_text(study, first));
   try {
-    print_modes(study, modes_at_point(study, values), listing, out);
+    const ModesAtPoint modes = modes_at_point(study, values);
+    if (study.transient()) print_records(study, modes.sliding, out);
+    print_modes(study, modes, listing, out);
   } catch (const mechanics::MechanicsError& error) {
     fmt::print(out, "No modes: {}\n", error.what());
   }

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -110,6 +111,62 @@ TEST_CASE(
     CHECK_THAT(1000.0 * file["drift_peak"][0], Catch::WithinAbs(slips ? PEAK : PEAK_LINEAR, 0.005));
     if (slips) CHECK_THAT(1000.0 * drift.back(), Catch::WithinAbs(RESIDUAL, 0.005));
   }
+}
+
+// The largest |z| of  z'' + 2 zeta w z' + w^2 z = -a(t)  for an acceleration linear from sample to sample,
+// exactly at times much closer than the samples (Nigam and Jennings 1969): from (z, v), with z_p = A + B t
+// that follows the line,
+//   z = z_p + e^(-zeta w t) (C cos w_d t + D sin w_d t).
+double linear_peak(const Quake& quake, double period, double zeta, double duration) {
+  constexpr int parts = 200;  // of an interval of the record
+  const double w = 2.0 * std::numbers::pi / period, w_d = w * std::sqrt(1.0 - zeta * zeta);
+  const double interval = quake.time[1], h = interval / parts;
+  const double fade = std::exp(-zeta * w * h), turn_c = std::cos(w_d * h), turn_s = std::sin(w_d * h);
+  double z = 0.0, v = 0.0, peak = 0.0;
+  for (std::size_t i = 0; static_cast<double>(i) * interval < duration - 0.5 * interval; ++i) {
+    const bool shakes = i + 1 < quake.time.size();
+    const double first = shakes ? quake.acceleration[i] : 0.0,
+                 last = shakes ? quake.acceleration[i + 1] : 0.0;
+    const double slope = (last - first) / interval;
+    for (int n = 0; n < parts; ++n) {
+      const double a = first + slope * h * n;
+      const double B = -slope / (w * w), A = (-a - 2.0 * zeta * w * B) / (w * w);
+      const double C = z - A, D = (v - B + zeta * w * C) / w_d;
+      const double c = fade * (C * turn_c + D * turn_s), s = fade * (D * turn_c - C * turn_s);
+      z = A + B * h + c;
+      v = B - zeta * w * c + w_d * s;
+      peak = std::max(peak, std::abs(z));
+    }
+  }
+  return peak;
+}
+
+TEST_CASE(
+    "response_spectrum.toml: without friction the spectrum of an independent integration, with it below") {
+  constexpr double between_steps = 1e-4;  // of a peak, at the shortest period: (pi h/T)^2/2 for h = 0.1 ms
+  const Quake quake = shipped_quake();
+  std::string text = runs::reduced("response_spectrum", {{"T", 9}});
+  const std::string name = "synthetic_quake.csv";
+  text.replace(text.find("\"" + name) + 1, name.size(),
+               std::string(FRAHM_SOURCE_DIR) + "/studies/earthquakes/" + name);
+  const runs::Map map = runs::run_study(text);
+  const std::vector<double> damping{0.02, 0.05, 0.1};
+  const std::size_t periods = 9, points = periods * damping.size();
+  REQUIRE(map["relative_peak"].size() == 3 * points);
+  for (std::size_t j = 0; j < damping.size(); ++j) {
+    for (std::size_t i = 0; i < periods; ++i) {
+      const double period = 0.05 * std::pow(200.0, static_cast<double>(i) / 8.0);
+      const std::size_t at = j * periods + i;
+      INFO("T = " << period << " s, zeta = " << damping[j]);
+      CHECK_THAT(map["relative_peak"][at],
+                 Catch::WithinRel(linear_peak(quake, period, damping[j], 35.0), between_steps));
+      CHECK(map["friction_slips"][2 * points + at] >= 1.0);
+    }
+    // A stiff oscillator follows the ground: omega^2 S_d is close to the peak of its acceleration.
+    const double omega = 2.0 * std::numbers::pi / 0.05;
+    CHECK_THAT(omega * omega * map["relative_peak"][j * periods], Catch::WithinRel(0.319 * gravity, 0.15));
+  }
+  for (std::size_t i = 0; i < 3 * points; ++i) CHECK(map["energy_balance"][i] < 1e-9);
 }
 
 }  // namespace
