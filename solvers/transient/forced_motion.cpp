@@ -162,6 +162,7 @@ std::optional<RecordCourse> course_of(const mechanics::Network& network, const F
   }
   return RecordCourse(network, options.records);
 }
+
 // The peaks of all coordinates: of a record, and of a run-up, which is refined until they stand.
 class CoordinatePeaks {
  public:

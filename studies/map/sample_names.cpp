@@ -22,7 +22,7 @@ void check_sample_names(const MapPlan& plan) {
           "\"{}\" is a name in the statistics of the samples, in the same file; rename it", name);
   };
   for (const GridDimension& dimension : map.dimensions)
-    check(dimension.name, map.axes[dimension.axes.front()].position);
+    if (!dimension.axes.empty()) check(dimension.name, map.axes[dimension.axes.front()].position);
   for (const ParameterAxis& axis : map.axes)
     check(plan.study.parameters.list[axis.parameter].name, axis.position);
   for (const DerivedCoordinate& coordinate : map.coordinates)

@@ -130,6 +130,7 @@ class TornadoMaking {
 
 std::vector<periodic::Quantity> tornado_quantities(const MapPlan& plan) {
   std::vector<periodic::Quantity> quantities;
+  if (!plan.study.sweep()) return quantities;
   if (plan.study.values.has_smooth_laws() || plan.study.sweep()->orbits.is_sweep()) return quantities;
   for (const periodic::Quantity& quantity : plan.quantities) {
     const auto described = periodic::describe(quantity, plan.study.network, plan.study.dimensionless);
@@ -140,7 +141,7 @@ std::vector<periodic::Quantity> tornado_quantities(const MapPlan& plan) {
 }
 
 std::vector<results::Variable> tornado_variables(const MapPlan& plan) {
-  const SweepChoice& sweep = *plan.study.sweep();
+  const MapChoice& map = *plan.study.map();
   std::vector<results::Variable> variables;
   for (const periodic::Quantity& quantity : tornado_quantities(plan)) {
     const auto of = periodic::describe(quantity, plan.study.network, plan.study.dimensionless);
@@ -150,8 +151,8 @@ std::vector<results::Variable> tornado_variables(const MapPlan& plan) {
     variables.push_back({.name = of.name + "_first_order_deviation",
                          .unit = of.unit,
                          .long_name = "standard deviation of " + of.long_name + " to first order"});
-    for (const std::size_t axis : sweep.samples->axes) {
-      const std::string& name = plan.study.parameters.list[sweep.axes[axis].parameter].name;
+    for (const std::size_t axis : map.samples->axes) {
+      const std::string& name = plan.study.parameters.list[map.axes[axis].parameter].name;
       variables.push_back(
           {.name = fmt::format("{}_by_{}", of.name, name),
            .unit = of.unit,

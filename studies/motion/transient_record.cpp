@@ -109,16 +109,22 @@ transient::ForcedOptions forced_options(const Study& study, std::span<const doub
     }
     options.duration = std::abs(options.sweep.to - options.from) / options.sweep.rate;
   }
-  if (motion.duration) options.duration = at(*motion.duration);
+  if (motion.duration) {
+    options.duration = at(*motion.duration);
+  } else if (!motion.sweep_to) {
+    options.duration = motion.end_of_records();
+  }
   return options;
 }
 
-ForcedMotion motion_at(const Study& study, std::span<const double> parameters, std::size_t,
+ForcedMotion motion_at(const Study& study, std::span<const double> parameters, std::size_t record,
                        const transient::ForcedOptions& options) {
   const std::vector<double> here(parameters.begin(), parameters.end());
+  transient::ForcedOptions driven = options;
+  driven.records = study.transient()->driven_by(record);
   return transient::forced_motion(
       study.network, [&](double omega) { return values_at(study, here, omega); },
-      initial_state(study, parameters), options);
+      initial_state(study, parameters), driven);
 }
 
 ForcedMotion solve_transient(const Study& study, const transient::Watch& watch) {

@@ -24,6 +24,7 @@
 #include "studies/program/exit_code.hpp"
 #include "studies/program/modes_table.hpp"
 #include "studies/program/rank_table.hpp"
+#include "studies/program/record_table.hpp"
 #include "studies/program/scatter_table.hpp"
 #include "studies/reading/settings.hpp"
 
@@ -85,7 +86,9 @@ void print_first_modes(const Study& study, const Grid& grid, Listing listing, st
   const std::vector<std::uint64_t> first(grid.shape.size(), 0);
   fmt::print(out, "\nAt the first point of the grid, {}:\n", point_text(study, first));
   try {
-    print_modes(study, modes_at_point(study, values), listing, out);
+    const ModesAtPoint modes = modes_at_point(study, values);
+    if (study.transient()) print_records(study, modes.sliding, out);
+    print_modes(study, modes, listing, out);
   } catch (const mechanics::MechanicsError& error) {
     fmt::print(out, "No modes: {}\n", error.what());
   }
@@ -109,7 +112,9 @@ void print_decay_choice(const Study& study, const mechanics::NetworkValues& valu
 void print_transient_choice(const Study& study, std::ostream& out) {
   const transient::ForcedOptions options = forced_options(study);
   const char* unit = study.dimensionless ? "" : " rad/s";
-  fmt::print(out, "transient  {} at {:.6g}{}", seconds_text(study, options.duration), options.from, unit);
+  fmt::print(out, "transient  {}", seconds_text(study, options.duration));
+  if (std::ranges::any_of(study.network.excitations, [](const auto& each) { return each.order > 0; }))
+    fmt::print(out, " at {:.6g}{}", options.from, unit);
   if (options.sweep.rate > 0.0) {
     fmt::print(out, ", running to {:.6g}{} at {:.6g}{} a second", options.sweep.to, unit, options.sweep.rate,
                unit);
@@ -138,7 +143,9 @@ int check_motion(const Study& study, Listing listing, std::ostream& out) {
   }
   fmt::print(out, "samples    {}\n\n", study.motion()->samples);
   try {
-    print_modes(study, modes_at_point(study, values), listing, out);
+    const ModesAtPoint modes = modes_at_point(study, values);
+    if (study.transient()) print_records(study, modes.sliding, out);
+    print_modes(study, modes, listing, out);
   } catch (const mechanics::MechanicsError& error) {
     throw StudyError(rules::not_computed, "{}", study.source.name + ": " + error.what());
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "studies/reading/record_axis.hpp"
 #include "studies/reading/spelling.hpp"
 
 namespace frahm::studies {
@@ -80,6 +81,7 @@ void convert_axis(const TomlSection& section, ParameterAxis& axis) {
 void add_to_grid(const TomlSection& section, std::size_t index, Study& study) {
   const ParameterAxis& axis = study.map()->axes[index];
   for (GridDimension& dimension : study.map()->dimensions) {
+    if (dimension.axes.empty()) continue;  // of records
     const ParameterAxis& other = study.map()->axes[dimension.axes.front()];
     if (axis.zip.empty() || other.zip != axis.zip) continue;
     if (axis.values.size() != dimension.size) {
@@ -211,7 +213,9 @@ void read_axes(const StudyContext& context, const TomlValue& root, const std::fi
     throw context.source.error_at(rules::missing_section, root.position,
                                   "the study has no [[axis]]: a sweep needs one");
   for (std::size_t i = 0; i < tables.size(); ++i) {
-    if (is_axis_of_samples(*tables[i]))
+    if (is_record_axis(*tables[i]))
+      add_record_axis(context, root, *tables[i], study);
+    else if (is_axis_of_samples(*tables[i]))
       read_axis_of_samples(context, *tables[i], i + 1, folder, data, study);
     else
       read_axis(context, *tables[i], i + 1, study);

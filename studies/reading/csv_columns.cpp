@@ -109,15 +109,14 @@ void check_order(const CsvReading& reading, const WantedColumn& column,
   for (const WantedColumn& other : wanted) {
     if (other.role == column.role || other.role != name) continue;
     reading.fail(rules::unknown_column, column.position,
-                 "columns: {}: column {} of {} is headed \"{}\"; number and "
-                 "header disagree",
-                 column.role, *column.number, reading.result.file, name);
+                 "{}: column {} of {} is headed \"{}\"; number and header disagree", column.where(),
+                 *column.number, reading.result.file, name);
   }
 }
 
 std::size_t index_of(const CsvReading& reading, const WantedColumn& column,
                      const std::vector<WantedColumn>& wanted) {
-  const std::string where = fmt::format("columns: {}", column.role);
+  const std::string where = column.where();
   const std::string& file = reading.result.file;
   if (column.number) {
     const std::size_t count =
@@ -181,7 +180,8 @@ RawRecord read_columns_of(CsvReading reading, const std::filesystem::path& path)
   }
   if (reading.rows.empty()) reading.fail_at_file(rules::too_few, "{}: has no rows", reading.result.file);
   take_header(reading);
-  std::vector<WantedColumn> wanted = read_wanted(reading.record, reading.forms);
+  std::vector<WantedColumn> wanted =
+      reading.wanted.empty() ? read_wanted(reading.record, reading.forms) : reading.wanted;
   const bool by_header = wanted.empty();
   if (by_header) wanted = wanted_by_header(reading);
   want_doubtful(reading, wanted);
@@ -195,7 +195,7 @@ RawRecord read_columns_of(CsvReading reading, const std::filesystem::path& path)
     index.push_back(index_of(reading, column, wanted));
     const auto same = std::find(index.begin(), index.end() - 1, index.back());
     if (same != index.end() - 1)
-      reading.fail(rules::given_twice, column.position, "columns: {}: column {} is {} already", column.role,
+      reading.fail(rules::given_twice, column.position, "{}: column {} is {} already", column.where(),
                    index.back() + 1, wanted[same - index.begin()].role);
   }
   for (std::size_t i = 0; i < wanted.size(); ++i) {

@@ -7,6 +7,7 @@
 
 #include "solvers/mechanics/rotation.hpp"
 #include "studies/reading/network_reading.hpp"
+#include "studies/reading/recorded_excitation.hpp"
 #include "studies/reading/spelling.hpp"
 
 namespace frahm::studies {
@@ -23,7 +24,7 @@ constexpr std::int64_t highest_order = 1000;
 
 const std::string force_path = "excitation.force";
 const std::string motion_path = "excitation.motion";
-const std::vector<std::string> excitation_keys{"frequency", "reference_order", "force", "motion"};
+const std::vector<std::string> excitation_keys{"frequency", "reference_order", "force", "motion", "record"};
 
 // A component's keys, with those of the other profile, so that the message can be about the profile.
 const std::vector<std::string> force_keys{"on", "node", "profile", "amplitude", "order", "phase"};
@@ -167,6 +168,29 @@ void read_motion(NetworkReading& reading, const TomlValue& table, std::size_t nu
   }
 }
 
+// A node of prescribed motion, perhaps named before: its motions add up.
+void name_support(NetworkReading& reading, const TomlSection& section, const std::string& key,
+                  const std::string& name) {
+  auto& network = reading.result.network;
+  const auto node = find_node(network, name);
+  if (!node) {
+    network.prescribed.push_back(name);
+    reading.names.push_back({name, fmt::format("the node \"{}\" of prescribed motion", name)});
+  } else if (node->kind == NodeKind::ground) {
+    section.fail(rules::wrong_node, key, "\"ground\" is fixed; give the moving support a name of its own");
+  } else if (node->kind == NodeKind::mass) {
+    section.fail(
+        rules::wrong_node, key,
+        "\"{}\" is a mass, whose motion is sought; a node of prescribed motion has a name of its own", name);
+  }
+}
+
+// Whether something needs the frequency: a harmonic, or a hysteretic element, whose damping is at one.
+bool needs_frequency(const mechanics::Network& network) {
+  return mechanics::frequency_dependent_element(network) ||
+         std::ranges::any_of(network.excitations, [](const Excitation& each) { return each.order > 0; });
+}
+
 // The lowest order above 0; 1 for constant forces alone, where these are allowed.
 int lowest_order(const NetworkReading& reading, const TomlSection& section, bool constant_will_do) {
   int lowest = std::numeric_limits<int>::max();
@@ -204,30 +228,21 @@ void check_hysteretic_frequency(const NetworkReading& reading, const TomlSection
 
 void read_prescribed_nodes(NetworkReading& reading, const TomlValue& excitation) {
   std::size_t number = 0;
-  auto& network = reading.result.network;
   for (const TomlValue* table : read_tables(reading.context.source, excitation, motion_path)) {
     const TomlSection section = motion_section(reading, *table, ++number);
-    const std::string name = section.identifier("node");
-    const auto node = find_node(network, name);
-    if (!node) {
-      network.prescribed.push_back(name);
-      reading.names.push_back({name, fmt::format("the node \"{}\" of prescribed motion", name)});
-    } else if (node->kind == NodeKind::ground) {
-      section.fail(rules::wrong_node, "node",
-                   "\"ground\" is fixed; give the moving support a name of its own");
-    } else if (node->kind == NodeKind::mass) {
-      section.fail(rules::wrong_node, "node",
-                   "\"{}\" is a mass, whose motion is sought; a node of prescribed motion has a "
-                   "name of its own",
-                   name);
-    }
+    name_support(reading, section, "node", section.identifier("node"));
+  }
+  for (const TomlSection& section : record_sections(reading.context.source, excitation)) {
+    const RecordedPlace place = place_of(section);
+    if (place.of == transient::RecordOf::force) continue;
+    name_support(reading, section, place.key, section.identifier(place.key));
   }
 }
 
 void read_excitation(NetworkReading& reading, const TomlValue& excitation, bool constant_will_do) {
   const TomlSection section(reading.context.source, excitation, "[excitation]", excitation_keys);
   reading.result.values.omega =
-      read_value(reading, section, "frequency", Quantity::angular_frequency, Range::positive);
+      read_value(reading, section, "frequency", Quantity::angular_frequency, Range::positive, 1.0);
   std::size_t number = 0;
   for (const TomlValue* table : read_tables(section.source(), excitation, force_path)) {
     read_force(reading, *table, ++number);
@@ -236,6 +251,9 @@ void read_excitation(NetworkReading& reading, const TomlValue& excitation, bool 
   for (const TomlValue* table : read_tables(section.source(), excitation, motion_path)) {
     read_motion(reading, *table, ++number);
   }
+  read_recorded_components(reading, excitation);
+  if (!section.find("frequency") && (!constant_will_do || needs_frequency(reading.result.network)))
+    section.fail_here(rules::missing_key, "the key \"frequency\" is missing (an angular frequency, rad/s)");
   const int lowest = lowest_order(reading, section, constant_will_do);
   auto& reference = reading.result.network.reference_order;
   reference = section.find("reference_order") ? read_order(section, "reference_order", 1) : lowest;

@@ -72,21 +72,21 @@ void check_path(const ColumnReading& reading, const WantedColumn& column) {
                  "columns: label: labels are read from CSV files only");
   if (column.number)
     reading.fail(rules::wrong_type, column.position,
-                 "columns: {}: the path of a dataset is expected, such as "
-                 "\"transient/time\", found the number {}",
-                 column.role, *column.number);
+                 "{}: the path of a dataset is expected, such as \"transient/time\", found the number {}",
+                 column.where(), *column.number);
 }
 
 }  // namespace
 
 RawRecord read_hdf5_columns(ColumnReading reading, const std::filesystem::path& path) {
   reading.result.has_lines = false;
-  if (!reading.record.find("columns"))
+  if (reading.wanted.empty() && !reading.record.find("columns"))
     reading.record.fail_here(
         rules::missing_key,
         "the key \"columns\" is missing: of an HDF5 file it names the datasets, such as columns = {{ time = "
         "\"transient/time\" }}");
-  const std::vector<WantedColumn> wanted = read_wanted(reading.record, reading.forms);
+  const std::vector<WantedColumn> wanted =
+      reading.wanted.empty() ? read_wanted(reading.record, reading.forms) : reading.wanted;
   const RecordForm& form = form_of_wanted(reading.record, reading.forms, wanted);
   for (const WantedColumn& column : wanted) check_path(reading, column);
   std::vector<double> doubtful;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "solvers/transient/record.hpp"
 #include "studies/reading/map_choice.hpp"
 #include "studies/reading/study_values.hpp"
 
@@ -28,11 +29,23 @@ struct DecayChoice : MotionChoice {
   std::optional<StudyValue> reference_frequency;  // omega_h [rad/s]
 };
 
+// [[excitation.record]]: what drives one component of the excitation.
+struct DrivingRecord {
+  std::size_t excitation = 0;              // in Network::excitations, of a recorded kind
+  bool on_axis = false;                    // an axis gives the records
+  std::vector<transient::Record> records;  // one, or that of each value of the axis
+};
+
 // [transient]
 struct TransientChoice : MotionChoice {
   std::optional<StudyValue> sweep_to;    // of a run-up or run-down: the last frequency [rad/s]
   std::optional<StudyValue> sweep_rate;  // its angular acceleration, without sign [rad/s2]
   std::optional<MapChoice> map;          // a motion at each point of its axes; nothing: one motion
+  std::vector<DrivingRecord> records;    // without their samples where data are left (DataFiles)
+
+  double end_of_records() const;  // of the longest [s]
+  // What drives the motion at a value of the axis of records. The records are those of this choice.
+  std::vector<transient::RecordedExcitation> driven_by(std::size_t of_axis) const;
 };
 
 }  // namespace frahm::studies

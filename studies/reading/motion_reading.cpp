@@ -85,6 +85,11 @@ void read_decay(NetworkReading& reading, const TomlValue& root, DecayChoice& mot
 void check_run_up(const NetworkReading& reading, const TomlSection& section) {
   const Parameters& parameters = reading.parameters;
   const auto& forces = reading.result.network.excitations;
+  if (mechanics::has_records(reading.result.network))
+    section.fail(
+        rules::key_without_use, "sweep_to",
+        "a run-up is made of stairs of constant frequency, and a record ([[excitation.record]]) goes "
+        "on in its own time; leave out one of them");
   if (std::all_of(forces.begin(), forces.end(), [](const auto& force) { return force.order == 0; }))
     section.fail(rules::key_without_use, "sweep_to",
                  "the excitation is constant and has no frequency that could run");
@@ -130,7 +135,7 @@ void read_transient(NetworkReading& reading, const TomlValue& root, TransientCho
                       motion.sweep_to ? "sweep_rate" : "sweep_to");
   }
   if (motion.sweep_to) check_run_up(reading, section);
-  if (!motion.duration && !motion.sweep_to)
+  if (!motion.duration && !motion.sweep_to && !mechanics::has_records(reading.result.network))
     section.fail_here(rules::missing_key, "the key \"duration\" is missing (a time, s)");
 }
 

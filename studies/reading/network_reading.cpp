@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "studies/reading/recorded_excitation.hpp"
 #include "studies/reading/signal_reading.hpp"
 #include "studies/reading/spelling.hpp"
 
@@ -48,16 +49,22 @@ void note_quantity(Parameters& parameters, const StudyValue& value) {
 
 void check_every_motion_is_felt(const NetworkReading& reading, const TomlValue& excitation) {
   const auto& network = reading.result.network;
-  for (const TomlValue* table : read_tables(reading.context.source, excitation, "excitation.motion")) {
-    const std::string& name = *find_entry(*table, "node")->value.as<std::string>();
+  const auto check = [&](const std::string& name, const Position& position, const std::string& where) {
     const Node node = *find_node(network, name);
     const bool felt = std::any_of(network.elements.begin(), network.elements.end(), [&](const auto& element) {
       return std::ranges::find(element.along, node, &mechanics::Share::node) != element.along.end();
     });
-    if (felt) continue;
-    throw reading.context.source.error_at(rules::wrong_node, table->position,
-                                          "motion of \"{0}\": no element is attached to the node \"{0}\"",
-                                          name);
+    if (felt) return;
+    throw reading.context.source.error_at(rules::wrong_node, position,
+                                          "{}: no element is attached to the node \"{}\"", where, name);
+  };
+  for (const TomlValue* table : read_tables(reading.context.source, excitation, "excitation.motion")) {
+    const std::string& name = *find_entry(*table, "node")->value.as<std::string>();
+    check(name, table->position, fmt::format("motion of \"{}\"", name));
+  }
+  for (const TomlSection& section : record_sections(reading.context.source, excitation)) {
+    const RecordedPlace place = place_of(section);
+    if (place.of != transient::RecordOf::force) check(place.node, section.position(), section.where());
   }
 }
 
@@ -162,6 +169,7 @@ NetworkOfStudy read_network(const StudyContext& context, const TomlValue& root,
         kind == StudyKind::identify ? "; leave out all of the system, or add its masses" : "");
   if (is_forced && !excitation)
     throw context.source.error_at(rules::missing_section, root.position, "the study has no [excitation]");
+  if (is_forced) refuse_records(context, excitation->value, kind);
   if (is_forced) read_prescribed_nodes(reading, excitation->value);
   number = 0;
   for (const TomlValue* table : read_tables(context.source, root, "element"))

@@ -8,6 +8,7 @@
 
 #include "studies/reading/record_form.hpp"
 #include "studies/reading/toml_section.hpp"
+#include "studies/reading/wanted_columns.hpp"
 
 // The columns of a record as stored in its file, in the file's units.
 namespace frahm::studies {
@@ -33,18 +34,21 @@ struct RawRecord {
   std::string where(const RawColumn& column, std::size_t row) const;
 };
 
-// The error at the file that a record names.
+// The error at the file that a record names, or at one named elsewhere.
 StudyError data_error(Rule rule, const TomlSection& record, const std::string& message);
+StudyError data_error(Rule rule, const TomlSection& record, Position file, const std::string& message);
 
 // A file of measurements as it is read.
 struct ColumnReading {
   const TomlSection& record;
   const std::vector<RecordForm>& forms;
-  RawRecord result = {};
+  Position file;                          // of its name in the study
+  RawRecord result = {};                  // its file is set
+  std::vector<WantedColumn> wanted = {};  // empty: those of the record's `columns`
 
   template <class... Args>
   [[noreturn]] void fail_at_file(Rule rule, fmt::format_string<Args...> message, Args&&... args) const {
-    throw data_error(rule, record, fmt::format(message, std::forward<Args>(args)...));
+    throw data_error(rule, record, file, fmt::format(message, std::forward<Args>(args)...));
   }
   template <class... Args>
   [[noreturn]] void fail(Rule rule, Position position, fmt::format_string<Args...> message,
@@ -54,13 +58,16 @@ struct ColumnReading {
   }
 };
 
-// The columns of a CSV or an HDF5 file; result.file is already set.
+// The columns of a CSV or an HDF5 file.
 RawRecord read_csv_columns(const ColumnReading& reading, const std::filesystem::path& path);
 RawRecord read_hdf5_columns(ColumnReading reading, const std::filesystem::path& path);
 
-// The columns of a record's file, by its ending: .h5, .hdf5 and .nc are HDF5, others CSV. They are chosen by
-// the record's `columns`, else by headers that are names of roles.  folder: of the study.
+// Those of a file by its ending: .h5, .hdf5 and .nc are HDF5, others CSV.  folder: of the study.
 // Throws StudyError for a file that cannot be read, and for columns that are missing or not numbers.
+RawRecord read_columns(ColumnReading reading, const std::filesystem::path& folder);
+
+// The columns of a record's `file`, chosen by the record's `columns`, else by headers that are names of
+// roles.
 RawRecord read_columns(const TomlSection& record, const std::filesystem::path& folder,
                        const std::vector<RecordForm>& forms);
 

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
+#include "studies/reading/column_in_si.hpp"
 #include "studies/reading/identify_reading.hpp"
 #include "studies/reading/record_columns.hpp"
 #include "studies/reading/spelling.hpp"
@@ -36,82 +36,6 @@ void check_units(const TomlSection& section, const RawRecord& raw) {
   }
 }
 
-// `low.csv:1: column 2 "x [mm]"`
-std::string unit_place(const RawRecord& raw, const RawColumn& column) {
-  return raw.has_lines ? fmt::format("{}:{}: {}", raw.file, raw.header, column.called)
-                       : fmt::format("{}: {}", raw.file, column.called);
-}
-
-std::optional<Unit> unit_of_file(const IdentifyReading& reading, const TomlSection& section,
-                                 const RawRecord& raw, const RawColumn& column) {
-  if (!column.unit) return std::nullopt;
-  const auto fail = [&](Rule rule, std::string_view problem) {
-    throw data_error(rule, section, fmt::format("{}: {}", unit_place(raw, column), problem));
-  };
-  if (reading.context.dimensionless) {
-    if (*column.unit != "1")
-      fail(rules::unit_in_dimensionless,
-           fmt::format("the unit \"{}\" has no meaning in a dimensionless study", *column.unit));
-    return std::nullopt;
-  }
-  try {
-    return reading.context.units.parse(*column.unit);
-  } catch (const UnitError& error) {
-    fail(error.rule(), error.what());
-  }
-  return std::nullopt;
-}
-
-bool is_same(const Unit& a, const Unit& b) {
-  return a.scale == b.scale && a.exponents == b.exponents && a.radians == b.radians && a.foreign == b.foreign;
-}
-
-// Factor of a column to SI.
-double factor_of(const IdentifyReading& reading, const TomlSection& section, const RawRecord& raw,
-                 const RawColumn& column) {
-  const auto in_file = unit_of_file(reading, section, raw, column);
-  const TomlEntry* entry = unit_entry(section, column.role->name);
-  if (!entry) {
-    try {
-      return in_file ? si_factor(*in_file, column.role->quantity) : 1.0;
-    } catch (const UnitError& error) {
-      throw data_error(error.rule(), section, fmt::format("{}: {}", unit_place(raw, column), error.what()));
-    }
-  }
-  const std::string where = fmt::format("{}: units: {}", section.where(), column.role->name);
-  const auto given = read_unit(reading.context, where, entry->value);
-  const auto fail = [&](Rule rule, std::string_view problem) {
-    throw section.source().error_at(rule, entry->value.position, "{}: {}", where, problem);
-  };
-  if (given && in_file && !is_same(*given, *in_file))
-    fail(rules::two_units, fmt::format("\"{}\", but the file gives \"{}\" in {}", given->text, in_file->text,
-                                       unit_place(raw, column)));
-  try {
-    return given ? si_factor(*given, column.role->quantity) : 1.0;
-  } catch (const UnitError& error) {
-    fail(error.rule(), error.what());
-  }
-  return 1.0;
-}
-
-void check_values(const TomlSection& section, const RawRecord& raw, const RawColumn& column) {
-  const auto& values = column.values;
-  const auto fail = [&](Rule rule, std::size_t row, const std::string& problem) {
-    throw data_error(rule, section, fmt::format("{}: {}", raw.where(column, row), problem));
-  };
-  const Range range = column.role->range;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (range == Range::positive && !(values[i] > 0.0))
-      fail(rules::wrong_row, i, fmt::format("{} must be > 0", values[i]));
-    if (range == Range::not_negative && values[i] < 0.0)
-      fail(rules::wrong_row, i, fmt::format("{} must be >= 0", values[i]));
-    if (column.role->increases && i > 0 && values[i] <= values[i - 1])
-      fail(rules::wrong_order, i,
-           fmt::format("{} follows {}; {} must increase from row to row", values[i], values[i - 1],
-                       column.role->name));
-  }
-}
-
 void check_count(const TomlSection& section, const RawRecord& raw, const RecordForm& form) {
   if (raw.rows.size() >= form.least_rows) return;
   const bool at_line = raw.has_lines && !raw.rows.empty();
@@ -127,10 +51,11 @@ void take_columns(const IdentifyReading& reading, const TomlSection& section, Ra
                   RecordChoice& record) {
   check_units(section, raw);
   for (RawColumn& column : raw.columns) {
-    check_values(section, raw, column);
-    const double factor = factor_of(reading, section, raw, column);
-    for (double& value : column.values) value *= factor;
-    record.columns.push_back({column.role->name, std::move(column.values)});
+    const TomlEntry* entry = unit_entry(section, column.role->name);
+    const GivenUnit given{entry ? &entry->value : nullptr, "units: " + column.role->name};
+    record.columns.push_back(
+        {column.role->name,
+         in_si(reading.context, {section, section.require("file").position}, raw, column, given)});
   }
   record.labels = std::move(raw.labels);
   record.doubtful = raw.doubtful;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "studies/reading/readable_file.hpp"
+#include "studies/reading/record_axis.hpp"
 #include "studies/reading/repetition.hpp"
 #include "studies/reading/signal_reading.hpp"
 #include "studies/reading/spelling.hpp"
@@ -207,6 +208,7 @@ Study parse_study(std::string text, const std::filesystem::path& name, DataFiles
   } else if (study.kind() != StudyKind::tune) {
     read_motion(context, root, study);
   }
+  if (study.transient()) read_driving_records(context, root, name.parent_path(), data, study);
   if (study.kind() == StudyKind::identify) read_identification(context, root, study);
   convert_parameters(context, study.parameters);
   if (study.kind() == StudyKind::sweep) {

@@ -69,8 +69,8 @@ struct Study {
 // key`) and for a file that cannot be read.
 Study read_study(const std::filesystem::path& path);
 
-// Whether the measurements and earlier results of an identification are read too. If not, its records have no
-// columns and no parameter is fixed.
+// Whether the measurements and earlier results of an identification, and the records that drive a transient,
+// are read too. If not, its records have no columns, no samples, and no parameter is fixed.
 enum class DataFiles { read, leave };
 
 // The same for a given text; name: of the file, for messages; its folder holds the tables.

@@ -17,6 +17,9 @@ struct WantedColumn {
   std::optional<std::size_t> number;  // from 1
   std::string name;                   // in the header, or the path of a dataset; of no number
   Position position;                  // in the study
+  std::string key{};                  // that names it; empty: it is named in `columns`
+
+  std::string where() const { return key.empty() ? "columns: " + role : key; }  // in messages
 };
 
 // Reads the key `columns`; none if it is absent. Throws StudyError for a role that no form has.

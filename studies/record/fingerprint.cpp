@@ -144,6 +144,21 @@ void add_motion(const Study& study, CanonicalText& text) {
   }
 }
 
+// The samples of records, wherever they come from.
+void add_driving_records(const Study& study, CanonicalText& text) {
+  if (!study.transient()) return;
+  const auto digest_of = [](const std::vector<double>& numbers) {
+    return digest(
+        Eigen::Map<const Eigen::VectorXd>(numbers.data(), static_cast<Eigen::Index>(numbers.size())));
+  };
+  for (const DrivingRecord& driving : study.transient()->records) {
+    for (const transient::Record& record : driving.records)
+      text.line("record {} of {} on axis {} time {} values {}", driving.excitation,
+                static_cast<int>(record.of), driving.on_axis, digest_of(record.time),
+                digest_of(record.values));
+  }
+}
+
 void add_comparison(const Study& study, CanonicalText& text) {
   if (!study.sweep() || !study.sweep()->comparison) return;
   const Comparison& comparison = *study.sweep()->comparison;
@@ -261,6 +276,7 @@ std::string physics_hash(const Study& study, std::span<const std::string> quanti
   add_parameters(study, text);
   add_network(study, text);
   add_motion(study, text);
+  add_driving_records(study, text);
   add_tuning(study, text);
   add_identification(study, text);
   add_comparison(study, text);

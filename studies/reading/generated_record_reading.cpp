@@ -1,0 +1,134 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "studies/reading/record_axis.hpp"
+
+namespace frahm::studies {
+namespace {
+
+using transient::Envelope;
+
+constexpr std::int64_t most_records = 1'000'000;
+constexpr double most_samples = 1e8;  // of all records: a gigabyte
+
+const std::vector<std::string> white_keys{"generate", "count", "seed", "duration", "rate", "intensity"};
+const std::vector<std::string> ground_keys{"ground_frequency", "ground_damping", "corner_frequency",
+                                           "corner_damping", "envelope"};
+
+// A number > 0, in SI where a unit is given.
+double read_positive(const StudyContext& context, const TomlSection& section, const std::string& key,
+                     Quantity quantity) {
+  const std::string where = fmt::format("{}: {}", section.where(), key);
+  const NumberWithUnit number = read_number_with_unit(context, where, section.require(key));
+  double value = number.value;
+  try {
+    if (number.unit) value *= si_factor(*number.unit, quantity);
+  } catch (const UnitError& error) {
+    throw context.source.error_at(error.rule(), number.unit_position, "{}: {}", where, error.what());
+  }
+  if (!(value > 0.0)) section.fail(rules::out_of_range, key, "{} is not possible; must be > 0", number.value);
+  return value;
+}
+
+double read_plain(const TomlSection& section, const std::string& key) {
+  const double value = section.number(key);
+  if (!(value > 0.0)) section.fail(rules::out_of_range, key, "{} is not possible; must be > 0", value);
+  return value;
+}
+
+// The time from which on a record fades, behind its rise and before its end.
+void read_level(const StudyContext& context, const TomlSection& section, double duration,
+                Envelope& envelope) {
+  envelope.rise = read_positive(context, section, "rise", Quantity::time);
+  envelope.level_end = read_positive(context, section, "level_end", Quantity::time);
+  if (envelope.level_end < envelope.rise || envelope.level_end >= duration)
+    section.fail(rules::wrong_order, "level_end",
+                 "{} s is not between \"rise\", {} s, and the duration, {} s", envelope.level_end,
+                 envelope.rise, duration);
+}
+
+Envelope read_envelope(const StudyContext& context, const TomlSection& generated, double duration) {
+  Envelope envelope;
+  const TomlValue* value = generated.find("envelope");
+  if (!value) return envelope;
+  const TomlSection section(context.source, *value, generated.where() + ": envelope",
+                            {"shape", "rise", "level_end", "decay"});
+  section.require("shape");
+  const bool is_jennings = section.choice_or("shape", {"jennings", "trapezoid"}) == "jennings";
+  envelope.shape = is_jennings ? Envelope::Shape::jennings : Envelope::Shape::trapezoid;
+  read_level(context, section, duration, envelope);
+  if (is_jennings)
+    envelope.decay = read_positive(context, section, "decay", Quantity::rate);
+  else if (section.find("decay"))
+    section.fail(rules::key_without_use, "decay",
+                 "belongs to the shape \"jennings\"; a trapezoid falls to 0 at the end");
+  return envelope;
+}
+
+void read_ground(const StudyContext& context, const TomlSection& section, GeneratedRecords& generated) {
+  transient::GroundNoise& ground = generated.ground;
+  ground.ground_frequency = read_positive(context, section, "ground_frequency", Quantity::angular_frequency);
+  ground.ground_damping = read_plain(section, "ground_damping");
+  if (section.find("corner_frequency") || section.find("corner_damping")) {
+    ground.corner_frequency =
+        read_positive(context, section, "corner_frequency", Quantity::angular_frequency);
+    ground.corner_damping = read_plain(section, "corner_damping");
+  }
+  // Half the rate is the highest frequency that samples tell apart.
+  const double highest = std::numbers::pi * generated.sampling.rate;
+  if (ground.ground_frequency >= highest)
+    section.fail(rules::out_of_range, "rate",
+                 "{} a second is too low for the ground's {:.6g} rad/s: samples tell frequencies up to half "
+                 "their rate apart, {:.6g} rad/s",
+                 generated.sampling.rate, ground.ground_frequency, highest);
+  ground.envelope = read_envelope(context, section, generated.sampling.duration);
+}
+
+void check_size(const TomlSection& section, const GeneratedRecords& generated) {
+  const double intervals = generated.sampling.duration * generated.sampling.rate;
+  if (intervals < 1.0)
+    section.fail(rules::too_few, "duration", "{} s hold no interval at {} samples a second",
+                 generated.sampling.duration, generated.sampling.rate);
+  const double samples = intervals * static_cast<double>(generated.count);
+  if (samples > most_samples)
+    section.fail(rules::too_large, "count", "{} records have {:.3g} samples, more than the {:.0e} allowed",
+                 generated.count, samples, most_samples);
+}
+
+}  // namespace
+
+GeneratedRecords read_generated(const StudyContext& context, const TomlSection& axis) {
+  std::vector<std::string> keys = white_keys;
+  keys.insert(keys.end(), ground_keys.begin(), ground_keys.end());
+  const TomlSection section(context.source, axis.require("records"), axis.where() + ": records", keys);
+  GeneratedRecords generated;
+  section.require("generate");
+  generated.kind = section.choice_or("generate", {"white", "kanai_tajimi"});
+  section.require("count");
+  const std::int64_t count = section.integer_or("count", 1);
+  if (count < 1 || count > most_records)
+    section.fail(rules::out_of_range, "count", "{} is out of range: a whole number from 1 to {}", count,
+                 most_records);
+  generated.count = static_cast<std::size_t>(count);
+  const std::int64_t seed = section.integer_or("seed", 1);
+  if (seed < 0)
+    section.fail(rules::out_of_range, "seed", "{} is out of range: a whole number from 0 on", seed);
+  generated.sampling.seed = static_cast<std::uint64_t>(seed);
+  generated.sampling.duration = read_positive(context, section, "duration", Quantity::time);
+  generated.sampling.rate = read_plain(section, "rate");
+  generated.ground.intensity = read_plain(section, "intensity");
+  check_size(section, generated);
+  if (generated.kind == "kanai_tajimi") {
+    read_ground(context, section, generated);
+  } else {
+    for (const std::string& key : ground_keys) {
+      if (section.find(key))
+        section.fail(rules::key_without_use, key, "belongs to generate = \"kanai_tajimi\", not to \"white\"");
+    }
+  }
+  return generated;
+}
+
+}  // namespace frahm::studies
