@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "studies/program/exit_code.hpp"
+#include "studies/program/motion_point.hpp"
 #include "studies/program/point_report.hpp"
 #include "studies/program/whole_file.hpp"
 #include "studies/reading/settings.hpp"
@@ -42,6 +43,7 @@ int point_command(const PointOptions& options, std::ostream& out) {
                      "--history \"-\": the report goes to standard output; name a file for the history");
   }
   Study study = read_study_with(options.study, options.set);
+  if (study.transient() && study.map()) return motion_point(options, std::move(study), out);
   if (study.kind() != StudyKind::sweep && study.kind() != StudyKind::tune) {
     throw StudyError(rules::other_kind,
                      "{}: {} has no periodic response to tell; frahm run computes what it has",

@@ -67,6 +67,25 @@ def check_map(path, engine, study):
             assert ds[name].dtype == "f8" and (ds[name] >= least).all() and (ds[name] <= most).all()
 
 
+def check_motions(program, source, folder, engine):
+    """A map of motions and a history of one."""
+    path = os.path.join(folder, "motions.h5")
+    study = os.path.join(source, "studies", "structures", "shaken_frame.toml")
+    subprocess.run([program, "run", study, "-o", path, "--threads", "2"], check=True, stdout=subprocess.DEVNULL,
+                   stderr=subprocess.DEVNULL)
+    with xr.open_dataset(path, engine=engine) as ds:
+        assert dict(ds.sizes) == {"F": 13, "omega": 11} and ds.F.attrs["units"] == "kN", ds
+        assert ds.floor10_acceleration_peak.attrs["units"] == "m s-2" and ds.brace5_slips.dtype == "i4"
+        assert ds.status.attrs["flag_meanings"] == "not_computed ok failed" and (ds.status == 1).all()
+        assert float(ds.energy_balance.max()) < 1e-10 and not ds.floor10_residual.isnull().any()
+        peak = float(ds.floor10_peak.sel(F=110, omega=6.5))
+    with xr.open_dataset(path, engine=engine, group="histories") as ds:
+        assert dict(ds.sizes) == {"history": 1, "sample": 1001} and float(ds.F[0]) == 110.0
+        assert ds.time.attrs["units"] == "s" and float(ds.time[-1]) == 20.0
+        largest = float(abs(ds.floor10_displacement).max())
+        assert 0.98 * peak < largest <= peak, (peak, largest)
+
+
 def main():
     program, source = sys.argv[1:]
     with tempfile.TemporaryDirectory() as folder:
@@ -77,6 +96,8 @@ def main():
                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         check_map(path, "netcdf4", study)
         check_map(path, "h5netcdf", study)
+        for engine in "netcdf4", "h5netcdf":
+            check_motions(program, source, folder, engine)
         with h5py.File(path) as file:
             assert file["main_peak"].shape == tuple(REDUCED.values())
         subprocess.run(["h5dump", "-d", "/status", path], check=True, stdout=subprocess.DEVNULL)

@@ -47,7 +47,9 @@ TEST_CASE("shaken_frame.toml: every point is its single motion run with --set, t
   }
 }
 
-TEST_CASE("shaken_frame.toml: at resonance one slip force is best, and the strongest dampers never slip") {
+TEST_CASE(
+    "shaken_frame.toml: at resonance one slip force is best, and the highest damper sticks where it is "
+    "strong") {
   const runs::Map map = runs::run_study(runs::reduced("shaken_frame", {{"omega", 3}}));
   const std::size_t forces = map.coordinate("F").size();
   std::vector<double> roof;
@@ -56,7 +58,7 @@ TEST_CASE("shaken_frame.toml: at resonance one slip force is best, and the stron
   CHECK(best != roof.begin());
   CHECK(best != roof.end() - 1);
   CHECK(*best < 0.8 * roof.front());
-  CHECK(map["brace9_slips"][3 * (forces - 1)] == 0.0);
+  CHECK(map["brace7_slips"][3 * (forces - 1)] == 0.0);
 }
 
 TEST_CASE("shaken_frame.toml: a history is that of the single motion, and status and check tell of motions") {

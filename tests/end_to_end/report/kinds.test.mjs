@@ -16,6 +16,7 @@ const cases = [
   { name: "tune_rig_trade_off", shows: ["What this means"] },
   { name: "rig_energy_shares", shows: ["Damping budget"] },
   { name: "lecture_hysteretic", shows: ["Resonance"] },
+  { name: "shaken_frame", shows: ["floor10 peak", "brace5 slips"] },
 ];
 
 // Numbers in tables that take more than one line.

@@ -76,7 +76,7 @@ TEST_CASE("The peaks of a mass under a force that is suddenly there are those of
 }
 
 // Thrown with v0 it turns at A = sqrt(x_f^2 + (v0/w)^2) - x_f, x_f = F/k, where its acceleration jumps from
-// (k A + F)/m to (k A - F)/m; for x_f < A < 3 x_f it rests at A - 2 x_f.
+// (k A + F)/m to (k A - F)/m; for x_f < A < 3 x_f it rests at 2 x_f - A.
 TEST_CASE("The largest acceleration is the limit of the jump where friction turns over") {
   const double m = 1.7, k = 3.1, F = 0.4, w = std::sqrt(k / m), x_f = F / k, v0 = 3.0 * x_f * w;
   const double A = std::sqrt(x_f * x_f + v0 * v0 / (w * w)) - x_f;
@@ -91,7 +91,7 @@ TEST_CASE("The largest acceleration is the limit of the jump where friction turn
                                  {energy_share, 1},
                                  {final_energy},
                                  {velocity_peak}});
-  const double rest = A - 2.0 * x_f;
+  const double rest = 2.0 * x_f - A;
   CHECK_THAT(found[0], WithinRel(A, kExact));
   CHECK_THAT(found[1], WithinRel((k * A + F) / m, kExact));
   CHECK_THAT(found[2], WithinAbs(rest, kExact * A));
@@ -102,7 +102,9 @@ TEST_CASE("The largest acceleration is the limit of the jump where friction turn
   CHECK_THAT(found[7], WithinRel(v0, kExact));
 }
 
-TEST_CASE("A contact that never lets go has no slip phase, and one that does has one for each release") {
+TEST_CASE(
+    "A contact that never lets go has no slip phase, and one that slides at first has one more than "
+    "releases") {
   const MotionQuantity contact{slips, 1};
   CHECK(numbers_of(oscillator(), values(3.1, 0.5, 0.4, 0.0), {}, 60.0, {contact})[0] == 0.0);
   const NetworkValues stops = values(40.0, 0.5, 0.6, 0.0);  // slow and stiff: it stops at every turn
@@ -110,16 +112,18 @@ TEST_CASE("A contact that never lets go has no slip phase, and one that does has
       forced_motion(oscillator(), [&](double) { return stops; }, {}, {.from = 1.0, .duration = 60.0});
   const auto released = std::ranges::count_if(motion.stops[0], [](const Stop& s) { return s.release > 0.0; });
   REQUIRE(released > 5);
-  CHECK(numbers_of(oscillator(), stops, {}, 60.0, {contact})[0] == static_cast<double>(released));
+  REQUIRE(motion.stops[0].front().onset > 0.0);
+  CHECK(numbers_of(oscillator(), stops, {}, 60.0, {contact})[0] == static_cast<double>(released + 1));
 }
 
 // A chain that slips here and there, shaken at its base and its end.
 struct Chain {
   static constexpr std::size_t masses = 4;
   Network network;
-  NetworkValues values{.omega = 1.3};
+  NetworkValues values;
 
   Chain() {
+    values.omega = 1.3;
     network.prescribed = {"base"};
     const Node base{NodeKind::prescribed, 0};
     Node below = base;
