@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <filesystem>
 
 #include "tests/end_to_end/motion_file.hpp"
 #include "tests/end_to_end/runs.hpp"
@@ -73,6 +74,18 @@ TEST_CASE("shaken_frame.toml: a history is that of the single motion, and status
   CHECK(check.code == 0);
   CHECK_THAT(check.out, Catch::Contains("motions/s"));
   CHECK(runs::frahm({"status", folder / "map.h5"}).code == 0);
+}
+
+TEST_CASE("shaken_frame.toml: a point is told as its motion is, with its history") {
+  const runs::Folder folder;
+  const std::string study = folder.write("map.toml", small_map());
+  const std::string history = folder / "history.csv";
+  const runs::Outcome point =
+      runs::frahm({"point", study, "--at", "F=160 kN,omega=6.5 rad/s", "--history", history});
+  REQUIRE(point.code == 0);
+  CHECK_THAT(point.out, Catch::Contains("floor10") && Catch::Contains("the energies balance"));
+  CHECK(std::filesystem::file_size(history) > 100'000);
+  CHECK(runs::frahm({"point", study, "--at", "F=160 kN", "--json"}).code != 0);
 }
 
 }  // namespace
