@@ -97,6 +97,7 @@ void cover(const Shaken& shaken, const Ensemble& of, Coverage& coverage) {
 // Fewer than 89 of 100 happen in less than one of a hundred tries where each has 95 %.
 constexpr int least_within = 89;
 
+// Straight lines between samples leave out what is faster than them: 1 % of the velocity's variance here.
 // m x'' + c x' + k x = w:  sigma_x^2 = pi S0/(c k),  sigma_v^2 = pi S0/(c m)  (Lyapunov).
 TEST_CASE("White noise on a linear oscillator causes Lyapunov's variances, inside their intervals",
           "[slow]") {
@@ -114,15 +115,17 @@ TEST_CASE("White noise on a linear oscillator causes Lyapunov's variances, insid
 }
 
 // v' = w - F sgn v: the stationary density is  exp(-F |v|/(pi S0)),  so that  sigma_v^2 = 2 (pi S0/F)^2
-// (Fokker and Planck).
+// (Fokker and Planck). Straight lines between 50 samples a second leave out 1.5 % of it.
 TEST_CASE("White noise on a mass with friction alone causes the variance of Fokker and Planck", "[slow]") {
+  constexpr double of_limited_band = 0.03;  // beside 1 % of chance in the mean of a thousand records
   Shaken shaken;
+  // So soft that its force, some 0.01 N, is lost beside the friction; a mass must be held.
+  shaken.add("spring", ElementType::spring, 1e-4);
   shaken.add("friction", ElementType::coulomb, 1.0);
   const Ensemble of{.intensity = 1.0 / pi, .duration = 170.0, .from = 20.0, .rate = 50.0};
   Coverage coverage{.velocity = 2.0};
   cover(shaken, of, coverage);
-  INFO(coverage.velocities << "; mean " << coverage.mean_velocity / coverage.velocity);
-  CHECK(coverage.velocities >= least_within);
+  CHECK_THAT(coverage.mean_velocity, Catch::WithinRel(coverage.velocity, of_limited_band));
 }
 
 }  // namespace
