@@ -60,12 +60,13 @@ std::vector<double> drift_at_samples(const Frame& frame, const Quake& quake, dou
   const double interval = quake.time[1], h = interval / steps;
   double z = 0.0, v = 0.0, s = 0.0;
   std::vector<double> drift{0.0};
-  const auto ground = [&](std::size_t i) { return i < quake.time.size() ? quake.acceleration[i] : 0.0; };
   const auto intervals = static_cast<std::size_t>(std::llround(duration / interval));
   for (std::size_t i = 0; i < intervals; ++i) {
+    const bool shakes = i + 1 < quake.time.size();  // behind its end the ground stands still
     for (int n = 0; n < steps; ++n) {
       const auto acceleration = [&](double part, double zz, double vv) {
-        const double a = std::lerp(ground(i), ground(i + 1), (n + part) / steps);
+        const double a =
+            shakes ? std::lerp(quake.acceleration[i], quake.acceleration[i + 1], (n + part) / steps) : 0.0;
         const double brace = std::clamp(s + frame.k_b * (zz - z), -frame.limit, frame.limit);
         return -(frame.c * vv + frame.k * zz + brace) / frame.m - a;
       };
@@ -109,7 +110,7 @@ TEST_CASE(
     CHECK(file["drift_peak"][0] < peak * 1.01);  // samples at 50 Hz
     CHECK(file["energy_balance"][0] < 1e-9);
     CHECK_THAT(1000.0 * file["drift_peak"][0], Catch::WithinAbs(slips ? 26.170 : 33.825, 0.005));
-    if (slips) CHECK_THAT(1000.0 * drift.back(), Catch::WithinAbs(0.698, 0.005));
+    if (slips) CHECK_THAT(1000.0 * drift.back(), Catch::WithinAbs(0.699, 0.005));
   }
 }
 
