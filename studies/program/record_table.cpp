@@ -20,6 +20,7 @@ using transient::RecordFacts, transient::RecordOf;
 
 constexpr std::size_t most_listed = 12;  // records of an axis: a screen
 constexpr double drift = 0.05;           // of the largest velocity: what plots of a baseline show
+constexpr double rounding = 1e-6;        // of times written with few digits
 
 // A number with its unit, where the study has units.
 std::string with_unit(const Study& study, double value, Quantity quantity) {
@@ -127,7 +128,7 @@ void warn_of_sampling(const Study& study, const DrivingRecord& driving, const pe
     longest = std::max(longest, transient::facts_of(record).longest);
   const auto period = [](double omega) { return 2.0 * std::numbers::pi / omega; };
   const auto fast = std::ranges::find_if(modes.frequency, [&](double omega) {
-    return omega > 0.0 && period(omega) < transient::kSamplesOfPeriod * longest;
+    return omega > 0.0 && period(omega) < (1.0 - rounding) * transient::kSamplesOfPeriod * longest;
   });
   if (fast == modes.frequency.end()) return;
   const auto mode = fast - modes.frequency.begin() + 1;
