@@ -1,6 +1,7 @@
 #pragma once
 
 #include "solvers/events/passage.hpp"
+#include "solvers/events/passage_steps.hpp"
 #include "solvers/events/workspace.hpp"
 
 namespace frahm::periodic {
@@ -17,9 +18,10 @@ class Walk {
   explicit Walk(Flow<N, H>& flow) : flow_(flow) {}
 
   // The flow from state z at `phase` (omega t) [rad] over `length` steps. held: contacts that stick
-  // regardless of their force, to test whether they stick throughout.
+  // regardless of their force, to test whether they stick throughout. steps: to keep the steps taken in;
+  // null: they are not kept.
   void pass(const typename S::State& z, double phase, double length, Passage<N, H>& passage,
-            Tangent tangent = Tangent::followed, ContactMask held = 0);
+            Tangent tangent = Tangent::followed, ContactMask held = 0, PassageSteps<N, H>* steps = nullptr);
 
  private:
   void enter(const typename S::State& z, double phase, Passage<N, H>& passage);
@@ -29,7 +31,8 @@ class Walk {
   void take_step(Passage<N, H>& passage);
   void move_tangent(double steps, Passage<N, H>& passage);
   void end_stretch(Passage<N, H>& passage);
-  void advance(double fraction, Passage<N, H>& passage);
+  void advance(double fraction, double phase, Passage<N, H>& passage);
+  PassageStep<N, H>* keep_step(double length);
   void pass_event(const GuardEvent& event, double phase, Passage<N, H>& passage);
   void pass_bend(const BendEvent& event, double phase, Passage<N, H>& passage);
   void saltate(ContactMask released, Passage<N, H>& passage);
@@ -42,6 +45,7 @@ class Walk {
 
   Flow<N, H>& flow_;
   Workspace<N, H> w_;
+  PassageSteps<N, H>* steps_ = nullptr;  // of the current passage
 };
 
 extern template class Walk<1, 1>;

@@ -12,11 +12,13 @@ namespace frahm::periodic {
 
 template <int N, int H>
 void Walk<N, H>::pass(const typename S::State& z, double phase, double length, Passage<N, H>& passage,
-                      Tangent tangent, ContactMask held) {
+                      Tangent tangent, ContactMask held, PassageSteps<N, H>* steps) {
   constexpr int kMostEvents = 20000;
   passage.has_path = flow_.equations().is_large() && tangent != Tangent::none;
   passage.has_tangent = tangent == Tangent::followed;
   w_.held = held;
+  steps_ = steps;
+  if (steps_ != nullptr) steps_->clear();
   enter(z, phase, passage);
   int at_this_instant = 0;
   while (passage.failure == nullptr) {
@@ -36,8 +38,12 @@ void Walk<N, H>::pass(const typename S::State& z, double phase, double length, P
       if (passage.events > kMostEvents) passage.failure = "more than 20000 events in one passage";
       if (w_.undecided) passage.failure = "the friction forces of contacts at rest were not found";
     } else if (room <= 1.0) {
-      advance(room, passage);
+      if (room == 1.0)
+        take_step(passage);
+      else
+        advance(room, phase, passage);
       end_stretch(passage);
+      if (steps_ != nullptr) steps_->end_segment();
       passage.segments.back().length = length - passage.segments.back().start;
       break;
     } else {
@@ -69,13 +75,30 @@ void Walk<N, H>::share_forces_again(Passage<N, H>& passage) {
 template <int N, int H>
 void Walk<N, H>::take_step(Passage<N, H>& passage) {
   move_tangent(1.0, passage);
+  if (PassageStep<N, H>* step = keep_step(1.0)) step->right = w_.right;
   w_.left = w_.right;
   w_.clock += 1.0;
   w_.leave_event();
 }
 
+// The step that begins at `left`, where steps are kept; its right end is the caller's.
+template <int N, int H>
+PassageStep<N, H>* Walk<N, H>::keep_step(double length) {
+  if (steps_ == nullptr) return nullptr;
+  PassageStep<N, H>& step = steps_->add();
+  step.start = w_.clock;
+  step.length = length;
+  step.mode = w_.mode;
+  step.left = w_.left;
+  if (w_.expanded) std::swap(step.expansion, w_.expansion);
+  step.expanded = w_.expanded;
+  w_.expanded = false;
+  return &step;
+}
+
 template <int N, int H>
 void Walk<N, H>::open_segment(Passage<N, H>& passage) {
+  if (steps_ != nullptr) steps_->end_segment();
   passage.segments.push_back({w_.clock, 0.0, w_.mode, w_.left.z});
 }
 
@@ -134,10 +157,14 @@ bool Walk<N, H>::starts_at_limit(Eigen::Index j, double speed) {
 // `left` and the tangent `fraction` of a step later in the same mode; the oscillators of `left` are not
 // moved.
 template <int N, int H>
-void Walk<N, H>::advance(double fraction, Passage<N, H>& passage) {
-  Flow<N, H>::evaluate(w_.expand(flow_), fraction, w_.left.z);
+void Walk<N, H>::advance(double fraction, double phase, Passage<N, H>& passage) {
+  typename S::State z;
+  Flow<N, H>::evaluate(w_.expand(flow_), fraction, z);
+  PassageStep<N, H>* const step = keep_step(fraction);
+  w_.left.z = z;
   w_.clock += fraction;
-
+  if (step != nullptr)
+    flow_.instant_at(z, phase + w_.clock * flow_.fundamental_rate(), flow_.mode(w_.mode), step->right);
   move_tangent(fraction, passage);
 }
 
@@ -145,7 +172,7 @@ void Walk<N, H>::advance(double fraction, Passage<N, H>& passage) {
 template <int N, int H>
 void Walk<N, H>::arrive_at(double fraction, double phase, Passage<N, H>& passage) {
   if (fraction > 0.0) {
-    advance(fraction, passage);
+    advance(fraction, phase, passage);
     w_.leave_event();
   }
   end_stretch(passage);

@@ -17,7 +17,7 @@ std::vector<double> bend_losses(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow,
   std::vector<double> loss(static_cast<std::size_t>(count), 0.0);
   if (count == 0) return loss;
   const double seconds = (half_period ? 2.0 : 1.0) * flow.equations().step;
-  for (OrbitStep<N, H>& step : orbit.steps()) {
+  for (PassageStep<N, H>& step : orbit.steps()) {
     const ContactMask beyond = flow.mode(step.mode).beyond;
     for (Eigen::Index j = 0; beyond != 0 && j < count; ++j) {
       if (!contains(beyond, j) || flow.equations().bends.damping[j] == 0.0) continue;

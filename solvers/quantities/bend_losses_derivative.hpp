@@ -44,7 +44,7 @@ std::vector<double> bend_losses_derivative(const OrbitSteps<N, H>& orbit, const 
   const auto steps = orbit.steps();
   std::size_t changes = 0;
   for (std::size_t i = 0; i < steps.size() && bends.count() > 0; ++i) {
-    const OrbitStep<N, H>& step = steps[i];
+    const PassageStep<N, H>& step = steps[i];
     const bool is_after_change = i > 0 && steps[i - 1].ends_segment;
     const bool is_before_change = step.ends_segment && i + 1 < steps.size();
     changes += is_after_change ? 1 : 0;

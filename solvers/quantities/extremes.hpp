@@ -57,7 +57,7 @@ void TracedOrbit<N, H>::look(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow, co
   forms_.clear();
   bool starts_segment = true;
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    const OrbitStep<N, H>& step = steps[i];
+    const PassageStep<N, H>& step = steps[i];
     if (starts_segment) forms_.push_back(form_of(flow.mode(step.mode)));
     const Form& form = forms_.back();
     trace_[i] = {step.start,          step.length,    form.at(step.left),

@@ -56,7 +56,7 @@ template <int N, int H>
 void Gradient<N, H>::place_instants(const Orbit<N, H>& orbit, std::size_t trace) {
   instants_[trace].clear();
   for (const Candidate& candidate : measured_.candidates[trace]) {
-    const OrbitStep<N, H>& step = steps_.steps()[candidate.step];
+    const PassageStep<N, H>& step = steps_.steps()[candidate.step];
     if (!candidate.stationary) {
       instants_[trace].push_back(candidate.s == 0.0 ? step.left : step.right);
       continue;

@@ -83,7 +83,7 @@ void Integrals<N, H>::integrate(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow,
   input_ = input_size_ = 0.0;
   bool starts_segment = true;
   Samples y = Samples::Zero(padded(size), kNodes), weighted = y;
-  for (OrbitStep<N, H>& step : orbit.steps()) {
+  for (PassageStep<N, H>& step : orbit.steps()) {
     if (starts_segment) {
       powers_of(flow.mode(step.mode), powers_);
       joined_powers_.clear();

@@ -60,7 +60,7 @@ class OrbitObservation {
 
   void lay_out(const Orbit<N, H>& orbit) {
     steps_.lay_out(orbit);
-    for (OrbitStep<N, H>& step : steps_.steps()) steps_.expand(step);
+    for (PassageStep<N, H>& step : steps_.steps()) steps_.expand(step);
   }
 
   // Locates each time on the orbit, step by step.
@@ -71,7 +71,7 @@ class OrbitObservation {
     for (std::size_t i = 0; i < times.size(); ++i) {
       const auto [from_section, sign] = place_on_orbit(omega * times[i], orbit.section, orbit.half_period);
       const double at = from_section / rate;
-      const auto after = [](double value, const OrbitStep<N, H>& step) { return value < step.start; };
+      const auto after = [](double value, const PassageStep<N, H>& step) { return value < step.start; };
       const auto next = std::upper_bound(steps.begin() + 1, steps.end(), at, after);
       const auto step = static_cast<std::size_t>(next - steps.begin()) - 1;
       places_.push_back({step, static_cast<Eigen::Index>(i),

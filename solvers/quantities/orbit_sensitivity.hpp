@@ -51,7 +51,7 @@ class OrbitSensitivity {
 
   const Flow<N, H>& flow_;
   const Orbit<N, H>* orbit_ = nullptr;
-  std::span<const OrbitStep<N, H>> steps_;
+  std::span<const PassageStep<N, H>> steps_;
   RestDirections rest_;             // of contacts that stick throughout
   Eigen::MatrixXd shift_per_keep_;  // E (L^T E)^+
   PassageSensitivity<N, H> passage_;
@@ -63,7 +63,7 @@ const char* OrbitSensitivity<N, H>::prepare(const Orbit<N, H>& orbit, OrbitSteps
   const StepEquations<N, H>& eq = flow_.equations();
   orbit_ = &orbit;
   steps.lay_out(orbit);
-  for (OrbitStep<N, H>& step : steps.steps()) steps.expand(step);
+  for (PassageStep<N, H>& step : steps.steps()) steps.expand(step);
   steps_ = steps.steps();
   if (orbit.passage.starts_at_event)
     return "events follow one another too closely for a section between them";

@@ -43,7 +43,7 @@ template <int N, int H>
 class PassageSensitivity {
  public:
   using S = Sizes<N, H>;
-  using Steps = std::span<const OrbitStep<N, H>>;
+  using Steps = std::span<const PassageStep<N, H>>;
 
   explicit PassageSensitivity(const Flow<N, H>& flow) : flow_(flow) {}
 
@@ -76,11 +76,11 @@ class PassageSensitivity {
 
  private:
   const ModeDerivative<N, H>& mode(std::size_t index);
-  void expand(const OrbitStep<N, H>& step, const typename S::State& start, typename S::StatePolynomials& p);
+  void expand(const PassageStep<N, H>& step, const typename S::State& start, typename S::StatePolynomials& p);
   void enter(typename S::State& delta) const;
-  double cross(const Event& change, const OrbitStep<N, H>& before, const OrbitStep<N, H>& after,
+  double cross(const Event& change, const PassageStep<N, H>& before, const PassageStep<N, H>& after,
                typename S::State& delta);
-  double let_go(const Event& change, const OrbitStep<N, H>& before, const OrbitStep<N, H>& after,
+  double let_go(const Event& change, const PassageStep<N, H>& before, const PassageStep<N, H>& after,
                 typename S::State& delta);
   void keep_at_limit(ContactMask contacts, const Mode<N, H>& mode, typename S::State& delta) const;
 
@@ -118,7 +118,7 @@ typename Sizes<N, H>::State PassageSensitivity<N, H>::sweep(Steps steps, std::sp
   enter(delta);
   std::size_t change = 0;
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    const OrbitStep<N, H>& step = steps[i];
+    const PassageStep<N, H>& step = steps[i];
     expand(step, delta, polynomials_[i]);
     delta.noalias() = polynomials_[i].transpose() * powers(step.length);
     if (!step.ends_segment || i + 1 == steps.size()) continue;
@@ -130,7 +130,7 @@ typename Sizes<N, H>::State PassageSensitivity<N, H>::sweep(Steps steps, std::sp
 
 // The Taylor series of delta over a step: coefficient k + 1 is the derivative of coefficient k over k + 1.
 template <int N, int H>
-void PassageSensitivity<N, H>::expand(const OrbitStep<N, H>& step, const typename S::State& start,
+void PassageSensitivity<N, H>::expand(const PassageStep<N, H>& step, const typename S::State& start,
                                       typename S::StatePolynomials& p) {
   const StepEquations<N, H>& eq = flow_.equations();
   const Configuration<N, H>& c = flow_.configuration(flow_.mode(step.mode));
@@ -198,8 +198,8 @@ void PassageSensitivity<N, H>::keep_at_limit(ContactMask contacts, const Mode<N,
 // an arrival changes the acceleration, a release an internal force's rate. The acceleration also changes
 // where a force falls from a static limit, and where a bend's force jumps. Nothing else jumps.
 template <int N, int H>
-double PassageSensitivity<N, H>::cross(const Event& change, const OrbitStep<N, H>& before,
-                                       const OrbitStep<N, H>& after, typename S::State& delta) {
+double PassageSensitivity<N, H>::cross(const Event& change, const PassageStep<N, H>& before,
+                                       const PassageStep<N, H>& after, typename S::State& delta) {
   if (change.bend < 0 && change.contact < 0) return 0.0;
   double shift = 0.0;
   if (change.bend >= 0) {
@@ -216,8 +216,8 @@ double PassageSensitivity<N, H>::cross(const Event& change, const OrbitStep<N, H
 
 // Of a stuck force that reaches its limit.
 template <int N, int H>
-double PassageSensitivity<N, H>::let_go(const Event& change, const OrbitStep<N, H>& before,
-                                        const OrbitStep<N, H>& after, typename S::State& delta) {
+double PassageSensitivity<N, H>::let_go(const Event& change, const PassageStep<N, H>& before,
+                                        const PassageStep<N, H>& after, typename S::State& delta) {
   const Eigen::Index n = flow_.equations().masses();
   mode(before.mode);
   const double force = stuck_force(before.mode, before.right, delta, change.contact);
@@ -263,7 +263,7 @@ double PassageSensitivity<N, H>::stuck_force(std::size_t mode, const Instant<N, 
 template <int N, int H>
 InstantDerivative<N, H> PassageSensitivity<N, H>::at(std::size_t i, double s, const Instant<N, H>& at) const {
   const Eigen::Index n = flow_.equations().masses();
-  const OrbitStep<N, H>& step = steps_[i];
+  const PassageStep<N, H>& step = steps_[i];
   const Configuration<N, H>& c = flow_.configuration(flow_.mode(step.mode));
   const ModeDerivative<N, H>& d = modes_[step.mode];
   InstantDerivative<N, H> result;

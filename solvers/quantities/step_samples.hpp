@@ -33,7 +33,7 @@ class StepSamples {
  public:
   explicit StepSamples(std::span<const Observed> observed) : observed_(observed) {}
 
-  void set_step(const Flow<N, H>& flow, const OrbitStep<N, H>& step) {
+  void set_step(const Flow<N, H>& flow, const PassageStep<N, H>& step) {
     const StepEquations<N, H>& eq = flow.equations();
     polynomials_ = observed_polynomials(step.expansion.z, observed_, eq.masses(), eq.step);
     slopes_.resizeLike(polynomials_);

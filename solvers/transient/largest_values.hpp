@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "solvers/quantities/orbit_steps.hpp"
+#include "solvers/events/passage_steps.hpp"
 #include "solvers/quantities/trace.hpp"
 #include "solvers/transient/motion.hpp"
 
@@ -21,8 +21,8 @@ namespace frahm::transient {
 class LargestValues {
  public:
   using Flow = periodic::Flow<Eigen::Dynamic, Eigen::Dynamic>;
-  using Steps = periodic::OrbitSteps<Eigen::Dynamic, Eigen::Dynamic>;
-  using Step = periodic::OrbitStep<Eigen::Dynamic, Eigen::Dynamic>;
+  using Steps = periodic::PassageSteps<Eigen::Dynamic, Eigen::Dynamic>;
+  using Step = periodic::PassageStep<Eigen::Dynamic, Eigen::Dynamic>;
 
   // From now on this is followed too, before the motion begins. kind: displacement, velocity or acceleration.
   // Returns its number; what is followed already keeps its own.

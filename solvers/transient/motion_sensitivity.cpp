@@ -78,19 +78,17 @@ bool MotionSensitivity::advance(double time, double phase, double longest) {
 }
 
 bool MotionSensitivity::pass(double length, double phase) {
-  stretch_.section = phase;
   passage_start_ = time_;
-  walk_.pass(z_, phase, length, stretch_.passage, periodic::Tangent::none);
+  walk_.pass(z_, phase, length, passage_, periodic::Tangent::none, 0, &steps_);
   steps_taken_ += length;
-  failure_ = stretch_.passage.failure;
+  failure_ = passage_.failure;
   if (failure_ != nullptr) return false;
-  steps_.lay_out(stretch_);
   differentiate();
   const auto steps = steps_.steps();
   const double h = flow_.equations().step;
   for (std::size_t i = 0; i < steps.size(); ++i) sample(i, time_ + (steps[i].start + steps[i].length) * h);
   keep_ending(steps.back());
-  z_ = stretch_.passage.end;
+  z_ = passage_.end;
   return true;
 }
 
@@ -103,7 +101,7 @@ void MotionSensitivity::differentiate() {
   } else {
     why_none_ = cross_border(steps.front());
   }
-  const std::vector<periodic::Event>& changes = stretch_.passage.changes;
+  const std::vector<periodic::Event>& changes = passage_.changes;
   if (*why_none_ == '\0') why_none_ = periodic::why_no_passage_derivative<kAny, kAny>(flow_, changes);
   if (*why_none_ != '\0') return;
   for (Direction& d : directions_) d.delta = d.sensitivity.sweep(steps, changes, d.delta);

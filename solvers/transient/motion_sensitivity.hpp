@@ -46,7 +46,7 @@ class MotionSensitivity {
   static constexpr int kAny = Eigen::Dynamic;
   using Flow = periodic::Flow<kAny, kAny>;
   using State = typename Flow::S::State;
-  using Step = periodic::OrbitStep<kAny, kAny>;
+  using Step = periodic::PassageStep<kAny, kAny>;
 
   // Along one direction.
   struct Direction {
@@ -73,8 +73,8 @@ class MotionSensitivity {
 
   Flow flow_;
   periodic::Walk<kAny, kAny> walk_;
-  periodic::OrbitSteps<kAny, kAny> steps_;
-  periodic::Orbit<kAny, kAny> stretch_;  // the current passage
+  periodic::PassageSteps<kAny, kAny> steps_;
+  periodic::Passage<kAny, kAny> passage_;  // the current one
   std::vector<Direction> directions_;
   State z_;
   double time_ = 0.0, passage_start_ = 0.0;  // [s]

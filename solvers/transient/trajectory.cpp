@@ -136,15 +136,13 @@ bool Trajectory::can_last(double duration) {
 }
 
 bool Trajectory::pass(double length, double phase) {
-  stretch_.section = phase;
-  walk_.pass(z_, phase, length, stretch_.passage, periodic::Tangent::none);
+  walk_.pass(z_, phase, length, passage_, periodic::Tangent::none, 0, &steps_);
   steps_taken_ += length;
-  failure_ = stretch_.passage.failure;
+  failure_ = passage_.failure;
   if (failure_ != nullptr) return false;
   energy_scale_ = flow_.energy_scale(z_);
-  steps_.lay_out(stretch_);
   for (Step& step : steps_.steps()) follow(step);
-  z_ = stretch_.passage.end;
+  z_ = passage_.end;
   phase_ = phase + length * flow_.fundamental_rate();
   return true;
 }
@@ -155,7 +153,7 @@ void Trajectory::follow(Step& step) {
   const auto& mode = flow_.mode(step.mode);
   note_mode(mode, at, step.left.z);
   if (kept_.largest != nullptr) {
-    const double energy = std::max(energy_scale_, flow_.energy_scale(stretch_.passage.end));
+    const double energy = std::max(energy_scale_, flow_.energy_scale(passage_.end));
     kept_.largest->follow(flow_, steps_, step, at, energy);
   }
   if (kept_.extrema) follow_extrema(step, at);

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "solvers/events/walk.hpp"
-#include "solvers/quantities/orbit_steps.hpp"
 #include "solvers/transient/energy_account.hpp"
 #include "solvers/transient/largest_values.hpp"
 #include "solvers/transient/motion.hpp"
@@ -85,7 +84,7 @@ class Trajectory {
  private:
   using State = typename Flow::S::State;
   using Oscillators = typename Flow::S::Oscillators;
-  using Step = periodic::OrbitStep<Eigen::Dynamic, Eigen::Dynamic>;
+  using Step = periodic::PassageStep<Eigen::Dynamic, Eigen::Dynamic>;
 
   bool has_started() const { return z_.size() > 0; }
   double energy_now() const { return account_.energy_of(z_, phase_); }  // [J]
@@ -108,8 +107,8 @@ class Trajectory {
   const mechanics::Assembly& assembly_;
   Flow flow_;
   periodic::Walk<Eigen::Dynamic, Eigen::Dynamic> walk_;
-  periodic::OrbitSteps<Eigen::Dynamic, Eigen::Dynamic> steps_;
-  periodic::Orbit<Eigen::Dynamic, Eigen::Dynamic> stretch_;  // the current passage
+  periodic::PassageSteps<Eigen::Dynamic, Eigen::Dynamic> steps_;
+  periodic::Passage<Eigen::Dynamic, Eigen::Dynamic> passage_;  // the current one
   EnergyAccount account_;
   State z_;
   double phase_ = 0.0;            // omega t of the fundamental where z_ is [rad]
