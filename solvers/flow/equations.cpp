@@ -34,4 +34,8 @@ double step_length(double fastest_rate, double omega, int largest_order) {
   return kStepRate / rate;
 }
 
+double step_within(double interval, double step) {
+  return interval > 0.0 ? interval / std::ceil(interval / step * (1.0 - 1e-12)) : step;
+}
+
 }  // namespace frahm::periodic

@@ -73,8 +73,8 @@ struct StepEquations {
   Eigen::Index contacts() const { return limit.size(); }
   // Whether Taylor series come from the equation itself (SparseSystem), not from tables of each
   // configuration.
-  bool is_large() const { return !S::is_fixed && masses() >= kFromMasses; }
-  static constexpr Eigen::Index kFromMasses = 8;  // as fast both ways there
+  bool is_large() const { return !S::is_fixed && masses() >= large_from; }
+  Eigen::Index large_from = 8;  // as fast both ways there, for an orbit of some dozens of steps
   // Whether contact j holds its velocity at zero while it sticks; otherwise its force is a state.
   bool holds(Eigen::Index j) const { return contains(holding, j); }
   Eigen::Index internal_forces() const { return internal_stiffness.size(); }
@@ -204,5 +204,9 @@ double fastest_rate(const mechanics::LinearSystem& system);
 // Length of a step [s]: kStepRate over the fastest rate of system and forcing, the latter rounded up in
 // powers of sqrt(2) of the former so that the step stays the same over a range of frequencies.
 double step_length(double fastest_rate, double omega, int largest_order);
+
+// The longest step no longer than `step` of which `interval` has a whole number; step, where there is no
+// interval.
+double step_within(double interval, double step);
 
 }  // namespace frahm::periodic

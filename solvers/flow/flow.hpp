@@ -79,6 +79,9 @@ class Flow {
 
   // Matrices, friction limits and bends; call set_forcing before the next passage.
   void set_system(const mechanics::LinearSystem& system);
+  // Motions of thousands of steps in each mode are about to be followed: tables pay for larger systems too.
+  // To be called before set_system.
+  void expect_many_steps() { equations_.large_from = 24; }
   void set_forcing(const mechanics::LinearSystem& system);
   // The numbers of the records [SI] (LinearSystem::recorded_force) at a phase, from which on they are
   // polynomials until the next call; no matrix is computed again. set_forcing makes them 0.

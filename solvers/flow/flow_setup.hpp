@@ -158,7 +158,8 @@ template <int N, int H>
 void Flow<N, H>::set_forcing(const mechanics::LinearSystem& system) {
   StepEquations<N, H>& eq = equations_;
   orders_ = system.orders;  // those over a multiple of the period are others
-  const double h = step_length(fastest_rate_, system.omega, orders_.empty() ? 1 : orders_.back());
+  const double h = step_within(system.recorded_interval, step_length(fastest_rate_, system.omega,
+                                                                     orders_.empty() ? 1 : orders_.back()));
   if (matrices_changed_ || h != eq.step) {
     eq.step = h;
     scale_matrices(system);

@@ -223,7 +223,7 @@ struct MeasuredMotion final : Simulation::Kind {
     values = measured.values_of(values, 1.0);
     assembly.set_values(values, system);
     assembly.set_forcing(values, system);
-    system.recorded_size = course.sizes();
+    course.tell(system);
     std::vector<NetworkValues> directions;
     for (const Model& each : by) {
       directions.push_back(measured.values_of(each.values, 0.0));

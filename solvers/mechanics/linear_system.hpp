@@ -105,7 +105,8 @@ struct LinearSystem {
   // the part of it that acts from outside; the displacements of the prescribed nodes.
   Eigen::MatrixXd recorded_force, recorded_applied_force;  // n x 4r
   Eigen::MatrixXd recorded_motion;                         // p x 4r
-  Eigen::VectorXd recorded_size;  // of each number, what it is counted in (transient::RecordCourse::sizes)
+  Eigen::VectorXd recorded_size;   // of each number, what it is counted in (transient::RecordCourse::sizes)
+  double recorded_interval = 0.0;  // between all times of the records [s]; 0: none, or they differ
   SupportForce support_force;
   Eigen::RowVectorXd felt_inertia, felt_inertia_support;  // its parts by -q'' and by -y''
 

@@ -58,7 +58,7 @@ class Driven {
       built_ = values;
     }
     assembly_.set_forcing(values, system_);
-    if (course_ != nullptr) system_.recorded_size = course_->sizes();
+    if (course_ != nullptr) course_->tell(system_);
     add_angular_acceleration(alpha);
     if (rebuild) {
       trajectory.set_system(system_, phase);
@@ -197,6 +197,7 @@ ForcedMotion run(const Problem& problem, int stairs) {
   Driven driven(problem.assembly, problem.values_at, problem.initial,
                 problem.course ? &*problem.course : nullptr, sample_times(options.duration, options.samples),
                 options.watch, kept);
+  if (stairs == 0) driven.trajectory.expect_many_steps();
   bool complete = true;
   double phase = 0.0;
   if (stairs > 0) {

@@ -23,6 +23,7 @@ MotionSensitivity::MotionSensitivity(std::span<const periodic::Observed> observe
       samples_(observed),
       observed_(observed),
       watch_(std::move(watch)) {
+  flow_.expect_many_steps();
   motion_.values.resize(static_cast<Index>(times_.size()), static_cast<Index>(observed.size()));
 }
 
@@ -63,7 +64,7 @@ void MotionSensitivity::start(const InitialState& initial, std::span<const Initi
 }
 
 bool MotionSensitivity::advance(double time, double phase, double longest) {
-  const double h = flow_.equations().step, start = time_, length = (time - start) / h;
+  const double h = flow_.equations().step, start = time_, length = without_rounding((time - start) / h);
   if (steps_taken_ + length > kMostSteps) failure_ = kTooManySteps;
   const double most = std::clamp(longest / h, 1.0, kStepsAtOnce);
   for (double done = 0.0; done < length && failure_ == nullptr;) {

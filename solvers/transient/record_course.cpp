@@ -151,6 +151,25 @@ RecordCourse::RecordCourse(const mechanics::Network& network, std::span<const Re
     }
   }
   bound_numbers();
+  find_interval();
+}
+
+void RecordCourse::tell(mechanics::LinearSystem& system) const {
+  system.recorded_size = sizes_;
+  system.recorded_interval = interval_;
+}
+
+// Times are rounded to some parts of 1e-16 of the last.
+void RecordCourse::find_interval() {
+  if (times_.empty()) return;
+  const auto intervals = static_cast<double>(times_.size() - 1);
+  const double mean = (times_.back() - times_.front()) / intervals;
+  for (std::size_t i = 0; i < times_.size(); ++i) {
+    const double even = times_.front() + mean * static_cast<double>(i);
+    if (std::abs(times_[i] - even) > 1e-14 * std::max(std::abs(times_.front()), std::abs(times_.back())))
+      return;
+  }
+  interval_ = mean;
 }
 
 // |r| <= the largest at a time + the longest interval x the largest |r'|

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "solvers/mechanics/linear_system.hpp"
 #include "solvers/mechanics/network.hpp"
 #include "solvers/transient/record.hpp"
 
@@ -24,13 +25,19 @@ class RecordCourse {
   const Eigen::VectorXd& numbers(std::size_t i) const { return numbers_[i]; }
   // Of each number, the largest (LinearSystem::recorded_size).
   const Eigen::VectorXd& sizes() const { return sizes_; }
+  // Between one time and the next [s], where all are alike but for rounding; else 0.
+  double interval() const { return interval_; }
+  // Sizes and interval (LinearSystem::recorded_size, recorded_interval).
+  void tell(mechanics::LinearSystem& system) const;
 
  private:
   void bound_numbers();
+  void find_interval();
 
   std::vector<double> times_;
   std::vector<Eigen::VectorXd> numbers_;
   Eigen::VectorXd sizes_;
+  double interval_ = 0.0;
 };
 
 // Whether the motion is known behind the record's end: its support rests there, or the record is a force or

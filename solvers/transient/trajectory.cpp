@@ -115,7 +115,7 @@ void Trajectory::start(const InitialState& initial) {
 }
 
 bool Trajectory::advance(double duration, double phase) {
-  const double length = duration / flow_.equations().step, start = time_;
+  const double length = without_rounding(duration / flow_.equations().step), start = time_;
   if (!can_last(duration)) return false;
   for (double done = 0.0; done < length && failure_ == nullptr;) {
     if (watch_) watch_();

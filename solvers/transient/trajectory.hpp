@@ -28,6 +28,9 @@ class Trajectory {
   // times: at which the state is recorded, ascending [s].  `assembly` must outlive the trajectory.
   Trajectory(const mechanics::Assembly& assembly, std::vector<double> times, Watch watch, Kept kept = {});
 
+  // The forcing is about to last for thousands of steps (Flow::expect_many_steps); before set_system.
+  void expect_many_steps() { flow_.expect_many_steps(); }
+
   // Matrices and forcing, or only another forcing, from now on. The state is carried over; stuck contacts
   // stay stuck (a support whose velocity jumps takes them along). phase: omega t of the fundamental now.
   void set_system(const mechanics::LinearSystem& system, double phase);
