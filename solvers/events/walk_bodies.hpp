@@ -115,7 +115,7 @@ void Walk<N, H>::enter(const typename S::State& z, double phase, Passage<N, H>& 
   w_.undecided = false;
   w_.fresh = w_.just_released = 0;
   w_.behind = 0.0;
-  set_scales(flow_, z, w_);
+  set_scales(flow_, z, phase, w_);
 
   w_.mode = flow_.mode_index(0, 0, 0);
   flow_.instant_at(z, phase, flow_.mode(w_.mode), w_.left);

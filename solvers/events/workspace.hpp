@@ -52,16 +52,17 @@ struct Workspace {
 };
 
 template <int N, int H>
-void set_scales(const Flow<N, H>& flow, const typename Sizes<N, H>::State& z, Workspace<N, H>& w) {
+void set_scales(const Flow<N, H>& flow, const typename Sizes<N, H>::State& z, double phase,
+                Workspace<N, H>& w) {
   const StepEquations<N, H>& eq = flow.equations();
-  const double energy = flow.energy_scale(z);
+  const double energy = flow.energy_scale(z, phase);
   const Eigen::Index m = eq.contacts();
   w.speed_scale.resize(m);
   w.force_scale.resize(m);
   w.rest_speed.resize(m);
   for (Eigen::Index j = 0; j < m; ++j) {
     // |w^T v| <= sqrt(w^T M^-1 w) sqrt(v^T M v)
-    w.speed_scale[j] = std::sqrt(2.0 * eq.compliance[j]) * energy + eq.support_velocity.row(j).norm();
+    w.speed_scale[j] = std::sqrt(2.0 * eq.compliance[j]) * energy + eq.support_speed[j];
     const Eigen::Index internal = eq.internal_of[static_cast<std::size_t>(j)];
     w.force_scale[j] = internal < 0 ? kStepRate * w.speed_scale[j] / eq.compliance[j]
                                     : eq.internal_stiffness[internal] * w.speed_scale[j] / kStepRate;

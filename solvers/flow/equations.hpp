@@ -64,6 +64,11 @@ struct StepEquations {
   // which on they are polynomials, none before they are set; and omega t there [rad].
   Eigen::VectorXd recorded_size, recorded_rate, recorded_at;
   double recorded_phase = 0.0;
+  // Where recorded supports take the masses, if all is slow: q_s = quasi_static u(t), n x oscillators, 0
+  // columns where there are none. It is no faster than a record's cubic, so that what is bounded by rates is
+  // the motion beside it, which supports that drift far away do not enlarge.
+  Eigen::MatrixXd quasi_static, quasi_static_velocity;
+  typename S::Contacts support_speed;  // what supports add to a contact's sliding speed beside q_s [m a step]
   StepBends<N, H> bends;
   bool monotone = true;          // LinearSystem::monotone
   SparseSystem sparse;           // of a large system

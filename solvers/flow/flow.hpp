@@ -95,9 +95,11 @@ class Flow {
   // along [sqrt(J)].
   double static_norm() const { return static_norm_; }
   // The scale of residuals and errors of a state z [sqrt(J)].
-  double energy_scale(const typename Sizes<N, H>::State& z) const {
+  double energy_scale(const typename S::State& z) const {
     return std::max(equations_.energy_norm(z), static_norm_);
   }
+  // The same of a state at `phase`, beside where recorded supports take it.
+  double energy_scale(const typename S::State& z, double phase) const;
 
   // The table of modes: an index stays good until the next set_forcing.
   std::size_t mode_index(ContactMask stuck, ContactMask positive, ContactMask beyond);

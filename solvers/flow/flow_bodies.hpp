@@ -142,6 +142,18 @@ typename Sizes<N, H>::State Flow<N, H>::state_within(const Segment<N, H>& segmen
 }
 
 template <int N, int H>
+double Flow<N, H>::energy_scale(const typename S::State& z, double phase) const {
+  const StepEquations<N, H>& eq = equations_;
+  if (eq.quasi_static.cols() == 0) return energy_scale(z);
+  typename S::Oscillators u(eq.oscillators());
+  eq.oscillators_at(phase, orders_, u);
+  typename S::State beside = z;
+  beside.head(eq.masses()) -= eq.quasi_static * u;
+  beside.segment(eq.masses(), eq.masses()) -= eq.quasi_static_velocity * u;
+  return energy_scale(beside);
+}
+
+template <int N, int H>
 typename Sizes<N, H>::State Flow<N, H>::brought_to_rest(const typename S::State& z, double phase,
                                                         ContactMask contacts) {
   typename S::State held = z;

@@ -128,25 +128,56 @@ void set_record_sizes(const Eigen::VectorXd& size, StepEquations<N, H>& eq) {
   eq.recorded_at.resize(0);
 }
 
-// 1/2 sum_k f_k^H K^-1 f_k of the forcing's amplitudes [J].
+// K q_s = what the supports' recorded displacements exert.
+template <int N, int H>
+void set_quasi_static(const mechanics::LinearSystem& system, StepEquations<N, H>& eq) {
+  const Eigen::Index m = eq.contacts();
+  const bool has_records = !Sizes<N, H>::is_fixed && eq.recorded_size.size() > 0 && eq.motion.rows() > 0;
+  eq.quasi_static.setZero(eq.masses(), has_records ? eq.oscillators() : 0);
+  eq.quasi_static_velocity.setZero(eq.masses(), eq.quasi_static.cols());
+  eq.support_speed.resize(m);
+  for (Eigen::Index j = 0; j < m; ++j) eq.support_speed[j] = eq.support_velocity.row(j).norm();
+  if (!has_records) return;
+  for (Eigen::Index k = 0; k < eq.recorded_size.size(); k += mechanics::kRecordNumbers) {
+    if (system.recorded_motion.col(k).isZero(0.0)) continue;
+    const Eigen::Index column = eq.first_recorded() + k;
+    eq.quasi_static.col(column) = eq.K_inverse * eq.force.col(column);
+  }
+  eq.differentiate(eq.quasi_static, eq.quasi_static_velocity);
+  for (Eigen::Index j = 0; j < m; ++j)
+    eq.support_speed[j] =
+        (eq.support_velocity.row(j) + eq.W.col(j).transpose() * eq.quasi_static_velocity).norm();
+}
+
+// 1/2 sum_k f_k^H K^-1 f_k of the forcing's amplitudes [J], of what drives the motion beside q_s:
+//   f - M q_s'' - C q_s' - K q_s
 template <int N, int H>
 double static_energy(const StepEquations<N, H>& eq) {
-  double energy = 0.0;
-  for (Eigen::Index i = 0; i < eq.force.cols(); ++i) {
-    energy += 0.5 * eq.force.col(i).dot(eq.K_inverse * eq.force.col(i));
-  }
-  return energy;
+  const auto energy_of = [&](const auto& force) {
+    double energy = 0.0;
+    for (Eigen::Index i = 0; i < force.cols(); ++i)
+      energy += 0.5 * force.col(i).dot(eq.K_inverse * force.col(i));
+    return energy;
+  };
+  if (eq.quasi_static.cols() == 0) return energy_of(eq.force);
+  Eigen::MatrixXd acceleration(eq.masses(), eq.oscillators());
+  eq.differentiate(eq.quasi_static_velocity, acceleration);
+  return energy_of(Eigen::MatrixXd(eq.force - eq.M * acceleration - eq.C * eq.quasi_static_velocity -
+                                   eq.K * eq.quasi_static));
 }
 
 // What moving supports can give by the contacts that rub on them: 1/2 F^2 w^T K^-1 w by its force, and no
-// more than 1/2 |p^T Y|^2 / (w^T K^-1 w) where it is dragged along by Y; a belt drags on for ever.
+// more than 1/2 |p^T Y|^2 / (w^T K^-1 w) where it is dragged along by Y, beside q_s; a belt drags on for
+// ever.
 template <int N, int H>
 double dragged_energy(const StepEquations<N, H>& eq, const mechanics::LinearSystem& system) {
   double energy = 0.0;
   for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
     if (eq.support_velocity.row(j).isZero(0.0)) continue;
     const double give = eq.W.col(j).dot(eq.K_inverse * eq.W.col(j));
-    const double dragged = (system.W_support.col(j).transpose() * eq.motion).squaredNorm();
+    Eigen::RowVectorXd by = system.W_support.col(j).transpose() * eq.motion;
+    if (eq.quasi_static.cols() > 0) by += eq.W.col(j).transpose() * eq.quasi_static;
+    const double dragged = by.squaredNorm();
     const double by_force = 0.5 * eq.static_limit[j] * eq.static_limit[j] * give;
     const bool on_belt = eq.support_velocity(j, 0) != 0.0;
     energy += on_belt || give == 0.0 ? by_force : std::min(by_force, 0.5 * dragged / give);
@@ -184,6 +215,7 @@ void Flow<N, H>::set_forcing(const mechanics::LinearSystem& system) {
   eq.internal_drive.noalias() =
       eq.internal_stiffness.asDiagonal() * (system.D_support.transpose() * eq.motion_velocity);
 
+  set_quasi_static(system, eq);
   static_norm_ = std::sqrt(static_energy(eq) + dragged_energy(eq, system));
 
   bound_tables();

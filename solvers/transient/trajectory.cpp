@@ -140,7 +140,8 @@ bool Trajectory::pass(double length, double phase) {
   steps_taken_ += length;
   failure_ = passage_.failure;
   if (failure_ != nullptr) return false;
-  energy_scale_ = flow_.energy_scale(z_);
+  energy_scale_ = flow_.energy_scale(z_, phase);
+  energy_after_ = flow_.energy_scale(passage_.end, phase + length * flow_.fundamental_rate());
   for (Step& step : steps_.steps()) follow(step);
   z_ = passage_.end;
   phase_ = phase + length * flow_.fundamental_rate();
@@ -153,7 +154,7 @@ void Trajectory::follow(Step& step) {
   const auto& mode = flow_.mode(step.mode);
   note_mode(mode, at, step.left.z);
   if (kept_.largest != nullptr) {
-    const double energy = std::max(energy_scale_, flow_.energy_scale(passage_.end));
+    const double energy = std::max(energy_scale_, energy_after_);
     kept_.largest->follow(flow_, steps_, step, at, energy);
   }
   if (kept_.extrema) follow_extrema(step, at);

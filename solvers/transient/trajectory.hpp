@@ -121,7 +121,7 @@ class Trajectory {
   double omega_ = 0.0, alpha_ = 0.0, omega_since_ = 0.0;  // true, its rise [rad/s^2], since [s]
   double steps_taken_ = 0.0;
   const char* failure_ = nullptr;
-  double energy_scale_ = 0.0;  // [sqrt(J)] of the current passage
+  double energy_scale_ = 0.0, energy_after_ = 0.0;  // [sqrt(J)] of the current passage, and at its end
   Kept kept_;
 
   bool has_mode_ = false;
