@@ -1,8 +1,8 @@
 #include "solvers/samples/correlated.hpp"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 
+#include "solvers/algebra/symmetric_modes.hpp"
 #include "solvers/samples/distribution.hpp"
 
 namespace frahm::samples {
@@ -16,14 +16,14 @@ std::optional<Eigen::MatrixXd> correlated_normals(const Eigen::VectorXd& mean,
   const Eigen::VectorXd deviation = covariance.diagonal().cwiseSqrt();
   const Eigen::VectorXd inverse = (deviation.array() > 0.0).select(deviation.cwiseInverse(), 0.0);
   const Eigen::MatrixXd correlation = inverse.asDiagonal() * covariance * inverse.asDiagonal();
-  const Eigen::LDLT<Eigen::MatrixXd> cholesky(correlation);
-  if ((cholesky.vectorD().array() < -kRounding).any()) return std::nullopt;
-  // R = P^T L S (P^T L S)^T with S = sqrt(D).
-  Eigen::MatrixXd factor = cholesky.matrixL();
-  factor *= cholesky.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal();
-  factor = cholesky.transpositionsP().transpose() * factor;
+  const algebra::SymmetricModes modes = algebra::symmetric_modes(correlation);
+  if ((modes.values.array() < -kRounding).any()) return std::nullopt;
+  // The root R^(1/2) = V sqrt(lambda) V^T: there is one alone, which rounding of R hardly changes, where a
+  // triangular one would take another order of its rows.
+  const Eigen::MatrixXd root =
+      modes.vectors * modes.values.cwiseMax(0.0).cwiseSqrt().asDiagonal() * modes.vectors.transpose();
   const Eigen::MatrixXd z = unit_points.unaryExpr([](double share) { return standard_normal(share); });
-  return (z * factor.transpose() * deviation.asDiagonal()).rowwise() + mean.transpose();
+  return (z * root * deviation.asDiagonal()).rowwise() + mean.transpose();
 }
 
 }  // namespace frahm::samples
