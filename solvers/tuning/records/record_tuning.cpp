@@ -140,6 +140,11 @@ class RecordExchange {
       const bool solved = solution_.ending == Ending::converged || solution_.kkt_residual <= kSolved;
       if (std::abs(optimum_.certificate_gap) <= task_.tolerance && solved)
         end(Outcome::converged, "the certificate gap and the KKT residual are below their tolerances");
+      else if (std::abs(optimum_.certificate_gap) <= task_.tolerance)
+        end(Outcome::not_converged,
+            "the certificate gap is closed, but the conditions of an optimum do not hold: where a contact "
+            "just "
+            "begins to slip a peak has a kink, which may hold the design");
       else
         end(Outcome::not_converged, "the rounds of exchange no longer close the gap: " + solution_.reason);
     }
