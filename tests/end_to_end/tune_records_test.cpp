@@ -26,8 +26,11 @@ std::string text_of(const std::string& path) {
 std::string axis(const std::string& parameter, const std::string& unit, double from, double to, int points) {
   std::ostringstream text;
   text.precision(17);
-  text << "\n[[axis]]\nparameter = \"" << parameter << "\"\nunit = \"" << unit << "\"\nfrom = " << from
-       << "\nto = " << to << "\npoints = " << points << "\n";
+  text << "\n[[axis]]\nparameter = \"" << parameter << "\"\nunit = \"" << unit << "\"\n";
+  if (points == 1)
+    text << "values = [" << from << "]\n";
+  else
+    text << "from = " << from << "\nto = " << to << "\npoints = " << points << "\n";
   return text.str();
 }
 
@@ -99,7 +102,7 @@ TEST_CASE("A tuning over records says what it has no answer to: a sweep of the b
   const std::string study = folder.write("one.toml", text), file = folder / "one.h5";
   const runs::Outcome run = runs::frahm({"run", study, "-o", file});
   INFO(run.err);
-  REQUIRE((run.code == 0 || run.code == 3));
+  REQUIRE((run.code == 0 || run.code == 7));  // one start may end at a kink
   CHECK_THAT(run.out, Catch::Contains("over 1 record of 22 s") && Catch::Contains("kanai_tajimi 0"));
   const runs::Outcome swept = runs::frahm({"export", file, "--sweep", folder / "sweep.toml"});
   CHECK(swept.code != 0);
