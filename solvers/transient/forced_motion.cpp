@@ -189,8 +189,9 @@ ForcedMotion run(const Problem& problem, int stairs) {
   const bool is_record = options.quantities.empty();
   MotionMeasurement measurement(problem.assembly, options.quantities, stairs > 0);
   std::optional<CoordinatePeaks> peaks;
-  if (is_record || stairs > 0) peaks.emplace(problem.assembly.network(), measurement.largest());
-  const Kept kept{.extrema = false,
+  if (is_record || options.extrema || stairs > 0)
+    peaks.emplace(problem.assembly.network(), measurement.largest());
+  const Kept kept{.extrema = options.extrema,
                   .energies = is_record || measurement.needs_energies(),
                   .rest = false,
                   .largest = &measurement.largest()};
@@ -220,6 +221,8 @@ ForcedMotion run(const Problem& problem, int stairs) {
   for (const double t : motion.history.time) motion.frequency.push_back(sweep.frequency(t));
   if (peaks) motion.peaks = peaks->found();
   if (complete) motion.numbers = measurement.numbers(driven.trajectory, motion.energy);
+  for (std::size_t i = 0; options.extrema && i < mechanics::coordinate_count(problem.assembly.network()); ++i)
+    motion.extrema.push_back(driven.trajectory.turning_points(i).extrema());
   for (std::size_t j = 0; j < problem.assembly.contacts(); ++j)
     motion.stops.push_back(driven.trajectory.stops(j));
   for (std::size_t j = 0; j < problem.assembly.bends().law.size(); ++j)

@@ -29,6 +29,7 @@ struct ForcedOptions {
   Watch watch = {};
   // If not empty, ForcedMotion::numbers are these, and energies are followed only if one of them needs them.
   std::span<const MotionQuantity> quantities = {};
+  bool extrema = false;  // ForcedMotion::extrema and peaks are kept, whatever the quantities
 };
 
 // The values of the network at a frequency [rad/s]. In a run-up the amplitudes of forces may follow it, and
@@ -46,8 +47,9 @@ struct ForcedMotion {
   // Of a run-up: the largest change of any sample of a mass [m] when the stairs were last halved; NaN
   // otherwise. The error that remains is a fraction of it, as halving divides it by four or more.
   double discretisation_error = 0.0;
-  int stairs = 0;                    // of a run-up
-  std::vector<double> numbers = {};  // of the quantities asked for
+  int stairs = 0;                                   // of a run-up
+  std::vector<double> numbers = {};                 // of the quantities asked for
+  std::vector<std::vector<Extremum>> extrema = {};  // of each mass, then of each signal; empty: not asked for
 };
 
 // The flow is exact at constant frequency. A run-up is cut into stairs of constant frequency each, that of

@@ -31,10 +31,11 @@ struct TunedParameter {
       upper_multiplier;  // fall of the objective per unit by which the bound is moved outwards, >= 0
 };
 
-// A local maximum of the weighted quantity over the band.
+// A local maximum of the weighted quantity over the band; in a tuning over records, of a motion over time.
 struct Peak {
   std::size_t scenario = 0;
-  double at = 0.0;          // band parameter [SI]
+  std::size_t record = 0;   // of a tuning over records
+  double at = 0.0;          // band parameter [SI], or time [s]
   double value = 0.0;       // weighted
   double multiplier = 0.0;  // its share in what holds the optimum; shares of a minimax sum to 1
   std::vector<double>

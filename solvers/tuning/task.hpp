@@ -23,6 +23,7 @@
 //   schedules/  design parameters as variables: constants, or piecewise linear over the band
 //   exchange/   the design problem over a band: its curves, their maxima, the active ones
 //   stages/     a tuning from its start to its report
+//   records/    a tuning of peaks in motions under records
 namespace frahm::tuning {
 
 // A range of the band parameter, which sets the excitation's frequency [its SI unit]; from <= to.

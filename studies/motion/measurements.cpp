@@ -25,7 +25,7 @@ constexpr double kPeriods = 10.0;          // of a periodic response, by default
 constexpr double kMostSamples = 1e7;
 
 bool is_periodic(const Study& study) {
-  return study.kind() == StudyKind::sweep || study.kind() == StudyKind::tune;
+  return study.kind() == StudyKind::sweep || (study.tune() && !study.tune()->peaks);
 }
 
 mechanics::NetworkValues values_of(const Study& study, std::span<const double> at) {

@@ -112,7 +112,7 @@ transient::ForcedOptions forced_options(const Study& study, std::span<const doub
   if (motion.duration) {
     options.duration = at(*motion.duration);
   } else if (!motion.sweep_to) {
-    options.duration = motion.end_of_records();
+    options.duration = end_of_records(motion.records);
   }
   return options;
 }
@@ -121,7 +121,7 @@ ForcedMotion motion_at(const Study& study, std::span<const double> parameters, s
                        const transient::ForcedOptions& options) {
   const std::vector<double> here(parameters.begin(), parameters.end());
   transient::ForcedOptions driven = options;
-  driven.records = study.transient()->driven_by(record);
+  driven.records = driven_by(study.transient()->records, record);
   return transient::forced_motion(
       study.network, [&](double omega) { return values_at(study, here, omega); },
       initial_state(study, parameters), driven);

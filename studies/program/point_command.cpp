@@ -44,10 +44,11 @@ int point_command(const PointOptions& options, std::ostream& out) {
   }
   Study study = read_study_with(options.study, options.set);
   if (study.transient() && study.map()) return motion_point(options, std::move(study), out);
-  if (study.kind() != StudyKind::sweep && study.kind() != StudyKind::tune) {
+  const bool over_records = study.tune() && study.tune()->peaks;
+  if ((study.kind() != StudyKind::sweep && study.kind() != StudyKind::tune) || over_records) {
     throw StudyError(rules::other_kind,
                      "{}: {} has no periodic response to tell; frahm run computes what it has",
-                     study.source.name, kind_noun(study.kind()));
+                     study.source.name, over_records ? "a tuning over records" : kind_noun(study.kind()));
   }
   std::vector<double> parameters = parameters_at(study, options.at);
   set_crank_orders_at(study, parameters);

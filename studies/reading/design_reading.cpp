@@ -79,6 +79,9 @@ void read_schedule(const TuneReading& reading, const TomlSection& section, Desig
   const TomlValue* value = section.find("schedule");
   if (!value) return;
   const auto& band = reading.choice.band;
+  if (reading.choice.peaks)
+    section.fail(rules::key_without_use, "schedule",
+                 "a tuning over records has no band to run over; leave the schedule out");
   if (reading.choice.objective == tuning::Objective::variance || !band)
     section.fail(rules::key_without_use, "schedule",
                  "a variance is that of one system for all frequencies; leave the schedule out");

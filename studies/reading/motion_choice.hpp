@@ -36,16 +36,17 @@ struct DrivingRecord {
   std::vector<transient::Record> records;  // one, or that of each value of the axis
 };
 
+// What drives the motion at a value of the axis of records: records of `driving`.
+std::vector<transient::RecordedExcitation> driven_by(const std::vector<DrivingRecord>& driving,
+                                                     std::size_t of_axis);
+double end_of_records(const std::vector<DrivingRecord>& driving);  // of the longest [s]
+
 // [transient]
 struct TransientChoice : MotionChoice {
   std::optional<StudyValue> sweep_to;    // of a run-up or run-down: the last frequency [rad/s]
   std::optional<StudyValue> sweep_rate;  // its angular acceleration, without sign [rad/s2]
   std::optional<MapChoice> map;          // a motion at each point of its axes; nothing: one motion
   std::vector<DrivingRecord> records;    // without their samples where data are left (DataFiles)
-
-  double end_of_records() const;  // of the longest [s]
-  // What drives the motion at a value of the axis of records. The records are those of this choice.
-  std::vector<transient::RecordedExcitation> driven_by(std::size_t of_axis) const;
 };
 
 }  // namespace frahm::studies

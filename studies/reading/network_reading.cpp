@@ -176,7 +176,9 @@ NetworkOfStudy read_network(const StudyContext& context, const TomlValue& root,
     read_element(reading, *table, ++number);
   read_damping(reading, root);
   if (is_forced) {
-    read_excitation(reading, excitation->value, kind == StudyKind::transient || kind == StudyKind::identify);
+    const bool may_be_constant = kind == StudyKind::transient || kind == StudyKind::identify ||
+                                 (kind == StudyKind::tune && find_entry(excitation->value, "record"));
+    read_excitation(reading, excitation->value, may_be_constant);
     check_every_motion_is_felt(reading, excitation->value);
   }
   read_signals(reading, root);

@@ -25,8 +25,9 @@ std::vector<RecordFile> read_files(const TomlSection& section, const TomlArray& 
   return files;
 }
 
-WrittenRecordAxis read_written(const StudyContext& context, const TomlValue& table) {
-  const TomlSection section(context.source, table, "axis of records", {"records"});
+}  // namespace
+
+WrittenRecordAxis read_records(const StudyContext& context, const TomlSection& section) {
   WrittenRecordAxis axis{section.position(), {}};
   const TomlValue& records = section.require("records");
   if (const auto* list = records.as<TomlArray>()) {
@@ -41,6 +42,8 @@ WrittenRecordAxis read_written(const StudyContext& context, const TomlValue& tab
   }
   return axis;
 }
+
+namespace {
 
 // What a generated record is not asked for.
 void check_generated(const TomlSection& section, const GeneratedRecords& generated) {
@@ -137,7 +140,7 @@ std::optional<WrittenRecordAxis> read_record_axis(const StudyContext& context, c
     if (axis)
       throw context.source.error_at(rules::given_twice, table->position,
                                     "axis of records: there is one already (line {})", axis->position.line);
-    axis = read_written(context, *table);
+    axis = read_records(context, {context.source, *table, "axis of records", {"records"}});
   }
   return axis;
 }
@@ -155,45 +158,47 @@ void add_record_axis(const StudyContext& context, const TomlValue& root, const T
   dimensions.push_back({record_dimension, {}, axis->size()});
 }
 
-void read_driving_records(const StudyContext& context, const TomlValue& root,
-                          const std::filesystem::path& folder, DataFiles data, Study& study) {
+std::vector<DrivingRecord> read_driving_records(const StudyContext& context, const TomlValue& root,
+                                                const std::filesystem::path& folder, DataFiles data,
+                                                const mechanics::Network& network,
+                                                const std::optional<WrittenRecordAxis>& axis,
+                                                const char* giver) {
   const TomlEntry* excitation = find_entry(root, "excitation");
-  const auto axis = read_record_axis(context, root);
-  const auto components = recorded_components(study.network);
+  const auto components = recorded_components(network);
   const auto sections = record_sections(context.source, excitation->value);
+  std::vector<DrivingRecord> all;
   for (std::size_t i = 0; i < sections.size(); ++i) {
     const TomlSection& section = sections[i];
     DrivingRecord driving{.excitation = components[i], .on_axis = !section.find("file"), .records = {}};
     if (driving.on_axis && !axis)
-      section.fail_here(
-          rules::missing_key,
-          "the key \"file\" is missing: the file of the record, unless an [[axis]] gives records");
+      section.fail_here(rules::missing_key,
+                        "the key \"file\" is missing: the file of the record, unless {} gives records",
+                        giver);
     if (data == DataFiles::read)
-      driving.records = driving.on_axis
-                            ? records_of_axis(context, section, *axis, i, folder, study.network)
-                            : std::vector{record_of_file(context, section, folder, study.network)};
-    study.transient()->records.push_back(std::move(driving));
+      driving.records = driving.on_axis ? records_of_axis(context, section, *axis, i, folder, network)
+                                        : std::vector{record_of_file(context, section, folder, network)};
+    all.push_back(std::move(driving));
   }
-  const bool is_used = std::ranges::any_of(study.transient()->records, &DrivingRecord::on_axis);
-  if (axis && !is_used)
+  if (axis && !std::ranges::any_of(all, &DrivingRecord::on_axis))
     throw context.source.error_at(rules::key_without_use, axis->position,
                                   "axis of records: no [[excitation.record]] takes its record from it: leave "
                                   "out the \"file\" of one");
+  return all;
 }
 
-std::vector<transient::RecordedExcitation> TransientChoice::driven_by(std::size_t of_axis) const {
+std::vector<transient::RecordedExcitation> driven_by(const std::vector<DrivingRecord>& driving,
+                                                     std::size_t of_axis) {
   std::vector<transient::RecordedExcitation> all;
-  for (const DrivingRecord& driving : records) {
-    if (!driving.records.empty())
-      all.push_back({driving.excitation, &driving.records[driving.on_axis ? of_axis : 0]});
+  for (const DrivingRecord& each : driving) {
+    if (!each.records.empty()) all.push_back({each.excitation, &each.records[each.on_axis ? of_axis : 0]});
   }
   return all;
 }
 
-double TransientChoice::end_of_records() const {
+double end_of_records(const std::vector<DrivingRecord>& driving) {
   double end = 0.0;
-  for (const DrivingRecord& driving : records) {
-    for (const Record& record : driving.records) end = std::max(end, record.time.back());
+  for (const DrivingRecord& each : driving) {
+    for (const Record& record : each.records) end = std::max(end, record.time.back());
   }
   return end;
 }

@@ -24,12 +24,15 @@ struct GeneratedRecords {
 GeneratedRecords read_generated(const StudyContext& context, const TomlSection& axis);
 
 struct WrittenRecordAxis {
-  Position position;  // of the [[axis]]
+  Position position;  // of the [[axis]], or of [tune]
   std::variant<std::vector<RecordFile>, GeneratedRecords> records;
 
   std::size_t size() const;
   std::vector<std::string> names() const;  // of each record
 };
+
+// The records at the key "records" of a section.
+WrittenRecordAxis read_records(const StudyContext& context, const TomlSection& section);
 
 // Whether an [[axis]] is of records.
 bool is_record_axis(const TomlValue& table);
@@ -42,8 +45,12 @@ std::optional<WrittenRecordAxis> read_record_axis(const StudyContext& context, c
 void add_record_axis(const StudyContext& context, const TomlValue& root, const TomlValue& table,
                      Study& study);
 
-// The records of a transient, once its network is read.  folder: of their files.
-void read_driving_records(const StudyContext& context, const TomlValue& root,
-                          const std::filesystem::path& folder, DataFiles data, Study& study);
+// What drives each recorded component of a study whose network is read.  axis: of those that name no file.
+// giver: what may give records, for messages.  folder: of their files.
+std::vector<DrivingRecord> read_driving_records(const StudyContext& context, const TomlValue& root,
+                                                const std::filesystem::path& folder, DataFiles data,
+                                                const mechanics::Network& network,
+                                                const std::optional<WrittenRecordAxis>& axis,
+                                                const char* giver);
 
 }  // namespace frahm::studies

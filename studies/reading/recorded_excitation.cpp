@@ -32,7 +32,7 @@ std::string why_no_record(StudyKind kind) {
   if (kind == StudyKind::identify) return "its measured excitations are columns of [[identify.record]]";
   return fmt::format(
       "{} is about periodic responses, and a record does not repeat; it is for kind = "
-      "\"transient\"",
+      "\"transient\" or \"tune\"",
       kind_noun(kind));
 }
 
@@ -99,7 +99,7 @@ Quantity quantity_of(const RecordedPlace& place, const mechanics::Network& netwo
 }
 
 void refuse_records(const StudyContext& context, const TomlValue& excitation, StudyKind kind) {
-  if (kind == StudyKind::transient) return;
+  if (kind == StudyKind::transient || kind == StudyKind::tune) return;
   if (const TomlEntry* entry = find_entry(excitation, "record"))
     throw context.source.error_at(rules::other_kind, entry->position, "[[{}]] is not part of {}: {}",
                                   record_path, kind_noun(kind), why_no_record(kind));

@@ -208,7 +208,9 @@ Study parse_study(std::string text, const std::filesystem::path& name, DataFiles
   } else if (study.kind() != StudyKind::tune) {
     read_motion(context, root, study);
   }
-  if (study.transient()) read_driving_records(context, root, name.parent_path(), data, study);
+  if (study.transient())
+    study.transient()->records = read_driving_records(context, root, name.parent_path(), data, study.network,
+                                                      read_record_axis(context, root), "an [[axis]]");
   if (study.kind() == StudyKind::identify) read_identification(context, root, study);
   convert_parameters(context, study.parameters);
   if (study.kind() == StudyKind::sweep) {
@@ -222,7 +224,10 @@ Study parse_study(std::string text, const std::filesystem::path& name, DataFiles
   } else if (study.kind() == StudyKind::transient) {
     read_map_of_motions(context, root, name.parent_path(), data, study);
   } else if (study.kind() == StudyKind::tune) {
-    read_tuning(context, root, study);
+    if (mechanics::has_records(study.network))
+      read_tuning_over_records(context, root, name.parent_path(), data, study);
+    else
+      read_tuning(context, root, study);
   } else if (study.kind() == StudyKind::identify) {
     read_measurements(context, root, name.parent_path(), data, study);
   }

@@ -67,6 +67,9 @@ void check_compared_show(const StudyContext& context, const TomlValue& root, con
 // [tune], [[design]], [[constraint]], [[scenario]] and [[column]] into the study's choice, once units are
 // converted.
 void read_tuning(const StudyContext& context, const TomlValue& root, Study& study);
+// The same of a network under records.  folder: of their files.
+void read_tuning_over_records(const StudyContext& context, const TomlValue& root,
+                              const std::filesystem::path& folder, DataFiles data, Study& study);
 
 // Refuses values that are invalid at a corner of the bounds, of the scenarios and of the band, and gives each
 // crank the even orders that it needs there.

@@ -7,7 +7,9 @@
 
 #include "solvers/algebra/no_value.hpp"
 #include "solvers/quantities/quantity.hpp"
+#include "solvers/tuning/records/record_task.hpp"
 #include "solvers/tuning/task.hpp"
+#include "studies/reading/motion_choice.hpp"
 #include "studies/reading/parameters.hpp"
 #include "studies/reading/study_values.hpp"
 
@@ -68,9 +70,19 @@ struct ColumnChoice {
   double upper = kInfinity;
 };
 
+// The peak that a tuning over records presses down.
+struct PeakChoice {
+  tuning::RecordObjective objective = tuning::RecordObjective::worst_peak;
+  std::size_t coordinate = 0;          // the mass or signal (mechanics/coordinates.hpp)
+  double duration = 0.0;               // of each motion [s]
+  std::vector<std::string> records;    // names of the motions, at least one
+  std::vector<DrivingRecord> driving;  // without their samples where data are left (DataFiles)
+};
+
 // [tune] and its tables.
 struct TuneChoice {
   tuning::Objective objective = tuning::Objective::minimax;
+  std::optional<PeakChoice> peaks;  // a tuning over records: no objective, quantity, band or limits beside
   std::string quantity_name;
   periodic::Quantity quantity;
   std::optional<BandChoice> band;  // only a variance without limits has none

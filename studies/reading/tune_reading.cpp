@@ -115,37 +115,6 @@ void require_band(const TuneReading& reading, const TomlSection& section) {
                       "the key \"band\" is missing: limits hold over a band of frequencies");
 }
 
-void read_start(const TomlSection& section, TuneChoice& choice) {
-  const TomlValue* value = section.find("start");
-  if (value && value->as<std::int64_t>()) {
-    const std::int64_t starts = section.integer_or("start", 1);
-    if (starts < 1 || starts > most_starts)
-      section.fail(rules::out_of_range, "start",
-                   "{} is out of range: a whole number from 1 to {}, \"given\" or "
-                   "\"nlopt\"",
-                   starts, most_starts);
-    choice.start = tuning::Start::many;
-    choice.starts = static_cast<std::size_t>(starts);
-  } else if (value && !value->as<std::string>()) {
-    section.fail(rules::wrong_type, "start", "expected \"given\", \"nlopt\" or a number of starts, found {}",
-                 described(*value));
-  } else if (section.choice_or("start", {"given", "nlopt"}, " or a number of starts") == "nlopt") {
-    choice.start = tuning::Start::global;
-  }
-  if (section.find("global") && choice.start != tuning::Start::global)
-    section.fail(rules::key_without_use, "global", "belongs to start = \"nlopt\"");
-  choice.global_solver =
-      tuning::solver_named(section.choice_or("global", {"crs2", "isres", "direct", "mlsl"}));
-}
-
-void read_tolerance(const TomlSection& section, TuneChoice& choice) {
-  if (!section.find("tolerance")) return;
-  choice.tolerance = section.number("tolerance");
-  if (!(choice.tolerance > 0.0 && choice.tolerance < largest_tolerance))
-    section.fail(rules::out_of_range, "tolerance", "{} is out of range: above 0 and below {}",
-                 choice.tolerance, largest_tolerance);
-}
-
 void read_trade_off(TuneReading& reading, const TomlSection& section) {
   const TomlValue* value = section.find("trade_off");
   if (!value) return;
@@ -190,6 +159,37 @@ void check_dominate(const TuneReading& reading, const TomlSection& section) {
 }
 
 }  // namespace
+
+void read_start(const TomlSection& section, TuneChoice& choice) {
+  const TomlValue* value = section.find("start");
+  if (value && value->as<std::int64_t>()) {
+    const std::int64_t starts = section.integer_or("start", 1);
+    if (starts < 1 || starts > most_starts)
+      section.fail(rules::out_of_range, "start",
+                   "{} is out of range: a whole number from 1 to {}, \"given\" or "
+                   "\"nlopt\"",
+                   starts, most_starts);
+    choice.start = tuning::Start::many;
+    choice.starts = static_cast<std::size_t>(starts);
+  } else if (value && !value->as<std::string>()) {
+    section.fail(rules::wrong_type, "start", "expected \"given\", \"nlopt\" or a number of starts, found {}",
+                 described(*value));
+  } else if (section.choice_or("start", {"given", "nlopt"}, " or a number of starts") == "nlopt") {
+    choice.start = tuning::Start::global;
+  }
+  if (section.find("global") && choice.start != tuning::Start::global)
+    section.fail(rules::key_without_use, "global", "belongs to start = \"nlopt\"");
+  choice.global_solver =
+      tuning::solver_named(section.choice_or("global", {"crs2", "isres", "direct", "mlsl"}));
+}
+
+void read_tolerance(const TomlSection& section, TuneChoice& choice) {
+  if (!section.find("tolerance")) return;
+  choice.tolerance = section.number("tolerance");
+  if (!(choice.tolerance > 0.0 && choice.tolerance < largest_tolerance))
+    section.fail(rules::out_of_range, "tolerance", "{} is out of range: above 0 and below {}",
+                 choice.tolerance, largest_tolerance);
+}
 
 periodic::Quantity read_real_quantity(const TuneReading& reading, const TomlSection& section,
                                       const std::string& key) {

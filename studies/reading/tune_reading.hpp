@@ -16,6 +16,10 @@ struct TuneReading {
   TuneChoice choice = {};
 };
 
+// The keys "start" and "global", and "tolerance".
+void read_start(const TomlSection& section, TuneChoice& choice);
+void read_tolerance(const TomlSection& section, TuneChoice& choice);
+
 // A real-valued quantity of the network, by its name at a key.
 periodic::Quantity read_real_quantity(const TuneReading& reading, const TomlSection& section,
                                       const std::string& key);

@@ -146,12 +146,13 @@ void add_motion(const Study& study, CanonicalText& text) {
 
 // The samples of records, wherever they come from.
 void add_driving_records(const Study& study, CanonicalText& text) {
-  if (!study.transient()) return;
+  if (!study.transient() && !(study.tune() && study.tune()->peaks)) return;
   const auto digest_of = [](const std::vector<double>& numbers) {
     return digest(
         Eigen::Map<const Eigen::VectorXd>(numbers.data(), static_cast<Eigen::Index>(numbers.size())));
   };
-  for (const DrivingRecord& driving : study.transient()->records) {
+  for (const DrivingRecord& driving :
+       study.transient() ? study.transient()->records : study.tune()->peaks->driving) {
     for (const transient::Record& record : driving.records)
       text.line("record {} of {} on axis {} time {} values {}", driving.excitation,
                 static_cast<int>(record.of), driving.on_axis, digest_of(record.time),
@@ -176,6 +177,7 @@ void add_tuning(const Study& study, CanonicalText& text) {
   const auto names = study.parameters.names();
   const auto band = [](const tuning::Band& range) { return fmt::format("{} {}", range.from, range.to); };
   text.line("kind tune objective {} of {}", static_cast<int>(tune.objective), tune.quantity_name);
+  if (tune.peaks) text.line("peaks {} for {}", static_cast<int>(tune.peaks->objective), tune.peaks->duration);
   if (tune.band) text.line("band {} {}", names[tune.band->parameter], band(tune.band->range));
   text.line("solver {} start {} global {} tolerance {}", tuning::name(tune.solver),
             static_cast<int>(tune.start),

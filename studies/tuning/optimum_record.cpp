@@ -94,7 +94,7 @@ void each(Archive& archive, Item& item) {
   if constexpr (std::is_same_v<Type, TunedParameter>) {
     members(archive, item.value, item.at_bound, item.lower_multiplier, item.upper_multiplier);
   } else if constexpr (std::is_same_v<Type, Peak>) {
-    members(archive, item.scenario, item.at, item.value, item.multiplier, item.sensitivity);
+    members(archive, item.scenario, item.record, item.at, item.value, item.multiplier, item.sensitivity);
   } else if constexpr (std::is_same_v<Type, LimitState>) {
     members(archive, item.value, item.at, item.scenario, item.excess, item.multiplier);
   } else if constexpr (std::is_same_v<Type, Round>) {

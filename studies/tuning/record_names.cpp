@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "solvers/algebra/no_value.hpp"
+#include "solvers/transient/motion_quantity.hpp"
 #include "studies/tuning/tuned_design.hpp"
 #include "studies/tuning/tuning_about.hpp"
 
@@ -27,7 +28,11 @@ TuningResult example_of(const Study& study) {
   }
   optimum.peaks.emplace_back();
   optimum.rounds.emplace_back();
-  TuningResult result{.starts = {{0, {optimum}}}, .best = {0}, .assessment = {}};
+  TuningResult result{.starts = {{0, {optimum}}}, .best = {0}, .assessment = {}, .before = {}};
+  if (tune.peaks) {
+    result.before.emplace_back();
+    return result;
+  }
   tuning::Assessment& assessment = result.assessment;
   if (tune.band) assessment.band = {tune.band->range.from};
   const std::vector<std::vector<double>> curve(scenario_names(study).size(), {0.0});
@@ -49,8 +54,10 @@ std::string start_text(const TuneChoice& tune) {
   return fmt::format("{}", tune.starts);
 }
 
-const char* objective_name(tuning::Objective objective) {
-  switch (objective) {
+const char* objective_name(const TuneChoice& tune) {
+  if (tune.peaks)
+    return tune.peaks->objective == tuning::RecordObjective::worst_peak ? "worst_peak" : "mean_peak";
+  switch (tune.objective) {
     case tuning::Objective::minimax:
       return "minimax";
     case tuning::Objective::mean_square:
@@ -68,6 +75,10 @@ TuningAbout::TuningAbout(const Study& of_study, const TuningResult& of_result)
   for (const DesignChoice& design : tune.designs) {
     const std::string& unit = design.unit.text;
     designs.push_back({design, study.parameters.list[design.parameter].name, unit.empty() ? "1" : unit});
+  }
+  if (tune.peaks) {
+    band = "time";
+    band_unit = study.dimensionless ? "1" : "s";
   }
   if (!tune.band) return;
   band = study.parameters.list[tune.band->parameter].name;
@@ -89,6 +100,10 @@ std::vector<NamedLimit> named_limits(const Study& study, double trade_off) {
 }
 
 std::string quantity_unit(const Study& study) {
+  if (const auto& peaks = study.tune()->peaks)
+    return transient::describe({transient::MotionMeasure::peak, peaks->coordinate}, study.network,
+                               study.dimensionless)
+        .unit;
   return periodic::describe(study.tune()->quantity, study.network, study.dimensionless).unit;
 }
 
@@ -120,7 +135,7 @@ void add_noise(const Study& study, std::vector<results::Text>& texts) {
 }  // namespace
 
 std::string not_proved(const Study& study) {
-  if (!tuning::may_take_several_orbits(study.network)) return "";
+  if (study.tune()->peaks || !tuning::may_take_several_orbits(study.network)) return "";
   return fmt::format(
       "at each frequency that was looked at, the worst is that of the stable responses found from {} starts "
       "and from responses near it, and where none was found that of the motions followed; it is not proved "
@@ -135,7 +150,7 @@ std::vector<results::Text> optimum_texts(const Study& study, const TuningResult&
   for (const NamedDesign& design : about.designs) designs.push_back(design.name);
   for (const NamedLimit& limit : named_limits(study, 0.0)) limits.push_back(limit.name);
   std::vector<results::Text> texts = {{"reason", about.optimum.reason},
-                                      {"objective_kind", objective_name(tune.objective)},
+                                      {"objective_kind", objective_name(tune)},
                                       {"quantity", tune.quantity_name},
                                       {"band_parameter", about.band},
                                       {"parameters", fmt::format("{}", fmt::join(designs, ","))},
@@ -144,6 +159,7 @@ std::vector<results::Text> optimum_texts(const Study& study, const TuningResult&
                                       {"solver", tuning::name(tune.solver)},
                                       {"start", start_text(tune)}};
   if (tune.objective == tuning::Objective::variance) add_noise(study, texts);
+  if (tune.peaks) texts.emplace_back("records", fmt::format("{}", fmt::join(tune.peaks->records, ",")));
   if (tune.dominate_constant) texts.emplace_back("dominate", "constant");
   if (const std::string limits_of_it = not_proved(study); !limits_of_it.empty())
     texts.emplace_back("not_proved", limits_of_it);

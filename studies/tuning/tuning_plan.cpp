@@ -37,6 +37,7 @@ StudyPlan plan_tuning(Study study, std::vector<std::string> set) {
 std::vector<tuning::Optimum> tune_start(const Study& study, const tuning::Task& task, std::size_t start,
                                         const engine::StopAsked& stop_asked) {
   try {
+    if (study.tune()->peaks) return {tuning::tune_over_records(record_task(study), start, stop_asked)};
     return tuning::tune(task, start, stop_asked);
   } catch (const mechanics::MechanicsError& error) {
     throw StudyError(rules::not_computed, "{}", study.source.name + ": " + error.what());

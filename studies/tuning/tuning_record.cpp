@@ -95,6 +95,17 @@ void add_design(const TuningAbout& about, GroupColumns& columns, std::size_t i) 
   columns.add_number(name + "_constant", unit, name + " of the best constant design", constant / factor);
 }
 
+// Of a tuning over records: which record each peak is of, and what it was before.
+void add_records_of_peaks(const TuningAbout& about, GroupColumns& columns) {
+  std::vector<double> records, before;
+  for (std::size_t i = 0; i < about.optimum.peaks.size(); ++i) {
+    records.push_back(static_cast<double>(about.optimum.peaks[i].record));
+    before.push_back(i < about.result.before.size() ? about.result.before[i].value : kNone);
+  }
+  columns.add_count("peak_record", "record, from 0", "peak", records);
+  columns.add("peak_before", quantity_unit(about.study), "peak of the study as it is stated", "peak", before);
+}
+
 void add_peaks(const TuningAbout& about, GroupColumns& columns) {
   std::vector<double> at, values, scenarios, multipliers;
   for (const tuning::Peak& peak : about.optimum.peaks) {
@@ -107,6 +118,7 @@ void add_peaks(const TuningAbout& about, GroupColumns& columns) {
   const std::string unit = quantity_unit(about.study);
   columns.add("peak_" + about.band, about.band_unit, about.band + " of the local maxima of the response",
               "peak", at);
+  if (about.tune.peaks) add_records_of_peaks(about, columns);
   columns.add("peak_value", unit, "weighted response there", "peak", values);
   columns.add_count("peak_scenario", "scenario, from 0", "peak", scenarios);
   columns.add("peak_multiplier", "1", "share of the maximum in what holds the optimum", "peak", multipliers);

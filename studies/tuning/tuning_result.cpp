@@ -26,8 +26,22 @@ std::tuple<int, double, double> rank(const Optimum& optimum) {
   return {static_cast<int>(optimum.outcome), violation, or_worst(optimum.objective)};
 }
 
+std::vector<tuning::Peak> peaks_before(const Study& study) {
+  if (!study.tune()->peaks) return {};
+  std::vector<double> design;
+  for (const DesignChoice& choice : study.tune()->designs)
+    design.push_back(study.parameters.nominal()[choice.parameter]);
+  return tuning::largest_peaks(record_task(study), design);
+}
+
+// Over records: the objective of any design is true, whether the conditions of an optimum hold or not.
+std::size_t least_of(const std::vector<const Optimum*>& optima) {
+  const auto objective = [](const Optimum* optimum) { return or_worst(optimum->objective); };
+  return static_cast<std::size_t>(std::ranges::min_element(optima, {}, objective) - optima.begin());
+}
+
 tuning::Assessment assess(const Study& study, const Optimum& optimum) {
-  if (!has_design(study, optimum)) return {};
+  if (study.tune()->peaks || !has_design(study, optimum)) return {};
   try {
     return tuning::assess(tuning_task(study), optimum, rules_of(study));
   } catch (const mechanics::MechanicsError& error) {
@@ -54,13 +68,14 @@ bool has_design(const Study& study, const Optimum& optimum) {
 }
 
 TuningResult tuning_result(const Study& study, std::vector<StartResult> starts) {
-  TuningResult result{.starts = std::move(starts), .best = {}, .assessment = {}};
+  TuningResult result{
+      .starts = std::move(starts), .best = {}, .assessment = {}, .before = peaks_before(study)};
   std::size_t limits = std::numeric_limits<std::size_t>::max();
   for (const StartResult& start : result.starts) limits = std::min(limits, start.optima.size());
   for (std::size_t limit = 0; limit < limits; ++limit) {
     std::vector<const Optimum*> optima;
     for (const StartResult& start : result.starts) optima.push_back(&start.optima[limit]);
-    result.best.push_back(best_of(optima));
+    result.best.push_back(study.tune()->peaks ? least_of(optima) : best_of(optima));
   }
   result.assessment = assess(study, result.optimum());
   return result;

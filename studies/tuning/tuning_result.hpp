@@ -16,9 +16,10 @@ struct StartResult {
 
 // The result of a tuning.
 struct TuningResult {
-  std::vector<StartResult> starts;  // ascending in number, at least one
-  std::vector<std::size_t> best;    // the start chosen for each limit of the trade-off: index in `starts`
-  tuning::Assessment assessment;    // of optimum()
+  std::vector<StartResult> starts;   // ascending in number, at least one
+  std::vector<std::size_t> best;     // the start chosen for each limit of the trade-off: index in `starts`
+  tuning::Assessment assessment;     // of optimum(); none over records
+  std::vector<tuning::Peak> before;  // over records: the peaks of the study as it is stated
 
   std::size_t limits() const { return best.size(); }
   const tuning::Optimum& optimum(std::size_t limit) const { return starts[best[limit]].optima[limit]; }

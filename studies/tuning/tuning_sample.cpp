@@ -37,6 +37,13 @@ double curves_of(const TuneChoice& tune) {
   return sides * std::max(1.0, static_cast<double>(tune.scenarios.size()));
 }
 
+// Of each record and scenario: one for each round, most of which few starts need.
+void expect_motions(const TuneChoice& tune, TuningSample& sample) {
+  const double motions = static_cast<double>(tune.peaks->records.size()) * curves_of(tune);
+  sample.least_responses = 4.0 * motions;
+  sample.most_responses = 20.0 * motions;
+}
+
 // The range of responses that a start takes, from those of its problems that the sample ended.
 void expect_responses(const TuneChoice& tune, const std::vector<tuning::Optimum>& optima,
                       TuningSample& sample) {
@@ -51,6 +58,7 @@ void expect_responses(const TuneChoice& tune, const std::vector<tuning::Optimum>
   }
   const bool is_global = tune.start == tuning::Start::global;
   const double search = is_global ? kOfGlobalSearch * static_cast<double>(tune.designs.size() + 1) : 0.0;
+  if (tune.peaks) return expect_motions(tune, sample);
   const double curves = problems * curves_of(tune);
   sample.least_responses = curves * (tune.has_schedule() ? kLeastOfSchedule : kLeastOfConstants);
   sample.most_responses = curves * (tune.has_schedule() ? kMostOfSchedule : kMostOfConstants) + search;

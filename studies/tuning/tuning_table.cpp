@@ -8,6 +8,7 @@
 #include <cmath>
 #include <ostream>
 
+#include "solvers/algebra/no_value.hpp"
 #include "studies/tuning/outcome_words.hpp"
 #include "studies/tuning/tuned_design.hpp"
 #include "studies/tuning/tuning_about.hpp"
@@ -99,7 +100,23 @@ void print_search(const TuningAbout& about, std::ostream& out) {
   fmt::print(out, "{:<24}{}\n", "not proved", limits_of_it);
 }
 
+// Of a tuning over records: every motion's peak, before and after.
+void print_motions(const TuningAbout& about, std::ostream& out) {
+  const auto names = scenario_names(about.study);
+  fmt::print(out, "\n{:<28}{:>18}{:>14}{:>12}{:>10}\n", "record",
+             in_brackets(about.tune.quantity_name, quantity_unit(about.study)), "before",
+             in_brackets("at", about.band_unit), "share");
+  for (std::size_t i = 0; i < about.optimum.peaks.size(); ++i) {
+    const tuning::Peak& peak = about.optimum.peaks[i];
+    fmt::print(out, "{:<28}{:>18.8g}{:>14.6g}{:>12.6g}{:>10.4f}{}\n",
+               about.tune.peaks->records.at(peak.record), peak.value,
+               i < about.result.before.size() ? about.result.before[i].value : kNone, peak.at,
+               peak.multiplier, about.tune.scenarios.empty() ? "" : "  " + names.at(peak.scenario));
+  }
+}
+
 void print_peaks(const TuningAbout& about, std::ostream& out) {
+  if (about.tune.peaks) return print_motions(about, out);
   const auto is_active = [](const tuning::Peak& peak) { return peak.multiplier > 0.0; };
   if (std::none_of(about.optimum.peaks.begin(), about.optimum.peaks.end(), is_active)) return;
   const auto names = scenario_names(about.study);
@@ -185,7 +202,9 @@ void print_effort(const TuningAbout& about, std::ostream& out) {
 
 void print_task(const Study& study, std::ostream& out) {
   const TuneChoice& tune = *study.tune();
-  const char* how = tune.objective == tuning::Objective::minimax       ? "least worst"
+  const bool is_mean = tune.peaks && tune.peaks->objective == tuning::RecordObjective::mean_peak;
+  const char* how = is_mean                                            ? "least mean"
+                    : tune.objective == tuning::Objective::minimax     ? "least worst"
                     : tune.objective == tuning::Objective::mean_square ? "least mean square of"
                                                                        : "least variance of";
   fmt::print(out, "{:<22}{} {}", "tuned for", how, tune.quantity_name);
@@ -195,6 +214,9 @@ void print_task(const Study& study, std::ostream& out) {
     fmt::print(out, " over {} = {:.6g} .. {}", study.parameters.list[band.parameter].name,
                band.range.from / factor, eight_digits(band.range.to / factor, band.unit.text));
   }
+  if (tune.peaks)
+    fmt::print(out, " over {} record{} of {:.6g} s", tune.peaks->records.size(),
+               tune.peaks->records.size() == 1 ? "" : "s", tune.peaks->duration);
   if (tune.objective == tuning::Objective::variance)
     fmt::print(out, " under white noise, {}", noise_words(study));
   fmt::print(out, "\n");

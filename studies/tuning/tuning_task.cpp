@@ -73,6 +73,23 @@ tuning::Band band_of(const Study& study) {
 
 }  // namespace
 
+tuning::RecordTask record_task(const Study& study) {
+  const TuneChoice& tune = *study.tune();
+  tuning::RecordTask task;
+  task.network = study.network;
+  task.network_at = network_at(study);
+  task.scenarios = scenario_names(study);
+  task.parameters = design_parameters(study);
+  for (std::size_t r = 0; r < tune.peaks->records.size(); ++r)
+    task.records.push_back(driven_by(tune.peaks->driving, r));
+  task.duration = tune.peaks->duration;
+  task.coordinate = tune.peaks->coordinate;
+  task.objective = tune.peaks->objective;
+  task.solver = tune.solver;
+  task.tolerance = tune.tolerance;
+  return task;
+}
+
 tuning::Task tuning_task(const Study& study) {
   const TuneChoice& tune = *study.tune();
   tuning::Task task;

@@ -5,6 +5,7 @@
 
 #include "solvers/algebra/no_value.hpp"
 #include "solvers/tuning/exchange/band_quadrature.hpp"
+#include "solvers/tuning/problem/convergence.hpp"
 
 namespace frahm::tuning {
 namespace {
@@ -19,32 +20,6 @@ constexpr double kClosed = 1e-9;
 constexpr SolverOptions kRough{.tolerance = 1e-4, .most_iterations = 40, .feasibility = 1e-6};
 constexpr int kRoundsThatDrop = 5;
 constexpr double kAcceptableResidual = 1e-5;
-
-// The progress of the rounds, and whether another round will help.
-class Convergence {
- public:
-  // tolerance: of gap and violation, as promised. closed: the gap below which nothing more can be gained.
-  Convergence(double tolerance, double closed) : tolerance_(tolerance), closed_(closed) {}
-
-  // Judges a round; exact: its problem was solved to the last digit, with the maxima followed. Returns true
-  // if no more rounds are needed.
-  bool judge(double gap, double violation, bool exact) {
-    // The solver lets its constraints slip by its own tolerance: the bound may lie above the worst peak.
-    const double size = std::max(gap, violation);
-    const bool falls = size < 0.25 * best_;
-    best_ = std::min(best_, size);
-    stalled_ = falls ? 0 : stalled_ + 1;
-    if (size <= closed_ && exact) return true;
-    return size <= tolerance_ ? stalled_ >= 2 : stalled_ >= kPatience;
-  }
-  bool met() const { return best_ <= tolerance_; }
-
- private:
-  static constexpr int kPatience = 6;
-  double tolerance_, closed_;
-  double best_ = kInfinity;
-  int stalled_ = 0;
-};
 
 bool is_solved(const Solution& solution) {
   return solution.ending == Ending::converged || solution.kkt_residual <= kAcceptableResidual;

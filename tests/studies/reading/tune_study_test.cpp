@@ -62,7 +62,8 @@ TEST_CASE("a tuning has its defaults, and its choices where they are made") {
   CHECK(global.tune()->global_solver == frahm::tuning::SolverKind::isres);
 }
 
-TEST_CASE("a least worst peak takes elements with several responses, and [orbits] says how they are searched") {
+TEST_CASE(
+    "a least worst peak takes elements with several responses, and [orbits] says how they are searched") {
   const std::string stops =
       "[[element]]\nname = \"stops\"\ntype = \"gap\"\nbetween = [\"main\", \"tmd\"]\nclearance = 3\n"
       "stiffness = 0.1\n";
@@ -191,6 +192,34 @@ TEST_CASE("a schedule is linear between its knots and ends with them") {
   const auto parameters = parameters_of(study, {values, {15e3}}, 0, design.knots[1]);
   CHECK_THAT(parameters[*study.parameters.find("I")], Catch::WithinRel(6.0, rounding));
   CHECK(parameters[*study.parameters.find("k")] == 15e3);
+}
+
+TEST_CASE("a tuning over records has what drives each of its motions, and the peak it presses down") {
+  const Study study = parse(
+      "[study]\nschema = 1\nkind = \"tune\"\n[parameters]\nk = 4.0\nF = 0.1\n"
+      "[[mass]]\nname = \"m\"\nmass = 1.0\n"
+      "[[element]]\nname = \"spring\"\ntype = \"spring\"\nbetween = [\"base\", \"m\"]\nstiffness = \"k\"\n"
+      "[[element]]\nname = \"friction\"\ntype = \"coulomb\"\nbetween = [\"base\", \"m\"]\nforce = \"F\"\n"
+      "[[excitation.record]]\nacceleration_of = \"base\"\nscale = 2\n"
+      "[tune]\nobjective = \"mean_peak\"\nquantity = \"drift_peak\"\nstart = 3\n"
+      "records = { generate = \"white\", count = 2, duration = 5, rate = 20, intensity = 0.1 }\n"
+      "[[design]]\nparameter = \"F\"\nlower = 0\nupper = 1\n"
+      "[[scenario]]\nname = \"soft\"\nset = { k = 3.0 }\n"
+      "[[output.signal]]\nname = \"drift\"\nalong = { m = 1, base = -1 }\n");
+  const auto task = record_task(study);
+  CHECK(task.objective == frahm::tuning::RecordObjective::mean_peak);
+  CHECK(task.coordinate == 1);
+  CHECK(task.duration == 5.0);  // the longest record's
+  CHECK(study.tune()->starts == 3);
+  CHECK(study.tune()->peaks->records == std::vector<std::string>{"white 0", "white 1"});
+  REQUIRE(task.records.size() == 2);
+  CHECK(task.records[0][0].record->values != task.records[1][0].record->values);
+  frahm::mechanics::NetworkValues values;
+  std::vector<frahm::mechanics::NetworkValues> by;
+  task.network_at(0, std::vector<double>{0.7}, values, &by);
+  CHECK(values.element == std::vector<double>{3.0, 0.7});
+  CHECK(values.excitation[0].amplitude == 2.0);
+  CHECK(by[0].element == std::vector<double>{0.0, 1.0});
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ tuning::Optimum sample() {
   optimum.violation = 1e-9;
   optimum.constant_objective = 0.2;
   optimum.constant = {6.0, 11e3};
-  optimum.peaks = {{1, 25.0, 0.1, 0.5, {1.0, -2.0}}, {0, 30.0, 0.09, 0.0, {}}};
+  optimum.peaks = {{1, 2, 25.0, 0.1, 0.5, {1.0, -2.0}}, {0, 0, 30.0, 0.09, 0.0, {}}};
   optimum.limits = {{0.07, 26.0, 1, 0.25, 3.5}};
   optimum.rounds = {{7, 12, 0.099, 0.101, 0.0}, {9, 4, 0.1, 0.1, 0.0}};
   optimum.iterations = 16;
@@ -52,6 +52,7 @@ TEST_CASE("a record of optima is read back to the last bit") {
   CHECK(one.parameters[0].upper_multiplier[0] == 5e-324);
   CHECK(std::isnan(one.certificate_gap));
   CHECK(one.constant == std::vector<double>{6.0, 11e3});
+  CHECK(one.peaks[0].record == 2);
   CHECK(one.peaks[0].sensitivity == std::vector<double>{1.0, -2.0});
   CHECK(one.limits[0].scenario == 1);
   CHECK(one.limits[0].excess == 0.25);

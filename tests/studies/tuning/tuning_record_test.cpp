@@ -55,10 +55,11 @@ TuningResult rig_result(const Study& study) {
   optimum.parameters = {{{5, 9, 6}, {no, upper, no}, {0, 0, 0}, {0, 1e-3, 0}},
                         {{12e3}, {upper}, {0}, {2e-6}}};
   const tuning::Band& band = study.tune()->band->range;
-  optimum.peaks = {{0, band.from, 0.02, 1.0, {1e-3, 3e-6}}};
+  optimum.peaks = {{0, 0, band.from, 0.02, 1.0, {1e-3, 3e-6}}};
   optimum.limits = {{0.07, band.to, 0, 0.125, 0.25}};
   optimum.constant = {8.0, 11e3};
-  TuningResult result{.starts = {{0, {optimum_of(0.03)}}, {1, {optimum}}}, .best = {1}, .assessment = {}};
+  TuningResult result{
+      .starts = {{0, {optimum_of(0.03)}}, {1, {optimum}}}, .best = {1}, .assessment = {}, .before = {}};
   result.assessment.band = {band.from, 0.5 * (band.from + band.to), band.to};
   result.assessment.curves = {{"before", {{0.01, 0.03, 0.01}}, 0.03}, {"after", {{0.02, 0.01, 0.02}}, 0.02}};
   return result;
@@ -128,7 +129,7 @@ TEST_CASE("a variance without a band has the objective of the design before besi
       "[tune]\nobjective = \"variance\"\nquantity = \"main_rms\"\nnoise = { force_on = \"main\" }\n" + of_f);
   tuning::Optimum optimum = optimum_of(2.0);
   optimum.parameters = {{{0.9}, {tuning::AtBound::no}, {0}, {0}}};
-  TuningResult result{.starts = {{0, {optimum}}}, .best = {0}, .assessment = {}};
+  TuningResult result{.starts = {{0, {optimum}}}, .best = {0}, .assessment = {}, .before = {}};
   result.assessment.curves = {{"before", {}, 3.0}, {"after", {}, 2.0}};
   const auto columns = optimum_columns(study, result);
   results::check(columns);
@@ -140,7 +141,7 @@ TEST_CASE("a variance without a band has the objective of the design before besi
 
 TEST_CASE("a variance under support motion says that it is of the motion relative to the support") {
   const Study study = read_study(study_path("tune_h2_support"));
-  const TuningResult result{.starts = {{0, {optimum_of(2.0)}}}, .best = {0}, .assessment = {}};
+  const TuningResult result{.starts = {{0, {optimum_of(2.0)}}}, .best = {0}, .assessment = {}, .before = {}};
   CHECK(text_of("noise", study, result) == "the acceleration of base");
   CHECK(text_of("noise_density", study, result) == "1");
   CHECK(text_of("relative_to", study, result) == "base");

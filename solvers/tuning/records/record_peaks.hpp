@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "solvers/tuning/records/record_task.hpp"
+
+namespace frahm::tuning {
+
+// A time at which a motion's displacement is looked at.
+struct PeakPlace {
+  std::size_t scenario = 0, record = 0;
+  double time = 0.0;  // [s]
+  double sign = 1.0;  // of the displacement there
+};
+
+struct FoundPeak {
+  PeakPlace place;
+  double value = 0.0;  // the size of the displacement [m]
+};
+
+// All local peaks of a design: of each motion the turning points and the end. The first of each motion is
+// its largest.
+struct DesignPeaks {
+  std::vector<std::vector<FoundPeak>> motions;  // of each scenario, and in it of each record
+  std::string failure;                          // why a motion could not be followed
+  double objective = 0.0;                       // the task's
+};
+
+DesignPeaks peaks_of(const RecordTask& task, std::span<const double> design,
+                     const std::function<bool()>& stop_asked);
+
+// What counts of the peaks of all motions.
+double objective_of(RecordObjective objective, std::span<const double> peaks);
+
+}  // namespace frahm::tuning

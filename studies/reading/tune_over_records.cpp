@@ -1,0 +1,118 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "solvers/mechanics/coordinates.hpp"
+#include "solvers/transient/motion_quantity.hpp"
+#include "studies/reading/record_axis.hpp"
+#include "studies/reading/spelling.hpp"
+#include "studies/reading/tune_reading.hpp"
+
+namespace frahm::studies {
+namespace {
+
+// <mass or signal>_peak.
+std::size_t read_peak(const TuneReading& reading, const TomlSection& section) {
+  std::vector<std::string> known;
+  for (const std::string& name : mechanics::coordinate_names(reading.study.network))
+    known.push_back(name + "_peak");
+  const std::string name = section.text("quantity");
+  const auto found = std::ranges::find(known, name);
+  if (found == known.end())
+    section.fail(rules::unfit_quantity, "quantity",
+                 "\"{}\" is no peak of a motion; under records it is <mass>_peak or <signal>_peak{}", name,
+                 suggestion(name, known));
+  return static_cast<std::size_t>(found - known.begin());
+}
+
+// The supports' motion and the frequency are no part of what may be tuned under records.
+void check_excitation(const TuneReading& reading, const TomlSection& section) {
+  const auto& excitations = reading.study.network.excitations;
+  const bool repeats = std::ranges::any_of(excitations, [](const mechanics::Excitation& each) {
+    return !mechanics::is_recorded(each.kind) &&
+           !(each.kind == mechanics::ExcitationKind::force && each.order == 0);
+  });
+  if (repeats)
+    section.fail(rules::unfit_for_method, "objective",
+                 "a peak under records ([[excitation.record]]) is tuned beside constant forces alone; leave "
+                 "out the harmonic excitation");
+}
+
+double read_duration(const TomlSection& section, const PeakChoice& peaks) {
+  if (!section.find("duration")) return end_of_records(peaks.driving);
+  const double duration = section.number("duration");
+  if (!(duration > 0.0))
+    section.fail(rules::out_of_range, "duration", "{} is not possible; must be > 0 (s)", duration);
+  return duration;
+}
+
+void read_records_of(const StudyContext& context, const TomlValue& root, const std::filesystem::path& folder,
+                     DataFiles data, const TomlSection& section, const Study& study, PeakChoice& peaks) {
+  std::optional<WrittenRecordAxis> axis;
+  if (section.find("records")) axis = read_records(context, section);
+  peaks.driving =
+      read_driving_records(context, root, folder, data, study.network, axis, "\"records\" of [tune]");
+  if (axis) peaks.records = axis->names();
+  for (const TomlSection& each : record_sections(context.source, find_entry(root, "excitation")->value)) {
+    if (peaks.records.empty()) peaks.records.push_back(each.text("file"));
+  }
+}
+
+void check_designs(const TuneReading& reading, const TomlSection& section) {
+  const Study& study = reading.study;
+  const auto inputs = study.parameters.inputs_of(study.values.omega.expression.reads());
+  for (const DesignChoice& design : reading.choice.designs) {
+    if (std::ranges::find(inputs, design.parameter) != inputs.end())
+      section.fail(rules::wrong_dependence, "objective",
+                   "a motion under records has no frequency that could be tuned, and \"{}\" sets it",
+                   study.parameters.list[design.parameter].name);
+  }
+}
+
+void refuse_tables(const StudyContext& context, const TomlValue& root) {
+  for (const char* table : {"constraint", "column", "orbits"}) {
+    if (const TomlEntry* entry = find_entry(root, table))
+      throw context.source.error_at(rules::other_kind, entry->position,
+                                    "the section \"{}\" is not part of a tuning over records: it is of "
+                                    "periodic responses over a band",
+                                    table);
+  }
+}
+
+}  // namespace
+
+void read_tuning_over_records(const StudyContext& context, const TomlValue& root,
+                              const std::filesystem::path& folder, DataFiles data, Study& study) {
+  refuse_smooth_laws(study, kind_noun(study.kind()));
+  refuse_tables(context, root);
+  const TomlEntry* entry = find_entry(root, "tune");
+  if (!entry)
+    throw context.source.error_at(rules::missing_section, root.position,
+                                  "the study has no [tune] with its objective");
+  const TomlSection section(context.source, entry->value, "[tune]",
+                            {"objective", "quantity", "records", "duration", "solver", "start", "tolerance"});
+  TuneReading reading{context, root, study};
+  TuneChoice& choice = reading.choice;
+  PeakChoice peaks;
+  section.require("objective");
+  if (section.choice_or("objective", {"worst_peak", "mean_peak"}, " under records") == "mean_peak")
+    peaks.objective = tuning::RecordObjective::mean_peak;
+  check_excitation(reading, section);
+  peaks.coordinate = read_peak(reading, section);
+  choice.quantity_name = section.text("quantity");
+  read_records_of(context, root, folder, data, section, study, peaks);
+  peaks.duration = read_duration(section, peaks);
+  choice.solver = tuning::solver_named(section.choice_or("solver", {"slsqp", "ipopt", "mma"}));
+  read_start(section, choice);
+  if (choice.start == tuning::Start::global)
+    section.fail(rules::key_without_use, "start",
+                 "under records there is no global search; write a number of starts");
+  read_tolerance(section, choice);
+  choice.peaks = std::move(peaks);
+  read_designs(reading);
+  check_designs(reading, section);
+  read_scenarios(reading);
+  study.choice = std::move(choice);
+}
+
+}  // namespace frahm::studies
