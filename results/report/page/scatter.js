@@ -28,7 +28,10 @@ class BesideSamples {
   line(name, index, axis) {
     const count = this.sizes[this.axes.indexOf(axis)];
     return Float64Array.from({ length: count }, (_, i) =>
-      this.value(name, index.map((at, a) => (a === axis ? i : at))),
+      this.value(
+        name,
+        index.map((at, a) => (a === axis ? i : at)),
+      ),
     );
   }
 }
@@ -47,7 +50,9 @@ export function scatterOf({ map, groups }) {
     quantities,
     statistics: new BesideSamples(map, group),
     tornado: tornado ? new BesideSamples(map, tornado) : null,
-    parameters: map.axes[map.samples].coordinates.map(({ name }) => name).filter((name) => map.parameters.has(name)),
+    parameters: map.axes[map.samples].coordinates
+      .map(({ name }) => name)
+      .filter((name) => map.parameters.has(name)),
   };
 }
 

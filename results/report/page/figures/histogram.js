@@ -11,7 +11,8 @@ const shareName = (share) => `${numberText(100 * share, 4)} %`;
 // [{from, to, count}]; widths by Freedman and Diaconis.
 function binsOf(values) {
   const known = Array.from(values).filter(Number.isFinite);
-  const count = (all, low, high) => Math.min(mostBins, Math.max(1, thresholdFreedmanDiaconis(all, low, high) || 1));
+  const count = (all, low, high) =>
+    Math.min(mostBins, Math.max(1, thresholdFreedmanDiaconis(all, low, high) || 1));
   return bin()
     .thresholds(count)(known)
     .map((one) => ({ from: one.x0, to: one.x1, count: one.length }));

@@ -35,10 +35,18 @@ export function overRecordsFigure(map, records, { variable, axis, coordinate, in
   const over = points.map((point) => overRecords(map, variable, point, records));
   const sizes = (record) =>
     points.map((point) =>
-      Math.abs(map.value(variable, point.map((at, a) => (a === records.axis ? record : at)))),
+      Math.abs(
+        map.value(
+          variable,
+          point.map((at, a) => (a === records.axis ? record : at)),
+        ),
+      ),
     );
   const steps = Array.from(x.slice(1), (value, i) => value / x[i]);
-  const isLog = x.every((value) => value > 0) && x.length > 2 && steps.every((step) => Math.abs(step / steps[0] - 1) < 1e-6);
+  const isLog =
+    x.every((value) => value > 0) &&
+    x.length > 2 &&
+    steps.every((step) => Math.abs(step / steps[0] - 1) < 1e-6);
   return lineFigure({
     name: `records_${variable.name}`,
     title: `Largest and mean ${words(variable.name)} of ${records.names.length} records along ${symbolText(name)}`,
@@ -55,8 +63,24 @@ export function overRecordsFigure(map, records, { variable, axis, coordinate, in
         width: 0.8,
         opacity: 0.7,
       })),
-      { name: `${variable.name} largest`, text: "largest", x, y: over.map(({ largest }) => largest), ...style(1), dash: "", width: 2.2 },
-      { name: `${variable.name} mean`, text: "mean", x, y: over.map(({ mean }) => mean), ...style(0), dash: "6 3", width: 2.2 },
+      {
+        name: `${variable.name} largest`,
+        text: "largest",
+        x,
+        y: over.map(({ largest }) => largest),
+        ...style(1),
+        dash: "",
+        width: 2.2,
+      },
+      {
+        name: `${variable.name} mean`,
+        text: "mean",
+        x,
+        y: over.map(({ mean }) => mean),
+        ...style(0),
+        dash: "6 3",
+        width: 2.2,
+      },
     ],
   });
 }

@@ -13,9 +13,7 @@ const colour = style(0).stroke,
 
 // [[lower, upper], ...] from outside to inside; the middle one of an odd number has no partner.
 function pairsOf(lines) {
-  return lines
-    .slice(0, Math.floor(lines.length / 2))
-    .map((line, i) => [line, lines[lines.length - 1 - i]]);
+  return lines.slice(0, Math.floor(lines.length / 2)).map((line, i) => [line, lines[lines.length - 1 - i]]);
 }
 
 function area(x, low, high, options) {
@@ -28,7 +26,9 @@ function area(x, low, high, options) {
 function legendOf(lines) {
   const middle = lines.length % 2 ? lines[(lines.length - 1) / 2] : null;
   return [
-    ...(middle ? [{ text: middle.share === 0.5 ? "median" : `${shareName(middle.share)} quantile`, stroke: colour }] : []),
+    ...(middle
+      ? [{ text: middle.share === 0.5 ? "median" : `${shareName(middle.share)} quantile`, stroke: colour }]
+      : []),
     ...pairsOf(lines).map(([low, high]) => ({
       text: `${shareName(low.share)} to ${shareName(high.share)}`,
       fill: colour,
@@ -63,7 +63,9 @@ function draw(canvas, { map, variable, axis, coordinate, lines }) {
     y: { label, domain: domain[1] > domain[0] ? domain : [0, 1], nice: true },
     legend: legendOf(lines),
     marks: [
-      ...pairsOf(drawn).map(([low, high]) => area(x, low.value, high.value, { fill: colour, fillOpacity: 0.18 })),
+      ...pairsOf(drawn).map(([low, high]) =>
+        area(x, low.value, high.value, { fill: colour, fillOpacity: 0.18 }),
+      ),
       ...drawn.map(({ low, high }) => area(x, low, high, { fill: ofIntervals, fillOpacity: 0.4 })),
       ...grid(),
       ...middle.map(({ value }) => curve(x, value, { stroke: colour })),

@@ -115,7 +115,12 @@ function xAxis(canvas, map, axis, coordinate) {
   const label = axisLabel(map, map.axes[axis], coordinate),
     { names, values } = coordinate;
   if (!names) return { label, type: axisScale(values), domain: extent(values) };
-  return { label, domain: [-0.5, names.length - 0.5], areNames: true, ...nameTicks(names, canvas.width - 90) };
+  return {
+    label,
+    domain: [-0.5, names.length - 0.5],
+    areNames: true,
+    ...nameTicks(names, canvas.width - 90),
+  };
 }
 
 // For each point of the state the branches through it, on the scale of the figure; none of a quantity that they do not

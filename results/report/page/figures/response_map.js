@@ -206,8 +206,18 @@ export function responseMap(canvas, map, variable, state) {
   };
   const frameHeight = canvas.height - 80;
   return drawFrame(canvas, {
-    x: { label: axes.x.label, type: axes.x.scale, domain: axes.x.domain, ...namesAt(axes.x, canvas.width - 180) },
-    y: { label: axes.y.label, type: axes.y.scale, domain: axes.y.domain, ...namesAt(axes.y, canvas.height - 60) },
+    x: {
+      label: axes.x.label,
+      type: axes.x.scale,
+      domain: axes.x.domain,
+      ...namesAt(axes.x, canvas.width - 180),
+    },
+    y: {
+      label: axes.y.label,
+      type: axes.y.scale,
+      domain: axes.y.domain,
+      ...namesAt(axes.y, canvas.height - 60),
+    },
     legend: [...regimes, ...borders.legend],
     marginRight: flag ? 20 : colourBarMargin(bar.label, bar.range, bar.look, frameHeight),
     marks: [

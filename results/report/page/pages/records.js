@@ -19,7 +19,9 @@ function now(map, state, records) {
     coordinate: map.axes[axis].coordinates[state.coordinates[axis]],
     index: state.index,
     caption: map.axes
-      .map((other, a) => (a === axis || a === records.axis || other.size < 2 ? "" : axisText(map, other, state.index[a])))
+      .map((other, a) =>
+        a === axis || a === records.axis || other.size < 2 ? "" : axisText(map, other, state.index[a]),
+      )
       .filter(Boolean)
       .join(", "),
   });

@@ -112,7 +112,9 @@ const intervalText = ({ low, high }) => `${numberText(low, digits)} to ${numberT
 
 // Mean, deviation and quantiles of every quantity at the point, as numbers.
 function numbersTable(scatter, { index }) {
-  const shares = [...new Set(scatter.quantities.flatMap(({ quantiles }) => quantiles.map(({ share }) => share)))];
+  const shares = [
+    ...new Set(scatter.quantities.flatMap(({ quantiles }) => quantiles.map(({ share }) => share))),
+  ];
   const estimate = (one) => (one ? `${numberText(one.value)} (${intervalText(one)})` : "");
   const rows = scatter.quantities.map((quantity) => {
     const { mean, deviation, samples, quantiles } = scatterAt(scatter, quantity, index);
@@ -125,7 +127,14 @@ function numbersTable(scatter, { index }) {
       ...shares.map((share) => estimate(quantiles.find((one) => one.share === share))),
     ];
   });
-  const head = ["quantity", "unit", "samples", "mean", "deviation", ...shares.map((share) => `${shareName(share)} quantile`)];
+  const head = [
+    "quantity",
+    "unit",
+    "samples",
+    "mean",
+    "deviation",
+    ...shares.map((share) => `${shareName(share)} quantile`),
+  ];
   return table(head, rows, { caption: "In brackets: 95 % interval." });
 }
 
@@ -147,7 +156,9 @@ function sentences(scatter, { quantity, index }) {
   }
   const [first] = tornadoAt(scatter, quantity, index);
   if (first && Number.isFinite(first.share))
-    found.push(`To first order ${shareText(first.share)} of the variance is owed to ${symbolText(first.parameter)}.`);
+    found.push(
+      `To first order ${shareText(first.share)} of the variance is owed to ${symbolText(first.parameter)}.`,
+    );
   return found.join(" ");
 }
 
@@ -217,6 +228,8 @@ export function scatterFigures(record) {
   if (!scatter) return [];
   return scatter.quantities.slice(0, mostFigures).flatMap((quantity) => {
     const view = firstView(scatter, quantity);
-    return [bandsFigure, histogramFigure, tornadoFigure].map((figure) => figure(scatter, view)).filter(Boolean);
+    return [bandsFigure, histogramFigure, tornadoFigure]
+      .map((figure) => figure(scatter, view))
+      .filter(Boolean);
   });
 }
