@@ -19,6 +19,8 @@ using Json = nlohmann::ordered_json;
 constexpr int page_format = 1;
 constexpr const char* provenance_group = "provenance";
 constexpr const char* branches_group = "branches";
+constexpr const char* statistics_group = "statistics";
+constexpr const char* tornado_group = "tornado";
 
 const char* kind_of(Type type) {
   switch (type) {
@@ -50,6 +52,7 @@ Json axis_json(const Axis& axis) {
                                    {"unit", coordinate.unit},
                                    {"long_name", coordinate.long_name},
                                    {"values", coordinate.values}});
+    if (!coordinate.names.empty()) json["coordinates"].back()["names"] = coordinate.names;
   }
   return json;
 }
@@ -108,6 +111,7 @@ Json map_json(const MapReader& result, const PageContent& content) {
   const MapLayout& layout = result.layout();
   Json json{
       {"axes", Json::array()}, {"along", longest(shape_of(layout))}, {"parameters", content.parameters}};
+  if (content.samples) json["samples"] = *content.samples;
   for (const Axis& axis : layout.axes) json["axes"].push_back(axis_json(axis));
   json["variables"] = json["left_out"] = Json::array();
   Carried carried;
@@ -139,17 +143,33 @@ Json group_json(const std::vector<Text>& texts, const std::vector<Column>& colum
   return json;
 }
 
+// The map's quantity that a number of /statistics or /tornado is of: "main_peak_time" of
+// "main_peak_time_q95".
+std::string quantity_of(const Column& column, const MapLayout& layout) {
+  std::string longest_name;
+  for (const Variable& variable : layout.variables) {
+    if (column.variable.name.starts_with(variable.name + "_") && variable.name.size() > longest_name.size())
+      longest_name = variable.name;
+  }
+  return longest_name;
+}
+
 // Without the quantities of the map that the page leaves out.
 std::vector<Column> shown_columns(const MapReader& result, const PageContent& content,
                                   const std::string& group) {
   std::vector<Column> columns = result.columns(group);
-  if (group != branches_group) return columns;
-  std::erase_if(columns, [&](const Column& column) {
-    const auto has_name = [&](const Variable& each) { return each.name == column.variable.name; };
-    return std::ranges::any_of(result.layout().variables, has_name) &&
-           std::ranges::find(content.variables, column.variable.name) == content.variables.end() &&
-           column.dimension != "branch";
-  });
+  const MapLayout& layout = result.layout();
+  const auto is_left_out = [&](const std::string& name) {
+    return std::ranges::find(layout.variables, name, &Variable::name) != layout.variables.end() &&
+           std::ranges::find(content.variables, name) == content.variables.end();
+  };
+  if (group == branches_group) {
+    std::erase_if(columns, [&](const Column& column) {
+      return is_left_out(column.variable.name) && column.dimension != "branch";
+    });
+  } else if (group == statistics_group || group == tornado_group) {
+    std::erase_if(columns, [&](const Column& column) { return is_left_out(quantity_of(column, layout)); });
+  }
   return columns;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,7 @@ struct PageContent {
   std::vector<std::string> parameters = {};  // coordinates of the map that are the study's own parameters
   std::vector<std::string> variables = {};   // of the map; of the others the page has the names only
   std::vector<PageGroup> groups = {};        // besides those of the file
+  std::optional<std::size_t> samples = {};   // the axis of the map along which parameters scatter
   bool all_digits = false;                   // of the map's numbers; else six
 };
 

@@ -10,6 +10,7 @@
 #include "solvers/mechanics/coordinates.hpp"
 #include "solvers/mechanics/linear_system.hpp"
 #include "solvers/mechanics/rotation.hpp"
+#include "studies/motion/driving_record_columns.hpp"
 #include "studies/motion/energy_columns.hpp"
 #include "studies/motion/motion_columns.hpp"
 #include "studies/motion/motion_record.hpp"
@@ -151,6 +152,7 @@ std::string_view unit_of_all(const Study& study) {
 std::vector<results::Column> transient_columns(const Study& study, const ForcedMotion& motion) {
   MotionColumns columns(study);
   columns.add_samples(motion.history);
+  add_driving_records(study, columns);
   if (study.transient()->sweep_to) {
     columns.add("frequency", "rad s-1", "angular frequency of the excitation", "time", motion.frequency);
     columns.add_number("discretisation_error", unit_of_all(study),

@@ -136,6 +136,11 @@ std::vector<std::string> axis_parameters(const results::MapLayout& layout,
   return names;
 }
 
+std::optional<std::size_t> sample_axis(const std::optional<Study>& study) {
+  if (!study || !study->map() || !study->map()->samples) return std::nullopt;
+  return study->map()->samples->dimension;
+}
+
 }  // namespace
 
 results::PageContent page_content(const results::MapReader& result, const std::filesystem::path& file,
@@ -147,6 +152,7 @@ results::PageContent page_content(const results::MapReader& result, const std::f
           .parameters = axis_parameters(result.layout(), study),
           .variables = shown,
           .groups = study ? report_facts(*study) : std::vector<results::PageGroup>{},
+          .samples = sample_axis(study),
           .all_digits = all_digits};
 }
 

@@ -62,8 +62,9 @@ export function axisLabel(map, axis, coordinate) {
   return others.length ? `${label}, with ${others.map(({ name }) => symbolText(name)).join(", ")}` : label;
 }
 
-// "I = 6.36 kg".
-export function coordinateText({ name, unit, values }, i) {
+// "I = 6.36 kg", "record el_centro.csv".
+export function coordinateText({ name, unit, values, names }, i) {
+  if (names) return `${symbolText(name)} ${names[i]}`;
   const after = unitText(unit);
   return `${symbolText(name)} = ${numberText(values[i])}${after ? ` ${after}` : ""}`;
 }
@@ -79,11 +80,10 @@ export function axisText(map, axis, i) {
 // Columns for a CSV file: every coordinate of the points, which are indices of the map.
 export function coordinateColumns(map, points) {
   return map.axes.flatMap((axis, a) =>
-    axis.coordinates.map(({ name, unit, values }) => ({
-      name,
-      unit,
-      values: points.map((index) => values[index[a]]),
-    })),
+    axis.coordinates.flatMap(({ name, unit, values, names }) => [
+      { name, unit, values: points.map((index) => values[index[a]]) },
+      ...(names ? [{ name: `${name}_name`, unit: "1", values: points.map((index) => names[index[a]]) }] : []),
+    ]),
   );
 }
 
@@ -146,7 +146,7 @@ export function pointCommand(record, index) {
   const quoted = (text) => (/^[A-Za-z0-9_.,=\/-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
   const at = record.map.axes.flatMap((axis, a) =>
     axis.coordinates
-      .filter(({ name }) => record.map.parameters.has(name))
+      .filter(({ name, names }) => names || record.map.parameters.has(name))
       .map(
         ({ name, unit, values }) => `${name}=${values[index[a]]}${unit && unit !== "1" ? ` ${unit}` : ""}`,
       ),

@@ -79,6 +79,20 @@ function spokenFrequency(column, study) {
   return { ...column, unit: spoken.unit, values: column.values.map((value) => value / spoken.values[0]) };
 }
 
+// The records that drive the motion, each along times of its own: [{name, time, values, unit, meaning}].
+function recordsOf(group) {
+  return group.columns
+    .filter(({ name }) => /_recorded_(acceleration|velocity|displacement|force)(_\d+)?$/.test(name))
+    .map(({ name, values, unit, long_name: meaning }) => ({
+      name,
+      time: group.values(`${name}_time`),
+      values,
+      unit,
+      meaning,
+    }))
+    .filter(({ time }) => time);
+}
+
 // kind: "decay" or "transient".
 export function motionOf(record, kind) {
   const group = record.groups.get(kind);
@@ -99,6 +113,7 @@ export function motionOf(record, kind) {
     group,
     time,
     units: unitsOf(group),
+    records: recordsOf(group),
     excitation: fact("excitation_frequency"),
     mayStop: fact("rubbing_elements") !== 0,
     followed: fact("given_duration") === 0, // no duration given: followed to its end

@@ -47,11 +47,12 @@ export function meaningOf(variable, value) {
   return variable.flags?.find(([code]) => code === value)?.[1] ?? "";
 }
 
-// Axes: {name, size, stride, coordinates: [{name, unit, long_name, values, monotone}]}; the first coordinate
-// is monotone and represents the axis.
+// Axes: {name, size, stride, coordinates: [{name, unit, long_name, values, names, monotone}]}; the first coordinate
+// is monotone and represents the axis; names: of its values (records), or undefined.
 export class ResponseMap {
-  constructor(axes, variables, { parameters, left_out }) {
+  constructor(axes, variables, { parameters, left_out, samples = null }) {
     this.axes = axes;
+    this.samples = samples; // the axis along which parameters scatter, or null
     this.variables = variables;
     this.parameters = new Set(parameters); // coordinates that are the study's own
     this.leftOut = left_out;

@@ -24,16 +24,17 @@ function draw(canvas, { label, unit, bars }) {
     Math.min(0, ...known.map(({ value }) => value)),
     Math.max(0, ...known.map(({ value }) => value)),
   ];
+  const textWidth = digitWidth * Math.max(...rows.map((row) => row.text.length)) + 8;
+  const sides = (low < 0 ? 1 : 0) + (known.some(({ value }) => value >= 0) || low === high ? 1 : 0);
   const room =
-    ((high - low || 1) * digitWidth * Math.max(...rows.map((row) => row.text.length))) /
-    Math.max(80, canvas.width - marginLeft - 20);
+    ((high - low || 1) * textWidth) / Math.max(80, canvas.width - marginLeft - 20 - sides * textWidth);
   return drawFrame(
     { ...canvas, height },
     {
       marginLeft,
       x: {
         label: withUnit(label, text),
-        domain: [low < 0 ? low - room : 0, (high > low ? high : 1) + room * 1.4],
+        domain: [low < 0 ? low - room : 0, (high > low ? high : 1) + (sides > 1 || low === 0 ? room : 0)],
       },
       y: {
         type: "band",

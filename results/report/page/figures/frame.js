@@ -119,6 +119,30 @@ const ticksLength = 5,
   labelLineHeight = 15;
 const besideTicks = 40; // the label and its gaps
 
+const mostNameCharacters = 24;
+
+// A long name by its beginning and its end.
+function shortName(name) {
+  const half = mostNameCharacters / 2;
+  return name.length <= mostNameCharacters ? name : `${name.slice(0, half - 1)}\u2026${name.slice(1 - half)}`;
+}
+
+// Ticks of an axis over 0, 1, ... whose values have names: as many as have room, each `room` pixels.
+export function nameTicks(names, length, room = 16) {
+  const each = Math.max(1, Math.ceil((names.length * room) / Math.max(1, length)));
+  return {
+    ticks: names.map((_, i) => i).filter((i) => i % each === 0),
+    tickFormat: (i) => shortName(names[i] ?? ""),
+  };
+}
+
+// Names below an axis stand upright, and need room for their length.
+function upright(x) {
+  if (!x.areNames) return { rotation: {}, more: 0 };
+  const longest = Math.max(...x.ticks.map((tick) => x.tickFormat(tick).length));
+  return { rotation: { tickRotate: -90 }, more: Math.max(0, digitWidth * longest - 10) };
+}
+
 const formatOf = (scale) => scale.tickFormat ?? (scale.type === "log" ? "~g" : undefined);
 
 // A logarithmic axis over a known domain has ticks at powers of ten.
@@ -154,6 +178,7 @@ export function drawFrame(
     yMore = (yLabel.length - 1) * labelLineHeight;
   const xLabel = wrapped(x.label ?? "", canvas.width - marginLeft - marginRight - yMore);
   const xMore = (xLabel.length - 1) * labelLineHeight;
+  const { rotation, more } = upright(x);
   const rows = legend.length ? legendRows(legend, canvas.width - marginLeft - marginRight - yMore) : [];
   const axis = (options) => ({ nice: false, ...options });
   const tickOptions = {
@@ -166,11 +191,11 @@ export function drawFrame(
   const svg = Plot.plot({
     document: canvas.document,
     width: canvas.width,
-    height: canvas.height + rows.length * lineHeight + xMore,
+    height: canvas.height + rows.length * lineHeight + xMore + more,
     marginLeft: marginLeft + yMore,
     marginRight,
     marginTop: 14 + rows.length * lineHeight,
-    marginBottom: 46 + xMore,
+    marginBottom: 46 + xMore + more,
     x: axis({ ...x, label: null }),
     y: axis({ ...y, label: null }),
     ...scales,
@@ -180,7 +205,8 @@ export function drawFrame(
       Plot.axisX({
         ...tickOptions,
         label: xLabel.join("\n"),
-        labelOffset: 38 + xMore,
+        labelOffset: 38 + xMore + more,
+        ...rotation,
         tickFormat: formatOf(x),
         ticks: x.ticks,
         tickSpacing: 70,

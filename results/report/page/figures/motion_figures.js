@@ -1,7 +1,7 @@
 // Histories of a motion, its turning points, phase portraits, decrements, and where its energy goes.
 import { decrementsEndEarly, envelope, isOneMode, isRounding, samplingOf, stretch } from "../motion.js";
 import { approachOf, restText } from "../motion_words.js";
-import { groupedByUnit, shareText, quantityText, words } from "../units.js";
+import { groupedByUnit, sentence, shareText, quantityText, words } from "../units.js";
 import { barFigure } from "./bar_figure.js";
 import { lineFigure, style } from "./line_figure.js";
 import { lineColours } from "./frame.js";
@@ -93,6 +93,20 @@ function historyFigure(motion, quantity) {
     ...joinedOrDots(motion, historyLines(motion, quantity)),
     bands: displacement ? stuckBands(motion) : [],
     moments: displacement ? moments(motion) : [],
+  });
+}
+
+// Each record over the time of the motion below it, so that both share one axis.
+function recordFigure({ name, time, values, unit, meaning }, motion) {
+  const ends = [motion.time.values[0], motion.time.values.at(-1)];
+  return lineFigure({
+    name,
+    title: sentence(meaning),
+    caption: "The record, with its scale, on the time axis of the motion.",
+    ratio: 0.25,
+    x: { ...timeAxis(motion), domain: ends },
+    y: { label: words(name.replace(/^.*_recorded_/, "")), unit },
+    lines: [{ name, x: time, y: values, stroke: lineColours[7], width: 1 }],
   });
 }
 
@@ -323,13 +337,14 @@ function dissipationFigure(motion) {
   });
 }
 
-// {histories, turning, energies}: figures of each part of the page.
+// {records, histories, turning, energies}: figures of each part of the page.
 export function motionFigureParts(motion) {
   const { masses, time, frequency, energies } = motion;
   const { sparse } = samplingOf(motion);
   const histories = time && masses.some(({ displacement }) => displacement);
   const parts = partsByUnit(motion);
   return {
+    records: histories ? motion.records.map((record) => recordFigure(record, motion)) : [],
     histories: histories
       ? [
           ...parts.map((part) => historyFigure(part, "displacement")),

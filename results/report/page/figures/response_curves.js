@@ -14,6 +14,7 @@ import {
   grid,
   lineColours,
   lineDashes,
+  nameTicks,
   regimeColours,
   roomFor,
   tips,
@@ -109,6 +110,19 @@ function yAxis(variable, state, label, values) {
   return { label, domain: shown, nice: true, inset, ...asPowers, ...whole };
 }
 
+// Options of the horizontal axis; the names of records have room at both ends.
+function xAxis(canvas, map, axis, coordinate) {
+  const label = axisLabel(map, map.axes[axis], coordinate),
+    { names, values } = coordinate;
+  if (!names) return { label, type: axisScale(values), domain: extent(values) };
+  return {
+    label,
+    domain: [-0.5, names.length - 0.5],
+    areNames: true,
+    ...nameTicks(names, canvas.width - 90),
+  };
+}
+
 // For each point of the state the branches through it, on the scale of the figure; none of a quantity that they do not
 // have.
 function branchCurves(map, variable, state, x, factor) {
@@ -162,8 +176,8 @@ export function responseCurves(canvas, map, variable, state) {
       marks.push(...marksByRegime(runs, x.values, y, style.strokeDasharray, seen));
     } else {
       const look = branches[n].length ? under : variable.kind === "float" ? {} : stepped;
-      marks.push(curve(x.values, y, { ...style, ...look }));
-      if (y.length <= fewPoints) marks.push(dots(x.values, y, { fill: style.stroke }));
+      if (!x.names) marks.push(curve(x.values, y, { ...style, ...look })); // nothing lies between two records
+      if (x.names || y.length <= fewPoints) marks.push(dots(x.values, y, { fill: style.stroke }));
     }
     marks.push(...branchLines(branches[n], style));
     const isOneOfMany = state.points.length > 1;
@@ -178,11 +192,7 @@ export function responseCurves(canvas, map, variable, state) {
   rows.push(...specialTips(special, symbolText(x.name), label));
   const nothing = [Plot.text(["no number along this line"], { frameAnchor: "middle", fontSize: 13 })];
   return drawFrame(canvas, {
-    x: {
-      label: axisLabel(map, map.axes[state.axis], x),
-      type: axisScale(x.values),
-      domain: extent(x.values),
-    },
+    x: xAxis(canvas, map, state.axis, x),
     y: yAxis(variable, state, label, [...values, ...followed.map(({ y }) => y)]),
     legend: [...legend, ...regimes, ...branchLegend(followed)],
     marks: rows.length

@@ -8,7 +8,7 @@ import { shownUnit, withUnit, words } from "../units.js";
 import { valueRange } from "../value_range.js";
 import { colourBar, colourBarMargin } from "./colour_bar.js";
 import { colourSteps, colourTable, flagColours, missingColour } from "./colours.js";
-import { drawFrame, svgElement } from "./frame.js";
+import { drawFrame, nameTicks, svgElement } from "./frame.js";
 
 const resampled = 480; // cells of an axis whose values lie unevenly
 
@@ -96,11 +96,17 @@ function axisOf(map, axis, coordinate) {
   const edges = cellEdges(values, scale);
   return {
     values,
+    names: coordinate.names,
     isEven: spacing(values) !== "",
     label: axisLabel(map, map.axes[axis], coordinate),
     scale,
     domain: [Math.min(edges[0], edges.at(-1)), Math.max(edges[0], edges.at(-1))],
   };
+}
+
+// Names of records at their places on an axis of so many pixels.
+function namesAt({ names }, pixels) {
+  return names ? { ...nameTicks(names, pixels), areNames: true } : {};
 }
 
 function pictureMark(url) {
@@ -200,8 +206,18 @@ export function responseMap(canvas, map, variable, state) {
   };
   const frameHeight = canvas.height - 80;
   return drawFrame(canvas, {
-    x: { label: axes.x.label, type: axes.x.scale, domain: axes.x.domain },
-    y: { label: axes.y.label, type: axes.y.scale, domain: axes.y.domain },
+    x: {
+      label: axes.x.label,
+      type: axes.x.scale,
+      domain: axes.x.domain,
+      ...namesAt(axes.x, canvas.width - 180),
+    },
+    y: {
+      label: axes.y.label,
+      type: axes.y.scale,
+      domain: axes.y.domain,
+      ...namesAt(axes.y, canvas.height - 60),
+    },
     legend: [...regimes, ...borders.legend],
     marginRight: flag ? 20 : colourBarMargin(bar.label, bar.range, bar.look, frameHeight),
     marks: [

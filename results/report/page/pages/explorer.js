@@ -8,6 +8,7 @@ import { pointCard, pointTip } from "../parts/point_table.js";
 import { mostListed } from "../profile.js";
 import { budgetFigure, curveFigure, hasBranches, mapFigure, regimeOf } from "./map_figures.js";
 import { profileFigures } from "./profile.js";
+import { recordsFigure, recordsTable } from "./records.js";
 import { curvePoints, firstState, listedQuantities, profilePoints, sliding } from "./sweep_state.js";
 
 const scales = [
@@ -27,6 +28,7 @@ function viewOf(record) {
     wide: sliding(map),
     mapShown: state.y === null ? null : card(mapFigure(map, state)),
     curvesShown: card(curveFigure(map, state)),
+    recordsShown: card(recordsFigure(map, state)),
     budgetShown: card(budgetFigure(map, state)),
     profilesShown: profileFigures(record, () => profilePoints(state)).map(card),
     mapControls: element("div", { class: "controls" }),
@@ -44,9 +46,13 @@ function redraw(view) {
   view.waiting = true;
   requestAnimationFrame(() => {
     view.waiting = false;
-    for (const shown of [view.mapShown, view.curvesShown, view.budgetShown, ...view.profilesShown])
-      shown?.redraw();
-    view.place.replaceChildren(pointCard(view.record, view.state.index, listedQuantities(view.state)));
+    const { mapShown, curvesShown, recordsShown, budgetShown, profilesShown } = view;
+    for (const shown of [mapShown, curvesShown, recordsShown, budgetShown, ...profilesShown]) shown?.redraw();
+    const { record, map, state } = view,
+      listed = listedQuantities(state);
+    view.place.replaceChildren(
+      ...[recordsTable(map, state, listed), pointCard(record, state.index, listed)].filter(Boolean),
+    );
   });
 }
 
@@ -199,7 +205,7 @@ function pick(view, index, keep) {
 
 export function explorerSections(record) {
   const view = viewOf(record);
-  const { mapShown, curvesShown, budgetShown, profilesShown } = view;
+  const { mapShown, curvesShown, recordsShown, budgetShown, profilesShown } = view;
   arrange(view);
   if (mapShown) {
     followPointer(
@@ -220,7 +226,7 @@ export function explorerSections(record) {
       mapShown?.card,
       mapShown ? element("p", { class: "note hint" }, hint) : null,
     ),
-    section("Response curves", view.curveControls, curvesShown.card, budgetShown?.card),
+    section("Response curves", view.curveControls, curvesShown.card, recordsShown?.card, budgetShown?.card),
     profilesShown.length
       ? section(
           "Over the height",

@@ -6,6 +6,7 @@ import { responseCurves, responseCurvesTable } from "../figures/response_curves.
 import { leastOfLogarithm, responseMap, responseMapTable, valueAt } from "../figures/response_map.js";
 import { numberText, sentence, words } from "../units.js";
 import { spansDecades, suitsLogarithm, valueRange } from "../value_range.js";
+import { recordsFigure } from "./records.js";
 import { curvePoints, shownContact, sliding } from "./sweep_state.js";
 
 // The sliders' point as text, on all axes but those left out.
@@ -163,6 +164,7 @@ export function allMapFigures(map, state) {
     return [
       state.y === null ? null : mapFigure(map, seen),
       variable.kind === "float" ? curveFigure(map, { ...seen, kept, index: kept[0] }) : null,
+      variable.kind === "float" ? recordsFigure(map, seen) : null,
     ];
   });
   return [...figures, budgetFigure(map, state)].filter(Boolean);

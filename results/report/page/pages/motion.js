@@ -155,6 +155,7 @@ function sparseNotes(motion) {
 
 function partsOf(record, motion) {
   const {
+    records,
     histories: [first, ...others],
     turning,
     energies,
@@ -168,7 +169,7 @@ function partsOf(record, motion) {
           section(
             "Motion",
             ...sparseNotes(motion),
-            ...figureCards([first], record, "wide"),
+            ...figureCards([...records, first], record, "wide"),
             ...figureCards(others, record),
             ...stopsTable(motion),
           ),

@@ -3,6 +3,7 @@ import { coordinateLabel } from "../axes.js";
 import { element, section, table } from "../parts/elements.js";
 import { failedPoints, missingPoints } from "../parts/missing_points.js";
 import { isMissing } from "../record.js";
+import { scatterFigures, scatterSection } from "./scatter.js";
 import { explorerSections } from "./explorer.js";
 import { allMapFigures, pointsAcross } from "./map_figures.js";
 import { allOrbitFigures, orbitSection } from "./orbits.js";
@@ -65,6 +66,7 @@ function hasNumbers({ variables }) {
 export function sweepParts(record) {
   return [
     ...missingPoints(record),
+    ...(hasNumbers(record.map) ? scatterSection(record) : []),
     ...(hasNumbers(record.map) ? explorerSections(record) : []),
     modeSection(record),
     orbitSection(record),
@@ -86,6 +88,7 @@ function figuresOfPoints(record) {
 export function sweepFigures(record) {
   return [
     ...(hasNumbers(record.map) ? figuresOfPoints(record) : []),
+    ...(hasNumbers(record.map) ? scatterFigures(record) : []),
     ...allOrbitFigures(record),
     ...resonanceFigures(record),
   ];

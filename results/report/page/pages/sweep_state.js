@@ -9,14 +9,19 @@ export const sliding = (map) => map.axes.map((_, a) => a).filter((a) => map.axes
 
 const manyPoints = 8;
 
-// The frequency, else the axis with most points, lies along x; the next along y.
+const hasNames = (axis) => axis.coordinates.some(({ names }) => names);
+
+// The frequency, else the axis with most points, lies along x; the next along y. Records, whose names stand at the
+// left, and samples, which are in no order, do not lie along x if another axis can.
 function axesOf(map) {
-  const bySize = sliding(map).sort((a, b) => map.axes[b].size - map.axes[a].size);
+  const late = (a) => (a === map.samples ? 2 : hasNames(map.axes[a]) ? 1 : 0);
+  const bySize = sliding(map).sort((a, b) => late(a) - late(b) || map.axes[b].size - map.axes[a].size);
   const isFrequency = (a) =>
     map.axes[a].size >= manyPoints &&
     map.axes[a].coordinates.some(({ long_name: meaning }) => meaning === "[excitation]: frequency");
   const x = bySize.find(isFrequency) ?? bySize[0] ?? 0;
-  return { x, y: bySize.find((axis) => axis !== x) ?? null };
+  const others = bySize.filter((axis) => axis !== x);
+  return { x, y: others.find((axis) => hasNames(map.axes[axis])) ?? others[0] ?? null };
 }
 
 // (row of /borders, whether its edge lies along this axis) -> fractional index along the axis: from a monotone

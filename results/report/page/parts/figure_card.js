@@ -79,6 +79,8 @@ export function figureCard(figure, record) {
     caption.textContent = figure.caption ?? "";
     try {
       shown.svg = figure.draw(canvasOf(width, figure));
+      shown.svg.setAttribute("role", "img");
+      shown.svg.setAttribute("aria-label", [figure.title, figure.caption].filter(Boolean).join(". "));
       plot.replaceChildren(shown.svg);
     } catch (error) {
       plot.replaceChildren(

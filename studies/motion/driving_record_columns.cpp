@@ -1,0 +1,55 @@
+#include "studies/motion/driving_record_columns.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "solvers/mechanics/rotation.hpp"
+#include "studies/motion/motion_record.hpp"
+
+namespace frahm::studies {
+namespace {
+
+using transient::RecordOf;
+
+struct Recorded {
+  std::string_view word, unit;
+};
+
+Recorded recorded(RecordOf of, bool on_rotation) {
+  switch (of) {
+    case RecordOf::displacement:
+      return {"displacement", "m"};
+    case RecordOf::velocity:
+      return {"velocity", "m s-1"};
+    case RecordOf::acceleration:
+      return {"acceleration", "m s-2"};
+    case RecordOf::force:
+      break;
+  }
+  return {"force", on_rotation ? "N m" : "N"};
+}
+
+}  // namespace
+
+void add_driving_records(const Study& study, MotionColumns& columns) {
+  const mechanics::Network& network = study.network;
+  const mechanics::NetworkValues values = motion_values(study);
+  std::map<std::string, int> times_named;
+  for (const transient::RecordedExcitation& driven : study.transient()->driven_by(0)) {
+    const mechanics::Excitation& component = network.excitations[driven.excitation];
+    const transient::Record& record = *driven.record;
+    const bool is_force = record.of == RecordOf::force;
+    const std::string& node = (is_force ? network.masses : network.prescribed)[component.node];
+    const auto [word, unit] = recorded(record.of, is_force && mechanics::rotates(network, component.node));
+    std::string name = fmt::format("{}_recorded_{}", node, word);
+    if (const int number = ++times_named[name]; number > 1) name += fmt::format("_{}", number);
+    std::vector<double> scaled = record.values;
+    for (double& value : scaled) value *= values.excitation[driven.excitation].amplitude;
+    const std::string along = name + "_time";
+    columns.add(along, "s", fmt::format("times of the samples of {}", record.name), along, record.time);
+    columns.add(name, unit, fmt::format("{} of {} by {}", word, node, record.name), along, std::move(scaled));
+  }
+}
+
+}  // namespace frahm::studies
