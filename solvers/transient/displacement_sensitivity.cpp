@@ -83,7 +83,7 @@ void set_system(const Network& network, const NetworkValues& values, std::span<c
   LinearSystem system;
   assembly.set_values(values, system);
   assembly.set_forcing(values, system);
-  system.recorded_size = course.sizes();
+  course.tell(system);
   std::vector<LinearSystem> by(along.size());
   for (std::size_t d = 0; d < by.size(); ++d)
     mechanics::differentiate(assembly, values, along[d], system, by[d]);
