@@ -36,7 +36,7 @@ void add_driving_records(const Study& study, MotionColumns& columns) {
   const mechanics::Network& network = study.network;
   const mechanics::NetworkValues values = motion_values(study);
   std::map<std::string, int> times_named;
-  for (const transient::RecordedExcitation& driven : study.transient()->driven_by(0)) {
+  for (const transient::RecordedExcitation& driven : driven_by(study.transient()->records, 0)) {
     const mechanics::Excitation& component = network.excitations[driven.excitation];
     const transient::Record& record = *driven.record;
     const bool is_force = record.of == RecordOf::force;
