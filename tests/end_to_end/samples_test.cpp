@@ -335,7 +335,8 @@ TEST_CASE("rig_scatter.toml: the samples have the covariance that the rig's iden
   const auto& omega = map.coordinate("omega");
   const auto worst = static_cast<std::size_t>(std::ranges::find(omega, 194.0) - omega.begin());
   CHECK_THAT(value(statistics, "main_peak_mean").at(worst), Catch::WithinAbs(0.10239, 1e-5));
-  CHECK_THAT(sampled.at(worst), Catch::WithinAbs(0.268e-3, 1e-6));
+  // g^T C g of the identified covariance itself, 0.2663 mm; four hundred points miss it by half a percent.
+  CHECK_THAT(sampled.at(worst), Catch::WithinRel(0.2663e-3, 0.01));
   CHECK_THAT(value(tornado, "main_peak_share_c_const").at(worst), Catch::WithinAbs(0.9, 0.01));
 }
 
