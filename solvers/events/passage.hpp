@@ -48,6 +48,7 @@ struct Passage {
   TangentPath path;
   std::vector<Segment<N, H>> segments;
   std::vector<Event> changes;  // between the segments, one fewer than segments
+  double energy_scale = 0.0;   // of its start (Flow::energy_scale) [sqrt(J)]
   int events = 0;              // stops, releases, reversals and bends, also those without a change of mode
   int bends = 0;               // those of them that are no event of a contact
   double margin = 1.0;         // relative distance of the nearest event from a different outcome; 0 = grazing

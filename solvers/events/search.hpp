@@ -47,36 +47,42 @@ double first_lasting_fall(const Polynomial& p, double limit, Workspace<N, H>& w)
   return kNoEvent;
 }
 
-// The velocity of sliding contact j over the step.
+// The guard of contact j at an instant: its velocity, or its force while it sticks.
 template <int N, int H>
-Polynomial sliding_polynomial(const Flow<N, H>& flow, Eigen::Index j, Workspace<N, H>& w) {
+ValueAndSlope guard_at(const Flow<N, H>& flow, const Instant<N, H>& at, const Mode<N, H>& mode,
+                       Eigen::Index j) {
+  return contains(mode.stuck, j) ? flow.stuck_force(at, mode, j) : flow.sliding_speed(at, j);
+}
+
+// The same over the step.
+template <int N, int H>
+Polynomial guard_polynomial(const Flow<N, H>& flow, Eigen::Index j, Workspace<N, H>& w) {
   const StepEquations<N, H>& eq = flow.equations();
+  const Mode<N, H>& mode = flow.mode(w.mode);
+  if (!Sizes<N, H>::is_fixed && !eq.is_large()) return flow.guard(w.left, mode, j);
   const Expansion<N, H>& x = w.expand(flow);
-  Polynomial speed;
-  if (eq.is_large()) {
-    const SparseRows& W = eq.sparse.directions;
-    speed.setZero();
-    for (auto e = static_cast<std::size_t>(W.start[static_cast<std::size_t>(j)]);
-         e < static_cast<std::size_t>(W.start[static_cast<std::size_t>(j) + 1]); ++e)
-      speed += W.value[e] * x.z.col(eq.masses() + W.column[e]);
-  } else {
+  if (contains(mode.stuck, j)) return flow.stuck_force(x, mode, j);
+  Polynomial speed = Polynomial::Zero();
+  if (eq.is_large())
+    for_each_entry(eq.sparse.directions, static_cast<int>(j),
+                   [&](int i, double weight) { speed += weight * x.z.col(eq.masses() + i); });
+  else
     speed = x.velocity(eq.W.col(j));
-  }
   if (flow.moving_support()) speed.noalias() += x.u * eq.support_velocity.row(j).transpose();
   return speed;
 }
 
 // When does sliding contact j come to rest within the step?
 template <int N, int H>
-double first_stop(const Flow<N, H>& flow, Eigen::Index j, Workspace<N, H>& w) {
-  const auto polynomial = [&] { return sliding_polynomial(flow, j, w); };
+double first_stop(const Flow<N, H>& flow, Eigen::Index j, ValueAndSlope left, ValueAndSlope right,
+                  Workspace<N, H>& w) {
+  const auto polynomial = [&] { return guard_polynomial(flow, j, w); };
   const double scale = w.speed_scale[j];
   if (scale == 0.0) return kNoEvent;
   if (contains(w.fresh, j)) {
     // The velocity starts like t, or like t^2 after a release: divide that root out.
     return first_crossing(deflate(polynomial(), contains(w.just_released, j) ? 2 : 1), scale, w);
   }
-  const ValueAndSlope left = flow.sliding_speed(w.left, j), right = flow.sliding_speed(w.right, j);
   if (flow.mode(w.mode).sign(j) * left.value <= 0.0) return 0.0;  // at the node itself, seen late by rounding
   switch (hermite_verdict(left, right, scale * kFourthDerivative / 384.0)) {
     case SignVerdict::no_change:
@@ -106,18 +112,16 @@ double fall_from_limit(const Polynomial& room, double limit, bool is_state, Work
 
 // When does the force of stuck contact j reach its limit within the step?
 template <int N, int H>
-double first_release(const Flow<N, H>& flow, Eigen::Index j, Workspace<N, H>& w) {
-  if (contains(w.held, j)) return kNoEvent;
+double first_release(const Flow<N, H>& flow, Eigen::Index j, ValueAndSlope left, ValueAndSlope right,
+                     Workspace<N, H>& w) {
   const double limit = flow.equations().static_limit[j];
-  const Mode<N, H>& mode = flow.mode(w.mode);
-  const ValueAndSlope left = flow.stuck_force(w.left, mode, j), right = flow.stuck_force(w.right, mode, j);
   const double margin = w.force_scale[j] * kFourthDerivative / 384.0;
   const double largest =
       std::max(std::max(std::abs(left.value), std::abs(right.value)),
                std::max(std::abs(left.value + left.slope / 3.0), std::abs(right.value - right.slope / 3.0)));
   if (largest + margin < limit) return kNoEvent;
 
-  const Polynomial force = flow.stuck_force(w.expand(flow), mode, j);
+  const Polynomial force = guard_polynomial(flow, j, w);
   double first = kNoEvent;
   for (const double side : {1.0, -1.0}) {
     Polynomial room = -side * force;
@@ -133,11 +137,16 @@ double first_release(const Flow<N, H>& flow, Eigen::Index j, Workspace<N, H>& w)
 template <int N, int H>
 GuardEvent first_event(const Flow<N, H>& flow, Workspace<N, H>& w) {
   GuardEvent first;
-  const ContactMask stuck = flow.mode(w.mode).stuck, idle = flow.configuration(flow.mode(w.mode)).idle;
+  const Mode<N, H>& mode = flow.mode(w.mode);
+  const ContactMask without_events = flow.configuration(mode).idle | (w.held & mode.stuck);
   for (Eigen::Index j = 0; j < flow.equations().contacts(); ++j) {
-    if (contains(idle, j)) continue;
-    const bool sticks = contains(stuck, j);
-    const double at = sticks ? first_release(flow, j, w) : first_stop(flow, j, w);
+    if (contains(without_events, j)) continue;
+    const bool sticks = contains(mode.stuck, j);
+    ValueAndSlope &left = w.left_guard[static_cast<std::size_t>(j)],
+                  &right = w.right_guard[static_cast<std::size_t>(j)];
+    if (!w.knows_left) left = guard_at(flow, w.left, mode, j);
+    right = guard_at(flow, w.right, mode, j);
+    const double at = sticks ? first_release(flow, j, left, right, w) : first_stop(flow, j, left, right, w);
     if (at < first.at) first = {at, j, sticks};
   }
   return first;

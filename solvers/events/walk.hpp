@@ -23,8 +23,16 @@ class Walk {
   void pass(const typename S::State& z, double phase, double length, Passage<N, H>& passage,
             Tangent tangent = Tangent::followed, ContactMask held = 0, PassageSteps<N, H>* steps = nullptr);
 
+  // The same without a tangent from where the last passage ended, which `phase` is of too, under what drives
+  // the flow now (Flow::set_recorded).
+  void go_on(double phase, double length, Passage<N, H>& passage, PassageSteps<N, H>* steps);
+
  private:
-  void enter(const typename S::State& z, double phase, Passage<N, H>& passage);
+  void open(double phase, Passage<N, H>& passage, PassageSteps<N, H>* steps);
+  bool keeps_mode(double phase);
+  void enter(double phase);
+  void begin(Passage<N, H>& passage);
+  void follow(double phase, double length, Passage<N, H>& passage);
   void begin_tangent(Passage<N, H>& passage) const;
   std::vector<int> stopped_at_start() const;
   bool starts_at_limit(Eigen::Index contact, double speed);

@@ -13,13 +13,29 @@ namespace frahm::periodic {
 template <int N, int H>
 void Walk<N, H>::pass(const typename S::State& z, double phase, double length, Passage<N, H>& passage,
                       Tangent tangent, ContactMask held, PassageSteps<N, H>* steps) {
-  constexpr int kMostEvents = 20000;
   passage.has_path = flow_.equations().is_large() && tangent != Tangent::none;
   passage.has_tangent = tangent == Tangent::followed;
   w_.held = held;
-  steps_ = steps;
-  if (steps_ != nullptr) steps_->clear();
-  enter(z, phase, passage);
+  w_.left.z = z;
+  open(phase, passage, steps);
+  enter(phase);
+  begin(passage);
+  follow(phase, length, passage);
+}
+
+template <int N, int H>
+void Walk<N, H>::go_on(double phase, double length, Passage<N, H>& passage, PassageSteps<N, H>* steps) {
+  passage.has_path = passage.has_tangent = false;
+  w_.held = 0;
+  open(phase, passage, steps);
+  if (!keeps_mode(phase)) enter(phase);
+  begin(passage);
+  follow(phase, length, passage);
+}
+
+template <int N, int H>
+void Walk<N, H>::follow(double phase, double length, Passage<N, H>& passage) {
+  constexpr int kMostEvents = 20000;
   int at_this_instant = 0;
   while (passage.failure == nullptr) {
     share_forces_again(passage);
@@ -28,6 +44,7 @@ void Walk<N, H>::pass(const typename S::State& z, double phase, double length, P
     const BendEvent bend = first_bend(flow_, w_);
     const double next = std::min(event.at, bend.at), room = length - w_.clock;
     if (next < room && next <= 1.0) {
+      w_.knows_left = false;
       at_this_instant = next > 0.0 ? 0 : at_this_instant + 1;
       if (bend.at < event.at)
         pass_bend(bend, phase, passage);
@@ -64,6 +81,7 @@ void Walk<N, H>::share_forces_again(Passage<N, H>& passage) {
   if (flow_.configuration(flow_.mode(w_.mode)).idle == 0) return;
   end_stretch(passage);
   if (!share_again(flow_, w_)) return;
+  w_.knows_left = false;
   passage.segments.back().length = w_.clock - passage.segments.back().start;
   if (passage.segments.back().length == 0.0)
     passage.segments.pop_back();
@@ -77,6 +95,8 @@ void Walk<N, H>::take_step(Passage<N, H>& passage) {
   move_tangent(1.0, passage);
   if (PassageStep<N, H>* step = keep_step(1.0)) step->right = w_.right;
   w_.left = w_.right;
+  std::swap(w_.left_guard, w_.right_guard);
+  w_.knows_left = true;
   w_.clock += 1.0;
   w_.leave_event();
 }
@@ -102,23 +122,59 @@ void Walk<N, H>::open_segment(Passage<N, H>& passage) {
   passage.segments.push_back({w_.clock, 0.0, w_.mode, w_.left.z});
 }
 
-// The mode at the start of a passage.
 template <int N, int H>
-void Walk<N, H>::enter(const typename S::State& z, double phase, Passage<N, H>& passage) {
-  const StepEquations<N, H>& eq = flow_.equations();
+void Walk<N, H>::open(double phase, Passage<N, H>& passage, PassageSteps<N, H>* steps) {
   passage.segments.clear();
   passage.changes.clear();
   passage.events = passage.bends = 0;
   passage.failure = nullptr;
+  steps_ = steps;
+  if (steps_ != nullptr) steps_->clear();
   w_.clock = 0.0;
   w_.margin = 1.0;
   w_.undecided = false;
-  w_.fresh = w_.just_released = 0;
   w_.behind = 0.0;
-  set_scales(flow_, z, phase, w_);
+  w_.knows_left = false;
+  passage.energy_scale = flow_.energy_scale(w_.left.z, phase);
+  set_scales(flow_, passage.energy_scale, w_);
+}
+
+template <int N, int H>
+void Walk<N, H>::begin(Passage<N, H>& passage) {
+  passage.starts_at_event = (w_.fresh | w_.at_place) != 0;
+  begin_tangent(passage);
+  open_segment(passage);
+}
+
+// Whether the last mode goes on at this phase: all that slide do so, and all that stick are within their
+// limits. `left` is then seen from inside it.
+template <int N, int H>
+bool Walk<N, H>::keeps_mode(double phase) {
+  const StepEquations<N, H>& eq = flow_.equations();
+  const Mode<N, H>& mode = flow_.mode(w_.mode);
+  if (eq.bends.count() > 0 || flow_.configuration(mode).idle != 0) return false;
+  flow_.instant_at(typename S::State(w_.left.z), phase, mode, w_.left);
+  flow_.configuration(mode).hold(eq, w_.left.u, w_.left.z);
+  for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
+    if (contains(mode.stuck, j)) {
+      const double force = std::abs(flow_.stuck_force(w_.left, mode, j).value);
+      if (force >= eq.static_limit[j] * (1.0 - kTie)) return false;
+    } else if (mode.sign(j) * flow_.sliding_speed(w_.left, j).value <= w_.rest_speed[j]) {
+      return false;
+    }
+  }
+  w_.leave_event();
+  return true;
+}
+
+// The mode at the start of a passage.
+template <int N, int H>
+void Walk<N, H>::enter(double phase) {
+  const StepEquations<N, H>& eq = flow_.equations();
+  w_.fresh = w_.just_released = 0;
 
   w_.mode = flow_.mode_index(0, 0, 0);
-  flow_.instant_at(z, phase, flow_.mode(w_.mode), w_.left);
+  flow_.instant_at(typename S::State(w_.left.z), phase, flow_.mode(w_.mode), w_.left);
   const ContactMask beyond = bends_at_start(flow_, w_);
   ContactMask at_rest = 0, positive = 0, stuck_states = 0;
   for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
@@ -135,10 +191,6 @@ void Walk<N, H>::enter(const typename S::State& z, double phase, Passage<N, H>& 
   w_.mode = flow_.mode_index(stuck_states, positive & ~at_rest, beyond);
   if (at_rest != 0) choose_modes(flow_, at_rest, w_);
   settle_mode(flow_, w_);
-
-  passage.starts_at_event = (w_.fresh | w_.at_place) != 0;
-  begin_tangent(passage);
-  open_segment(passage);
 }
 
 // Whether contact j, whose force is a state, starts sliding: its force is at the limit, in the direction of

@@ -22,6 +22,9 @@ struct Workspace {
   Expansion<N, H> expansion;  // over the current step, if `expanded`
   bool expanded = false;
   std::size_t mode = 0;
+  // Of each contact its guard (events/search.hpp) at both ends of the step: that of `left` where it is known.
+  std::vector<ValueAndSlope> left_guard, right_guard;
+  bool knows_left = false;
   double clock = 0.0;                           // steps since the passage began
   double behind = 0.0;                          // steps since the last stretch of the path ended
   ContactMask fresh = 0;                        // sliding contacts whose velocity is zero at `left`
@@ -51,15 +54,16 @@ struct Workspace {
   }
 };
 
+// energy: Flow::energy_scale of the state where the passage begins.
 template <int N, int H>
-void set_scales(const Flow<N, H>& flow, const typename Sizes<N, H>::State& z, double phase,
-                Workspace<N, H>& w) {
+void set_scales(const Flow<N, H>& flow, double energy, Workspace<N, H>& w) {
   const StepEquations<N, H>& eq = flow.equations();
-  const double energy = flow.energy_scale(z, phase);
   const Eigen::Index m = eq.contacts();
   w.speed_scale.resize(m);
   w.force_scale.resize(m);
   w.rest_speed.resize(m);
+  w.left_guard.resize(static_cast<std::size_t>(m));
+  w.right_guard.resize(static_cast<std::size_t>(m));
   for (Eigen::Index j = 0; j < m; ++j) {
     // |w^T v| <= sqrt(w^T M^-1 w) sqrt(v^T M v)
     w.speed_scale[j] = std::sqrt(2.0 * eq.compliance[j]) * energy + eq.support_speed[j];

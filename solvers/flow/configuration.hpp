@@ -54,8 +54,8 @@ struct Configuration {
   }
   // -P M^-1 (K q + C v + D s)
   template <class Displacements, class Velocities, class Forces>
-  typename S::Vector pull(const StepEquations<N, H>& equations, const Displacements& q, const Velocities& v,
-                          const Forces& s) const;
+  void pull(const StepEquations<N, H>& equations, const Displacements& q, const Velocities& v,
+            const Forces& s, typename S::Vector& a) const;
   // The same as a matrix over the state, n x states.
   Eigen::Matrix<double, N, S::kState> pull_by_state(const StepEquations<N, H>& equations) const;
   // Its form of w^T q'' over the state.
@@ -132,18 +132,16 @@ typename Sizes<N, H>::Square Configuration<N, H>::projector(const StepEquations<
 
 template <int N, int H>
 template <class Displacements, class Velocities, class Forces>
-typename Sizes<N, H>::Vector Configuration<N, H>::pull(const StepEquations<N, H>& equations,
-                                                       const Displacements& q, const Velocities& v,
-                                                       const Forces& s) const {
-  typename S::Vector a(equations.masses());
+void Configuration<N, H>::pull(const StepEquations<N, H>& equations, const Displacements& q,
+                               const Velocities& v, const Forces& s, typename S::Vector& a) const {
+  a.resize(equations.masses());
   if (equations.is_large()) {
     Eigen::VectorXd ds(equations.internal_forces());
-    periodic::pull(equations.sparse, held, q.data(), v.data(), s.data(), a.data(), ds.data());
-    return a;
+    return periodic::pull(equations.sparse, held, q.data(), v.data(), s.data(), a.data(), ds.data());
   }
-  a.noalias() = tables.Aq * q + tables.Av * v;
-  if constexpr (S::kInternal != 0) a += tables.As * s;
-  return a;
+  a.noalias() = tables.Aq * q;
+  a.noalias() += tables.Av * v;
+  if constexpr (S::kInternal != 0) a.noalias() += tables.As * s;
 }
 
 template <int N, int H>

@@ -93,6 +93,7 @@ void Configuration<N, H>::set_tables(const StepEquations<N, H>& equations) {
     }
   }
   tables.propagate_homogeneous(equations, spring);
+  if constexpr (!S::is_fixed) tables.set_guards(equations, stuck);
 }
 
 template <int N, int H>
@@ -151,7 +152,9 @@ void Configuration<N, H>::set_forcing(const StepEquations<N, H>& equations) {
       Au.col(k) = tables.P * force.col(k) - tables.reaction * support.col(k);
     }
   }
-  if (!equations.is_large()) tables.propagate_forcing(equations, spring, Au, internal_drive);
+  if (equations.is_large()) return;
+  tables.propagate_forcing(equations, spring, Au, internal_drive);
+  if constexpr (!S::is_fixed) tables.drive_guards(equations, stuck, Lu);
 }
 
 }  // namespace frahm::periodic

@@ -60,8 +60,8 @@ struct StepEquations {
   Eigen::MatrixXd internal_drive;                     // k p^T y'(t) [N a step]
   Eigen::VectorXd phase_rate;                         // order_k omega h [rad a step], size H
   // Of the records' numbers r, r', r'', r''' (mechanics/recorded_columns.hpp): the size in which each is
-  // counted [SI]; the rate at which it changes per size of the next [1/step]; their values at an instant from
-  // which on they are polynomials, none before they are set; and omega t there [rad].
+  // counted [SI]; the rate at which it changes per size of the next [1/step], 0 of r'''; their values at an
+  // instant from which on they are polynomials, none before they are set; and omega t there [rad].
   Eigen::VectorXd recorded_size, recorded_rate, recorded_at;
   double recorded_phase = 0.0;
   // Where recorded supports take the masses, if all is slow: q_s = quasi_static u(t), n x oscillators, 0
@@ -96,13 +96,9 @@ struct StepEquations {
       result.col(2 + 2 * k) = -phase_rate[k] * rows.col(1 + 2 * k);
     }
     if constexpr (!S::is_fixed) {
-      for (Eigen::Index k = first_recorded(); k < rows.cols(); ++k) {
-        if ((k - first_recorded()) % mechanics::kRecordNumbers == 0) {
-          result.col(k).setZero();
-        } else {
-          result.col(k) = recorded_rate[k - 1 - first_recorded()] * rows.col(k - 1);
-        }
-      }
+      if (first_recorded() < rows.cols()) result.col(first_recorded()).setZero();
+      for (Eigen::Index k = first_recorded() + 1; k < rows.cols(); ++k)
+        result.col(k) = recorded_rate[k - 1 - first_recorded()] * rows.col(k - 1);
     }
   }
 
@@ -192,7 +188,8 @@ struct StepEquations {
     const Eigen::Index n = masses();
     const auto q = z.head(n);
     const auto v = z.segment(n, n);
-    double energy = v.dot(M * v) + q.dot(K * q);
+    double energy = 0.0;
+    for (Eigen::Index i = 0; i < n; ++i) energy += v[i] * M.col(i).dot(v) + q[i] * K.col(i).dot(q);
     if constexpr (S::kInternal != 0) {
       energy += (z.tail(internal_forces()).array().square() / internal_stiffness.array()).sum();
     }

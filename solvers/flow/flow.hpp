@@ -27,6 +27,7 @@ struct Mode {
   // Of a small system: Ef * friction, series_f * friction (StepTables).
   typename Sizes<N, H>::State step;
   typename Sizes<N, H>::Series series;
+  Eigen::VectorXd guards;  // guard_f * friction, with stuck_force
 
   double sign(Eigen::Index contact) const { return contains(positive, contact) ? 1.0 : -1.0; }
 };
@@ -140,7 +141,10 @@ class Flow {
   // The force of a stuck contact [N]: lambda_j, or its internal force if it has one; and its slope a step.
   ValueAndSlope stuck_force(const Instant<N, H>& at, const Mode<N, H>& mode, Eigen::Index contact) const;
   Polynomial stuck_force(const Expansion<N, H>& x, const Mode<N, H>& mode, Eigen::Index contact) const;
-  // Its part that the state makes, as a form over the state: (Lq, Lv, Ls)_j.
+  // The guard of a contact over the step that starts at an instant: stuck_force while it sticks, else
+  // sliding_speed. Of a system with tables and of a size that is not fixed.
+  Polynomial guard(const Instant<N, H>& at, const Mode<N, H>& mode, Eigen::Index contact) const;
+  // The part of stuck_force that the state makes, as a form over the state: (Lq, Lv, Ls)_j.
   typename S::State stuck_force_form(const Mode<N, H>& mode, Eigen::Index contact) const;
 
  private:

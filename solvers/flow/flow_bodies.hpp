@@ -63,6 +63,10 @@ std::size_t Flow<N, H>::mode_index(ContactMask stuck, ContactMask positive, Cont
   if (!equations_.is_large()) {
     mode.step.noalias() = configuration.tables.Ef.lazyProduct(mode.friction);
     mode.series.noalias() = configuration.tables.series_f.lazyProduct(mode.friction);
+    if constexpr (!S::is_fixed) {
+      mode.guards.noalias() = configuration.tables.guard_f.lazyProduct(mode.friction);
+      for (Eigen::Index j = 0; j < equations_.contacts(); ++j) mode.guards[kTerms * j] += mode.stuck_force[j];
+    }
   }
   return mode_keys_.size() - 1;
 }

@@ -122,8 +122,7 @@ void set_record_sizes(const Eigen::VectorXd& size, StepEquations<N, H>& eq) {
   eq.recorded_size = (size.array() > 0.0).select(size, 1.0);
   eq.recorded_rate.setZero(size.size());
   for (Eigen::Index k = 0; k + 1 < size.size(); ++k) {
-    const bool has_next = k % mechanics::kRecordNumbers + 1 < mechanics::kRecordNumbers;
-    if (has_next) eq.recorded_rate[k] = eq.step * size[k + 1] / eq.recorded_size[k];
+    if (mechanics::has_derivative(k)) eq.recorded_rate[k] = eq.step * size[k + 1] / eq.recorded_size[k];
   }
   eq.recorded_at.resize(0);
 }

@@ -54,6 +54,8 @@ struct Sizes {
       Eigen::Matrix<double, Eigen::Dynamic, N, N == 1 ? Eigen::ColMajor : Eigen::RowMajor, kMaxContacts, N>;
   using ContactsByOscillators =
       Eigen::Matrix<double, Eigen::Dynamic, kOscillators, Eigen::RowMajor, kMaxContacts, kOscillators>;
+  using ContactsByState =
+      Eigen::Matrix<double, Eigen::Dynamic, kState, Eigen::RowMajor, kMaxContacts, kState>;
   using Contacts = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxContacts, 1>;
   using ContactSquare =
       Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMaxContacts, kMaxContacts>;

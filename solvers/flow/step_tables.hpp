@@ -36,12 +36,21 @@ struct StepTables {
   typename S::StateByOscillators Eu;
   typename S::StateByContacts Ef;
 
+  // The guard of each contact over a step, kTerms rows each: the force that holds it while it sticks, else
+  // its velocity; of sizes that are not fixed, where an event need not expand the whole state.
+  typename S::ContactsByState guard;  // over the state at one instant
+  Eigen::MatrixXd guard_z, guard_u, guard_f;
+
   // The series of states and friction forces, once Aq, Av, As and Af are set. spring: see Configuration.
   void propagate_homogeneous(const StepEquations<N, H>& equations, const typename S::Internal& spring);
   // The series of the oscillators. Au, internal_drive: see Configuration.
   void propagate_forcing(const StepEquations<N, H>& equations, const typename S::Internal& spring,
                          const typename S::VectorByOscillators& Au,
                          const typename S::InternalByOscillators& internal_drive);
+  // The guards' own series, after those of the state. Lu: see Configuration.
+  void set_guards(const StepEquations<N, H>& equations, ContactMask stuck);
+  void drive_guards(const StepEquations<N, H>& equations, ContactMask stuck,
+                    const typename S::ContactsByOscillators& Lu);
   // Columns of states moved on by part of a step.
   void move_by_fraction(double fraction, typename S::StateSquare& states) const;
 
@@ -150,6 +159,50 @@ void StepTables<N, H>::propagate_forcing(const StepEquations<N, H>& equations,
   const Solutions<S::kOscillators> from_rest(equations, equations.oscillators());
   expand_series(equations, spring, from_rest, series_u, forcing);
   sum_series(series_u, Eu);
+}
+
+// `guard` over the series of all components of the state.
+template <class Guard, class Series>
+Eigen::MatrixXd guard_series(const Guard& guard, const Series& series) {
+  Eigen::MatrixXd of_guards = Eigen::MatrixXd::Zero(kTerms * guard.rows(), series.cols());
+  for (Eigen::Index j = 0; j < guard.rows(); ++j) {
+    for (Eigen::Index i = 0; i < guard.cols(); ++i) {
+      if (guard(j, i) != 0.0)
+        of_guards.middleRows<kTerms>(kTerms * j) +=
+            guard(j, i) * series.template middleRows<kTerms>(kTerms * i);
+    }
+  }
+  return of_guards;
+}
+
+template <int N, int H>
+void StepTables<N, H>::set_guards(const StepEquations<N, H>& equations, ContactMask stuck) {
+  const Eigen::Index n = equations.masses();
+  guard.setZero(equations.contacts(), equations.states());
+  for (Eigen::Index j = 0; j < guard.rows(); ++j) {
+    if (contains(stuck, j))
+      guard.row(j) << Lq.row(j), Lv.row(j), Ls.row(j);
+    else
+      guard.row(j).segment(n, n) = equations.W.col(j).transpose();
+  }
+  guard_z = guard_series(guard, series_z);
+  guard_f = guard_series(guard, series_f);
+}
+
+// To what the state makes come the oscillators' own: row * u(t) has the Taylor coefficients row^(k)/k!.
+template <int N, int H>
+void StepTables<N, H>::drive_guards(const StepEquations<N, H>& equations, ContactMask stuck,
+                                    const typename S::ContactsByOscillators& Lu) {
+  guard_u = guard_series(guard, series_u);
+  typename S::ContactsByOscillators rows = equations.support_velocity, rates = rows;
+  for (Eigen::Index j = 0; j < rows.rows(); ++j) {
+    if (contains(stuck, j)) rows.row(j) = Lu.row(j);
+  }
+  for (int k = 0; k < kTerms; ++k) {
+    for (Eigen::Index j = 0; j < rows.rows(); ++j) guard_u.row(kTerms * j + k) += rows.row(j);
+    equations.differentiate(rows, rates);
+    rows = rates / (k + 1.0);
+  }
 }
 
 template <int N, int H>

@@ -23,7 +23,7 @@ inline void Flow<N, H>::accelerate(const Mode<N, H>& mode, Instant<N, H>& at) co
   const Configuration<N, H>& configuration = configurations_[mode.configuration];
   const auto q = at.z.head(n), v = at.z.segment(n, n);
   const auto s = at.z.tail(equations_.internal_forces());
-  at.a = configuration.pull(equations_, q, v, s);
+  configuration.pull(equations_, q, v, s, at.a);
   at.a.noalias() += configuration.Au * at.u;
   at.a += mode.acceleration;
   if constexpr (S::kInternal != 0) {
@@ -106,7 +106,7 @@ inline void Flow<N, H>::expand_oscillators(const Instant<N, H>& at, Expansion<N,
       auto series = x.u.col(eq.first_recorded() + k);
       series.setZero();
       double share = 1.0;
-      for (Eigen::Index j = 0; k % mechanics::kRecordNumbers + j < mechanics::kRecordNumbers; ++j) {
+      for (Eigen::Index j = 0; share != 0.0; ++j) {
         series[j] = share * at.u[eq.first_recorded() + k + j];
         share *= eq.recorded_rate[k + j] / (static_cast<double>(j) + 1.0);
       }

@@ -1,6 +1,6 @@
 #pragma once
 
-// Flow: the forces of stuck contacts. Included by flow.hpp.
+// Flow: the forces of stuck contacts, and the guards of all. Included by flow.hpp.
 #include "solvers/flow/flow.hpp"
 
 namespace frahm::periodic {
@@ -100,6 +100,18 @@ Polynomial Flow<N, H>::stuck_force(const Expansion<N, H>& x, const Mode<N, H>& m
   force += x.velocity(c.tables.Lv.row(j).transpose());
   if constexpr (S::kInternal != 0) force += x.internal_force(c.tables.Ls.row(j).transpose());
   return force;
+}
+
+template <int N, int H>
+inline Polynomial Flow<N, H>::guard(const Instant<N, H>& at, const Mode<N, H>& mode, Eigen::Index j) const {
+  const StepTables<N, H>& tables = configuration(mode).tables;
+  const Eigen::Index first = kTerms * j;
+  Polynomial guard = mode.guards.template segment<kTerms>(first);
+  for (Eigen::Index i = 0; i < at.z.size(); ++i)
+    guard += at.z[i] * tables.guard_z.col(i).template segment<kTerms>(first);
+  for (Eigen::Index i = 0; i < at.u.size(); ++i)
+    guard += at.u[i] * tables.guard_u.col(i).template segment<kTerms>(first);
+  return guard;
 }
 
 }  // namespace frahm::periodic

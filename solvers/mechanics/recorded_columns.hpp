@@ -8,6 +8,11 @@ namespace frahm::mechanics {
 
 inline constexpr Eigen::Index kRecordNumbers = 4;
 
+// Whether number k of all records, one after the other, has its derivative behind it: it is no r'''.
+inline bool has_derivative(Eigen::Index k) {
+  return k % kRecordNumbers + 1 < kRecordNumbers;
+}
+
 // Fills the recorded columns of a system with matrices; called by Assembly::set_forcing.
 void set_recorded(const Network& network, const NetworkValues& values, LinearSystem& system);
 

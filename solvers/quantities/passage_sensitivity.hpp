@@ -154,7 +154,7 @@ void PassageSensitivity<N, H>::expand(const PassageStep<N, H>& step, const typen
   for (int k = 0; k < kTerms; ++k) {
     p.row(k).head(n) = q.transpose();
     p.row(k).segment(n, n) = v.transpose();
-    a = c.pull(eq, q, v, s);
+    c.pull(eq, q, v, s, a);
     a += drive.row(k).transpose();
     const double share = 1.0 / (k + 1.0);
     if constexpr (S::kInternal != 0) {
@@ -268,8 +268,8 @@ InstantDerivative<N, H> PassageSensitivity<N, H>::at(std::size_t i, double s, co
   const ModeDerivative<N, H>& d = modes_[step.mode];
   InstantDerivative<N, H> result;
   result.z = polynomials_[i].transpose() * powers(s);
-  result.a = c.pull(flow_.equations(), result.z.head(n), result.z.segment(n, n),
-                    result.z.tail(flow_.equations().internal_forces()));
+  c.pull(flow_.equations(), result.z.head(n), result.z.segment(n, n),
+         result.z.tail(flow_.equations().internal_forces()), result.a);
   result.a += d.acceleration_z * at.z + d.acceleration_u * at.u;
   return result;
 }

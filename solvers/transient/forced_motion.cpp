@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <numbers>
 #include <optional>
 
 #include "solvers/algebra/no_value.hpp"
-#include "solvers/exact/response.hpp"
 #include "solvers/mechanics/coordinates.hpp"
+#include "solvers/transient/driven_motion.hpp"
 #include "solvers/transient/motion_measurement.hpp"
 #include "solvers/transient/record_course.hpp"
 #include "solvers/transient/trajectory.hpp"
@@ -35,70 +34,8 @@ Sweep sweep_of(const ForcedOptions& options) {
           .time = std::abs(change) / options.sweep.rate};
 }
 
-// A motion whose excitation is set anew, at another frequency, from time to time.
-class Driven {
- public:
-  // course: of the records; null where there are none.
-  Driven(const mechanics::Assembly& assembly, const ValuesAt& values_at, const InitialState& initial,
-         const RecordCourse* course, std::vector<double> times, Watch watch, Kept kept)
-      : trajectory(assembly, std::move(times), std::move(watch), kept),
-        assembly_(assembly),
-        values_at_(values_at),
-        initial_(initial),
-        course_(course) {}
-
-  // From here on the excitation has frequency omega, which changes at the rate alpha, and its phase is
-  // `phase`.
-  void drive(double omega, double alpha, double phase) {
-    const mechanics::NetworkValues values = values_at_(omega);
-    const bool rebuild = !started_ || assembly_.matrices_depend_on_frequency() ||
-                         !periodic::have_same_elements(values, built_);
-    if (rebuild) {
-      assembly_.set_values(values, system_);
-      built_ = values;
-    }
-    assembly_.set_forcing(values, system_);
-    if (course_ != nullptr) course_->tell(system_);
-    add_angular_acceleration(alpha);
-    if (rebuild) {
-      trajectory.set_system(system_, phase);
-    } else {
-      trajectory.set_forcing(system_, phase);
-    }
-    if (!started_ && course_ != nullptr && course_->times().front() <= 0.0)
-      trajectory.set_recorded(course_->numbers(0), phase);
-    if (!started_) trajectory.start(initial_);
-    started_ = true;
-  }
-
-  Trajectory trajectory;
-
- private:
-  // y'' = (i k alpha - (k omega)^2) Y_k e^{i k phi}: the supports exert -M_s y'' through inerters, of which
-  // the assembly contains the second part. The first part works at the masses' velocities; the rest of its
-  // work is in the jumps of the supports' velocities from stair to stair.
-  void add_angular_acceleration(double alpha) {
-    if (alpha == 0.0 || system_.motion.rows() == 0) return;
-    for (std::size_t k = 0; k < system_.orders.size(); ++k) {
-      const auto column = static_cast<Eigen::Index>(k);
-      const std::complex<double> rate(0.0, system_.orders[k] * alpha);
-      const Eigen::VectorXcd force = -rate * (system_.M_support * system_.motion.col(column));
-      system_.force.col(column) += force;
-      system_.applied_force.col(column) += force;
-    }
-  }
-
-  const mechanics::Assembly& assembly_;
-  const ValuesAt& values_at_;
-  const InitialState& initial_;
-  const RecordCourse* course_;
-  mechanics::LinearSystem system_;
-  mechanics::NetworkValues built_;  // of which the system's matrices are
-  bool started_ = false;
-};
-
 // At one frequency, period by period, so that the phase is exact however long the motion is.
-bool keep_frequency(Driven& driven, double omega, double phase, double until) {
+bool keep_frequency(DrivenMotion& driven, double omega, double phase, double until) {
   const double period = kTurn / omega;
   driven.drive(omega, 0.0, phase);
   if (!driven.trajectory.can_last(until - driven.trajectory.time())) return false;
@@ -112,7 +49,7 @@ bool keep_frequency(Driven& driven, double omega, double phase, double until) {
 }
 
 // Under records, from one of their times to the next, beside harmonics of one frequency.
-bool follow_records(Driven& driven, double omega, const RecordCourse& course, double until) {
+bool follow_records(DrivenMotion& driven, double omega, const RecordCourse& course, double until) {
   const std::vector<double>& times = course.times();
   driven.drive(omega, 0.0, 0.0);
   if (!driven.trajectory.can_last(until)) return false;
@@ -128,7 +65,7 @@ bool follow_records(Driven& driven, double omega, const RecordCourse& course, do
 
 // Through a range of frequencies on `count` stairs, to time `until` <= sweep.time. Start and end have their
 // true frequency, half a stair from that of the first and the last stair, and the energies that belong to it.
-bool climb(Driven& driven, const Sweep& sweep, double until, int count) {
+bool climb(DrivenMotion& driven, const Sweep& sweep, double until, int count) {
   const double tau = until / count, lag = sweep.alpha * tau * tau / 12.0;
   driven.drive(sweep.from, sweep.alpha, 0.0);
   for (int i = 0; i < count; ++i) {
@@ -195,9 +132,9 @@ ForcedMotion run(const Problem& problem, int stairs) {
                   .energies = is_record || measurement.needs_energies(),
                   .rest = false,
                   .largest = &measurement.largest()};
-  Driven driven(problem.assembly, problem.values_at, problem.initial,
-                problem.course ? &*problem.course : nullptr, sample_times(options.duration, options.samples),
-                options.watch, kept);
+  DrivenMotion driven(problem.assembly, problem.values_at, problem.initial,
+                      problem.course ? &*problem.course : nullptr,
+                      sample_times(options.duration, options.samples), options.watch, kept);
   if (stairs == 0) driven.trajectory.expect_many_steps();
   bool complete = true;
   double phase = 0.0;

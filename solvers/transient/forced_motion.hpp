@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -31,10 +30,6 @@ struct ForcedOptions {
   std::span<const MotionQuantity> quantities = {};
   bool extrema = false;  // ForcedMotion::extrema and peaks are kept, whatever the quantities
 };
-
-// The values of the network at a frequency [rad/s]. In a run-up the amplitudes of forces may follow it, and
-// so may the elements; the amplitudes of prescribed motion must not.
-using ValuesAt = std::function<mechanics::NetworkValues(double omega)>;
 
 struct ForcedMotion {
   std::string failure;  // why the motion could not be completed; empty: it is complete

@@ -29,7 +29,7 @@ double bound(TraceKind kind, ValueAndSlope left, ValueAndSlope right, double len
   }
   const double b1 = left.value + left.slope * length / 3.0, b2 = right.value - right.slope * length / 3.0;
   return std::max({std::abs(left.value), std::abs(b1), std::abs(b2), std::abs(right.value)}) +
-         kOfCubic * fourth * std::pow(length, 4);
+         kOfCubic * fourth * length * length * length * length;
 }
 
 // Whether the derivative of a displacement or velocity keeps its sign within the step.
@@ -41,14 +41,27 @@ bool is_monotone(ValueAndSlope left, ValueAndSlope right, double length, double 
   return least > slack || most < -slack;
 }
 
+// int_0^L p(s)^2 ds = L q^T H q  with  q_k = p_k L^k  and Hilbert's matrix  H_jk = 1/(j + k + 1).
+double integral_of_square(const Polynomial& p, double length) {
+  static const Eigen::MatrixXd hilbert =
+      Eigen::MatrixXd::NullaryExpr(periodic::kTerms, periodic::kTerms,
+                                   [](Index j, Index k) { return 1.0 / static_cast<double>(j + k + 1); });
+  const Polynomial q = p.cwiseProduct(periodic::powers(length));
+  return length * q.dot(hilbert * q);
+}
+
 }  // namespace
 
-std::size_t LargestValues::add(TraceKind kind, const mechanics::Incidence& at) {
+std::size_t LargestValues::add(TraceKind kind, const mechanics::Incidence& at, bool mean_square) {
   const auto same = std::ranges::find_if(followed_, [&](const Followed& each) {
     return each.kind == kind && each.at.w == at.w && each.at.p == at.p;
   });
-  if (same != followed_.end()) return static_cast<std::size_t>(same - followed_.begin());
+  if (same != followed_.end()) {
+    same->has_square = same->has_square || mean_square;
+    return static_cast<std::size_t>(same - followed_.begin());
+  }
   Followed followed{.kind = kind, .at = at, .masses = {}, .of_u = {}, .of_du = {}, .of_ddu = {}};
+  followed.has_square = mean_square;
   for (Index i = 0; i < at.w.size(); ++i) {
     if (at.w[i] != 0.0) followed.masses.push_back(i);
   }
@@ -108,7 +121,7 @@ Polynomial LargestValues::polynomial_of(const Followed& followed, const Steps& s
 
 void LargestValues::follow(const Flow& flow, const Steps& steps, Step& step, double at, double energy) {
   const double h = flow.equations().step, length = step.length;
-  const double rate3 = std::pow(periodic::kStepRate, 3), rate4 = rate3 * periodic::kStepRate;
+  constexpr double rate = periodic::kStepRate, rate3 = rate * rate * rate, rate4 = rate3 * rate;
   for (Followed& each : followed_) {
     const auto [left, right] = ends_of(each, step);
     const bool is_displacement = each.kind == TraceKind::displacement;
@@ -128,6 +141,10 @@ void LargestValues::follow(const Flow& flow, const Steps& steps, Step& step, dou
       }
     }
     consider(unit * (is_acceleration ? right.slope : right.value), at + length * h, each);
+    if (each.has_square) {
+      each.square += unit * unit * h * integral_of_square(polynomial_of(each, steps, step), length);
+      each.time += length * h;
+    }
   }
 }
 

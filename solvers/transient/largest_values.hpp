@@ -18,6 +18,8 @@ namespace frahm::transient {
 // sqrt(3) M4 L^3 / 216 (G. Birkhoff and A. Priver, J. Math. Phys. 46 (1967) 440). An acceleration is bounded
 // as the derivative of its velocity. M4 follows from the energy norm: each derivative by the step fraction
 // takes a factor of kStepRate at most.
+//
+// Where mean squares are asked for, every step is expanded and its polynomial's square integrated exactly.
 class LargestValues {
  public:
   using Flow = periodic::Flow<Eigen::Dynamic, Eigen::Dynamic>;
@@ -26,7 +28,8 @@ class LargestValues {
 
   // From now on this is followed too, before the motion begins. kind: displacement, velocity or acceleration.
   // Returns its number; what is followed already keeps its own.
-  std::size_t add(periodic::TraceKind kind, const mechanics::Incidence& at);
+  // mean_square: is asked for too; not of an acceleration.
+  std::size_t add(periodic::TraceKind kind, const mechanics::Incidence& at, bool mean_square = false);
 
   // Matrices and forcing of the flow are new.
   void set_system(const Flow& flow);
@@ -36,6 +39,8 @@ class LargestValues {
 
   // The largest value [m], [m/s] or [m/s^2] with its sign, and when it is first reached to 1e-12 of it.
   const Extremum& largest(std::size_t number) const { return followed_[number].largest; }
+  // Mean over the motion of its square [m^2], [m^2/s^2], where it was asked for.
+  double mean_square(std::size_t number) const { return followed_[number].square / followed_[number].time; }
 
  private:
   using Instant = periodic::Instant<Eigen::Dynamic, Eigen::Dynamic>;
@@ -48,6 +53,8 @@ class LargestValues {
     double speed = 0.0, support_speed = 0.0;  // its velocity's bound for a unit of energy; of its supports
     double reached = -1.0;                    // the size that was first reached at the time of `largest`
     Extremum largest = {};
+    bool has_square = false;
+    double square = 0.0, time = 0.0;  // the integral of its square, over this time [s]
   };
   // Value and slope at both ends of a step, of the trace; of an acceleration those of its velocity.
   struct Ends {

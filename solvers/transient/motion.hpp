@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "solvers/mechanics/network.hpp"
+
 // The record of a motion from given initial values.
 namespace frahm::transient {
 
@@ -66,6 +68,10 @@ struct EnergyBudget {
 // Why a motion is not told: its energies balance to worse than 1e-7, so that an event was missed. Empty: they
 // do.
 std::string why_unbalanced(const EnergyBudget& energy);
+
+// The values of the network at a frequency [rad/s]. In a run-up the amplitudes of forces may follow it, and
+// so may the elements; the amplitudes of prescribed motion must not.
+using ValuesAt = std::function<mechanics::NetworkValues(double omega)>;
 
 // Called every few hundred steps while a motion is followed; what it throws ends the motion and is passed on.
 // Empty: nothing is called.

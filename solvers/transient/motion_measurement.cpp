@@ -19,15 +19,21 @@ std::optional<TraceKind> trace_of(MotionMeasure measure) {
   switch (measure) {
     case peak:
     case peak_time:
+    case rms:
     case stroke:
       return TraceKind::displacement;
     case velocity_peak:
+    case velocity_rms:
       return TraceKind::velocity;
     case acceleration_peak:
       return TraceKind::acceleration;
     default:
       return std::nullopt;
   }
+}
+
+bool is_mean_square(MotionMeasure measure) {
+  return measure == rms || measure == velocity_rms;
 }
 
 bool is_of_energy(MotionMeasure measure) {
@@ -57,7 +63,7 @@ MotionMeasurement::MotionMeasurement(const mechanics::Assembly& assembly,
                                         ? assembly.incidences()[index]
                                         : mechanics::coordinate_incidence(assembly.network(), index);
     const bool jumps = of_run_up && *kind != TraceKind::displacement && at.p.size() > 0 && !at.p.isZero(0.0);
-    if (!jumps) traces_[q] = largest_.add(*kind, at);
+    if (!jumps) traces_[q] = largest_.add(*kind, at, is_mean_square(measure));
   }
 }
 
@@ -65,6 +71,7 @@ double MotionMeasurement::number(const MotionQuantity& quantity, std::size_t tra
                                  const Trajectory& trajectory, const EnergyBudget& budget) const {
   const auto& [measure, index] = quantity;
   if (trace != kNoTrace) {
+    if (is_mean_square(measure)) return std::sqrt(largest_.mean_square(trace));
     const Extremum& largest = largest_.largest(trace);
     return measure == peak_time ? largest.time : std::abs(largest.displacement);
   }

@@ -16,6 +16,8 @@ enum class MotionMeasure {
   peak_time,
   velocity_peak,
   acceleration_peak,
+  rms,
+  velocity_rms,
   residual,
   // of an element
   stroke,

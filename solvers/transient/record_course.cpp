@@ -178,8 +178,7 @@ void RecordCourse::bound_numbers() {
   for (std::size_t i = 0; i + 1 < times_.size(); ++i) longest = std::max(longest, times_[i + 1] - times_[i]);
   for (const Eigen::VectorXd& numbers : numbers_) sizes_ = sizes_.cwiseMax(numbers.cwiseAbs());
   for (Eigen::Index k = sizes_.size() - 1; k-- > 0;) {
-    const bool has_next = k % mechanics::kRecordNumbers + 1 < mechanics::kRecordNumbers;
-    if (has_next) sizes_[k] = std::max(sizes_[k], longest * sizes_[k + 1]);
+    if (mechanics::has_derivative(k)) sizes_[k] = std::max(sizes_[k], longest * sizes_[k + 1]);
   }
 }
 

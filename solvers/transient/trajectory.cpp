@@ -66,6 +66,7 @@ void Trajectory::take_forcing(const mechanics::LinearSystem& system, double phas
   const double old_step = flow_.equations().step;
   flow_.set_forcing(system);
   account_.set_system(system);
+  goes_on_ = false;
   if (kept_.largest != nullptr) kept_.largest->set_system(flow_);
   forcing_omega_ = system.omega;
   set_frequency(system.omega, 0.0);
@@ -136,11 +137,15 @@ bool Trajectory::can_last(double duration) {
 }
 
 bool Trajectory::pass(double length, double phase) {
-  walk_.pass(z_, phase, length, passage_, periodic::Tangent::none, 0, &steps_);
+  if (goes_on_)
+    walk_.go_on(phase, length, passage_, &steps_);
+  else
+    walk_.pass(z_, phase, length, passage_, periodic::Tangent::none, 0, &steps_);
+  goes_on_ = true;
   steps_taken_ += length;
   failure_ = passage_.failure;
   if (failure_ != nullptr) return false;
-  energy_scale_ = flow_.energy_scale(z_, phase);
+  energy_scale_ = passage_.energy_scale;
   energy_after_ = flow_.energy_scale(passage_.end, phase + length * flow_.fundamental_rate());
   for (Step& step : steps_.steps()) follow(step);
   z_ = passage_.end;
@@ -160,7 +165,7 @@ void Trajectory::follow(Step& step) {
   if (kept_.extrema) follow_extrema(step, at);
   keep_samples(step, at);
   if (kept_.energies) account_.follow(mode, steps_.expand(step), step.length);
-  for (Index j = 0; j < eq.contacts(); ++j) {
+  for (Index j = 0; kept_.rest && j < eq.contacts(); ++j) {
     if (!contains(mode.stuck, j)) deceleration_[j] = std::abs(flow_.sliding_speed(step.right, j).slope);
   }
 }

@@ -120,6 +120,7 @@ class Trajectory {
   double forcing_omega_ = 0.0;                            // of the forcing [rad/s]
   double omega_ = 0.0, alpha_ = 0.0, omega_since_ = 0.0;  // true, its rise [rad/s^2], since [s]
   double steps_taken_ = 0.0;
+  bool goes_on_ = false;  // z_ and the flow's table of modes are as the last passage left them
   const char* failure_ = nullptr;
   double energy_scale_ = 0.0, energy_after_ = 0.0;  // [sqrt(J)] of the current passage, and at its end
   Kept kept_;

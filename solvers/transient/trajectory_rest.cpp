@@ -27,7 +27,7 @@ void Trajectory::note_mode(const periodic::Mode<Eigen::Dynamic, Eigen::Dynamic>&
     if (!contains(stopped, j)) continue;
     stops.push_back({at, kNone});
     const double scale = periodic::kStepRate * std::sqrt(2.0 * eq.compliance[j]) * energy_scale_;
-    if (has_mode_ && deceleration_[j] <= kCreeping * scale) {
+    if (has_mode_ && kept_.rest && deceleration_[j] <= kCreeping * scale) {
       crept_ = true;
       creeps_to_ = creeps_to;
     }
@@ -71,6 +71,7 @@ void Trajectory::find_free_directions() {
 
 void Trajectory::come_to_rest() {
   z_ = tends_to();
+  goes_on_ = false;
   acceleration_.setZero(flow_.equations().masses());
 }
 

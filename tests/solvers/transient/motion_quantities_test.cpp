@@ -188,6 +188,25 @@ TEST_CASE("The peaks of a chain that sticks and slips are those of its densely s
   }
 }
 
+TEST_CASE("The root mean squares of a chain that sticks and slips are those of its densely sampled history") {
+  const Chain chain;
+  constexpr double duration = 30.0, of_samples = 1e-6;  // the rectangles' error at 1e-4 s
+  const auto at = [&](double) { return chain.values; };
+  const ForcedMotion history =
+      forced_motion(chain.network, at, {}, {.from = 1.3, .duration = duration, .samples = 300'001});
+  REQUIRE(history.failure.empty());
+  const auto root_mean_square = [](const std::vector<double>& values) {
+    double sum = -0.5 * (values.front() * values.front() + values.back() * values.back());
+    for (const double value : values) sum += value * value;
+    return std::sqrt(sum / static_cast<double>(values.size() - 1));
+  };
+  for (std::size_t i = 0; i <= Chain::masses; ++i) {
+    const auto found = numbers_of(chain.network, chain.values, {}, duration, {{rms, i}, {velocity_rms, i}});
+    CHECK_THAT(found[0], WithinRel(root_mean_square(history.history.displacement[i]), of_samples));
+    CHECK_THAT(found[1], WithinRel(root_mean_square(history.history.velocity[i]), of_samples));
+  }
+}
+
 TEST_CASE("A quantity of a motion does not depend on what else is asked") {
   const Chain chain;
   const std::vector<MotionQuantity> all = all_motion_quantities(chain.network, false);
