@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "solvers/algebra/symmetric_modes.hpp"
-#include "solvers/samples/distribution.hpp"
+#include "solvers/samples/elementary.hpp"
 
 namespace frahm::samples {
 

@@ -28,7 +28,4 @@ double kept_share(const Distribution& distribution);
 // The number below which a share of the distribution lies, the cuts included.  0 < share < 1.
 double quantile(const Distribution& distribution, double share);
 
-// The share of a standard normal distribution inverted: a normal number of mean 0 and deviation 1.
-double standard_normal(double share);
-
 }  // namespace frahm::samples

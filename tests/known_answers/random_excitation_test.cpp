@@ -115,17 +115,20 @@ TEST_CASE("White noise on a linear oscillator causes Lyapunov's variances, insid
 }
 
 // v' = w - F sgn v: the stationary density is  exp(-F |v|/(pi S0)),  so that  sigma_v^2 = 2 (pi S0/F)^2
-// (Fokker and Planck). Straight lines between 50 samples a second leave out 1.5 % of it.
+// (Fokker and Planck). Straight lines between samples D apart leave out 0.8 D F^2/(pi S0) of it, to first order:
+// 1.64 % at 50 samples a second and 0.63 % at 125, found of 200 and 400 seeds of 40 records of 150 s, with a standard
+// error of 0.44 and 0.32 %. With that taken off, 97 of 100 ensembles of 160 records at 125 samples a second hold it in
+// their interval of 95 %, 94 without; of 40 records 375 of 400, as the mean squares are skewed: all that miss lie low.
 TEST_CASE("White noise on a mass with friction alone causes the variance of Fokker and Planck", "[slow]") {
-  constexpr double of_limited_band = 0.03;  // beside 1 % of chance in the mean of a thousand records
+  constexpr double chance = 0.03;  // two standard errors of the mean of a thousand records
   Shaken shaken;
   // So soft that its force, some 0.01 N, is lost beside the friction; a mass must be held.
   shaken.add("spring", ElementType::spring, 1e-4);
   shaken.add("friction", ElementType::coulomb, 1.0);
   const Ensemble of{.intensity = 1.0 / pi, .duration = 170.0, .from = 20.0, .rate = 50.0};
-  Coverage coverage{.velocity = 2.0};
+  Coverage coverage{.velocity = 2.0 * (1.0 - 0.8 / 50.0)};
   cover(shaken, of, coverage);
-  CHECK_THAT(coverage.mean_velocity, Catch::WithinRel(coverage.velocity, of_limited_band));
+  CHECK_THAT(coverage.mean_velocity, Catch::WithinRel(coverage.velocity, chance));
 }
 
 }  // namespace

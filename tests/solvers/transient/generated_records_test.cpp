@@ -6,11 +6,14 @@
 #include <numbers>
 #include <vector>
 
-#include "solvers/transient/normal_numbers.hpp"
+#include "solvers/samples/normal_numbers.hpp"
+#include "tests/solvers/bits.hpp"
 
 // Random records against the closed forms of their densities, each within the interval of its ensemble.
 namespace frahm::transient {
 namespace {
+
+using samples::NormalNumbers;
 
 constexpr double pi = std::numbers::pi;
 constexpr double far = 4.0;  // standard errors: none of the few dozen numbers here is further off by chance
@@ -173,6 +176,19 @@ TEST_CASE("A ground that is shaken has no velocity at the end, and follows its e
   CHECK(envelope_at(trapezoid, 1.0, 20.0) == 0.5);
   CHECK(envelope_at(trapezoid, 14.0, 20.0) == 0.5);
   CHECK(envelope_at(trapezoid, 20.0, 20.0) == 0.0);
+}
+
+TEST_CASE("A seed gives records of the same bits on every machine") {
+  const RandomSampling sampling{20.0, 50.0, 1940, 3};
+  CHECK(checksum_of_bits(white_noise(sampling, 0.01)) == 0x63699c9264e08bec);
+  GroundNoise ground{.intensity = 0.01, .ground_frequency = 15.6, .ground_damping = 0.6};
+  CHECK(checksum_of_bits(ground_acceleration(sampling, ground)) == 0xf755ab6a1a523b53);
+  ground.corner_frequency = 1.5;
+  ground.corner_damping = 0.6;
+  ground.envelope = {Envelope::Shape::jennings, 2.0, 10.0, 0.3};
+  CHECK(checksum_of_bits(ground_acceleration(sampling, ground)) == 0x5aabe1d14d6352a);
+  ground.envelope = {Envelope::Shape::trapezoid, 2.0, 10.0, 0.0};
+  CHECK(checksum_of_bits(ground_acceleration(sampling, ground)) == 0x80a8a3fa46c7e95);
 }
 
 }  // namespace

@@ -3,10 +3,11 @@
 #include <cstdint>
 #include <random>
 
-namespace frahm::transient {
+namespace frahm::samples {
 
 // Independent normal random numbers of mean 0 and variance 1, the same ones on every machine: the generator
-// and its seeding are fixed by the C++ standard, and the numbers follow from its integers by one division.
+// and its seeding are fixed by the C++ standard, and the numbers follow from its integers by
+// functions that round alike (elementary.hpp).
 class NormalNumbers {
  public:
   // Of one stream of a seed: numbers of different streams are independent.
@@ -20,4 +21,4 @@ class NormalNumbers {
   std::mt19937_64 generator_;
 };
 
-}  // namespace frahm::transient
+}  // namespace frahm::samples

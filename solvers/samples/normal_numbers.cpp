@@ -1,8 +1,8 @@
-#include "solvers/transient/normal_numbers.hpp"
+#include "solvers/samples/normal_numbers.hpp"
 
-#include <cmath>
+#include "solvers/samples/elementary.hpp"
 
-namespace frahm::transient {
+namespace frahm::samples {
 namespace {
 
 std::mt19937_64 seeded(std::uint64_t seed, std::uint32_t stream) {
@@ -20,15 +20,15 @@ double NormalNumbers::uniform() {
 }
 
 // Ratio of uniforms: v/u is normal where (u, v) is uniform in  v^2 <= -4 u^2 ln u,  which lies within
-// 0 < u <= 1, |v| <= sqrt(2/e). A last bit of the logarithm could only decide otherwise on that border.
+// 0 < u <= 1, |v| <= sqrt(2/e).
 // Source: Kinderman and Monahan, ACM Transactions on Mathematical Software 3 (1977) 257-260.
 double NormalNumbers::next() {
   constexpr double width = 1.7155277699214135;  // 2 sqrt(2/e)
   for (;;) {
     const double u = uniform();
     const double ratio = width * (uniform() - 0.5) / u;
-    if (ratio * ratio <= -4.0 * std::log(u)) return ratio;
+    if (ratio * ratio <= -4.0 * logarithm(u)) return ratio;
   }
 }
 
-}  // namespace frahm::transient
+}  // namespace frahm::samples
