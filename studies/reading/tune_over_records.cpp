@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "solvers/mechanics/coordinates.hpp"
 #include "solvers/transient/motion_quantity.hpp"
 #include "studies/reading/record_axis.hpp"
 #include "studies/reading/spelling.hpp"
@@ -11,18 +10,34 @@
 namespace frahm::studies {
 namespace {
 
-// <mass or signal>_peak.
-std::size_t read_peak(const TuneReading& reading, const TomlSection& section) {
-  std::vector<std::string> known;
-  for (const std::string& name : mechanics::coordinate_names(reading.study.network))
-    known.push_back(name + "_peak");
+// <mass or signal>_peak or <element>_stroke.
+transient::MotionQuantity read_peak(const TuneReading& reading, const TomlSection& section) {
   const std::string name = section.text("quantity");
-  const auto found = std::ranges::find(known, name);
-  if (found == known.end())
-    section.fail(rules::unfit_quantity, "quantity",
-                 "\"{}\" is no peak of a motion; under records it is <mass>_peak or <signal>_peak{}", name,
-                 suggestion(name, known));
-  return static_cast<std::size_t>(found - known.begin());
+  std::vector<std::string> known;
+  for (const auto& quantity : transient::all_motion_quantities(reading.study.network, false)) {
+    const auto measure = quantity.measure;
+    if (measure != transient::MotionMeasure::peak && measure != transient::MotionMeasure::stroke) continue;
+    known.push_back(transient::describe(quantity, reading.study.network, reading.study.dimensionless).name);
+    if (known.back() == name) return quantity;
+  }
+  section.fail(rules::unfit_quantity, "quantity",
+               "\"{}\" is no peak of a displacement; under records it is <mass>_peak, <signal>_peak or "
+               "<element>_stroke{}",
+               name, suggestion(name, known));
+}
+
+// The share of the samples whose worst peaks count.
+void read_quantile(const TomlSection& section, TuneChoice& choice) {
+  if (!section.find("quantile")) return;
+  choice.quantile = section.number("quantile");
+  if (!(choice.quantile > 0.0 && choice.quantile < 1.0))
+    section.fail(rules::out_of_range, "quantile", "{} is out of range: above 0 and below 1", choice.quantile);
+  if (choice.drawn.empty())
+    section.fail(rules::key_without_use, "quantile",
+                 "is one of samples: give an [[axis]] of them, as in samples = 100");
+  if (choice.peaks->objective != tuning::RecordObjective::worst_peak)
+    section.fail(rules::key_without_use, "quantile",
+                 "is one of the worst peaks of samples; write objective = \"worst_peak\"");
 }
 
 // The supports' motion and the frequency are no part of what may be tuned under records.
@@ -89,8 +104,9 @@ void read_tuning_over_records(const StudyContext& context, const TomlValue& root
   if (!entry)
     throw context.source.error_at(rules::missing_section, root.position,
                                   "the study has no [tune] with its objective");
-  const TomlSection section(context.source, entry->value, "[tune]",
-                            {"objective", "quantity", "records", "duration", "solver", "start", "tolerance"});
+  const TomlSection section(
+      context.source, entry->value, "[tune]",
+      {"objective", "quantity", "quantile", "records", "duration", "solver", "start", "tolerance"});
   TuneReading reading{context, root, study};
   TuneChoice& choice = reading.choice;
   PeakChoice peaks;
@@ -98,20 +114,22 @@ void read_tuning_over_records(const StudyContext& context, const TomlValue& root
   if (section.choice_or("objective", {"worst_peak", "mean_peak"}, " under records") == "mean_peak")
     peaks.objective = tuning::RecordObjective::mean_peak;
   check_excitation(reading, section);
-  peaks.coordinate = read_peak(reading, section);
+  peaks.quantity = read_peak(reading, section);
   choice.quantity_name = section.text("quantity");
   read_records_of(context, root, folder, data, section, study, peaks);
   peaks.duration = read_duration(section, peaks);
   choice.solver = tuning::solver_named(section.choice_or("solver", {"slsqp", "ipopt", "mma"}));
   read_start(section, choice);
-  if (choice.start == tuning::Start::global)
+  if (choice.start == tuning::Start::global || choice.start == tuning::Start::map)
     section.fail(rules::key_without_use, "start",
-                 "under records there is no global search; write a number of starts");
+                 "under records there is no search of the whole box; write a number of starts");
   read_tolerance(section, choice);
   choice.peaks = std::move(peaks);
   read_designs(reading);
   check_designs(reading, section);
   read_scenarios(reading);
+  read_samples(reading, folder, data);
+  read_quantile(section, choice);
   study.choice = std::move(choice);
 }
 

@@ -12,7 +12,7 @@ import sys
 import tempfile
 import time
 
-from same_bytes import raw_bytes
+from same_bytes import MOTIONS_OVER_RECORDS, TUNING_OVER_RECORDS, raw_bytes
 
 TIME_LIMIT = 120.0  # s of any one run: a hang is a failure
 KILLS = 8
@@ -187,10 +187,25 @@ def check_tuning(program, source, mpiexec):
         assert folder.finish(folder.on_ranks(3))[0] == expected
 
 
+def check_records(program, mpiexec):
+    """Motions over records and samples on five ranks, killed too; the starts of a tuning over them."""
+    with tempfile.TemporaryDirectory() as path:
+        folder = Folder(program, mpiexec, path, MOTIONS_OVER_RECORDS)
+        expected, _ = folder.finish(folder.command("--threads", "1"))
+        assert folder.finish(folder.on_ranks(5))[0] == expected
+        check_shards(folder, expected)
+        check_killed_ranks(folder, expected)
+    with tempfile.TemporaryDirectory() as path:
+        folder = Folder(program, mpiexec, path, TUNING_OVER_RECORDS)
+        expected, _ = folder.finish(folder.command("--threads", "1"))
+        assert folder.finish(folder.on_ranks(5))[0] == expected
+
+
 def main():
     random.seed(6)
     program, source, mpiexec = sys.argv[1:]
     check_tuning(program, source, mpiexec)
+    check_records(program, mpiexec)
     with open(os.path.join(source, "studies", "rig", "rig_atlas.toml")) as file:
         study = file.read()
     assert study.count("points = 42\n") == 1

@@ -170,6 +170,77 @@ def check_motions(program, source):
         runs.killed(one, output, signal.SIGKILL, "--threads", "2")
 
 
+RECORDS = """
+[study]
+schema = 1
+kind = "transient"
+[parameters]
+F = { value = 0.5, unit = "N" }
+k = { value = 40, unit = "N/m" }
+[[mass]]
+name = "m"
+mass = 1
+[[element]]
+name = "spring"
+type = "spring"
+between = ["base", "m"]
+stiffness = "k"
+[[element]]
+name = "friction"
+type = "coulomb"
+between = ["base", "m"]
+force = "F"
+[[excitation.record]]
+acceleration_of = "base"
+"""
+GENERATED = 'records = { generate = "kanai_tajimi", count = 3, seed = 4, duration = 10, rate = 50, intensity = 0.01, ' \
+            "ground_frequency = 15.6, ground_damping = 0.6 }\n"
+SAMPLES = """
+[[axis]]
+samples = 40
+zip = "house"
+[[axis.of]]
+parameter = "k"
+distribution = "normal"
+mean = 40
+deviation = 4
+unit = "N/m"
+"""
+MOTIONS_OVER_RECORDS = RECORDS + "[transient]\nduration = 10\n[[axis]]\n" + GENERATED + SAMPLES + """
+[[axis]]
+parameter = "F"
+from = 0.1
+to = 1.0
+points = 20
+[output]
+quantities = ["m_peak", "m_acceleration_peak", "m_velocity_rms", "friction_slips", "energy_balance", "status"]
+histories = [{ record = 1, F = 0.1 }]
+"""
+TUNING_OVER_RECORDS = RECORDS.replace('"transient"', '"tune"') + '[tune]\nobjective = "worst_peak"\nquantity = "m_peak"\n' \
+    "quantile = 0.9\nstart = 6\n" + GENERATED + SAMPLES.replace("samples = 40", "samples = 20") + \
+    '[[design]]\nparameter = "F"\nunit = "N"\nlower = 0.0\nupper = 2.0\n'
+
+
+def check_records(program):
+    """Motions over generated records, samples and a parameter, with statistics; and the starts of a tuning over them."""
+    for study, expected in ((MOTIONS_OVER_RECORDS, ("m_peak", (3, 40, 20))),
+                            (TUNING_OVER_RECORDS, ("optimum/start_objective", (6,)))):
+        with tempfile.TemporaryDirectory() as folder:
+            study_path, output = os.path.join(folder, "study.toml"), os.path.join(folder, "map.h5")
+            with open(study_path, "w") as file:
+                file.write(study)
+            runs = Runs(program, folder, study_path)
+            one = runs.finish(output, "--threads", "1")
+            assert one[expected[0]][1] == expected[1], one[expected[0]][1]
+            assert runs.finish(output, "--threads", "2") == one
+            for shard in "1/2", "0/2":
+                assert runs.start(output, "--shard", shard).wait() == 0
+            subprocess.run([program, "merge", output], check=True, capture_output=True)
+            assert raw_bytes(output) == one
+            os.remove(output)
+            runs.killed(one, output, signal.SIGKILL, "--threads", "2")
+
+
 def check_several_responses(program, source):
     """Maps of stops, where several responses are searched or the frequency is swept, and of a shock absorber's table,
     where there is one."""
@@ -202,6 +273,7 @@ def main():
     random.seed(2)
     program, source = sys.argv[1:]
     check_motions(program, source)
+    check_records(program)
     check_several_responses(program, source)
     check_tuning(program, source)
     check_assembly(program, source)
@@ -215,7 +287,7 @@ def main():
             assert runs.finish(output, "--threads", threads) == one, threads
         runs.killed(one, output, signal.SIGKILL, "--threads", "2")
         runs.killed(one, output, signal.SIGTERM, "--threads", "1")
-    print("maps, an assembly and a tuning on 1, 2 and more threads, SIGKILL and SIGTERM: the same bytes in every dataset")
+    print("maps, motions over records, an assembly and tunings on 1, 2 and more threads, SIGKILL and SIGTERM: the same bytes in every dataset")
 
 
 if __name__ == "__main__":

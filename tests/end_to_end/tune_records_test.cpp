@@ -98,7 +98,7 @@ TEST_CASE("A tuning over records says what it has no answer to: a sweep of the b
   const runs::Folder folder;
   std::string text = text_of(study_path("tune_slip_force"));
   text = runs::replaced(text, "count = 5", "count = 1");
-  text = runs::replaced(text, "start     = 4", "start     = 1");
+  text = runs::replaced(text, "start     = 12", "start     = 1");
   const std::string study = folder.write("one.toml", text), file = folder / "one.h5";
   const runs::Outcome run = runs::frahm({"run", study, "-o", file});
   INFO(run.err);

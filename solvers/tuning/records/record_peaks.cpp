@@ -23,6 +23,19 @@ std::vector<FoundPeak> peaks_of_motion(const transient::ForcedMotion& motion, st
   return found;
 }
 
+// Those with the largest peaks, as many as the share leaves out; of equal ones the last.
+std::vector<bool> above_share(const std::vector<double>& worst, double share) {
+  constexpr double kRounding = 1e-9;  // 0.95 * 20 is 19
+  const auto n = static_cast<double>(worst.size());
+  const auto kept = static_cast<std::size_t>(std::max(1.0, std::ceil(share * n - kRounding)));
+  std::vector<std::size_t> order(worst.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t s) { return worst[s]; });
+  std::vector<bool> above(worst.size(), false);
+  for (std::size_t i = std::min(kept, order.size()); i < order.size(); ++i) above[order[i]] = true;
+  return above;
+}
+
 }  // namespace
 
 DesignPeaks peaks_of(const RecordTask& task, std::span<const double> design,
@@ -52,12 +65,28 @@ DesignPeaks peaks_of(const RecordTask& task, std::span<const double> design,
     }
   }
   peaks.objective = objective_of(task.objective, largest);
+  if (task.objective == RecordObjective::mean_peak) return peaks;
+  const std::vector<double> worst = worst_of_scenarios(peaks, task.scenarios.size());
+  peaks.above = above_share(worst, task.share);
+  peaks.objective = 0.0;
+  for (std::size_t s = 0; s < worst.size(); ++s) {
+    if (!peaks.above[s]) peaks.objective = std::max(peaks.objective, worst[s]);
+  }
   return peaks;
 }
 
 double objective_of(RecordObjective objective, std::span<const double> peaks) {
   if (objective == RecordObjective::worst_peak) return *std::ranges::max_element(peaks);
   return std::accumulate(peaks.begin(), peaks.end(), 0.0) / static_cast<double>(peaks.size());
+}
+
+std::vector<double> worst_of_scenarios(const DesignPeaks& peaks, std::size_t scenarios) {
+  std::vector<double> worst(scenarios, 0.0);
+  for (const auto& motion : peaks.motions) {
+    double& of = worst[motion.front().place.scenario];
+    of = std::max(of, motion.front().value);
+  }
+  return worst;
 }
 
 }  // namespace frahm::tuning

@@ -27,12 +27,16 @@ struct DesignPeaks {
   std::vector<std::vector<FoundPeak>> motions;  // of each scenario, and in it of each record
   std::string failure;                          // why a motion could not be followed
   double objective = 0.0;                       // the task's
+  std::vector<bool> above;                      // of each scenario: the share leaves it out
 };
 
 DesignPeaks peaks_of(const RecordTask& task, std::span<const double> design,
                      const std::function<bool()>& stop_asked);
 
-// What counts of the peaks of all motions.
+// The worst of the peaks, or their mean.
 double objective_of(RecordObjective objective, std::span<const double> peaks);
+
+// Of each scenario the largest peak of its records.
+std::vector<double> worst_of_scenarios(const DesignPeaks& peaks, std::size_t scenarios);
 
 }  // namespace frahm::tuning

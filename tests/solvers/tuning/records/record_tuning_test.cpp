@@ -194,6 +194,87 @@ TEST_CASE("Where a bound holds the peak, its multiplier is the closed form's der
   CHECK(std::abs(optimum.parameters[0].upper_multiplier[0] - 2.0 / 9.0) <= 1e-4);
 }
 
+// The frame with its springs as built: each sample has other factors on both.
+RecordTask scattered(const Frame& frame, std::size_t samples, double share) {
+  RecordTask task = frame.task(false);
+  task.parameters[0].upper = 9.0;
+  task.records.resize(2);
+  task.duration = 6.0;
+  task.share = share;
+  task.scenarios.assign(samples, "sample");
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal(1.0, 0.1);
+  std::vector<std::array<double, 2>> factors(samples);
+  for (auto& [first, second] : factors) {
+    first = normal(random);
+    second = normal(random);
+  }
+  task.network_at = [factors, at_design = task.network_at](std::size_t s, std::span<const double> at,
+                                                           NetworkValues& now,
+                                                           std::vector<NetworkValues>* along) {
+    at_design(s, at, now, along);
+    now.element[0] *= factors[s][0];
+    now.element[3] *= factors[s][1];
+  };
+  return task;
+}
+
+// The worst of the records in each sample, sorted; its k-th is the quantile.
+double scanned_quantile(const RecordTask& task, double at, std::size_t kth) {
+  std::vector<double> worst;
+  NetworkValues values;
+  for (std::size_t s = 0; s < task.scenarios.size(); ++s) {
+    task.network_at(s, std::array{at}, values, nullptr);
+    double most = 0.0;
+    for (const auto& records : task.records) {
+      const transient::ForcedMotion motion = transient::forced_motion(
+          task.network, [&](double) { return values; }, {},
+          {.from = 1.0, .records = records, .duration = task.duration, .samples = 2});
+      most = std::max(most, std::abs(motion.peaks[task.coordinate].displacement));
+    }
+    worst.push_back(most);
+  }
+  std::ranges::sort(worst);
+  return worst[kth - 1];
+}
+
+TEST_CASE("A tuned quantile over samples is no higher than the least of a dense scan") {
+  constexpr double kNoHigher = 1e-4;  // relative
+  constexpr std::size_t kSamples = 20;
+  const Frame frame;
+  for (const auto& [share, kth] : {std::pair{0.8, 16UL}, std::pair{0.95, 19UL}}) {
+    const RecordTask task = scattered(frame, kSamples, share);
+    const Optimum optimum = best_of_starts(task, 3);
+    const double F = optimum.parameters[0].value[0];
+    double least = 1e300, where = 0.0;
+    for (int i = 0; i <= 120; ++i) {
+      const double at = 0.075 * i, value = scanned_quantile(task, at, kth);
+      if (value < least) where = at;
+      least = std::min(least, value);
+    }
+    for (int i = -30; i <= 30; ++i)
+      least = std::min(least, scanned_quantile(task, std::clamp(where + 0.0025 * i, 0.0, 9.0), kth));
+    INFO(optimum.reason << " F = " << F << ", " << optimum.rounds.size() << " rounds, scan " << least
+                        << " at " << where << ", tuned " << optimum.objective);
+    CHECK(optimum.outcome == Outcome::converged);
+    CHECK(std::abs(optimum.certificate_gap) <= kCertified);
+    CHECK(optimum.objective <= least * (1.0 + kNoHigher));
+    CHECK(optimum.objective >= least * (1.0 - 1e-2));  // or the scan has missed it
+    CHECK(std::abs(scanned_quantile(task, F, kth) - optimum.objective) <= kClosedForm * optimum.objective);
+    CHECK(optimum.peaks.size() == 2 * kSamples);
+  }
+}
+
+TEST_CASE("A share of all scenarios is the worst of them, and one of none or of a mean is refused") {
+  const Frame frame;
+  RecordTask all = scattered(frame, 3, 1.0), most = scattered(frame, 3, 0.99);
+  CHECK(tune_over_records(all, 0, never).objective == tune_over_records(most, 0, never).objective);
+  all.share = 0.0;
+  CHECK_THROWS_WITH(tune_over_records(all, 0, never), Catch::Contains("share above 0"));
+  most.objective = RecordObjective::mean_peak;
+  CHECK_THROWS_WITH(tune_over_records(most, 0, never), Catch::Contains("worst peaks"));
+}
+
 TEST_CASE("A tuning over no records, or with a schedule, is refused") {
   const Frame frame;
   RecordTask task = frame.task(false);
