@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/tuning/task.hpp"
 
 namespace frahm::tuning {
@@ -29,6 +30,8 @@ struct TunedParameter {
   std::vector<AtBound> at_bound;
   std::vector<double> lower_multiplier,
       upper_multiplier;  // fall of the objective per unit by which the bound is moved outwards, >= 0
+  // Of a schedule: where its values hold; with a leap both its sides among them.
+  std::vector<double> knots = {};
 };
 
 // A local maximum of the weighted quantity over the band; in a tuning over records, of a motion over time.
@@ -61,6 +64,22 @@ struct Round {
   SolverKind solver = SolverKind::ipopt;  // of the problem; after a fall-back not the task's
 };
 
+// What a tuning with Start::map saw of the box of its constants.
+struct DesignsSeen {
+  std::uint64_t cells = 0;  // of the map, each an equal share of the box; 0: no map
+  double share = 0.0;       // of the box: cells whose design has a response
+  std::vector<double>
+      polished;  // objective of the best constants from each of the map's low cells; NaN: none
+};
+
+// The ends of the front of a trade-off; NaN: not found.
+struct FrontEnds {
+  double least = kNone;               // value of the limited quantity that no design undercuts
+  double objective_at_least = kNone;  // objective under a limit one part in ten thousand above it
+  double most = kNone;                // value at the optimum without that limit: higher limits gain nothing
+  double objective_at_most = kNone;
+};
+
 struct Optimum {
   Outcome outcome = Outcome::failed;
   std::string reason;                      // a sentence: why the work ended
@@ -69,14 +88,19 @@ struct Optimum {
   double objective = 0.0;  // true: worst peak found over the whole band; mean square; variance
   double certificate_gap =
       0.0;  // (objective - bound) / objective: what no active frequency has seen; minimax only, else NaN
-  double kkt_residual = 0.0;        // relative; of the problem over the active frequencies
-  double violation = 0.0;           // largest, of the limits, relative; 0 within the tolerance
+  double kkt_residual = 0.0;  // relative; of the problem over the active frequencies
+  double violation = 0.0;     // largest, of the limits, relative; 0 within the tolerance
+  // No schedule with these constants is lower, if the response has no valley between neighbouring levels of
+  // the grid that this was found on (schedules/, path_bound); NaN: not known.
+  double path_bound = kNone;
   double constant_objective = 0.0;  // of the best constant design, where a parameter is scheduled, else NaN
   std::vector<double> constant;     // that design, Task::parameters order; empty where nothing is scheduled
   std::vector<Peak> peaks;          // ascending in scenario, then frequency
   std::vector<LimitState> limits;   // Task::limits order, then the trade-off's
   std::vector<Round> rounds;
   int iterations = 0;
+  DesignsSeen seen;
+  FrontEnds ends;                           // of the last problem of a trade-off
   std::uint64_t orbits = 0, gradients = 0;  // periodic responses and derivatives that it took
 };
 

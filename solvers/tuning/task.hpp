@@ -36,7 +36,14 @@ struct Schedule {
   std::vector<double>
       knots;  // of the band parameter, ascending, at least two, from one end of the band to the other
   double max_slope = kInfinity;  // of the parameter over the band parameter, either way
+  bool may_leap = false;         // it may leap once, at a place that is tuned too
+  // The piece after this knot is a leap: its two knots, kLeapWidth apart, are its sides. No slope limit holds
+  // there, and no response inside it counts. Set where the place is decided.
+  std::optional<std::size_t> leap = {};
 };
+
+// The share of the band's upper end that lies between the two sides of a leap.
+inline constexpr double kLeapWidth = 1e-6;
 
 struct DesignParameter {
   std::string name;
@@ -76,6 +83,7 @@ enum class Start {
   given,   // the nominal values, clipped to the bounds
   global,  // a global search of the bounds first (NLopt)
   many,    // start 0 as given, start i > 0 at the i-th point of a low-discrepancy sequence over the bounds
+  map,     // a map of the whole box of constants, its lowest cells polished
 };
 
 // The same problem solved along a list of limits of one quantity, each from the optimum before it.

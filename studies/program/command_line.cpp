@@ -190,6 +190,8 @@ void add_export(CLI::App& program, ExportOptions& options, Action& action) {
   command->add_flag("--schedule", options.schedule, "of a tuning: its schedule for a controller");
   command->add_option("--step", options.step, "of --schedule: its step, in the unit of the band; else 1 rpm");
   command->add_option("--sweep", options.sweep, "of a tuning: a study that sweeps its optimum, to this file");
+  command->add_option("--run-up", options.run_up,
+                      "of a tuning: a study of a run-up at its optimum, to this file");
   command->add_option("--study", options.study,
                       "of an identification: a study in which its estimates stand, to this file");
   DataOptions& data = options.data;

@@ -180,11 +180,14 @@ void check_place_of_study(const char* option, const std::filesystem::path& place
   refuse_place(place);
 }
 
-int write_sweep(const ExportOptions& options, std::ostream& out) {
-  const std::filesystem::path& place = options.sweep;
-  check_place_of_study("--sweep", place, sweep_mark);
+// A study at the optimum of a tuning, with its tables beside it.
+int write_at_optimum(const ExportOptions& options, std::ostream& out) {
+  const bool runs_up = !options.run_up.empty();
+  const std::filesystem::path& place = runs_up ? options.run_up : options.sweep;
+  check_place_of_study(runs_up ? "--run-up" : "--sweep", place, runs_up ? run_up_mark : sweep_mark);
   const bool again = std::filesystem::exists(place);  // its tables then exist and are ours
-  const SweepStudy sweep = sweep_study(read_stored_tuning(options.file), place.stem().string());
+  const auto study_of = runs_up ? run_up_study : sweep_study;
+  const SweepStudy sweep = study_of(read_stored_tuning(options.file), place.stem().string());
   for (const auto& [name, csv] : sweep.tables) {
     const std::filesystem::path table = place.parent_path() / name;
     if (!again && std::filesystem::exists(table)) refuse_place(table);
@@ -205,10 +208,10 @@ int write_study(const ExportOptions& options, std::ostream& out) {
 void check_options(const ExportOptions& options) {
   const DataOptions& data = options.data;
   const int asked = int{!options.group.empty()} + int{options.schedule} + int{!options.sweep.empty()} +
-                    int{!options.study.empty()} + int{!data.output.empty()};
+                    int{!options.run_up.empty()} + int{!options.study.empty()} + int{!data.output.empty()};
   if (asked > 1)
     throw StudyError(rules::wrong_option,
-                     "--group, --schedule, --sweep, --study and --data: one of them at a time");
+                     "--group, --schedule, --sweep, --run-up, --study and --data: one of them at a time");
   const bool of_data = !data.set.empty() || !data.at.empty() || !data.rate.empty() ||
                        !data.duration.empty() || !data.noise.empty() || !data.columns.empty() ||
                        !data.seed.empty();
@@ -217,8 +220,9 @@ void check_options(const ExportOptions& options) {
                      "--set, --at, --rate, --duration, --noise, --seed and --columns: belong to --data");
   if (options.step && !options.schedule)
     throw StudyError(rules::wrong_option, "--step: belongs to --schedule");
-  for (const auto& [option, file] : {std::pair("--sweep", options.sweep), std::pair("--study", options.study),
-                                     std::pair("--data", data.output)}) {
+  for (const auto& [option, file] :
+       {std::pair("--sweep", options.sweep), std::pair("--run-up", options.run_up),
+        std::pair("--study", options.study), std::pair("--data", data.output)}) {
     if (!file.empty() && !options.output.empty())
       throw StudyError(rules::wrong_option, "--output: {} names its own file", option);
   }
@@ -228,7 +232,7 @@ void check_options(const ExportOptions& options) {
 
 int export_command(const ExportOptions& options, std::ostream& out) {
   check_options(options);
-  if (!options.sweep.empty()) return write_sweep(options, out);
+  if (!options.sweep.empty() || !options.run_up.empty()) return write_at_optimum(options, out);
   if (!options.study.empty()) return write_study(options, out);
   if (!options.data.output.empty()) return export_data(options.file, options.data, out);
   if (options.file.extension() == ".toml")

@@ -15,10 +15,11 @@ struct ExportOptions {
   std::string group = {};        // "resonance", "orbits", ...: its columns instead of the map; empty: the map
   bool csv = false;              // given as an option; the only form
   bool schedule = false;         // of a tuning: its schedule for a controller
-  std::optional<double> step = {};   // of the schedule, in the unit of the band
-  std::filesystem::path sweep = {};  // of a tuning: the study of a sweep at the optimum, written here
-  std::filesystem::path study = {};  // of an identification: the study of what it found, written here
-  DataOptions data = {};             // simulated measurements; its output empty: none
+  std::optional<double> step = {};    // of the schedule, in the unit of the band
+  std::filesystem::path sweep = {};   // of a tuning: the study of a sweep at the optimum, written here
+  std::filesystem::path run_up = {};  // of a tuning: the study of a run-up at the optimum, written here
+  std::filesystem::path study = {};   // of an identification: the study of what it found, written here
+  DataOptions data = {};              // simulated measurements; its output empty: none
 };
 
 // Writes a map as CSV: a row a point, coordinates first, then variables, numbers to 17 significant digits, an

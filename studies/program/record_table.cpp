@@ -132,13 +132,13 @@ void warn_of_sampling(const Study& study, const DrivingRecord& driving, const pe
   });
   if (fast == modes.frequency.end()) return;
   const auto mode = fast - modes.frequency.begin() + 1;
+  const bool is_last = mode == static_cast<std::ptrdiff_t>(modes.frequency.size());
   fmt::print(out,
-             "{}: {}: mode {}{} (period {}) has {:.2g} samples in a period; straight lines between samples "
+             "{}: {}: mode {}{} (period {}) {} {:.2g} samples in a period; straight lines between samples "
              "weaken what drives it{}\n",
              mode == 1 ? "warning" : "note", driven_by(study, driving, driving.records.front().of).what, mode,
-             mode < static_cast<std::ptrdiff_t>(modes.frequency.size()) ? " and those above" : "",
-             with_unit(study, period(*fast), Quantity::time), period(*fast) / longest,
-             mode == 1 ? ": sample the record finer" : "");
+             is_last ? "" : " and those above", with_unit(study, period(*fast), Quantity::time),
+             is_last ? "has" : "have", period(*fast) / longest, mode == 1 ? ": sample the record finer" : "");
 }
 
 }  // namespace

@@ -74,6 +74,28 @@ std::vector<double> read_knots(const TomlSection& section, const BandChoice& ban
   return knots;
 }
 
+// A jump is placed by a search over one schedule and one response at each point (solvers/tuning/stages,
+// leap_place).
+void read_jumps(const TuneReading& reading, const TomlSection& section, DesignChoice& design) {
+  if (std::ranges::any_of(reading.choice.designs, &DesignChoice::may_leap))
+    section.fail_here(rules::key_without_use, "another schedule jumps, which needs to be the only one");
+  if (!section.find("jumps")) return;
+  const std::int64_t jumps = section.integer_or("jumps", 0);
+  if (jumps != 0 && jumps != 1)
+    section.fail(rules::out_of_range, "jumps",
+                 "{} is out of range: 0, or 1 for a schedule that may leap once", jumps);
+  design.may_leap = jumps == 1;
+  if (!design.may_leap) return;
+  if (reading.choice.objective != tuning::Objective::minimax)
+    section.fail(rules::key_without_use, "jumps",
+                 "needs objective = \"minimax\": the worst peak decides where a schedule leaps");
+  if (tuning::may_take_several_orbits(reading.study.network))
+    section.fail(rules::unfit_for_method, "jumps",
+                 "a system that may have several responses at one frequency has no grid to place a jump on");
+  if (reading.choice.has_schedule())
+    section.fail(rules::key_without_use, "jumps", "needs the only schedule of the study");
+}
+
 // max_slope is in the unit of the bounds over that of the band.
 void read_schedule(const TuneReading& reading, const TomlSection& section, DesignChoice& design) {
   const TomlValue* value = section.find("schedule");
@@ -89,8 +111,9 @@ void read_schedule(const TuneReading& reading, const TomlSection& section, Desig
     section.fail(rules::key_without_use, "schedule",
                  "the band is a single frequency; leave the schedule out");
   const TomlSection schedule(reading.context.source, *value, fmt::format("{}: schedule", section.where()),
-                             {"knots", "max_slope"});
+                             {"knots", "max_slope", "jumps"});
   design.knots = read_knots(schedule, *band);
+  read_jumps(reading, schedule, design);
   if (!schedule.find("max_slope")) return;
   design.max_slope = schedule.number("max_slope");
   if (!(design.max_slope > 0.0))

@@ -27,7 +27,7 @@ const std::array<std::vector<std::string>, 5> sections_of_kind{
      {"study", "parameters", "mass", "matrices", "element", "damping", "excitation", "transient", "initial",
       "axis", "coordinate", "output", "report"},
      {"study", "parameters", "mass", "matrices", "element", "damping", "excitation", "orbits", "tune",
-      "design", "constraint", "scenario", "column"},
+      "design", "constraint", "scenario", "column", "axis"},
      {"study", "parameters", "mass", "matrices", "element", "damping", "excitation", "initial", "identify"}}};
 
 const std::vector<std::string>& sections(StudyKind kind) {

@@ -89,9 +89,9 @@ void check_tuning(Study& study) {
   const std::vector<std::vector<double>> scenarios = scenarios_of(study);
   for (std::size_t s = 0; s < scenarios.size(); ++s) {
     const std::vector<double>& scenario = scenarios[s];
-    const std::string origin = tune.scenarios.empty()
-                                   ? std::string("within [tune] and [[design]]")
-                                   : fmt::format("scenario \"{}\"", tune.scenarios[s].name);
+    const std::string origin = tune.scenarios.empty() ? std::string("within [tune] and [[design]]")
+                               : !tune.drawn.empty()  ? fmt::format("sample {}", s)
+                                                     : fmt::format("scenario \"{}\"", tune.scenarios[s].name);
     for (const std::vector<bool>& corner : corners(tune.designs.size())) {
       std::vector<double> parameters = scenario;
       for (std::size_t i = 0; i < corner.size(); ++i)

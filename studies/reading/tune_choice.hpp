@@ -7,6 +7,7 @@
 
 #include "solvers/algebra/no_value.hpp"
 #include "solvers/quantities/quantity.hpp"
+#include "solvers/transient/motion_quantity.hpp"
 #include "solvers/tuning/records/record_task.hpp"
 #include "solvers/tuning/task.hpp"
 #include "studies/reading/motion_choice.hpp"
@@ -31,10 +32,13 @@ struct DesignChoice {
   double lower = 0.0, upper = 0.0;
   std::vector<double> knots;       // of its schedule over the band parameter; empty: one constant
   double max_slope = kInfinity;    // of the schedule, either way
+  bool may_leap = false;           // schedule = { jumps = 1 }
   std::optional<StudyValue> rule;  // another schedule to compare with, over parameters and the band
   Position position;
 
   bool is_scheduled() const { return !knots.empty(); }
+  // Of the tuned parameter: one, or one for each knot, both sides of a jump among them.
+  std::size_t count() const { return is_scheduled() ? knots.size() + (may_leap ? 2 : 0) : 1; }
 };
 
 // [[constraint]]
@@ -73,7 +77,7 @@ struct ColumnChoice {
 // The peak that a tuning over records presses down.
 struct PeakChoice {
   tuning::RecordObjective objective = tuning::RecordObjective::worst_peak;
-  std::size_t coordinate = 0;          // the mass or signal (mechanics/coordinates.hpp)
+  transient::MotionQuantity quantity;  // the peak of a mass or signal, or the stroke of an element
   double duration = 0.0;               // of each motion [s]
   std::vector<std::string> records;    // names of the motions, at least one
   std::vector<DrivingRecord> driving;  // without their samples where data are left (DataFiles)
@@ -89,6 +93,7 @@ struct TuneChoice {
   tuning::SolverKind solver = tuning::SolverKind::ipopt;
   tuning::SolverKind global_solver = tuning::SolverKind::crs2;
   tuning::Start start = tuning::Start::given;
+  bool start_is_given = false;  // else a map of the box comes first where it takes well below a second
   std::size_t starts = 1;
   double tolerance = 1e-6;
   std::optional<StudyValue> weight;
@@ -99,6 +104,8 @@ struct TuneChoice {
   std::vector<DesignChoice> designs;  // at least one
   std::vector<LimitChoice> limits;
   std::vector<ScenarioChoice> scenarios;  // none: the study alone
+  std::string drawn;      // the samples that the scenarios are, for readers; "" where they are no samples
+  double quantile = 1.0;  // of the worst peaks of all samples: their share that the objective bounds
   std::vector<ColumnChoice> columns;
 
   bool has_schedule() const;

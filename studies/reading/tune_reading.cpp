@@ -12,7 +12,6 @@ namespace {
 using periodic::Measure;
 using tuning::Objective;
 
-constexpr std::int64_t most_starts = 100'000;
 constexpr double largest_tolerance = 0.1;  // of the certificate: above it nothing is certified
 
 void read_objective(const TomlSection& section, TuneChoice& choice) {
@@ -156,32 +155,12 @@ void check_dominate(const TuneReading& reading, const TomlSection& section) {
   if (!reading.choice.has_schedule())
     section.fail(rules::key_without_use, "dominate",
                  "needs a [[design]] with a schedule, which is to be nowhere above its constant");
+  if (std::ranges::any_of(reading.choice.designs, &DesignChoice::may_leap))
+    section.fail(rules::key_without_use, "dominate",
+                 "does not go with a schedule that jumps, whose place is that of the least worst peak");
 }
 
 }  // namespace
-
-void read_start(const TomlSection& section, TuneChoice& choice) {
-  const TomlValue* value = section.find("start");
-  if (value && value->as<std::int64_t>()) {
-    const std::int64_t starts = section.integer_or("start", 1);
-    if (starts < 1 || starts > most_starts)
-      section.fail(rules::out_of_range, "start",
-                   "{} is out of range: a whole number from 1 to {}, \"given\" or "
-                   "\"nlopt\"",
-                   starts, most_starts);
-    choice.start = tuning::Start::many;
-    choice.starts = static_cast<std::size_t>(starts);
-  } else if (value && !value->as<std::string>()) {
-    section.fail(rules::wrong_type, "start", "expected \"given\", \"nlopt\" or a number of starts, found {}",
-                 described(*value));
-  } else if (section.choice_or("start", {"given", "nlopt"}, " or a number of starts") == "nlopt") {
-    choice.start = tuning::Start::global;
-  }
-  if (section.find("global") && choice.start != tuning::Start::global)
-    section.fail(rules::key_without_use, "global", "belongs to start = \"nlopt\"");
-  choice.global_solver =
-      tuning::solver_named(section.choice_or("global", {"crs2", "isres", "direct", "mlsl"}));
-}
 
 void read_tolerance(const TomlSection& section, TuneChoice& choice) {
   if (!section.find("tolerance")) return;
@@ -305,6 +284,7 @@ void read_tuning(const StudyContext& context, const TomlValue& root, Study& stud
                              "weight", "dominate", "trade_off", "noise"});
   TuneReading reading{context, root, study};
   TuneChoice& choice = reading.choice;
+  refuse_samples(reading);
   read_objective(section, choice);
   if (choice.objective == Objective::mean_square) refuse_several_responses(study, "a mean square");
   if (choice.objective == Objective::variance) refuse_several_responses(study, "a variance");
@@ -314,11 +294,12 @@ void read_tuning(const StudyContext& context, const TomlValue& root, Study& stud
   if (choice.objective == Objective::variance) check_variance(reading, section);
   read_noise(reading, section);
   read_band(reading, section);
-  choice.solver = tuning::solver_named(section.choice_or("solver", {"ipopt", "slsqp", "mma"}));
   read_start(section, choice);
   read_tolerance(section, choice);
   read_trade_off(reading, section);
   read_designs(reading);
+  choice.solver = read_solver(section, choice);
+  check_map(reading, section);
   read_limits(reading);
   read_scenarios(reading);
   read_columns(reading);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,10 @@ struct TuneReading {
 // The keys "start" and "global", and "tolerance".
 void read_start(const TomlSection& section, TuneChoice& choice);
 void read_tolerance(const TomlSection& section, TuneChoice& choice);
+
+// The key "solver" of a tuning over a band, and whether its start suits it, once its designs are known.
+tuning::SolverKind read_solver(const TomlSection& section, const TuneChoice& choice);
+void check_map(const TuneReading& reading, const TomlSection& section);
 
 // A real-valued quantity of the network, by its name at a key.
 periodic::Quantity read_real_quantity(const TuneReading& reading, const TomlSection& section,
@@ -54,5 +59,10 @@ void read_designs(TuneReading& reading);
 void read_limits(TuneReading& reading);
 void read_scenarios(TuneReading& reading);
 void read_columns(TuneReading& reading);
+
+// The samples of an [[axis]], each a scenario; after the designs and the scenarios.
+void read_samples(TuneReading& reading, const std::filesystem::path& folder, DataFiles data);
+// Refuses them.
+void refuse_samples(const TuneReading& reading);
 
 }  // namespace frahm::studies

@@ -178,9 +178,11 @@ void add_tuning(const Study& study, CanonicalText& text) {
   const auto band = [](const tuning::Band& range) { return fmt::format("{} {}", range.from, range.to); };
   text.line("kind tune objective {} of {}", static_cast<int>(tune.objective), tune.quantity_name);
   if (tune.peaks) text.line("peaks {} for {}", static_cast<int>(tune.peaks->objective), tune.peaks->duration);
+  if (tune.quantile < 1.0) text.line("quantile {}", tune.quantile);
   if (tune.band) text.line("band {} {}", names[tune.band->parameter], band(tune.band->range));
+  constexpr int by_default = -1;
   text.line("solver {} start {} global {} tolerance {}", tuning::name(tune.solver),
-            static_cast<int>(tune.start),
+            tune.start_is_given || tune.peaks ? static_cast<int>(tune.start) : by_default,
             tune.start == tuning::Start::global ? tuning::name(tune.global_solver) : "", tune.tolerance);
   if (tune.weight) text.line("weight {}", tune.weight->expression.canonical_text(names));
   if (tune.objective == tuning::Objective::variance)

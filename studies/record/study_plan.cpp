@@ -42,7 +42,9 @@ std::string overruled_by(const Study& study, std::size_t parameter) {
   for (const ScenarioChoice& scenario : study.tune()->scenarios) {
     for (const Assignment& assignment : scenario.set) {
       if (assignment.parameter == parameter)
-        return fmt::format("is set by the scenario \"{}\"; change that", scenario.name);
+        return study.tune()->drawn.empty()
+                   ? fmt::format("is set by the scenario \"{}\"; change that", scenario.name)
+                   : "scatters over samples; change their distribution";
     }
   }
   return "";

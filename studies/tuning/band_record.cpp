@@ -61,7 +61,7 @@ void add_schedules(const TuningAbout& about, GroupColumns& columns) {
     if (!choice.is_scheduled()) continue;
     std::vector<double> schedule, rule;
     for (const double place : about.result.assessment.band) {
-      schedule.push_back(value_at(choice, design[i], place) / choice.unit.si_factor);
+      schedule.push_back(value_at(design[i], place) / choice.unit.si_factor);
       if (rules[i]) rule.push_back(rules[i](place) / choice.unit.si_factor);
     }
     columns.add(name + "_schedule", unit, "schedule of " + name, about.band, schedule);

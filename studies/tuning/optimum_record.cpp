@@ -92,7 +92,7 @@ template <class Archive, class Item>
 void each(Archive& archive, Item& item) {
   using Type = std::remove_const_t<Item>;
   if constexpr (std::is_same_v<Type, TunedParameter>) {
-    members(archive, item.value, item.at_bound, item.lower_multiplier, item.upper_multiplier);
+    members(archive, item.value, item.knots, item.at_bound, item.lower_multiplier, item.upper_multiplier);
   } else if constexpr (std::is_same_v<Type, Peak>) {
     members(archive, item.scenario, item.record, item.at, item.value, item.multiplier, item.sensitivity);
   } else if constexpr (std::is_same_v<Type, LimitState>) {
@@ -101,8 +101,10 @@ void each(Archive& archive, Item& item) {
     members(archive, item.active, item.iterations, item.bound, item.worst, item.violation);
   } else if constexpr (std::is_same_v<Type, Optimum>) {
     members(archive, item.outcome, item.reason, item.trade_off, item.parameters, item.objective,
-            item.certificate_gap, item.kkt_residual, item.violation, item.constant_objective, item.constant,
-            item.peaks, item.limits, item.rounds, item.iterations, item.orbits, item.gradients);
+            item.certificate_gap, item.kkt_residual, item.violation, item.path_bound, item.constant_objective,
+            item.constant, item.peaks, item.limits, item.rounds, item.iterations, item.seen.cells,
+            item.seen.share, item.seen.polished, item.ends.least, item.ends.objective_at_least,
+            item.ends.most, item.ends.objective_at_most, item.orbits, item.gradients);
   } else {
     archive.take(item);
   }

@@ -22,12 +22,13 @@ TuningResult example_of(const Study& study) {
   const TuneChoice& tune = *study.tune();
   tuning::Optimum optimum;
   for (const DesignChoice& design : tune.designs) {
-    const std::vector<double> zeros(design.is_scheduled() ? design.knots.size() : 1, 0.0);
+    const std::vector<double> zeros(design.count(), 0.0);
     optimum.parameters.push_back(
         {.value = zeros, .at_bound = {}, .lower_multiplier = zeros, .upper_multiplier = zeros});
   }
   optimum.peaks.emplace_back();
   optimum.rounds.emplace_back();
+  if (!tune.peaks) optimum.seen = {.cells = 1, .share = 1.0, .polished = {0.0}};
   TuningResult result{.starts = {{0, {optimum}}}, .best = {0}, .assessment = {}, .before = {}};
   if (tune.peaks) {
     result.before.emplace_back();
@@ -42,10 +43,13 @@ TuningResult example_of(const Study& study) {
   return result;
 }
 
-std::string start_text(const TuneChoice& tune) {
+std::string start_text(const TuneChoice& tune, const tuning::Optimum& optimum) {
+  if (optimum.seen.cells > 0) return "map";
   switch (tune.start) {
     case tuning::Start::given:
       return "given";
+    case tuning::Start::map:
+      return "map";
     case tuning::Start::global:
       return std::string("nlopt ") + tuning::name(tune.global_solver);
     case tuning::Start::many:
@@ -101,9 +105,7 @@ std::vector<NamedLimit> named_limits(const Study& study, double trade_off) {
 
 std::string quantity_unit(const Study& study) {
   if (const auto& peaks = study.tune()->peaks)
-    return transient::describe({transient::MotionMeasure::peak, peaks->coordinate}, study.network,
-                               study.dimensionless)
-        .unit;
+    return transient::describe(peaks->quantity, study.network, study.dimensionless).unit;
   return periodic::describe(study.tune()->quantity, study.network, study.dimensionless).unit;
 }
 
@@ -157,9 +159,11 @@ std::vector<results::Text> optimum_texts(const Study& study, const TuningResult&
                                       {"scenarios", fmt::format("{}", fmt::join(scenario_names(study), ","))},
                                       {"limits", fmt::format("{}", fmt::join(limits, ","))},
                                       {"solver", tuning::name(tune.solver)},
-                                      {"start", start_text(tune)}};
+                                      {"start", start_text(tune, about.optimum)}};
   if (tune.objective == tuning::Objective::variance) add_noise(study, texts);
   if (tune.peaks) texts.emplace_back("records", fmt::format("{}", fmt::join(tune.peaks->records, ",")));
+  if (!tune.drawn.empty()) texts.emplace_back("samples", tune.drawn);
+  if (tune.quantile < 1.0) texts.emplace_back("quantile", fmt::format("{}", tune.quantile));
   if (tune.dominate_constant) texts.emplace_back("dominate", "constant");
   if (const std::string limits_of_it = not_proved(study); !limits_of_it.empty())
     texts.emplace_back("not_proved", limits_of_it);

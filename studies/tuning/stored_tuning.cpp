@@ -37,7 +37,9 @@ StoredTuning read_stored_tuning(const std::filesystem::path& file) {
                                                        [](double value) { return std::isnan(value); });
     if (!known) throw StudyError(rules::wrong_file, "{}: has no design: {} is missing", file.string(), name);
     for (double& value : values) value *= design.unit.si_factor;
-    stored.design.push_back(std::move(values));
+    DesignCourse course{.values = std::move(values), .knots = values_of(columns, "knots_" + name)};
+    for (double& knot : course.knots) knot *= study.tune()->band->unit.si_factor;
+    stored.design.push_back(std::move(course));
   }
   if (study.tune()->band)
     stored.band = values_of(columns, study.parameters.list[study.tune()->band->parameter].name);

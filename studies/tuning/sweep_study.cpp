@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "studies/reading/settings.hpp"
 #include "studies/reading/toml_building.hpp"
@@ -52,14 +53,15 @@ void add_scenario_axes(const Study& study, TomlArray& axes) {
 
 // A schedule in SI. Its ends reach slightly beyond the band, because a value converted from one unit to
 // another and back may be off by a rounding error.
-std::string schedule_csv(const Study& study, const DesignChoice& design, const std::vector<double>& values) {
+std::string schedule_csv(const Study& study, const DesignChoice& design, const DesignCourse& course) {
+  const auto& [values, knots] = course;
   constexpr double hair = 1e-9;
   const std::string& of = study.parameters.list[study.tune()->band->parameter].name;
   std::string csv = fmt::format("{},{}\n", of, study.parameters.list[design.parameter].name);
-  const double reach = hair * (design.knots.back() - design.knots.front());
-  csv += fmt::format("{},{}\n", design.knots.front() - reach, values.front());
-  for (std::size_t k = 0; k < values.size(); ++k) csv += fmt::format("{},{}\n", design.knots[k], values[k]);
-  return csv + fmt::format("{},{}\n", design.knots.back() + reach, values.back());
+  const double reach = hair * (knots.back() - knots.front());
+  csv += fmt::format("{},{}\n", knots.front() - reach, values.front());
+  for (std::size_t k = 0; k < values.size(); ++k) csv += fmt::format("{},{}\n", knots[k], values[k]);
+  return csv + fmt::format("{},{}\n", knots.back() + reach, values.back());
 }
 
 void set_parameters(const StoredTuning& stored, const std::string& stem, TomlTable& parameters,
@@ -73,7 +75,7 @@ void set_parameters(const StoredTuning& stored, const std::string& stem, TomlTab
   for (std::size_t i = 0; i < stored.design.size(); ++i) {
     const DesignChoice& design = study.tune()->designs[i];
     if (!design.is_scheduled()) {
-      put(design.parameter, toml_parameter(study, design.parameter, stored.design[i].front()));
+      put(design.parameter, toml_parameter(study, design.parameter, stored.design[i].values.front()));
       continue;
     }
     const std::string& name = study.parameters.list[design.parameter].name;
@@ -99,6 +101,31 @@ TomlValue output_of(const Study& study, const TomlEntry* output) {
   return {{}, std::move(table)};
 }
 
+// The study without what belongs to a tuning, of another kind, with the parameters of the optimum.
+TomlValue tuned_study(const StoredTuning& stored, const char* kind, const std::string& stem,
+                      SweepStudy& sweep) {
+  TomlValue root = read_toml(stored.study.source);
+  TomlTable& sections = std::get<TomlTable>(root.content);
+  std::erase_if(sections, [](const TomlEntry& entry) {
+    return entry.key == "tune" || entry.key == "design" || entry.key == "constraint" ||
+           entry.key == "scenario" || entry.key == "column";
+  });
+  entry_of(std::get<TomlTable>(entry_of(sections, "study")->value.content), "kind")->value =
+      toml_string(kind);
+  set_parameters(stored, stem, std::get<TomlTable>(entry_of(sections, "parameters")->value.content), sweep);
+  return root;
+}
+
+// From rest to the end of the band, slowly enough for most systems to show their steady response on the way.
+TomlTable run_up_of(const BandChoice& band) {
+  constexpr double kPeriods = 500.0;  // of the first frequency, that the band takes
+  const double duration = kPeriods * 2.0 * std::numbers::pi / band.range.from;
+  const double rate = std::stod(fmt::format("{:.2g}", (band.range.to - band.range.from) / duration));
+  return {{"sweep_to", {}, toml_number(band.range.to)},
+          {"sweep_rate", {}, toml_number(rate)},
+          {"samples", {}, toml_number(2001.0)}};
+}
+
 }  // namespace
 
 SweepStudy sweep_study(const StoredTuning& stored, const std::string& stem) {
@@ -106,16 +133,9 @@ SweepStudy sweep_study(const StoredTuning& stored, const std::string& stem) {
   if (!study.tune()->band || stored.band.empty())
     throw StudyError(rules::missing_key, "{}: a tuning without a band has no response to sweep",
                      study.source.name);
-  TomlValue root = read_toml(study.source);
-  TomlTable& sections = std::get<TomlTable>(root.content);
-  std::erase_if(sections, [](const TomlEntry& entry) {
-    return entry.key == "tune" || entry.key == "design" || entry.key == "constraint" ||
-           entry.key == "scenario" || entry.key == "column";
-  });
-  entry_of(std::get<TomlTable>(entry_of(sections, "study")->value.content), "kind")->value =
-      toml_string("sweep");
   SweepStudy sweep;
-  set_parameters(stored, stem, std::get<TomlTable>(entry_of(sections, "parameters")->value.content), sweep);
+  TomlValue root = tuned_study(stored, "sweep", stem, sweep);
+  TomlTable& sections = std::get<TomlTable>(root.content);
   TomlArray axes;
   add_scenario_axes(study, axes);
   axes.push_back(axis_of(study, study.tune()->band->parameter, stored.band, ""));
@@ -124,6 +144,31 @@ SweepStudy sweep_study(const StoredTuning& stored, const std::string& stem) {
   std::erase_if(sections, [](const TomlEntry& entry) { return entry.key == "output"; });
   sections.push_back({"output", {}, std::move(output)});
   sweep.text = fmt::format("{}\n{}", sweep_mark, toml_text(root));
+  return sweep;
+}
+
+SweepStudy run_up_study(const StoredTuning& stored, const std::string& stem) {
+  const Study& study = stored.study;
+  const auto& band = study.tune()->band;
+  if (!band || study.values.omega.expression.sole_parameter() != band->parameter ||
+      !(band->range.from < band->range.to))
+    throw StudyError(rules::unfit_for_method,
+                     "{}: has no run-up: its band must be a range of the parameter that is the excitation's "
+                     "frequency itself",
+                     study.source.name);
+  SweepStudy sweep;
+  TomlValue root = tuned_study(stored, "transient", stem, sweep);
+  TomlTable& sections = std::get<TomlTable>(root.content);
+  entry_of(std::get<TomlTable>(entry_of(sections, "parameters")->value.content),
+           study.parameters.list[band->parameter].name)
+      ->value = toml_parameter(study, band->parameter, band->range.from);
+  std::erase_if(sections,
+                [](const TomlEntry& entry) { return entry.key == "output" || entry.key == "orbits"; });
+  sections.push_back({"transient", {}, {{}, run_up_of(*band)}});
+  TomlArray axes;
+  add_scenario_axes(study, axes);
+  if (!axes.empty()) sections.push_back({"axis", {}, {{}, std::move(axes)}});
+  sweep.text = fmt::format("{}\n{}", run_up_mark, toml_text(root));
   return sweep;
 }
 

@@ -22,4 +22,11 @@ inline constexpr const char* sweep_mark =
 // stem: of the names of the tables. Throws StudyError for a tuning without a band.
 SweepStudy sweep_study(const StoredTuning& stored, const std::string& stem);
 
+// A study of kind "transient" that runs up through the band at the optimum, from rest, through the jump of a
+// schedule too: the scheduled elements follow the frequency.
+inline constexpr const char* run_up_mark = "# Made by frahm export from a tuning: a run-up at its optimum.";
+
+// Throws StudyError for a tuning whose band is not one of the excitation's frequency itself.
+SweepStudy run_up_study(const StoredTuning& stored, const std::string& stem);
+
 }  // namespace frahm::studies

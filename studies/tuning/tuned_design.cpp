@@ -5,15 +5,24 @@
 
 namespace frahm::studies {
 
+std::optional<Jump> jump_of(const DesignChoice& choice, const DesignCourse& course) {
+  if (!choice.may_leap || course.knots.size() != choice.count()) return std::nullopt;
+  // Both sides of the jump are the knots that the study does not have.
+  const auto i =
+      static_cast<std::size_t>(std::ranges::mismatch(course.knots, choice.knots).in1 - course.knots.begin());
+  return Jump{0.5 * (course.knots[i] + course.knots[i + 1]), course.values[i], course.values[i + 1]};
+}
+
 DesignValues design_values(const tuning::Optimum& optimum) {
   DesignValues values;
-  for (const tuning::TunedParameter& parameter : optimum.parameters) values.push_back(parameter.value);
+  for (const tuning::TunedParameter& parameter : optimum.parameters)
+    values.push_back({parameter.value, parameter.knots});
   return values;
 }
 
-double value_at(const DesignChoice& design, std::span<const double> values, double band) {
-  if (!design.is_scheduled()) return values.front();
-  const auto& knots = design.knots;
+double value_at(const DesignCourse& course, double band) {
+  const auto& [values, knots] = course;
+  if (knots.empty()) return values.front();
   const auto right = std::upper_bound(knots.begin() + 1, knots.end() - 1, band);
   const auto i = static_cast<std::size_t>(right - knots.begin());
   const double part = std::clamp((band - knots[i - 1]) / (knots[i] - knots[i - 1]), 0.0, 1.0);
@@ -35,7 +44,7 @@ std::vector<double> parameters_of(const Study& study, const DesignValues& design
   std::vector<double> parameters = parameters_in_scenario(study, scenario);
   if (tune.band) parameters[tune.band->parameter] = band;
   for (std::size_t i = 0; i < tune.designs.size(); ++i)
-    parameters[tune.designs[i].parameter] = value_at(tune.designs[i], design[i], band);
+    parameters[tune.designs[i].parameter] = value_at(design[i], band);
   study.parameters.complete(std::span<double>(parameters));
   return parameters;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -9,13 +10,24 @@
 // The values of a tuning's design parameters, and with them of all parameters of its study.
 namespace frahm::studies {
 
-// For each design parameter its value, or its values at the knots of its schedule [SI].
-using DesignValues = std::vector<std::vector<double>>;
+// A design parameter that is tuned: its value, or its values at the knots of its schedule [SI].
+struct DesignCourse {
+  std::vector<double> values;
+  std::vector<double> knots;  // empty: one constant
+};
+using DesignValues = std::vector<DesignCourse>;  // for each design parameter
+
+// Where a schedule jumps [SI of the band], and the values on both sides [SI].
+struct Jump {
+  double at = 0.0, from = 0.0, to = 0.0;
+};
+// Nothing for a parameter that may not jump, or that was not tuned.
+std::optional<Jump> jump_of(const DesignChoice& choice, const DesignCourse& course);
 
 DesignValues design_values(const tuning::Optimum& optimum);
 
 // A design parameter at a value of the band parameter [SI]: linear between the knots of a schedule.
-double value_at(const DesignChoice& design, std::span<const double> values, double band);
+double value_at(const DesignCourse& course, double band);
 
 // SI values of all parameters as a scenario of the study sets them; derived ones are not completed.
 std::vector<double> parameters_in_scenario(const Study& study, std::size_t scenario);

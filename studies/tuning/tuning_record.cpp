@@ -7,6 +7,7 @@
 
 #include "solvers/algebra/no_value.hpp"
 #include "studies/tuning/outcome_words.hpp"
+#include "studies/tuning/tuned_design.hpp"
 #include "studies/tuning/tuning_about.hpp"
 
 namespace frahm::studies {
@@ -28,6 +29,10 @@ void add_numbers(const TuningAbout& about, GroupColumns& columns) {
   if (about.tune.has_schedule())
     columns.add_number("constant_objective", unit, "objective of the best constant design",
                        about.optimum.constant_objective);
+  if (about.tune.has_schedule())
+    columns.add_number("path_bound", unit,
+                       "no schedule with these constants has a lower worst peak, as far as a grid shows",
+                       about.optimum.path_bound);
   columns.add_number("certificate_gap", "1",
                      "(objective - bound) / objective: what no active frequency has seen",
                      about.optimum.certificate_gap);
@@ -56,20 +61,29 @@ void add_design(const TuningAbout& about, GroupColumns& columns, std::size_t i) 
   const double factor = choice.unit.si_factor;
   const std::string along = choice.is_scheduled() ? "knots_" + name : "";
   const bool known = has_design(about.study, about.optimum);
-  const std::size_t size = choice.is_scheduled() ? choice.knots.size() : 1;
+  const std::size_t size = choice.count();
   const auto spoken = [&](std::vector<double> values, double by) {
     values.resize(size, kNone);
     for (double& value : values) value *= by;
     return values;
   };
-  if (choice.is_scheduled()) {
-    std::vector<double> knots;
-    for (const double knot : choice.knots) knots.push_back(about.spoken_band(knot));
-    columns.add(along, about.band_unit, "knots of the schedule of " + name, along, knots);
-  }
   const tuning::TunedParameter none;
   const tuning::TunedParameter& tuned = known ? about.optimum.parameters[i] : none;
+  if (choice.is_scheduled()) {
+    std::vector<double> knots;
+    for (const double knot : tuned.knots.empty() ? choice.knots : tuned.knots)
+      knots.push_back(about.spoken_band(knot));
+    knots.resize(size, kNone);
+    columns.add(along, about.band_unit, "knots of the schedule of " + name, along, knots);
+  }
   columns.add(name, unit, "optimum of the parameter " + name, along, spoken(tuned.value, 1.0 / factor));
+  if (choice.may_leap) {
+    const Jump jump = jump_of(choice, {tuned.value, tuned.knots}).value_or(Jump{kNone, kNone, kNone});
+    columns.add_number(name + "_jump_at", about.band_unit, about.band + " at which the schedule jumps",
+                       about.spoken_band(jump.at));
+    columns.add_number(name + "_jump_from", unit, name + " below the jump", jump.from / factor);
+    columns.add_number(name + "_jump_to", unit, name + " above the jump", jump.to / factor);
+  }
   columns.add_number(name + "_lower", unit, "lower bound of " + name, choice.lower / factor);
   columns.add_number(name + "_upper", unit, "upper bound of " + name, choice.upper / factor);
   const double nominal = about.study.parameters.nominal()[choice.parameter];
@@ -219,6 +233,18 @@ void add_starts(const TuningAbout& about, GroupColumns& columns) {
   add_designs(about, "start_", "found from a start", "start", optima, columns);
 }
 
+// Of a tuning that began at a map: what of the box it saw, and what its low cells led to.
+void add_map(const TuningAbout& about, GroupColumns& columns) {
+  const tuning::DesignsSeen& seen = about.optimum.seen;
+  if (seen.cells == 0) return;
+  columns.add_count("map_cells", "designs of the map, each for an equal share of the box", "",
+                    {static_cast<double>(seen.cells)});
+  columns.add_number("map_share", "1", "share of the box whose designs have a response", seen.share);
+  columns.add("map_objective", objective_unit(about.study),
+              "objective of the best constants from each low cell; NaN where they break a limit", "map_place",
+              seen.polished);
+}
+
 }  // namespace
 
 void add_designs(const TuningAbout& about, const std::string& prefix, const std::string& what,
@@ -226,7 +252,7 @@ void add_designs(const TuningAbout& about, const std::string& prefix, const std:
                  GroupColumns& columns) {
   for (std::size_t i = 0; i < about.designs.size(); ++i) {
     const auto& [choice, name, unit] = about.designs[i];
-    const std::size_t size = choice.is_scheduled() ? choice.knots.size() : 1;
+    const std::size_t size = choice.count();
     for (std::size_t k = 0; k < size; ++k) {
       std::vector<double> values;
       for (const Optimum* optimum : optima)
@@ -253,37 +279,7 @@ std::vector<results::Column> optimum_columns(const Study& study, const TuningRes
   add_search(about, columns);
   add_rounds(about, columns);
   add_starts(about, columns);
-  return columns.take();
-}
-
-std::vector<results::Column> front_columns(const Study& study, const TuningResult& result) {
-  if (!study.tune()->trade_off) return {};
-  const TuningAbout about(study, result);
-  const TradeOffChoice& trade_off = *study.tune()->trade_off;
-  GroupColumns columns;
-  std::vector<double> limits, objectives, gaps, residuals, violations, starts;
-  std::vector<tuning::Outcome> outcomes;
-  std::vector<const Optimum*> optima;
-  for (std::size_t i = 0; i < result.limits(); ++i) {
-    const Optimum& optimum = result.optimum(i);
-    optima.push_back(&optimum);
-    limits.push_back(optimum.trade_off / trade_off.unit.si_factor);
-    objectives.push_back(optimum.objective);
-    gaps.push_back(optimum.certificate_gap);
-    residuals.push_back(optimum.kkt_residual);
-    violations.push_back(optimum.violation);
-    outcomes.push_back(optimum.outcome);
-    starts.push_back(static_cast<double>(result.starts[result.best[i]].number));
-  }
-  columns.add("trade_off", trade_off.unit.text, "limit of " + trade_off.name, "trade_off", limits);
-  columns.add("objective", objective_unit(study), "objective of the optimum under that limit", "trade_off",
-              objectives);
-  columns.add("certificate_gap", "1", "(objective - bound) / objective", "trade_off", gaps);
-  columns.add("kkt_residual", "1", "residual of the conditions of a local optimum", "trade_off", residuals);
-  columns.add("violation", "1", "largest violation of a limit, relative", "trade_off", violations);
-  columns.add_flag("outcome", "how the tuning ended", "trade_off", outcome_words(), outcome_flags(outcomes));
-  columns.add_count("best_start", "the start that this was found from", "trade_off", starts);
-  add_designs(about, "", "under that limit", "trade_off", optima, columns);
+  add_map(about, columns);
   return columns.take();
 }
 

@@ -57,12 +57,22 @@ std::size_t best_of(const std::vector<const Optimum*>& optima) {
   return static_cast<std::size_t>(best - optima.begin());
 }
 
+bool is_dominated(const TuningResult& result, std::size_t limit) {
+  constexpr double equal = 1e-6;
+  const Optimum& point = result.optimum(limit);
+  for (std::size_t i = 0; i < result.limits(); ++i) {
+    const Optimum& other = result.optimum(i);
+    const bool is_lower = other.trade_off < point.trade_off && other.outcome != Outcome::infeasible;
+    if (is_lower && other.objective <= point.objective * (1.0 + equal)) return true;
+  }
+  return false;
+}
+
 bool has_design(const Study& study, const Optimum& optimum) {
   const auto& designs = study.tune()->designs;
   if (optimum.parameters.size() != designs.size()) return false;
   for (std::size_t i = 0; i < designs.size(); ++i) {
-    const std::size_t size = designs[i].is_scheduled() ? designs[i].knots.size() : 1;
-    if (optimum.parameters[i].value.size() != size) return false;
+    if (optimum.parameters[i].value.size() != designs[i].count()) return false;
   }
   return true;
 }

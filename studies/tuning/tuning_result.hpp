@@ -34,6 +34,10 @@ std::size_t best_of(const std::vector<const tuning::Optimum*>& optima);
 // Chooses among the starts and assesses the optimum. Throws StudyError for an invalid task.
 TuningResult tuning_result(const Study& study, std::vector<StartResult> starts);
 
+// Of a trade-off: whether another point of the front has an objective no higher under a lower limit, so that
+// this one's limit gains nothing.
+bool is_dominated(const TuningResult& result, std::size_t limit);
+
 // Whether an optimum has a design, and so a response.
 bool has_design(const Study& study, const tuning::Optimum& optimum);
 

@@ -21,6 +21,10 @@ constexpr double kLeastOfConstants = 1500.0, kMostOfConstants = 8000.0;
 constexpr double kLeastOfSchedule = 12'000.0, kMostOfSchedule = 100'000.0;
 // A global search before looks at so many designs for each parameter and one more, about 100 responses each.
 constexpr double kOfGlobalSearch = 400.0 * 100.0;
+// A map before takes about this for each curve, and then tunes constants from up to four of its places.
+constexpr double kOfMap = 6000.0, kMostPlaces = 4.0;
+// The ends of a trade-off's front are problems too: without the limit, of the least value, under it.
+constexpr double kEndsOfFront = 3.0;
 // The further problems of a trade-off, each from the optimum before, over the mean of the first ones.
 constexpr double kLessOfOthers = 0.6, kMoreOfOthers = 1.6;
 
@@ -37,17 +41,19 @@ double curves_of(const TuneChoice& tune) {
   return sides * std::max(1.0, static_cast<double>(tune.scenarios.size()));
 }
 
-// Of each record and scenario: one for each round, most of which few starts need.
+// Of each record and scenario: one for each round, most of which few starts need; more where the samples above
+// a quantile are chosen again.
 void expect_motions(const TuneChoice& tune, TuningSample& sample) {
   const double motions = static_cast<double>(tune.peaks->records.size()) * curves_of(tune);
   sample.least_responses = 4.0 * motions;
-  sample.most_responses = 20.0 * motions;
+  sample.most_responses = (tune.quantile < 1.0 ? 60.0 : 20.0) * motions;
 }
 
 // The range of responses that a start takes, from those of its problems that the sample ended.
-void expect_responses(const TuneChoice& tune, const std::vector<tuning::Optimum>& optima,
+void expect_responses(const TuneChoice& tune, tuning::Start start, const std::vector<tuning::Optimum>& optima,
                       TuningSample& sample) {
-  const double problems = tune.trade_off ? static_cast<double>(tune.trade_off->limits.size()) : 1.0;
+  const double problems =
+      tune.trade_off ? static_cast<double>(tune.trade_off->limits.size()) + kEndsOfFront : 1.0;
   const auto ended = static_cast<double>(optima.size()) - 1.0;  // the last one was stopped
   if (ended > 0.0) {
     double responses = 0.0;
@@ -56,12 +62,15 @@ void expect_responses(const TuneChoice& tune, const std::vector<tuning::Optimum>
     sample.most_responses = kMoreOfOthers * problems * responses / ended;
     return;
   }
-  const bool is_global = tune.start == tuning::Start::global;
+  const bool is_global = start == tuning::Start::global;
   const double search = is_global ? kOfGlobalSearch * static_cast<double>(tune.designs.size() + 1) : 0.0;
   if (tune.peaks) return expect_motions(tune, sample);
   const double curves = problems * curves_of(tune);
   sample.least_responses = curves * (tune.has_schedule() ? kLeastOfSchedule : kLeastOfConstants);
   sample.most_responses = curves * (tune.has_schedule() ? kMostOfSchedule : kMostOfConstants) + search;
+  if (start != tuning::Start::map) return;
+  sample.least_responses += curves * kOfMap;
+  sample.most_responses += curves * (kOfMap + kMostPlaces * kMostOfConstants);
 }
 
 void predict(TuningSample& sample) {
@@ -79,11 +88,12 @@ TuningSample sample_tuning(const StudyPlan& plan, double seconds) {
     was_stopped = was_stopped || seconds_since(start) > seconds;
     return was_stopped;
   };
-  StartResult first{.number = 0, .optima = tune_start(plan.study, tuning_task(plan.study), 0, stop)};
+  const tuning::Task task = tuning_task(plan.study);
+  StartResult first{.number = 0, .optima = tune_start(plan.study, task, 0, stop)};
   TuningSample sample{.seconds = seconds_since(start), .is_whole = !was_stopped};
   for (const tuning::Optimum& optimum : first.optima) sample.responses += optimum.orbits;
   if (was_stopped) {
-    expect_responses(*plan.study.tune(), first.optima, sample);
+    expect_responses(*plan.study.tune(), task.start, first.optima, sample);
     predict(sample);
     return sample;
   }

@@ -3,6 +3,8 @@
 #include <limits>
 #include <utility>
 
+#include "solvers/mechanics/coordinates.hpp"
+#include "solvers/tuning/stages/design_map.hpp"
 #include "studies/tuning/tuned_design.hpp"
 
 namespace frahm::studies {
@@ -19,7 +21,11 @@ std::vector<tuning::DesignParameter> design_parameters(const Study& study) {
                                       .upper = design.upper,
                                       .nominal = nominal[design.parameter],
                                       .schedule = std::nullopt};
-    if (design.is_scheduled()) parameter.schedule = tuning::Schedule{design.knots, design.max_slope};
+    if (design.is_scheduled())
+      parameter.schedule = tuning::Schedule{.knots = design.knots,
+                                            .max_slope = design.max_slope,
+                                            .may_leap = design.may_leap,
+                                            .leap = std::nullopt};
     parameters.push_back(std::move(parameter));
   }
   return parameters;
@@ -63,6 +69,14 @@ std::function<tuning::Weight(double)> weight_of(const Study& study) {
   };
 }
 
+// The mass or signal whose peak is tuned; a stroke becomes a signal's.
+std::size_t tuned_coordinate(const transient::MotionQuantity& quantity, mechanics::Network& network) {
+  if (quantity.measure != transient::MotionMeasure::stroke) return quantity.index;
+  const mechanics::Element& element = network.elements[quantity.index];
+  network.signals.push_back({element.name, element.along, element.rotational});
+  return mechanics::coordinate_count(network) - 1;
+}
+
 // A dummy single frequency if a variance has no band.
 tuning::Band band_of(const Study& study) {
   if (study.tune()->band) return study.tune()->band->range;
@@ -83,8 +97,9 @@ tuning::RecordTask record_task(const Study& study) {
   for (std::size_t r = 0; r < tune.peaks->records.size(); ++r)
     task.records.push_back(driven_by(tune.peaks->driving, r));
   task.duration = tune.peaks->duration;
-  task.coordinate = tune.peaks->coordinate;
+  task.coordinate = tuned_coordinate(tune.peaks->quantity, task.network);
   task.objective = tune.peaks->objective;
+  task.share = tune.quantile;
   task.solver = tune.solver;
   task.tolerance = tune.tolerance;
   return task;
@@ -113,6 +128,7 @@ tuning::Task tuning_task(const Study& study) {
   task.start = tune.start;
   task.starts = tune.starts;
   task.tolerance = tune.tolerance;
+  if (!tune.start_is_given && tuning::may_be_mapped(task)) task.start = tuning::Start::map;
   return task;
 }
 

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "tests/end_to_end/runs.hpp"
+#include "tests/known_answers/linear_rig.hpp"
 #include "tests/known_answers/nishihara_asami.hpp"
 #include "tests/study_path.hpp"
 
@@ -51,6 +52,23 @@ class Tuned {
   std::map<std::string, std::vector<double>> group(const std::string& name) const {
     std::map<std::string, std::vector<double>> columns;
     read(name, columns);
+    return columns;
+  }
+
+  // The motion of the run-up study that is exported.
+  std::map<std::string, std::vector<double>> run_up() const {
+    const std::string study = folder_ / "run_up.toml", file = folder_ / "run_up.h5";
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"export", folder_ / "tuned.h5", "--run-up", study},
+          {"run", study, "-o", file}}) {
+      const runs::Outcome outcome = runs::frahm(arguments);
+      INFO(outcome.err);
+      REQUIRE(outcome.code == 0);
+    }
+    std::map<std::string, std::vector<double>> columns;
+    const frahm::results::MapReader reader(file);
+    for (const frahm::results::Column& column : reader.columns("transient"))
+      columns[column.variable.name] = column.values;
     return columns;
   }
 
@@ -158,7 +176,7 @@ TEST_CASE("tune_h2_support.toml: least variance under white-noise acceleration o
 const char* const rig_studies[] = {"tune_rig_inertance",          "tune_rig_inertance_damping",
                                    "tune_rig_stiffness_damping",  "tune_rig_inertance_stiffness",
                                    "tune_rig_schedule",           "tune_rig_schedule_stiffness_damping",
-                                   "tune_rig_schedule_dominating"};
+                                   "tune_rig_schedule_stiffness", "tune_rig_schedule_dominating"};
 
 TEST_CASE("each rig tuning, with and without friction: certified, and no higher peak at 20,000 frequencies") {
   for (const char* name : rig_studies) {
@@ -208,6 +226,65 @@ TEST_CASE("tune_rig_schedule_stiffness_damping.toml: better than the best consta
     CHECK(tuned.of("objective") < 0.8 * tuned.of("constant_objective"));
     CHECK(tuned.of("objective") < 0.5 * most(tuned["response_rule"]));
   }
+}
+
+TEST_CASE("tune_rig_schedule_stiffness.toml: the optimum of an independent search, from any start") {
+  constexpr double on_grid = 1e-3;  // of the fine grid's least worst peak, whose schedules are no polygons
+  const Tuned tuned("tune_rig_schedule_stiffness", {"friction=0"});
+  CHECK_THAT(tuned.of("objective"), Catch::WithinRel(0.0319706, 1e-5));
+  const double k = tuned.of("k");
+  CHECK_THAT(tuned.of("objective"), Catch::WithinRel(linear_rig::best_schedule(k, 800, false), on_grid));
+  for (const double other : {0.8 * k, 0.98 * k, 1.02 * k, 1.3 * k})
+    CHECK(linear_rig::best_schedule(other, 400, false) > tuned.of("objective"));
+  CHECK_THAT(Tuned("tune_rig_schedule_stiffness").of("objective"), Catch::WithinRel(0.0230970, 2e-5));
+  const std::string text = text_of(study_path("tune_rig_schedule_stiffness"));
+  for (const char* start : {"5000.0", "8000.0", "14000.0", "20000.0"}) {
+    INFO(start);
+    const Tuned from(
+        "poor_start",
+        runs::replaced(text, "value = 10985.1, unit", std::string("value = ") + start + ", unit"),
+        {"friction=0"});
+    CHECK_THAT(from.of("objective"), Catch::WithinRel(tuned.of("objective"), exact));
+  }
+}
+
+TEST_CASE("each rig schedule: its worst peak stands above the bound of the path, and near it") {
+  constexpr double cell = 0.02;  // by which the bound lies below the best schedule of its grid
+  for (const char* name :
+       {"tune_rig_schedule", "tune_rig_schedule_stiffness", "tune_rig_schedule_stiffness_damping"}) {
+    for (const char* friction : {"friction=1", "friction=0"}) {
+      INFO(name << " " << friction);
+      const Tuned tuned(name, {friction});
+      CHECK(tuned.of("path_bound") <= tuned.of("objective"));
+      CHECK(tuned.of("path_bound") >= tuned.of("objective") * (1.0 - cell));
+    }
+  }
+}
+
+TEST_CASE("tune_rig_schedule_jump.toml: the jump of an independent search, whose sides are equally high") {
+  constexpr double across = 1e-4;   // by which the response changes between the knots of both sides
+  constexpr double on_grid = 3e-3;  // of the fine grid, whose jumps stand at its 3200 places
+  const Tuned tuned("tune_rig_schedule_jump", {"friction=0"});
+  CHECK_THAT(tuned.of("objective"),
+             Catch::WithinRel(linear_rig::best_schedule(10985.1, 3200, true), on_grid));
+  for (const char* side : {"I_jump_from", "I_jump_to"}) {
+    const double peak = linear_rig::main_peak(tuned.of("I_jump_at"), tuned.of(side), 10985.1);
+    CHECK_THAT(peak, Catch::WithinRel(tuned.of("objective"), across));
+  }
+  CHECK(most(tuned.swept(dense)["main_peak"]) <= tuned.of("objective") * (1.0 + certified));
+  REQUIRE(tuned["I"].size() == 43);
+  const std::vector<double>&I = tuned["I"], &knots = tuned["knots_I"];
+  for (std::size_t i = 1; i < I.size(); ++i) {
+    if (knots[i] - knots[i - 1] > 1e-4)
+      CHECK(std::abs(I[i] - I[i - 1]) <= 2.0 * (knots[i] - knots[i - 1]) * (1.0 + 1e-9));
+  }
+  const Tuned with_friction("tune_rig_schedule_jump");
+  // Through the jump, where the tuned response is highest, a slow run-up stays below it.
+  const auto motion = with_friction.run_up();
+  CHECK(motion.at("frequency").back() == Approx(35.0));
+  CHECK(motion.at("main_peak").front() < with_friction.of("objective"));
+  CHECK(motion.at("main_peak").front() > 0.9 * with_friction.of("objective"));
+  CHECK(with_friction.of("objective") < 0.85 * Tuned("tune_rig_schedule").of("objective"));
 }
 
 TEST_CASE("tune_rig_schedule.toml: with the range closed it is the constant") {

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <complex>
+#include <random>
 
 #include "solvers/tuning/optimum.hpp"
 #include "tests/known_answers/nishihara_asami.hpp"
@@ -101,6 +102,38 @@ TEST_CASE("the classical damper is tuned to the exact H-infinity optimum at six 
       CHECK(optimum.objective == Approx(form.peak).epsilon(tolerance));
     }
   }
+}
+
+// Mass ratios from 0.005 to 0.5, starts from f = 0.5 to 1.5 and zeta = 0.005 to 0.6, every other one with an
+// inerter to the ground; from the start as given with either solver, and from a map.
+void check_drawn_absorbers(int count) {
+  std::mt19937 random(1909);
+  const auto between = [&](double least, double most) {
+    return std::uniform_real_distribution<double>(least, most)(random);
+  };
+  for (int i = 0; i < count; ++i) {
+    const double mu = between(0.005, 0.5), beta = i % 2 == 0 ? 0.0 : between(0.0, 0.3);
+    Task task = absorber(mu, beta);
+    task.parameters[0].nominal = between(0.5, 1.5);
+    task.parameters[1].nominal = between(0.005, 0.6);
+    task.solver = i % 3 == 0 ? tuning::SolverKind::ipopt : tuning::SolverKind::slsqp;
+    if (i % 3 == 2) task.start = tuning::Start::map;
+    const Optimum optimum = tuned(task);
+    INFO("mu = " << mu << ", beta = " << beta << ", from f = " << task.parameters[0].nominal
+                 << ", zeta = " << task.parameters[1].nominal << ": " << optimum.reason);
+    CHECK(optimum.outcome == tuning::Outcome::converged);
+    CHECK(optimum.certificate_gap >= 0.0);
+    CHECK(optimum.objective == Approx(nishihara_asami(mu + beta).peak).epsilon(tolerance));
+  }
+}
+
+TEST_CASE("absorbers drawn at random end at the closed form, from wherever they start") {
+  check_drawn_absorbers(15);
+}
+
+// Ten seconds: test_known_answers "[thorough]".
+TEST_CASE("So do 200", "[.thorough]") {
+  check_drawn_absorbers(200);
 }
 
 TEST_CASE("an inerter from the absorber to the ground counts as absorber mass") {

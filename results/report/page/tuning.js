@@ -39,6 +39,7 @@ function parameterOf(group, name) {
     before: number("before"),
     constant: number("constant"),
     maxSlope: number("max_slope"),
+    jump: { at: number("jump_at"), from: number("jump_from"), to: number("jump_to") },
     atBound: group.words(`${name}_at_bound`),
     lowerMultiplier: group.values(`${name}_lower_multiplier`) ?? [],
     upperMultiplier: group.values(`${name}_upper_multiplier`) ?? [],
@@ -153,11 +154,12 @@ export function knotsAtBounds({ atBound }) {
 
 const atSlope = 1e-6; // relative, within which a piece is as steep as it may be
 
-// Pieces of a schedule that are as steep as they may be; NaN where nothing bounds its slope.
-export function steepestPieces({ knots, values, maxSlope }) {
+// Pieces of a schedule that are as steep as they may be, its jump left out; NaN where nothing bounds its slope.
+export function steepestPieces({ knots, values, maxSlope, jump }) {
   if (!Number.isFinite(maxSlope)) return NaN;
   let count = 0;
   for (let i = 0; i + 1 < knots.length; ++i) {
+    if (knots[i] < jump?.at && jump?.at < knots[i + 1]) continue;
     const slope = Math.abs((values[i + 1] - values[i]) / (knots[i + 1] - knots[i]));
     if (slope >= maxSlope * (1 - atSlope)) ++count;
   }

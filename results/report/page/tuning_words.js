@@ -95,8 +95,14 @@ function bandText(tuning) {
   );
 }
 
-function scenarioText({ scenarios, kind }) {
+function scenarioText({ scenarios, kind, texts }) {
   if (scenarios.length < 2) return "";
+  if (texts.samples) {
+    const share = Number(texts.quantile ?? 1);
+    return share < 1
+      ? `, the ${numberText(100 * share, 4)} % quantile of the worst of each of ${scenarios.length} samples`
+      : `, over ${scenarios.length} samples`;
+  }
   return kind === "minimax"
     ? `, in the worst of ${scenarios.length} scenarios`
     : `, as the mean of ${scenarios.length} scenarios`;

@@ -6,10 +6,11 @@
 namespace frahm::tuning {
 namespace {
 
-constexpr int kFirstIntervals = 32;          // of the first active frequencies
-constexpr double kSamePlace = 1e-7;          // frequencies closer than this, relative, are one
-constexpr double kWithinPiece = 1.0 - 1e-6;  // of the way to a knot, on which the next piece begins
-constexpr double kIdle = 0.8;                // of the bound
+constexpr int kFirstIntervals = 32;               // of the first active frequencies
+constexpr double kSamePlace = 1e-7;               // frequencies closer than this, relative, are one
+constexpr double kWithinPiece = 1.0 - 1e-6;       // of the way to a knot, on which the next piece begins
+constexpr double kAcrossLeap = 1.5 * kLeapWidth;  // knots closer than this, relative, are sides of a leap
+constexpr double kIdle = 0.8;                     // of the bound
 
 // Both sides of a peak without symmetry; else the larger one, which stands for both.
 std::vector<std::size_t> sides_of(std::size_t sides) {
@@ -20,7 +21,10 @@ std::vector<std::size_t> sides_of(std::size_t sides) {
 // An even grid, or the knots and the middles between them; ascending.
 std::vector<double> grid(const Band& band, const std::vector<double>& knots) {
   std::vector<double> places = knots;
-  for (std::size_t i = 0; i + 1 < knots.size(); ++i) places.push_back(0.5 * (knots[i] + knots[i + 1]));
+  for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
+    const double width = knots[i + 1] - knots[i];
+    if (width > kAcrossLeap * std::abs(band.to)) places.push_back(knots[i] + 0.5 * width);
+  }
   if (knots.empty()) {
     for (int i = 0; i <= kFirstIntervals; ++i)
       places.push_back(band.from + (band.to - band.from) * i / kFirstIntervals);
@@ -110,7 +114,9 @@ bool ActivePoints::can_follow(const Scan& scan, std::size_t i, ActivePoint& poin
 void ActivePoints::drop_idle(std::span<const double> responses, double worst) {
   std::size_t place = 0;
   std::erase_if(points_, [&](const ActivePoint& point) {
-    const double bound = curves_[point.curve].of == CurveKind::Of::objective ? worst : 1.0;
+    const bool below_worst =
+        curves_[point.curve].of == CurveKind::Of::objective || goal_.of == Goal::Of::violation;
+    const double bound = below_worst ? worst : 1.0;
     return responses[place++] < kIdle * bound;
   });
 }

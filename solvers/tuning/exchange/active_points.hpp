@@ -36,7 +36,7 @@ class ActivePoints {
   void join(const Scan& scan, bool follow);
 
   // Drops points far below the bound, which only cost time; a scan finds those that rise again.
-  // responses: of each point at the design found. worst: bound of the objective's.
+  // responses: of each point at the design found. worst: bound of the objective's, of all for a violation.
   void drop_idle(std::span<const double> responses, double worst);
 
  private:

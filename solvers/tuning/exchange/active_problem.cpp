@@ -62,7 +62,11 @@ void ActiveProblem::name_variables() {
     variable.scale = range > 0.0 ? range : size > 0.0 ? size : 1.0;
     variables.push_back(variable);
   }
-  if (has_bound_variable()) variables.push_back({.name = "worst", .lower = 0.0});
+  if (!has_bound_variable()) return;
+  // A design well within its limits is not sought: another goal goes on from there.
+  constexpr double kWellWithin = 1.0 - 1e-3;
+  const bool violation = goal_.of == Goal::Of::violation;
+  variables.push_back({.name = "worst", .lower = violation ? kWellWithin : 0.0});
 }
 
 void ActiveProblem::add_response_rows() {
@@ -87,7 +91,10 @@ void ActiveProblem::add_slope_rows() {
     slope_rows_.push_back({{constraints.size(), schedule->knots.size() - 1}, space_.first(p)});
     for (std::size_t k = 0; k + 1 < schedule->knots.size(); ++k) {
       const std::size_t variable = space_.first(p) + k;
-      const double most = schedule->max_slope * (schedule->knots[k + 1] - schedule->knots[k]);
+      // Over a leap only the bounds hold, which the row's limit lies beyond.
+      const double most = schedule->leap == k
+                              ? 2.0 * variables[variable].scale
+                              : schedule->max_slope * (schedule->knots[k + 1] - schedule->knots[k]);
       constraints.push_back(
           {.name = "slope", .lower = -most, .upper = most, .scale = variables[variable].scale});
       jacobian.push_back({constraints.size() - 1, variable});
@@ -100,14 +107,17 @@ void ActiveProblem::start_at(std::span<const double> x) {
   for (std::size_t i = 0; i < x.size(); ++i) variables[i].start = x[i];
   double worst = 0.0;
   for (std::size_t i = 0; i < active_.size(); ++i) {
-    if (curves_[active_[i].curve].of != CurveKind::Of::objective) continue;
+    const bool counts = goal_.of == Goal::Of::violation
+                            ? is_epigraph(active_[i].curve)
+                            : curves_[active_[i].curve].of == CurveKind::Of::objective;
+    if (!counts) continue;
     if (responses_[i]->solve(x, active_[i].at, Derivatives::none) != TunedResponse::State::solved) continue;
     worst = std::max(worst, responses_[i]->value(BandCurve::larger));
   }
   const double size = worst > 0.0 ? worst : goal_.held > 0.0 ? goal_.held : 1.0;
   for (std::size_t i = 0; i < active_.size(); ++i) {
     const bool of_objective = curves_[active_[i].curve].of == CurveKind::Of::objective;
-    constraints[response_rows_.first + i].scale = of_objective ? size : 1.0;
+    constraints[response_rows_.first + i].scale = of_objective || is_epigraph(active_[i].curve) ? size : 1.0;
   }
   if (has_bound_variable()) {
     variables.back().start = worst;

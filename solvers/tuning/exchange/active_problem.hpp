@@ -19,6 +19,7 @@ struct RowBlock {
 
 // The design problem with finitely many frequencies:
 //   minimise t, or an integral, or a variance, over x (and t)
+//   of Goal::Of::violation:      curve_i(at_i; x) <= t for the limits' curves alone
 //   responses:                   curve_i(at_i; x) <= t for the objective's curves (<= held where it is held),
 //                                <= 1 for the others; row i of the block is active point i
 //   slopes, one block for each   |x_{k+1} - x_k| <= max_slope (knot_{k+1} - knot_k); row k of the block is
@@ -43,9 +44,10 @@ class ActiveProblem final : public Problem {
   bool stop_asked() override { return stop_asked_(); }
 
  private:
-  bool has_bound_variable() const { return goal_.of == Goal::Of::worst; }
+  bool has_bound_variable() const { return goal_.is_epigraph(); }
   bool is_epigraph(std::size_t curve) const {
-    return goal_.of == Goal::Of::worst && curves_[curve].of == CurveKind::Of::objective;
+    const bool of_objective = curves_[curve].of == CurveKind::Of::objective;
+    return goal_.is_epigraph() && of_objective == (goal_.of == Goal::Of::worst);
   }
   double bound_of(std::size_t curve) const {
     return curves_[curve].of == CurveKind::Of::objective ? goal_.held : curves_[curve].most();

@@ -37,7 +37,9 @@ std::vector<QuadratureNode> pole_quadrature(const Task& task, const DesignSpace&
   std::vector<QuadratureNode> nodes;
   for (const CurveKind& curve : curves) {
     if (curve.of != CurveKind::Of::objective) continue;
-    add_nodes(task, curve.scenario, places_of(task, space, curve, x, kPanels), kNodeAt, kNodeWeight, nodes);
+    // A mean square has no leaps, so its band is one stretch.
+    for (const std::vector<double>& places : places_of(task, space, curve, x, kPanels))
+      add_nodes(task, curve.scenario, places, kNodeAt, kNodeWeight, nodes);
   }
   return nodes;
 }

@@ -14,8 +14,8 @@ constexpr int kIntervals = 48;  // of the even grid that a scan starts from
 
 }  // namespace
 
-std::vector<double> places_of(const Task& task, const DesignSpace& space, const CurveKind& curve,
-                              std::span<const double> x, int intervals) {
+std::vector<std::vector<double>> places_of(const Task& task, const DesignSpace& space, const CurveKind& curve,
+                                           std::span<const double> x, int intervals) {
   mechanics::NetworkValues values;
   std::vector<double> at(space.parameters() + 1);
   const auto values_at = [&](double band) -> const mechanics::NetworkValues& {
@@ -24,7 +24,10 @@ std::vector<double> places_of(const Task& task, const DesignSpace& space, const 
     task.network_at(curve.scenario, at, values, nullptr);
     return values;
   };
-  return resonance_places(task.network, values_at, curve.band, space.knots(), intervals);
+  std::vector<std::vector<double>> places;
+  for (const Band& stretch : space.stretches(curve.band))
+    places.push_back(resonance_places(task.network, values_at, stretch, space.knots(), intervals));
+  return places;
 }
 
 BandScan::BandScan(const Task& task, const DesignSpace& space, const std::vector<CurveKind>& curves,
@@ -56,20 +59,21 @@ void BandScan::scan_curve(std::span<const double> x, std::size_t c, double floor
     }
     return {band, unbounded ? kInfinity : kNone, kNone, kNone};
   };
-  const std::vector<double> places = places_of(task_, space_, curves_[c], x, kIntervals);
   const bool may_jump = curve.response().may_jump();
-  // Downwards first: the orbits found on the way are starts of the way up.
-  for (auto place = places.rbegin(); may_jump && place != places.rend() && !stop_asked_(); ++place)
-    curve.solve(x, *place, Derivatives::none);
-  const BandMaxima found = find_band_maxima(point_at, places, floor, accuracy, may_jump);
-  for (const CurvePoint& maximum : found.maxima) {
-    const auto state = curve.solve(x, maximum.at, Derivatives::none);
-    const std::size_t sides = state == TunedResponse::State::solved ? curve.sides() : 1;
-    scan.maxima.push_back({c, maximum.at, maximum.value, sides, maximum.is_end});
-  }
   Scan::Extreme highest;
-  for (const CurvePoint& sample : found.samples) {
-    if (sample.value > highest.value) highest = {sample.at, sample.value};
+  for (const std::vector<double>& places : places_of(task_, space_, curves_[c], x, kIntervals)) {
+    // Downwards first: the orbits found on the way are starts of the way up.
+    for (auto place = places.rbegin(); may_jump && place != places.rend() && !stop_asked_(); ++place)
+      curve.solve(x, *place, Derivatives::none);
+    const BandMaxima found = find_band_maxima(point_at, places, floor, accuracy, may_jump);
+    for (const CurvePoint& maximum : found.maxima) {
+      const auto state = curve.solve(x, maximum.at, Derivatives::none);
+      const std::size_t sides = state == TunedResponse::State::solved ? curve.sides() : 1;
+      scan.maxima.push_back({c, maximum.at, maximum.value, sides, maximum.is_end});
+    }
+    for (const CurvePoint& sample : found.samples) {
+      if (sample.value > highest.value) highest = {sample.at, sample.value};
+    }
   }
   if (motion.value >= highest.value) highest = motion;
   scan.tightest.push_back(highest);

@@ -51,8 +51,9 @@ class BandScan {
   std::vector<std::unique_ptr<BandCurve>> responses_;  // of each curve
 };
 
-// Points of a curve's band at a design between which no peak is missed (resonance_places.hpp).
-std::vector<double> places_of(const Task& task, const DesignSpace& space, const CurveKind& curve,
-                              std::span<const double> x, int intervals);
+// Points of a curve's band at a design between which no peak is missed (resonance_places.hpp): a list for
+// each stretch between leaps of a schedule.
+std::vector<std::vector<double>> places_of(const Task& task, const DesignSpace& space, const CurveKind& curve,
+                                           std::span<const double> x, int intervals);
 
 }  // namespace frahm::tuning

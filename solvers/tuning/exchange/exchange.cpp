@@ -30,6 +30,7 @@ bool is_better(const Goal& goal, const Exchange::Step& step, const Scan& scan, c
   const double broken = std::max(0.0, scan.violation - 1e-9);
   const double broken_before = std::max(0.0, than.scan.violation - 1e-9);
   if (broken != broken_before) return broken < broken_before;
+  if (goal.of == Goal::Of::violation) return step.solution.objective > than.step.solution.objective;
   if (goal.of == Goal::Of::worst) return scan.worst < than.scan.worst;
   if (goal.of == Goal::Of::mean_response && scan.worst > goal.held * (1.0 + 1e-9))
     return scan.worst < than.scan.worst;
@@ -85,7 +86,7 @@ Exchange::Step Exchange::solve(const Goal& goal, std::span<const double> x,
   step.x.assign(solved.begin(), solved.begin() + static_cast<std::ptrdiff_t>(space_.variables()));
   step.active = active;
   // The value of an integral changes with the nodes that suit the new design.
-  step.objective_again = goal.of == Goal::Of::worst ? step.solution.objective : integral(goal, step.x);
+  step.objective_again = goal.is_epigraph() ? step.solution.objective : integral(goal, step.x);
   step.rows = problem.responses();
   std::vector<double> values(problem.constraints.size());
   problem.constrain(solved, values, {});
@@ -99,6 +100,8 @@ double Exchange::gap_of(const Goal& goal, const Step& step, const Scan& scan) {
       return (scan.worst - step.solution.objective) / scan.worst;
     case Goal::Of::mean_response:
       return std::max(0.0, scan.worst / goal.held - 1.0);
+    case Goal::Of::violation:
+      return (1.0 + scan.violation - step.solution.objective) / (1.0 + scan.violation);
     default:
       return std::abs(step.objective_again / step.solution.objective - 1.0);
   }
@@ -109,17 +112,41 @@ Exchange::Result Exchange::stopped(Result result) {
   return result;
 }
 
-// Where Ipopt does not get there, SLSQP tries from the same design.
+// Tunes from x; where that ends outside the limits, first finds the design that breaks them least.
 Exchange::Result Exchange::run(const Goal& goal, const std::vector<double>& x) {
+  Result direct = run_with_either(goal, x);
+  const bool settles = goal.of == Goal::Of::mean_response;  // one of several designs, and not the last word
+  if (direct.outcome != Outcome::infeasible || settles) return direct;
+  Result restored = run_with_either({Goal::Of::violation}, direct.x);
+  restored.rounds.insert(restored.rounds.begin(), direct.rounds.begin(), direct.rounds.end());
+  if (!restored.has_step) {
+    direct.rounds = std::move(restored.rounds);
+    return direct;
+  }
+  if (restored.outcome == Outcome::stopped) return restored;
+  if (is_broken(restored.scan.violation)) {
+    restored.breaks_least = restored.outcome == Outcome::converged;
+    restored.outcome = Outcome::infeasible;
+    if (!goal.is_epigraph()) restored.step.objective_again = integral(goal, restored.x);
+    return restored;
+  }
+  Result again = run_with_either(goal, restored.x);
+  again.rounds.insert(again.rounds.begin(), restored.rounds.begin(), restored.rounds.end());
+  return again;
+}
+
+// Where one solver does not get there the other tries, from the best design so far: SLSQP after Ipopt, Ipopt
+// after the others.
+Exchange::Result Exchange::run_with_either(const Goal& goal, const std::vector<double>& x) {
   Result first = run_with(task_.solver, goal, x);
   const bool has_more =
-      first.has_step && first.outcome == Outcome::not_converged && task_.solver == SolverKind::ipopt;
+      first.outcome == Outcome::not_converged || (first.outcome == Outcome::failed && !first.rounds.empty());
   if (!has_more) return first;
-  Result second = run_with(SolverKind::slsqp, goal, x);
+  const SolverKind other = task_.solver == SolverKind::ipopt ? SolverKind::slsqp : SolverKind::ipopt;
+  Result second = run_with(other, goal, first.has_step ? first.x : x);
   second.rounds.insert(second.rounds.begin(), first.rounds.begin(), first.rounds.end());
-  const bool keeps =
-      second.has_step && second.outcome != Outcome::infeasible &&
-      (second.outcome == Outcome::converged || is_better(goal, second.step, second.scan, first));
+  const bool keeps = second.has_step && (!first.has_step || second.outcome == Outcome::converged ||
+                                         is_better(goal, second.step, second.scan, first));
   if (keeps || second.outcome == Outcome::stopped) return second;
   first.rounds = std::move(second.rounds);
   return first;
@@ -155,29 +182,35 @@ Exchange::Result Exchange::run_with(SolverKind solver, const Goal& goal, std::ve
     result.rounds.push_back({active.all().size(), step.solution.iterations, step.solution.objective,
                              found.worst, std::max(0.0, found.violation), solver});
     if (!space_.has_schedule() && round < kRoundsThatDrop)
-      active.drop_idle(step.responses, goal.of == Goal::Of::worst ? step.solution.objective : goal.held);
+      active.drop_idle(step.responses, goal.is_epigraph() ? step.solution.objective : goal.held);
     const bool exact = near_end && is_solved(step.solution);
-    near_end = settles || (std::abs(gap) < kNearEnd && found.violation < kNearEnd);
+    const bool restores = goal.of == Goal::Of::violation;
+    const double violation = restores ? 0.0 : std::max(0.0, found.violation);
+    near_end = settles || (std::abs(gap) < kNearEnd && violation < kNearEnd);
     active.join(found, follows(near_end));
     if (!settles) options = near_end ? kExact : kRough;
     x = step.x;
     // 3. Update the best design, and decide whether another round helps.
     if (found.unbounded || found.failed) continue;
-    is_last = convergence.judge(gap, std::max(0.0, found.violation), exact);
+    is_last = convergence.judge(gap, violation, exact) || (restores && found.violation <= 0.0);
     const bool is_best = !result.has_step || is_better(goal, step, found, result);
     if (is_best || (is_last && convergence.met())) result.take(step, found);
   }
-  conclude(convergence.met(), result);
+  conclude(goal, convergence.met(), result);
   return result;
 }
 
+bool Exchange::is_broken(double violation) const {
+  return violation > std::max(task_.tolerance, 1e-9);
+}
+
 // How the rounds ended, by the best design.
-void Exchange::conclude(bool gap_closed, Result& result) const {
+void Exchange::conclude(const Goal& goal, bool gap_closed, Result& result) const {
   if (!result.has_step) {
     result.outcome = Outcome::failed;
     return;
   }
-  if (result.scan.violation > std::max(task_.tolerance, 1e-9))
+  if (goal.of != Goal::Of::violation && is_broken(result.scan.violation))
     result.outcome = Outcome::infeasible;
   else if (gap_closed && is_solved(result.step.solution))
     result.outcome = Outcome::converged;

@@ -35,6 +35,7 @@ class Exchange {
     bool has_step = false;
     Step step;  // whose solution it is
     std::vector<Round> rounds;
+    bool breaks_least = false;  // of an infeasible one: to first order no design near breaks the limits less
 
     void take(const Step& from, const Scan& found) {
       x = from.x;
@@ -49,6 +50,7 @@ class Exchange {
   double integral(const Goal& goal, std::span<const double> x);
 
  private:
+  Result run_with_either(const Goal& goal, const std::vector<double>& x);
   Result run_with(SolverKind solver, const Goal& goal, std::vector<double> x);
   Step solve(const Goal& goal, std::span<const double> x, const std::vector<ActivePoint>& active,
              SolverKind solver, const SolverOptions& options);
@@ -56,7 +58,8 @@ class Exchange {
   bool follows(bool near_end) const;
   static double gap_of(const Goal& goal, const Step& step, const Scan& scan);
   static Result stopped(Result result);
-  void conclude(bool gap_closed, Result& result) const;
+  bool is_broken(double violation) const;
+  void conclude(const Goal& goal, bool gap_closed, Result& result) const;
 
   const Task& task_;
   const DesignSpace& space_;

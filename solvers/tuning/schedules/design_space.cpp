@@ -22,6 +22,7 @@ void check(const DesignParameter& parameter) {
     if (!(schedule.knots[i] > schedule.knots[i - 1])) refuse("the knots must ascend");
   }
   if (!(schedule.max_slope > 0.0)) refuse("max_slope must be positive");
+  if (schedule.leap && *schedule.leap + 1 >= schedule.knots.size()) refuse("it leaps beyond its last knot");
 }
 
 }  // namespace
@@ -79,6 +80,23 @@ std::vector<double> DesignSpace::knots() const {
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
+}
+
+std::vector<Band> DesignSpace::stretches(const Band& band) const {
+  std::vector<Band> leaps;
+  for (const DesignParameter& parameter : parameters_) {
+    if (!parameter.schedule || !parameter.schedule->leap) continue;
+    const double* sides = &parameter.schedule->knots[*parameter.schedule->leap];
+    if (sides[0] >= band.from && sides[1] <= band.to) leaps.push_back({sides[0], sides[1]});
+  }
+  std::ranges::sort(leaps, {}, &Band::from);
+  std::vector<Band> stretches{band};
+  for (const Band& leap : leaps) {
+    if (leap.from < stretches.back().from) continue;
+    stretches.back().to = leap.from;
+    stretches.push_back({leap.to, band.to});
+  }
+  return stretches;
 }
 
 }  // namespace frahm::tuning

@@ -40,6 +40,8 @@ class DesignSpace {
   std::vector<double> constant_design(std::span<const double> value) const;
   // Values of the band parameter at which some schedule has a knot, ascending.
   std::vector<double> knots() const;
+  // A range of the band without its leaps: the stretches between them, ascending; a leap's sides end them.
+  std::vector<Band> stretches(const Band& band) const;
 
  private:
   std::vector<DesignParameter> parameters_;

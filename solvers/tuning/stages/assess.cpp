@@ -4,6 +4,7 @@
 #include "solvers/algebra/no_value.hpp"
 #include "solvers/tuning/optimum.hpp"
 #include "solvers/tuning/stages/design_tuning.hpp"
+#include "solvers/tuning/stages/leap_place.hpp"
 
 namespace frahm::tuning {
 namespace {
@@ -11,9 +12,10 @@ namespace {
 constexpr double kChanges[] = {-0.10, -0.05, -0.01, 0.01, 0.05, 0.10};
 constexpr int kSamples = 400;
 
-// The task without bounds on its design parameters, so that any design can be examined.
-Task without_bounds(const Task& task) {
-  Task open = task;
+// The task without bounds on its design parameters, so that any design can be examined, with the leaps of the
+// optimum.
+Task without_bounds(const Task& task, const Optimum& optimum) {
+  Task open = with_knots_of(task, optimum);
   open.limits.clear();
   open.trade_off.reset();
   return open;
@@ -36,7 +38,7 @@ std::vector<double> constants(const DesignSpace& space, std::span<const double> 
 class Assessor {
  public:
   Assessor(const Task& task, const Optimum& optimum)
-      : task_(without_bounds(task)),
+      : task_(without_bounds(task, optimum)),
         tuning_(task_, {}, effort_, never_stop_),
         optimum_(optimum),
         x_(variables_of(optimum)) {}

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "solvers/algebra/no_value.hpp"
+#include "solvers/tuning/stages/path_search.hpp"
 
 namespace frahm::tuning {
 namespace {
@@ -47,7 +48,9 @@ void respect_slopes(const DesignSpace& space, std::vector<double>& x) {
       const double most = schedule->max_slope * gap;
       x[knot] = std::clamp(x[knot], x[towards] - most, x[towards] + most);
     };
-    for (std::size_t k = first + 1; k <= last; ++k) pull(k, k - 1);
+    for (std::size_t k = first + 1; k <= last; ++k) {
+      if (schedule->leap != k - 1 - first) pull(k, k - 1);
+    }
   }
 }
 
@@ -75,7 +78,7 @@ Goal DesignTuning::goal() const {
   return {Goal::Of::worst};
 }
 
-Stages DesignTuning::from(const std::vector<double>& value) {
+Stages DesignTuning::from(const std::vector<std::vector<double>>& starts) {
   Stages stages;
   const auto keep = [&](const Exchange::Result& result) {
     stages.best = result;
@@ -84,7 +87,7 @@ Stages DesignTuning::from(const std::vector<double>& value) {
     stages.rounds.insert(stages.rounds.end(), result.rounds.begin(), result.rounds.end());
   };
   // 1. The best constants.
-  keep(tune_constant(value));
+  keep(best_constant(starts, stages));
   if (!space_.has_schedule()) return stages;
   stages.constant = stages.best;
   if (!stages.best.has_step) return stages;
@@ -104,7 +107,58 @@ Stages DesignTuning::from(const std::vector<double>& value) {
       settle_free_knots(schedule.scan.worst * (1.0 + kRoom), stages);
     }
   }
+  tell_bound(stages);
   return stages;
+}
+
+// Results with a design first, those that meet the limits before others; of equal objectives the converged
+// one.
+Exchange::Result DesignTuning::best_constant(const std::vector<std::vector<double>>& starts, Stages& stages) {
+  constexpr double kEqual = 1e-6;
+  const auto objective_of = [&](const Exchange::Result& result) {
+    if (!result.has_step) return result.outcome == Outcome::converged ? 0.0 : kNone;
+    return task_.objective == Objective::minimax ? result.scan.worst : result.step.objective_again;
+  };
+  const auto is_better = [&](const Exchange::Result& one, const Exchange::Result& other) {
+    const double a = objective_of(one), b = objective_of(other);
+    if (std::isnan(a) || std::isnan(b)) return std::isnan(b) && !std::isnan(a);
+    const bool breaks = one.outcome == Outcome::infeasible,
+               other_breaks = other.outcome == Outcome::infeasible;
+    if (breaks != other_breaks) return other_breaks;
+    if (breaks) return one.scan.violation < other.scan.violation;
+    const bool converges = one.outcome == Outcome::converged && other.outcome != Outcome::converged;
+    return converges ? a < b * (1.0 + kEqual) : a < b * (1.0 - kEqual);
+  };
+  std::optional<Exchange::Result> best;
+  for (const std::vector<double>& start : starts) {
+    Exchange::Result result = tune_constant(start);
+    stages.polished.push_back(result.outcome == Outcome::infeasible ? kNone : objective_of(result));
+    if (result.outcome == Outcome::stopped) return result;
+    if (!best || is_better(result, *best)) best = std::move(result);
+  }
+  return *best;
+}
+
+DesignMap DesignTuning::map() {
+  SampledCurves sampled(task_, constant_space_, curves_, effort_);
+  Exchange exchange(task_, constant_space_, curves_, effort_, stop_asked_);
+  const auto merit_at = [&](std::span<const double> value) {
+    DesignMerit merit = sampled.at(value);
+    if (task_.objective != Objective::minimax) merit.objective = exchange.integral(goal(), value);
+    return merit;
+  };
+  return map_designs(constant_space_, merit_at, stop_asked_);
+}
+
+// A bound above the design found shows that the response has valleys that the grid does not.
+void DesignTuning::tell_bound(Stages& stages) {
+  if (!PathSearch::serves(task_) || !stages.best.has_step) return;
+  const double bound = PathSearch(task_, limits_, effort_.orbits, stop_asked_).bound(stages.best.x);
+  if (bound <= stages.best.scan.worst * (1.0 + kRoom)) stages.path_bound = bound;
+}
+
+Exchange::Result DesignTuning::schedules_from(const std::vector<double>& x) {
+  return Exchange(task_, space_, curves_, effort_, stop_asked_).run(goal(), x);
 }
 
 Exchange::Result DesignTuning::tune_constant(const std::vector<double>& value) {
@@ -142,14 +196,23 @@ Exchange::Result DesignTuning::tune_schedule(const std::vector<double>& value) {
   const std::vector<double> start = space_.constant_design(value);
   const std::vector<CurveKind> curves = schedule_curves(start);
   Exchange exchange(task_, space_, curves, effort_, stop_asked_);
-  Exchange::Result result = exchange.run(goal(), start);
-  if (task_.objective != Objective::minimax || task_.dominate_constant) return result;
-  // The best value at each knot by itself gives a second start.
-  const Exchange::Result other = exchange.run(goal(), place_by_place(start));
-  const bool is_better = other.has_step && other.scan.violation <= std::max(result.scan.violation, 1e-9) &&
-                         other.scan.worst < result.scan.worst * (1.0 - kRoom);
-  if (!result.has_step || is_better) result = other;
-  return result;
+  // The best path over a grid of responses starts the search; the constant design where there is none.
+  Exchange::Result best;
+  if (PathSearch::serves(task_)) {
+    const auto path = PathSearch(task_, limits_, effort_.orbits, stop_asked_).best(value);
+    if (path) best = exchange.run(goal(), path->x);
+    if (best.outcome == Outcome::converged || best.outcome == Outcome::stopped) return best;
+  }
+  const auto take_if_better = [&best](Exchange::Result result) {
+    const bool is_better = result.has_step && result.scan.violation <= std::max(best.scan.violation, 1e-9) &&
+                           result.scan.worst < best.scan.worst * (1.0 - kRoom);
+    if (!best.has_step || is_better) best = std::move(result);
+  };
+  take_if_better(exchange.run(goal(), start));
+  if (task_.objective != Objective::minimax || task_.dominate_constant) return best;
+  // The best value at each knot by itself gives another start.
+  take_if_better(exchange.run(goal(), place_by_place(start)));
+  return best;
 }
 
 // For each knot of each schedule, the value that alone makes the objective least at the knot.

@@ -3,7 +3,9 @@
 #include <functional>
 #include <vector>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/tuning/exchange/exchange.hpp"
+#include "solvers/tuning/stages/design_map.hpp"
 
 namespace frahm::tuning {
 
@@ -14,7 +16,9 @@ struct Stages {
   double bound = 0.0;                  // of the objective over its active frequencies
   Exchange::Result constant;           // the best constant design, where a parameter is scheduled
   std::vector<double> constant_value;  // of each parameter; empty where none is
+  double path_bound = kNone;           // Optimum::path_bound
   std::vector<Round> rounds;           // of all stages
+  std::vector<double> polished;  // objective of the best constants from each start, NaN where there are none
 };
 
 // Tunes a task under given limits from one design: the constants first, from them the schedules, and last the
@@ -25,8 +29,15 @@ class DesignTuning {
   DesignTuning(const Task& task, std::vector<QuantityLimit> limits, Effort& effort,
                const std::function<bool()>& stop_asked);
 
-  // value: of each parameter; the schedules start constant.
-  Stages from(const std::vector<double>& value);
+  // starts: at least one, a value of each parameter; the best constants of all go on. Schedules start
+  // constant.
+  Stages from(const std::vector<std::vector<double>>& starts);
+
+  // The map of all constant designs.
+  DesignMap map();
+
+  // The schedules tuned from a design, with no other stage.
+  Exchange::Result schedules_from(const std::vector<double>& x);
 
   // The true objective of constant parameters, raised by broken limits; NaN: no value.
   double worst_of(std::span<const double> value);
@@ -42,9 +53,11 @@ class DesignTuning {
 
  private:
   Exchange::Result tune_constant(const std::vector<double>& value);
+  Exchange::Result best_constant(const std::vector<std::vector<double>>& starts, Stages& stages);
   std::vector<CurveKind> schedule_curves(const std::vector<double>& constant) const;
   Exchange::Result tune_schedule(const std::vector<double>& value);
   void settle_free_knots(double most, Stages& stages);
+  void tell_bound(Stages& stages);
   std::vector<double> place_by_place(const std::vector<double>& value);
   Goal goal() const;
 

@@ -14,6 +14,12 @@ constexpr double kBroken = 1e-9;  // a limit exceeded by less is met
 constexpr double kSlip =
     1e-6;  // by which a bound may lie above the worst peak: constraints are met to a tolerance
 
+// What kept the last problem from its solution; "" where it was solved, and the gap stayed open nevertheless.
+std::string why_open(const Solution& solution) {
+  const bool solved = solution.ending == Ending::converged || solution.ending == Ending::acceptable;
+  return solved ? " between the worst peak and its bound" : ": " + solution.reason;
+}
+
 std::string sentence(Outcome outcome, const Stages& stages) {
   const auto number = [](double value) {
     char text[32];
@@ -25,10 +31,10 @@ std::string sentence(Outcome outcome, const Stages& stages) {
     case Outcome::converged:
       return "the certificate gap and the KKT residual are below their tolerances";
     case Outcome::not_converged:
-      return "the rounds of exchange no longer close the gap: " + stages.best.step.solution.reason;
+      return "the rounds of exchange no longer close the gap" + why_open(stages.best.step.solution);
     case Outcome::infeasible:
-      return "no design was found that meets the limits: this one breaks one by " +
-             number(100.0 * scan.violation) + " %";
+      return "no design was found that meets the limits: this one breaks them by " +
+             number(100.0 * scan.violation) + " %" + (stages.best.breaks_least ? ", the least near it" : "");
     case Outcome::unbounded:
       return "the response has no bound at " + number(scan.at) + " of the band: " + scan.reason;
     case Outcome::failed:
@@ -62,6 +68,7 @@ class Report {
     x_ = on_constants_ ? tuning_.space().constant_design(stages_.best.x) : stages_.best.x;
     write_parameters(optimum);
     optimum.constant_objective = constant_objective();
+    optimum.path_bound = stages_.path_bound;
     optimum.constant = stages_.constant_value;
     optimum.certificate_gap = optimum.kkt_residual = optimum.objective = kNone;
     if (!stages_.best.has_step) {
@@ -79,6 +86,7 @@ class Report {
       if (optimum.outcome != Outcome::infeasible && scan_.worst > 0.0)
         optimum.certificate_gap = (scan_.worst - stages_.bound) / scan_.worst;
       judge_certificate(optimum);
+      optimum.certificate_gap = told(optimum.certificate_gap);
     } else {
       optimum.objective = stages_.decisive.objective_again;
       if (optimum.outcome == Outcome::converged)  // there is no bound to compare it with
@@ -135,6 +143,9 @@ class Report {
     }
   }
 
+  // A bound above the worst peak by more than rounding is none.
+  static double told(double gap) { return gap < -kSlip ? kNone : gap < 0.0 ? 0.0 : gap; }
+
   // A multiplier counts only above rounding: a peak's by its share; a bound's or limit's by the relative fall
   // of the objective when the bound moves by a hundredth of the range, the limit by its own size.
   void judge_multipliers(Optimum& optimum) const {
@@ -167,6 +178,7 @@ class Report {
       const DesignParameter& parameter = space.parameter(p);
       const double near = kMet * (parameter.upper - parameter.lower);
       TunedParameter tuned;
+      if (parameter.schedule) tuned.knots = parameter.schedule->knots;
       for (std::size_t i = space.first(p); i < space.first(p) + space.count(p); ++i) {
         tuned.value.push_back(x_[i]);
         const AtBound at_bound = x_[i] - parameter.lower <= near   ? AtBound::lower

@@ -5,6 +5,8 @@
 #include "solvers/mechanics/linear_system.hpp"
 #include "solvers/tuning/optimum.hpp"
 #include "solvers/tuning/stages/design_tuning.hpp"
+#include "solvers/tuning/stages/front.hpp"
+#include "solvers/tuning/stages/leap_place.hpp"
 #include "solvers/tuning/stages/optimum_report.hpp"
 #include "solvers/tuning/stages/start_design.hpp"
 
@@ -23,42 +25,110 @@ void check(const Task& task) {
   if (task.dominate_constant && !has_schedule) refuse("only a schedule can dominate the best constant");
 }
 
+// The lowest places of the map after the optimum of the problem before, if there is one; where the map has
+// none, the given design.
+std::vector<std::vector<double>> starts_of_map(DesignTuning& tuning, const std::vector<double>& before,
+                                               const std::vector<double>& given, DesignsSeen& seen) {
+  constexpr std::size_t kPolished = 4;
+  const DesignMap map = tuning.map();
+  seen.cells = map.merit.size();
+  seen.share = seen.cells > 0 ? static_cast<double>(map.seen()) / static_cast<double>(seen.cells) : 0.0;
+  std::vector<std::vector<double>> starts = lowest_places(map, kPolished);
+  if (!before.empty()) starts.insert(starts.begin(), before);
+  if (starts.empty()) starts.push_back(given);
+  return starts;
+}
+
+// One start's problems: the task, or the task under each limit of its trade-off.
+class Problems {
+ public:
+  Problems(const Task& task, std::size_t start, const std::function<bool()>& stop_asked)
+      : task_(task), start_(start), stop_asked_(stop_asked) {}
+
+  // before: the constants of the optimum before, the middle knots of schedules; empty: the start's own.
+  Optimum solve(std::size_t problem, const std::vector<double>& before) const {
+    // 1. Where to begin.
+    const std::vector<QuantityLimit> limits = limits_of(problem);
+    Effort effort;
+    DesignTuning constants(task_, limits, effort, stop_asked_);
+    DesignsSeen seen;
+    std::vector<std::vector<double>> begin{before.empty() ? own_start(constants) : before};
+    if (task_.start == Start::map) begin = starts_of_map(constants, before, begin.front(), seen);
+    // 2. The place of a leap, with the knots on both sides of it.
+    const Task task =
+        may_leap(task_) ? with_leap_decided(task_, limits, begin.front(), effort, stop_asked_) : task_;
+    // 3. The designs.
+    DesignTuning tuning(task, limits, effort, stop_asked_);
+    const Stages stages = tuning.from(begin);
+    Optimum optimum = report_optimum(task, tuning, stages, effort);
+    if (seen.cells > 0) seen.polished = stages.polished;
+    optimum.seen = std::move(seen);
+    optimum.trade_off = task_.trade_off ? task_.trade_off->limits[problem] : kNone;
+    optimum.orbits = effort.orbits;
+    optimum.gradients = effort.gradients;
+    return optimum;
+  }
+
+ private:
+  std::vector<QuantityLimit> limits_of(std::size_t problem) const {
+    std::vector<QuantityLimit> limits = task_.limits;
+    if (const auto& trade_off = task_.trade_off)
+      limits.push_back({trade_off->name, trade_off->quantity, -kInfinity, trade_off->limits[problem], {}});
+    return limits;
+  }
+
+  std::vector<double> own_start(DesignTuning& tuning) const {
+    if (task_.start != Start::global) return start_design(tuning.constant_space(), start_);
+    return global_design(
+        task_, tuning.constant_space(), [&](std::span<const double> x) { return tuning.worst_of(x); },
+        stop_asked_);
+  }
+
+  const Task& task_;
+  const std::size_t start_;
+  const std::function<bool()>& stop_asked_;
+};
+
+std::vector<double> constants_of(const Optimum& optimum) {
+  std::vector<double> value;
+  for (const TunedParameter& parameter : optimum.parameters)
+    value.push_back(parameter.value[parameter.value.size() / 2]);
+  return value;
+}
+
+bool has_response(const Optimum& optimum) {
+  return !std::isnan(optimum.objective);
+}
+
+// Solves again, from the better design, what another problem's optimum undercuts.
+void mend_front(const Problems& problems, std::vector<Optimum>& optima) {
+  for (const auto& [problem, by] : undercut(optima)) {
+    Optimum again = problems.solve(problem, constants_of(optima[by]));
+    if (again.outcome == Outcome::stopped) return;
+    again.orbits += optima[problem].orbits;
+    again.gradients += optima[problem].gradients;
+    const bool is_better =
+        again.outcome != Outcome::infeasible &&
+        (optima[problem].outcome == Outcome::infeasible || again.objective < optima[problem].objective);
+    if (is_better) optima[problem] = std::move(again);
+  }
+}
+
 }  // namespace
 
 std::vector<Optimum> tune(const Task& task, std::size_t start, const std::function<bool()>& stop_asked) {
   check(task);
+  const Problems problems(task, start, stop_asked);
   std::vector<Optimum> optima;
-  std::vector<double> value;
-  const std::size_t problems = task.trade_off ? task.trade_off->limits.size() : 1;
-  for (std::size_t i = 0; i < problems; ++i) {
-    std::vector<QuantityLimit> limits = task.limits;
-    if (task.trade_off)
-      limits.push_back(
-          {task.trade_off->name, task.trade_off->quantity, -kInfinity, task.trade_off->limits[i], {}});
-    Effort effort;
-    DesignTuning tuning(task, limits, effort, stop_asked);
-    if (value.empty()) {
-      value = start_design(tuning.constant_space(), start);
-      if (task.start == Start::global)
-        value = global_design(
-            task, tuning.constant_space(), [&](std::span<const double> x) { return tuning.worst_of(x); },
-            stop_asked);
-    }
-    const Stages stages = tuning.from(value);
-    Optimum optimum = report_optimum(task, tuning, stages, effort);
-    optimum.trade_off = task.trade_off ? task.trade_off->limits[i] : kNone;
-    optimum.orbits = effort.orbits;
-    optimum.gradients = effort.gradients;
-    // The next problem starts from this optimum: its constants, the middle knots of its schedules.
-    if (stages.best.has_step) {
-      for (std::size_t p = 0; p < value.size(); ++p) {
-        const std::vector<double>& tuned = optimum.parameters[p].value;
-        value[p] = tuned[tuned.size() / 2];
-      }
-    }
-    optima.push_back(std::move(optimum));
-    if (optima.back().outcome == Outcome::stopped) break;
+  std::vector<double> before;  // the design that the next problem starts from
+  for (std::size_t i = 0; i < (task.trade_off ? task.trade_off->limits.size() : 1); ++i) {
+    optima.push_back(problems.solve(i, before));
+    if (optima.back().outcome == Outcome::stopped) return optima;
+    if (has_response(optima.back())) before = constants_of(optima.back());
   }
+  if (!task.trade_off) return optima;
+  mend_front(problems, optima);
+  optima.back().ends = front_ends(task, start, stop_asked);
   return optima;
 }
 

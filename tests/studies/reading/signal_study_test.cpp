@@ -157,7 +157,7 @@ TEST_CASE("a signal is a limit of a tuning, and stays in the sweep at its optimu
                                  "[[constraint]]\nquantity = \"drift_acceleration_peak\"\nupper = 40\n" +
                                  signal("drift", "tmd = 1, main = -1"),
                              "tuning.toml");
-  stored.design = {{0.95}, {0.13}};
+  stored.design = {{{0.95}, {}}, {{0.13}, {}}};
   stored.band = {0.7, 0.9, 1.3};
   const Study study = parse_study(sweep_study(stored, "optimum").text, "optimum.toml");
   REQUIRE(study.network.signals.size() == 1);

@@ -46,8 +46,8 @@ TEST_CASE("a tuning has its defaults, and its choices where they are made") {
   REQUIRE(plain.tune());
   CHECK(plain.kind() == StudyKind::tune);
   CHECK(plain.tune()->objective == Objective::minimax);
-  CHECK(plain.tune()->solver == frahm::tuning::SolverKind::ipopt);
-  CHECK(plain.tune()->start == Start::given);
+  CHECK(plain.tune()->solver == frahm::tuning::SolverKind::slsqp);
+  CHECK_FALSE(plain.tune()->start_is_given);
   CHECK(plain.tune()->starts == 1);
   CHECK(plain.tune()->tolerance == 1e-6);
   CHECK_FALSE(plain.tune()->dominate_constant);
@@ -56,6 +56,9 @@ TEST_CASE("a tuning has its defaults, and its choices where they are made") {
   CHECK(chosen.tune()->solver == frahm::tuning::SolverKind::mma);
   CHECK(chosen.tune()->start == Start::many);
   CHECK(chosen.tune()->starts == 32);
+  CHECK(chosen.tune()->start_is_given);
+  CHECK(parse(heading + absorber + minimax + "start = \"map\"\n" + of_f).tune()->start == Start::map);
+  CHECK(parse(rig + scheduled).tune()->solver == frahm::tuning::SolverKind::ipopt);
   CHECK(chosen.tune()->tolerance == 1e-8);
   const Study global = parse(heading + absorber + minimax + "start = \"nlopt\"\nglobal = \"isres\"\n" + of_f);
   CHECK(global.tune()->start == Start::global);
@@ -183,13 +186,13 @@ TEST_CASE("a rule follows the study as it stands and keeps within the bounds") {
 TEST_CASE("a schedule is linear between its knots and ends with them") {
   const Study study = parse(rig + scheduled);
   const DesignChoice& design = study.tune()->designs[0];
-  const std::vector<double> values{5, 6, 8, 8, 9};
-  CHECK(value_at(design, values, design.knots[0]) == 5.0);
-  CHECK(value_at(design, values, design.knots[4]) == 9.0);
-  CHECK_THAT(value_at(design, values, 0.5 * (design.knots[1] + design.knots[2])),
+  const DesignCourse course{{5, 6, 8, 8, 9}, design.knots};
+  CHECK(value_at(course, design.knots[0]) == 5.0);
+  CHECK(value_at(course, design.knots[4]) == 9.0);
+  CHECK_THAT(value_at(course, 0.5 * (design.knots[1] + design.knots[2])),
              Catch::WithinRel(7.0, rounding));
-  CHECK(value_at(design, values, 1.0) == 5.0);
-  const auto parameters = parameters_of(study, {values, {15e3}}, 0, design.knots[1]);
+  CHECK(value_at(course, 1.0) == 5.0);
+  const auto parameters = parameters_of(study, {course, {{15e3}, {}}}, 0, design.knots[1]);
   CHECK_THAT(parameters[*study.parameters.find("I")], Catch::WithinRel(6.0, rounding));
   CHECK(parameters[*study.parameters.find("k")] == 15e3);
 }
@@ -220,6 +223,40 @@ TEST_CASE("a tuning over records has what drives each of its motions, and the pe
   CHECK(values.element == std::vector<double>{3.0, 0.7});
   CHECK(values.excitation[0].amplitude == 2.0);
   CHECK(by[0].element == std::vector<double>{0.0, 1.0});
+}
+
+// A mass whose ground shakes; samples of the factor e on its friction.
+const std::string over_samples =
+    "[study]\nschema = 1\nkind = \"tune\"\n[parameters]\nF = 0.1\ne = 1\n"
+    "[[mass]]\nname = \"m\"\nmass = 1\n"
+    "[[element]]\nname = \"spring\"\ntype = \"spring\"\nbetween = [\"base\", \"m\"]\nstiffness = 4\n"
+    "[[element]]\nname = \"friction\"\ntype = \"coulomb\"\nbetween = [\"base\", \"m\"]\nforce = \"e*F\"\n"
+    "[[excitation.record]]\nacceleration_of = \"base\"\n"
+    "[tune]\nobjective = \"worst_peak\"\nquantity = \"spring_stroke\"\nquantile = 0.75\n"
+    "records = { generate = \"white\", count = 2, duration = 5, rate = 20, intensity = 0.1 }\n"
+    "[[design]]\nparameter = \"F\"\nlower = 0\nupper = 1\n"
+    "[[axis]]\nsamples = 8\n"
+    "[[axis.of]]\nparameter = \"e\"\ndistribution = \"uniform\"\nlower = 0.5\nupper = 1.5\n";
+
+TEST_CASE("samples are scenarios of a tuning, and a stroke is tuned as a signal's peak") {
+  const Study study = parse(over_samples);
+  CHECK(study.tune()->scenarios.size() == 8);
+  CHECK(study.tune()->drawn == "8 points of sobol, seed 1");
+  const frahm::tuning::RecordTask task = record_task(study);
+  CHECK(task.share == 0.75);
+  CHECK(task.scenarios.size() == 8);
+  CHECK(task.records.size() == 2);
+  REQUIRE(task.network.signals.size() == 1);
+  CHECK(task.coordinate == 1);
+  // Each within an eighth of the distribution, however they are shifted.
+  std::vector<int> seen(8, 0);
+  const double design[] = {2.0};
+  for (std::size_t s = 0; s < 8; ++s) {
+    frahm::mechanics::NetworkValues values;
+    task.network_at(s, design, values, nullptr);
+    ++seen.at(static_cast<std::size_t>((values.element[1] / 2.0 - 0.5) * 8.0));
+  }
+  CHECK(seen == std::vector<int>(8, 1));
 }
 
 }  // namespace

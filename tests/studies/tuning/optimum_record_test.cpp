@@ -17,6 +17,8 @@ tuning::Optimum sample() {
   optimum.parameters = {
       {{1.0 / 3.0, -0.0}, {tuning::AtBound::no, tuning::AtBound::upper}, {0.0, 1e-300}, {5e-324, 2.0}},
       {{11e3}, {tuning::AtBound::lower}, {0.0}, {0.0}}};
+  optimum.parameters[0].knots = {15.0, 35.0};
+  optimum.path_bound = 0.095;
   optimum.objective = 0.1;
   optimum.certificate_gap = std::numeric_limits<double>::quiet_NaN();
   optimum.kkt_residual = std::numeric_limits<double>::infinity();
@@ -27,6 +29,8 @@ tuning::Optimum sample() {
   optimum.limits = {{0.07, 26.0, 1, 0.25, 3.5}};
   optimum.rounds = {{7, 12, 0.099, 0.101, 0.0}, {9, 4, 0.1, 0.1, 0.0}};
   optimum.iterations = 16;
+  optimum.seen = {.cells = 121, .share = 0.75, .polished = {0.1, 0.2}};
+  optimum.ends = {.least = 0.03, .objective_at_least = 0.2, .most = 0.09, .objective_at_most = 0.1};
   optimum.orbits = std::uint64_t{1} << 40;
   optimum.gradients = 123;
   return optimum;
@@ -50,6 +54,8 @@ TEST_CASE("a record of optima is read back to the last bit") {
   CHECK(std::signbit(one.parameters[0].value[1]));
   CHECK(one.parameters[0].at_bound[1] == tuning::AtBound::upper);
   CHECK(one.parameters[0].upper_multiplier[0] == 5e-324);
+  CHECK(one.parameters[0].knots == std::vector<double>{15.0, 35.0});
+  CHECK(one.path_bound == 0.095);
   CHECK(std::isnan(one.certificate_gap));
   CHECK(one.constant == std::vector<double>{6.0, 11e3});
   CHECK(one.peaks[0].record == 2);
@@ -57,6 +63,9 @@ TEST_CASE("a record of optima is read back to the last bit") {
   CHECK(one.limits[0].scenario == 1);
   CHECK(one.limits[0].excess == 0.25);
   CHECK(one.rounds[1].active == 9);
+  CHECK(one.seen.cells == 121);
+  CHECK(one.seen.polished == std::vector<double>{0.1, 0.2});
+  CHECK(one.ends.most == 0.09);
   CHECK(one.orbits == std::uint64_t{1} << 40);
 }
 

@@ -35,7 +35,7 @@ StoredTuning scheduled(const std::string& band, const std::string& knots) {
           band + " }\n[[design]]\nparameter = \"I\"\nlower = 4\nupper = 13\nschedule = { knots = " + knots +
           " }\n[[column]]\nname = \"gear\"\nvalue = \"I/10\"\nupper = 0.8\n",
       "tuning.toml");
-  stored.design = {{5, 9}};
+  stored.design = {{{5, 9}, stored.study.tune()->designs[0].knots}};
   return stored;
 }
 
@@ -71,7 +71,7 @@ TEST_CASE("another step is in the unit of the band; ends that are whole steps st
 TEST_CASE("a tuning without a schedule has no table of one") {
   StoredTuning stored;
   stored.study = parse_study(classical, "tuning.toml");
-  stored.design = {{0.95}, {0.13}};
+  stored.design = {{{0.95}, {}}, {{0.13}, {}}};
   CHECK_THROWS_WITH(schedule_table(stored, std::nullopt), Catch::Contains("nothing is scheduled"));
 }
 
@@ -114,7 +114,7 @@ TEST_CASE("the sweep at an optimum has its design, its overrides, its scenarios 
                                  "[[scenario]]\nname = \"two\"\nset = { P = 2, mu = 0.06 }\n",
                              "tuning.toml");
   stored.overrides = {{*stored.study.parameters.find("r"), 1.25}};
-  stored.design = {{0.95}, {0.13}};
+  stored.design = {{{0.95}, {}}, {{0.13}, {}}};
   stored.band = {0.7, 0.9, 1.3};
   const SweepStudy sweep = sweep_study(stored, "optimum");
   CHECK(sweep.tables.empty());

@@ -54,6 +54,7 @@ TuningResult rig_result(const Study& study) {
   using enum tuning::AtBound;
   optimum.parameters = {{{5, 9, 6}, {no, upper, no}, {0, 0, 0}, {0, 1e-3, 0}},
                         {{12e3}, {upper}, {0}, {2e-6}}};
+  optimum.parameters[0].knots = study.tune()->designs[0].knots;
   const tuning::Band& band = study.tune()->band->range;
   optimum.peaks = {{0, 0, band.from, 0.02, 1.0, {1e-3, 3e-6}}};
   optimum.limits = {{0.07, band.to, 0, 0.125, 0.25}};
@@ -172,6 +173,35 @@ TEST_CASE("names that would stand twice in the record are refused, with the name
   CHECK_THROWS_WITH(plan_tuning(parse(classical + "[[column]]\nname = \"f\"\nvalue = \"f\"\n"), {}),
                     Catch::Contains("'f'"));
   CHECK_NOTHROW(plan_tuning(parse(classical), {}));
+}
+
+TEST_CASE("a front tells its ends and which of its limits gain nothing") {
+  const Study study =
+      parse(small_tunings::heading + absorber + minimax +
+            "trade_off = { quantity = \"tmd_spring_stroke\", values = [30, 26, 22] }\n" + of_f);
+  tuning::Optimum loose = optimum_of(7.0), middle = optimum_of(7.0 * (1.0 + 1e-9)), tight = optimum_of(8.0);
+  loose.trade_off = 30, middle.trade_off = 26, tight.trade_off = 22;
+  tight.ends = {.least = 20.0, .objective_at_least = 9.0, .most = 25.0, .objective_at_most = 7.0};
+  const TuningResult result{
+      .starts = {{0, {loose, middle, tight}}}, .best = {0, 0, 0}, .assessment = {}, .before = {}};
+  CHECK(is_dominated(result, 0));
+  CHECK_FALSE(is_dominated(result, 1));
+  CHECK_FALSE(is_dominated(result, 2));
+  const auto front = front_columns(study, result);
+  CHECK(named(front, "dominated").values == std::vector<double>{2, 1, 1});
+  CHECK(named(front, "least_trade_off").values.front() == 20.0);
+  CHECK(named(front, "objective_at_most").values.front() == 7.0);
+}
+
+TEST_CASE("a tuning that began at a map records what it saw of the box") {
+  const Study study = parse(classical);
+  tuning::Optimum optimum = optimum_of(7.0);
+  optimum.seen = {.cells = 121, .share = 0.5, .polished = {7.0, 7.5}};
+  const TuningResult result{.starts = {{0, {optimum}}}, .best = {0}, .assessment = {}, .before = {}};
+  const auto columns = optimum_columns(study, result);
+  CHECK(named(columns, "map_cells").values.front() == 121);
+  CHECK(named(columns, "map_share").values.front() == 0.5);
+  CHECK(named(columns, "map_objective").values == std::vector<double>{7.0, 7.5});
 }
 
 TEST_CASE("a converged start comes before a lower one that is not, then the least, then the first") {

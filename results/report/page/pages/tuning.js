@@ -222,6 +222,20 @@ function factsTable(tuning) {
     ...(kind === "minimax"
       ? [["certificate gap", proof("certificate_gap")]]
       : [["its root", quantityText(Math.sqrt(tuning.objective), tuning.root, 8)]]),
+    ...(Number.isFinite(group.number("path_bound"))
+      ? [
+          [
+            "no schedule with these constants is lower than, as far as a grid shows",
+            quantityText(group.number("path_bound"), tuning.unit, 8),
+          ],
+        ]
+      : []),
+    ...tuning.parameters
+      .filter(({ jump }) => Number.isFinite(jump.at))
+      .map(({ name, unit, jump }) => [
+        `${name} jumps at`,
+        `${quantityText(jump.at, tuning.band.unit, 8)}, from ${quantityText(jump.from, unit, 6)} to ${quantityText(jump.to, unit, 6)}`,
+      ]),
     ["KKT residual", proof("kkt_residual")],
     ["violation of limits, relative", numberText(group.number("violation"), 3)],
     ["outcome", words(tuning.outcome)],

@@ -1,0 +1,57 @@
+#include <algorithm>
+#include <cstdint>
+
+#include "studies/reading/tune_reading.hpp"
+
+namespace frahm::studies {
+
+// Few variables are solved by sequential quadratic programming, the many knots of a schedule by an interior
+// point.
+tuning::SolverKind read_solver(const TomlSection& section, const TuneChoice& choice) {
+  const char* by_default = choice.has_schedule() ? "ipopt" : "slsqp";
+  if (!section.find("solver")) return tuning::solver_named(by_default);
+  return tuning::solver_named(section.choice_or("solver", {"ipopt", "slsqp", "mma"}));
+}
+
+void check_map(const TuneReading& reading, const TomlSection& section) {
+  constexpr std::ptrdiff_t kMostOfMap = 3;
+  if (reading.choice.start != tuning::Start::map) return;
+  const auto varying = std::ranges::count_if(
+      reading.choice.designs, [](const DesignChoice& design) { return design.lower < design.upper; });
+  if (varying > kMostOfMap)
+    section.fail(rules::out_of_range, "start",
+                 "\"map\" looks over up to {} parameters, but {} are tuned; write a number of starts",
+                 kMostOfMap, varying);
+  if (tuning::may_take_several_orbits(reading.study.network))
+    section.fail(rules::unfit_quantity, "start",
+                 "\"map\" is of systems with one response at each frequency; write a number of starts");
+}
+
+void read_start(const TomlSection& section, TuneChoice& choice) {
+  constexpr std::int64_t most_starts = 100'000;
+  const TomlValue* value = section.find("start");
+  if (value && value->as<std::int64_t>()) {
+    const std::int64_t starts = section.integer_or("start", 1);
+    if (starts < 1 || starts > most_starts)
+      section.fail(rules::out_of_range, "start",
+                   "{} is out of range: a whole number from 1 to {}, \"map\", \"given\" or "
+                   "\"nlopt\"",
+                   starts, most_starts);
+    choice.start = tuning::Start::many;
+    choice.starts = static_cast<std::size_t>(starts);
+  } else if (value && !value->as<std::string>()) {
+    section.fail(rules::wrong_type, "start",
+                 "expected \"map\", \"given\", \"nlopt\" or a number of starts, found {}", described(*value));
+  } else {
+    const std::string word = section.choice_or("start", {"given", "map", "nlopt"}, " or a number of starts");
+    if (word == "nlopt") choice.start = tuning::Start::global;
+    if (word == "map") choice.start = tuning::Start::map;
+  }
+  choice.start_is_given = value != nullptr;
+  if (section.find("global") && choice.start != tuning::Start::global)
+    section.fail(rules::key_without_use, "global", "belongs to start = \"nlopt\"");
+  choice.global_solver =
+      tuning::solver_named(section.choice_or("global", {"crs2", "isres", "direct", "mlsl"}));
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,58 @@
+#include "solvers/tuning/stages/design_map.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "solvers/algebra/no_value.hpp"
+
+namespace frahm::tuning {
+namespace {
+
+const std::function<bool()> never_stop = [] { return false; };
+
+DesignMap map_of(const std::vector<DesignParameter>& parameters, const MeritAt& merit_at) {
+  return map_designs(DesignSpace(parameters), merit_at, never_stop);
+}
+
+TEST_CASE("a map has a low place in each valley, the deepest first") {
+  // (x^2 - 1)^2 + x/4 + y^2: valleys at x near -1 and, higher, near 1.
+  const DesignMap map = map_of({{"x", -2.0, 2.0, 0.0, {}}, {"y", -1.0, 1.0, 0.0, {}}}, [](auto at) {
+    return DesignMerit{std::pow(at[0] * at[0] - 1.0, 2) + 0.25 * at[0] + at[1] * at[1], -kInfinity};
+  });
+  CHECK(map.merit.size() == 121);
+  const double cell = 4.0 / 11;
+  const auto places = lowest_places(map, 4);
+  REQUIRE(places.size() == 2);
+  CHECK(std::abs(places[0][0] + 1.0) < cell);
+  CHECK(std::abs(places[1][0] - 1.0) < cell);
+  CHECK(places[0][1] == Approx(0.0).margin(1e-12));
+  CHECK(lowest_places(map, 1).size() == 1);
+}
+
+TEST_CASE("a map tells which share of the box has a response, and none of its places lies elsewhere") {
+  const DesignMap map = map_of({{"x", 0.0, 1.0, 0.0, {}}, {"fixed", 7.0, 7.0, 7.0, {}}}, [](auto at) {
+    CHECK(at[1] == 7.0);
+    return DesignMerit{at[0] < 0.5 ? kNone : 1.0 + at[0], 0.0};
+  });
+  CHECK(map.merit.size() == 33);
+  CHECK(map.seen() == 17);
+  REQUIRE(lowest_places(map, 4).size() == 1);
+  CHECK(lowest_places(map, 4)[0][0] == Approx(0.5));
+}
+
+TEST_CASE("a range over more than a decade has cells of equal ratios") {
+  const DesignMap map = map_of({{"x", 1e-3, 1.0, 0.0, {}}}, [](auto) { return DesignMerit{}; });
+  CHECK(map.design[1][0] / map.design[0][0] == Approx(map.design[32][0] / map.design[31][0]));
+}
+
+TEST_CASE("where no design of a map meets the limits its low places are those that break them least") {
+  const DesignMap map = map_of({{"x", 0.0, 1.0, 0.0, {}}}, [](auto at) {
+    return DesignMerit{10.0 * at[0], 1.0 + std::pow(at[0] - 0.75, 2)};
+  });
+  const auto places = lowest_places(map, 4);
+  REQUIRE(places.size() == 1);
+  CHECK(std::abs(places[0][0] - 0.75) < 1.0 / 33);
+}
+
+}  // namespace
+}  // namespace frahm::tuning
