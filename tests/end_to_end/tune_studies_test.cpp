@@ -363,7 +363,8 @@ TEST_CASE("tune_rig_trade_off.toml: less room for the absorber costs a higher pe
   auto front = tuned.group("optimum/front");
   const std::vector<double>& worst = front.at("objective");
   REQUIRE(worst.size() == 5);
-  CHECK(std::is_sorted(worst.begin(), worst.end()));
+  // The first two limits hold nothing, so that their optima are one, each to the tolerance of its gap.
+  for (std::size_t i = 1; i < worst.size(); ++i) CHECK(worst[i] > worst[i - 1] * (1.0 - exact));
   CHECK(worst.back() > worst.front());
   for (const double gap : front.at("certificate_gap")) CHECK(gap < certified);
 }
