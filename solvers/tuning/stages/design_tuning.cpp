@@ -269,6 +269,10 @@ double DesignTuning::objective_of(std::span<const double> x) {
   return exchange.integral(goal(), x);
 }
 
+Scan DesignTuning::scan_of_worst(std::span<const double> x) {
+  return BandScan(task_, space_, curves_, effort_, stop_asked_).of(x, 0.95, 1e-7);
+}
+
 Scan DesignTuning::full_scan(std::span<const double> x) {
   return BandScan(task_, space_, curves_, effort_, stop_asked_).of(x, 0.0, 1e-7);
 }

@@ -50,6 +50,8 @@ class DesignTuning {
   double objective_of(std::span<const double> x);
   // All local maxima of a design, low ones too.
   Scan full_scan(std::span<const double> x);
+  // The maxima within a few per cent of the worst.
+  Scan scan_of_worst(std::span<const double> x);
 
  private:
   Exchange::Result tune_constant(const std::vector<double>& value);
