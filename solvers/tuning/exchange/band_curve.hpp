@@ -39,8 +39,8 @@ class BandCurve {
   BandCurve(const Task& task, const DesignSpace& space, const CurveKind& kind, Effort& effort);
 
   TunedResponse::State solve(std::span<const double> x, double band, Derivatives derivatives);
-  // The larger side at each of many places at once; NaN where it has no value. Of an objective or a limit of a
-  // network without several responses.
+  // The larger side at each of many places at once; NaN where it has no value. Of an objective or a limit of
+  // a network without several responses.
   void values(std::span<const double> x, std::span<const double> places, std::vector<double>& out);
   const std::string& reason() const { return reason_; }
 

@@ -38,8 +38,8 @@ class TunedResponse {
   // Solves at the design x and a point of the band. If a derivative is needed and the orbit grazes, the orbit
   // at a frequency one part in 1e9 beside it is found instead.
   State solve(std::span<const double> x, double band, Derivatives derivatives);
-  // All quantities at each of many places at once, faster than one by one; NaN where there is no response. Not
-  // of a network that may have several.
+  // All quantities at each of many places at once, faster than one by one; NaN where there is no response.
+  // Not of a network that may have several.
   std::span<const double> solve_row(std::span<const double> x, std::span<const double> places);
   const std::string& reason() const { return reason_; }  // of the last solve, if not solved
 

@@ -29,9 +29,9 @@ class DesignTuning {
   DesignTuning(const Task& task, std::vector<QuantityLimit> limits, Effort& effort,
                const std::function<bool()>& stop_asked);
 
-  // starts: at least one, a value of each parameter; the best constants of all go on. Schedules start
-  // constant.
-  Stages from(const std::vector<std::vector<double>>& starts);
+  // starts: at least one, a value of each parameter; the best constants of all go on. schedules: a design of
+  // schedules that is known to be good; empty: none.
+  Stages from(const std::vector<std::vector<double>>& starts, const std::vector<double>& schedules = {});
 
   // The map of all constant designs.
   DesignMap map();
@@ -57,7 +57,7 @@ class DesignTuning {
   Exchange::Result tune_constant(const std::vector<double>& value);
   Exchange::Result best_constant(const std::vector<std::vector<double>>& starts, Stages& stages);
   std::vector<CurveKind> schedule_curves(const std::vector<double>& constant) const;
-  Exchange::Result tune_schedule(const std::vector<double>& value);
+  Exchange::Result tune_schedule(const std::vector<double>& value, const std::vector<double>& known);
   void settle_free_knots(double most, Stages& stages);
   void tell_bound(Stages& stages);
   std::vector<double> place_by_place(const std::vector<double>& value);
