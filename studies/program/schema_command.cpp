@@ -1,5 +1,6 @@
 #include "studies/program/schema_command.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <sstream>
@@ -35,6 +36,14 @@ Json any_value() {
   return {{"$ref", "#/$defs/value"}};
 }
 
+// Where it has a section of its own that is what it may be as a table.
+Json any_form(const std::string& path) {
+  const auto is_in = [&](const StudyKey& each) { return each.section == path; };
+  if (std::ranges::none_of(study_keys(), is_in)) return Json::object();
+  const Json no_table = {{"not", {{"type", "object"}}}};
+  return {{"anyOf", Json::array({no_table, section_schema(path)})}};
+}
+
 Json form_of(const StudyKey& key) {
   const std::string path = *key.section ? std::string(key.section) + "." + key.key : key.key;
   switch (key.form) {
@@ -61,9 +70,9 @@ Json form_of(const StudyKey& key) {
     case KeyForm::names:
       return {{"type", "object"}};
     case KeyForm::any:
-      break;
+      return any_form(path);
   }
-  return Json::object();
+  return {};
 }
 
 bool is_list(const std::string& path) {

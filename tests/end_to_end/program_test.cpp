@@ -145,7 +145,7 @@ TEST_CASE("a result given for a study and a study for a result are recognised") 
   for (const char* command : {"status", "report", "export"}) {
     const auto outcome = frahm({command, study});
     CHECK(outcome.code == 2);
-    CHECK_THAT(outcome.err, Catch::Contains("is a study") && Catch::Contains("small.h5"));
+    CHECK_THAT(outcome.err, Catch::Contains("is a study"));
   }
 }
 

@@ -31,14 +31,19 @@ for kind in ("sweep", "tune", "identify", "decay", "transient"):
 
 
 # Every key that the schema allows is known to the reader, in a study that has the section.
+def own(node):
+    """The table that is meant by a list of tables, or by what may be a table too."""
+    node = node.get("items", node)
+    return next((each for each in node.get("anyOf", []) if "properties" in each and "$ref" not in node), node)
+
+
 def keys(section, node):
-    if node.get("type") == "array":
-        return keys(section, node["items"])
+    node = own(node)
     found = []
     for key, below in node.get("properties", {}).items():
         if section:
             found.append((section, key, below))
-        if "properties" in below or "properties" in below.get("items", {}):
+        if "properties" in own(below):
             found += keys(f"{section}.{key}" if section else key, below)
     return found
 
@@ -95,6 +100,14 @@ for section, key, _ in keys("", schema):
 assert not unknown, f"the schema allows keys that the reader does not know: {unknown}"
 print("not in any shipped study:", untried)
 assert len(untried) <= 12, untried
+
+# Every key that the reader asks for is in the schema.
+asks = re.compile(r"\.(?:find|require|text|text_or|identifier|number|boolean_or|integer_or|choice_or)\(\s*\"(\w+)\"")
+all_keys = {key for _, key, _ in keys("", schema)} | set(schema["properties"])
+of_values = {"value", "unit", "table", "of", "extremum"}  # of numbers, of parameters, and a column of data
+for source in sorted(sources.glob("studies/reading/*.cpp")):
+    asked = set(asks.findall(source.read_text()))
+    assert asked <= all_keys | of_values, (source, asked - all_keys - of_values)
 
 # What is wrong in form is refused by both.
 small = texts[sources / "studies/classics/den_hartog.toml"]

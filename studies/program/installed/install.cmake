@@ -13,6 +13,7 @@ install(DIRECTORY studies/ DESTINATION ${CMAKE_INSTALL_DATADIR}/frahm/studies CO
 install(FILES README.md CHANGELOG.md CITATION.cff results/FORMAT.md solvers/THEORY.md
   DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT program)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libfrahm-dev RENAME copyright COMPONENT development)
 
 # Completion of commands and options, by the program itself from its command tree; manual pages from its help.
 set(shells bash zsh fish)
@@ -82,17 +83,15 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME frahm)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "${PROJECT_DESCRIPTION}
- Parameter studies, tunings and identifications from study files, on every core
- or MPI rank, to HDF5 files that open as labelled arrays.")
+set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "Parameter studies, tunings and identifications from study files,
+on every core or MPI rank, to HDF5 files that open as labelled arrays.")   # the project's own goes before
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libfrahm-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "g++, libeigen3-dev, libfmt-dev, libsundials-dev, coinor-libipopt-dev, \
-libnlopt-dev, libhdf5-dev, libisal-dev, libdeflate-dev, libxxhash-dev, libudunits2-dev, libsuitesparse-dev")
+libnlopt-dev, libhdf5-dev, libisal-dev, libdeflate-dev, libxxhash-dev, libtomlplusplus-dev, libudunits2-dev, libsuitesparse-dev")
 if(FRAHM_WITH_MPI)
   string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libopenmpi-dev")
 endif()
-set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "Static libraries and headers of Frahm
- Its solvers, studies and results for programs of one's own: find_package(frahm)
- or pkg-config.")
+set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "Static libraries and headers: solvers, studies and results for
+programs of one's own, by find_package(frahm) or pkg-config.")
 include(CPack)

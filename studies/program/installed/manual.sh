@@ -10,7 +10,7 @@ mkdir -p "$folder"
 
 page() {   # COMMAND NAME-OF-PAGE ONE-LINE
   help2man --no-info --no-discard-stderr --section=1 --manual="User Commands" --source="frahm $version" \
-    --version-string="$version" --name="$3" --output="$folder/$2.1" "$1"
+    --version-string="$version" --name="$3" "$1" | sed "s/^$1 \\\\-/$2 \\\\-/" >"$folder/$2.1"
   gzip -9n "$folder/$2.1"
 }
 
