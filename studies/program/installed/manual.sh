@@ -10,10 +10,11 @@ mkdir -p "$folder"
 
 page() {   # COMMAND NAME-OF-PAGE ONE-LINE
   help2man --no-info --no-discard-stderr --section=1 --manual="User Commands" --source="frahm $version" \
-    --version-string="$version" --name="$3" "$1" | sed "s/^$1 \\\\-/$2 \\\\-/" >"$folder/$2.1"
+    --version-string="$version" --name="$3" --output="$folder/page" "$1"
+  sed "s/^$1 \\\\-/$2 \\\\-/" "$folder/page" >"$folder/$2.1"   # `frahm run` has the page frahm-run
+  rm "$folder/page"
   gzip -9n "$folder/$2.1"
 }
-
 
 # Under `Commands:` each line has a command and what it does.
 frahm --help | awk '/^Commands:/ {on = 1; next} /^$/ {on = 0} on {name = $1; $1 = ""; print name $0}' >"$folder/commands"
