@@ -40,14 +40,14 @@ void read_quantiles(const TomlSection& section, std::optional<SampleChoice>& sam
   const auto* items = value->as<TomlArray>();
   if (!items || items->empty())
     section.fail(rules::wrong_type, "quantiles", "expected an array of shares such as [0.05, 0.5, 0.95]");
+  constexpr double kLeast = 1e-6;  // rarer than any sample here can tell
   samples->quantiles.clear();
   for (const TomlValue& item : *items) {
     const double share = read_number(section.source(), section.where() + ": quantiles", item);
-    if (!(share > 0.0 && share < 1.0))
-      throw section.source().error_at(
-          rules::out_of_range, item.position,
-          "{}: quantiles: {} is no share; must be between 0 and 1, 0.5 is the median", section.where(),
-          share);
+    if (!(share >= kLeast && share <= 1.0 - kLeast))
+      throw section.source().error_at(rules::out_of_range, item.position,
+                                      "{}: quantiles: {} must be between {} and 1 - {}; 0.5 is the median",
+                                      section.where(), share, kLeast, kLeast);
     const bool rises =
         samples->quantiles.empty() || (share > samples->quantiles.back() &&
                                        quantile_name(share) != quantile_name(samples->quantiles.back()));

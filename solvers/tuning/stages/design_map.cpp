@@ -74,6 +74,26 @@ void for_neighbours(std::size_t cell, std::size_t dimensions, int along, const E
   }
 }
 
+std::size_t dimensions_of(const DesignMap& map) {
+  std::size_t dimensions = 0;
+  for (std::size_t cells = 1; cells < map.merit.size(); cells *= static_cast<std::size_t>(map.along))
+    ++dimensions;
+  return dimensions;
+}
+
+// The cells that no neighbour undercuts, the lowest first.
+std::vector<std::size_t> lowest_cells(const DesignMap& map, const std::vector<double>& height) {
+  std::vector<std::size_t> low;
+  for (std::size_t cell = 0; cell < height.size(); ++cell) {
+    bool lowest = std::isfinite(height[cell]);
+    for_neighbours(cell, dimensions_of(map), map.along,
+                   [&](std::size_t other) { lowest = lowest && height[other] >= height[cell]; });
+    if (lowest) low.push_back(cell);
+  }
+  std::ranges::stable_sort(low, {}, [&](std::size_t cell) { return height[cell]; });
+  return low;
+}
+
 }  // namespace
 
 double DesignMerit::joint() const {
@@ -117,20 +137,31 @@ DesignMap map_designs(const DesignSpace& space, const MeritAt& merit_at,
 }
 
 std::vector<std::vector<double>> lowest_places(const DesignMap& map, std::size_t most) {
-  std::size_t dimensions = 0;
-  for (std::size_t cells = 1; cells < map.merit.size(); cells *= static_cast<std::size_t>(map.along))
-    ++dimensions;
-  const std::vector<double> height = heights(map);
-  std::vector<std::size_t> low;
-  for (std::size_t cell = 0; cell < height.size(); ++cell) {
-    bool lowest = std::isfinite(height[cell]);
-    for_neighbours(cell, dimensions, map.along,
-                   [&](std::size_t other) { lowest = lowest && height[other] >= height[cell]; });
-    if (lowest) low.push_back(cell);
-  }
-  std::ranges::stable_sort(low, {}, [&](std::size_t cell) { return height[cell]; });
+  const std::vector<std::size_t> low = lowest_cells(map, heights(map));
   std::vector<std::vector<double>> places;
   for (std::size_t i = 0; i < std::min(most, low.size()); ++i) places.push_back(map.design[low[i]]);
+  return places;
+}
+
+std::vector<std::vector<double>> low_places_elsewhere(const DesignMap& map, std::size_t most) {
+  const std::vector<double> height = heights(map);
+  const std::size_t dimensions = dimensions_of(map);
+  std::vector<std::size_t> taken = lowest_cells(map, height);
+  std::vector<std::size_t> by_height(height.size());
+  std::iota(by_height.begin(), by_height.end(), std::size_t{0});
+  std::ranges::stable_sort(by_height, {}, [&](std::size_t cell) { return height[cell]; });
+  std::vector<std::vector<double>> places;
+  for (const std::size_t cell : by_height) {
+    if (places.size() == most || !std::isfinite(height[cell])) break;
+    const bool is_near = std::ranges::any_of(taken, [&](std::size_t other) {
+      bool beside = other == cell;
+      for_neighbours(cell, dimensions, map.along, [&](std::size_t n) { beside = beside || n == other; });
+      return beside;
+    });
+    if (is_near) continue;
+    taken.push_back(cell);
+    places.push_back(map.design[cell]);
+  }
   return places;
 }
 

@@ -39,6 +39,10 @@ DesignMap map_designs(const DesignSpace& space, const MeritAt& merit_at,
 // violation jointly or, where no cell meets the limits, by the violation. At most `most`.
 std::vector<std::vector<double>> lowest_places(const DesignMap& map, std::size_t most);
 
+// Low cells elsewhere: each the lowest of those that lie two cells or more from all lowest places and from
+// one another. A valley narrower than a cell may have its mouth there. At most `most`.
+std::vector<std::vector<double>> low_places_elsewhere(const DesignMap& map, std::size_t most);
+
 // The largest of the curves of constant designs at a few places about every resonance: within some per cent
 // of the true maxima.
 class SampledCurves {

@@ -78,8 +78,7 @@ Goal DesignTuning::goal() const {
   return {Goal::Of::worst};
 }
 
-Stages DesignTuning::from(const std::vector<std::vector<double>>& starts,
-                          const std::vector<double>& schedules) {
+Stages DesignTuning::from(const Starts& starts, const std::vector<double>& schedules) {
   Stages stages;
   const auto keep = [&](const Exchange::Result& result) {
     stages.best = result;
@@ -114,7 +113,7 @@ Stages DesignTuning::from(const std::vector<std::vector<double>>& starts,
 
 // Results with a design first, those that meet the limits before others; of equal objectives the converged
 // one.
-Exchange::Result DesignTuning::best_constant(const std::vector<std::vector<double>>& starts, Stages& stages) {
+Exchange::Result DesignTuning::best_constant(const Starts& starts, Stages& stages) {
   constexpr double kEqual = 1e-6;
   const auto objective_of = [&](const Exchange::Result& result) {
     if (!result.has_step) return result.outcome == Outcome::converged ? 0.0 : kNone;
@@ -131,8 +130,9 @@ Exchange::Result DesignTuning::best_constant(const std::vector<std::vector<doubl
     return converges ? a < b * (1.0 + kEqual) : a < b * (1.0 - kEqual);
   };
   std::optional<Exchange::Result> best;
-  for (const std::vector<double>& start : starts) {
-    Exchange::Result result = tune_constant(start);
+  for (std::size_t i = 0; i < starts.designs.size(); ++i) {
+    if (i >= starts.sure && best->outcome == Outcome::converged) break;
+    Exchange::Result result = tune_constant(starts.designs[i]);
     stages.polished.push_back(result.outcome == Outcome::infeasible ? kNone : objective_of(result));
     if (result.outcome == Outcome::stopped) return result;
     if (!best || is_better(result, *best)) best = std::move(result);

@@ -21,6 +21,13 @@ struct Stages {
   std::vector<double> polished;  // objective of the best constants from each start, NaN where there are none
 };
 
+// Designs to start from, at least one, each a value of each parameter: the first `sure` are tuned for
+// certain, the others while none has converged.
+struct Starts {
+  std::vector<std::vector<double>> designs;
+  std::size_t sure = 1;
+};
+
 // Tunes a task under given limits from one design: the constants first, from them the schedules, and last the
 // knots that the worst peak leaves free.
 class DesignTuning {
@@ -29,9 +36,9 @@ class DesignTuning {
   DesignTuning(const Task& task, std::vector<QuantityLimit> limits, Effort& effort,
                const std::function<bool()>& stop_asked);
 
-  // starts: at least one, a value of each parameter; the best constants of all go on. schedules: a design of
-  // schedules that is known to be good; empty: none.
-  Stages from(const std::vector<std::vector<double>>& starts, const std::vector<double>& schedules = {});
+  // The best constants of all starts go on. schedules: a design of schedules that is known to be good; empty:
+  // none.
+  Stages from(const Starts& starts, const std::vector<double>& schedules = {});
 
   // The map of all constant designs.
   DesignMap map();
@@ -55,7 +62,7 @@ class DesignTuning {
 
  private:
   Exchange::Result tune_constant(const std::vector<double>& value);
-  Exchange::Result best_constant(const std::vector<std::vector<double>>& starts, Stages& stages);
+  Exchange::Result best_constant(const Starts& starts, Stages& stages);
   std::vector<CurveKind> schedule_curves(const std::vector<double>& constant) const;
   Exchange::Result tune_schedule(const std::vector<double>& value, const std::vector<double>& known);
   void settle_free_knots(double most, Stages& stages);

@@ -26,16 +26,21 @@ void check(const Task& task) {
 }
 
 // The lowest places of the map after the optimum of the problem before, if there is one; where the map has
-// none, the given design.
-std::vector<std::vector<double>> starts_of_map(DesignTuning& tuning, const std::vector<double>& before,
-                                               const std::vector<double>& given, DesignsSeen& seen) {
+// none, the given design. Low places elsewhere follow: two for certain where three parameters make the cells
+// coarse, the others while no start has converged.
+Starts starts_of_map(DesignTuning& tuning, const std::vector<double>& before,
+                     const std::vector<double>& given, DesignsSeen& seen) {
   constexpr std::size_t kPolished = 4;
+  constexpr int kCoarse = 7;  // cells along a parameter
   const DesignMap map = tuning.map();
   seen.cells = map.merit.size();
   seen.share = seen.cells > 0 ? static_cast<double>(map.seen()) / static_cast<double>(seen.cells) : 0.0;
-  std::vector<std::vector<double>> starts = lowest_places(map, kPolished);
-  if (!before.empty()) starts.insert(starts.begin(), before);
-  if (starts.empty()) starts.push_back(given);
+  Starts starts{.designs = lowest_places(map, kPolished), .sure = 0};
+  const std::size_t more = kPolished - starts.designs.size();
+  if (!before.empty()) starts.designs.insert(starts.designs.begin(), before);
+  if (starts.designs.empty()) starts.designs.push_back(given);
+  starts.sure = starts.designs.size() + (map.along <= kCoarse ? 2 : 0);
+  for (const std::vector<double>& design : low_places_elsewhere(map, more)) starts.designs.push_back(design);
   return starts;
 }
 
@@ -52,11 +57,12 @@ class Problems {
     Effort effort;
     DesignTuning constants(task_, limits, effort, stop_asked_);
     DesignsSeen seen;
-    std::vector<std::vector<double>> begin{before.empty() ? own_start(constants) : before};
-    if (task_.start == Start::map) begin = starts_of_map(constants, before, begin.front(), seen);
+    Starts begin{.designs = {before.empty() ? own_start(constants) : before}, .sure = 1};
+    if (task_.start == Start::map) begin = starts_of_map(constants, before, begin.designs.front(), seen);
     // 2. The place of a leap, with the knots on both sides of it.
-    const LeapDecided leap = may_leap(task_) ? decide_leap(task_, limits, begin.front(), effort, stop_asked_)
-                                             : LeapDecided{task_, {}};
+    const LeapDecided leap = may_leap(task_)
+                                 ? decide_leap(task_, limits, begin.designs.front(), effort, stop_asked_)
+                                 : LeapDecided{task_, {}};
     // 3. The designs.
     DesignTuning tuning(leap.task, limits, effort, stop_asked_);
     const Stages stages = tuning.from(begin, leap.x);

@@ -29,6 +29,20 @@ TEST_CASE("a map has a low place in each valley, the deepest first") {
   CHECK(lowest_places(map, 1).size() == 1);
 }
 
+TEST_CASE("low places elsewhere lie two cells or more from the lowest and from one another") {
+  const DesignMap map = map_of({{"x", 0.0, 33.0, 0.0, {}}}, [](auto at) {
+    return DesignMerit{1.0 + std::abs(at[0] - 10.5), -kInfinity};  // one valley, at the eleventh cell
+  });
+  const auto lowest = lowest_places(map, 4);
+  REQUIRE(lowest.size() == 1);
+  CHECK(lowest[0][0] == Approx(10.5));
+  const auto elsewhere = low_places_elsewhere(map, 3);
+  REQUIRE(elsewhere.size() == 3);
+  CHECK(elsewhere[0][0] == Approx(8.5));
+  CHECK(elsewhere[1][0] == Approx(12.5));
+  CHECK(elsewhere[2][0] == Approx(6.5));
+}
+
 TEST_CASE("a map tells which share of the box has a response, and none of its places lies elsewhere") {
   const DesignMap map = map_of({{"x", 0.0, 1.0, 0.0, {}}, {"fixed", 7.0, 7.0, 7.0, {}}}, [](auto at) {
     CHECK(at[1] == 7.0);
