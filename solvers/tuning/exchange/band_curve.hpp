@@ -23,11 +23,12 @@ struct CurveKind {
   periodic::Quantity quantity;
   Band band;
   double bound = 0.0;            // of a limit
+  double excess = 0.0;           // relative, by which a limit may be broken where no design meets all
   std::vector<double> constant;  // design of `dominated`
 
   // The curve's upper bound, if it is not t. Where the constant design is already the best, a dominating
   // design can only equal it: a small tolerance lets the optimiser do so.
-  double most() const { return of == Of::dominated ? 1.0 + kTouch : 1.0; }
+  double most() const { return 1.0 + (of == Of::dominated ? kTouch : excess); }
   static constexpr double kTouch = 1e-8;
 };
 

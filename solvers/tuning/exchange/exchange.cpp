@@ -128,11 +128,31 @@ Exchange::Result Exchange::run(const Goal& goal, const std::vector<double>& x) {
     restored.breaks_least = restored.outcome == Outcome::converged;
     restored.outcome = Outcome::infeasible;
     if (!goal.is_epigraph()) restored.step.objective_again = integral(goal, restored.x);
-    return restored;
+    return restored.breaks_least ? best_of_least(goal, std::move(restored)) : restored;
   }
   Result again = run_with_either(goal, restored.x);
   again.rounds.insert(again.rounds.begin(), restored.rounds.begin(), restored.rounds.end());
   return again;
+}
+
+// Of the designs that break the limits as little as `least` does, the best one.
+Exchange::Result Exchange::best_of_least(const Goal& goal, Result least) {
+  constexpr double kSlack = 1e-7;  // so that such designs are not a single point
+  std::vector<CurveKind> held = curves_;
+  for (CurveKind& curve : held) {
+    const bool is_limit = curve.of == CurveKind::Of::upper_limit || curve.of == CurveKind::Of::lower_limit;
+    if (is_limit) curve.excess = least.scan.violation + kSlack;
+  }
+  Exchange within(task_, space_, held, effort_, stop_asked_);
+  const Result found = within.run_with_either(goal, least.x);
+  least.rounds.insert(least.rounds.end(), found.rounds.begin(), found.rounds.end());
+  if (found.outcome == Outcome::stopped) return stopped(std::move(least));
+  if (!found.has_step || found.outcome == Outcome::infeasible) return least;
+  const Scan scan = scan_.of(found.x, kHighPeaks, kFine);
+  const bool is_lower = goal.of == Goal::Of::worst ? scan.worst < least.scan.worst
+                                                   : found.step.objective_again < least.step.objective_again;
+  if (is_lower) least.take(found.step, scan);
+  return least;
 }
 
 // Where one solver does not get there the other tries, from the best design so far: SLSQP after Ipopt, Ipopt

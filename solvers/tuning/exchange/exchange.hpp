@@ -50,6 +50,7 @@ class Exchange {
   double integral(const Goal& goal, std::span<const double> x);
 
  private:
+  Result best_of_least(const Goal& goal, Result least);
   Result run_with_either(const Goal& goal, const std::vector<double>& x);
   Result run_with(SolverKind solver, const Goal& goal, std::vector<double> x);
   Step solve(const Goal& goal, std::span<const double> x, const std::vector<ActivePoint>& active,
