@@ -1,17 +1,26 @@
 #include "studies/program/command_line.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdlib>
 #include <map>
 #include <ostream>
 
 #include "studies/program/assist_command.hpp"
-#include "studies/program/command_help.hpp"
+#include "studies/program/command_examples.hpp"
+#include "studies/program/completion.hpp"
 #include "studies/program/exit_code.hpp"
+#include "studies/program/explain_command.hpp"
+#include "studies/program/help_text.hpp"
 #include "studies/program/option_values.hpp"
+#include "studies/program/schema_command.hpp"
+#include "studies/program/starter_studies.hpp"
 #include "studies/program/status_command.hpp"
 #include "studies/program/verify_command.hpp"
 #include "studies/program/version_command.hpp"
+#include "studies/reading/spelling.hpp"
 #include "studies/reading/study_source.hpp"
 
 namespace frahm::studies {
@@ -33,6 +42,7 @@ void add_set(CLI::App& command, std::vector<std::string>& set) {
   command
       .add_option("--set", set,
                   "change a parameter that is no axis: name=value or \"name=value unit\"; repeatable")
+      ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
 }
 
@@ -40,6 +50,7 @@ void add_threads(CLI::App& command, int& threads) {
   command
       .add_option("--threads", threads,
                   "number of threads; 0: OMP_NUM_THREADS, else SLURM_CPUS_PER_TASK, else all processors")
+      ->type_name("N")
       ->check(CLI::Range(0, 4096))
       ->take_last();
 }
@@ -50,8 +61,8 @@ void add_progress(CLI::App& command, engine::ProgressStyle& style) {
                                                             {"json", engine::ProgressStyle::json},
                                                             {"none", engine::ProgressStyle::none}};
   command.add_option("--progress", style, "auto, plain, json or none")
+      ->type_name("auto|plain|json|none")
       ->transform(CLI::Transformer(styles))
-      ->type_name("STYLE")
       ->take_last();
 }
 
@@ -79,14 +90,17 @@ void add_run(CLI::App& program, CommandLine& line) {
                   help::run_examples);
   RunCommandOptions& options = line.run;
   add_study(*run, options.study);
-  run->add_option("-o,--output", options.run.output, "result file; else the study's name with .h5, here");
+  run->add_option("-o,--output", options.run.output, "result file; else the study's name with .h5, here")
+      ->type_name("FILE");
   add_threads(*run, options.run.threads);
   run->add_option("--shard", line.shard,
-                  "i/n: compute part i of n, i from 0; else, in an array task of Slurm, its own part");
+                  "i/n: compute part i of n, i from 0; else, in an array task of Slurm, its own part")
+      ->type_name("I/N");
   run->add_option("--from", options.from,
-                  "reuse the points of this earlier result, of the same system on another grid");
+                  "reuse the points of this earlier result, of the same system on another grid")
+      ->type_name("RESULT");
   run->add_flag("--fresh", options.run.fresh, "start anew: an earlier result and its logs are lost");
-  run->add_option("--time-budget", line.time_budget, "stop after 90s, 50m, 2h or 1d");
+  run->add_option("--time-budget", line.time_budget, "stop after 90s, 50m, 2h or 1d")->type_name("TIME");
   add_set(*run, options.set);
   add_progress(*run, options.run.progress);
   run->callback([&, run] {
@@ -107,10 +121,12 @@ void add_check(CLI::App& program, CheckOptions& options, Action& action) {
   check
       ->add_option("--max-array", options.max_array,
                    "most tasks of a Slurm array (MaxArraySize); else as Slurm here says, or 1001")
+      ->type_name("N")
       ->check(CLI::Range(1, 4'000'001));  // the largest Slurm can be set to
   check
       ->add_option("--simulate-ranks", options.simulate_ranks,
                    "predict time and efficiency on up to so many MPI ranks of --threads each (0: one)")
+      ->type_name("N")
       ->check(CLI::Range(1, 100'000));
   check->add_flag("--all", options.all, "every mode, of a large system too");
   check->callback([&] { action = [&](std::ostream& out) { return check_command(options, out); }; });
@@ -120,15 +136,18 @@ void add_point(CLI::App& program, PointOptions& options, Action& action) {
   CLI::App* point = add_command(program, "point", "the full report of one response", help::point_examples);
   add_study(*point, options.study);
   point->add_option("--at", options.at, "name=value,...; other parameters as in the study")
+      ->type_name("NAME=VALUE,...")
       ->allow_extra_args(false);
   add_set(*point, options.set);
-  point->add_option("--history", options.history, "write the motion over one period to this CSV file");
+  point->add_option("--history", options.history, "write the motion over one period to this CSV file")
+      ->type_name("FILE");
   point->add_flag("--gradient", options.gradient,
                   "exact derivatives with respect to the parameters, beside central differences");
   point
       ->add_option(
           "--path", options.path,
           "fastest: from the phases of its events where that is proved; general: by shooting, always")
+      ->type_name("fastest|general")
       ->check(CLI::IsMember({"fastest", "general"}))
       ->take_last();
   point->add_flag("--json", options.json, "the report as one JSON object");
@@ -141,28 +160,36 @@ void add_branch(CLI::App& program, BranchCommandOptions& options, Action& action
       add_command(program, "branch", "follow a response along a parameter, stable or not, through folds",
                   help::branch_examples);
   add_study(*branch, options.study);
-  branch->add_option("--along", options.along, "the parameter, a number of the study")->required();
-  branch->add_option("--from", options.from, "start of its range; else that of its axis");
-  branch->add_option("--to", options.to, "end of its range; else that of its axis");
+  branch->add_option("--along", options.along, "the parameter, a number of the study")
+      ->type_name("NAME")
+      ->required();
+  branch->add_option("--from", options.from, "start of its range; else that of its axis")->type_name("VALUE");
+  branch->add_option("--to", options.to, "end of its range; else that of its axis")->type_name("VALUE");
   branch
       ->add_option("--at", options.at,
                    "name=value,...; other parameters as in the study; of the one followed: where to start")
+      ->type_name("NAME=VALUE,...")
       ->allow_extra_args(false);
   add_set(*branch, options.set);
   branch->add_option("--steps", options.steps, "most points in each direction, else 2000")
+      ->type_name("N")
       ->check(CLI::Range(1, 1'000'000));
   branch
       ->add_option("--multiple", options.multiple,
                    "follow a response that takes so many periods of the excitation; else any")
+      ->type_name("N")
       ->check(CLI::Range(1, 64));
-  branch->add_option("-o,--output", options.output,
-                     "write all points to this file: CSV, or a result where it ends in .h5");
+  branch
+      ->add_option("-o,--output", options.output,
+                   "write all points to this file: CSV, or a result where it ends in .h5")
+      ->type_name("FILE");
   add_progress(*branch, options.progress);
   branch->callback([&] { action = [&](std::ostream& out) { return branch_command(options, out); }; });
 }
 
 void add_status(CLI::App& program, std::filesystem::path& file, Action& action) {
-  CLI::App* status = program.add_subcommand("status", "what a result file holds, or how far it is");
+  CLI::App* status =
+      add_command(program, "status", "what a result file holds, or how far it is", help::status_examples);
   status->add_option("FILE", file, "result file, finished or not")->required();
   status->callback([&] { action = [&](std::ostream& out) { return status_command(file, out); }; });
 }
@@ -184,36 +211,55 @@ void add_export(CLI::App& program, ExportOptions& options, Action& action) {
       program, "export", "write a result as CSV; a study of an optimum or a model; simulated measurements",
       help::export_examples);
   command->add_option("FILE", options.file, "result file")->required();
-  command->add_option("--group", options.group,
-                      "a group instead of the map: resonance, orbits, branches, identification ...");
+  command
+      ->add_option("--group", options.group,
+                   "a group instead of the map: resonance, orbits, branches, identification ...")
+      ->type_name("GROUP");
   command->add_flag("--csv", options.csv, "CSV, which is the default");
   command->add_flag("--schedule", options.schedule, "of a tuning: its schedule for a controller");
-  command->add_option("--step", options.step, "of --schedule: its step, in the unit of the band; else 1 rpm");
-  command->add_option("--sweep", options.sweep, "of a tuning: a study that sweeps its optimum, to this file");
-  command->add_option("--run-up", options.run_up,
-                      "of a tuning: a study of a run-up at its optimum, to this file");
-  command->add_option("--study", options.study,
-                      "of an identification: a study in which its estimates stand, to this file");
+  command->add_option("--step", options.step, "of --schedule: its step, in the unit of the band; else 1 rpm")
+      ->type_name("STEP");
+  command->add_option("--sweep", options.sweep, "of a tuning: a study that sweeps its optimum, to this file")
+      ->type_name("FILE");
+  command
+      ->add_option("--run-up", options.run_up,
+                   "of a tuning: a study of a run-up at its optimum, to this file")
+      ->type_name("FILE");
+  command
+      ->add_option("--study", options.study,
+                   "of an identification: a study in which its estimates stand, to this file")
+      ->type_name("FILE");
   DataOptions& data = options.data;
-  command->add_option("--data", data.output,
-                      "simulated measurements of a study (FILE may be one), to this CSV file; - for stdout");
+  command
+      ->add_option("--data", data.output,
+                   "simulated measurements of a study (FILE may be one), to this CSV file; - for stdout")
+      ->type_name("FILE");
   add_set(*command, data.set);
   command->add_option("--at", data.at, "of --data: the point of a periodic response, name=value,...")
+      ->type_name("NAME=VALUE,...")
       ->allow_extra_args(false);
-  command->add_option("--rate", data.rate,
-                      "of --data: samples a second, or \"1 kHz\"; else 100 a natural period");
-  command->add_option("--duration", data.duration,
-                      "of --data: so long, \"10 s\"; else the motion, or ten periods");
-  command->add_option("--noise", data.noise,
-                      "of --data: standard deviation, \"1%\" of each column's own or \"0.1 mm\"");
-  command->add_option("--seed", data.seed, "of --data: of the noise, else 1");
+  command
+      ->add_option("--rate", data.rate,
+                   "of --data: samples a second, or \"1 kHz\"; else 100 a natural period")
+      ->type_name("RATE");
+  command
+      ->add_option("--duration", data.duration,
+                   "of --data: so long, \"10 s\"; else the motion, or ten periods")
+      ->type_name("TIME");
+  command
+      ->add_option("--noise", data.noise,
+                   "of --data: standard deviation, \"1%\" of each column's own or \"0.1 mm\"")
+      ->type_name("NOISE");
+  command->add_option("--seed", data.seed, "of --data: of the noise, else 1")->type_name("N");
   command
       ->add_option("--columns", data.columns,
                    "of --data: name,... of <mass>_displacement, _velocity, _acceleration, of a periodic "
                    "response <element>_force too; else the displacements")
+      ->type_name("NAME,...")
       ->delimiter(',')
       ->allow_extra_args(false);
-  command->add_option("-o,--output", options.output, "CSV file, - for stdout; else FILE with .csv");
+  command->add_option("-o,--output", options.output, "CSV file, - for stdout; else FILE with .csv")
+      ->type_name("FILE");
   command->callback([&] { action = [&](std::ostream& out) { return export_command(options, out); }; });
 }
 
@@ -222,24 +268,62 @@ void add_report(CLI::App& program, ReportOptions& options, Action& action) {
       add_command(program, "report", "make the page of a result: figures, tables, where they come from",
                   help::report_examples);
   command->add_option("FILE", options.file, "result file")->required();
-  command->add_option("-o,--output", options.output, "the page, - for stdout; else FILE with .html");
+  command->add_option("-o,--output", options.output, "the page, - for stdout; else FILE with .html")
+      ->type_name("FILE");
   command
       ->add_option(
           "--quantities", options.quantities,
           "of a map: name,... to show, or floor*_peak; else those of the study's [report], else peaks, "
           "strokes, regimes, stops, energy shares, differences and status")
+      ->type_name("NAME,...")
       ->delimiter(',')
       ->allow_extra_args(false);
-  command->add_option("--figures", options.figures,
-                      "no page: every figure as SVG, CSV and PDF into this folder; needs Node.js");
+  command
+      ->add_option("--figures", options.figures,
+                   "no page: every figure as SVG, CSV and PDF into this folder; needs Node.js")
+      ->type_name("FOLDER");
   command->callback([&] { action = [&](std::ostream& out) { return report_command(options, out); }; });
 }
 
+void add_new(CLI::App& program, NewOptions& options, Action& action) {
+  CLI::App* command =
+      add_command(program, "new", "write a study to start from, with comments", help::new_examples);
+  command->add_option("KIND", options.kind, "sweep, tune, identify, decay or transient")
+      ->required()
+      ->type_name("sweep|tune|identify|decay|transient");
+  command->add_option("FILE", options.file, "the study to write, - for stdout; else KIND.toml");
+  command->callback([&] { action = [&](std::ostream& out) { return new_command(options, out); }; });
+}
+
+void add_explain(CLI::App& program, std::string& word, Action& action) {
+  CLI::App* command = add_command(
+      program, "explain", "what a key, a quantity, a status or an exit code means", help::explain_examples);
+  command->add_option("WORD", word, "the key of a study, quantity, status or exit code")->required();
+  command->callback([&] { action = [&](std::ostream& out) { return explain_command(word, out); }; });
+}
+
+void add_completion(CLI::App& program, CommandLine& line) {
+  CLI::App* command = add_command(program, "completion", "print a script that completes this in a shell",
+                                  help::completion_examples);
+  command->add_option("SHELL", line.shell, "bash, zsh or fish")
+      ->required()
+      ->check(CLI::IsMember({"bash", "zsh", "fish"}))
+      ->type_name("bash|zsh|fish");
+  command->callback([&line] {
+    line.action = [&line](std::ostream& out) {
+      out << completion_script(line.commands, line.shell);
+      return exit_code::done;
+    };
+  });
+}
+
 void describe(CLI::App& program, CommandLine& line) {
+  program.set_help_flag("-h,--help", "print this help");
   program.footer(help::first_steps);
   program.require_subcommand(0, 1);
   auto* version = program.add_flag("--version", line.version, "print the version");
-  program.add_flag("--verbose", line.verbose, "compiler, libraries, processor")->needs(version);
+  program.add_flag("--verbose", line.verbose, "with --version: compiler, libraries, processor")
+      ->needs(version);
   add_run(program, line);
   add_check(program, line.check, line.action);
   add_point(program, line.point, line.action);
@@ -248,10 +332,72 @@ void describe(CLI::App& program, CommandLine& line) {
   add_merge(program, line.merge, line.action);
   add_export(program, line.table, line.action);
   add_report(program, line.report, line.action);
-  program
-      .add_subcommand("verify",
-                      "solve the classical cases on this machine and compare with their closed forms")
+  add_command(program, "verify",
+              "solve the classical cases on this machine and compare with their closed forms",
+              help::verify_examples)
       ->callback([&line] { line.action = [](std::ostream& out) { return verify_command(out); }; });
+  add_new(program, line.starter, line.action);
+  add_explain(program, line.word, line.action);
+  add_command(program, "schema", "print the JSON Schema of study files, for editors", help::schema_examples)
+      ->callback([&line] { line.action = schema_command; });
+  add_completion(program, line);
+}
+
+// What CLI11 knows of an option, in our own words.
+CommandOption told(const CLI::Option& option) {
+  CommandOption own{.what = option.get_description(),
+                    .is_positional = option.get_positional(),
+                    .is_required = option.get_required(),
+                    .is_list = option.get_expected_max() > 1};
+  if (own.is_positional) own.names.push_back(option.get_name(true));
+  for (const std::string& name : option.get_snames()) own.names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) own.names.push_back("--" + name);
+  // Behind a colon it has the checks of the value; a flag has no type.
+  const std::string type = option.get_type_name();
+  if (option.get_items_expected_max() > 0) own.value = type.substr(0, type.find(':'));
+  return own;
+}
+
+Command told(const CLI::App& app, const std::string& name) {
+  Command own{.name = name, .what = app.get_description(), .foot = app.get_footer()};
+  for (const CLI::Option* option : app.get_options()) own.options.push_back(told(*option));
+  for (const CLI::App* each : app.get_subcommands(nullptr))
+    own.commands.push_back(told(*each, name + " " + each->get_name()));
+  return own;
+}
+
+// The one of its commands that was given, else the program itself.
+const Command& given_command(const CLI::App& program, const Command& tree) {
+  const auto given = program.get_subcommands();
+  if (given.empty()) return tree;
+  return *std::ranges::find(tree.commands, given.front()->get_name(), &Command::last_word);
+}
+
+// What is wrong with a command line, and the nearest word to one that is not known.
+std::string complaint(const CLI::App& program, const Command& tree, const CLI::ParseError& error) {
+  const Command& command = given_command(program, tree);
+  const std::vector<std::string> unknown = program.remaining(true);
+  const std::string more = fmt::format("\nMore: {} --help", command.name);
+  if (unknown.empty()) {
+    const std::string what = error.what();
+    return what.substr(0, what.find('\n')) + more;
+  }
+  const std::string word = unknown.front().substr(0, unknown.front().find('='));
+  if (word.starts_with("-")) {
+    std::vector<std::string> names;
+    for (const CommandOption& option : command.options) {
+      if (!option.is_positional) names.insert(names.end(), option.names.begin(), option.names.end());
+    }
+    return fmt::format("{}: unknown option {}{}{}", command.name, word, suggestion(word, names), more);
+  }
+  if (&command != &tree)
+    return fmt::format("{}: \"{}\" is one argument too many{}", command.name, word, more);
+  std::vector<std::string> names = starter_kinds();
+  if (std::ranges::find(names, word) != names.end())
+    return fmt::format("unknown command \"{}\"; frahm run computes a study of any kind{}", word, more);
+  names.clear();
+  for (const Command& each : tree.commands) names.push_back(each.last_word());
+  return fmt::format("unknown command \"{}\"{}{}", word, suggestion(word, names), more);
 }
 
 }  // namespace
@@ -262,15 +408,19 @@ std::optional<int> parse_command_line(int argc, const char* const* argv, Command
   describe(program, line);
   for (int i = 0; i < argc; ++i) line.run.command += (i == 0 ? "frahm" : std::string(" ") + argv[i]);
   line.branch.command = line.run.command;
+  line.commands = told(program, "frahm");
   try {
     program.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    out << help_text(given_command(program, line.commands));
+    return exit_code::done;
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() != 0) complaints << "frahm: ";
-    return program.exit(error, out, complaints) == 0 ? exit_code::done : exit_code::wrong_input;
+    complaints << "frahm: " << complaint(program, line.commands, error) << '\n';
+    return exit_code::wrong_input;
   }
   if (line.version) line.action = [&line](std::ostream& to) { return version_command(line.verbose, to); };
   if (line.action) return std::nullopt;
-  complaints << program.help();
+  complaints << help_text(line.commands);
   return exit_code::wrong_input;
 }
 

@@ -8,8 +8,10 @@
 
 #include "studies/program/branch_command.hpp"
 #include "studies/program/check_command.hpp"
+#include "studies/program/command_tree.hpp"
 #include "studies/program/export_command.hpp"
 #include "studies/program/merge_command.hpp"
+#include "studies/program/new_command.hpp"
 #include "studies/program/point_command.hpp"
 #include "studies/program/report_command.hpp"
 #include "studies/program/run_command.hpp"
@@ -27,6 +29,10 @@ struct CommandLine {
   MergeOptions merge;
   ExportOptions table;
   ReportOptions report;
+  NewOptions starter;
+  std::string word;   // to explain
+  std::string shell;  // to complete in
+  Command commands;   // all there are
   bool version = false, verbose = false;
 
   std::function<int(std::ostream&)> action;  // what the given command does, to its exit code

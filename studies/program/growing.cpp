@@ -5,8 +5,11 @@
 #include <optional>
 #include <system_error>
 
+#include "engine/io_error.hpp"
+#include "studies/program/refusal_advice.hpp"
 #include "studies/program/study_note.hpp"
 #include "studies/record/finished_file.hpp"
+#include "studies/record/study_changes.hpp"
 
 namespace frahm::studies {
 
@@ -29,9 +32,26 @@ void refuse_loss(const MapPlan& plan, const KnownPoints& earlier, const std::fil
                   lost, from.string()));
 }
 
+namespace {
+
+// None where the note of their study is not beside them.
+std::vector<std::string> changes_since_logs(const engine::ResumeRefused& refused, const Study& now,
+                                            const std::filesystem::path& output) {
+  try {
+    return study_changes(study_from_note({output}, refused.kept()).study, now);
+  } catch (const engine::IoError&) {
+    return {};
+  } catch (const StudyError&) {  // its tables are gone
+    return {};
+  }
+}
+
+}  // namespace
+
 std::string advice_about_logs(const engine::ResumeRefused& refused, const StudyPlan& plan,
                               const std::filesystem::path& output) {
-  if (refused.physics_differs() || !plan.study.map()) return "";
+  if (refused.physics_differs() || !plan.study.map())
+    return refusal_advice(changes_since_logs(refused, plan.study, output));
   constexpr const char* otherwise = "name another file with -o, or discard what is there with --fresh";
   if (refused.kept() == plan.header_of_logs(""))
     return fmt::format("it was begun without --from: leave that out to go on, {}", otherwise);

@@ -14,8 +14,10 @@
 #include "engine/tile_index.hpp"
 #include "studies/program/exit_code.hpp"
 #include "studies/program/growing.hpp"
+#include "studies/program/refusal_advice.hpp"
 #include "studies/program/study_note.hpp"
 #include "studies/record/finished_file.hpp"
+#include "studies/record/study_changes.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -45,11 +47,12 @@ bool is_finished(const StudyPlan& plan, const std::filesystem::path& output) {
   const bool could_grow = kept->physics == plan.fingerprint.physics && plan.study.map();
   throw engine::ResumeRefused(
       output, *kept, plan.fingerprint,
-      could_grow
-          ? fmt::format("add --from {} to reuse its points, name another file with -o, or discard what "
-                        "is there with --fresh",
-                        output.string())
-          : "");
+      refusal_advice(changes_since(output, plan.study),
+                     could_grow
+                         ? fmt::format("add --from {} to reuse its points, name another file with -o, or "
+                                       "discard what is there with --fresh",
+                                       output.string())
+                         : ""));
 }
 
 // Whether there is anything to compute: false if the file of this study exists already; then the logs left by

@@ -16,6 +16,7 @@
 #include "results/store_error.hpp"
 #include "studies/program/command_line.hpp"
 #include "studies/program/exit_code.hpp"
+#include "studies/program/refusal_advice.hpp"
 #include "studies/reading/study_source.hpp"
 
 namespace frahm::studies {
@@ -37,10 +38,7 @@ Ending carry_out(const CommandLine& line, std::ostream& out) {
   } catch (const StudyError& error) {
     return {exit_code::wrong_input, error.what()};
   } catch (const engine::ResumeRefused& error) {
-    const std::string advice = error.advice().empty()
-                                   ? "it is not replaced unasked: name another file with -o, or discard what "
-                                     "is there with --fresh"
-                                   : error.advice();
+    const std::string advice = error.advice().empty() ? refusal_advice({}) : error.advice();
     return {exit_code::resume_refused, fmt::format("{}\n{}", error.what(), advice)};
   } catch (const engine::RankFailed& error) {
     return {error.code(), error.what()};

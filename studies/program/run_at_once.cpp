@@ -14,8 +14,10 @@
 #include "studies/identification/identification_record.hpp"
 #include "studies/motion/motion_record.hpp"
 #include "studies/program/exit_code.hpp"
+#include "studies/program/refusal_advice.hpp"
 #include "studies/record/finished_file.hpp"
 #include "studies/record/provenance.hpp"
+#include "studies/record/study_changes.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -61,7 +63,8 @@ void refuse_another_study(const StudyPlan& plan, const std::filesystem::path& ou
   const auto kept = fingerprint_of_file(output);
   if (!kept || *kept == plan.fingerprint) return;
   if (plan.study.identify() && is_of_same_file(plan.study, output)) return;
-  throw engine::ResumeRefused(output, *kept, plan.fingerprint);
+  throw engine::ResumeRefused(output, *kept, plan.fingerprint,
+                              refusal_advice(changes_since(output, plan.study)));
 }
 
 void write_file(const StudyPlan& plan, const RunRecord& record, const std::filesystem::path& output,

@@ -180,7 +180,10 @@ void check_whole(Study& study) {
 Study read_study(const std::filesystem::path& path) {
   std::string text = read_file(path, path.string());
   if (text.starts_with(hdf5_signature))
-    throw StudyError(rules::wrong_file, "{}: is a result; name its study", path.string());
+    throw StudyError(
+        rules::wrong_file,
+        "{}: is a result; name the study it was made from (frahm status, report and export take results)",
+        path.string());
   return parse_study(std::move(text), path);
 }
 

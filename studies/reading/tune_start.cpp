@@ -5,10 +5,20 @@
 
 namespace frahm::studies {
 
-// Few variables are solved by sequential quadratic programming, the many knots of a schedule by an interior
-// point.
+// Sequential quadratic programming goes on from a start that is nearly right in a few steps, each of the cube
+// of the variables: it suits constants, and a schedule of some dozen knots that starts from its best path.
+// Many knots, and schedules without such a start, suit an interior point.
 tuning::SolverKind read_solver(const TomlSection& section, const TuneChoice& choice) {
-  const char* by_default = choice.has_schedule() ? "ipopt" : "slsqp";
+  constexpr std::size_t kFewKnots = 60;
+  std::size_t knots = 0, schedules = 0;
+  for (const DesignChoice& design : choice.designs) {
+    if (!design.is_scheduled()) continue;
+    ++schedules;
+    knots += design.count();
+  }
+  const bool starts_from_path =
+      schedules == 1 && choice.objective == tuning::Objective::minimax && !section.find("dominate");
+  const char* by_default = schedules == 0 || (starts_from_path && knots <= kFewKnots) ? "slsqp" : "ipopt";
   if (!section.find("solver")) return tuning::solver_named(by_default);
   return tuning::solver_named(section.choice_or("solver", {"ipopt", "slsqp", "mma"}));
 }

@@ -21,8 +21,9 @@ engine::Fingerprint fingerprint_of(const results::MapReader& map) {
 
 void refuse_study(const std::filesystem::path& result) {
   if (result.extension() == ".toml")
-    throw StudyError(rules::wrong_file, "{}: is a study; name its result, such as {}", result.string(),
-                     result.stem().string() + ".h5");
+    throw StudyError(rules::wrong_file,
+                     "{}: is a study; name its result, such as {}, which frahm run {} makes", result.string(),
+                     result.stem().string() + ".h5", result.string());
 }
 
 void require_result(const std::filesystem::path& path) {

@@ -2,9 +2,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 
 #include "results/map_reader.hpp"
 #include "tests/end_to_end/runs.hpp"
@@ -55,13 +57,110 @@ TEST_CASE("wrong usage ends with code 2 and says what is wrong") {
   CHECK(folder.names() == Names{"small.toml"});
 }
 
+// Those that the help of the program lists.
+Names commands_of_help() {
+  std::istringstream help(frahm({"--help"}).out);
+  Names commands;
+  std::string line;
+  while (std::getline(help, line) && line != "Commands:") {
+  }
+  while (std::getline(help, line) && !line.empty()) {
+    std::istringstream words(line);
+    words >> commands.emplace_back();
+  }
+  return commands;
+}
+
+int occurrences(const std::string& text, const std::string& passage) {
+  int count = 0;
+  for (std::size_t at = text.find(passage); at != std::string::npos; at = text.find(passage, at + 1)) ++count;
+  return count;
+}
+
 TEST_CASE("help teaches by examples, for each command") {
   CHECK(frahm({"--help"}).code == 0);
-  for (const char* command : {"run", "check", "point", "merge", "export"}) {
+  const auto commands = commands_of_help();
+  CHECK(commands.size() >= 13);
+  for (const std::string& command : commands) {
+    INFO(command);
     const auto help = frahm({command, "--help"});
     CHECK(help.code == 0);
-    CHECK_THAT(help.out, Catch::Contains("Example") && Catch::Contains(std::string("frahm ") + command));
+    const std::string examples = help.out.substr(std::min(help.out.find("Examples"), help.out.size()));
+    CHECK(occurrences(examples, "frahm " + command) >= 2);
+    for (const char* noise : {"TEXT", "REQUIRED", " INT", "->", "Needs:"})
+      CHECK_FALSE(help.out.find(noise) != std::string::npos);
   }
+}
+
+TEST_CASE("an unknown word of the command line gets the nearest one") {
+  CHECK_THAT(frahm({"chek", "a.toml"}).err, Catch::Contains("did you mean \"check\""));
+  CHECK_THAT(frahm({"run", "--fressh", "a.toml"}).err, Catch::Contains("did you mean \"--fresh\""));
+  CHECK_THAT(frahm({"run", "--threds=2", "a.toml"}).err, Catch::Contains("did you mean \"--threads\""));
+  CHECK_THAT(frahm({"run", "a.toml", "b.toml"}).err,
+             Catch::Contains("b.toml") && Catch::Contains("too many"));
+  CHECK_THAT(frahm({"tune", "a.toml"}).err, Catch::Contains("frahm run computes"));
+  CHECK_THAT(frahm({"new", "tun"}).err, Catch::Contains("did you mean \"tune\""));
+  CHECK_THAT(frahm({"explain", "stifness"}).err, Catch::Contains("did you mean \"stiffness\""));
+}
+
+TEST_CASE("a new study of each kind runs as it is") {
+  const Folder folder;
+  for (const std::string kind : {"sweep", "tune", "decay", "transient"}) {
+    INFO(kind);
+    const std::string study = folder / (kind + ".toml");
+    CHECK(frahm({"new", kind, study}).code == 0);
+    CHECK(frahm({"check", study}).code == 0);
+    CHECK(frahm({"run", study, "-o", folder / (kind + ".h5"), "--progress", "none"}).code == 0);
+  }
+  const std::string model = folder / "identify.toml";
+  CHECK(frahm({"export", folder / "decay.toml", "--data", folder / "measured.csv", "--noise", "0.5%"}).code ==
+        0);
+  CHECK(frahm({"new", "identify", model}).code == 0);
+  const auto found = frahm({"run", model, "-o", folder / "identify.h5", "--progress", "none"});
+  INFO(found.err);
+  CHECK(found.code == 0);
+  // A study that is there is not replaced.
+  CHECK(frahm({"new", "sweep", model}).code == 6);
+}
+
+TEST_CASE("words of studies and results are explained and so are the exit codes") {
+  CHECK_THAT(frahm({"explain", "machine_peak"}).out, Catch::Contains("[m]") && Catch::Contains("largest"));
+  CHECK_THAT(frahm({"explain", "stiffness"}).out, Catch::Contains("[[element]]") && Catch::Contains("N/m"));
+  CHECK_THAT(frahm({"explain", "[[element]]"}).out, Catch::Contains("spring"));
+  CHECK_THAT(frahm({"explain", "grazing"}).out, Catch::Contains("status"));
+  for (int code = 0; code <= 8; ++code)
+    CHECK_THAT(frahm({"explain", std::to_string(code)}).out, Catch::Contains("exit code"));
+  CHECK(frahm({"explain", "nothing_of_ours"}).code == 2);
+}
+
+TEST_CASE("a result given for a study and a study for a result are recognised") {
+  const Folder folder;
+  const std::string study = folder.write("small.toml", small), result = folder / "small.h5";
+  CHECK(run(study, result).code == 0);
+  for (const char* command : {"run", "check", "point"}) {
+    const auto outcome = frahm({command, result});
+    CHECK(outcome.code == 2);
+    CHECK_THAT(outcome.err, Catch::Contains("is a result"));
+  }
+  for (const char* command : {"status", "report", "export"}) {
+    const auto outcome = frahm({command, study});
+    CHECK(outcome.code == 2);
+    CHECK_THAT(outcome.err, Catch::Contains("is a study"));
+  }
+}
+
+TEST_CASE("a rerun that is refused names what has changed") {
+  const Folder folder;
+  const std::string study = folder.write("small.toml", small), result = folder / "small.h5";
+  CHECK(run(study, result).code == 0);
+  const auto err_of = [&](const std::string& passage, const std::string& by) {
+    folder.write("small.toml", runs::replaced(small, passage, by));
+    const auto outcome = run(study, result);
+    CHECK(outcome.code == 5);
+    return outcome.err;
+  };
+  CHECK_THAT(err_of("mass = 1", "mass = 2"), Catch::Contains("mass \"main\": mass: 1, now 2"));
+  CHECK_THAT(err_of("zeta = 0.05", "zeta = 0.06"), Catch::Contains("parameter zeta: 0.05, now 0.06"));
 }
 
 TEST_CASE("a study error is told with its place and leaves no file") {

@@ -1,10 +1,13 @@
 // The tuning studies of the source documents: closed forms, and dense sweeps of every tuned design.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <complex>
 #include <fstream>
+#include <random>
 #include <regex>
 #include <sstream>
 
@@ -248,6 +251,35 @@ TEST_CASE("tune_rig_schedule_stiffness.toml: the optimum of an independent searc
   }
 }
 
+// Two minutes: test_end_to_end "[thorough]".
+TEST_CASE("Twenty starts drawn in the box end at the optimum of each rig schedule", "[.thorough]") {
+  struct Known {
+    const char *study, *friction;
+    double objective;  // [m]
+  };
+  std::mt19937 random(2200);
+  const auto drawn = [&](const char* name, double least, double most) {
+    return fmt::format("{}={:.6g}", name, std::uniform_real_distribution<double>(least, most)(random));
+  };
+  for (const Known& known : {Known{"tune_rig_schedule", "friction=1", 0.031911664},
+                             Known{"tune_rig_schedule_stiffness", "friction=0", 0.031970620},
+                             Known{"tune_rig_schedule_stiffness", "friction=1", 0.023096701},
+                             Known{"tune_rig_schedule_stiffness_damping", "friction=0", 0.014430002},
+                             Known{"tune_rig_schedule_jump", "friction=1", 0.026927584},
+                             Known{"tune_rig_schedule_jump", "friction=0", 0.029800017}}) {
+    const std::string study = known.study;
+    const std::string given =
+        runs::replaced(text_of(study_path(study)), "[tune]", "[tune]\nstart = \"given\"");
+    for (int start = 0; start < 20; ++start) {
+      std::vector<std::string> set{known.friction, drawn("I", 4.72, 12.9)};
+      if (study.find("stiffness") != std::string::npos) set.push_back(drawn("k", 5e3, 2e4));
+      if (study.ends_with("damping")) set.push_back(drawn("damping_scale", 0.0, 10.0));
+      INFO(study << " " << known.friction << " from " << set[1]);
+      CHECK_THAT(Tuned(study, given, set).of("objective"), Catch::WithinRel(known.objective, exact));
+    }
+  }
+}
+
 TEST_CASE("each rig schedule: its worst peak stands above the bound of the path, and near it") {
   constexpr double cell = 0.02;  // by which the bound lies below the best schedule of its grid
   for (const char* name :
@@ -262,7 +294,7 @@ TEST_CASE("each rig schedule: its worst peak stands above the bound of the path,
 }
 
 TEST_CASE("tune_rig_schedule_jump.toml: the jump of an independent search, whose sides are equally high") {
-  constexpr double across = 1e-4;   // by which the response changes between the knots of both sides
+  constexpr double across = 5e-5;   // by which the response changes between the knots of both sides
   constexpr double on_grid = 3e-3;  // of the fine grid, whose jumps stand at its 3200 places
   const Tuned tuned("tune_rig_schedule_jump", {"friction=0"});
   CHECK_THAT(tuned.of("objective"),
@@ -363,7 +395,8 @@ TEST_CASE("tune_rig_trade_off.toml: less room for the absorber costs a higher pe
   auto front = tuned.group("optimum/front");
   const std::vector<double>& worst = front.at("objective");
   REQUIRE(worst.size() == 5);
-  CHECK(std::is_sorted(worst.begin(), worst.end()));
+  // The first two limits hold nothing, so that their optima are one, each to the tolerance of its gap.
+  for (std::size_t i = 1; i < worst.size(); ++i) CHECK(worst[i] > worst[i - 1] * (1.0 - exact));
   CHECK(worst.back() > worst.front());
   for (const double gap : front.at("certificate_gap")) CHECK(gap < certified);
 }

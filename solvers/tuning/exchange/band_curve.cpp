@@ -1,5 +1,6 @@
 #include "solvers/tuning/exchange/band_curve.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace frahm::tuning {
@@ -29,7 +30,6 @@ BandCurve::BandCurve(const Task& task, const DesignSpace& space, const CurveKind
 }
 
 TunedResponse::State BandCurve::solve(std::span<const double> x, double band, Derivatives derivatives) {
-  using Of = CurveKind::Of;
   const TunedResponse::State state = response_.solve(x, band, derivatives);
   reason_ = response_.reason();
   if (state != TunedResponse::State::solved) return state;
@@ -37,43 +37,59 @@ TunedResponse::State BandCurve::solve(std::span<const double> x, double band, De
     reason_ = "the quantity has no value there";
     return TunedResponse::State::failed;
   }
+  set_scale(band);
+  if (kind_.of != CurveKind::Of::dominated) return state;
+  // The constant design does not change, so its response at a frequency is computed once.
+  const bool with_slope = derivatives != Derivatives::none;
+  if (band != constant_band_ || (with_slope && !constant_has_slopes_)) {
+    const TunedResponse::State of_constant =
+        constant_->solve(kind_.constant, band, with_slope ? Derivatives::along_band : Derivatives::none);
+    reason_ = constant_->reason();
+    if (of_constant != TunedResponse::State::solved) return of_constant;
+    constant_band_ = band;
+    constant_has_slopes_ = with_slope;
+  }
+  factor_ = 1.0 / constant_->value(0);
+  if (with_slope)
+    factor_slope_ = -factor_ * factor_ * 0.5 * (constant_->slope_left(0) + constant_->slope_right(0));
+  return state;
+}
+
+// Of an objective or a limit.
+void BandCurve::set_scale(double band) {
   factor_ = 1.0;
   offset_ = factor_slope_ = 0.0;
   const double scale = kind_.bound != 0.0 ? std::abs(kind_.bound) : 1.0;
   switch (kind_.of) {
-    case Of::objective:
+    case CurveKind::Of::objective:
       if (task_.weight) {
         const Weight weight = task_.weight(band);
         factor_ = weight.value;
         factor_slope_ = weight.slope;
       }
       break;
-    case Of::upper_limit:
+    case CurveKind::Of::upper_limit:
       factor_ = 1.0 / scale;
       offset_ = 1.0 - kind_.bound / scale;
       break;
-    case Of::lower_limit:
+    case CurveKind::Of::lower_limit:
       factor_ = -1.0 / scale;
       offset_ = 1.0 + kind_.bound / scale;
       break;
-    case Of::dominated: {
-      // The constant design does not change, so its response at a frequency is computed once.
-      const bool with_slope = derivatives != Derivatives::none;
-      if (band != constant_band_ || (with_slope && !constant_has_slopes_)) {
-        const TunedResponse::State of_constant =
-            constant_->solve(kind_.constant, band, with_slope ? Derivatives::along_band : Derivatives::none);
-        reason_ = constant_->reason();
-        if (of_constant != TunedResponse::State::solved) return of_constant;
-        constant_band_ = band;
-        constant_has_slopes_ = with_slope;
-      }
-      factor_ = 1.0 / constant_->value(0);
-      if (with_slope)
-        factor_slope_ = -factor_ * factor_ * 0.5 * (constant_->slope_left(0) + constant_->slope_right(0));
+    case CurveKind::Of::dominated:
       break;
-    }
   }
-  return state;
+}
+
+void BandCurve::values(std::span<const double> x, std::span<const double> places, std::vector<double>& out) {
+  const std::span<const double> found = response_.solve_row(x, places);
+  out.clear();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const std::span<const double> of_sides = found.subspan(i * sides_, sides_);
+    set_scale(places[i]);
+    const double value = factor_ * *std::ranges::max_element(of_sides) + offset_;
+    out.push_back(std::isfinite(value) ? value : kNone);
+  }
 }
 
 std::size_t BandCurve::side_of(std::size_t side) const {

@@ -39,6 +39,9 @@ class BandCurve {
   BandCurve(const Task& task, const DesignSpace& space, const CurveKind& kind, Effort& effort);
 
   TunedResponse::State solve(std::span<const double> x, double band, Derivatives derivatives);
+  // The larger side at each of many places at once; NaN where it has no value. Of an objective or a limit of
+  // a network without several responses.
+  void values(std::span<const double> x, std::span<const double> places, std::vector<double>& out);
   const std::string& reason() const { return reason_; }
 
   // The larger side, or one of two (0: most, 1: least).
@@ -58,6 +61,7 @@ class BandCurve {
 
  private:
   std::size_t side_of(std::size_t side) const;
+  void set_scale(double band);
 
   const Task& task_;
   const CurveKind& kind_;

@@ -7,6 +7,7 @@
 #include "solvers/algebra/eigenvalues.hpp"
 #include "solvers/algebra/null_space.hpp"
 #include "solvers/algebra/solve.hpp"
+#include "solvers/exact/response.hpp"
 #include "solvers/mechanics/linear_system.hpp"
 
 namespace frahm::tuning {
@@ -119,13 +120,19 @@ std::vector<double> resonance_places(const mechanics::Network& network, const Va
   std::sort(places.begin(), places.end());
 
   const mechanics::Assembly assembly(network);
+  mechanics::LinearSystem system;
+  mechanics::NetworkValues last;
+  Station station;  // the last one's poles hold wherever the matrices are the same
   const auto station_at = [&](double at) {
-    mechanics::LinearSystem system;
-    Station station;
+    const mechanics::NetworkValues& values = values_at(at);
     station.at = at;
+    station.omega = values.omega;
+    const bool as_before = !last.mass.empty() && !assembly.matrices_depend_on_frequency() &&
+                           periodic::have_same_elements(values, last);
+    if (as_before) return station;
+    last = values;
+    station.poles.clear();
     try {
-      const mechanics::NetworkValues& values = values_at(at);
-      station.omega = values.omega;
       assembly.set_values(values, system);
       station.poles = poles_of(system);
     } catch (const mechanics::MechanicsError&) {

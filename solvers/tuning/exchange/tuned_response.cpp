@@ -64,17 +64,46 @@ TunedResponse::State TunedResponse::solve(std::span<const double> x, double band
   return solve_at(x, beside, derivatives);
 }
 
-TunedResponse::State TunedResponse::solve_at(std::span<const double> x, double band,
-                                             Derivatives derivatives) {
+void TunedResponse::set_values_at(std::span<const double> x, double band, mechanics::NetworkValues& values,
+                                  std::vector<mechanics::NetworkValues>* directions) {
   for (std::size_t p = 0; p < interpolations_.size(); ++p) {
     interpolations_[p] = space_.interpolation(p, band, x);
     at_[p] = interpolations_[p].value;
   }
   at_.back() = band;
-  task_.network_at(scenario_, at_, values_, derivatives == Derivatives::none ? nullptr : &directions_);
+  task_.network_at(scenario_, at_, values, directions);
+}
+
+// The matrices stay where only the frequency and the excitation change.
+void TunedResponse::set_response() {
+  if (is_set_ && periodic::have_same_elements(values_, set_)) return response_.set_forcing(values_);
+  is_set_ = false;
+  response_.set_values(values_);
+  set_ = values_;
+  is_set_ = true;
+}
+
+std::span<const double> TunedResponse::solve_row(std::span<const double> x, std::span<const double> places) {
+  row_.resize(places.size());
+  found_.resize(places.size());
+  row_values_.assign(places.size() * value_.size(), kNone);
+  for (std::size_t i = 0; i < places.size(); ++i) set_values_at(x, places[i], row_[i], nullptr);
+  is_set_ = false;
+  response_.solve_row(row_, found_, row_values_);
+  effort_.orbits += places.size();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (periodic::has_response(found_[i].status)) continue;
+    std::ranges::fill(std::span(row_values_).subspan(i * value_.size(), value_.size()), kNone);
+  }
+  return row_values_;
+}
+
+TunedResponse::State TunedResponse::solve_at(std::span<const double> x, double band,
+                                             Derivatives derivatives) {
+  set_values_at(x, band, values_, derivatives == Derivatives::none ? nullptr : &directions_);
   gradient_missing_ = false;
   try {
-    response_.set_values(values_);
+    set_response();
   } catch (const mechanics::MechanicsError& error) {
     reason_ = error.what();
     return State::failed;

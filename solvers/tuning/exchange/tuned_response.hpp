@@ -38,6 +38,9 @@ class TunedResponse {
   // Solves at the design x and a point of the band. If a derivative is needed and the orbit grazes, the orbit
   // at a frequency one part in 1e9 beside it is found instead.
   State solve(std::span<const double> x, double band, Derivatives derivatives);
+  // All quantities at each of many places at once, faster than one by one; NaN where there is no response.
+  // Not of a network that may have several.
+  std::span<const double> solve_row(std::span<const double> x, std::span<const double> places);
   const std::string& reason() const { return reason_; }  // of the last solve, if not solved
 
   double value(std::size_t quantity) const { return value_[quantity]; }
@@ -63,6 +66,9 @@ class TunedResponse {
 
  private:
   State solve_at(std::span<const double> x, double band, Derivatives derivatives);
+  void set_values_at(std::span<const double> x, double band, mechanics::NetworkValues& values,
+                     std::vector<mechanics::NetworkValues>* directions);
+  void set_response();
   bool tell_worst(int responses);
   std::string differentiate(Derivatives derivatives);
   bool is_smooth() const;
@@ -80,6 +86,11 @@ class TunedResponse {
   Effort& effort_;
 
   mechanics::NetworkValues values_;
+  mechanics::NetworkValues set_;  // whose elements the response holds
+  bool is_set_ = false;
+  std::vector<mechanics::NetworkValues> row_;
+  std::vector<periodic::ResponseSummary> found_;  // of the row
+  std::vector<double> row_values_;                // places x quantities
   std::vector<mechanics::NetworkValues> directions_;
   std::vector<DesignSpace::Interpolation> interpolations_;
   const std::vector<periodic::Quantity> quantities_;

@@ -82,6 +82,11 @@ class Assessor {
     for (const CurveKind& kind : tuning.curves()) {
       BandCurve response(task_, tuning.space(), kind, effort_);
       std::vector<double>& value = result.value.emplace_back();
+      if (!response.response().may_jump()) {
+        response.values(x, band, value);
+        searched_.points += band.size();
+        continue;
+      }
       for (const double at : band) {
         const bool solved = response.solve(x, at, Derivatives::none) == TunedResponse::State::solved;
         value.push_back(solved ? response.value(BandCurve::larger) : kNone);
@@ -123,7 +128,7 @@ class Assessor {
   // The task's objective at a design.
   double worst(DesignTuning& tuning, std::span<const double> x) {
     if (task_.objective != Objective::minimax) return tuning.objective_of(x);
-    const Scan scan = tuning.full_scan(x);
+    const Scan scan = tuning.scan_of_worst(x);
     return scan.unbounded ? kInfinity : scan.failed ? kNone : scan.worst;
   }
 

@@ -151,12 +151,10 @@ DesignMerit SampledCurves::at(std::span<const double> value) {
                            kind.band.to == curves_[c - 1].band.to;
     // Constants leap nowhere: one stretch.
     if (!as_before) places = places_of(task_, space_, kind, value, kIntervals).front();
-    double highest = -kInfinity;
-    for (const double place : places) {
-      if (responses_[c].solve(value, place, Derivatives::none) != TunedResponse::State::solved)
-        return {kNone, kNone};
-      highest = std::max(highest, responses_[c].value(BandCurve::larger));
-    }
+    responses_[c].values(value, places, heights_);
+    if (std::ranges::any_of(heights_, [](double height) { return std::isnan(height); }))
+      return {kNone, kNone};
+    const double highest = *std::ranges::max_element(heights_);
     double& tightest = kind.of == CurveKind::Of::objective ? merit.objective : merit.violation;
     tightest = std::max(tightest, kind.of == CurveKind::Of::objective ? highest : highest - kind.most());
   }

@@ -55,6 +55,7 @@ class SampledCurves {
   const DesignSpace& space_;
   const std::vector<CurveKind>& curves_;
   std::vector<BandCurve> responses_;  // of each curve
+  std::vector<double> heights_;       // of one of them
 };
 
 }  // namespace frahm::tuning

@@ -78,7 +78,8 @@ Goal DesignTuning::goal() const {
   return {Goal::Of::worst};
 }
 
-Stages DesignTuning::from(const std::vector<std::vector<double>>& starts) {
+Stages DesignTuning::from(const std::vector<std::vector<double>>& starts,
+                          const std::vector<double>& schedules) {
   Stages stages;
   const auto keep = [&](const Exchange::Result& result) {
     stages.best = result;
@@ -93,7 +94,7 @@ Stages DesignTuning::from(const std::vector<std::vector<double>>& starts) {
   if (!stages.best.has_step) return stages;
   stages.constant_value = stages.best.x;
   // 2. From them the schedules.
-  const Exchange::Result schedule = tune_schedule(stages.constant_value);
+  const Exchange::Result schedule = tune_schedule(stages.constant_value, schedules);
   keep(schedule);
   // 3. The knots that the worst peak leaves free.
   if (task_.objective == Objective::minimax && schedule.has_step) {
@@ -192,15 +193,21 @@ std::vector<CurveKind> DesignTuning::schedule_curves(const std::vector<double>& 
   return curves;
 }
 
-Exchange::Result DesignTuning::tune_schedule(const std::vector<double>& value) {
+Exchange::Result DesignTuning::tune_schedule(const std::vector<double>& value,
+                                             const std::vector<double>& known) {
   const std::vector<double> start = space_.constant_design(value);
   const std::vector<CurveKind> curves = schedule_curves(start);
   Exchange exchange(task_, space_, curves, effort_, stop_asked_);
-  // The best path over a grid of responses starts the search; the constant design where there is none.
+  // A known design or the best path over a grid of responses starts the search; the constant design where
+  // there is neither.
   Exchange::Result best;
-  if (PathSearch::serves(task_)) {
+  std::vector<double> begin = known;
+  if (begin.empty() && PathSearch::serves(task_)) {
     const auto path = PathSearch(task_, limits_, effort_.orbits, stop_asked_).best(value);
-    if (path) best = exchange.run(goal(), path->x);
+    if (path) begin = path->x;
+  }
+  if (!begin.empty()) {
+    best = exchange.run(goal(), begin);
     if (best.outcome == Outcome::converged || best.outcome == Outcome::stopped) return best;
   }
   const auto take_if_better = [&best](Exchange::Result result) {
@@ -267,6 +274,10 @@ double DesignTuning::worst_of(std::span<const double> value) {
 double DesignTuning::objective_of(std::span<const double> x) {
   Exchange exchange(task_, space_, curves_, effort_, stop_asked_);
   return exchange.integral(goal(), x);
+}
+
+Scan DesignTuning::scan_of_worst(std::span<const double> x) {
+  return BandScan(task_, space_, curves_, effort_, stop_asked_).of(x, 0.95, 1e-7);
 }
 
 Scan DesignTuning::full_scan(std::span<const double> x) {

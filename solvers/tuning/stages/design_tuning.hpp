@@ -29,9 +29,9 @@ class DesignTuning {
   DesignTuning(const Task& task, std::vector<QuantityLimit> limits, Effort& effort,
                const std::function<bool()>& stop_asked);
 
-  // starts: at least one, a value of each parameter; the best constants of all go on. Schedules start
-  // constant.
-  Stages from(const std::vector<std::vector<double>>& starts);
+  // starts: at least one, a value of each parameter; the best constants of all go on. schedules: a design of
+  // schedules that is known to be good; empty: none.
+  Stages from(const std::vector<std::vector<double>>& starts, const std::vector<double>& schedules = {});
 
   // The map of all constant designs.
   DesignMap map();
@@ -50,12 +50,14 @@ class DesignTuning {
   double objective_of(std::span<const double> x);
   // All local maxima of a design, low ones too.
   Scan full_scan(std::span<const double> x);
+  // The maxima within a few per cent of the worst.
+  Scan scan_of_worst(std::span<const double> x);
 
  private:
   Exchange::Result tune_constant(const std::vector<double>& value);
   Exchange::Result best_constant(const std::vector<std::vector<double>>& starts, Stages& stages);
   std::vector<CurveKind> schedule_curves(const std::vector<double>& constant) const;
-  Exchange::Result tune_schedule(const std::vector<double>& value);
+  Exchange::Result tune_schedule(const std::vector<double>& value, const std::vector<double>& known);
   void settle_free_knots(double most, Stages& stages);
   void tell_bound(Stages& stages);
   std::vector<double> place_by_place(const std::vector<double>& value);

@@ -1,22 +1,25 @@
 #include "solvers/tuning/stages/leap_place.hpp"
 
 #include <algorithm>
-#include <boost/math/tools/roots.hpp>
 #include <cmath>
-#include <cstdint>
 #include <optional>
 
+#include "solvers/algebra/no_value.hpp"
 #include "solvers/tuning/stages/design_tuning.hpp"
 #include "solvers/tuning/stages/path_search.hpp"
 
 namespace frahm::tuning {
 namespace {
 
-constexpr int kMoves = 8;        // of the place, at most
-constexpr double kFalls = 1e-7;  // of the worst peak, relative: a move that gains less is the last
-constexpr int kLookedAt = 64;    // places about the leap, to both sides
-constexpr double kReach = 0.05;  // of the band, to either side of the leap
-constexpr double kApart = 3.0;   // leap widths between a leap and the next knot
+constexpr int kMoves = 16;  // of the place, at most
+constexpr double kFalls =
+    1e-7;  // of the worst peak, relative: by which the last move may miss what it promised
+constexpr double kClose = 1e-5;      // of the band: the tangents of places as close promise what there is
+constexpr double kNarrow = 1e-9;     // of the band: where two places are closer the leap is found
+constexpr double kFirstMove = 1e-3;  // of the band, a part of the way between the path's places
+constexpr double kGrowth = 4.0;      // of the moves until the worst peak rises
+constexpr double kBeyond = 3.0;      // times the way to where the tangents meet
+constexpr double kApart = 3.0;       // leap widths between a leap and the next knot
 
 std::size_t leaping_parameter(const Task& task) {
   const auto leaps = [](const DesignParameter& p) { return p.schedule && p.schedule->may_leap; };
@@ -25,44 +28,6 @@ std::size_t leaping_parameter(const Task& task) {
 
 double leap_width(const Task& task) {
   return kLeapWidth * std::max(std::abs(task.band.from), std::abs(task.band.to));
-}
-
-// The place nearest to the leap at which the responses of both its sides are equally high, their values held.
-std::optional<double> balanced_place(const Task& task, GridResponses& responses,
-                                     const std::vector<double>& x) {
-  const std::size_t p = leaping_parameter(task);
-  const Schedule& schedule = *task.parameters[p].schedule;
-  const DesignSpace space(task.parameters);
-  const std::size_t side = space.first(p) + *schedule.leap;
-  const double sides[] = {x[side], x[side + 1]};
-  std::vector<double> constants;
-  for (std::size_t q = 0; q < space.parameters(); ++q) constants.push_back(x[space.first(q)]);
-  const auto differences = [&](std::span<const double> places) -> Eigen::VectorXd {
-    const Eigen::MatrixXd heights = responses.grid(constants, p, places, sides).heights;
-    return heights.col(0) - heights.col(1);
-  };
-  const double leap = 0.5 * (schedule.knots[*schedule.leap] + schedule.knots[*schedule.leap + 1]);
-  const double reach = kReach * (task.band.to - task.band.from);
-  std::vector<double> places;
-  for (int i = -kLookedAt; i <= kLookedAt; ++i) {
-    const double place = leap + reach * i / kLookedAt;
-    if (place > task.band.from && place < task.band.to) places.push_back(place);
-  }
-  const Eigen::VectorXd difference = differences(places);
-  std::optional<std::size_t> nearest;
-  const auto away = [&](std::size_t i) { return std::abs(0.5 * (places[i] + places[i + 1]) - leap); };
-  for (std::size_t i = 0; i + 1 < places.size(); ++i) {
-    const double left = difference[static_cast<Eigen::Index>(i)];
-    const double right = difference[static_cast<Eigen::Index>(i) + 1];
-    if (!std::isfinite(left) || !std::isfinite(right) || (left < 0.0) == (right < 0.0)) continue;
-    if (!nearest || away(i) < away(*nearest)) nearest = i;
-  }
-  if (!nearest) return std::nullopt;
-  std::uintmax_t evaluations = 60;
-  const auto [from, to] = boost::math::tools::toms748_solve(
-      [&](double place) { return differences(std::span(&place, 1))[0]; }, places[*nearest],
-      places[*nearest + 1], boost::math::tools::eps_tolerance<double>(46), evaluations);
-  return 0.5 * (from + to);
 }
 
 // A design at the knots of another leap: each side goes on with its last value.
@@ -79,6 +44,127 @@ std::vector<double> moved(const Task& from, const Task& to, const std::vector<do
   }
   return at;
 }
+
+// The best schedules with a leap at its place.
+struct LeapAt {
+  Task task;
+  Exchange::Result result;
+  double place = 0.0;
+  double slope = 0.0;  // d worst / d place
+
+  bool is_tuned() const { return result.has_step && result.outcome != Outcome::stopped; }
+  double worst() const { return result.scan.worst; }
+};
+
+// d worst / d place by the envelope theorem: as the leap moves, each of its sides goes on along the band, and
+// all else is at its best already. The sum over the active points at the sides of multiplier dX/dband.
+double slope_by_place(const Task& task, const std::vector<QuantityLimit>& limits,
+                      const Exchange::Result& result, Effort& effort,
+                      const std::function<bool()>& stop_asked) {
+  const Schedule& schedule = *task.parameters[leaping_parameter(task)].schedule;
+  const double left = schedule.knots[*schedule.leap], right = schedule.knots[*schedule.leap + 1];
+  const double near = 0.1 * (right - left);
+  DesignTuning tuning(task, limits, effort, stop_asked);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < result.step.active.size(); ++i) {
+    const ActivePoint& point = result.step.active[i];
+    const bool at_left = std::abs(point.at - left) < near, at_right = std::abs(point.at - right) < near;
+    const double multiplier = result.step.solution.constraint_multipliers[result.step.rows.first + i];
+    if ((!at_left && !at_right) || multiplier <= 0.0) continue;
+    BandCurve curve(task, tuning.space(), tuning.curves()[point.curve], effort);
+    if (curve.solve(result.x, point.at, Derivatives::along_band) != TunedResponse::State::solved) continue;
+    sum += multiplier * (at_left ? curve.slope_left(point.side) : curve.slope_right(point.side));
+  }
+  return sum;
+}
+
+LeapAt tuned_at(Task task, const std::vector<QuantityLimit>& limits, std::vector<double> x, Effort& effort,
+                const std::function<bool()>& stop_asked) {
+  LeapAt at{.task = std::move(task), .result = {}};
+  const Schedule& schedule = *at.task.parameters[leaping_parameter(at.task)].schedule;
+  at.place = 0.5 * (schedule.knots[*schedule.leap] + schedule.knots[*schedule.leap + 1]);
+  at.result = DesignTuning(at.task, limits, effort, stop_asked).schedules_from(x);
+  if (at.is_tuned()) at.slope = slope_by_place(at.task, limits, at.result, effort, stop_asked);
+  return at;
+}
+
+// Where the tangents of two places meet, the one falling towards the other.
+struct Meeting {
+  double place = 0.0, worst = 0.0;
+};
+Meeting tangents_meet(const LeapAt& falls, const LeapAt& rises) {
+  // w_f + s_f (p - p_f) = w_r + s_r (p - p_r)
+  const double from_falls = (rises.worst() - falls.worst() - rises.slope * (rises.place - falls.place)) /
+                            (falls.slope - rises.slope);
+  return {falls.place + from_falls, falls.worst() + falls.slope * from_falls};
+}
+
+// The lowest place downhill of a first one: in growing moves until the worst peak rises again, then between
+// the two places about the lowest. A leap is best where both its sides are equally high, a kink of the worst
+// peak: there the tangents of the two meet. Where that does not halve the way between them, a place beyond
+// follows, to come upon the other side of the kink.
+class Descent {
+ public:
+  Descent(const Task& task, const LeapAt& first) : task_(task), lowest_(first) { join(first); }
+
+  const LeapAt& lowest() const { return lowest_; }
+
+  // The next place to look at; none where no move helps.
+  std::optional<double> next() {
+    promised_ = kNone;
+    if (!falls_ && !rises_) return std::nullopt;
+    if (falls_ && rises_) return between();
+    const double place = falls_ ? falls_->place + step_ : rises_->place - step_;
+    step_ *= kGrowth;
+    if (place <= task_.band.from || place >= task_.band.to) return std::nullopt;
+    return place;
+  }
+
+  void join(const LeapAt& found) {
+    is_met_ = std::abs(found.worst() - promised_) < kFalls * found.worst();
+    if (found.slope == 0.0) falls_ = rises_ = std::nullopt;  // neither side holds the worst peak
+    if (found.slope < 0.0) falls_ = with_secant(found, falls_);
+    if (found.slope > 0.0) rises_ = with_secant(found, rises_);
+    if (found.worst() < lowest_.worst()) lowest_ = found;
+  }
+
+ private:
+  // With the slope from the last place on the same side of the kink, which is the better one once they are
+  // close: the multipliers, some per cent of which other points carry, serve for the first.
+  static LeapAt with_secant(LeapAt found, const std::optional<LeapAt>& last) {
+    if (!last || last->place == found.place) return found;
+    const double slope = (found.worst() - last->worst()) / (found.place - last->place);
+    if (slope * found.slope > 0.0) found.slope = slope;
+    return found;
+  }
+
+  std::optional<double> between() {
+    const double width = rises_->place - falls_->place;
+    const double length = task_.band.to - task_.band.from;
+    if ((is_met_ && width < kClose * length) || width < kNarrow * length) return std::nullopt;
+    const Meeting meeting = tangents_meet(*falls_, *rises_);
+    const double middle = falls_->place + 0.5 * width;
+    const bool is_inside = meeting.place > falls_->place && meeting.place < rises_->place;
+    const bool halves = width < 0.5 * width_;
+    width_ = is_inside && halves ? width : kInfinity;  // after another place the tangents again
+    if (!is_inside) return middle;
+    if (!halves) {
+      return meeting.place < middle
+                 ? std::min(middle, falls_->place + kBeyond * (meeting.place - falls_->place))
+                 : std::max(middle, rises_->place - kBeyond * (rises_->place - meeting.place));
+    }
+    promised_ = meeting.worst;
+    return meeting.place;
+  }
+
+  const Task& task_;
+  LeapAt lowest_;
+  std::optional<LeapAt> falls_, rises_;  // with the place
+  double step_ = kFirstMove * (task_.band.to - task_.band.from);
+  double width_ = kInfinity;  // between the two, when the tangents were used last
+  double promised_ = kNone;   // by the tangents
+  bool is_met_ = false;       // the last place is as low as they promised
+};
 
 }  // namespace
 
@@ -114,13 +200,13 @@ Task with_knots_of(const Task& task, const Optimum& optimum) {
   return settled;
 }
 
-Task with_leap_decided(const Task& task, const std::vector<QuantityLimit>& limits,
-                       const std::vector<double>& value, Effort& effort,
-                       const std::function<bool()>& stop_asked) {
+LeapDecided decide_leap(const Task& task, const std::vector<QuantityLimit>& limits,
+                        const std::vector<double>& value, Effort& effort,
+                        const std::function<bool()>& stop_asked) {
   const double middle = 0.5 * (task.band.from + task.band.to);
-  if (!PathSearch::serves(task)) return with_leap_at(task, middle);
+  if (!PathSearch::serves(task)) return {with_leap_at(task, middle), {}};
   const auto path = PathSearch(task, limits, effort.orbits, stop_asked).best(value);
-  if (!path) return with_leap_at(task, middle);
+  if (!path) return {with_leap_at(task, middle), {}};
   Task best = with_leap_at(task, path->leap.value_or(middle));
   // The path's values at the knots, and at both sides of the leap those of the knots beside it.
   std::vector<double> x = path->x;
@@ -128,21 +214,21 @@ Task with_leap_decided(const Task& task, const std::vector<QuantityLimit>& limit
   const auto at = x.begin() + static_cast<std::ptrdiff_t>(
                                   DesignSpace(task.parameters).first(leaping_parameter(task)) + leap);
   x.insert(at, {*(at - 1), *at});
-  double least = kInfinity;
-  Task tried = best;
-  GridResponses responses(task, limits, effort.orbits);
+  const LeapAt first = tuned_at(std::move(best), limits, std::move(x), effort, stop_asked);
+  if (!first.is_tuned()) return {first.task, {}};
+  Descent descent(task, first);
   for (int move = 0; move < kMoves && !stop_asked(); ++move) {
-    const Exchange::Result result = DesignTuning(tried, limits, effort, stop_asked).schedules_from(x);
-    if (!result.has_step || !(result.scan.worst < least * (1.0 - kFalls))) break;
-    least = result.scan.worst;
-    best = tried;
-    x = result.x;
-    const std::optional<double> balanced = balanced_place(best, responses, x);
-    if (!balanced) break;
-    tried = with_leap_at(task, *balanced);
-    x = moved(best, tried, x);
+    const std::optional<double> place = descent.next();
+    if (!place) break;
+    Task tried = with_leap_at(task, *place);
+    std::vector<double> from = moved(descent.lowest().task, tried, descent.lowest().result.x);
+    tried.solver = SolverKind::slsqp;  // goes on from a design that is nearly right at once
+    LeapAt found = tuned_at(std::move(tried), limits, std::move(from), effort, stop_asked);
+    found.task.solver = task.solver;
+    if (!found.is_tuned()) break;
+    descent.join(found);
   }
-  return best;
+  return {descent.lowest().task, descent.lowest().result.x};
 }
 
 }  // namespace frahm::tuning

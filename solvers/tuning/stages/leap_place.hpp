@@ -18,11 +18,16 @@ Task with_leap_at(const Task& task, double place);
 // The task with the knots of an optimum, which has those of a leap.
 Task with_knots_of(const Task& task, const Optimum& optimum);
 
-// The task with the place of its leap tuned: first the best path over a grid that may leap; then the place is
-// moved to where the responses on both sides are equally high, the schedules are tuned again, and so on while
-// the worst peak falls. Where neither side holds the worst peak the place stays. value: of each parameter.
-Task with_leap_decided(const Task& task, const std::vector<QuantityLimit>& limits,
-                       const std::vector<double>& value, Effort& effort,
-                       const std::function<bool()>& stop_asked);
+struct LeapDecided {
+  Task task;              // with the leap in its place
+  std::vector<double> x;  // the design that decided it; empty where none was found
+};
+
+// The place of a leap: first that of the best path over a grid that may leap; from there it moves downhill,
+// the schedules tuned at each place, to where the worst peak is least. Where neither side holds the worst
+// peak the place stays. value: of each parameter.
+LeapDecided decide_leap(const Task& task, const std::vector<QuantityLimit>& limits,
+                        const std::vector<double>& value, Effort& effort,
+                        const std::function<bool()>& stop_asked);
 
 }  // namespace frahm::tuning

@@ -55,12 +55,12 @@ class Problems {
     std::vector<std::vector<double>> begin{before.empty() ? own_start(constants) : before};
     if (task_.start == Start::map) begin = starts_of_map(constants, before, begin.front(), seen);
     // 2. The place of a leap, with the knots on both sides of it.
-    const Task task =
-        may_leap(task_) ? with_leap_decided(task_, limits, begin.front(), effort, stop_asked_) : task_;
+    const LeapDecided leap = may_leap(task_) ? decide_leap(task_, limits, begin.front(), effort, stop_asked_)
+                                             : LeapDecided{task_, {}};
     // 3. The designs.
-    DesignTuning tuning(task, limits, effort, stop_asked_);
-    const Stages stages = tuning.from(begin);
-    Optimum optimum = report_optimum(task, tuning, stages, effort);
+    DesignTuning tuning(leap.task, limits, effort, stop_asked_);
+    const Stages stages = tuning.from(begin, leap.x);
+    Optimum optimum = report_optimum(leap.task, tuning, stages, effort);
     if (seen.cells > 0) seen.polished = stages.polished;
     optimum.seen = std::move(seen);
     optimum.trade_off = task_.trade_off ? task_.trade_off->limits[problem] : kNone;

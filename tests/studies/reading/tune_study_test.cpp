@@ -58,7 +58,7 @@ TEST_CASE("a tuning has its defaults, and its choices where they are made") {
   CHECK(chosen.tune()->starts == 32);
   CHECK(chosen.tune()->start_is_given);
   CHECK(parse(heading + absorber + minimax + "start = \"map\"\n" + of_f).tune()->start == Start::map);
-  CHECK(parse(rig + scheduled).tune()->solver == frahm::tuning::SolverKind::ipopt);
+  CHECK(parse(rig + scheduled).tune()->solver == frahm::tuning::SolverKind::slsqp);
   CHECK(chosen.tune()->tolerance == 1e-8);
   const Study global = parse(heading + absorber + minimax + "start = \"nlopt\"\nglobal = \"isres\"\n" + of_f);
   CHECK(global.tune()->start == Start::global);

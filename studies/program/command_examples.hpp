@@ -1,6 +1,7 @@
 #pragma once
 
-// What the program and its commands say of themselves, at the head and the foot of their help.
+// What the program and its commands say of themselves, at the head and the foot of their help. Each command has
+// at least two examples.
 namespace frahm::studies::help {
 
 inline constexpr const char* overview =
@@ -8,12 +9,13 @@ inline constexpr const char* overview =
 
 inline constexpr const char* first_steps = R"(
 A study file describes a system and the axes of a map. From there:
+  frahm new sweep study.toml                  a study to start from, with comments
   frahm check study.toml                      is it right, how long will it take
   frahm point study.toml --at r=0.9,f=0.1     the full report of one response
   frahm run study.toml                        the whole map, into study.h5; run again to resume
   frahm status study.h5                       what is in a file, or how far it is
   frahm report study.h5                       its page: maps, curves and numbers to look at
-Every command has its own help: frahm run --help
+Every command has its own help: frahm run --help. A word of a study or of its results: frahm explain WORD
 
 Exit codes: 0 done, 1 internal error, 2 wrong usage or study, 3 some points failed or have no periodic
 response, 4 stopped (run again to resume), 5 refused to mix results of different studies, 6 input or output
@@ -75,5 +77,40 @@ Examples:
   frahm report rig_atlas.h5 -o for_client.html --quantities main_peak,tmd_peak,guide_regime
   frahm report tuned.h5 --figures figures     its figures for a paper: SVG, CSV, and PDF with rsvg-convert or
                                               inkscape)";
+
+inline constexpr const char* status_examples = R"(
+Examples:
+  frahm status rig_atlas.h5                   axes, quantities, how it was made, the points that failed
+  frahm status running.h5                     of a run that goes on: how far it is, from its logs)";
+
+inline constexpr const char* verify_examples = R"(
+Examples:
+  frahm verify                                a line a case: worst deviation, what is allowed, pass or FAIL
+  frahm verify || echo "do not trust this machine"    it ends with 8 where a case fails)";
+
+inline constexpr const char* new_examples = R"(
+Examples:
+  frahm new sweep machine.toml                a map over two parameters; then: frahm check machine.toml
+  frahm new tune -                            to standard output
+  frahm new decay measured.toml && frahm export measured.toml --data measured.csv && frahm new identify
+                                              an identification, and measurements to try it on)";
+
+inline constexpr const char* explain_examples = R"(
+Examples:
+  frahm explain stiffness                     a key of a study, and where it stands
+  frahm explain main_peak                     a quantity, whatever its mass or element
+  frahm explain grazing                       a status of a point
+  frahm explain 7                             an exit code)";
+
+inline constexpr const char* schema_examples = R"(
+Examples:
+  frahm schema >frahm.schema.json             then, as the first line of a study: #:schema frahm.schema.json
+  frahm schema | jq .properties.element.items.properties.type.enum)";
+
+inline constexpr const char* completion_examples = R"(
+Examples:
+  frahm completion bash >~/.local/share/bash-completion/completions/frahm
+  frahm completion fish >~/.config/fish/completions/frahm.fish
+  frahm completion zsh >~/.zfunc/_frahm       a folder of fpath)";
 
 }  // namespace frahm::studies::help

@@ -1,0 +1,149 @@
+#include "studies/program/explain_command.hpp"
+
+#include <fmt/format.h>
+
+#include <ostream>
+#include <vector>
+
+#include "solvers/quantities/quantity_table.hpp"
+#include "studies/program/exit_code.hpp"
+#include "studies/reading/spelling.hpp"
+#include "studies/reading/study_keys.hpp"
+#include "studies/reading/study_source.hpp"
+
+namespace frahm::studies {
+namespace {
+
+// A word and what it means.
+struct Meaning {
+  std::string word;
+  std::string text;
+};
+
+const Meaning exit_codes[] = {
+    {"0", "exit code: done"},
+    {"1", "exit code: an internal error of frahm, please report it"},
+    {"2", "exit code: wrong usage, or something wrong in the study; the message says what and where"},
+    {"3",
+     "exit code: finished, but some points failed or have no periodic response; they are marked in the file"},
+    {"4", "exit code: stopped, by a signal or the time budget; the same command resumes"},
+    {"5",
+     "exit code: refused to mix results of different studies; nothing was changed. Another -o, or --fresh"},
+    {"6", "exit code: a file or stream could not be read or written, or memory ran out"},
+    {"7", "exit code: a tuning or fit did not converge; the best so far is in the file"},
+    {"8", "exit code: the self-check of frahm verify failed on this machine"}};
+
+const Meaning flags[] = {
+    {"not_computed", "status or regime: has no value here; what is not asked for, or not reached"},
+    {"ok", "status: a periodic response was found, with its accuracy beside it (residual, error_bound)"},
+    {"grazing",
+     "status: a contact's velocity or force only touches its limit: the response is right, its derivative "
+     "does "
+     "not exist there"},
+    {"unbounded",
+     "status: an undamped resonance that friction cannot hold: no periodic response exists (it grows for "
+     "ever)"},
+    {"failed", "status: no response was found; frahm point STUDY --at ... tells the reason"},
+    {"several",
+     "status: more than one stable response was found, of which one is told; [orbits] show chooses which"},
+    {"not_periodic",
+     "status: no stable response was found among the multiples of the period that were tried "
+     "([orbits] most_multiple)"},
+    {"no_friction", "regime of a friction element: it has no friction force here, F = 0"},
+    {"non_stop", "regime of a friction element: it slides all the time, turning at single instants"},
+    {"one_stop", "regime of a friction element: it sticks once in each half of the period"},
+    {"multi_stop", "regime of a friction element: it sticks more often than once in each half of the period"},
+    {"stuck", "regime of a friction element: it never slides"}};
+
+const char* name_of(periodic::Owner owner) {
+  switch (owner) {
+    case periodic::Owner::mass:
+      return "MASS";
+    case periodic::Owner::element:
+    case periodic::Owner::contact:
+    case periodic::Owner::sliders:
+      return "ELEMENT";
+    case periodic::Owner::support:
+      return "SUPPORT";
+    default:
+      return "";
+  }
+}
+
+// `machine_peak`, `peak` or `MASS_peak`: a quantity by its name's end.
+bool names(const std::string& word, const periodic::QuantityRow& row) {
+  const std::string suffix = row.suffix;
+  return word == suffix || (*name_of(row.owner) && word.ends_with("_" + suffix));
+}
+
+std::string told(const periodic::QuantityRow& row) {
+  const std::string owner = name_of(row.owner);
+  const std::string name = owner.empty() ? row.suffix : fmt::format("{}_{}", owner, row.suffix);
+  std::string meaning = row.meaning;
+  if (const auto place = meaning.find("{}"); place != std::string::npos) meaning.replace(place, 2, owner);
+  std::string text = fmt::format("{}: quantity [{}]: {}", name, row.unit, meaning);
+  for (const periodic::FlagMeaning& flag : row.flags)
+    text += fmt::format("{}{} {}", &flag == row.flags.data() ? ". " : ", ", flag.value, flag.meaning);
+  if (row.derivative == nullptr && *row.why_not_differentiated)
+    text += fmt::format(". No derivative: {}", row.why_not_differentiated);
+  return text;
+}
+
+// Of the rows whose names fit, those with the longest suffix: `energy_share` is no `share`.
+std::vector<std::string> quantities_called(const std::string& word) {
+  std::size_t longest = 0;
+  for (const auto& row : periodic::quantity_table()) {
+    if (names(word, row)) longest = std::max(longest, std::string_view(row.suffix).size());
+  }
+  std::vector<std::string> found;
+  for (const auto& row : periodic::quantity_table()) {
+    if (names(word, row) && std::string_view(row.suffix).size() == longest) found.push_back(told(row));
+  }
+  return found;
+}
+
+// A section or a key: `stiffness`, `element.stiffness`, `[[element]]`.
+std::vector<std::string> keys_called(const std::string& word) {
+  std::vector<std::string> found;
+  for (const StudyKey& each : study_keys()) {
+    const std::string section = each.section;
+    const std::string path = section.empty() ? each.key : section + "." + each.key;
+    if (word != each.key && word != path && word != written_section(path)) continue;
+    const bool is_section = section.empty();
+    std::string text = is_section
+                           ? fmt::format("{}: section of a study: {}", written_section(path), each.meaning)
+                           : fmt::format("{} in {}: {}", each.key, written_section(section), each.meaning);
+    if (*each.words) text += fmt::format(" ({})", each.words);
+    found.push_back(std::move(text));
+  }
+  return found;
+}
+
+std::vector<std::string> all_words() {
+  std::vector<std::string> words;
+  for (const StudyKey& each : study_keys()) words.emplace_back(each.key);
+  for (const Meaning& each : flags) words.push_back(each.word);
+  for (const auto& row : periodic::quantity_table()) words.emplace_back(row.suffix);
+  return words;
+}
+
+}  // namespace
+
+int explain_command(const std::string& word, std::ostream& out) {
+  std::vector<std::string> found = keys_called(word);
+  for (std::string& text : quantities_called(word)) found.push_back(std::move(text));
+  for (const Meaning& each : exit_codes) {
+    if (word == each.word) found.push_back(fmt::format("{}: {}", each.word, each.text));
+  }
+  for (const Meaning& each : flags) {
+    if (word == each.word) found.push_back(fmt::format("{}: {}", each.word, each.text));
+  }
+  if (found.empty())
+    throw StudyError(rules::unknown_name,
+                     "explain: \"{}\" is no key, quantity, status, regime or exit code{}", word,
+                     suggestion(word, all_words()));
+  for (const std::string& text : found) out << text << '\n';
+  return exit_code::done;
+}
+
+}  // namespace frahm::studies

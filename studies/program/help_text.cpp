@@ -1,0 +1,84 @@
+#include "studies/program/help_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace frahm::studies {
+namespace {
+
+constexpr std::size_t width = 100;       // of a line of help
+constexpr std::size_t widest_name = 28;  // a longer one has a line of its own
+
+// `-o, --output FILE`
+std::string spoken(const CommandOption& option) {
+  std::string text;
+  for (const std::string& name : option.names) text += (text.empty() ? "" : ", ") + name;
+  if (!option.is_positional && !option.value.empty()) text += " " + option.value;
+  return text;
+}
+
+// A name and what it means, broken into lines of the given width, the later ones indented.
+std::string entry(const std::string& name, const std::string& what) {
+  std::string text = "  " + name;
+  const std::size_t indent = widest_name + 2;
+  std::size_t column = text.size();
+  if (column + 2 > indent) {
+    text += "\n";
+    column = 0;
+  }
+  text += std::string(indent - column, ' ');
+  column = indent;
+  std::istringstream words(what);
+  bool is_first = true;
+  for (std::string word; words >> word;) {
+    if (!is_first && column + 1 + word.size() > width) {
+      text += "\n" + std::string(indent, ' ');
+      column = indent;
+    } else if (!is_first) {
+      text += " ";
+      ++column;
+    }
+    text += word;
+    column += word.size();
+    is_first = false;
+  }
+  return text + "\n";
+}
+
+std::string usage(const Command& command) {
+  std::string text = fmt::format("Usage: {} [OPTION]...", command.name);
+  if (!command.commands.empty()) return text + " COMMAND";
+  for (const CommandOption& option : command.options) {
+    if (!option.is_positional) continue;
+    const std::string name = option.names.front() + (option.is_list ? "..." : "");
+    text += option.is_required ? " " + name : " [" + name + "]";
+  }
+  return text;
+}
+
+std::string entries(const Command& command, bool positional) {
+  std::string text;
+  for (const CommandOption& option : command.options) {
+    if (option.is_positional == positional) text += entry(spoken(option), option.what);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string help_text(const Command& command) {
+  std::string text = fmt::format("{}\n\n{}\n", usage(command), command.what);
+  const std::string arguments = entries(command, true);
+  if (!arguments.empty()) text += "\nArguments:\n" + arguments;
+  text += "\nOptions:\n" + entries(command, false);
+  if (!command.commands.empty()) text += "\nCommands:\n";
+  for (const Command& each : command.commands) {
+    // One line a command: the manual is made of these.
+    text += fmt::format("  {:<{}}{}\n", each.last_word(), widest_name, each.what);
+  }
+  return text + command.foot + "\n";
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,115 @@
+#include "studies/program/schema_command.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <sstream>
+#include <string>
+
+#include "studies/program/exit_code.hpp"
+#include "studies/reading/study_keys.hpp"
+
+namespace frahm::studies {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Of a list of tables.
+Json repetition_schema() {
+  return {{"type", "object"}, {"description", "writes the table out for each: { i = [1, 60] }"}};
+}
+
+Json section_schema(const std::string& path);
+
+Json words_of(const std::string& words) {
+  Json list = Json::array();
+  std::istringstream text(words);
+  for (std::string word; std::getline(text, word, '|');) list.push_back(word);
+  return list;
+}
+
+Json list_of(Json item) {
+  return {{"type", "array"}, {"items", std::move(item)}, {"minItems", 1}};
+}
+
+Json any_value() {
+  return {{"$ref", "#/$defs/value"}};
+}
+
+// Where it has a section of its own that is what it may be as a table.
+Json any_form(const std::string& path) {
+  const auto is_in = [&](const StudyKey& each) { return each.section == path; };
+  if (std::ranges::none_of(study_keys(), is_in)) return Json::object();
+  const Json no_table = {{"not", {{"type", "object"}}}};
+  return {{"anyOf", Json::array({no_table, section_schema(path)})}};
+}
+
+Json form_of(const StudyKey& key) {
+  const std::string path = *key.section ? std::string(key.section) + "." + key.key : key.key;
+  switch (key.form) {
+    case KeyForm::value:
+      return any_value();
+    case KeyForm::values:
+      return list_of(any_value());
+    case KeyForm::number:
+      return {{"type", "number"}};
+    case KeyForm::integer:
+      return {{"type", "integer"}};
+    case KeyForm::boolean:
+      return {{"type", "boolean"}};
+    case KeyForm::text:
+      return {{"type", "string"}, {"minLength", 1}};
+    case KeyForm::texts:
+      return list_of({{"type", "string"}});
+    case KeyForm::choice:
+      return {{"enum", words_of(key.words)}};
+    case KeyForm::table:
+      return section_schema(path);
+    case KeyForm::tables:
+      return list_of(section_schema(path));
+    case KeyForm::names:
+      return {{"type", "object"}};
+    case KeyForm::any:
+      return any_form(path);
+  }
+  return {};
+}
+
+bool is_list(const std::string& path) {
+  return written_section(path).starts_with("[[");
+}
+
+Json section_schema(const std::string& path) {
+  Json keys = Json::object();
+  for (const StudyKey& key : study_keys()) {
+    if (key.section != path) continue;
+    Json form = form_of(key);
+    form["description"] = key.meaning;
+    keys[key.key] = std::move(form);
+  }
+  if (is_list(path)) keys["repeat"] = repetition_schema();
+  return {{"type", "object"}, {"properties", std::move(keys)}, {"additionalProperties", false}};
+}
+
+// A number of a study: plain, an expression, or with its unit.
+Json value_schema() {
+  const Json with_unit = {{"type", "object"},
+                          {"properties", {{"value", {{"type", "number"}}}, {"unit", {{"type", "string"}}}}},
+                          {"required", {"value"}},
+                          {"additionalProperties", false}};
+  return {{"anyOf", {{{"type", "number"}}, {{"type", "string"}, {"minLength", 1}}, with_unit}}};
+}
+
+}  // namespace
+
+int schema_command(std::ostream& out) {
+  Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "Study of frahm"}};
+  schema.update(section_schema(""));
+  schema["required"] = {"study"};
+  schema["properties"]["study"]["required"] = {"schema", "kind"};
+  schema["$defs"] = {{"value", value_schema()}};
+  out << schema.dump(2) << '\n';
+  return exit_code::done;
+}
+
+}  // namespace frahm::studies

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "studies/reading/study.hpp"
+
+namespace frahm::studies {
+
+// What has changed between two studies, a line for each: "parameter M: 80 kg, now 90 kg". Names, values,
+// elements, excitations and axes; what else may differ is not told.
+std::vector<std::string> study_changes(const Study& kept, const Study& now);
+
+// The same of a result and the study that is to replace it; none where the result has no study that can be
+// read.
+std::vector<std::string> changes_since(const std::filesystem::path& result, const Study& now);
+
+}  // namespace frahm::studies

@@ -1,0 +1,31 @@
+#!/usr/bin/env bash
+# fresh_system.sh BUILD: makes the Debian packages of a build, installs them with their dependencies in a fresh Debian in
+# a folder, and uses them there: program, manual, completion, the example of the libraries. Ends with 77 where no such
+# system can be made.
+set -euo pipefail
+build=$1
+here=$(cd "$(dirname "$0")" && pwd)
+root=$(mktemp -d)
+trap 'rm -rf "$root"' EXIT
+not_available=77
+
+(cd "$build" && cpack -G DEB >/dev/null && ls -- *.deb)
+mmdebstrap --variant=apt --include=ca-certificates bookworm "$root" >"$build/fresh_system.log" 2>&1 || {
+  tail -5 "$build/fresh_system.log" >&2
+  echo "fresh_system: no fresh Debian could be made here" >&2
+  exit $not_available
+}
+cp "$build"/*.deb "$root/"
+cp -r "$here/example" "$root/example"
+
+inside() { chroot "$root" /usr/bin/env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 bash -euc "$1"; }
+
+inside 'DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends /frahm_*.deb >/dev/null'
+inside 'cd /tmp && frahm --version && frahm verify | tail -1'
+inside 'cd /tmp && frahm new sweep machine.toml && frahm check machine.toml >/dev/null && frahm run machine.toml --progress none'
+inside 'test -f /usr/share/bash-completion/completions/frahm && test -f /usr/share/frahm/studies/rig/rig_atlas.toml'
+echo "fresh_system: the program works"
+inside 'DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends /libfrahm-dev_*.deb cmake make pkg-config >/dev/null'
+inside 'cd /tmp && cmake -S /example -B peak >/dev/null && cmake --build peak >/dev/null &&
+  peak/peak /usr/share/frahm/studies/classics/den_hartog.toml r=0.9,f=0.1'
+echo "fresh_system: the libraries work"
