@@ -10,8 +10,13 @@ install(TARGETS frahm RUNTIME COMPONENT program)
 install(DIRECTORY studies/ DESTINATION ${CMAKE_INSTALL_DATADIR}/frahm/studies COMPONENT program
   FILES_MATCHING PATTERN "*.toml" PATTERN "*.csv" PATTERN "*.mtx" PATTERN "README.md" PATTERN "*.txt" EXCLUDE
   PATTERN program EXCLUDE PATTERN reading EXCLUDE PATTERN record EXCLUDE PATTERN map EXCLUDE PATTERN motion EXCLUDE)
-install(FILES README.md CHANGELOG.md CITATION.cff results/FORMAT.md solvers/THEORY.md
-  DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+# The documents, in their folders, so that their links hold.
+file(GLOB_RECURSE documents RELATIVE ${CMAKE_SOURCE_DIR} CONFIGURE_DEPENDS
+  engine/*.md results/*.md solvers/*.md studies/*.md tests/README.md results/report/*.png)
+foreach(document README.md CHANGELOG.md CONTRIBUTING.md CITATION.cff ${documents})
+  get_filename_component(folder ${document} DIRECTORY)
+  install(FILES ${document} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT program)
+endforeach()
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT program)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libfrahm-dev RENAME copyright COMPONENT development)
 

@@ -6,6 +6,7 @@ set -euo pipefail
 build=$1
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(mktemp -d)
+chmod 755 "$root"   # apt fetches as a user of its own
 trap 'rm -rf "$root"' EXIT
 not_available=77
 
@@ -20,7 +21,7 @@ cp -r "$here/example" "$root/example"
 
 inside() { chroot "$root" /usr/bin/env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 bash -euc "$1"; }
 
-inside 'DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends /frahm_*.deb >/dev/null'
+inside 'apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends /frahm_*.deb >/dev/null'
 inside 'cd /tmp && frahm --version && frahm verify | tail -1'
 inside 'cd /tmp && frahm new sweep machine.toml && frahm check machine.toml >/dev/null && frahm run machine.toml --progress none'
 inside 'test -f /usr/share/bash-completion/completions/frahm && test -f /usr/share/frahm/studies/rig/rig_atlas.toml'
