@@ -23,8 +23,8 @@ struct CurveKind {
   periodic::Quantity quantity;
   Band band;
   double bound = 0.0;            // of a limit
-  double excess = 0.0;           // relative, by which a limit may be broken where no design meets all
   std::vector<double> constant;  // design of `dominated`
+  double excess = 0.0;           // relative, by which a limit may be broken where no design meets all
 
   // The curve's upper bound, if it is not t. Where the constant design is already the best, a dominating
   // design can only equal it: a small tolerance lets the optimiser do so.
