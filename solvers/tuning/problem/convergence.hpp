@@ -15,8 +15,9 @@ class Convergence {
   // Judges a round; exact: its problem was solved to the last digit, with the maxima followed. Returns true
   // if no more rounds are needed.
   bool judge(double gap, double violation, bool exact) {
-    // The solver lets its constraints slip by its own tolerance: the bound may lie above the worst peak.
-    const double size = std::max(gap, violation);
+    // The solver lets its constraints slip by its own tolerance: the bound may lie above the worst peak by as
+    // much. A bound that lies higher is of a problem that was not solved.
+    const double size = std::max(gap < -tolerance_ ? -gap : gap, violation);
     const bool falls = size < 0.25 * best_;
     best_ = std::min(best_, size);
     stalled_ = falls ? 0 : stalled_ + 1;

@@ -125,7 +125,9 @@ Exchange::Result DesignTuning::best_constant(const Starts& starts, Stages& stage
     const bool breaks = one.outcome == Outcome::infeasible,
                other_breaks = other.outcome == Outcome::infeasible;
     if (breaks != other_breaks) return other_breaks;
-    if (breaks) return one.scan.violation < other.scan.violation;
+    const double violation = one.scan.violation, other_violation = other.scan.violation;
+    const bool break_alike = std::abs(violation - other_violation) <= kEqual * (1.0 + other_violation);
+    if (breaks && !break_alike) return violation < other_violation;
     const bool converges = one.outcome == Outcome::converged && other.outcome != Outcome::converged;
     return converges ? a < b * (1.0 + kEqual) : a < b * (1.0 - kEqual);
   };
@@ -136,6 +138,11 @@ Exchange::Result DesignTuning::best_constant(const Starts& starts, Stages& stage
     stages.polished.push_back(result.outcome == Outcome::infeasible ? kNone : objective_of(result));
     if (result.outcome == Outcome::stopped) return result;
     if (!best || is_better(result, *best)) best = std::move(result);
+  }
+  // What has not converged is tuned once more from where it ended, with new active frequencies.
+  if (best->outcome == Outcome::not_converged) {
+    Exchange::Result again = tune_constant(best->x);
+    if (again.outcome == Outcome::stopped || is_better(again, *best)) best = std::move(again);
   }
   return *best;
 }
