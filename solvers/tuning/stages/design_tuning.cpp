@@ -142,6 +142,7 @@ Exchange::Result DesignTuning::best_constant(const Starts& starts, Stages& stage
   // What has not converged is tuned once more from where it ended, with new active frequencies.
   if (best->outcome == Outcome::not_converged) {
     Exchange::Result again = tune_constant(best->x);
+    again.rounds.insert(again.rounds.begin(), best->rounds.begin(), best->rounds.end());
     if (again.outcome == Outcome::stopped || is_better(again, *best)) best = std::move(again);
   }
   return *best;
