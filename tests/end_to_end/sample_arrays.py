@@ -16,12 +16,12 @@ def check(path, engine):
     with xr.open_dataset(path, engine=engine) as root, \
             xr.open_dataset(path, engine=engine, group="statistics") as statistics, \
             xr.open_dataset(path, engine=engine, group="tornado") as tornado:
-        assert dict(root.sizes) == {"sample": 1000, "r": 121} and set(root.coords) == {"sample", "r", "nu", "zeta"}
+        assert dict(root.sizes) == {"draw": 1000, "r": 121} and set(root.coords) == {"draw", "r", "nu", "zeta"}
         peaks = root.machine_peak
         assert statistics.machine_peak_mean.dims == tornado.machine_peak_at_mean.dims == ("r",)
         np.testing.assert_array_equal(statistics.r, root.r)
-        np.testing.assert_allclose(statistics.machine_peak_mean, peaks.mean("sample"), rtol=1e-13)
-        np.testing.assert_allclose(statistics.machine_peak_deviation, peaks.std("sample", ddof=1), rtol=1e-12)
+        np.testing.assert_allclose(statistics.machine_peak_mean, peaks.mean("draw"), rtol=1e-13)
+        np.testing.assert_allclose(statistics.machine_peak_deviation, peaks.std("draw", ddof=1), rtol=1e-12)
         for share, name in ((0.05, "q5"), (0.5, "q50"), (0.95, "q95")):
             quantile = statistics["machine_peak_" + name]
             np.testing.assert_allclose(quantile, np.quantile(peaks, share, axis=0), rtol=1e-14)

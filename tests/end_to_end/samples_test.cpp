@@ -164,8 +164,8 @@ TEST_CASE("a table of samples is a map of zipped axes, with the same values") {
   const runs::Folder folder;
   folder.write("samples.csv", "k,r\n1,0.2\n1.1,0.3\n0.9,0.25\n1.3,0.5\n");
   const std::string zipped =
-      "[[axis]]\nparameter = \"k\"\nvalues = [1, 1.1, 0.9, 1.3]\nzip = \"sample\"\n"
-      "[[axis]]\nparameter = \"r\"\nvalues = [0.2, 0.3, 0.25, 0.5]\nzip = \"sample\"\n";
+      "[[axis]]\nparameter = \"k\"\nvalues = [1, 1.1, 0.9, 1.3]\nzip = \"draw\"\n"
+      "[[axis]]\nparameter = \"r\"\nvalues = [0.2, 0.3, 0.25, 0.5]\nzip = \"draw\"\n";
   const auto map_of = [&](const std::string& name, const std::string& axes) {
     const auto run =
         runs::frahm({"run", folder.write(name + ".toml", oscillator + axes), "-o", folder / (name + ".h5")});
@@ -177,7 +177,7 @@ TEST_CASE("a table of samples is a map of zipped axes, with the same values") {
   CHECK(table["main_peak"] == axes["main_peak"]);
   CHECK(table.coordinate("k") == axes.coordinate("k"));
   CHECK(table.coordinate("r") == axes.coordinate("r"));
-  CHECK(table.layout.axes.front().name == "sample");
+  CHECK(table.layout.axes.front().name == "draw");
   CHECK(MapReader(folder / "table.h5").has_group("statistics"));
   CHECK_FALSE(MapReader(folder / "axes.h5").has_group("statistics"));
 }

@@ -48,7 +48,7 @@ TEST_CASE("samples have a dimension of their own, their parameters in the units 
                of("c", "distribution = \"triangular\"\nlower = 100\nmode = 150\nupper = 400\n") +
                "[[axis]]\nparameter = \"omega\"\nunit = \"rpm\"\nfrom = 300\nto = 900\npoints = 5\n");
   REQUIRE(sweep.dimensions.size() == 2);
-  CHECK(sweep.dimensions[0].name == "sample");
+  CHECK(sweep.dimensions[0].name == "draw");
   CHECK(sweep.dimensions[0].size == 16);
   REQUIRE(sweep.samples);
   CHECK(sweep.samples->dimension == 0);
