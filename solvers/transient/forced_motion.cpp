@@ -119,6 +119,14 @@ class CoordinatePeaks {
   std::vector<std::size_t> numbers_;
 };
 
+// w = sqrt(K/M) of one mass, its contacts sliding; NaN of several.
+double own_frequency(const Problem& problem) {
+  if (problem.assembly.network().masses.size() != 1) return kNone;
+  mechanics::LinearSystem system;
+  problem.assembly.set_values(problem.values_at(problem.options.from), system);
+  return std::sqrt(system.K(0, 0) / system.M(0, 0));
+}
+
 // The motion with so many stairs, 0 for one frequency.
 ForcedMotion run(const Problem& problem, int stairs) {
   const ForcedOptions& options = problem.options;
@@ -157,7 +165,8 @@ ForcedMotion run(const Problem& problem, int stairs) {
   motion.history = driven.trajectory.samples();
   for (const double t : motion.history.time) motion.frequency.push_back(sweep.frequency(t));
   if (peaks) motion.peaks = peaks->found();
-  if (complete) motion.numbers = measurement.numbers(driven.trajectory, motion.energy);
+  if (complete)
+    motion.numbers = measurement.numbers(driven.trajectory, motion.energy, own_frequency(problem));
   for (std::size_t i = 0; options.extrema && i < mechanics::coordinate_count(problem.assembly.network()); ++i)
     motion.extrema.push_back(driven.trajectory.turning_points(i).extrema());
   for (std::size_t j = 0; j < problem.assembly.contacts(); ++j)

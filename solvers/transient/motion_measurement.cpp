@@ -20,6 +20,8 @@ std::optional<TraceKind> trace_of(MotionMeasure measure) {
     case peak:
     case peak_time:
     case rms:
+    case pseudo_velocity:
+    case pseudo_acceleration:
     case stroke:
       return TraceKind::displacement;
     case velocity_peak:
@@ -68,12 +70,17 @@ MotionMeasurement::MotionMeasurement(const mechanics::Assembly& assembly,
 }
 
 double MotionMeasurement::number(const MotionQuantity& quantity, std::size_t trace,
-                                 const Trajectory& trajectory, const EnergyBudget& budget) const {
+                                 const Trajectory& trajectory, const EnergyBudget& budget,
+                                 double own_frequency) const {
   const auto& [measure, index] = quantity;
   if (trace != kNoTrace) {
     if (is_mean_square(measure)) return std::sqrt(largest_.mean_square(trace));
     const Extremum& largest = largest_.largest(trace);
-    return measure == peak_time ? largest.time : std::abs(largest.displacement);
+    const double size = std::abs(largest.displacement);
+    // S_v = w S_d,  S_a = w^2 S_d  (A. K. Chopra, Dynamics of Structures, 4th ed., 6.6)
+    if (measure == pseudo_velocity) return own_frequency * size;
+    if (measure == pseudo_acceleration) return own_frequency * own_frequency * size;
+    return measure == peak_time ? largest.time : size;
   }
   switch (measure) {
     case residual:
@@ -103,11 +110,11 @@ double MotionMeasurement::number(const MotionQuantity& quantity, std::size_t tra
   }
 }
 
-std::vector<double> MotionMeasurement::numbers(const Trajectory& trajectory,
-                                               const EnergyBudget& budget) const {
+std::vector<double> MotionMeasurement::numbers(const Trajectory& trajectory, const EnergyBudget& budget,
+                                               double own_frequency) const {
   std::vector<double> result;
   for (std::size_t q = 0; q < quantities_.size(); ++q)
-    result.push_back(number(quantities_[q], traces_[q], trajectory, budget));
+    result.push_back(number(quantities_[q], traces_[q], trajectory, budget, own_frequency));
   return result;
 }
 

@@ -23,11 +23,13 @@ class MotionMeasurement {
   // Of a motion that is complete, one for each quantity. NaN: the discretisation error, which the trajectory
   // does not know; velocities and accelerations of signals with a support's part in a run-up, where the
   // supports' rates jump from stair to stair.
-  std::vector<double> numbers(const Trajectory& trajectory, const EnergyBudget& energy) const;
+  // own_frequency: the natural one [rad/s] of a network of one mass.
+  std::vector<double> numbers(const Trajectory& trajectory, const EnergyBudget& energy,
+                              double own_frequency) const;
 
  private:
   double number(const MotionQuantity& quantity, std::size_t place, const Trajectory& trajectory,
-                const EnergyBudget& energy) const;
+                const EnergyBudget& energy, double own_frequency) const;
 
   const mechanics::Assembly& assembly_;
   std::span<const MotionQuantity> quantities_;

@@ -18,7 +18,7 @@ namespace {
 using mechanics::Network;
 using periodic::QuantityKind;
 
-enum class Owner { coordinate, element, dissipating, contact, structure, run_up, motion };
+enum class Owner { coordinate, oscillator, element, dissipating, contact, structure, run_up, motion };
 
 struct Row {
   MotionMeasure measure;
@@ -42,6 +42,10 @@ constexpr Row kTable[] = {
     {velocity_rms, Owner::coordinate, "velocity_rms", "m s-1",
      "root mean square of the velocity of {} over the motion"},
     {residual, Owner::coordinate, "residual", "m", "displacement of {} at the end", true, true},
+    {pseudo_velocity, Owner::oscillator, "pseudo_velocity", "m s-1",
+     "largest displacement of {} times the natural angular frequency", false, true},
+    {pseudo_acceleration, Owner::oscillator, "pseudo_acceleration", "m s-2",
+     "largest displacement of {} times the square of the natural angular frequency", false, true},
     {stroke, Owner::element, "stroke", "m", "largest relative displacement across {}, either way", true,
      true},
     {energy, Owner::dissipating, "energy", "J", "energy dissipated by {}", true},
@@ -67,13 +71,18 @@ const Row& row_of(MotionMeasure measure) {
   return *std::ranges::find(kTable, measure, &Row::measure);
 }
 
+bool is_of_coordinates(Owner owner) {
+  return owner == Owner::coordinate || owner == Owner::oscillator;
+}
+
 bool is_of_elements(Owner owner) {
   return owner == Owner::element || owner == Owner::dissipating || owner == Owner::contact;
 }
 
 // How many there are, of elements all.
 std::size_t owner_count(Owner owner, const Network& network, bool of_run_up) {
-  if (owner == Owner::coordinate) return mechanics::coordinate_count(network);
+  if (owner == Owner::oscillator && network.masses.size() != 1) return 0;
+  if (is_of_coordinates(owner)) return mechanics::coordinate_count(network);
   if (is_of_elements(owner)) return network.elements.size();
   if (owner == Owner::structure) return mechanics::has_structural_damping(network) ? 1 : 0;
   return owner == Owner::run_up && !of_run_up ? 0 : 1;
@@ -94,14 +103,14 @@ bool is_standard_of(const Row& row, const mechanics::Element& element) {
 }
 
 std::string owner_name(const Row& row, std::size_t index, const Network& network) {
-  if (row.owner == Owner::coordinate) return mechanics::coordinate_name(network, index);
+  if (is_of_coordinates(row.owner)) return mechanics::coordinate_name(network, index);
   return is_of_elements(row.owner) ? network.elements[index].name : "";
 }
 
 std::string_view unit_of(const Row& row, std::size_t index, const Network& network) {
   const bool is_motion = row.unit.starts_with("m");
   if (!is_motion) return row.unit;
-  if (row.owner == Owner::coordinate) return mechanics::coordinate_unit(network, index, row.unit);
+  if (is_of_coordinates(row.owner)) return mechanics::coordinate_unit(network, index, row.unit);
   if (row.owner == Owner::element) return mechanics::unit_of_element(network.elements[index], row.unit);
   const bool all_rotate = std::ranges::all_of(network.rotation, std::identity{}) && !network.rotation.empty();
   return all_rotate ? mechanics::unit_of_rotation(row.unit) : row.unit;

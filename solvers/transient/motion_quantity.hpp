@@ -19,6 +19,9 @@ enum class MotionMeasure {
   rms,
   velocity_rms,
   residual,
+  // of a mass or a signal of an oscillator, a network of one mass
+  pseudo_velocity,
+  pseudo_acceleration,
   // of an element
   stroke,
   energy,

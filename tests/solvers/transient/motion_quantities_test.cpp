@@ -63,7 +63,9 @@ TEST_CASE("The peaks of a mass under a force that is suddenly there are those of
                                  {stroke, 0},
                                  {energy_input},
                                  {energy_balance},
-                                 {status}});
+                                 {status},
+                                 {pseudo_velocity},
+                                 {pseudo_acceleration}});
   CHECK_THAT(found[0], WithinRel(2.0 * static_x, kExact));
   CHECK_THAT(found[1], WithinRel(std::numbers::pi / w, kExact));
   CHECK_THAT(found[2], WithinRel(static_x * w, kExact));
@@ -73,6 +75,8 @@ TEST_CASE("The peaks of a mass under a force that is suddenly there are those of
   CHECK_THAT(found[6], WithinRel(P * static_x * (1.0 - std::cos(w * duration)), kExact));
   CHECK(found[7] < kBalanced);
   CHECK(found[8] == 1.0);
+  CHECK_THAT(found[9], WithinRel(2.0 * static_x * w, kExact));
+  CHECK_THAT(found[10], WithinRel(2.0 * P / m, kExact));
 }
 
 // Thrown with v0 it turns at A = sqrt(x_f^2 + (v0/w)^2) - x_f, x_f = F/k, where its acceleration jumps from
