@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace frahm::transient {
 namespace {
@@ -9,12 +10,16 @@ namespace {
 constexpr double rounded = 1e-3;  // of an interval: what times written with few digits differ by
 
 void find_intervals(const Record& record, RecordFacts& facts) {
-  facts.shortest = facts.longest = record.time[1] - record.time[0];
-  for (std::size_t i = 2; i < record.time.size(); ++i) {
-    const double interval = record.time[i] - record.time[i - 1];
-    facts.shortest = std::min(facts.shortest, interval);
-    facts.longest = std::max(facts.longest, interval);
-  }
+  std::vector<double> intervals;
+  for (std::size_t i = 1; i < record.time.size(); ++i)
+    intervals.push_back(record.time[i] - record.time[i - 1]);
+  const auto longest = std::ranges::max_element(intervals);
+  facts.longest = *longest;
+  facts.longest_from = record.time[static_cast<std::size_t>(longest - intervals.begin())];
+  facts.shortest = std::ranges::min(intervals);
+  const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>((intervals.size() - 1) / 2);
+  std::ranges::nth_element(intervals, middle);
+  facts.usual = *middle;
   facts.even = facts.longest - facts.shortest <= rounded * facts.longest;
 }
 

@@ -120,12 +120,34 @@ void warn_of_drift(const Study& study, const DrivingRecord& driving, std::ostrea
              100.0 * drift);
 }
 
+// Where samples are missing, the first such record of an axis.
+void warn_of_gap(const Study& study, const DrivingRecord& driving, std::ostream& out) {
+  for (const transient::Record& record : driving.records) {
+    const RecordFacts facts = transient::facts_of(record);
+    if (!transient::has_gap(facts)) continue;
+    fmt::print(
+        out,
+        "warning: {} by {}: no sample from {:.6g} to {}, {:.0f} times its usual interval of {}; the {} "
+        "between stands for them\n",
+        driven_by(study, driving, record.of).what, record.name, facts.longest_from,
+        with_unit(study, facts.longest_from + facts.longest, Quantity::time), facts.longest / facts.usual,
+        with_unit(study, facts.usual, Quantity::time),
+        record.of == RecordOf::displacement ? "spline" : "straight line");
+    return;
+  }
+}
+
+// The interval of the samples, where some are missing the usual one.
+double sampling_of(const transient::Record& record) {
+  const RecordFacts facts = transient::facts_of(record);
+  return transient::has_gap(facts) ? facts.usual : facts.longest;
+}
+
 // Where straight lines between samples drive the modes less than the record meant.
 void warn_of_sampling(const Study& study, const DrivingRecord& driving, const periodic::LinearModes& modes,
                       std::ostream& out) {
   double longest = 0.0;
-  for (const transient::Record& record : driving.records)
-    longest = std::max(longest, transient::facts_of(record).longest);
+  for (const transient::Record& record : driving.records) longest = std::max(longest, sampling_of(record));
   const auto period = [](double omega) { return 2.0 * std::numbers::pi / omega; };
   const auto fast = std::ranges::find_if(modes.frequency, [&](double omega) {
     return omega > 0.0 && period(omega) < (1.0 - rounding) * transient::kSamplesOfPeriod * longest;
@@ -154,6 +176,7 @@ void print_records(const Study& study, const periodic::LinearModes& modes, std::
   }
   for (const DrivingRecord& driving : all) {
     warn_of_drift(study, driving, out);
+    warn_of_gap(study, driving, out);
     warn_of_sampling(study, driving, modes, out);
   }
   if (!all.empty()) fmt::print(out, "\n");

@@ -281,10 +281,11 @@ void read_tuning(const StudyContext& context, const TomlValue& root, Study& stud
                                   "the study has no [tune] with its objective");
   const TomlSection section(context.source, entry->value, "[tune]",
                             {"objective", "quantity", "band", "solver", "start", "global", "tolerance",
-                             "weight", "dominate", "trade_off", "noise"});
+                             "weight", "dominate", "trade_off", "noise", "quantile"});
   TuneReading reading{context, root, study};
   TuneChoice& choice = reading.choice;
   refuse_samples(reading);
+  refuse_quantile(section);
   read_objective(section, choice);
   if (choice.objective == Objective::mean_square) refuse_several_responses(study, "a mean square");
   if (choice.objective == Objective::variance) refuse_several_responses(study, "a variance");

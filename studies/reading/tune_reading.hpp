@@ -64,5 +64,7 @@ void read_columns(TuneReading& reading);
 void read_samples(TuneReading& reading, const std::filesystem::path& folder, DataFiles data);
 // Refuses them.
 void refuse_samples(const TuneReading& reading);
+// Nor has it a quantile.
+void refuse_quantile(const TomlSection& section);
 
 }  // namespace frahm::studies

@@ -68,4 +68,11 @@ void refuse_samples(const TuneReading& reading) {
         "its ranges, and samples are of a tuning over records");
 }
 
+void refuse_quantile(const TomlSection& section) {
+  if (section.find("quantile"))
+    section.fail(rules::other_kind, "quantile",
+                 "is of a tuning over records, of the worst peaks of samples; over a band there are none: "
+                 "leave it out, or drive the study by [[excitation.record]]");
+}
+
 }  // namespace frahm::studies

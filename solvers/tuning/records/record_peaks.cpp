@@ -1,10 +1,13 @@
 #include "solvers/tuning/records/record_peaks.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "solvers/algebra/no_value.hpp"
+#include "solvers/mechanics/linear_system.hpp"
 #include "solvers/transient/forced_motion.hpp"
 
 namespace frahm::tuning {
@@ -36,12 +39,29 @@ std::vector<bool> above_share(const std::vector<double>& worst, double share) {
   return above;
 }
 
+// A motion of a scenario; one without a meaning is told with the name of its scenario, where there are
+// several.
+transient::ForcedMotion motion_of(const RecordTask& task, std::size_t scenario, std::size_t record,
+                                  const mechanics::NetworkValues& values) {
+  // Energies are not followed where only a peak is asked for.
+  static constexpr transient::MotionQuantity kPeak{transient::MotionMeasure::peak, 0};
+  try {
+    return transient::forced_motion(task.network, [&](double) { return values; }, {},
+                                    {.from = values.omega,
+                                     .records = task.records[record],
+                                     .duration = task.duration,
+                                     .quantities = std::span(&kPeak, 1),
+                                     .extrema = true});
+  } catch (const mechanics::MechanicsError& error) {
+    if (task.scenarios.size() < 2) throw;
+    throw mechanics::MechanicsError(fmt::format("{}: {}", task.scenarios[scenario], error.what()));
+  }
+}
+
 }  // namespace
 
 DesignPeaks peaks_of(const RecordTask& task, std::span<const double> design,
                      const std::function<bool()>& stop_asked) {
-  // Energies are not followed where only a peak is asked for.
-  static constexpr transient::MotionQuantity kPeak{transient::MotionMeasure::peak, 0};
   DesignPeaks peaks;
   std::vector<double> largest;
   mechanics::NetworkValues values;
@@ -49,13 +69,7 @@ DesignPeaks peaks_of(const RecordTask& task, std::span<const double> design,
     task.network_at(s, design, values, nullptr);
     for (std::size_t r = 0; r < task.records.size(); ++r) {
       if (stop_asked()) return peaks;
-      const transient::ForcedMotion motion =
-          transient::forced_motion(task.network, [&](double) { return values; }, {},
-                                   {.from = values.omega,
-                                    .records = task.records[r],
-                                    .duration = task.duration,
-                                    .quantities = std::span(&kPeak, 1),
-                                    .extrema = true});
+      const transient::ForcedMotion motion = motion_of(task, s, r, values);
       if (!motion.failure.empty()) {
         peaks.failure = motion.failure;
         return peaks;

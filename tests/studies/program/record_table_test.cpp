@@ -1,5 +1,7 @@
 #include "studies/program/record_table.hpp"
 
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <numbers>
 #include <sstream>
@@ -44,6 +46,21 @@ TEST_CASE("A baseline that drifts and samples too coarse for the first mode are 
   CHECK_THAT(text, Contains("warning: acceleration of \"base\" by drift.csv: the support keeps a velocity"));
   CHECK_THAT(text,
              Contains("warning: acceleration of \"base\": mode 1 (period 5 s) has 5 samples in a period"));
+}
+
+TEST_CASE("Samples that are missing are told with their place and are no coarse sampling") {
+  const TemporaryFolder folder;
+  std::string rows;
+  for (const int i : {0, 1, 2, 3, 4, 5, 55, 56, 57, 58, 59, 60})
+    rows += fmt::format("{},{}\n", 0.1 * i, i % 2 == 0 ? 1 : -1);
+  folder.write("gap.csv", rows);
+  const std::string text = told(folder, "file = \"gap.csv\"\n", 2.0);
+  CHECK_THAT(text,
+             Contains("warning: acceleration of \"base\" by gap.csv: no sample from 0.5 to 5.5 s, 50 "
+                      "times its usual interval of 0.1 s; the straight line between stands for them\n"));
+  CHECK_THAT(text, !Contains("samples in a period"));
+  folder.write("uneven.csv", "0,0\n0.1,1\n0.2,-1\n1,1\n1.1,0\n");
+  CHECK_THAT(told(folder, "file = \"uneven.csv\"\n", 20.0), !Contains("no sample"));
 }
 
 TEST_CASE("Records of an axis have a line each, the first twelve") {

@@ -275,6 +275,19 @@ TEST_CASE("A share of all scenarios is the worst of them, and one of none or of 
   CHECK_THROWS_WITH(tune_over_records(most, 0, never), Catch::Contains("worst peaks"));
 }
 
+TEST_CASE("A sample whose stiffness has no meaning is told by its name") {
+  const Frame frame;
+  RecordTask task = scattered(frame, 3, 1.0);
+  task.scenarios = {"sample_0", "sample_1", "sample_2"};
+  task.network_at = [at_sample = task.network_at](std::size_t s, std::span<const double> at,
+                                                  NetworkValues& now, std::vector<NetworkValues>* along) {
+    at_sample(s, at, now, along);
+    if (s == 1) now.element[0] = -500.0;
+  };
+  CHECK_THROWS_WITH(tune_over_records(task, 0, never),
+                    Catch::StartsWith("sample_1: ") && Catch::Contains("negative stiffness"));
+}
+
 TEST_CASE("A tuning over no records, or with a schedule, is refused") {
   const Frame frame;
   RecordTask task = frame.task(false);
