@@ -1,7 +1,5 @@
 #include "solvers/tuning/records/record_peaks.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -54,7 +52,7 @@ transient::ForcedMotion motion_of(const RecordTask& task, std::size_t scenario, 
                                      .extrema = true});
   } catch (const mechanics::MechanicsError& error) {
     if (task.scenarios.size() < 2) throw;
-    throw mechanics::MechanicsError(fmt::format("{}: {}", task.scenarios[scenario], error.what()));
+    throw mechanics::MechanicsError(task.scenarios[scenario] + ": " + error.what());
   }
 }
 
