@@ -240,7 +240,7 @@ TEST_CASE("what changes an optimum is physics; starts, rules and columns are not
            {"k = { value = 11", "k = { value = 12"},
            {"amplitude = 240", "amplitude = 241"},
            {"[[design]]", "tolerance = 1e-5\n[[design]]"},
-           {"[[design]]", "solver = \"slsqp\"\n[[design]]"},
+           {"[[design]]", "solver = \"ipopt\"\n[[design]]"},
            {"[[design]]", "weight = \"n\"\n[[design]]"},
            {"[[design]]", "dominate = \"constant\"\n[[design]]"}}) {
     INFO(passage << " -> " << by);
