@@ -274,9 +274,9 @@ TEST_CASE(
 TEST_CASE("a time budget too short stops the run with code 4, and the next run ends it") {
   const Folder folder;
   const std::string study =
-      folder.write("small.toml", oscillator() + axis("f", 0, 1, 200) + axis("r", 0.2, 2, 401) +
-                                     "[output]\npath = \"general\"\n");  // some tenths of a second
-  const auto first = run(study, folder / "small.h5", {"--time-budget", "0.02s"});
+      folder.write("small.toml", oscillator() + axis("f", 0, 1, 1000) + axis("r", 0.2, 2, 401) +
+                                     "[output]\npath = \"general\"\n");  // more than a second
+  const auto first = run(study, folder / "small.h5", {"--time-budget", "0.2s"});
   CHECK(first.code == 4);
   CHECK_THAT(first.err, Catch::Contains("% is done"));
   CHECK_FALSE(std::filesystem::exists(folder / "small.h5"));

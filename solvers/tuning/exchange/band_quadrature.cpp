@@ -38,7 +38,7 @@ std::vector<QuadratureNode> pole_quadrature(const Task& task, const DesignSpace&
   for (const CurveKind& curve : curves) {
     if (curve.of != CurveKind::Of::objective) continue;
     // A mean square has no leaps, so its band is one stretch.
-    for (const std::vector<double>& places : places_of(task, space, curve, x, kPanels))
+    for (const std::vector<double>& places : places_of(task, space, curve, x, {.intervals = kPanels}))
       add_nodes(task, curve.scenario, places, kNodeAt, kNodeWeight, nodes);
   }
   return nodes;

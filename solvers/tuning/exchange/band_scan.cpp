@@ -5,17 +5,16 @@
 
 #include "solvers/algebra/no_value.hpp"
 #include "solvers/tuning/exchange/band_maxima.hpp"
-#include "solvers/tuning/exchange/resonance_places.hpp"
 
 namespace frahm::tuning {
 namespace {
 
-constexpr int kIntervals = 48;  // of the even grid that a scan starts from
+constexpr PlacesFineness kScan{.intervals = 48};
 
 }  // namespace
 
 std::vector<std::vector<double>> places_of(const Task& task, const DesignSpace& space, const CurveKind& curve,
-                                           std::span<const double> x, int intervals) {
+                                           std::span<const double> x, const PlacesFineness& fineness) {
   mechanics::NetworkValues values;
   std::vector<double> at(space.parameters() + 1);
   const auto values_at = [&](double band) -> const mechanics::NetworkValues& {
@@ -26,7 +25,7 @@ std::vector<std::vector<double>> places_of(const Task& task, const DesignSpace& 
   };
   std::vector<std::vector<double>> places;
   for (const Band& stretch : space.stretches(curve.band))
-    places.push_back(resonance_places(task.network, values_at, stretch, space.knots(), intervals));
+    places.push_back(resonance_places(task.network, values_at, stretch, space.knots(), fineness));
   return places;
 }
 
@@ -61,7 +60,7 @@ void BandScan::scan_curve(std::span<const double> x, std::size_t c, double floor
   };
   const bool may_jump = curve.response().may_jump();
   Scan::Extreme highest;
-  for (const std::vector<double>& places : places_of(task_, space_, curves_[c], x, kIntervals)) {
+  for (const std::vector<double>& places : places_of(task_, space_, curves_[c], x, kScan)) {
     // Downwards first: the orbits found on the way are starts of the way up.
     for (auto place = places.rbegin(); may_jump && place != places.rend() && !stop_asked_(); ++place)
       curve.solve(x, *place, Derivatives::none);

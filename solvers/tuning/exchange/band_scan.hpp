@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "solvers/tuning/exchange/band_curve.hpp"
+#include "solvers/tuning/exchange/resonance_places.hpp"
 #include "solvers/tuning/problem/problem.hpp"
 
 namespace frahm::tuning {
@@ -54,6 +55,6 @@ class BandScan {
 // Points of a curve's band at a design between which no peak is missed (resonance_places.hpp): a list for
 // each stretch between leaps of a schedule.
 std::vector<std::vector<double>> places_of(const Task& task, const DesignSpace& space, const CurveKind& curve,
-                                           std::span<const double> x, int intervals);
+                                           std::span<const double> x, const PlacesFineness& fineness);
 
 }  // namespace frahm::tuning

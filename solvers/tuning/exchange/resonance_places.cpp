@@ -109,14 +109,15 @@ struct Station {
 }  // namespace
 
 std::vector<double> resonance_places(const mechanics::Network& network, const ValuesAt& values_at,
-                                     const Band& band, const std::vector<double>& kinks, int intervals) {
+                                     const Band& band, const std::vector<double>& kinks,
+                                     const PlacesFineness& fineness) {
   if (band.from == band.to) return {band.from};
   std::vector<double> places{band.from, band.to};
   for (const double kink : kinks) {
     if (kink > band.from && kink < band.to) places.push_back(kink);
   }
-  const double spacing = (band.to - band.from) / intervals;
-  for (int i = 1; i < intervals; ++i) places.push_back(band.from + i * spacing);
+  const double spacing = (band.to - band.from) / fineness.intervals;
+  for (int i = 1; i < fineness.intervals; ++i) places.push_back(band.from + i * spacing);
   std::sort(places.begin(), places.end());
 
   const mechanics::Assembly assembly(network);
@@ -143,7 +144,7 @@ std::vector<double> resonance_places(const mechanics::Network& network, const Va
 
   std::vector<double> close;
   const auto crowd = [&](double centre, double width) {
-    const double least = 1e-7 * spacing;
+    const double least = fineness.nearest * spacing;
     close.push_back(centre);
     for (double away = std::max(0.5 * width, least); away < spacing; away *= 2.0) {
       close.push_back(centre - away);

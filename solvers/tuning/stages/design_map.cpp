@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::size_t kMostParameters = 3;
 constexpr int kCells[] = {1, 33, 11, 7};  // along each of 0 to 3 parameters
-constexpr int kIntervals = 16;            // of the even grid over the band
+// Nearer to a resonance without damping lies no design worth a search, and an orbit there takes long.
+constexpr PlacesFineness kSampled{.intervals = 16, .nearest = 1e-3};
 constexpr double kDecade = 10.0;
 
 bool varies(const DesignParameter& parameter) {
@@ -111,7 +112,7 @@ bool may_be_mapped(const Task& task) {
   const std::size_t dimensions = varying(task.parameters);
   if (dimensions == 0 || dimensions > kMostParameters || may_take_several_orbits(task.network)) return false;
   const double cells = std::pow(kCells[dimensions], static_cast<double>(dimensions));
-  const double responses = cells * static_cast<double>(curves) * 1.5 * kIntervals;
+  const double responses = cells * static_cast<double>(curves) * 1.5 * kSampled.intervals;
   return responses * static_cast<double>(std::max<std::size_t>(1, task.network.masses.size())) <= kMostWork;
 }
 
@@ -181,7 +182,7 @@ DesignMerit SampledCurves::at(std::span<const double> value) {
                            kind.band.from == curves_[c - 1].band.from &&
                            kind.band.to == curves_[c - 1].band.to;
     // Constants leap nowhere: one stretch.
-    if (!as_before) places = places_of(task_, space_, kind, value, kIntervals).front();
+    if (!as_before) places = places_of(task_, space_, kind, value, kSampled).front();
     responses_[c].values(value, places, heights_);
     if (std::ranges::any_of(heights_, [](double height) { return std::isnan(height); }))
       return {kNone, kNone};
