@@ -20,6 +20,8 @@ myst_heading_anchors = 3  # headings are linked as GitHub links them
 source_suffix = {".md": "markdown"}
 exclude_patterns = ["build*", ".git", ".ci", "**/node_modules", "**/__pycache__"]
 
+smartquotes = False  # a prime is a derivative
+
 html_theme = "furo"
 html_title = "Frahm"
 html_math_renderer = "mathml"

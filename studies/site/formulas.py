@@ -50,7 +50,7 @@ def inline(translator, node):
 
 
 def display(translator, node):
-    translator.body.append(f'<div class="math">{mathml(node.astext(), True)}</div>\n')
+    translator.body.append(f'<div style="overflow-x: auto; overflow-y: hidden; padding: 0.4em 0">{mathml(node.astext(), True)}</div>\n')
     raise nodes.SkipNode
 
 
