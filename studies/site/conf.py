@@ -33,7 +33,7 @@ pygments_dark_style = "monokai"
 # The chapters, in the order of a reader who comes to use it. The README lists them in its tables; Sphinx wants a tree.
 chapters = {
     "Use": [
-        "studies/README", "studies/motion/README", "studies/stops/README", "studies/tuning/README",
+        "studies/walkthrough", "studies/README", "studies/motion/README", "studies/stops/README", "studies/tuning/README",
         "studies/identification/README", "studies/uncertainty/README", "studies/program/README",
         "studies/slurm/README", "engine/README", "studies/glossary",
     ],
