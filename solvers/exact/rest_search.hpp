@@ -43,6 +43,8 @@ class RestSearch {
   ContactMask sliding_less_than(double share, const Orbit<N, H>& orbit) const;
 
  private:
+  void hold_all(Orbit<N, H>& orbit);
+
   static constexpr double kFar = 10.0;  // of the orbit's own size: a digit
   std::vector<StuckForce> stuck_forces(ContactMask contacts, const Orbit<N, H>& orbit);
   double distance_slid(Eigen::Index contact, const Orbit<N, H>& orbit) const;
@@ -95,6 +97,7 @@ ContactMask RestSearch<N, H>::sliding_less_than(double share, const Orbit<N, H>&
 template <int N, int H>
 void RestSearch<N, H>::settle(Orbit<N, H>& orbit) {
   if (orbit.half_period) {
+    if (!orbit.is_found()) hold_all(orbit);
     if (orbit.is_found() && orbit.stuck_throughout != 0) centre_rest_position(flow_, orbit);
     return;
   }
@@ -123,6 +126,20 @@ bool RestSearch<N, H>::try_held(ContactMask held, Orbit<N, H>& orbit) {
   if (moved != Shift::near) return false;
   std::swap(orbit, trial_);
   return true;
+}
+
+// Beside a resonance without damping Newton's method may slide ever less and not arrive at an orbit whose
+// contacts all stick. The symmetry of the orbit says where they rest, so that their forces alone decide.
+template <int N, int H>
+void RestSearch<N, H>::hold_all(Orbit<N, H>& orbit) {
+  const ContactMask held = flow_.equations().holding;
+  if (held == 0) return;
+  trial_ = orbit;
+  trial_.z = flow_.brought_to_rest(trial_.z, trial_.section, held);
+  shooting_.find(trial_, held);
+  if (!trial_.is_found() || trial_.stuck_throughout == 0) return;
+  if (std::ranges::any_of(stuck_forces(trial_.stuck_throughout, trial_), &StuckForce::breaks_limit)) return;
+  std::swap(orbit, trial_);
 }
 
 // The forces of these contacts over the orbit, while they stick.

@@ -85,6 +85,31 @@ TEST_CASE("A sliding mass under a constant load swings about the load's own posi
   }
 }
 
+// Newton's method slides ever less here and does not arrive within its passages.
+TEST_CASE(
+    "An absorber held by friction moves with its mass beside the resonances of an undamped system too") {
+  const Node ground{}, main{NodeKind::mass, 0}, absorber{NodeKind::mass, 1};
+  Responses responses({.masses = {"main", "absorber"},
+                       .prescribed = {},
+                       .elements = {{"main_spring", ElementType::spring, ground, main},
+                                    {"absorber_spring", ElementType::spring, main, absorber},
+                                    {"friction", ElementType::coulomb, main, absorber}},
+                       .excitations = {{ExcitationKind::force, 0, 1}}});
+  constexpr double mu = 0.05, f = 0.8, force = 0.09;
+  // (1 - r^2) (f^2 - r^2) = mu f^2 r^2, the lower root
+  const double b = 1.0 + f * f * (1.0 + mu);
+  const double resonance = std::sqrt(0.5 * (b - std::sqrt(b * b - 4.0 * f * f)));
+  for (const double away : {-1e-4, -1e-5, -1e-6, 0.0, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4}) {
+    const double r = resonance * (1.0 + away);
+    INFO("r = " << r << ", away by " << away);
+    responses.solve(
+        {.omega = r, .mass = {1.0, mu}, .element = {1.0, mu * f * f, force}, .excitation = {{1.0, 0.0}}});
+    CHECK(responses["status"] == 1.0);
+    CHECK(responses["friction_regime"] == static_cast<double>(Regime::stuck));
+    CHECK_THAT(responses["main_amplitude"], WithinAbs(1.0 / (1.0 - (1.0 + mu) * r * r), kAgreement));
+  }
+}
+
 TEST_CASE("The rig with a clamped absorber moves as one mass, followed in frequency and from nothing") {
   Responses cold(rig()), warm(rig()), joined(rig(false));
   for (const double share : {0.0, 0.1}) {
