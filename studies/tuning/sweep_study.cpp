@@ -1,12 +1,12 @@
 #include "studies/tuning/sweep_study.hpp"
 
-#include "studies/reading/decimal_digits.hpp"
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "studies/reading/decimal_digits.hpp"
 #include "studies/reading/settings.hpp"
 #include "studies/reading/toml_building.hpp"
 #include "studies/reading/toml_reading.hpp"

@@ -227,9 +227,8 @@ TEST_CASE("a layout refused leaves nothing behind") {
 
 TEST_CASE("a place that cannot be written is a StoreError with path and cause") {
   const TemporaryDirectory directory;
-  CHECK_THAT(
-      refusal([&] { MapWriter(directory / "absent" / "map.h5", {}); }),
-      Contains("StoreError") && Contains("absent/map.h5") && Contains("No such file or directory"));
+  CHECK_THAT(refusal([&] { MapWriter(directory / "absent" / "map.h5", {}); }),
+             Contains("StoreError") && Contains("absent/map.h5") && Contains("No such file or directory"));
   std::ofstream(directory / "file") << "a file, not a directory";
   CHECK_THAT(refusal([&] { MapWriter(directory / "file" / "map.h5", {}); }), Contains("Not a directory"));
   if (::geteuid() != 0) {  // root may write anywhere
