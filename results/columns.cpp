@@ -125,15 +125,18 @@ void write_columns(hdf5::Group& group, const std::vector<Column>& columns) {
 std::vector<Column> read_columns(const hdf5::Group& group) {
   std::vector<Column> columns;
   const hdf5::Group::Scales scales = group.scales();
+  bool is_map = false;  // of several dimensions: then the values of each are told row after row
   for (const std::string& name : group.dataset_names()) {
     const hdf5::Dataset dataset = group.dataset(name);
     if (is_index(dataset)) continue;
     Column column{.variable = described(dataset)};
-    if (!dataset.shape().empty()) column.dimension = dimension_of(dataset, scales);
+    const std::size_t dimensions = dataset.shape().size();
+    if (dimensions > 0) column.dimension = dimension_of(dataset, scales);
+    is_map = is_map || dimensions > 1;
     column.values = dataset.read_all();
     columns.push_back(std::move(column));
   }
-  check_read(group, columns);
+  if (!is_map) check_read(group, columns);
   return columns;
 }
 

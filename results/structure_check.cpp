@@ -31,11 +31,19 @@ class Walk {
   }
 
  private:
-  // Reads what is small whole; of a large one the index of its chunks, which HDF5 follows at a reading.
   static void dataset(const hdf5::Dataset& dataset) {
     dataset.check_attributes();
-    const Shape shape = dataset.shape();
     if (!dataset.is_numeric()) return;  // not read by anything of ours
+    try {
+      read(dataset);
+    } catch (
+        const StoreError&) {  // told by who needs these data; what counts here is that HDF5 survives them
+    }
+  }
+
+  // Reads what is small whole; of a large one the index of its chunks, which HDF5 follows at a reading.
+  static void read(const hdf5::Dataset& dataset) {
+    const Shape shape = dataset.shape();
     if (product(shape) > small_dataset) {
       dataset.count_chunks();
     } else if (product(shape) > 0) {
