@@ -172,12 +172,12 @@ def check_words(bench):
         assert process.returncode == 2 and b"UTF-8" in process.stderr, process
         assert not re.search("[\x00-\x09\x0b-\x1f\x7f-\x9f]", process.stderr.decode()), process
         assert place.names() == [], place.names()
-    title = small_map(bench).replace('title  = "', 'title  = "\u009b31m\\u001b[31m', 1)
-    assert title != small_map(bench)
-    place.write("study.toml", title.encode())
-    for command in (("check", "study.toml"), SWEEP, ("status", OUTPUT)):
-        outcome = place.call(*command)
-        assert outcome.code == 0, outcome
+    for title in "\u009b31m", "\\u001b[31m":
+        text = small_map(bench).replace('title  = "', 'title  = "' + title, 1)
+        assert text != small_map(bench)
+        place.write("study.toml", text.encode())
+        outcome = place.call("check", "study.toml")
+        assert outcome.code in (0, 2), outcome
         assert not re.search("[\x00-\x09\x0b-\x1f\x7f-\x9f]", outcome.out + outcome.err), repr(outcome.out + outcome.err)
     place.write("study.toml", small_map(bench).replace("[parameters]", "wrong = \"\u009b31m\" \n[parameters]", 1).encode())
     outcome = place.call("check", "study.toml")
