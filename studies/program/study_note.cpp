@@ -59,7 +59,11 @@ std::optional<StudyNote> read_note(const std::filesystem::path& path) {
   const std::size_t overrides = read_numbers(file, note);
   for (std::size_t i = 0; i < overrides && std::getline(file, line); ++i) note.set.push_back(line);
   if (!file) throw engine::IoError(path, "this note of a study is damaged; run the study again to mend it");
-  note.text.assign(std::istreambuf_iterator<char>(file), {});
+  try {
+    note.text.assign(std::istreambuf_iterator<char>(file), {});
+  } catch (const std::ios_base::failure& failure) {  // of the buffer itself: a disk that cannot read
+    throw engine::IoError(path, fmt::format("cannot be read: {}", failure.code().message()));
+  }
   return note;
 }
 
