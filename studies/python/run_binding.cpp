@@ -1,3 +1,4 @@
+#include <atomic>
 #include <iostream>
 #include <mutex>
 #include <optional>
@@ -63,6 +64,20 @@ class LinesToPython : public std::streambuf {
   std::streambuf* before_;
 };
 
+// The only run of the process, as long as it lives.
+class OnlyRun {
+ public:
+  OnlyRun() {
+    if (under_way.exchange(true)) throw std::logic_error("a run is already under way in this process");
+  }
+  ~OnlyRun() { under_way = false; }
+  OnlyRun(const OnlyRun&) = delete;
+  OnlyRun& operator=(const OnlyRun&) = delete;
+
+ private:
+  static inline std::atomic<bool> under_way = false;
+};
+
 // Returns the exit code of the program, and what it prints to standard output.
 py::tuple run(const LoadedStudy& loaded, const std::string& output, const std::string& from, int threads,
               bool fresh, std::optional<double> time_budget, const std::string& command, py::function tell) {
@@ -76,7 +91,8 @@ py::tuple run(const LoadedStudy& loaded, const std::string& output, const std::s
   std::ostringstream out;
   int code = 0;
   {
-    LinesToPython lines(std::move(tell));
+    const OnlyRun alone;
+    const LinesToPython lines(std::move(tell));
     const OneBlasThread blas;
     const py::gil_scoped_release free;
     code = studies::run_study(options, loaded.study, out);

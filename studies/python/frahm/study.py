@@ -2,6 +2,7 @@
 
 import os
 import tempfile
+from dataclasses import replace
 from types import MappingProxyType
 from typing import Any, Callable, Mapping, Optional, Sequence, TypeVar, Union
 
@@ -152,7 +153,9 @@ class Study:
         if output is not None:
             return read(_finished(self.run(output, **options)), True)
         with tempfile.TemporaryDirectory(prefix="frahm-") as folder:
-            return read(_finished(self.run(os.path.join(folder, f"{kind}.h5"), **options)), False)
+            result = _finished(self.run(os.path.join(folder, f"{kind}.h5"), **options))
+            told = [line for line in result.table.splitlines() if folder not in line]  # that file goes
+            return read(replace(result, table="\n".join(told) + "\n"), False)
 
     def _values_of_axis(self, row: str) -> np.ndarray:
         axes = self.axes

@@ -26,6 +26,7 @@ class Answers(unittest.TestCase):
         self.assertLess(abs(tuned.peaks[:, 1].max() / tuned.objective - 1), 1e-6)
         self.assertIsNone(tuned.file)
         self.assertIn("zeta", str(tuned))
+        self.assertNotIn(".h5", str(tuned))
 
     def test_the_optimum_is_a_point_of_its_study(self):
         study = frahm.Study.load(studies / "tuning" / "tune_classical.toml")
