@@ -1,6 +1,8 @@
 """Runs: maps, tunings, motions and identifications, with their files."""
 
 import os
+import re
+import signal
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Optional
 
@@ -50,9 +52,20 @@ def run(
     code, table = _frahm.run(
         study, path, os.fspath(from_result or ""), threads, fresh, time_budget, _command(study, path), reports.line
     )
-    if code == 4 and any(line.startswith("stopped by SIGINT") for line in reports.messages):
-        raise KeyboardInterrupt(reports.messages[-1])
+    if code == 4:
+        _pass_on(reports.messages)
     return Result(OUTCOMES[code], None if code == 4 else path, table, reports.messages)
+
+
+def _pass_on(messages: list[str]) -> None:
+    """The signal that stopped the run takes its course: Ctrl-C as KeyboardInterrupt, another as if there had been
+    no run."""
+    stopped = [match for line in messages if (match := re.match(r"stopped by (SIG\w+)", line))]
+    if not stopped:
+        return
+    if stopped[0][1] == "SIGINT":
+        raise KeyboardInterrupt(stopped[0].string)
+    signal.raise_signal(getattr(signal, stopped[0][1]))
 
 
 def _command(study: _frahm.Study, output: str) -> str:

@@ -99,6 +99,22 @@ class Runs(unittest.TestCase):
         self.assertGreaterEqual(reports[0]["resumed"], kept[0])
         self.assertTrue(self.file.exists())
 
+    def test_a_termination_keeps_what_is_computed_and_ends_the_process(self):
+        done = in_a_process("""
+            import os, signal, sys
+            import frahm
+            from runs import LONG
+
+            def terminate(report):
+                if report["done"] > 0:
+                    os.kill(os.getpid(), signal.SIGTERM)
+
+            frahm.Study.from_dict(LONG).run(sys.argv[1], threads=1, progress=terminate)
+            print("not ended")
+            """, self.file)
+        self.assertEqual((done.returncode, done.stdout), (-signal.SIGTERM, ""), done.stderr)
+        self.assertTrue(list(self.file.parent.glob("*.frahm-log")))
+
     def test_a_second_run_at_the_same_time_is_refused(self):
         study, began, tried = frahm.Study.from_dict(MACHINE), threading.Event(), threading.Event()
 
