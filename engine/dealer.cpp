@@ -7,8 +7,11 @@
 #include "engine/handout.hpp"
 
 namespace frahm::engine {
+namespace {
 
 using Kind = RankMessage::Kind;
+
+}  // namespace
 
 Dealer::Dealer(Ranks& ranks, std::uint64_t study, int threads, std::vector<std::uint64_t> tiles,
                TileQueue& own)

@@ -52,7 +52,7 @@ File::~File() {
 
 File File::open_for_writing(const std::filesystem::path& path) {
   const int descriptor =
-      uninterrupted([&] { return ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666); });
+      uninterrupted([&] { return ::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666); });
   if (descriptor < 0) throw IoError(path, "open for writing", errno);
   return File(path, descriptor);
 }

@@ -13,7 +13,7 @@ namespace frahm::engine {
 // interrupting signal.
 class File {
  public:
-  // For reading and writing; created empty if absent.
+  // For reading and writing; created empty if absent. A symbolic link there is not followed but refused.
   static File open_for_writing(const std::filesystem::path& path);
   // For reading; nothing if there is no such file.
   static std::optional<File> open_if_present(const std::filesystem::path& path);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <stdexcept>
 #include <string>
@@ -93,6 +94,12 @@ void encode_record(std::uint64_t mark, std::uint64_t tile, std::span<const std::
   std::ranges::copy(payload, record.begin() + record_head_size);
   const std::size_t crc_at = record_head_size + payload.size();
   put_little_endian(&record[crc_at], crc32c(std::span(record).first(crc_at)));
+}
+
+bool begins_as_log(const File& file) {
+  std::array<char, file_magic.size()> text{};
+  const std::size_t size = file.read_at(0, std::as_writable_bytes(std::span(text)));
+  return file_magic.starts_with(std::string_view(text.data(), size));
 }
 
 std::optional<LogHeader> read_header(const File& log) {

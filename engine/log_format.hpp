@@ -62,6 +62,9 @@ void encode_record(std::uint64_t mark, std::uint64_t tile, std::span<const std::
 // Throws IoError for a file that is no shard log, is one of another version, or has a damaged header.
 std::optional<LogHeader> read_header(const File& log);
 
+// Whether a file begins as a log does, though it may be cut off in its first bytes.
+bool begins_as_log(const File& file);
+
 // Reads the record at `offset` into `record` (the whole of it, checked); false if no good record is there.
 // file_size: bytes of the log that may be read.  tiles: their number in the study.
 bool read_record(const File& log, std::uint64_t offset, std::uint64_t file_size, std::uint64_t mark,

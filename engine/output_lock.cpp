@@ -1,12 +1,30 @@
 #include "engine/output_lock.hpp"
 
+#include <array>
 #include <span>
 #include <string>
+#include <string_view>
 #include <system_error>
+
+#include "engine/io_error.hpp"
 
 namespace frahm::engine {
 
+namespace {
+
+// A file of that name which is no lock is somebody's work: the lock of a process begins with its name.
+void refuse_foreign_file(const File& file) {
+  constexpr std::string_view begin = "process ";
+  std::array<char, begin.size()> text{};
+  const std::size_t size = file.read_at(0, std::as_writable_bytes(std::span(text)));
+  if (file.size() <= owner_size && begin.starts_with(std::string_view(text.data(), size))) return;
+  throw IoError(file.path(), "is there already and is no lock of frahm; remove or rename it");
+}
+
+}  // namespace
+
 OutputLock::OutputLock(const std::filesystem::path& output) : file_(open_locked(lock_path(output), 0)) {
+  refuse_foreign_file(file_);
   const std::string owner = this_process();
   file_.truncate(0);
   file_.write_at(0, std::as_bytes(std::span(owner)));

@@ -58,6 +58,7 @@ Remainder read_logs(const Job& job, const RunOptions& options, const LogHeader& 
   Summary& summary = remainder.so_far;
   const auto take_up = [&](std::uint64_t tile, std::span<const std::byte> record) {
     if (tile % shard.count != shard.index) return;
+    if (job.check) job.check(tile, record);
     ++summary.tiles_resumed;
     summary.points.resumed += job.points(tile);
     if (job.failed) summary.points.failed += job.failed(tile, record);

@@ -39,6 +39,8 @@ struct Job {
   std::function<std::uint64_t(std::uint64_t tile)> points;  // points of a tile
   // Points of a finished tile that have no result; may be empty: all have one.
   std::function<std::uint64_t(std::uint64_t tile, std::span<const std::byte> record)> failed;
+  // Throws BadRecord for a record out of a log that the kernel did not write; may be empty: all are good.
+  std::function<void(std::uint64_t tile, std::span<const std::byte> record)> check = {};
   // Points that the kernels of this process took from an earlier result; may be empty.
   std::function<std::uint64_t()> reused = {};
 };

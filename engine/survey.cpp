@@ -69,6 +69,7 @@ Survey survey(const Job& job, const std::vector<std::filesystem::path>& logs,
   Survey found;
   const LogHeader study{.fingerprint = job.fingerprint, .tiles = job.tiles};
   const TileIndex index = index_tiles(logs, study, [&](std::uint64_t tile, auto record) {
+    if (job.check) job.check(tile, record);
     found.points.done += job.points(tile);
     if (job.failed) found.points.failed += job.failed(tile, record);
   });

@@ -34,7 +34,7 @@ void take_part(Team& team) {
 }
 
 // Without ThreadSanitizer, as the handing over of `team` itself precedes the handover above.
-[[gnu::no_sanitize("thread")]] void in_parallel(int threads, Team& team) {
+__attribute__((no_sanitize("thread"))) void in_parallel(int threads, Team& team) {
 #pragma omp parallel num_threads(threads)
   take_part(team);
 }

@@ -8,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include "engine/bad_record.hpp"
 #include "engine/io_error.hpp"
 #include "engine/log_format.hpp"
 
@@ -25,6 +26,14 @@ bool is_log_name(std::string_view name, std::string_view output_name) {
   return name.size() > 1 && name.find('.', 1) == std::string_view::npos;
 }
 
+[[noreturn]] void refuse_record(const std::filesystem::path& log, std::uint64_t tile, std::uint64_t offset,
+                                const BadRecord& bad) {
+  throw IoError(log,
+                fmt::format("the record of tile {} at byte {} has a right checksum and a wrong content: {}; "
+                            "remove the file to have its tiles computed again",
+                            tile, offset, bad.what()));
+}
+
 // Enters the tiles of one log into the index.
 void index_log(const File& file, TileIndex& index, const TileVisitor& visit) {
   const std::optional<LogHeader> kept = read_header(file);
@@ -36,7 +45,11 @@ void index_log(const File& file, TileIndex& index, const TileVisitor& visit) {
         if (!same_study) throw ResumeRefused(file.path(), *kept, index.study);
         if (index.has(tile)) return;
         index.places[tile] = {log, offset};
-        visit(tile, payload);
+        try {
+          visit(tile, payload);
+        } catch (const BadRecord& bad) {
+          refuse_record(file.path(), tile, offset, bad);
+        }
       });
   if (!same_study) return;
   index.logs.push_back(file.path());
@@ -138,6 +151,7 @@ void for_each_tile(const TileIndex& index, const TileVisitor& visit) {
 void remove_logs(const std::vector<std::filesystem::path>& logs) {
   for (const auto& log : logs) {
     const File held = open_locked(log, owner_offset);
+    if (!begins_as_log(held)) throw IoError(log, "is no shard log and is not removed; rename it");
     std::error_code error;
     std::filesystem::remove(log, error);
     if (error) throw IoError(log, "remove", error.value());

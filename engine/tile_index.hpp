@@ -57,7 +57,8 @@ using TileVisitor = std::function<void(std::uint64_t tile, std::span<const std::
 
 // Reads `logs` once, checking every record; of a tile recorded twice the first one counts.
 // Logs removed since they were listed, empty or assembled, are skipped. visit: called for each finished tile,
-// in the order of the logs. Throws ResumeRefused for a log with tiles of another study, IoError.
+// in the order of the logs. Throws ResumeRefused for a log with tiles of another study, IoError, also where
+// `visit` throws BadRecord.
 TileIndex index_tiles(const std::vector<std::filesystem::path>& logs, const LogHeader& study,
                       const TileVisitor& visit);
 

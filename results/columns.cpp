@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "results/store_error.hpp"
 #include "results/variable_io.hpp"
 
 namespace frahm::results {
@@ -26,6 +27,41 @@ void write_number(hdf5::Group& group, const Column& column) {
   hdf5::Dataset dataset = group.create_dataset(column.variable.name, {.type = column.variable.type});
   describe(dataset, column.variable, true);
   dataset.write({}, {}, to_storage(column.variable, column.values));
+}
+
+std::string dimension_of(const hdf5::Dataset& dataset, const hdf5::Group::Scales& scales) {
+  if (dataset.is_scale()) return dataset.name();
+  const auto scale = scales.find({dataset.address(), 0});
+  if (scale == scales.end()) throw StoreError(dataset.where(), "must lie along a dimension of its group", "");
+  return scale->second;
+}
+
+// Row i has the samples from row_start[i] on: these must be in order, and within the samples.
+void check_row_starts(const hdf5::Group& group, const std::vector<Column>& columns) {
+  const auto starts =
+      std::ranges::find(columns, "row_start", [](const Column& c) { return c.variable.name; });
+  if (starts == columns.end()) return;
+  const auto samples = std::ranges::find_if(columns, [&](const Column& column) {
+    return !column.dimension.empty() && column.dimension != starts->dimension;
+  });
+  double least = 0.0;
+  const double most = samples == columns.end() ? 0.0 : static_cast<double>(samples->values.size());
+  for (const double start : starts->values) {
+    if (!(start >= least && start <= most))
+      throw StoreError(fmt::format("{}/row_start", group.where()),
+                       fmt::format("{} must be from {} to {}", start, least, most), "");
+    least = start;
+  }
+}
+
+// What was read must be what could have been written.
+void check_read(const hdf5::Group& group, const std::vector<Column>& columns) {
+  try {
+    check(columns);
+  } catch (const std::invalid_argument& broken) {
+    throw StoreError(group.where(), "is no group of a result", broken.what());
+  }
+  check_row_starts(group, columns);
 }
 
 void write_along(hdf5::Group& group, const std::string& dimension, const std::vector<Column>& columns,
@@ -88,15 +124,19 @@ void write_columns(hdf5::Group& group, const std::vector<Column>& columns) {
 
 std::vector<Column> read_columns(const hdf5::Group& group) {
   std::vector<Column> columns;
+  const hdf5::Group::Scales scales = group.scales();
+  bool is_map = false;  // of several dimensions: then the values of each are told row after row
   for (const std::string& name : group.dataset_names()) {
     const hdf5::Dataset dataset = group.dataset(name);
     if (is_index(dataset)) continue;
     Column column{.variable = described(dataset)};
-    const Shape shape = dataset.shape();
-    if (!shape.empty()) column.dimension = dataset.is_scale() ? name : dataset.scale_name(0);
-    if (product(shape) > 0) column.values = dataset.read(Shape(shape.size(), 0), shape);
+    const std::size_t dimensions = dataset.shape().size();
+    if (dimensions > 0) column.dimension = dimension_of(dataset, scales);
+    is_map = is_map || dimensions > 1;
+    column.values = dataset.read_all();
     columns.push_back(std::move(column));
   }
+  if (!is_map) check_read(group, columns);
   return columns;
 }
 

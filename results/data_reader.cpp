@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "results/checked_apart.hpp"
 #include "results/store_error.hpp"
 
 namespace frahm::results {
@@ -47,13 +48,15 @@ void check_form(const hdf5::Dataset& dataset, std::size_t needed) {
   }
 }
 
-}  // namespace
+// A file that anybody may have made is first read by a child.
+hdf5::File open_checked(const std::filesystem::path& path) {
+  check_apart(path, "opening", [&] { hdf5::File::open(path).root(); });
+  return hdf5::File::open(path);
+}
 
-DataReader::DataReader(const std::filesystem::path& path) : file_(hdf5::File::open(path)) {}
-
-hdf5::Dataset DataReader::find(const std::string& dataset, std::size_t dimensions) const {
+hdf5::Dataset find(const hdf5::File& file, const std::string& dataset, std::size_t dimensions) {
   const std::vector<std::string> parts = parts_of(dataset);
-  hdf5::Group group = file_.root();
+  hdf5::Group group = file.root();
   if (parts.empty()) throw StoreError(group.where(), "is a group: a dataset is needed", "");
   for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
     if (!group.has(parts[i]) || group.has_dataset(parts[i])) fail_missing(group, parts[i]);
@@ -65,22 +68,35 @@ hdf5::Dataset DataReader::find(const std::string& dataset, std::size_t dimension
   return found;
 }
 
-std::vector<double> DataReader::numbers_of(const hdf5::Dataset& dataset) {
-  const Shape shape = dataset.shape();
-  if (std::ranges::find(shape, 0U) != shape.end()) return {};
-  std::vector<double> values = dataset.read(Shape(shape.size(), 0), shape);
+std::vector<double> numbers_of(const hdf5::Dataset& dataset) {
+  std::vector<double> values = dataset.read_all();
   if (const auto missing = dataset.numbers("_FillValue"); missing && missing->size() == 1)
     std::ranges::replace(values, missing->front(), std::numeric_limits<double>::quiet_NaN());
   return values;
 }
 
+}  // namespace
+
+DataReader::DataReader(const std::filesystem::path& path) : path_(path), file_(open_checked(path)) {}
+
+void DataReader::check(const std::string& dataset, std::size_t dimensions) const {
+  check_apart(path_, dataset, [&] {
+    const hdf5::File file = hdf5::File::open(path_);
+    const hdf5::Dataset found = find(file, dataset, dimensions);
+    numbers_of(found);
+    found.text("units");
+  });
+}
+
 DataColumn DataReader::read(const std::string& dataset) const {
-  const hdf5::Dataset found = find(dataset, 1);
+  check(dataset, 1);
+  const hdf5::Dataset found = find(file_, dataset, 1);
   return {numbers_of(found), found.text("units")};
 }
 
 DataMatrix DataReader::read_matrix(const std::string& dataset) const {
-  const hdf5::Dataset found = find(dataset, 2);
+  check(dataset, 2);
+  const hdf5::Dataset found = find(file_, dataset, 2);
   const Shape shape = found.shape();
   return {shape[0], shape[1], numbers_of(found)};
 }

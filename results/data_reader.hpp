@@ -30,15 +30,16 @@ class DataReader {
 
   // The dataset at a path, such as "transient/time": one dimension, numbers of any type; values equal to its
   // _FillValue become NaN. Throws StoreError if it does not exist (the message lists what does), has another
-  // shape or type, is packed by scale_factor or add_offset, or is damaged.
+  // shape or type, is packed by scale_factor or add_offset, lies in another file or behind a soft link, or is
+  // damaged.
   DataColumn read(const std::string& dataset) const;
   // The same of a dataset of two dimensions.
   DataMatrix read_matrix(const std::string& dataset) const;
 
  private:
-  hdf5::Dataset find(const std::string& dataset, std::size_t dimensions) const;
-  static std::vector<double> numbers_of(const hdf5::Dataset& dataset);
+  void check(const std::string& dataset, std::size_t dimensions) const;
 
+  std::filesystem::path path_;
   hdf5::File file_;
 };
 

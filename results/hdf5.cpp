@@ -1,5 +1,6 @@
 #include "results/hdf5.hpp"
 
+#include <fmt/core.h>
 #include <hdf5.h>
 
 #include <algorithm>
@@ -67,6 +68,16 @@ Handle open_attribute(hid_t object, const std::string& name, const std::string& 
   return Handle(checked(H5Aopen(object, name.c_str(), H5P_DEFAULT), where, "cannot read attribute " + name));
 }
 
+// A text of a result is that of a study, 1 MiB, or a list of failed points.
+constexpr std::size_t longest_attribute = std::size_t{64} << 20;  // [bytes]
+
+// Of an attribute of `elements` of a type.
+void check_size(hid_t type, hssize_t elements, const std::string& where) {
+  const std::size_t size = H5Tget_size(type);
+  if (size > 0 && elements >= 0 && static_cast<std::size_t>(elements) <= longest_attribute / size) return;
+  throw StoreError(where, "has an attribute above 64 MiB", "");
+}
+
 // The text of an attribute of variable-length strings, as h5py and others write them.
 std::string variable_text_of(hid_t attribute, hid_t type, const std::string& where) {
   char* text = nullptr;
@@ -83,6 +94,7 @@ std::optional<std::string> text_of(hid_t attribute, const std::string& where) {
   if (H5Tget_class(type.get()) != H5T_STRING || H5Sget_simple_extent_npoints(space.get()) != 1)
     return std::nullopt;
   if (H5Tis_variable_str(type.get()) > 0) return variable_text_of(attribute, type.get(), where);
+  check_size(type.get(), 1, where);
   std::string text(H5Tget_size(type.get()), '\0');
   checked(H5Aread(attribute, type.get(), text.data()), where, "cannot read an attribute");
   text.resize(std::min(text.size(), text.find('\0')));
@@ -168,13 +180,19 @@ std::optional<std::vector<double>> Object::numbers(const std::string& name) cons
   if (checked(H5Aexists(id(), name.c_str()), where_, what) == 0) return std::nullopt;
   const Handle attribute = open_attribute(id(), name, where_);
   const Handle space(checked(H5Aget_space(attribute.get()), where_, what));
-  std::vector<double> values(
-      static_cast<std::size_t>(checked(H5Sget_simple_extent_npoints(space.get()), where_, what)));
+  const Handle type(checked(H5Aget_type(attribute.get()), where_, what));
+  const H5T_class_t kind = H5Tget_class(type.get());
+  if (kind != H5T_INTEGER && kind != H5T_FLOAT)
+    throw StoreError(where_, fmt::format("its attribute {} must be numbers", name), "");
+  const hssize_t count = checked(H5Sget_simple_extent_npoints(space.get()), where_, what);
+  check_size(H5T_NATIVE_DOUBLE, count, where_);
+  std::vector<double> values(static_cast<std::size_t>(count));
+  if (values.empty()) return values;
   checked(H5Aread(attribute.get(), H5T_NATIVE_DOUBLE, values.data()), where_, what);
   return values;
 }
 
-std::vector<Text> Object::texts() const {
+std::vector<std::string> Object::attribute_names() const {
   std::vector<std::string> names;
   const auto visit = [](hid_t, const char* name, const H5A_info_t*, void* list) -> herr_t {
     static_cast<std::vector<std::string>*>(list)->emplace_back(name);
@@ -183,11 +201,25 @@ std::vector<Text> Object::texts() const {
   hsize_t position = 0;
   checked(H5Aiterate2(id(), H5_INDEX_CRT_ORDER, H5_ITER_INC, &position, visit, &names), where_,
           "cannot list the attributes");
+  return names;
+}
+
+std::vector<Text> Object::texts() const {
   std::vector<Text> texts;
-  for (const std::string& attribute : names) {
+  for (const std::string& attribute : attribute_names()) {
     if (auto value = text(attribute)) texts.emplace_back(attribute, std::move(*value));
   }
   return texts;
+}
+
+void Object::check_attributes() const {
+  for (const std::string& name : attribute_names()) {
+    const Handle type(
+        checked(H5Aget_type(open_attribute(id(), name, where_).get()), where_, "cannot read an attribute"));
+    const H5T_class_t kind = H5Tget_class(type.get());
+    if (kind == H5T_STRING) text(name);
+    if (kind == H5T_INTEGER || kind == H5T_FLOAT) numbers(name);
+  }
 }
 
 std::string Group::path_of(const std::string& name) const {
@@ -198,8 +230,19 @@ bool Group::has(const std::string& name) const {
   return checked(H5Lexists(id(), name.c_str(), H5P_DEFAULT), where_, "cannot look for " + name) > 0;
 }
 
+// Links to other names and other files: behind them may be a pipe, or a file that was never meant to be read.
+void Group::refuse_foreign_link(const std::string& name) const {
+  H5L_info_t link;
+  checked(H5Lget_info(id(), name.c_str(), &link, H5P_DEFAULT), path_of(name), "cannot open");
+  if (link.type == H5L_TYPE_HARD) return;
+  throw StoreError(path_of(name),
+                   link.type == H5L_TYPE_SOFT ? "is a link to another name" : "is a link to another file",
+                   "such links are not followed");
+}
+
 bool Group::has_dataset(const std::string& name) const {
   if (!has(name)) return false;
+  refuse_foreign_link(name);
   H5O_info_t info;
   checked(H5Oget_info_by_name2(id(), name.c_str(), &info, H5O_INFO_BASIC, H5P_DEFAULT), path_of(name),
           "cannot open");
@@ -260,6 +303,12 @@ Group Group::create_group(const std::string& name) {
 
 Group Group::group(const std::string& name) const {
   const std::string path = path_of(name);
+  if (name.find('/') == std::string::npos) {
+    if (has(name)) refuse_foreign_link(name);
+  } else {
+    const std::size_t slash = name.find('/');
+    return group(name.substr(0, slash)).group(name.substr(slash + 1));
+  }
   return Group(Handle(checked(H5Gopen2(id(), name.c_str(), H5P_DEFAULT), path, "cannot open the group"),
                       handle_.failure()),
                path);

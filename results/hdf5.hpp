@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -56,10 +57,13 @@ class Object {
   std::optional<std::string> text(const std::string& name) const;
   std::optional<std::vector<double>> numbers(const std::string& name) const;  // if there is such an attribute
   std::vector<Text> texts() const;  // every single string among the attributes, in order of creation
+  // Reads every text and number; throws StoreError for those of no use to a result, or above 64 MiB.
+  void check_attributes() const;
 
  protected:
   Object(Handle handle, std::string where) : handle_(std::move(handle)), where_(std::move(where)) {}
   std::int64_t id() const { return handle_.get(); }
+  std::vector<std::string> attribute_names() const;  // in order of creation
 
   Handle handle_;
   std::string where_;
@@ -78,12 +82,15 @@ class Dataset : public Object {
   Type type() const;
   bool is_numeric() const;  // integers or floats of any size and byte order
   Shape shape() const;
-  Shape chunk() const;  // empty if contiguous
+  Shape chunk() const;                 // empty if contiguous
+  std::uint64_t count_chunks() const;  // that are stored; 0 if contiguous
 
   // A box of the dataset. Start and count are empty for a single number.
   void write(std::span<const std::uint64_t> start, std::span<const std::uint64_t> count,
              std::span<const std::byte> elements);  // as stored
   std::vector<double> read(std::span<const std::uint64_t> start, std::span<const std::uint64_t> count) const;
+  // All of it. StoreError where more values are claimed than what is stored can hold.
+  std::vector<double> read_all() const;
 
   void write_chunk(std::span<const std::uint64_t> start,
                    std::span<const std::byte> encoded);  // see encode_chunk
@@ -92,11 +99,20 @@ class Dataset : public Object {
   void make_scale();  // makes this the dimension scale of its own name
   bool is_scale() const;
   void attach_scale(unsigned axis, const Dataset& scale);
-  std::string scale_name(unsigned axis) const;  // empty if none is attached
+
+  // The axes of other datasets to which this scale is attached.
+  struct Use {
+    std::uint64_t dataset = 0;  // its address()
+    unsigned axis = 0;
+  };
+  std::vector<Use> uses() const;
+  std::uint64_t address() const;  // in the file
 
  private:
   friend class Group;
   using Object::Object;
+  void check_storage() const;
+  void check_product(const Shape& extent, std::uint64_t limit, const char* of) const;
 };
 
 class Group : public Object {
@@ -110,12 +126,18 @@ class Group : public Object {
   Group create_group(const std::string& name);
   Group group(const std::string& name) const;
   Dataset create_dataset(const std::string& name, const Storage& storage);
+  // StoreError where its data are not in this file, or their extent is none that a result may have.
   Dataset dataset(const std::string& name) const;
+
+  // The scales of the datasets of the group: of an address and an axis the name of the scale attached there.
+  using Scales = std::map<std::pair<std::uint64_t, unsigned>, std::string>;
+  Scales scales() const;
 
  private:
   friend class File;
   using Object::Object;
   std::string path_of(const std::string& name) const;
+  void refuse_foreign_link(const std::string& name) const;
   std::vector<std::string> names_in_order() const;  // of creation
 };
 

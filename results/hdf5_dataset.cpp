@@ -1,3 +1,4 @@
+#include <fmt/core.h>
 #include <hdf5.h>
 #include <hdf5_hl.h>
 
@@ -44,6 +45,16 @@ Handle creation_properties(const Storage& storage, const std::string& path) {
           path, what);
   if (!storage.chunk.empty()) set_filters(properties.get(), storage, path);
   return properties;
+}
+
+constexpr std::uint64_t most_values = std::uint64_t{1} << 40;
+constexpr std::uint64_t most_values_of_chunk = std::uint64_t{1} << 28;  // as check(MapLayout) has it
+constexpr hssize_t most_uses = 1 << 20;                                 // of a scale; 16 MiB
+
+// { reference to an object, integer }, as H5DSattach_scale writes it.
+bool is_reference_list(hid_t type) {
+  if (H5Tget_class(type) != H5T_COMPOUND || H5Tget_nmembers(type) != 2) return false;
+  return H5Tget_member_class(type, 0) == H5T_REFERENCE && H5Tget_member_class(type, 1) == H5T_INTEGER;
 }
 
 // A data space of the file and one of memory for a box of a dataset.
@@ -136,26 +147,107 @@ void Dataset::make_scale() {
   checked(H5DSset_scale(id(), name().c_str()), where_, "cannot make it a scale");
 }
 
+// By its attribute, not H5DSis_scale: the high-level library trusts the attribute's size.
 bool Dataset::is_scale() const {
-  return checked(H5DSis_scale(id()), where_, "cannot tell whether it is a scale") > 0;
+  return text("CLASS") == "DIMENSION_SCALE";
 }
 
 void Dataset::attach_scale(unsigned axis, const Dataset& scale) {
   checked(H5DSattach_scale(id(), scale.id(), axis), where_, "cannot attach the scale " + scale.name());
 }
 
-std::string Dataset::scale_name(unsigned axis) const {
-  std::string name;
-  const auto visit = [](hid_t, unsigned, hid_t scale, void* text) -> herr_t {
-    const ssize_t length = H5Iget_name(scale, nullptr, 0);
-    if (length < 0) return -1;
-    std::string path(static_cast<std::size_t>(length), '\0');
-    if (H5Iget_name(scale, path.data(), path.size() + 1) < 0) return -1;
-    *static_cast<std::string*>(text) = path.substr(path.rfind('/') + 1);
-    return 1;  // stop: an axis has one scale
+// From REFERENCE_LIST of the scale, pairs of a dataset's address and an axis. DIMENSION_LIST of the dataset
+// says the same in lists of variable length, and HDF5 1.10 reads these beyond its buffer where a file is
+// damaged.
+std::vector<Dataset::Use> Dataset::uses() const {
+  const std::string what = "cannot read where it is attached";
+  constexpr const char* list_name = "REFERENCE_LIST";
+  if (checked(H5Aexists(id(), list_name), where_, what) == 0) return {};
+  const Handle attribute(checked(H5Aopen(id(), list_name, H5P_DEFAULT), where_, what));
+  const Handle type(checked(H5Aget_type(attribute.get()), where_, what));
+  const Handle space(checked(H5Aget_space(attribute.get()), where_, what));
+  const hssize_t count = H5Sget_simple_extent_npoints(space.get());
+  if (!is_reference_list(type.get()) || count < 0 || count > most_uses)
+    throw StoreError(where_, "its attribute REFERENCE_LIST must be pairs of a dataset and an axis", "");
+  struct Pair {
+    hobj_ref_t dataset;
+    unsigned axis;
   };
-  checked(H5DSiterate_scales(id(), axis, nullptr, visit, &name), where_, "cannot find its scales");
-  return name;
+  std::vector<Pair> pairs(static_cast<std::size_t>(count));
+  if (pairs.empty()) return {};
+  const Handle memory(checked(H5Tcreate(H5T_COMPOUND, sizeof(Pair)), where_, what));
+  checked(H5Tinsert(memory.get(), "dataset", HOFFSET(Pair, dataset), H5T_STD_REF_OBJ), where_, what);
+  checked(H5Tinsert(memory.get(), "dimension", HOFFSET(Pair, axis), H5T_NATIVE_UINT), where_, what);
+  checked(H5Aread(attribute.get(), memory.get(), pairs.data()), where_, what);
+  std::vector<Use> uses;
+  for (const Pair& pair : pairs) uses.push_back({pair.dataset, pair.axis});
+  return uses;
+}
+
+// An object reference is the address of the object's header.
+std::uint64_t Dataset::address() const {
+  H5O_info_t info;
+  checked(H5Oget_info2(id(), &info, H5O_INFO_BASIC), where_, "cannot find its place");
+  return info.addr;
+}
+
+std::uint64_t Dataset::count_chunks() const {
+  if (chunk().empty()) return 0;
+  const Handle space(checked(H5Dget_space(id()), where_, "cannot read the shape"));
+  hsize_t count = 0;
+  checked(H5Dget_num_chunks(id(), space.get(), &count), where_, "cannot count its chunks");
+  return count;
+}
+
+std::vector<double> Dataset::read_all() const {
+  const Shape extent = shape();
+  const std::uint64_t values = product(extent), stored = H5Dget_storage_size(id());
+  if (values == 0) return {};
+  const Handle type(checked(H5Dget_type(id()), where_, "cannot read the type"));
+  // Deflate makes at most 1032 bytes of one; a chunk at the end may be filled with nothing.
+  constexpr std::uint64_t most_from_one = 1040;
+  if (values * H5Tget_size(type.get()) > most_from_one * stored)
+    throw StoreError(where_, fmt::format("{} values cannot be in the {} bytes stored of it", values, stored),
+                     "");
+  return read(Shape(extent.size(), 0), extent);
+}
+
+// The data must lie in the file itself, in an extent and chunks that a result may have.
+void Dataset::check_storage() const {
+  const std::string what = "cannot read how it is stored";
+  const Handle properties(checked(H5Dget_create_plist(id()), where_, what));
+  if (checked(H5Pget_external_count(properties.get()), where_, what) > 0)
+    throw StoreError(where_, "its data lie in another file", "external storage is not read");
+  const H5D_layout_t layout = H5Pget_layout(properties.get());
+  if (layout == H5D_VIRTUAL)
+    throw StoreError(where_, "its data lie in other files", "virtual datasets are not read");
+  const Handle space(checked(H5Dget_space(id()), where_, what));
+  if (H5Sget_simple_extent_type(space.get()) == H5S_NULL) throw StoreError(where_, "holds no data", "");
+  check_product(shape(), most_values, "values");
+  if (layout != H5D_CHUNKED) return;
+  const Shape extent = chunk();
+  if (extent.empty()) throw StoreError(where_, "is in chunks of no extent", "");
+  check_product(extent, most_values_of_chunk, "values in a chunk");
+}
+
+// Throws StoreError where the product of an extent is above a limit.
+void Dataset::check_product(const Shape& extent, std::uint64_t limit, const char* of) const {
+  std::uint64_t left = limit;
+  for (const std::uint64_t size : extent) {
+    if (size == 0) return;
+    left /= size;
+  }
+  if (left == 0) throw StoreError(where_, fmt::format("has more {} than {}", of, limit), "");
+}
+
+Group::Scales Group::scales() const {
+  Scales scales;
+  for (const std::string& name : dataset_names()) {
+    const Dataset scale = dataset(name);
+    if (!scale.is_scale()) continue;
+    for (const Dataset::Use& use : scale.uses()) scales[{use.dataset, use.axis}] = name;
+  }
+  return scales;
 }
 
 Dataset Group::create_dataset(const std::string& name, const Storage& storage) {
@@ -171,9 +263,12 @@ Dataset Group::create_dataset(const std::string& name, const Storage& storage) {
 
 Dataset Group::dataset(const std::string& name) const {
   const std::string path = path_of(name);
-  return Dataset(Handle(checked(H5Dopen2(id(), name.c_str(), H5P_DEFAULT), path, "cannot open the dataset"),
-                        handle_.failure()),
-                 path);
+  if (has(name)) refuse_foreign_link(name);
+  Dataset found(Handle(checked(H5Dopen2(id(), name.c_str(), H5P_DEFAULT), path, "cannot open the dataset"),
+                       handle_.failure()),
+                path);
+  found.check_storage();
+  return found;
 }
 
 }  // namespace frahm::results::hdf5

@@ -142,7 +142,8 @@ void check(const std::vector<Column>& columns) {
     }
   }
   // A dimension has a column of its own name along it, or gets an index of that name.
-  for (const auto& [dimension, size] : sizes) {
+  for (const auto& along : sizes) {
+    const std::string& dimension = along.first;
     const auto clash = [&](const Column& c) {
       return c.variable.name == dimension && c.dimension != dimension;
     };

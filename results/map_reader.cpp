@@ -6,9 +6,11 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "results/checked_apart.hpp"
 #include "results/columns.hpp"
 #include "results/format.hpp"
 #include "results/store_error.hpp"
+#include "results/structure_check.hpp"
 #include "results/variable_io.hpp"
 
 namespace frahm::results {
@@ -25,6 +27,12 @@ void check_format(const hdf5::Group& root) {
   }
 }
 
+// A file that anybody may have made is walked through by a child before this process touches it.
+hdf5::File open_checked(const std::filesystem::path& path) {
+  check_apart(path, "structure", [&] { check_structure(path); });
+  return hdf5::File::open(path);
+}
+
 std::string required_text(const hdf5::Group& root, const std::string& name) {
   const auto text = root.text(name);
   if (!text) throw StoreError(root.where(), "must have the attribute " + name, "");
@@ -33,15 +41,22 @@ std::string required_text(const hdf5::Group& root, const std::string& name) {
 
 Coordinate read_coordinate(const hdf5::Dataset& dataset) {
   const Variable variable = described(dataset);
-  Coordinate coordinate{variable.name, variable.unit, variable.long_name,
-                        dataset.read(Shape{0}, dataset.shape())};
+  if (dataset.shape().size() != 1) throw StoreError(dataset.where(), "must have one dimension", "");
+  Coordinate coordinate{variable.name, variable.unit, variable.long_name, dataset.read_all()};
   std::istringstream lines(dataset.text("names").value_or(""));
   for (std::string line; std::getline(lines, line);) coordinate.names.push_back(line);
+  if (!coordinate.names.empty() && coordinate.names.size() != coordinate.values.size())
+    throw StoreError(dataset.where(),
+                     fmt::format("{} names of {} values: must be one for each", coordinate.names.size(),
+                                 coordinate.values.size()),
+                     "");
   return coordinate;
 }
 
 Axis read_axis(const hdf5::Dataset& scale) {
-  Axis axis{.name = scale.name(), .size = scale.shape().at(0)};
+  const Shape shape = scale.shape();
+  if (shape.size() != 1) throw StoreError(scale.where(), "is an axis and must have one dimension", "");
+  Axis axis{.name = scale.name(), .size = shape.front()};
   if (!is_index(scale)) axis.coordinates.push_back(read_coordinate(scale));
   return axis;
 }
@@ -57,20 +72,44 @@ std::vector<std::string> auxiliary_names(const hdf5::Group& root) {
 // The axes, coordinates and variables of a group.
 void read_contents(const hdf5::Group& root, MapLayout& layout) {
   const std::vector<std::string> auxiliary = auxiliary_names(root);
+  const hdf5::Group::Scales scales = root.scales();
   for (const std::string& name : root.dataset_names()) {
     const hdf5::Dataset dataset = root.dataset(name);
     if (dataset.is_scale()) {
       layout.axes.push_back(read_axis(dataset));
     } else if (std::find(auxiliary.begin(), auxiliary.end(), name) != auxiliary.end()) {
-      const std::string axis_name = dataset.scale_name(0);
-      const auto axis = std::find_if(layout.axes.begin(), layout.axes.end(),
-                                     [&](const Axis& candidate) { return candidate.name == axis_name; });
+      const auto scale = scales.find({dataset.address(), 0});
+      const auto axis = std::find_if(layout.axes.begin(), layout.axes.end(), [&](const Axis& candidate) {
+        return scale != scales.end() && candidate.name == scale->second;
+      });
       if (axis == layout.axes.end()) throw StoreError(dataset.where(), "must lie along an axis", "");
       axis->coordinates.push_back(read_coordinate(dataset));
     } else {
       layout.variables.push_back(described(dataset));
       layout.chunk = dataset.chunk();
     }
+  }
+}
+
+// A box of points for readers of a map that is not in chunks (h5repack -l CONTI): rows as they lie in the
+// file.
+Shape box_of_rows(const Shape& shape) {
+  constexpr std::uint64_t most_points = 1 << 16;
+  Shape box(shape.size(), 1);
+  std::uint64_t points = 1;
+  for (std::size_t d = shape.size(); d-- > 0 && points < most_points;) {
+    box[d] = std::min(shape[d], std::max<std::uint64_t>(1, most_points / points));
+    points *= shape[d];
+  }
+  return box;
+}
+
+// What was read must be what could have been written.
+void check_read(const hdf5::Group& group, const MapLayout& layout) {
+  try {
+    check(layout);
+  } catch (const std::invalid_argument& broken) {
+    throw StoreError(group.where(), "is no map of a result", broken.what());
   }
 }
 
@@ -84,7 +123,7 @@ void add_groups(const hdf5::Group& group, const std::string& path, std::vector<s
 
 }  // namespace
 
-MapReader::MapReader(const std::filesystem::path& path) : file_(hdf5::File::open(path)) {
+MapReader::MapReader(const std::filesystem::path& path) : file_(open_checked(path)) {
   const hdf5::Group root = file_.root();
   check_format(root);
   layout_ = {.title = required_text(root, "title"),
@@ -94,7 +133,7 @@ MapReader::MapReader(const std::filesystem::path& path) : file_(hdf5::File::open
 }
 
 MapReader::MapReader(const std::filesystem::path& path, const std::string& group)
-    : file_(hdf5::File::open(path)) {
+    : file_(open_checked(path)) {
   check_format(file_.root());
   read_map(file_.root().group(group));
 }
@@ -102,6 +141,8 @@ MapReader::MapReader(const std::filesystem::path& path, const std::string& group
 void MapReader::read_map(const hdf5::Group& group) {
   read_contents(group, layout_);
   const Shape shape = shape_of(layout_);
+  if (layout_.chunk.empty()) layout_.chunk = box_of_rows(shape);
+  if (!layout_.axes.empty()) check_read(group, layout_);
   for (const Variable& variable : layout_.variables) {
     datasets_.push_back(group.dataset(variable.name));
     if (datasets_.back().shape() != shape)

@@ -22,7 +22,8 @@ class MapReader {
   // such group. The texts and groups are those of the file.
   MapReader(const std::filesystem::path& path, const std::string& group);
 
-  // The layout of the map; its chunk is that of the variables, empty if there are none.
+  // The layout of the map; its chunk is that of the variables; where
+  // these are not in chunks, some rows.
   const MapLayout& layout() const { return layout_; }
 
   // A box of a variable (index into layout().variables), row-major, in its unit; missing values as stored:

@@ -1,49 +1,133 @@
 #include "results/part_file.hpp"
 
 #include <fcntl.h>
+#include <fmt/core.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstdio>
 #include <cstring>
+#include <optional>
+#include <random>
+#include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "results/store_error.hpp"
 
 namespace frahm::results {
 namespace {
 
+constexpr std::string_view mark = ".part-";
+constexpr std::size_t random_digits = 16;
+
 [[noreturn]] void fail(const std::filesystem::path& path, const char* what, int error) {
   throw StoreError(path.string(), what, std::strerror(error));
 }
 
-// named: the path given in messages.
-void sync(const std::filesystem::path& path, int flags, const std::filesystem::path& named) {
-  const bool is_directory = (flags & O_DIRECTORY) != 0;
-  const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC);
-  if (descriptor < 0)
-    fail(named, is_directory ? "cannot open its directory to sync" : "cannot open to sync", errno);
+std::string random_name(const std::filesystem::path& path) {
+  std::random_device random;
+  return fmt::format("{}{}{:08x}{:08x}", path.string(), mark, random(), random());
+}
+
+// What stands behind the mark in the name of a part: the inode; 0 where it was not told yet. Nothing for
+// another name.
+std::optional<ino_t> inode_in(std::string_view name, std::string_view output) {
+  if (!name.starts_with(output) || !name.substr(output.size()).starts_with(mark)) return std::nullopt;
+  name.remove_prefix(output.size() + mark.size());
+  const auto is_hex = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
+  if (name.size() < random_digits || !std::ranges::all_of(name.substr(0, random_digits), is_hex))
+    return std::nullopt;
+  name.remove_prefix(random_digits);
+  if (name.empty()) return ino_t{0};
+  ino_t inode = 0;
+  const auto [end, error] = std::from_chars(name.data() + 1, name.data() + name.size(), inode);
+  if (name.front() != '-' || error != std::errc{} || end != name.data() + name.size()) return std::nullopt;
+  return inode;
+}
+
+// Removes a file that is named as a part, if it is one and nobody writes it.
+void remove_if_dead(const std::filesystem::path& part, ino_t inode) {
+  const int descriptor = ::open(part.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0) return;
+  struct stat status {};
+  const bool is_ours = ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) && status.st_nlink == 1 &&
+                       (status.st_size == 0 || status.st_ino == inode);
+  if (is_ours && ::flock(descriptor, LOCK_EX | LOCK_NB) == 0) ::unlink(part.c_str());
+  ::close(descriptor);
+}
+
+void sync_folder(const std::filesystem::path& path) {
+  const std::filesystem::path folder = path.parent_path();
+  const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) fail(path, "cannot open its directory to sync", errno);
   const int error = ::fsync(descriptor) == 0 ? 0 : errno;
   ::close(descriptor);
   // Some file systems cannot sync a directory and return EINVAL: nothing more can be done then.
-  if (error == 0 || (error == EINVAL && is_directory)) return;
-  fail(named, is_directory ? "cannot sync its directory" : "cannot sync", error);
+  if (error != 0 && error != EINVAL) fail(path, "cannot sync its directory", error);
 }
 
 }  // namespace
 
+PartFile::PartFile(std::filesystem::path path) : path_(std::move(path)) {
+  remove_dead_parts(path_);
+  constexpr int most_attempts = 100;
+  for (int attempt = 0; attempt < most_attempts; ++attempt) {
+    if (create()) return;
+  }
+  throw StoreError(path_.string(), "cannot create a file beside it", "others take it away");
+}
+
+// False if another process took the part for a dead one before it was locked.
+bool PartFile::create() {
+  part_ = random_name(path_);
+  descriptor_ = ::open(part_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) fail(path_, "cannot create a file beside it", errno);
+  struct stat own {
+  }, replaced{};
+  ::fstat(descriptor_, &own);
+  const std::filesystem::path named = fmt::format("{}-{}", part_.string(), own.st_ino);
+  // On a file system without locks this fails, and nobody removes the part of anybody else.
+  ::flock(descriptor_, LOCK_EX | LOCK_NB);
+  if (::rename(part_.c_str(), named.c_str()) != 0) {
+    const int error = errno;
+    ::unlink(part_.c_str());
+    ::close(std::exchange(descriptor_, -1));
+    if (error == ENOENT) return false;
+    fail(path_, "cannot create a file beside it", error);
+  }
+  part_ = named;
+  if (::lstat(path_.c_str(), &replaced) == 0 && S_ISREG(replaced.st_mode))
+    ::fchmod(descriptor_,
+             replaced.st_mode & 07777);  // where it fails, the rights of a new file are right too
+  return true;
+}
+
 PartFile::~PartFile() {
-  if (published_) return;
-  std::error_code none;  // ignored: the part may never have been created
-  std::filesystem::remove(part_, none);
+  if (!published_) ::unlink(part_.c_str());
+  if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 void PartFile::publish() {
-  sync(part_, O_RDWR, part_);
+  if (::fsync(descriptor_) != 0) fail(path_, "cannot sync its part", errno);
   if (std::rename(part_.c_str(), path_.c_str()) != 0) fail(path_, "cannot rename the part to it", errno);
   published_ = true;
-  const std::filesystem::path directory = path_.parent_path();
-  sync(directory.empty() ? "." : directory, O_RDONLY | O_DIRECTORY, path_);
+  sync_folder(path_);
+}
+
+void remove_dead_parts(const std::filesystem::path& path) {
+  const std::filesystem::path folder = path.parent_path();
+  const std::string output = path.filename().string();
+  std::error_code error;  // a folder that cannot be listed: the part cannot be created either, which is told
+  std::filesystem::directory_iterator entry(folder.empty() ? "." : folder, error);
+  for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
+    if (const auto inode = inode_in(entry->path().filename().string(), output))
+      remove_if_dead(folder / entry->path().filename(), *inode);
+  }
 }
 
 }  // namespace frahm::results

@@ -1,25 +1,42 @@
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
 
 namespace frahm::results {
 
-// A file being written as <path>.part; publish() renames the complete file to <path> in one step.
+// A file being written under a name of its own in the folder of its path; publish() renames the complete file
+// to the path in one step.
+//
+// The part's name is <path>.part-<16 random hex digits>-<its inode>; it is created anew and follows no link,
+// and is locked (flock) while it is written. A part left by a process that was killed is removed by the next
+// one of the same path: one that no process has locked and that bears its own inode, or is empty, which no
+// file of anybody else's is that looks like it by chance.
 class PartFile {
  public:
-  explicit PartFile(std::filesystem::path path) : path_(std::move(path)), part_(path_.string() + ".part") {}
+  // Creates the part, with the access rights of the file that it is to replace, else those of any new file.
+  // Throws StoreError.
+  explicit PartFile(std::filesystem::path path);
   PartFile(const PartFile&) = delete;
   PartFile& operator=(const PartFile&) = delete;
   ~PartFile();  // removes the part, unless published
 
   const std::filesystem::path& part() const { return part_; }
 
-  // Syncs the closed part to disk, renames it to its path and syncs the directory. Throws StoreError.
+  // Syncs the part to disk, renames it to its path and syncs the directory. Nobody may have it open for
+  // writing. Throws StoreError.
   void publish();
 
  private:
+  bool create();
+
   std::filesystem::path path_, part_;
+  int descriptor_ = -1;     // holds the lock
   bool published_ = false;  // if so, another process may be writing the next part
 };
+
+// Removes the parts of a path that killed processes have left.
+void remove_dead_parts(const std::filesystem::path& path);
 
 }  // namespace frahm::results

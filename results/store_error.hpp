@@ -11,6 +11,7 @@ class StoreError : public std::runtime_error {
  public:
   StoreError(const std::string& where, const std::string& what, const std::string& cause)
       : std::runtime_error(where + ": " + what + (cause.empty() ? "" : ": " + cause)) {}
+  explicit StoreError(const std::string& whole) : std::runtime_error(whole) {}
 };
 
 }  // namespace frahm::results

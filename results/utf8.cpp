@@ -19,7 +19,7 @@ std::size_t sequence_length(unsigned char lead) {
 
 // Whether text[at, at + length) is one character: each further byte is 10xxxxxx, and the code has
 // its shortest form, is no surrogate and is at most U+10FFFF.
-bool is_character(const std::string& text, std::size_t at, std::size_t length) {
+bool is_character(std::string_view text, std::size_t at, std::size_t length) {
   if (length == 0 || at + length > text.size()) return false;
   std::uint32_t code = static_cast<unsigned char>(text[at]) & (length == 1 ? 0x7Fu : 0xFFu >> (length + 1));
   for (std::size_t i = 1; i < length; ++i) {
@@ -33,10 +33,15 @@ bool is_character(const std::string& text, std::size_t at, std::size_t length) {
 
 }  // namespace
 
+std::size_t character_length(std::string_view text, std::size_t at) {
+  const std::size_t length = sequence_length(static_cast<unsigned char>(text[at]));
+  return is_character(text, at, length) ? length : 0;
+}
+
 void check_utf8(const std::string& name, const std::string& text) {
   for (std::size_t at = 0; at < text.size();) {
-    const std::size_t length = sequence_length(static_cast<unsigned char>(text[at]));
-    if (!is_character(text, at, length)) {
+    const std::size_t length = character_length(text, at);
+    if (length == 0) {
       throw std::invalid_argument(
           fmt::format("text '{}': byte {} (0x{:02x}): must be UTF-8 without zero bytes", name, at,
                       static_cast<unsigned char>(text[at])));

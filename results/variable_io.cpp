@@ -1,5 +1,7 @@
 #include "results/variable_io.hpp"
 
+#include <fmt/core.h>
+
 #include <sstream>
 
 #include "results/storage.hpp"
@@ -31,6 +33,8 @@ std::vector<Flag> described_flags(const hdf5::Dataset& dataset) {
   for (const double value : *values) {
     std::string meaning;
     if (!(words >> meaning)) throw StoreError(dataset.where(), "must have a meaning for each flag value", "");
+    if (!(value >= 0 && value <= 127))
+      throw StoreError(dataset.where(), fmt::format("its flag value {} must be from 0 to 127", value), "");
     flags.push_back({meaning, static_cast<int>(value)});
   }
   return flags;
@@ -64,7 +68,12 @@ Variable described(const hdf5::Dataset& dataset) {
   const auto unit = dataset.text("units");
   if (!unit) throw StoreError(dataset.where(), "must have units", "");
   variable.unit = *unit;
-  if (const auto bits = dataset.numbers(kRounded)) variable.significant_bits = static_cast<int>(bits->at(0));
+  if (const auto bits = dataset.numbers(kRounded)) {
+    constexpr double most_bits = 52;  // of a float64
+    if (bits->size() != 1 || !(bits->front() >= 0 && bits->front() <= most_bits))
+      throw StoreError(dataset.where(), fmt::format("{} must be a number of bits, 0 to 52", kRounded), "");
+    variable.significant_bits = static_cast<int>(bits->front());
+  }
   return variable;
 }
 

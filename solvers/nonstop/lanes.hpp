@@ -149,7 +149,9 @@ FRAHM_INLINE MaskOf<kNative> joined(MaskOf<N> mask) {
 }
 FRAHM_INLINE bool any(const Mask& mask) {
   const Bits bits = joined(mask).v;
-#if defined(__AVX512F__)
+#if defined(__AVX512F__) && defined(__clang__)  // which has no such builtin
+  return (bits[0] | bits[1] | bits[2] | bits[3] | bits[4] | bits[5] | bits[6] | bits[7]) != 0;
+#elif defined(__AVX512F__)
   return __builtin_ia32_ptestmq512(bits, bits, 0xff) != 0;
 #elif defined(__AVX__)
   return __builtin_ia32_movmskpd256((Doubles)bits) != 0;

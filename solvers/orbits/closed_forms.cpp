@@ -272,14 +272,15 @@ double levitan_amplitude(double r, double zeta, double f) {
 }
 
 TwoFrequencyResponse two_frequency_response(const TwoFrequencies& system) {
-  const auto& [r1, M, N, zeta, f, p2, phase] = system;
-  const double base = r1 / M, th = pi / base;
+  const int M = system.M, N = system.N;
+  const double zeta = system.zeta, f = system.f;
+  const double base = system.r1 / M, th = pi / base;
   const DenHartogFunctions d = den_hartog_functions(base, zeta);
   const auto transfer = [&](int order) {
     const double r = order * base;
     return 1.0 / Complex((1.0 - r) * (1.0 + r), 2.0 * zeta * r);
   };
-  const Complex first = transfer(M), second = p2 * std::polar(1.0, phase) * transfer(N);
+  const Complex first = transfer(M), second = system.p2 * std::polar(1.0, system.phase) * transfer(N);
   const auto turned = [&](Complex amplitude, int order, double t) {
     return amplitude * std::polar(1.0, order * base * t);
   };

@@ -62,7 +62,7 @@ std::array<std::complex<double>, 2> non_stop_multipliers(double r, double zeta, 
 std::array<std::complex<double>, 2> one_stop_multipliers(double r, double zeta, double f);
 
 // The base moves by Y cos(omega t), friction between mass and ground, spring and damper between mass and
-// base: max|x| / Y with f = F/(kY).  S. S. Hundal, J. Sound Vib. 64 (1979) 371.
+// base: max|x| / Y with f = F/(kY).  M. S. Hundal, J. Sound Vib. 64 (1979) 371.
 double hundal_amplitude(double r, double zeta, double f);
 
 // Friction, spring and damper all between mass and base: max|x - y| / Y with f = F/(kY).
@@ -71,7 +71,7 @@ double levitan_amplitude(double r, double zeta, double f);
 
 // Two harmonics, x'' + 2 zeta x' + x + f Sgn(x') = cos(r1 tau) + p2 cos(r2 tau + phase), r1/r2 = M/N with M
 // and N odd and coprime, two reversals and no stop in a common period. G. Cheng and J. W. Zu, J. Sound Vib.
-// 264 (2003) 1085.
+// 275 (2004) 591.
 struct TwoFrequencies {
   double r1;  // omega1/omega_n
   int M, N;

@@ -11,6 +11,7 @@
 #include "results/map_writer.hpp"
 #include "studies/map/branch_record.hpp"
 #include "studies/map/first_modes.hpp"
+#include "studies/map/record_check.hpp"
 #include "studies/map/statistics_record.hpp"
 #include "studies/map/tile_record.hpp"
 #include "studies/map/tornado_record.hpp"
@@ -144,8 +145,9 @@ Failures write_map(const MapPlan& plan, const results::MapLayout& layout, const 
 engine::TileIndex read_logs(const MapPlan& plan, const AssemblyOptions& options) {
   StageProgress progress("reading", plan.grid.points(), options.progress);
   return engine::index_tiles(options.logs, plan.log_header(),
-                             [&](std::uint64_t tile, std::span<const std::byte>) {
+                             [&](std::uint64_t tile, std::span<const std::byte> record) {
                                if (options.stop_asked()) throw AssemblyStopped{};
+                               check_record(plan, tile, record);
                                progress.add(plan.grid.box(tile).points());
                              });
 }

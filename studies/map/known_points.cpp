@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <numeric>
 
 #include "engine/fingerprint.hpp"
 #include "results/store_error.hpp"
 #include "solvers/orbits/orbit.hpp"
 #include "studies/map/earlier_file.hpp"
+#include "studies/map/record_check.hpp"
 #include "studies/record/fingerprint.hpp"
 #include "studies/record/finished_file.hpp"
 
@@ -36,15 +36,6 @@ std::size_t variable_named(const results::MapLayout& layout, const std::string& 
     throw results::StoreError(file.string() + ":/" + name, "is not in the map, though its study records it",
                               "");
   return static_cast<std::size_t>(std::distance(layout.variables.begin(), found));
-}
-
-// Whether a run could have recorded the value. If not, a person or another program wrote it.
-bool is_possible(double value, const periodic::QuantityDescription& variable) {
-  if (variable.kind == QuantityKind::count)
-    return value >= -1.0 && value <= std::numeric_limits<std::int32_t>::max() && value == std::trunc(value);
-  if (variable.kind != QuantityKind::flag || value == 0.0) return true;
-  return std::ranges::any_of(variable.flags,
-                             [&](const auto& flag) { return static_cast<double>(flag.second) == value; });
 }
 
 // The index of a point from its number, row-major.

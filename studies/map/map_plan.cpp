@@ -10,6 +10,7 @@
 #include "studies/map/motion_kernel.hpp"
 #include "studies/map/motion_quantities.hpp"
 #include "studies/map/output_quantities.hpp"
+#include "studies/map/record_check.hpp"
 #include "studies/map/sample_names.hpp"
 #include "studies/map/tile_record.hpp"
 #include "studies/record/fingerprint.hpp"
@@ -69,6 +70,8 @@ engine::Job job_of(const MapPlan& plan, KnownPoints* earlier) {
               [&plan, points](std::uint64_t tile, std::span<const std::byte> record) {
                 return count_failed(record, points(tile) * plan.variables.size());
               },
+          .check = [&plan](std::uint64_t tile,
+                           std::span<const std::byte> record) { check_record(plan, tile, record); },
           .reused = [earlier] { return earlier ? earlier->taken() : std::uint64_t{0}; }};
 }
 

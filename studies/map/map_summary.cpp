@@ -7,9 +7,11 @@
 #include <cmath>
 #include <functional>
 
+#include "results/store_error.hpp"
 #include "solvers/algebra/no_value.hpp"
 #include "studies/map/grid.hpp"
 #include "studies/map/map_chunks.hpp"
+#include "studies/reading/decimal_digits.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -17,12 +19,15 @@ namespace {
 constexpr std::size_t most_rows = 12;
 
 FlagCounts count_flag(const results::MapReader& map, std::size_t variable) {
+  const results::Variable& flag = map.layout().variables[variable];
   std::vector<std::uint64_t> counts(128);
   for_each_chunk(map.layout(), [&](const MapBox& box) {
-    for (const double value : map.read(variable, box.start, box.count))
+    for (const double value : map.read(variable, box.start, box.count)) {
+      if (value < 0)
+        throw results::StoreError(flag.name, fmt::format("holds {}: a flag is from 0 to 127", value), "");
       ++counts[static_cast<std::size_t>(value)];
+    }
   });
-  const results::Variable& flag = map.layout().variables[variable];
   FlagCounts result{.variable = flag.name, .counts = {}};
   for (const results::Flag& each : flag.flags) {
     const std::uint64_t count = counts[static_cast<std::size_t>(each.value)];
@@ -31,16 +36,12 @@ FlagCounts count_flag(const results::MapReader& map, std::size_t variable) {
   return result;
 }
 
-double to_six_digits(double value) {
-  return std::stod(fmt::format("{:.6g}", value));
-}
-
 // "omega=238.5 rpm"; of axes that advance together the index: "design=3".
 std::string place_text(const results::Axis& axis, std::uint64_t index) {
   for (const results::Coordinate& coordinate : axis.coordinates) {
     if (coordinate.name == axis.name) {
       return fmt::format("{}={}", axis.name,
-                         with_unit(to_six_digits(coordinate.values[index]), coordinate.unit));
+                         with_unit(to_digits(coordinate.values[index], 6), coordinate.unit));
     }
   }
   return fmt::format("{}={}", axis.name, index);
@@ -116,7 +117,7 @@ void print_worst(const results::MapReader& map, const WorstAlongAxis& worst, std
       fmt::print(out, " no value\n");
       continue;
     }
-    fmt::print(out, " {:<14}", with_unit(to_six_digits(row.worst), variable.unit));
+    fmt::print(out, " {:<14}", with_unit(to_digits(row.worst, 6), variable.unit));
     for (std::size_t d = 1; d < layout.axes.size(); ++d) {
       fmt::print(out, " {} {}", d == 1 ? "at" : "  ", place_text(layout.axes[d], row.index[d]));
     }

@@ -42,7 +42,7 @@ struct TileRecord {
 // Appends the record to `out`.
 void encode(const TileRecord& record, engine::Bytes& out);
 
-// values: their number, points of the tile x quantities. Throws std::runtime_error for bytes that are not a
+// values: their number, points of the tile x quantities. Throws engine::BadRecord for bytes that are not a
 // record.
 void decode(std::span<const std::byte> bytes, std::size_t values, TileRecord& record);
 

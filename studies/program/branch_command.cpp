@@ -188,7 +188,7 @@ int branch_command(const BranchCommandOptions& options, std::ostream& out) {
   if (options.output && is_result(*options.output))
     write_result(options, study, along, parameters, quantities, branch, started);
   else if (options.output)
-    write_whole_file(*options.output, table.csv(branch));
+    write_whole_file(*options.output, table.csv(branch), Replaces::own_table);
   table.print(branch, out);
   return exit_code::done;
 }

@@ -31,6 +31,8 @@
 namespace frahm::studies {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 std::string readable_size(double bytes) {
   for (const char* unit : {"bytes", "kB", "MB", "GB"}) {
     if (bytes < 999.5) return fmt::format("{:.3g} {}", bytes, unit);
@@ -176,7 +178,6 @@ MapSample sample_of(const MapPlan& plan, double seconds) {
 }  // namespace
 
 int check_command(const CheckOptions& options, std::ostream& out) {
-  using Clock = std::chrono::steady_clock;
   constexpr double sample_seconds = 1.0;
   const auto start = Clock::now();
   Study read = read_study_with(options.study, options.set);

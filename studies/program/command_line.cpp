@@ -20,6 +20,7 @@
 #include "studies/program/status_command.hpp"
 #include "studies/program/verify_command.hpp"
 #include "studies/program/version_command.hpp"
+#include "studies/reading/plain_text.hpp"
 #include "studies/reading/spelling.hpp"
 #include "studies/reading/study_source.hpp"
 
@@ -400,6 +401,14 @@ std::string complaint(const CLI::App& program, const Command& tree, const CLI::P
   return fmt::format("unknown command \"{}\"{}{}", word, suggestion(word, names), more);
 }
 
+// The first argument that could not be told in a message, kept in a note or stored in a result.
+std::optional<int> first_unreadable(int argc, const char* const* argv) {
+  for (int i = 1; i < argc; ++i) {
+    if (!is_plain_line(argv[i])) return i;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<int> parse_command_line(int argc, const char* const* argv, CommandLine& line, std::ostream& out,
@@ -409,6 +418,12 @@ std::optional<int> parse_command_line(int argc, const char* const* argv, Command
   for (int i = 0; i < argc; ++i) line.run.command += (i == 0 ? "frahm" : std::string(" ") + argv[i]);
   line.branch.command = line.run.command;
   line.commands = told(program, "frahm");
+  if (const auto wrong = first_unreadable(argc, argv)) {
+    complaints << fmt::format(
+        "frahm: argument {} \"{}\": must be UTF-8 without control characters such as a line feed\n", *wrong,
+        argv[*wrong]);
+    return exit_code::wrong_input;
+  }
   try {
     program.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

@@ -180,7 +180,13 @@ void check_place_of_study(const char* option, const std::filesystem::path& place
   refuse_place(place);
 }
 
-// A study at the optimum of a tuning, with its tables beside it.
+bool holds(const std::filesystem::path& file, const std::string& text) {
+  std::ifstream there(file, std::ios::binary);
+  return std::string(std::istreambuf_iterator<char>(there), {}) == text;
+}
+
+// A study at the optimum of a tuning, with its tables beside it. A table alone is of an export that failed,
+// if it has the very bytes.
 int write_at_optimum(const ExportOptions& options, std::ostream& out) {
   const bool runs_up = !options.run_up.empty();
   const std::filesystem::path& place = runs_up ? options.run_up : options.sweep;
@@ -190,9 +196,9 @@ int write_at_optimum(const ExportOptions& options, std::ostream& out) {
   const SweepStudy sweep = study_of(read_stored_tuning(options.file), place.stem().string());
   for (const auto& [name, csv] : sweep.tables) {
     const std::filesystem::path table = place.parent_path() / name;
-    if (!again && std::filesystem::exists(table)) refuse_place(table);
-    write_whole_file(table, csv);
+    if (!again && std::filesystem::exists(table) && !holds(table, csv)) refuse_place(table);
   }
+  for (const auto& [name, csv] : sweep.tables) write_whole_file(place.parent_path() / name, csv);
   write_whole_file(place, sweep.text);
   fmt::print(out, "{}\n", place.string());
   return 0;
@@ -249,7 +255,8 @@ int export_command(const ExportOptions& options, std::ostream& out) {
   const std::filesystem::path output =
       options.output.empty() ? std::filesystem::path(options.file).replace_extension(".csv") : options.output;
   check_output_is_not_input(output, options.file);
-  write_whole_file(output, [&](std::ostream& file) { write_export(options, map, file); });
+  write_whole_file(
+      output, [&](std::ostream& file) { write_export(options, map, file); }, Replaces::own_table);
   fmt::print(out, "{}\n", output.string());
   return 0;
 }

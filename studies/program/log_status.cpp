@@ -47,7 +47,11 @@ LoggedJob job_of_note(const std::filesystem::path& output, const engine::LogHead
   return known;
 }
 
-LoggedJob job_of_tiles(const engine::LogHeader& study) {
+LoggedJob job_of_tiles(const std::filesystem::path& log, const engine::LogHeader& study) {
+  constexpr std::uint64_t most_tiles = 100'000'000;  // to index them takes 16 bytes each
+  if (study.tiles == 0 || study.tiles > most_tiles)
+    throw engine::IoError(log, fmt::format("the header of this shard log tells of {} tiles: must be 1 to {}",
+                                           study.tiles, most_tiles));
   LoggedJob known;
   known.job = {.tiles = study.tiles,
                .fingerprint = study.fingerprint,
@@ -58,8 +62,8 @@ LoggedJob job_of_tiles(const engine::LogHeader& study) {
   return known;
 }
 
-LoggedJob job_of_logs(const std::filesystem::path& output, const engine::LogHeader& study,
-                      std::ostream& out) {
+LoggedJob job_of_logs(const std::filesystem::path& output, const std::filesystem::path& log,
+                      const engine::LogHeader& study, std::ostream& out) {
   std::string reason;
   try {
     return job_of_note(output, study);
@@ -69,7 +73,7 @@ LoggedJob job_of_logs(const std::filesystem::path& output, const engine::LogHead
     reason = error.what();
   }
   fmt::print(out, "{:<22} unknown: {}\n", "points", reason);
-  return job_of_tiles(study);
+  return job_of_tiles(log, study);
 }
 
 void print_done(const engine::Survey& survey, const LoggedJob& known, std::ostream& out) {
@@ -133,7 +137,7 @@ void print_missing_tasks(const engine::Survey& survey, const std::vector<std::fi
 
 void print_log_status(const std::filesystem::path& output, const std::vector<std::filesystem::path>& logs,
                       const engine::LogHeader& study, std::ostream& out) {
-  const LoggedJob known = job_of_logs(output, study, out);
+  const LoggedJob known = job_of_logs(output, logs.front(), study, out);
   const engine::Survey survey = engine::survey(known.job, logs, std::chrono::system_clock::now());
   print_done(survey, known, out);
   print_work(survey, known.unit, out);

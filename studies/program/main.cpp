@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <exception>
 #include <iostream>
 
@@ -35,6 +36,7 @@ int main(int argc, char** argv) {
   try {
     occupy_standard_streams();
     keep_blas_to_one_thread();
+    std::signal(SIGXFSZ, SIG_IGN);  // a file above the limit of the shell is an error of its write, EFBIG
     return frahm::studies::run_program(argc, argv, std::cout);
   } catch (const std::exception& error) {
     std::cerr << "frahm: internal error, please report it: " << error.what() << '\n';

@@ -94,7 +94,7 @@ int motion_point(const PointOptions& options, Study study, std::ostream& out) {
     return exit_code::some_failed;
   }
   print_transient(study, motion, out);
-  if (options.history) write_whole_file(*options.history, csv(study, motion));
+  if (options.history) write_whole_file(*options.history, csv(study, motion), Replaces::own_table);
   return exit_code::done;
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/ostream.h>
 
 #include <ostream>
+#include <random>
 #include <sstream>
 #include <system_error>
 #include <vector>
@@ -16,8 +17,6 @@
 
 namespace frahm::studies {
 namespace {
-
-constexpr const char* script_name = ".frahm-figures.mjs";  // in the folder, while they are drawn
 
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
@@ -36,7 +35,8 @@ void require_node() {
 // The drawing script, as a file that exists only while it is needed.
 class FigureScript {
  public:
-  explicit FigureScript(const std::filesystem::path& folder) : path_(folder / script_name) {
+  explicit FigureScript(const std::filesystem::path& folder)
+      : path_(folder / fmt::format(".frahm-figures-{:08x}{:08x}.mjs", random_(), random_())) {
     write_whole_file(path_, results::figure_script());
   }
   ~FigureScript() {
@@ -49,6 +49,7 @@ class FigureScript {
   std::string path() const { return path_.string(); }
 
  private:
+  std::random_device random_;  // no file of the folder has the name
   std::filesystem::path path_;
 };
 

@@ -65,7 +65,8 @@ int point_command(const PointOptions& options, std::ostream& out) {
     throw StudyError(rules::not_computed, "--history {}: the point is {} and has no time history: {}",
                      options.history->string(), report.status, report.reason);
   }
-  if (options.history) write_whole_file(*options.history, csv(*report.history, study.dimensionless));
+  if (options.history)
+    write_whole_file(*options.history, csv(*report.history, study.dimensionless), Replaces::own_table);
   return exit_code::done;
 }
 

@@ -13,9 +13,11 @@
 #include "engine/fingerprint.hpp"
 #include "engine/io_error.hpp"
 #include "engine/mpi.hpp"
+#include "results/checked_apart.hpp"
 #include "results/store_error.hpp"
 #include "studies/program/command_line.hpp"
 #include "studies/program/exit_code.hpp"
+#include "studies/program/plain_output.hpp"
 #include "studies/program/refusal_advice.hpp"
 #include "studies/reading/study_source.hpp"
 
@@ -62,9 +64,10 @@ Ending carry_out(const CommandLine& line, std::ostream& out) {
 int lead(engine::Ranks* ranks, int argc, const char* const* argv, std::ostream& out) {
   CommandLine line;
   line.run.run.ranks = ranks;
-  if (const auto code = parse_command_line(argc, argv, line, out, std::cerr)) return *code;
-  const Ending ending = carry_out(line, out);
-  if (!ending.complaint.empty()) std::cerr << "frahm: " << ending.complaint << '\n';
+  PlainOutput plain(out), complaints(std::cerr);
+  if (const auto code = parse_command_line(argc, argv, line, plain, complaints)) return *code;
+  const Ending ending = carry_out(line, plain);
+  if (!ending.complaint.empty()) complaints << "frahm: " << ending.complaint << '\n';
   return ending.code;
 }
 
@@ -85,6 +88,7 @@ int follow(engine::Ranks& ranks, int argc, const char* const* argv) {
 int run_program(int argc, const char* const* argv, std::ostream& out) {
   const std::unique_ptr<engine::Ranks> ranks = engine::mpi_ranks();
   if (!ranks) return lead(nullptr, argc, argv, out);
+  results::keep_checks_here();
   if (ranks->rank() > 0) return follow(*ranks, argc, argv);
   const int code = lead(ranks.get(), argc, argv, out);
   engine::end_all(*ranks, code);

@@ -37,7 +37,7 @@ void write_page(const ReportOptions& options, const results::MapReader& result, 
     return;
   }
   check_output_is_not_input(output, options.file, ".html");
-  write_whole_file(output, page);
+  write_whole_file(output, page, Replaces::own_page);
   fmt::print(out, "{} ({:.1f} MB)\n", output.string(), static_cast<double>(page.size()) * 1e-6);
 }
 

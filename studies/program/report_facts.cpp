@@ -1,8 +1,14 @@
 #include "studies/program/report_facts.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
 #include <utility>
 
 #include "solvers/mechanics/element_table.hpp"
+#include "solvers/mechanics/rotation.hpp"
 #include "studies/motion/crank_motion.hpp"
 #include "studies/motion/motion_record.hpp"
 #include "studies/program/report_profile.hpp"
@@ -100,6 +106,53 @@ std::vector<results::Column> limit_bands(const Study& study) {
   return bands;
 }
 
+// Whether a response is not in proportion to its excitation.
+bool is_nonlinear(const mechanics::Network& network) {
+  return std::ranges::any_of(network.elements, [](const mechanics::Element& each) {
+    return mechanics::has_contact(each) || !each.bends.empty() || each.has_cubic;
+  });
+}
+
+// "force of 100 N on main", "motion of base, 0.0127 m"; where the amplitude follows the band it is told so.
+std::string component_text(const Study& study, std::size_t k, double at_start, double at_end) {
+  const mechanics::Network& network = study.network;
+  const mechanics::Excitation& each = network.excitations[k];
+  const bool is_force =
+      each.kind == mechanics::ExcitationKind::force || each.kind == mechanics::ExcitationKind::recorded_force;
+  const std::string& node = is_force ? network.masses[each.node] : network.prescribed[each.node];
+  const std::string what =
+      fmt::format("{} {} {}", is_force ? "force" : "motion", is_force ? "on" : "of", node);
+  if (mechanics::is_recorded(each.kind)) return what + " as recorded";
+  const char* unit = study.dimensionless ? ""
+                     : !is_force         ? each.kind == mechanics::ExcitationKind::belt ? " m/s" : " m"
+                     : mechanics::rotates(network, each.node) ? " N m"
+                                                              : " N";
+  const std::string order = each.order > 1 ? fmt::format(", order {}", each.order) : "";
+  const char* crank = each.kind == mechanics::ExcitationKind::crank ? " by a crank" : "";
+  if (std::abs(at_end - at_start) <= 1e-12 * std::abs(at_start))
+    return fmt::format("{}{}{}, {:.6g}{}", what, crank, order, at_start, unit);
+  return fmt::format("{}{}{}, {:.6g} to {:.6g}{} over the band", what, crank, order, at_start, at_end, unit);
+}
+
+// The excitation for which an optimum holds; none where the response is in proportion to it.
+std::vector<results::Text> excitation_of_optimum(const Study& study) {
+  if (!is_nonlinear(study.network)) return {};
+  const auto amplitudes_at = [&](double band) {
+    std::vector<double> parameters = study.parameters.nominal();
+    if (study.tune()->band) parameters[study.tune()->band->parameter] = band;
+    mechanics::NetworkValues values;
+    evaluate(study.values, study.parameters, parameters, values);
+    return values.excitation;
+  };
+  const auto& band = study.tune()->band;
+  const auto start = amplitudes_at(band ? band->range.from : 0.0),
+             end = amplitudes_at(band ? band->range.to : 0.0);
+  std::vector<std::string> components;
+  for (std::size_t k = 0; k < start.size(); ++k)
+    components.push_back(component_text(study, k, start[k].amplitude, end[k].amplitude));
+  return {{"excitation", fmt::format("{}", fmt::join(components, "; "))}};
+}
+
 }  // namespace
 
 std::vector<results::PageGroup> report_facts(const Study& study) {
@@ -109,7 +162,8 @@ std::vector<results::PageGroup> report_facts(const Study& study) {
   if (study.motion() && !study.map()) groups.push_back({.name = "study", .columns = motion_facts(study)});
   if (study.sweep() && study.sweep()->profile)
     groups.push_back(profile_group(study, *study.sweep()->profile));
-  if (study.kind() == StudyKind::tune) groups.push_back({.name = "study", .columns = limit_bands(study)});
+  if (study.kind() == StudyKind::tune)
+    groups.push_back({.name = "study", .columns = limit_bands(study), .texts = excitation_of_optimum(study)});
   return groups;
 }
 

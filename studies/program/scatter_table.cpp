@@ -13,6 +13,7 @@
 #include "studies/map/beside_samples.hpp"
 #include "studies/map/map_chunks.hpp"
 #include "studies/map/output_quantities.hpp"
+#include "studies/reading/decimal_digits.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -58,9 +59,9 @@ std::string place_text(const results::MapReader& map, const Index& index) {
     const results::Axis& axis = map.layout().axes[d];
     const auto own = std::ranges::find(axis.coordinates, axis.name, &results::Coordinate::name);
     const bool named = own != axis.coordinates.end();
-    text += fmt::format("{}{}={}", d == 0 ? " at " : ", ", axis.name,
-                        named ? with_unit(std::stod(fmt::format("{:.6g}", own->values[index[d]])), own->unit)
-                              : fmt::format("{}", index[d]));
+    text += fmt::format(
+        "{}{}={}", d == 0 ? " at " : ", ", axis.name,
+        named ? with_unit(to_digits(own->values[index[d]], 6), own->unit) : fmt::format("{}", index[d]));
   }
   return text;
 }

@@ -2,18 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <fstream>
 #include <iterator>
 #include <optional>
-#include <random>
+#include <regex>
 #include <sstream>
 #include <system_error>
 #include <utility>
 
 #include "engine/file.hpp"
 #include "engine/io_error.hpp"
-#include "studies/program/whole_file.hpp"
+#include "results/part_file.hpp"
 #include "studies/reading/assignment.hpp"
+#include "studies/reading/plain_text.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -46,6 +48,8 @@ std::size_t read_numbers(std::istream& file, StudyNote& note) {
 }
 
 std::optional<StudyNote> read_note(const std::filesystem::path& path) {
+  std::error_code ignored;  // what is not there is no note
+  if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;
   std::ifstream file(path, std::ios::binary);
   if (!file) return std::nullopt;
   StudyNote note;
@@ -57,6 +61,25 @@ std::optional<StudyNote> read_note(const std::filesystem::path& path) {
   if (!file) throw engine::IoError(path, "this note of a study is damaged; run the study again to mend it");
   note.text.assign(std::istreambuf_iterator<char>(file), {});
   return note;
+}
+
+// The note that a file's name is of: the note itself or a part of it; nothing for another file's.
+std::optional<std::string> note_of_name(const std::string& name, const std::string& output) {
+  if (!name.starts_with(output + ".")) return std::nullopt;
+  static const std::regex form("([0-9a-f]{1,16}-[0-9a-f]{1,16}\\.frahm-study)(\\.part-[0-9a-f]+(-[0-9]+)?)?");
+  const std::string rest = name.substr(output.size() + 1);
+  std::smatch part;
+  if (!std::regex_match(rest, part, form)) return std::nullopt;
+  return fmt::format("{}.{}", output, part[1].str());
+}
+
+// Whether a file has the form of a note, so that it is ours to remove.
+bool is_note(const std::filesystem::path& path) {
+  try {
+    return read_note(path).has_value();
+  } catch (const engine::IoError&) {
+    return false;
+  }
 }
 
 // The study of a note. If the note was moved with its tables and logs, the tables are beside the note and no
@@ -76,20 +99,25 @@ Study study_of_note(const StudyNote& note, const std::filesystem::path& path) {
 }  // namespace
 
 bool write_study_note(const std::filesystem::path& output, const StudyPlan& plan) {
-  std::string text =
-      fmt::format("{}\n{}", std::filesystem::absolute(plan.study.source.name).string(), plan.set.size());
+  const std::string study = std::filesystem::absolute(plan.study.source.name).string();
+  if (!is_plain_line(study))
+    throw StudyError(rules::wrong_file, "\"{}\": a path must be UTF-8 without control characters", study);
+  std::string text = fmt::format("{}\n{}", study, plan.set.size());
   if (plan.grown_from) text += fmt::format(" {}\n{}", plan.grown_from->identity, plan.grown_from->file);
   text += '\n';
   for (const std::string& set : plan.set) text += set + '\n';
   text += plan.study.source.text;
   const std::filesystem::path path = note_path(output, plan.log_header().fingerprint);
-  // Other shards may be writing the same note at this moment: each renames its complete file.
-  const std::filesystem::path own = fmt::format("{}-{:08x}", path.string(), std::random_device()());
-  write_whole_file(own, text);
   std::error_code error;
   const bool is_new = !std::filesystem::exists(path, error);
-  std::filesystem::rename(own, path, error);
-  if (error) throw engine::IoError(path, "write", error.value());
+  // Other shards may be writing the same note at this moment: each renames its complete file.
+  results::PartFile part(path);
+  errno = 0;
+  std::ofstream file(part.part(), std::ios::binary | std::ios::trunc);
+  file << text;
+  file.close();
+  if (!file) throw engine::IoError(path, "write", errno);
+  part.publish();
   return is_new;
 }
 
@@ -131,14 +159,16 @@ void remove_study_note(const std::filesystem::path& output, const StudyPlan& pla
 }
 
 void remove_study_notes(const std::filesystem::path& output) {
-  const std::string prefix = output.filename().string() + ".";
   std::error_code error;
+  std::vector<std::filesystem::path> notes;
   for (const auto& entry : std::filesystem::directory_iterator(engine::directory_of(output), error)) {
     const std::string name = entry.path().filename().string();
-    // Names with more text behind the suffix are notes left half written by a kill.
-    if (name.starts_with(prefix) && name.find(note_suffix) != std::string::npos) {
-      std::filesystem::remove(entry.path(), error);
-    }
+    if (const auto note = note_of_name(name, output.filename().string()))
+      notes.push_back(entry.path().parent_path() / *note);
+  }
+  for (const std::filesystem::path& note : notes) {
+    results::remove_dead_parts(note);
+    if (is_note(note)) std::filesystem::remove(note, error);
   }
 }
 

@@ -2,52 +2,95 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <fstream>
+#include <set>
+#include <sstream>
+#include <string>
 #include <system_error>
 
 #include "engine/io_error.hpp"
+#include "engine/output_lock.hpp"
+#include "results/part_file.hpp"
+#include "studies/reading/readable_file.hpp"
 #include "studies/reading/study_source.hpp"
 
 namespace frahm::studies {
 namespace {
 
-void write_file(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write) {
+// named: the path given in messages.
+void write_file(const std::filesystem::path& path, const std::filesystem::path& named,
+                const std::function<void(std::ostream&)>& write) {
   errno = 0;
   std::ofstream file(path, std::ios::binary | std::ios::trunc);
-  if (!file) throw engine::IoError(path, "create", errno);
+  if (!file) throw engine::IoError(named, "create", errno);
   write(file);
   file.close();
-  if (!file) throw engine::IoError(path, "write", errno);
+  if (!file) throw engine::IoError(named, "write", errno);
+}
+
+// The names of the columns of a table; a page that is named .csv has one long column.
+std::set<std::string> columns_of(const std::filesystem::path& table) {
+  std::ifstream file(table, std::ios::binary);
+  std::string line;
+  std::getline(file, line);
+  std::istringstream cells(line);
+  std::set<std::string> names;
+  for (std::string name; std::getline(cells, name, ',');) names.insert(name);
+  return names;
+}
+
+bool has_own_columns(const std::filesystem::path& there, const std::filesystem::path& made) {
+  const std::set<std::string> old_columns = columns_of(there), columns = columns_of(made);
+  return std::ranges::includes(old_columns, columns) || std::ranges::includes(columns, old_columns);
+}
+
+// By words of its body that are as old as pages are (results/report/page/page.html).
+bool is_page(const std::filesystem::path& there) {
+  std::ifstream file(there, std::ios::binary);
+  for (std::string line; std::getline(file, line);) {
+    if (line.find("<main id=\"page\"><p class=\"waiting\">Unpacking the results") != std::string::npos)
+      return true;
+  }
+  return false;
+}
+
+void check_replaced(const std::filesystem::path& there, const std::filesystem::path& made,
+                    Replaces replaces) {
+  std::error_code ignored;  // a file that is gone is not replaced
+  if (!std::filesystem::is_regular_file(there, ignored) || std::filesystem::is_empty(there, ignored)) return;
+  if (replaces == Replaces::own_table && !has_own_columns(there, made))
+    throw StudyError(
+        rules::wrong_file,
+        "{}: is there already and is no table with these columns; name another file, or remove it",
+        there.string());
+  if (replaces == Replaces::own_page && !is_page(there))
+    throw StudyError(rules::wrong_file,
+                     "{}: is there already and is no page of frahm; name another file, or remove it",
+                     there.string());
 }
 
 }  // namespace
 
-void write_whole_file(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write) {
+void write_whole_file(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write,
+                      Replaces replaces) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) throw engine::IoError(path, "create", EISDIR);
   if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error)) {
-    return write_file(path, write);
+    return write_file(path, path, write);
   }
-  std::filesystem::path part = path;
-  part += ".part";
-  try {
-    write_file(part, write);
-  } catch (...) {
-    std::filesystem::remove(part, error);
-    throw;
-  }
-  std::filesystem::rename(part, path, error);
-  if (error) {
-    const int reason = error.value();
-    std::filesystem::remove(part, error);
-    throw engine::IoError(path, "create", reason);
-  }
+  const engine::OutputLock lock(path);
+  results::PartFile part(path);
+  write_file(part.part(), path, write);
+  if (replaces != Replaces::anything) check_replaced(path, part.part(), replaces);
+  part.publish();
 }
 
-void write_whole_file(const std::filesystem::path& path, std::string_view text) {
+void write_whole_file(const std::filesystem::path& path, std::string_view text, Replaces replaces) {
   write_whole_file(
-      path, [&](std::ostream& file) { file.write(text.data(), static_cast<std::streamsize>(text.size())); });
+      path, [&](std::ostream& file) { file.write(text.data(), static_cast<std::streamsize>(text.size())); },
+      replaces);
 }
 
 void check_output_is_not_input(const std::filesystem::path& output, const std::filesystem::path& input,
@@ -56,6 +99,11 @@ void check_output_is_not_input(const std::filesystem::path& output, const std::f
   if (std::filesystem::equivalent(output, input, error)) {
     throw StudyError(rules::wrong_file, "{}: is the file that is read; name another for the output",
                      output.string());
+  }
+  for (const std::filesystem::path& read : files_read()) {
+    if (std::filesystem::equivalent(output, read, error))
+      throw StudyError(rules::wrong_file, "{}: is a file that the study reads; name another for the output",
+                       output.string());
   }
   if (output.extension() == ".toml" || output.extension() == ".h5") {
     throw StudyError(rules::wrong_file, "{}: has the name of a study or a result; name this output {}",

@@ -7,13 +7,21 @@
 
 namespace frahm::studies {
 
-// Writes a file whole or not at all: under another name beside it, then renamed. A device or a pipe at the
-// path is written to directly. Throws engine::IoError.
-void write_whole_file(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
-void write_whole_file(const std::filesystem::path& path, std::string_view text);
+// What a file that is there already must be to be replaced: anything of ours that its caller has checked; a
+// table with our columns, though there may be more or fewer of them; a page of a result. Any file may be if
+// it is empty.
+enum class Replaces { anything, own_table, own_page };
 
-// Throws StudyError if an output would replace the file it is made from, a study or a result. extension: that
-// of such outputs.
+// Writes a file whole or not at all: under another name beside it, then renamed (results::PartFile). One
+// process at a time writes to a path. A device or a pipe at the path is written to directly. Throws
+// engine::IoError, engine::Locked, results::StoreError; StudyError for a file that is not to be replaced.
+void write_whole_file(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write,
+                      Replaces replaces = Replaces::anything);
+void write_whole_file(const std::filesystem::path& path, std::string_view text,
+                      Replaces replaces = Replaces::anything);
+
+// Throws StudyError if an output would replace the file it is made from or another that this process has
+// read, or has the name of a study or a result. extension: that of such outputs.
 void check_output_is_not_input(const std::filesystem::path& output, const std::filesystem::path& input,
                                std::string_view extension = ".csv");
 

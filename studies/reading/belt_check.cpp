@@ -19,7 +19,8 @@ bool is_on_belt(const mechanics::Network& network, const mechanics::Node& node) 
 }  // namespace
 
 void check_belts(const NetworkReading& reading) {
-  const auto& [network, values] = reading.result;
+  const mechanics::Network& network = reading.result.network;
+  const auto& values = reading.result.values;
   if (!mechanics::has_belt(network)) return;
   const StudySource& source = reading.context.source;
   const auto name = [&](const mechanics::Node& node) { return network.prescribed[node.index]; };

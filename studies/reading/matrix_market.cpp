@@ -1,9 +1,11 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <suitesparse/cholmod.h>
 
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <memory>
@@ -83,8 +85,12 @@ std::string read_header(Lines& lines) {
   return header;
 }
 
-// Finds the line that is at fault, for CHOLMOD does not tell it, makes room for any size, and takes 1.0D5 for
-// 1.0.
+bool is_whole(double number, double least) {
+  return number >= least && number == std::floor(number);
+}
+
+// Finds the line that is at fault, for CHOLMOD does not tell it, makes room for any size, returns a stray
+// pointer for sizes below zero, and takes 1.0D5 for 1.0.
 void check_lines(const std::filesystem::path& path, const std::string& name) {
   constexpr double most = 4096;  // of rows or columns
   Lines lines{.file = std::ifstream(path), .name = name, .line = {}};
@@ -96,6 +102,9 @@ void check_lines(const std::filesystem::path& path, const std::string& name) {
     lines.fail(rules::wrong_row, fmt::format("{} numbers, but the sizes of the matrix are {}", sizes.size(),
                                              is_list ? "rows, columns, entries" : "rows, columns"));
   const double rows = sizes[0], columns = sizes[1];
+  if (!is_whole(rows, 1) || !is_whole(columns, 1) || (is_list && !is_whole(sizes[2], 0)))
+    lines.fail(rules::wrong_row,
+               fmt::format("the sizes {} are not whole numbers of 1 and more", fmt::join(sizes, ", ")));
   if (std::max(rows, columns) > most)
     lines.fail(rules::too_large,
                fmt::format("is {} x {}; at most {} degrees of freedom are read", rows, columns, most));
@@ -105,6 +114,10 @@ void check_lines(const std::filesystem::path& path, const std::string& name) {
     if (entry.size() != entry_needs)
       lines.fail(rules::wrong_row, fmt::format("{} numbers, but an entry is {}", entry.size(),
                                                is_list ? "row, column, value" : "a value"));
+    if (is_list && !(is_whole(entry[0], 1) && is_whole(entry[1], 1)))
+      lines.fail(rules::wrong_row,
+                 fmt::format("row {}, column {} of an entry are not whole numbers of 1 and more", entry[0],
+                             entry[1]));
     if (is_list && !(entry[0] <= rows && entry[1] <= columns))
       lines.fail(rules::wrong_row, fmt::format("entry ({}, {}) is outside the {} x {} matrix", entry[0],
                                                entry[1], rows, columns));

@@ -7,6 +7,9 @@
 #include <fstream>
 #include <ios>
 #include <iterator>
+#include <mutex>
+#include <set>
+#include <system_error>
 
 #include "studies/reading/study_source.hpp"
 
@@ -17,18 +20,35 @@ namespace {
   throw StudyError(rules::unreadable_file, "{}: cannot be read: {}", name, why);
 }
 
-std::ifstream open_file(const std::filesystem::path& path, const std::string& name) {
+// Of all threads.
+struct FilesRead {
+  std::mutex turn;
+  std::set<std::filesystem::path> paths;
+};
+
+FilesRead& all_read() {
+  static FilesRead files;
+  return files;
+}
+
+std::ifstream open_file(const std::filesystem::path& path, const std::string& name, FileKind kind) {
+  std::error_code ignored;  // opening reports the error
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  if (kind == FileKind::regular && std::filesystem::exists(status) &&
+      !std::filesystem::is_regular_file(status) && !std::filesystem::is_directory(status))
+    refuse(name, "it is no regular file but a pipe or a device");
   std::ifstream file(path, std::ios::binary);
   if (!file) refuse(name, std::strerror(errno));
-  std::error_code ignored;  // reading reports the error
-  if (std::filesystem::is_directory(path, ignored)) refuse(name, "it is a directory");
+  if (std::filesystem::is_directory(status)) refuse(name, "it is a directory");
+  const std::lock_guard turn(all_read().turn);
+  all_read().paths.insert(path);
   return file;
 }
 
 }  // namespace
 
-std::string read_file(const std::filesystem::path& path, const std::string& name) {
-  std::ifstream file = open_file(path, name);
+std::string read_file(const std::filesystem::path& path, const std::string& name, FileKind kind) {
+  std::ifstream file = open_file(path, name, kind);
   try {
     return std::string(std::istreambuf_iterator<char>(file), {});
   } catch (const std::ios_base::failure& failure) {  // of the buffer itself: a disk that cannot read
@@ -37,7 +57,12 @@ std::string read_file(const std::filesystem::path& path, const std::string& name
 }
 
 void check_readable(const std::filesystem::path& path, const std::string& name) {
-  open_file(path, name);
+  open_file(path, name, FileKind::regular);
+}
+
+std::vector<std::filesystem::path> files_read() {
+  const std::lock_guard turn(all_read().turn);
+  return {all_read().paths.begin(), all_read().paths.end()};
 }
 
 }  // namespace frahm::studies

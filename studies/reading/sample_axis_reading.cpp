@@ -6,6 +6,7 @@
 #include "solvers/samples/correlated.hpp"
 #include "solvers/samples/sequence.hpp"
 #include "studies/reading/axis_reading.hpp"
+#include "studies/reading/decimal_digits.hpp"
 #include "studies/reading/distribution_reading.hpp"
 #include "studies/reading/sample_reading.hpp"
 #include "studies/reading/sample_table.hpp"
@@ -39,7 +40,7 @@ std::vector<samples::Distribution> read_distributions(const TomlValue& table, Sa
 
 // Twelve digits: what libraries differ in beyond them does not reach the record.
 double to_twelve_digits(double value) {
-  return std::isfinite(value) ? std::stod(fmt::format("{:.11e}", value)) : value;
+  return std::isfinite(value) ? to_digits(value, 12) : value;
 }
 
 void set_values(SampleReading& reading, std::size_t i, const Eigen::VectorXd& drawn) {

@@ -178,7 +178,7 @@ void check_whole(Study& study) {
 }  // namespace
 
 Study read_study(const std::filesystem::path& path) {
-  std::string text = read_file(path, path.string());
+  std::string text = read_file(path, path.string(), FileKind::any);
   if (text.starts_with(hdf5_signature))
     throw StudyError(
         rules::wrong_file,

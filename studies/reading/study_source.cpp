@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "studies/reading/plain_text.hpp"
+
 namespace frahm::studies {
 namespace {
 
@@ -21,13 +25,11 @@ std::size_t byte_offset(std::string_view text, std::size_t index) {
   return at;
 }
 
-// Tabs become spaces, so that the mark stands under its column; control characters must not reach a terminal.
+// Tabs become spaces, so that the mark stands under its column; a line stays one line.
 std::string printable(std::string_view text) {
-  std::string shown(text);
-  for (char& c : shown) {
-    if (c == '\t') c = ' ';
-    if (static_cast<unsigned char>(c) < 0x20U || c == 0x7F) c = '?';
-  }
+  std::string shown = plain_text(text);
+  std::ranges::replace(shown, '\t', ' ');
+  std::ranges::replace(shown, '\n', '?');
   return shown;
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <chrono>
+#include <ctime>
 #include <filesystem>
 
 #include "solvers/mechanics/bends.hpp"
@@ -14,8 +15,8 @@
 namespace frahm::studies {
 
 std::string utc_now() {
-  const auto now = std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::system_clock::now());
-  return fmt::format("{:%Y-%m-%dT%H:%M:%S}Z", now);
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  return fmt::format("{:%Y-%m-%dT%H:%M:%S}Z", fmt::gmtime(now));  // a time_point would be told in local time
 }
 
 results::MapLayout file_layout(const StudyPlan& plan, const RunRecord& run) {

@@ -8,6 +8,7 @@
 #include "studies/record/array_tasks.hpp"
 #include "studies/record/assembly_stage.hpp"
 #include "studies/record/provenance.hpp"
+#include "studies/tuning/optimum_check.hpp"
 #include "studies/tuning/optimum_record.hpp"
 #include "studies/tuning/tuning_record.hpp"
 
@@ -39,8 +40,9 @@ void write_file(const StudyPlan& plan, const RunRecord& run, const std::filesyst
 
 std::optional<TuningResult> assemble_tuning(const StudyPlan& plan, const RunRecord& run,
                                             const AssemblyOptions& options, const engine::OutputLock&) {
-  const engine::TileIndex index =
-      engine::index_tiles(options.logs, plan.log_header(), [](std::uint64_t, std::span<const std::byte>) {});
+  const engine::TileIndex index = engine::index_tiles(
+      options.logs, plan.log_header(),
+      [&](std::uint64_t, std::span<const std::byte> record) { check_start(plan.study, record); });
   const std::vector<std::uint64_t> missing = engine::missing_tiles(index);
   refuse_gaps(options, missing, plan.tiles);
   std::vector<StartResult> starts;

@@ -12,7 +12,7 @@ namespace frahm::studies {
 // Appends the record to `out`.
 void encode(const std::vector<tuning::Optimum>& optima, engine::Bytes& out);
 
-// Throws std::runtime_error for bytes not written by encode().
+// Throws engine::BadRecord for bytes not written by encode().
 std::vector<tuning::Optimum> decode_optima(std::span<const std::byte> bytes);
 
 }  // namespace frahm::studies

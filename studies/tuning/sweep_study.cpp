@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "studies/reading/decimal_digits.hpp"
 #include "studies/reading/settings.hpp"
 #include "studies/reading/toml_building.hpp"
 #include "studies/reading/toml_reading.hpp"
@@ -120,7 +121,7 @@ TomlValue tuned_study(const StoredTuning& stored, const char* kind, const std::s
 TomlTable run_up_of(const BandChoice& band) {
   constexpr double kPeriods = 500.0;  // of the first frequency, that the band takes
   const double duration = kPeriods * 2.0 * std::numbers::pi / band.range.from;
-  const double rate = std::stod(fmt::format("{:.2g}", (band.range.to - band.range.from) / duration));
+  const double rate = to_digits((band.range.to - band.range.from) / duration, 2);
   return {{"sweep_to", {}, toml_number(band.range.to)},
           {"sweep_rate", {}, toml_number(rate)},
           {"samples", {}, toml_number(2001.0)}};

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "solvers/mechanics/linear_system.hpp"
+#include "studies/tuning/optimum_check.hpp"
 #include "studies/tuning/optimum_record.hpp"
 #include "studies/tuning/tuning_record.hpp"
 #include "studies/tuning/tuning_task.hpp"
@@ -56,7 +57,9 @@ engine::Job job_of_tuning(const StudyPlan& plan) {
           .fingerprint = plan.fingerprint,
           .make_kernel = make_kernel,
           .points = [](std::uint64_t) { return std::uint64_t{1}; },
-          .failed = {}};
+          .failed = {},
+          .check = [&plan](std::uint64_t,
+                           std::span<const std::byte> record) { check_start(plan.study, record); }};
 }
 
 }  // namespace frahm::studies

@@ -130,11 +130,13 @@ void print_peaks(const TuningAbout& about, std::ostream& out) {
   const auto is_active = [](const tuning::Peak& peak) { return peak.multiplier > 0.0; };
   if (std::none_of(about.optimum.peaks.begin(), about.optimum.peaks.end(), is_active)) return;
   const auto names = scenario_names(about.study);
-  fmt::print(out, "\nactive peaks\n{:>18}{:>18}{:>10}\n", in_brackets(about.band, about.band_unit),
-             in_brackets(about.tune.quantity_name, quantity_unit(about.study)), "share");
+  const std::string quantity = in_brackets(about.tune.quantity_name, quantity_unit(about.study));
+  const std::size_t width = std::max<std::size_t>(18, quantity.size() + 2);
+  fmt::print(out, "\nactive peaks\n{:>18}{:>{}}{:>10}\n", in_brackets(about.band, about.band_unit), quantity,
+             width, "share");
   for (const tuning::Peak& peak : about.optimum.peaks) {
     if (!is_active(peak)) continue;
-    fmt::print(out, "{:>18.8g}{:>18.8g}{:>10.4f}{}\n", about.spoken_band(peak.at), peak.value,
+    fmt::print(out, "{:>18.8g}{:>{}.8g}{:>10.4f}{}\n", about.spoken_band(peak.at), peak.value, width,
                peak.multiplier, about.tune.scenarios.empty() ? "" : "  " + names.at(peak.scenario));
   }
 }

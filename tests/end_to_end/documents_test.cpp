@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "solvers/quantities/quantity_table.hpp"
+
 namespace frahm {
 namespace {
 
@@ -94,6 +96,16 @@ TEST_CASE("no cell of a table in the documents is longer than a reader takes in"
         CHECK(cell.size() <= longest_cell + 2);
       }
     }
+  }
+}
+
+TEST_CASE("the glossary has every quantity") {
+  std::ifstream stream(root / "studies/glossary.md");
+  std::stringstream text;
+  text << stream.rdbuf();
+  for (const periodic::QuantityRow& row : periodic::quantity_table()) {
+    INFO(row.suffix);
+    CHECK(text.str().find("`" + std::string(row.suffix) + "`") != std::string::npos);
   }
 }
 

@@ -50,7 +50,7 @@ def phases(place):
     """A call in each phase of a run: at the start, computing, assembling, before and behind the publishing."""
     calls = place.calls()
     appends = [call.number for call in calls if call.path.endswith(".frahm-log") and call.offset >= 256]
-    parts = [call.number for call in calls if call.path.endswith(".h5.part")]
+    parts = [call.number for call in calls if ".h5.part-" in call.path]
     published = next(call.number for call in calls if call.name == "rename" and call.path.endswith(OUTPUT))
     removed = [call.number for call in calls if call.name == "unlink" and call.number > published]
     return {"computing": appends[len(appends) // 2], "computed": appends[-1] + 1, "assembling": parts[len(parts) // 2],

@@ -19,6 +19,14 @@ class TemporaryDirectory {
 
   std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
 
+  // The number of files that are parts of others.
+  int parts() const {
+    int count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(path_))
+      count += entry.path().filename().string().find(".part-") != std::string::npos ? 1 : 0;
+    return count;
+  }
+
  private:
   std::filesystem::path path_;
 };

@@ -216,6 +216,7 @@ export function tuningOf(record) {
     unit,
     root: texts.objective_kind === "minimax" ? unit : rootUnit(unit),
     reason: texts.reason ?? "",
+    excitation: record.groups.get("study")?.texts.excitation ?? "",
     scenarios: several ? scenarios : [],
     parameters: listOf(texts.parameters).map((name) => parameterOf(group, name)),
     peaks: peaksOf(group, band, several ? scenarios : [], state),

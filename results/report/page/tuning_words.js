@@ -305,6 +305,16 @@ function detuningSentences(tuning) {
   ];
 }
 
+// With friction, stops or tables a response does not grow in proportion to its excitation, and nor does an optimum hold
+// for another one.
+function excitationSentences({ excitation }) {
+  if (!excitation) return [];
+  return [
+    `The design holds for this excitation: ${excitation}. Friction, stops and tables do not scale with the motion: under ` +
+      `another amplitude it is the best only where their forces and clearances are changed in the same proportion.`,
+  ];
+}
+
 function noNumberSentences(tuning) {
   const { before } = tuning.worst;
   if (tuning.outcome !== "unbounded") return [`There is no number for the ${spoken(tuning)} of this design.`];
@@ -339,7 +349,7 @@ export function whatItMeans(tuning) {
   if (!Number.isFinite(tuning.objective)) return [noNumberSentences(tuning)];
   return [
     tradeOffSentences(tuning),
-    [...reductionSentences(tuning), ...bandSentences(tuning)],
+    [...reductionSentences(tuning), ...bandSentences(tuning), ...excitationSentences(tuning)],
     certificateSentences(tuning),
     [
       ...heldSentences(tuning),

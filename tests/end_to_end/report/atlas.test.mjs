@@ -90,7 +90,7 @@ test("the page of the full rig atlas", async (t) => {
     await page.locator("label", { hasText: "colour by regime" }).locator("input").check();
     await page.waitForFunction(() =>
       document
-        .querySelector("[data-figure=curves_main_peak] [aria-label=legend]")
+        .querySelector("[data-figure=curves_main_peak] [data-mark=legend]")
         ?.textContent.includes("non stop"),
     );
     await page.locator("label", { hasText: "scale" }).locator("select").selectOption("dB");
@@ -126,9 +126,7 @@ test("the page of the full rig atlas", async (t) => {
     await page.emulateMedia({ colorScheme: "dark" });
     assert.ok((await lightness("body", "backgroundColor")) < 0.3);
     assert.ok((await lightness("#point td", "color")) > 0.7);
-    assert.ok(
-      (await lightness("[data-figure=map_main_peak] [aria-label='x-axis label'] text", "fill")) > 0.7,
-    );
+    assert.ok((await lightness("[data-figure=map_main_peak] [data-mark='x-axis label'] text", "fill")) > 0.7);
     assert.deepEqual(await badLabels(page), []);
     await page.emulateMedia({ colorScheme: "light" });
   });
@@ -146,7 +144,7 @@ test("the page of the full rig atlas", async (t) => {
         document.querySelector("[data-figure^=map_] h3").textContent.startsWith("Stops of"),
       );
       const figure = page.locator("[data-figure^=map_]");
-      assert.match(await figure.locator("[aria-label='colour scale']").textContent(), /^0/);
+      assert.match(await figure.locator("[data-mark='colour scale']").textContent(), /^0/);
       await page
         .locator("label", { hasText: "quantity" })
         .first()

@@ -22,7 +22,7 @@ async function drawnBorder(page, dash) {
     const svg = document.querySelector("[data-figure^=map_] svg"),
       x = svg.scale("x"),
       y = svg.scale("y");
-    const lines = [...svg.querySelectorAll("[aria-label=line]")].filter(
+    const lines = [...svg.querySelectorAll("[data-mark=line]")].filter(
       (g) => g.getAttribute("stroke") === "black" && (g.getAttribute("stroke-dasharray") ?? "") === wanted,
     );
     const places = lines
@@ -54,7 +54,7 @@ test("the page of a map with borders and orbits", async (t) => {
         `r = ${r}: ${f}, f_crit ${criticalFriction(r, 0.05)}`,
       );
     assert.match(
-      await page.locator("[data-figure^=map_] [aria-label=legend]").textContent(),
+      await page.locator("[data-figure^=map_] [data-mark=legend]").textContent(),
       /non stop \| one stop/,
     );
   });

@@ -14,7 +14,7 @@ async function drawn(page, figure, isDashed) {
       const svg = document.querySelector(`[data-figure^=${name}] svg`),
         x = svg.scale("x"),
         y = svg.scale("y");
-      const lines = [...svg.querySelectorAll("[aria-label=line]")].filter((g) => {
+      const lines = [...svg.querySelectorAll("[data-mark=line]")].filter((g) => {
         const dash = g.getAttribute("stroke-dasharray"); // a compared curve is dotted
         return (wanted ? dash?.startsWith("5") : !dash) && !g.hasAttribute("stroke-opacity");
       });
@@ -28,7 +28,7 @@ async function drawn(page, figure, isDashed) {
   );
 }
 
-const legend = (page, figure) => page.locator(`[data-figure^=${figure}] [aria-label=legend]`).textContent();
+const legend = (page, figure) => page.locator(`[data-figure^=${figure}] [data-mark=legend]`).textContent();
 
 test("the page of a map with branches", async (t) => {
   const folder = folderOf(t),

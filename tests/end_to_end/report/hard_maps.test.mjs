@@ -76,7 +76,7 @@ test("an axis out of order is shown by its number, with its true values", async 
   await page.locator("input[data-axis=zeta]").fill("2");
   await page.waitForFunction(() => document.querySelector("#point h3").textContent.includes("ζ = 0.2"));
   assert.match(await page.locator("#point code").textContent(), /--at zeta=0\.2,f=[\d.]+,r=[\d.]+$/);
-  assert.ok((await page.locator("[data-figure^=map_] [aria-label=line]").count()) > 0, "no borders");
+  assert.ok((await page.locator("[data-figure^=map_] [data-mark=line]").count()) > 0, "no borders");
   const rows = csvRows((await saved(page, page.locator("[data-figure^=map_] .save-csv"))).text);
   assert.ok(rows.every((row) => row.zeta === "0.2"));
   const row = rows.find(({ f, r }) => Math.abs(f - 0.3) < 1e-9 && Math.abs(r - 0.9) < 1e-9);

@@ -94,12 +94,18 @@ print(json.dumps(found))`;
 }
 
 // A page in the browser; closed at the end of the test. {page, complaints}.
-export async function open(test, file, { width = 1280, height = 900, colorScheme = "light" } = {}) {
+export async function open(
+  test,
+  file,
+  { width = 1280, height = 900, colorScheme = "light", hasTouch = false } = {},
+) {
   const browser = await chromium.launch({ executablePath: chromiumPath, args: ["--no-sandbox"] });
   test.after(() => browser.close());
   const context = await browser.newContext({
     viewport: { width, height },
     colorScheme,
+    hasTouch,
+    isMobile: hasTouch,
     acceptDownloads: true,
   });
   const page = await context.newPage();
@@ -179,7 +185,7 @@ export async function badLabels(page) {
     for (const svg of document.querySelectorAll(".plot svg")) {
       const frame = svg.getBoundingClientRect();
       const labels = [...svg.querySelectorAll("text, tspan:not(text > tspan)")].filter(
-        (text) => text.textContent.trim() && !text.closest("[aria-label=tip]"),
+        (text) => text.textContent.trim() && !text.closest("[aria-label=tip], [data-mark=tip]"),
       );
       const boxes = labels
         .map((text) => ({ text: text.textContent, box: text.getBoundingClientRect() }))

@@ -114,7 +114,7 @@ test("a map over records has their names, and the largest and the mean of all", 
   frahm(["run", text, "-o", file, "--progress", "none"]);
   frahm(["report", file]);
   const { page, complaints } = await open(t, join(folder, "own.html"));
-  const labels = await figure(page, "map_columns_stroke").locator("svg").textContent();
+  const labels = await figure(page, "map_columns_stroke").locator("svg").first().textContent();
   assert.match(labels, /a_quiet_day/);
   assert.match(labels, /a_middling_\u2026/);
   const row = page.locator("#records tbody tr", { hasText: "columns stroke" });
@@ -151,7 +151,7 @@ test("samples have quantile bands, a histogram and a tornado", async (t) => {
     for (const name of ["machine_peak_q5", "machine_peak_q50_low", "machine_peak_q95_high"])
       assert.equal(Number(row[name]), stored(file, `statistics/${name}`, [i]));
   });
-  const legend = await figure(page, "quantiles_machine_peak").locator("[aria-label=legend]").textContent();
+  const legend = await figure(page, "quantiles_machine_peak").locator("[data-mark=legend]").textContent();
   assert.match(legend, /median.*5 % to 95 %.*95 % interval/);
 
   const bins = await csvOf("histogram_machine_peak");

@@ -72,7 +72,7 @@ test("a building is shown over its height", async (t) => {
       plot.parentElement.dispatchEvent(new MouseEvent("click", at));
     });
     await page.waitForFunction(
-      () => document.querySelectorAll("[data-figure=profile_peak] [aria-label=legend] path").length === 2,
+      () => document.querySelectorAll("[data-figure=profile_peak] [data-mark=legend] path").length === 2,
     );
     await page.locator("#clear").click();
   });

@@ -129,3 +129,23 @@ test("a front tells what keeps its limit from what does not", async (t) => {
   assert.equal(await gap.textContent(), "–");
   assert.deepEqual(complaints, []);
 });
+
+test("a tuning with friction says for which excitation it holds, one without does not", async (t) => {
+  const folder = folderOf(t);
+  const wordsOf = async (name) => {
+    const file = join(folder, `${name}.h5`);
+    frahm(["run", study(name), "-o", file, "--progress", "none"]);
+    frahm(["report", file]);
+    const { page } = await open(t, join(folder, `${name}.html`));
+    return page.locator("main section", { hasText: "What this means" }).first().textContent();
+  };
+  assert.match(
+    await wordsOf("tune_friction_absorber"),
+    /holds for this excitation: force on main, 1\. Friction, stops/,
+  );
+  assert.match(
+    await wordsOf("tune_rig_stiffness_damping"),
+    /holds for this excitation: motion of \w+, [\d.]+ m/,
+  );
+  assert.doesNotMatch(await wordsOf("tune_classical"), /holds for this excitation/);
+});

@@ -363,8 +363,7 @@ test("of a design that did not converge, but keeps its limits, the gap that is l
 });
 
 test("the conditions of an optimum are judged by the tolerance that the study asks for", () => {
-  const at = (tolerance) =>
-    told({ kkt_residual: ["1", "", 1e-4], tolerance: ["1", "", tolerance] }, 2);
+  const at = (tolerance) => told({ kkt_residual: ["1", "", 1e-4], tolerance: ["1", "", tolerance] }, 2);
   assert.match(at(1e-3), /hold to 0\.0001 \(relative\) at the last step/);
   assert.match(at(1e-6), /do not hold: KKT residual/);
 });
@@ -400,7 +399,10 @@ test("the end of the band is no peak", () => {
 });
 
 test("of several responses the page claims no more than what was found", () => {
-  const text = (texts) => whatItMeans(tuningOf(minimax({}, 1, texts))).flat().join(" ");
+  const text = (texts) =>
+    whatItMeans(tuningOf(minimax({}, 1, texts)))
+      .flat()
+      .join(" ");
   assert.match(text({}), /Certificate: all peaks/);
   assert.doesNotMatch(text({}), /Several responses/);
   const searched = text({ not_proved: "it is not proved that none was missed" });

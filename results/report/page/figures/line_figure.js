@@ -36,10 +36,10 @@ function domainOf(spec, axis) {
     high = Math.max(high, value);
   }
   if (low > high || (zero && low === 0 && high === 0)) return type === "log" ? [1, 10] : [0, 1];
+  if (tight && high > low) return [low, high];
   if (type === "log") return [Math.max(low, high * 10 ** -decades) / 1.3, high * 1.3];
   if (zero) [low, high] = [Math.min(low, 0), Math.max(high, 0)];
   const room = (high - low) * 0.05 || Math.abs(high) * 0.05 || 0.5;
-  if (tight && high > low) return [low, high];
   const least = leastSpan * Math.max(Math.abs(low), Math.abs(high)),
     more = Math.max(0, least - (high - low)) / 2;
   [low, high] = [low - more, high + more];

@@ -1,6 +1,6 @@
 // A quantity over two axes of the map, as coloured cells, with the borders of a contact's regimes over it.
 import * as Plot from "@observablehq/plot";
-import { rgb } from "d3";
+import { extent, rgb } from "d3";
 import { axisLabel, axisScale, cellEdges, coordinateColumns, spacing } from "../axes.js";
 import { borderCurves } from "../borders.js";
 import { isMissing, meaningOf } from "../record.js";
@@ -100,7 +100,8 @@ function axisOf(map, axis, coordinate) {
     isEven: spacing(values) !== "",
     label: axisLabel(map, map.axes[axis], coordinate),
     scale,
-    domain: [Math.min(edges[0], edges.at(-1)), Math.max(edges[0], edges.at(-1))],
+    edges: [edges[0], edges.at(-1)],
+    domain: extent(coordinate.names || values.length === 1 ? edges : values),
   };
 }
 
@@ -109,18 +110,31 @@ function namesAt({ names }, pixels) {
   return names ? { ...nameTicks(names, pixels), areNames: true } : {};
 }
 
-function pictureMark(url) {
+// The cells reach half a cell beyond the first and the last point; the frame, which ends there, cuts them.
+function pictureMark(url, axes) {
   return (index, scales, values, dimensions, { document }) => {
     const { marginLeft, marginTop, width, height, marginRight, marginBottom } = dimensions;
-    return svgElement(document, "image", {
+    const frame = {
       x: marginLeft,
       y: marginTop,
       width: width - marginLeft - marginRight,
       height: height - marginTop - marginBottom,
-      preserveAspectRatio: "none",
-      href: url,
-      style: "image-rendering: pixelated",
-    });
+    };
+    const [left, right] = extent(axes.x.edges.map(scales.x)),
+      [top, bottom] = extent(axes.y.edges.map(scales.y));
+    const inside = svgElement(document, "svg", frame);
+    inside.appendChild(
+      svgElement(document, "image", {
+        x: left - frame.x,
+        y: top - frame.y,
+        width: right - left,
+        height: bottom - top,
+        preserveAspectRatio: "none",
+        href: url,
+        style: "image-rendering: pixelated",
+      }),
+    );
+    return inside;
   };
 }
 
@@ -221,7 +235,7 @@ export function responseMap(canvas, map, variable, state) {
     legend: [...regimes, ...borders.legend],
     marginRight: flag ? 20 : colourBarMargin(bar.label, bar.range, bar.look, frameHeight),
     marks: [
-      pictureMark(picture(canvas, map, variable, state, axes, paint)),
+      pictureMark(picture(canvas, map, variable, state, axes, paint), axes),
       ...borders.marks,
       Plot.dot(picked, { x: "x", y: "y", r: 7, fill: "white", stroke: "black", strokeWidth: 1.5 }),
       Plot.text(picked, {

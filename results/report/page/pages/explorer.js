@@ -217,7 +217,8 @@ export function explorerSections(record) {
     );
   }
   const hint =
-    "Point at the map to read it; click to take a point for the curves, with Shift to keep the one before.";
+    "Point at the map to read it; click or tap to take a point for the curves (with Shift to keep the one before), " +
+    "or move it with the arrow keys.";
   return [
     section(
       mapShown ? "Response map" : "Response",

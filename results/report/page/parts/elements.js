@@ -18,7 +18,7 @@ export function table(head, rows, { caption, numeric = [] } = {}) {
     element(name, numeric.includes(column) ? { class: "number" } : {}, content ?? "");
   return element(
     "div",
-    { class: "scroll" },
+    { class: "scroll", tabindex: 0, role: "group", "aria-label": caption ?? "table" },
     element(
       "table",
       {},
@@ -29,7 +29,7 @@ export function table(head, rows, { caption, numeric = [] } = {}) {
         element(
           "tr",
           {},
-          head.map((text, c) => cell("th", text, c)),
+          head.map((text, c) => cell(text === "" ? "td" : "th", text, c)), // a heading has words
         ),
       ),
       element(

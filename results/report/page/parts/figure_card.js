@@ -21,6 +21,14 @@ function canvasOf(width, figure) {
   return { width, height, document, image, interactive: true };
 }
 
+// The figure has one name, its own; Plot's names of its parts, "line" and "dot", would be read out each.
+function nameMarks(svg) {
+  for (const part of svg.querySelectorAll("[aria-label]")) {
+    part.dataset.mark = part.getAttribute("aria-label");
+    part.removeAttribute("aria-label");
+  }
+}
+
 function download(name, type, text) {
   const url = URL.createObjectURL(new Blob([text], { type }));
   const link = element("a", { href: url, download: name });
@@ -81,6 +89,7 @@ export function figureCard(figure, record) {
       shown.svg = figure.draw(canvasOf(width, figure));
       shown.svg.setAttribute("role", "img");
       shown.svg.setAttribute("aria-label", [figure.title, figure.caption].filter(Boolean).join(". "));
+      nameMarks(shown.svg);
       plot.replaceChildren(shown.svg);
     } catch (error) {
       plot.replaceChildren(

@@ -1,6 +1,40 @@
-// A pointer over a response map: shows the point below it, and picks it at a click.
-import { axisScale, nearest } from "../axes.js";
+// A pointer over a response map: shows the point below it, and picks it at a click or tap; arrow keys move the point.
+import { axisScale, axisText, nearest } from "../axes.js";
 import { element } from "./elements.js";
+
+const far = 10; // points that an arrow key moves by with Shift
+
+// The next point along an axis, to the right or up as drawn: larger values.
+function moved(map, state, axis, steps) {
+  const { values } = map.axes[axis].coordinates[state.coordinates[axis]];
+  const index = [...state.index],
+    towards = values.at(-1) < values[0] ? -steps : steps;
+  index[axis] = Math.max(0, Math.min(values.length - 1, index[axis] + towards));
+  return index;
+}
+
+// The chosen point moves with the arrow keys; what it is is told beside the map.
+function followKeys(shown, map, state, pick) {
+  const told = element("p", { class: "note", role: "status" });
+  shown.card.append(told);
+  shown.plot.tabIndex = 0;
+  shown.plot.setAttribute("role", "group");
+  shown.plot.setAttribute("aria-label", "response map: the arrow keys move the chosen point");
+  shown.plot.addEventListener("keydown", (event) => {
+    const ways = {
+      ArrowLeft: [state.x, -1],
+      ArrowRight: [state.x, 1],
+      ArrowDown: [state.y, -1],
+      ArrowUp: [state.y, 1],
+    };
+    const way = ways[event.key];
+    if (!way) return;
+    event.preventDefault();
+    const index = moved(map, state, way[0], way[1] * (event.shiftKey ? far : 1));
+    pick(index, false);
+    told.textContent = `Point: ${map.axes.map((axis, a) => axisText(map, axis, index[a])).join(", ")}`;
+  });
+}
 
 // shown: of figureCard; state: the map's; describe(index): an element; pick(index, add).
 export function followPointer(shown, map, state, describe, pick) {
@@ -45,4 +79,5 @@ export function followPointer(shown, map, state, describe, pick) {
     const index = indexAt(event);
     if (index) pick(index, event.shiftKey);
   });
+  followKeys(shown, map, state, pick);
 }

@@ -53,12 +53,12 @@ function failureList(failed) {
     "details",
     {},
     element("summary", {}, `${rest.length} more`),
-    element("pre", {}, rest.join("\n")),
+    element("pre", { tabindex: 0 }, rest.join("\n")),
   );
   return element(
     "div",
     {},
-    element("pre", {}, lines.slice(0, failuresAtOnce).join("\n")),
+    element("pre", { tabindex: 0 }, lines.slice(0, failuresAtOnce).join("\n")),
     rest.length ? more : null,
   );
 }

@@ -20,7 +20,7 @@ export function provenanceSection(record) {
       "details",
       { class: "study" },
       element("summary", {}, `The study, ${provenance.study_file ?? ""}`),
-      element("pre", {}, provenance.study ?? ""),
+      element("pre", { tabindex: 0 }, provenance.study ?? ""),
     ),
   );
 }

@@ -1,0 +1,174 @@
+#include "results/checked_apart.hpp"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <exception>
+#include <fstream>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "results/store_error.hpp"
+
+namespace frahm::results {
+namespace {
+
+constexpr rlim_t most_seconds = 20;  // of processor time; the walk through a result takes milliseconds
+constexpr rlim_t most_memory = rlim_t{1} << 30;  // [bytes] beyond what the process has
+constexpr char passed = 'p', failed = 'f';       // the first byte of the child's answer
+
+std::atomic<bool> is_kept_here = false;
+
+// What changes when a file is written or replaced.
+using State = std::array<std::int64_t, 7>;
+
+std::optional<State> state_of(const std::filesystem::path& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
+  return State{static_cast<std::int64_t>(status.st_dev),
+               static_cast<std::int64_t>(status.st_ino),
+               status.st_size,
+               status.st_mtim.tv_sec,
+               status.st_mtim.tv_nsec,
+               status.st_ctim.tv_sec,
+               status.st_ctim.tv_nsec};
+}
+
+// The files that this process has found good, and by which check.
+using Passed = std::pair<State, std::string>;
+
+class Known {
+ public:
+  bool has(const Passed& one) {
+    const std::lock_guard turn(turn_);
+    return passed_.contains(one);
+  }
+  void add(const Passed& one) {
+    const std::lock_guard turn(turn_);
+    passed_.insert(one);
+  }
+
+ private:
+  std::mutex turn_;
+  std::set<Passed> passed_;
+};
+
+Known& known() {
+  static Known files;
+  return files;
+}
+
+// [bytes], 0 if unknown
+rlim_t memory_in_use() {
+  std::ifstream file("/proc/self/statm");
+  rlim_t total = 0, resident = 0, shared = 0, text = 0, library = 0, data = 0;
+  file >> total >> resident >> shared >> text >> library >> data;
+  return file ? data * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) : 0;
+}
+
+void lower_limit(__rlimit_resource resource, rlim_t value) {
+  rlimit limit{};
+  if (::getrlimit(resource, &limit) != 0) return;
+  limit.rlim_cur = std::min(limit.rlim_max, value);
+  ::setrlimit(resource, &limit);
+}
+
+// The child ends with its parent, leaves no core file, prints nothing, and has bounds.
+void restrain_child() {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  lower_limit(RLIMIT_CORE, 0);
+  lower_limit(RLIMIT_CPU, most_seconds);
+#ifndef __SANITIZE_ADDRESS__  // which has terabytes of its own
+  if (const rlim_t now = memory_in_use(); now > 0) lower_limit(RLIMIT_DATA, now + most_memory);
+#endif
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU}) ::signal(signal, SIG_DFL);
+  const int nowhere = ::open("/dev/null", O_RDWR);
+  for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, stream);
+}
+
+void send(int to, const std::string& text) {
+  std::size_t done = 0;
+  while (done < text.size()) {
+    const ssize_t count = ::write(to, text.data() + done, text.size() - done);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return;
+    done += static_cast<std::size_t>(count);
+  }
+}
+
+[[noreturn]] void be_child(int answer, const std::function<void()>& check) {
+  restrain_child();
+  std::string text(1, passed);
+  try {
+    check();
+  } catch (const std::exception& error) {
+    text = failed + std::string(error.what());
+  }
+  send(answer, text);
+  ::_exit(0);  // without the parent's buffers and destructors
+}
+
+std::string receive(int from) {
+  std::string text;
+  std::array<char, 4096> some{};
+  for (;;) {
+    const ssize_t count = ::read(from, some.data(), some.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return text;
+    text.append(some.data(), static_cast<std::size_t>(count));
+  }
+}
+
+// How a child without an answer ended.
+std::string ending(int status) {
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
+    return fmt::format("reading it does not come to an end within {} s", most_seconds);
+  if (WIFSIGNALED(status)) return fmt::format("reading it ends in \"{}\"", ::strsignal(WTERMSIG(status)));
+  return "reading it ends the process";
+}
+
+}  // namespace
+
+void keep_checks_here() {
+  is_kept_here = true;
+}
+
+void check_apart(const std::filesystem::path& path, const std::string& what,
+                 const std::function<void()>& check) {
+  const std::optional<State> state = state_of(path);
+  if (!state || is_kept_here) return check();  // no file: the check says so
+  if (known().has({*state, what})) return;
+  std::array<int, 2> pipe{};
+  const bool has_pipe = ::pipe2(pipe.data(), O_CLOEXEC) == 0;
+  const pid_t child = has_pipe ? ::fork() : -1;
+  if (child == 0) be_child(pipe[1], check);
+  if (has_pipe) ::close(pipe[1]);
+  if (child < 0) {  // no process to be had: better unguarded than not at all
+    if (has_pipe) ::close(pipe[0]);
+    return check();
+  }
+  const std::string answer = receive(pipe[0]);
+  ::close(pipe[0]);
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (answer.empty()) throw StoreError(path.string(), "is damaged", ending(status));
+  if (answer.front() == failed) throw StoreError(answer.substr(1));
+  known().add({*state, what});
+}
+
+}  // namespace frahm::results

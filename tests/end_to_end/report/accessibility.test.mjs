@@ -1,0 +1,104 @@
+// One page of each kind without a finding of axe-core, wide and narrow, light and dark; and a map that is read and steered
+// by keys and by touch alone.
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { join } from "node:path";
+import { test } from "node:test";
+import { folderOf, frahm, open, study } from "./page.mjs";
+
+const axe = readFileSync(
+  createRequire(join(process.env.FRAHM_NODE_MODULES, "page.cjs")).resolve("axe-core/axe.min.js"),
+  "utf8",
+);
+
+// A page's findings, each as one line.
+async function findings(page) {
+  await page.evaluate(axe);
+  const { violations } = await page.evaluate(() => globalThis.axe.run(document));
+  return violations.flatMap(({ id, nodes }) =>
+    nodes.map(({ html, failureSummary }) => `${id}: ${html}\n${failureSummary}`),
+  );
+}
+
+function pageOf(t, name) {
+  const folder = folderOf(t),
+    file = join(folder, `${name}.h5`);
+  frahm(["run", study(name), "-o", file, "--progress", "none"]);
+  frahm(["report", file]);
+  return join(folder, `${name}.html`);
+}
+
+const kinds = {
+  "a map": "slipping_brace",
+  "a map with branches": "machine_on_stops",
+  samples: "absorber_scatter",
+  "a structure": "tower_damper",
+  "a map of motions over records": "response_spectrum",
+  "a tuning": "tune_friction_absorber",
+  "a trade-off": "tune_rig_trade_off",
+  "an identification": "identify_rig_forced",
+  "a decay": "rig_decay_main",
+  "a transient with a crank": "rig_forced_250rpm_I6_crank",
+};
+
+for (const [kind, name] of Object.entries(kinds)) {
+  test(`the page of ${kind} is accessible`, async (t) => {
+    const file = pageOf(t, name);
+    for (const look of [{ width: 1280 }, { width: 390, colorScheme: "dark" }]) {
+      const { page } = await open(t, file, look);
+      const found = await findings(page);
+      assert.equal(found.length, 0, found.join("\n\n"));
+    }
+  });
+}
+
+// The numbers of the chosen point, as the page tells them.
+const place = (page) => page.locator("main section:has(> h2:text-is('Point'))").textContent();
+
+test("the arrow keys move the chosen point of a map", async (t) => {
+  const { page } = await open(t, pageOf(t, "regime_map"));
+  const plot = page.locator("[aria-label^='response map']");
+  const before = await place(page);
+  for (let i = 0; i < 200 && !(await plot.evaluate((each) => each === document.activeElement)); ++i)
+    await page.keyboard.press("Tab");
+  assert.ok(await plot.evaluate((each) => each === document.activeElement), "Tab comes to the map");
+  await page.keyboard.press("ArrowRight");
+  await page.keyboard.press("Shift+ArrowUp");
+  const told = page.locator("[role=status]");
+  await page.waitForFunction(() => document.querySelector("[role=status]").textContent !== "");
+  await page.waitForTimeout(300); // the frame in which it is drawn
+  assert.match(await told.textContent(), /^Point: .*= /);
+  assert.notEqual(await place(page), before);
+});
+
+test("a tap takes a point of a map on a phone, and its controls are large enough for a finger", async (t) => {
+  const { page } = await open(t, pageOf(t, "regime_map"), { width: 390, height: 844, hasTouch: true });
+  const before = await place(page);
+  const box = await page.locator("[aria-label^='response map'] svg").first().boundingBox();
+  await page.touchscreen.tap(box.x + 0.5 * box.width, box.y + 0.6 * box.height);
+  await page.waitForTimeout(300);
+  assert.notEqual(await place(page), before);
+  const small = await page.evaluate(() =>
+    [...document.querySelectorAll("button, select, input")]
+      .filter((each) => each.checkVisibility() && each.getBoundingClientRect().height < 24)
+      .map((each) => each.outerHTML.slice(0, 80)),
+  );
+  assert.deepEqual(small, []);
+});
+
+test("a map ends where its axes do", async (t) => {
+  const { page } = await open(t, pageOf(t, "regime_map"));
+  const ends = await page.evaluate(() => {
+    const svg = document.querySelector("[aria-label^='response map'] svg");
+    return { x: svg.scale("x").domain, y: svg.scale("y").domain };
+  });
+  const text = readFileSync(study("regime_map"), "utf8");
+  const axes = [
+    ...text.matchAll(/\[\[axis\]\]\s+parameter = "(\w+)"[^[]*?from = ([\d.]+)[^[]*?to = ([\d.]+)/g),
+  ];
+  for (const [, name, from, to] of axes) {
+    const shown = Object.values(ends).find(([low, high]) => low === Number(from) && high === Number(to));
+    assert.ok(shown || name === "zeta", `${name}: ${from} to ${to}, drawn ${JSON.stringify(ends)}`);
+  }
+});

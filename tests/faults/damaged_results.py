@@ -1,0 +1,288 @@
+"""Result files that are damaged or made to do harm: each is read right or refused with a word about it (exit 6), never
+with a signal, an internal error, or the contents of another file.
+
+usage: damaged_results.py FRAHM SOURCE_DIR
+"""
+
+import os
+import random
+import re
+import shutil
+import subprocess
+
+import h5py
+import numpy as np
+
+from faulty_runs import EVERYTHING, OUTPUT, in_parallel, main, sampled, sweep_study
+
+SEED = 24
+COMMANDS = ("status", OUTPUT), ("export", OUTPUT, "-o", "table.csv"), ("report", OUTPUT, "-o", "page.html")
+SECRET = "a line of a file that no result holds"
+
+
+def made(bench, study):
+    place = bench.place(study)
+    outcome = place.run("--progress", "none")
+    assert outcome.code in (0, 3), outcome
+    return place.read(OUTPUT)
+
+
+def decay_study(bench):
+    with open(os.path.join(bench.source, "studies", "lecture", "lecture_free_vibration_friction.toml")) as file:
+        return file.read()
+
+
+def small_map(bench):
+    return sweep_study(bench.source).replace("points = 129", "points = 9").replace("points = 12", "points = 2")
+
+
+def check(place, case, codes=(0, 6), words=None, commands=COMMANDS):
+    """Each command ends with one of the codes and without an internal error; a refusal says `words`."""
+    for command in commands:
+        outcome = place.call(*command)
+        text = f"{case}: {command[0]}: {outcome}"
+        assert outcome.code in codes, text
+        assert "internal error" not in outcome.err and SECRET not in outcome.out, text
+        if words is not None and outcome.code == 6:
+            assert re.search(words, outcome.err), text
+        for name in ("table.csv", "page.html"):
+            if os.path.exists(place.path(name)):
+                with open(place.path(name), errors="replace") as file:
+                    assert SECRET not in file.read(), text
+                os.remove(place.path(name))
+        left = [name for name in place.names() if ".part" in name or "core" in name]
+        assert not left, f"{text}: left over {left}"
+
+
+def place_of(bench, data, name=OUTPUT):
+    place = bench.place("")
+    place.write(name, data)
+    return place
+
+
+def check_flips(bench, results):
+    rng = random.Random(SEED)
+    cases = []
+    for kind, data in results.items():
+        for _ in range(2000 if EVERYTHING else 35):
+            cases.append((kind, [rng.randrange(len(data)) for _ in range(rng.choice((1, 1, 8)))], rng.randrange(1, 256)))
+        # HDF5's own structures lie before and between the data: bytes near its signatures.
+        marks = [m.start() for m in re.finditer(rb"OHDR|OCHK|GCOL|FRHP|FSHD|FHDB|FHIB|BTHD|BTLF|TREE|HEAP|SNOD|FAHD|EAHD", data)]
+        for at in sampled(marks, 40):
+            cases.append((kind, [min(len(data) - 1, at + rng.randrange(4, 64))], rng.randrange(1, 256)))
+
+    def one(case):
+        kind, places, bits = case
+        data = bytearray(results[kind])
+        for at in places:
+            data[at] ^= bits
+        check(place_of(bench, bytes(data)), f"{kind}: bytes {places} ^ {bits}", codes=(0, 2, 6),
+              commands=COMMANDS[:2] if not EVERYTHING else COMMANDS)
+
+    in_parallel(one, cases)
+    print(f"{len(cases)} results with wrong bytes", flush=True)
+
+
+def check_cuts(bench, data):
+    for size in sampled(range(0, len(data), max(1, len(data) // 200)), 12):
+        check(place_of(bench, data[:size]), f"cut to {size} bytes", codes=(6,))
+
+
+def changed(bench, data, change):
+    """A place with a result that `change` (of an open h5py file) has changed."""
+    place = place_of(bench, data)
+    with h5py.File(place.path(OUTPUT), "r+") as file:
+        change(file, place)
+    return place
+
+
+def replace(file, name, **how):
+    """A dataset anew, with the attributes of the one there."""
+    attributes = {key: file[name].attrs[key] for key in file[name].attrs
+                  if key in ("units", "long_name", "CLASS", "NAME", "flag_values", "flag_meanings")}
+    del file[name]
+    dataset = file.create_dataset(name, **how)
+    for key, value in attributes.items():
+        dataset.attrs[key] = value
+    return dataset
+
+
+def external(file, place):
+    with open(place.path("secret"), "w") as secret:
+        secret.write((SECRET + "\n") * 1000)
+    shape = file["main_peak"].shape
+    del file["main_peak"]
+    creation = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
+    creation.set_external(place.path("secret").encode(), 0, int(np.prod(shape)) * 8)
+    h5py.h5d.create(file.id, b"main_peak", h5py.h5t.IEEE_F64LE, h5py.h5s.create_simple(shape), creation)
+
+
+def virtual(file, place):
+    shape = file["main_peak"].shape
+    with h5py.File(place.path("other.h5"), "w") as other:
+        other["x"] = np.ones(shape)
+    del file["main_peak"]
+    layout = h5py.VirtualLayout(shape=shape, dtype="f8")
+    layout[...] = h5py.VirtualSource(place.path("other.h5"), "x", shape=shape)
+    file.create_virtual_dataset("main_peak", layout)
+
+
+def external_link(file, place):
+    with h5py.File(place.path("other.h5"), "w") as other:
+        other.create_group("x")
+    file["group"] = h5py.ExternalLink(place.path("other.h5"), "/x")
+
+
+def fifo_link(file, place):
+    os.mkfifo(place.path("pipe"))
+    file["group"] = h5py.ExternalLink(place.path("pipe"), "/x")
+
+
+def cycle(file, place):
+    group = file.create_group("loop")
+    group["again"] = file["/"]
+
+
+def deep(file, place):
+    group = file
+    for _ in range(100_000 if EVERYTHING else 3000):
+        group = group.create_group("g")
+
+
+def many(file, place):
+    """2^40 ways through 40 groups."""
+    groups = [file.create_group("many")]
+    for i in range(40):
+        groups.append(file.create_group(f"n{i}"))
+    for above, below in zip(groups, groups[1:]):
+        above["a"] = below
+        above["b"] = below
+
+
+def doubles_for_references(file, place):
+    for name in list(file):
+        item = file[name]
+        for key in ("DIMENSION_LIST", "REFERENCE_LIST"):
+            if isinstance(item, h5py.Dataset) and key in item.attrs:
+                del item.attrs[key]
+                item.attrs[key] = np.arange(200.0)
+
+
+def null_space(file, place):
+    name = "main_peak"
+    del file[name]
+    file.create_dataset(name, data=h5py.Empty("f8"))
+
+
+def flat_scale(file, place):
+    replace(file, "r", data=np.ones((3, 3)))
+
+
+def empty_axis(file, place):
+    replace(file, "r", shape=(0,), dtype="f8")
+
+
+def endless(file, place):
+    replace(file, "r", shape=(2**61,), dtype="f8", chunks=(2**20,))
+
+
+def sparse(file, place):
+    replace(file, "r", shape=(2**36,), dtype="f8", chunks=(2**20,))
+
+
+def text_for_number(file, place):
+    file.attrs["format_version"] = "one"
+
+
+def wrong_flags(file, place):
+    file["status"].attrs["flag_values"] = np.array([-5, 300], dtype="i4")
+
+
+def escapes(file, place):
+    file.attrs["title"] = "a \x1b[31mred\x1b[0m \u009b31m title\x07"
+
+
+def huge_text(file, place):
+    file.attrs.create("title", np.zeros(2**16, dtype="S1024"))
+
+
+REFUSED = {
+    "external storage": (external, "another file"),
+    "a virtual dataset": (virtual, "other files"),
+    "an external link": (external_link, "link to another file"),
+    "a link to a pipe": (fifo_link, "link to another file"),
+    "a cycle of groups": (cycle, "nested deeper"),
+    "groups far too deep": (deep, "nested deeper"),
+    "many ways through few groups": (many, "nested deeper|objects"),
+    "a dataset without an extent": (null_space, "holds no data"),
+    "a scale of two dimensions": (flat_scale, "one dimension"),
+    "an axis of size zero": (empty_axis, "axis"),
+    "2^61 values": (endless, "has more values"),
+    "2^36 values and none stored": (sparse, "cannot be in"),
+    "a text for a number": (text_for_number, "must be numbers"),
+    "flags out of range": (wrong_flags, "flag value"),
+}
+
+
+def check_made_to_harm(bench, data):
+    for case, (change, words) in REFUSED.items():
+        check(changed(bench, data, change), case, codes=(6,), words=words)
+    check(changed(bench, data, doubles_for_references), "doubles for references", codes=(0, 6))
+    check(changed(bench, data, huge_text), "an array of texts for the title", codes=(6,))
+    place = changed(bench, data, escapes)
+    outcome = place.call("status", OUTPUT)
+    assert outcome.code == 0 and not re.search("[\x00-\x09\x0b-\x1f\x7f-\x9f]", outcome.out), repr(outcome.out)
+    print(f"{len(REFUSED) + 3} results made to do harm", flush=True)
+
+
+def check_repacked(bench, data):
+    """Another layout of the same values is a result like any other."""
+    first = place_of(bench, data)
+    assert first.call(*COMMANDS[1]).code == 0
+    for options in (("-l", "CONTI"), ("-f", "NONE"), ("-l", "CHUNK=1x1x1"), ("-f", "GZIP=9"), ("-L",)):
+        place = place_of(bench, data, "first.h5")
+        repacked = subprocess.run(["h5repack", *options, place.path("first.h5"), place.path(OUTPUT)], capture_output=True)
+        if repacked.returncode != 0:
+            continue  # of this layout h5repack cannot make one
+        for command in COMMANDS:
+            outcome = place.call(*command)
+            assert outcome.code == 0, f"h5repack {options}: {outcome}"
+        assert place.read("table.csv") == first.read("table.csv"), f"h5repack {options}"
+        again = place_of(bench, place.read(OUTPUT))
+        again.write("study.toml", small_map(bench).encode())
+        outcome = again.call("run", "study.toml", "-o", "new.h5", "--from", OUTPUT, "--progress", "none")
+        assert outcome.code == 0, f"h5repack {options}: {outcome}"
+
+
+def check_embedded_study(bench, data):
+    """A study in a result names a pipe or an endless device: it is not waited for."""
+    for named in "pipe", "/dev/zero":
+        def change(file, place):
+            os.mkfifo(place.path("pipe"))
+            text = file["provenance"].attrs["study"]
+            text = (text.decode() if isinstance(text, bytes) else text).replace(
+                "[excitation]", f'[matrices]\nmass = "{named}"\n[excitation]', 1)
+            file["provenance"].attrs["study"] = text
+
+        place = changed(bench, data, change)
+        check(place, f"an embedded study that names {named}", codes=(0, 2, 6), commands=COMMANDS)
+        outcome = place.call("run", "study.toml", "-o", "other.h5", "--from", OUTPUT)
+        assert outcome.code in (2, 5, 6), outcome
+        study = small_map(bench).replace("[excitation]", f'[matrices]\nmass = "{named}"\n[excitation]', 1)
+        place.write("study.toml", study.encode())
+        outcome = place.call("check", "study.toml")
+        assert outcome.code == 2 and "internal error" not in outcome.err, outcome
+
+
+def drill(bench):
+    assert shutil.which("h5repack"), "hdf5-tools is needed"
+    results = {"map": made(bench, small_map(bench)), "decay": made(bench, decay_study(bench))}
+    check_repacked(bench, results["map"])
+    check_made_to_harm(bench, results["map"])
+    check_embedded_study(bench, results["map"])
+    check_cuts(bench, results["map"])
+    check_flips(bench, results)
+
+
+if __name__ == "__main__":
+    main(drill)
