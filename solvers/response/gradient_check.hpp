@@ -32,6 +32,9 @@ struct GradientCheck {
   std::vector<std::vector<DerivativeCheck>> columns;  // of each parameter, of each quantity; empty then
 };
 
+// What stands beside the exact derivatives: central differences, or NaN in their place.
+enum class CheckedBy { differences, nothing };
+
 // The exact derivatives of the quantities at the periodic response of `values`, and central differences
 // beside them. The responses on both sides are solved without known orbits, at steps from 2 % of the
 // parameter (of 1 where it is zero) down to 5e-6 of it, extrapolated to zero (C. Ridders, Adv. Eng. Software
@@ -40,6 +43,7 @@ struct GradientCheck {
 // Throws mechanics::MechanicsError where `values` are out of range; on either side such a step is left out.
 GradientCheck check_gradient(const mechanics::Network& network, const std::vector<Quantity>& quantities,
                              const mechanics::NetworkValues& values,
-                             std::span<const CheckedParameter> parameters);
+                             std::span<const CheckedParameter> parameters,
+                             CheckedBy by = CheckedBy::differences);
 
 }  // namespace frahm::periodic

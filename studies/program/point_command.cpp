@@ -29,13 +29,21 @@ std::string csv(const periodic::History& history, bool dimensionless) {
   return text + "\n";
 }
 
-// General, if the command or the study asks for it.
+}  // namespace
+
+void require_responses(const Study& study) {
+  const bool over_records = study.tune() && study.tune()->peaks;
+  if ((study.kind() != StudyKind::sweep && study.kind() != StudyKind::tune) || over_records) {
+    throw StudyError(rules::other_kind,
+                     "{}: {} has no periodic response to tell; frahm run computes what it has",
+                     study.source.name, over_records ? "a tuning over records" : kind_noun(study.kind()));
+  }
+}
+
 periodic::Path path_of(const Study& study, const std::string& asked) {
   const bool general = study.sweep() != nullptr && study.sweep()->general_path;
   return general || asked == "general" ? periodic::Path::general : periodic::Path::fastest;
 }
-
-}  // namespace
 
 int point_command(const PointOptions& options, std::ostream& out) {
   if (options.history == "-") {
@@ -44,12 +52,7 @@ int point_command(const PointOptions& options, std::ostream& out) {
   }
   Study study = read_study_with(options.study, options.set);
   if (study.transient() && study.map()) return motion_point(options, std::move(study), out);
-  const bool over_records = study.tune() && study.tune()->peaks;
-  if ((study.kind() != StudyKind::sweep && study.kind() != StudyKind::tune) || over_records) {
-    throw StudyError(rules::other_kind,
-                     "{}: {} has no periodic response to tell; frahm run computes what it has",
-                     study.source.name, over_records ? "a tuning over records" : kind_noun(study.kind()));
-  }
+  require_responses(study);
   std::vector<double> parameters = parameters_at(study, options.at);
   set_crank_orders_at(study, parameters);
   if (options.history) check_output_is_not_input(*options.history, options.study);

@@ -6,6 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "solvers/response/periodic_response.hpp"
+#include "studies/reading/study.hpp"
+
 namespace frahm::studies {
 
 struct PointOptions {
@@ -26,5 +29,10 @@ struct PointOptions {
 // for the history of a point without one; engine::IoError for a history that cannot be written (no part of it
 // is left).
 int point_command(const PointOptions& options, std::ostream& out);
+
+// Refuses a study whose points have no periodic response. Throws StudyError.
+void require_responses(const Study& study);
+// General, if the word or the study asks for it.
+periodic::Path path_of(const Study& study, const std::string& asked);
 
 }  // namespace frahm::studies

@@ -64,7 +64,7 @@ std::string unit_of(const Study& study, const Parameter& parameter) {
 
 }  // namespace
 
-PointGradient gradient_at(const Study& study, std::span<const double> parameters) {
+PointGradient gradient_at(const Study& study, std::span<const double> parameters, periodic::CheckedBy by) {
   const std::vector<double> at(parameters.begin(), parameters.end());
   const mechanics::NetworkValues values = values_at(study, at);
   PointGradient result;
@@ -84,7 +84,7 @@ PointGradient gradient_at(const Study& study, std::span<const double> parameters
     checked.push_back(by_frequency(values));
     result.by.push_back({"excitation.frequency", study.dimensionless ? "1" : "rad s-1", {}});
   }
-  periodic::GradientCheck check = periodic::check_gradient(study.network, quantities, values, checked);
+  periodic::GradientCheck check = periodic::check_gradient(study.network, quantities, values, checked, by);
   result.reason = check.reason;
   if (!result.reason.empty()) result.by.clear();
   for (std::size_t i = 0; i < result.by.size(); ++i) result.by[i].derivatives = std::move(check.columns[i]);

@@ -25,6 +25,7 @@ struct PointGradient {
 
 // parameters: SI values of all parameters, complete. Throws mechanics::MechanicsError where the network's
 // values there are out of range.
-PointGradient gradient_at(const Study& study, std::span<const double> parameters);
+PointGradient gradient_at(const Study& study, std::span<const double> parameters,
+                          periodic::CheckedBy by = periodic::CheckedBy::differences);
 
 }  // namespace frahm::studies

@@ -16,7 +16,10 @@ std::filesystem::path default_output(const std::filesystem::path& study) {
 
 int run_command(const RunCommandOptions& options, std::ostream& out) {
   engine::let_failed_writes_return();
-  Study study = read_study_with(options.study, options.set);
+  return run_study(options, read_study_with(options.study, options.set), out);
+}
+
+int run_study(const RunCommandOptions& options, Study study, std::ostream& out) {
   if (study.map()) return run_map(options, std::move(study), out);
   if (!options.from.empty())
     throw StudyError(rules::other_kind, "{}: {} has no points to take over from {}: --from is for maps",

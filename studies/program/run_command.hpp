@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/run.hpp"
+#include "studies/reading/study.hpp"
 
 namespace frahm::studies {
 
@@ -25,5 +26,8 @@ std::filesystem::path default_output(const std::filesystem::path& study);
 // some points failed; 4 if stopped; 7 if an optimum or a fit was not found. Throws StudyError,
 // engine::ResumeRefused when an output of another study is there, engine::IoError, results::StoreError.
 int run_command(const RunCommandOptions& options, std::ostream& out);
+
+// The same of a study that was read, and changed as options.set says; options.study is its name.
+int run_study(const RunCommandOptions& options, Study study, std::ostream& out);
 
 }  // namespace frahm::studies

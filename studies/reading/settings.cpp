@@ -8,7 +8,10 @@
 namespace frahm::studies {
 
 Study read_study_with(const std::filesystem::path& path, const std::vector<std::string>& set) {
-  Study study = read_study(path);
+  return with_settings(read_study(path), set);
+}
+
+Study with_settings(Study study, const std::vector<std::string>& set) {
   if (set.empty()) return study;
   const std::vector<Assignment> assignments =
       parse_assignments(study, "--set", fmt::format("{}", fmt::join(set, ",")));

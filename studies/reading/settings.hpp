@@ -12,6 +12,8 @@ namespace frahm::studies {
 
 // The study with the values of --set (name=value each; none: unchanged). Throws StudyError.
 Study read_study_with(const std::filesystem::path& path, const std::vector<std::string>& set);
+// The same of a study that was read.
+Study with_settings(Study study, const std::vector<std::string>& set);
 
 // SI values of all parameters at one point: those of --at (name=value each), the rest as the study states
 // them. Throws StudyError for a wrong name or value, or if a network value is out of range there.

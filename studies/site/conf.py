@@ -34,7 +34,7 @@ pygments_dark_style = "monokai"
 chapters = {
     "Use": [
         "studies/walkthrough", "studies/README", "studies/motion/README", "studies/stops/README", "studies/tuning/README",
-        "studies/identification/README", "studies/uncertainty/README", "studies/program/README",
+        "studies/identification/README", "studies/uncertainty/README", "studies/program/README", "studies/python/README",
         "studies/slurm/README", "engine/README", "studies/glossary",
     ],
     "Results": ["results/README", "results/FORMAT", "results/report/README"],

@@ -1,5 +1,6 @@
 # What `cmake --install` puts where, and the Debian packages that `cpack` makes of it: `frahm` is the program with its
-# manual, completions and studies; `libfrahm-dev` the rooms as static libraries for programs of one's own.
+# manual, completions and studies; `libfrahm-dev` the rooms as static libraries for programs of one's own;
+# `python3-frahm` the Python package (studies/python/CMakeLists.txt says where it goes).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(here ${CMAKE_CURRENT_LIST_DIR})
@@ -58,7 +59,8 @@ install(EXPORT frahm NAMESPACE frahm:: FILE frahm-targets.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/frahm COMPONENT development)
 foreach(room solvers engine results studies)
   install(DIRECTORY ${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/frahm COMPONENT development
-    FILES_MATCHING PATTERN "*.hpp" PATTERN page EXCLUDE PATTERN data EXCLUDE)
+    FILES_MATCHING PATTERN "*.hpp" PATTERN page EXCLUDE PATTERN data EXCLUDE
+    PATTERN binding.hpp EXCLUDE PATTERN one_blas_thread.hpp EXCLUDE)
 endforeach()
 configure_package_config_file(${here}/frahm-config.cmake.in ${made}/frahm-config.cmake
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/frahm NO_SET_AND_CHECK_MACRO)
@@ -99,4 +101,19 @@ if(FRAHM_WITH_MPI)
 endif()
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "Static libraries and headers: solvers, studies and results for
 programs of one's own, by find_package(frahm) or pkg-config.")
+if(FRAHM_WITH_PYTHON)
+  install(DIRECTORY studies/python/notebooks studies/python/dakota studies/python/openmdao
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/frahm/studies/python COMPONENT python PATTERN __pycache__ EXCLUDE)
+  install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-frahm RENAME copyright COMPONENT python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-frahm)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+  math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), \
+python3 (<< ${Python_VERSION_MAJOR}.${next_minor}), python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-xarray, python3-h5netcdf, frahm")
+  set(CPACK_DEBIAN_PYTHON_DESCRIPTION "Python package: studies, points, rows, runs, tunings and identifications with
+NumPy arrays and xarray datasets.")
+endif()
 include(CPack)

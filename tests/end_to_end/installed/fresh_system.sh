@@ -30,3 +30,11 @@ inside 'DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommend
 inside 'cd /tmp && cmake -S /example -B peak >/dev/null && cmake --build peak >/dev/null &&
   peak/peak /usr/share/frahm/studies/classics/den_hartog.toml r=0.9,f=0.1'
 echo "fresh_system: the libraries work"
+if ls "$root"/python3-frahm_*.deb >/dev/null 2>&1; then
+  inside 'DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends /python3-frahm_*.deb python3-xarray python3-h5netcdf >/dev/null'
+  inside 'cd /tmp && python3 -c "
+import frahm
+study = frahm.Study.load(\"/usr/share/frahm/studies/classics/den_hartog.toml\")
+print(study.point(r=0.9, f=0.1), study.run(\"python.h5\", progress=\"none\").open().sizes)"'
+  echo "fresh_system: the Python package works"
+fi

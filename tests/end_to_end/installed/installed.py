@@ -1,4 +1,4 @@
-"""installed.py program|libraries|package BUILD CMAKE: installs a build into a folder of its own and uses it there."""
+"""installed.py program|libraries|package|python BUILD CMAKE: installs a build into a folder of its own and uses it there."""
 import gzip
 import json
 import os
@@ -112,8 +112,9 @@ def try_libraries(folder):
 
 def try_package(folder):
     run("cpack", "-G", "DEB", "--config", build / "CPackConfig.cmake", "-B", folder)
-    packages = {re.match(r"[a-z-]+", each.name).group(0): each for each in folder.glob("*.deb")}
-    assert set(packages) == {"frahm", "libfrahm-dev"}, packages
+    packages = {each.name.split("_")[0]: each for each in folder.glob("*.deb")}
+    with_python = (build / "python").exists()
+    assert set(packages) == {"frahm", "libfrahm-dev"} | ({"python3-frahm"} if with_python else set()), packages
     fields = run("dpkg-deb", "--field", packages["frahm"])
     assert f"Version: {version}" in fields and "libhdf5-103" in fields, fields
     root = folder / "root"
@@ -122,7 +123,24 @@ def try_package(folder):
     assert run(root / "usr/bin/frahm", "--version").strip() == f"frahm {version}"
     assert (root / "usr/lib/cmake/frahm/frahm-config.cmake").exists()
     assert (root / "usr/include/frahm/studies/reading/study.hpp").exists()
+    if with_python:
+        fields = run("dpkg-deb", "--field", packages["python3-frahm"])
+        assert "python3-numpy" in fields and "libhdf5-103" in fields, fields
+        assert list(root.glob("usr/lib/python3/dist-packages/frahm/_frahm.*.so"))
+        assert (root / "usr/share/frahm/studies/python/notebooks/atlas.ipynb").exists()
+
+
+def try_python(folder):
+    install(folder, "python")
+    install(folder, "program")
+    package, = folder.glob("lib/python3*/*-packages")
+    python = re.search(r"Python_EXECUTABLE:FILEPATH=(\S+)", (build / "CMakeCache.txt").read_text()).group(1)
+    script = "import frahm, sys; print(frahm.Study.load(sys.argv[1]).point(r=0.9, f=0.1)['main_peak'])"
+    study = folder / "share/frahm/studies/classics/den_hartog.toml"
+    found = float(run(python, "-c", script, study, env={**os.environ, "PYTHONPATH": str(package)}))
+    report = json.loads(run(folder / "bin/frahm", "point", study, "--at", "r=0.9,f=0.1", "--json"))
+    assert found == report["quantities"]["main_peak"]["value"], found
 
 
 with tempfile.TemporaryDirectory() as temporary:
-    {"program": try_program, "libraries": try_libraries, "package": try_package}[what](Path(temporary))
+    {"program": try_program, "libraries": try_libraries, "package": try_package, "python": try_python}[what](Path(temporary))

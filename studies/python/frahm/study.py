@@ -1,0 +1,173 @@
+"""A study: what is asked of a system."""
+
+import os
+import tempfile
+from dataclasses import replace
+from types import MappingProxyType
+from typing import Any, Callable, Mapping, Optional, Sequence, TypeVar, Union
+
+import numpy as np
+
+from . import _frahm
+from .assignments import Value, assignments, is_axis
+from .identification import Identification, identification_of
+from .point import Point, point_of
+from .progress import Progress
+from .response import Response, response_of
+from .running import Result, run
+from .tuning import Tuning, tuning_of
+
+Path = Union[str, os.PathLike]
+Kind = TypeVar("Kind")
+
+
+class Study:
+    """A study that was read and checked. Made by load(), from_text() or from_dict(); never changed."""
+
+    def __init__(self, checked: _frahm.Study):
+        self._study = checked
+
+    @classmethod
+    def load(cls, path: Path, **parameters: Value) -> "Study":
+        """Reads a study file. parameters: values in the place of those in the file.
+
+        Raises StudyError for anything wrong in it, with the line, the rule and the nearest word.
+        """
+        return cls(_frahm.Study.load(os.fspath(path), assignments(parameters)))
+
+    @classmethod
+    def from_text(cls, text: str, name: Path = "study.toml", **parameters: Value) -> "Study":
+        """The same of a text. name: its file, for messages; tables are searched beside it."""
+        return cls(_frahm.Study.parse(text, os.fspath(name), assignments(parameters)))
+
+    @classmethod
+    def from_dict(cls, study: Mapping[str, Any], name: Path = "study.toml", **parameters: Value) -> "Study":
+        """The same of a dictionary with the sections of a study file; [[mass]] is a list of dictionaries.
+
+        `text` is the file it stands for, to which the lines of messages belong.
+        """
+        return cls.from_text(_frahm.toml_text(dict(study)), name, **parameters)
+
+    def with_parameters(self, /, **parameters: Value) -> "Study":
+        """The study with other values of parameters; those set before stay unless set anew."""
+        kept = [each for each in self._study.set if each.split("=")[0] not in parameters]
+        return Study(_frahm.Study.parse(self.text, self.name, kept + assignments(parameters)))
+
+    @property
+    def name(self) -> str:
+        """The name of its file."""
+        return self._study.name
+
+    @property
+    def text(self) -> str:
+        """The study file."""
+        return self._study.text
+
+    @property
+    def title(self) -> str:
+        return self._study.title
+
+    @property
+    def kind(self) -> str:
+        """"sweep", "decay", "transient", "tune" or "identify"."""
+        return self._study.kind
+
+    @property
+    def parameters(self) -> dict[str, tuple[float, str]]:
+        """Value and unit of each number; a bare number given for it is read in that unit."""
+        return {name: (value, unit) for name, value, unit in self._study.parameters()}
+
+    @property
+    def axes(self) -> dict[str, np.ndarray]:
+        """The values of the parameters along the axes of its map."""
+        return {name: values for name, _, values in self._study.axes()}
+
+    @property
+    def quantities(self) -> dict[str, str]:
+        """All that a response is reported in, with its meaning."""
+        return {name: f"{meaning} [{unit}]" for name, unit, meaning in self._study.quantities()}
+
+    def point(self, at: Mapping[str, Value] = MappingProxyType({}), /, *, gradient: bool = False,
+              history: Union[bool, int] = False, path: str = "fastest", **parameters: Value) -> Point:
+        """The periodic response at one point, in full.
+
+        parameters: the point; what it leaves out has the study's value. at: the same as a dictionary. gradient: the exact derivatives too.
+        history: the motion over a period, at 513 instants or as many as are given. path: "general" finds
+        every orbit by shooting. A point without a response has a status and a reason, and is no error.
+        """
+        if path not in ("fastest", "general"):
+            raise ValueError(f"path={path!r}: must be \"fastest\" or \"general\"")
+        samples = 513 if history is True else int(history)
+        if samples < 0 or samples == 1:
+            raise ValueError(f"history={history}: must be at least 2 instants")
+        return point_of(self._study.point(assignments({**at, **parameters}), path, samples, bool(gradient)))
+
+    def response(self, row: str, values: Optional[Sequence[float]] = None, at: Mapping[str, Any] = MappingProxyType({}),
+                 /, *, quantities: Union[str, Sequence[str], None] = None, threads: int = 0,
+                 **parameters: Any) -> Response:
+        """Periodic responses along a row, on all cores, as a map of the study would have them.
+
+        row: the parameter that runs along it, most often the frequency. values: in its usual unit; none: those
+        of the study's axis. parameters: of the other parameters a value, or several, each of which then makes
+        an axis of the result before the row; at: the same as a dictionary. quantities: names or patterns ("*_peak"); none: those that the
+        study records. threads: 0: one on each processor.
+        """
+        others = {**at, **parameters}
+        axes = {name: given for name, given in others.items() if is_axis(given)}
+        fixed = {name: given for name, given in others.items() if name not in axes}
+        axes[row] = self._values_of_axis(row) if values is None else values
+        arrays = {name: np.atleast_1d(np.asarray(given, dtype=float)) for name, given in axes.items()}
+        for name, array in arrays.items():
+            if array.ndim != 1:
+                raise ValueError(f"{name}: a list of values, not an array of {array.ndim} dimensions")
+        wanted = [quantities] if isinstance(quantities, str) else list(quantities or [])
+        given = [(name, array.tolist()) for name, array in arrays.items()]
+        return response_of(arrays, self._study.rows(assignments(fixed), given, wanted, threads))
+
+    def run(self, output: Optional[Path] = None, *, from_result: Optional[Path] = None, threads: int = 0,
+            fresh: bool = False, time_budget: Optional[float] = None, progress: Progress = "auto") -> Result:
+        """Computes the study and writes its file, as `frahm run` does; one run at a time in a process.
+
+        output: none: the study's name with .h5, in the working directory. from_result: a result whose points
+        are taken over. fresh: discard what earlier runs left. time_budget [s]: stop after it. progress:
+        "auto" shows it in terminals and notebooks, "none" is silent, a function gets each report.
+
+        What is computed is kept: the same call goes on after an interruption, which raises KeyboardInterrupt.
+        """
+        return run(self._study, output, from_result, threads, fresh, time_budget, progress)
+
+    def tune(self, output: Optional[Path] = None, **options: Any) -> Tuning:
+        """Tunes the design of a study of kind "tune". output and options as of run(); without output no file
+        is kept."""
+        return self._in_file("tune", "tuned", output, options, tuning_of)
+
+    def identify(self, output: Optional[Path] = None, **options: Any) -> Identification:
+        """Identifies the model of a study of kind "identify". output and options as of run(); without output no
+        file is kept."""
+        return self._in_file("identify", "identified", output, options, identification_of)
+
+    def _in_file(self, kind: str, done: str, output: Optional[Path], options: Mapping[str, Any],
+                 read: Callable[[Result, bool], Kind]) -> Kind:
+        if self.kind != kind:
+            raise _frahm.StudyError(f"{self.name}: {self._study.noun} cannot be {done}; its kind must be \"{kind}\"")
+        if output is not None:
+            return read(_finished(self.run(output, **options)), True)
+        with tempfile.TemporaryDirectory(prefix="frahm-") as folder:
+            result = _finished(self.run(os.path.join(folder, f"{kind}.h5"), **options))
+            told = [line for line in result.table.splitlines() if folder not in line]  # that file goes
+            return read(replace(result, table="\n".join(told) + "\n"), False)
+
+    def _values_of_axis(self, row: str) -> np.ndarray:
+        axes = self.axes
+        if row not in axes:
+            raise _frahm.StudyError(f"{row}: no axis of the study runs along it; give its values")
+        return axes[row]
+
+    def __repr__(self) -> str:
+        return f"<frahm.Study {self.name}: {self._study.noun}{', ' + repr(self.title) if self.title else ''}>"
+
+
+def _finished(result: Result) -> Result:
+    if result.file is None:
+        raise TimeoutError(" ".join(result.messages))
+    return result

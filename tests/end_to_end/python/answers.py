@@ -1,0 +1,66 @@
+"""Tunings and identifications in one call."""
+
+import tempfile
+import unittest
+from pathlib import Path
+
+import frahm
+import numpy as np
+from small_studies import MACHINE, studies
+
+# Nishihara and Asami, J. Vib. Acoust. 124 (2002) 576, for a mass ratio of 0.05.
+KNOWN = {"f": 0.952372, "zeta": 0.133938}
+KNOWN_PEAK = 6.407921
+PRINTED = 2e-6  # the digits that stand there
+
+
+class Answers(unittest.TestCase):
+    def test_a_tuning_has_the_known_optimum(self):
+        tuned = frahm.Study.load(studies / "tuning" / "tune_classical.toml").tune(progress="none")
+        self.assertEqual(tuned.outcome, "converged")
+        for name, value in KNOWN.items():
+            self.assertLess(abs(tuned.design[name] - value), PRINTED)
+        self.assertLess(abs(tuned.objective - KNOWN_PEAK), PRINTED)
+        self.assertLess(tuned.certificate_gap, 1e-6)
+        self.assertEqual(tuned.peaks.shape[1], 2)
+        self.assertLess(abs(tuned.peaks[:, 1].max() / tuned.objective - 1), 1e-6)
+        self.assertIsNone(tuned.file)
+        self.assertIn("zeta", str(tuned))
+        self.assertNotIn(".h5", str(tuned))
+
+    def test_the_optimum_is_a_point_of_its_study(self):
+        study = frahm.Study.load(studies / "tuning" / "tune_classical.toml")
+        tuned = study.tune(progress="none")
+        omega, height = tuned.peaks[tuned.peaks[:, 1].argmax()]
+        self.assertLess(abs(study.point(tuned.design, omega=omega)["main_peak"] / height - 1), 1e-9)
+
+    def test_an_identification_has_estimates_with_intervals_and_a_study(self):
+        study = frahm.Study.load(studies / "identification" / "identify_rig_forced.toml")
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "found.h5"
+            found = study.identify(file, progress="none")
+            self.assertEqual(found.file, str(file))
+            self.assertTrue(file.exists())
+        self.assertEqual(found.outcome, "converged")
+        for estimate in found.values():
+            self.assertLess(estimate.low, estimate.value)
+            self.assertLess(estimate.value, estimate.high)
+        self.assertEqual(found.covariance.shape, (len(found), len(found)))
+        np.testing.assert_allclose(np.sqrt(np.diag(found.covariance)), [each.standard_error for each in found.values()])
+        self.assertEqual(found.study().kind, "sweep")
+
+    def test_another_kind_of_study_is_refused(self):
+        study = frahm.Study.from_dict(MACHINE)
+        with self.assertRaisesRegex(frahm.StudyError, 'a sweep cannot be tuned; its kind must be "tune"'):
+            study.tune()
+        with self.assertRaisesRegex(frahm.StudyError, "cannot be identified"):
+            study.identify()
+
+    def test_what_is_stopped_has_no_answer(self):
+        study = frahm.Study.load(studies / "tuning" / "tune_rig_schedule.toml")
+        with self.assertRaisesRegex(TimeoutError, "time budget"):
+            study.tune(time_budget=1e-3, progress="none")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,94 @@
+"""A point has the numbers of `frahm point`, and exact derivatives."""
+
+import json
+import subprocess
+import threading
+import time
+import unittest
+
+import frahm
+import numpy as np
+from small_studies import MACHINE, program, studies
+
+SAME = 1e-12  # relative: the same computation, told twice
+STEP = 1e-5  # relative, of central differences
+DIFFERENCES = 1e-6  # relative: their error
+
+ATLAS = studies / "rig" / "rig_atlas.toml"
+
+
+class Points(unittest.TestCase):
+    def test_every_quantity_is_that_of_the_program(self):
+        told = subprocess.run([program, "point", ATLAS, "--at", "omega=250 rpm,I=6.36", "--json"],
+                              capture_output=True, text=True, check=True)
+        expected = json.loads(told.stdout)
+        point = frahm.Study.load(ATLAS).point(omega="250 rpm", I=6.36)
+        self.assertTrue(point.ok)
+        self.assertEqual(point.status, expected["status"])
+        self.assertEqual(set(point), set(expected["quantities"]))
+        for name, quantity in expected["quantities"].items():
+            value = quantity.get("meaning", quantity["value"])
+            if isinstance(value, float) and isinstance(point[name], float):
+                self.assertLessEqual(abs(point[name] - value), SAME * abs(value), name)
+            elif value is None:
+                self.assertTrue(point[name] is None or np.isnan(point[name]), name)
+            else:
+                self.assertEqual(point[name], value, name)
+            self.assertEqual(point.units[name], quantity["unit"])
+        self.assertEqual(len(point.stretches), len(expected["stretches"]))
+
+    def test_derivatives_are_those_of_differences_in_the_units_of_the_parameters(self):
+        study = frahm.Study.from_dict(MACHINE)
+        at = {"speed": 600.0, "F": 40.0, "k": 320.0}  # rpm, N, kN/m
+        point = study.point(gradient=True, **at)
+        for name, value in at.items():
+            step = STEP * value
+            more, less = (study.point(**{**at, name: value + each})["machine_peak"] for each in (step, -step))
+            exact = point.gradient["machine_peak"][name]
+            self.assertLess(abs((more - less) / (2 * step) - exact), DIFFERENCES * abs(exact), name)
+        self.assertNotIn("status", point.gradient)
+
+    def test_the_history_is_a_period_whose_largest_displacement_is_the_peak(self):
+        point = frahm.Study.from_dict(MACHINE).point(history=2001, F=20)
+        history = point.history
+        self.assertEqual(history["time"].shape, (2001,))
+        self.assertAlmostEqual(history["time"][-1], 60 / 600, places=12)
+        self.assertLess(abs(np.abs(history["machine_displacement"]).max() / point["machine_peak"] - 1), 1e-5)
+        self.assertEqual(point.units["guide_force"], "N")
+        self.assertIsNone(frahm.Study.from_dict(MACHINE).point().history)
+
+    def test_a_wrong_word_gets_the_nearest_one(self):
+        point = frahm.Study.from_dict(MACHINE).point()
+        with self.assertRaisesRegex(KeyError, "did you mean 'machine_peak'"):
+            point["machine_pek"]
+        with self.assertRaisesRegex(ValueError, "fastest"):
+            frahm.Study.from_dict(MACHINE).point(path="slow")
+
+    def test_a_motion_is_refused(self):
+        study = frahm.Study.load(studies / "lecture" / "run_up.toml")
+        with self.assertRaisesRegex(frahm.StudyError, "has no periodic response"):
+            study.point()
+
+    def test_other_threads_of_python_go_on_while_it_computes(self):
+        study = frahm.Study.load(ATLAS)
+        end, ticks = threading.Event(), []
+
+        def tick():
+            while not end.is_set():
+                ticks.append(time.monotonic())
+                time.sleep(1e-3)
+
+        ticking = threading.Thread(target=tick)
+        ticking.start()
+        began = time.monotonic()
+        study.response("omega", np.linspace(150, 350, 20001), I=[4.72, 6.36, 8, 10], FP=0.0419, threads=1)
+        ended = time.monotonic()
+        end.set()
+        ticking.join()
+        during = [each for each in ticks if began < each < ended]
+        # A tick each millisecond where the interpreter is free, none where it is held; a busy machine has fewer.
+        self.assertGreater(len(during), 10 * (ended - began))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,88 @@
+"""Rows have the values of the map that `frahm run` makes."""
+
+import tempfile
+import unittest
+from pathlib import Path
+
+import frahm
+import numpy as np
+from small_studies import MACHINE, studies
+
+OF_MAP = 2e-12  # relative to the largest of the row: the map rounds to known digits
+
+
+class Rows(unittest.TestCase):
+    def compare(self, row, ds):
+        for name, values in row.items():
+            recorded = ds[name]
+            if "flag_meanings" in recorded.attrs:
+                np.testing.assert_array_equal(values, frahm.names(recorded).values, err_msg=name)
+            elif name not in ("residual", "error_bound", "energy_balance"):
+                np.testing.assert_allclose(values, recorded.values, rtol=OF_MAP, err_msg=name,
+                                           atol=OF_MAP * np.nanmax(np.abs(recorded.values)))
+
+    def test_a_whole_map_in_one_call_is_the_map(self):
+        study = frahm.Study.from_dict(MACHINE)
+        with tempfile.TemporaryDirectory() as folder:
+            with study.run(Path(folder) / "machine.h5", progress="none").open() as file:
+                ds = file.load()
+        row = study.response("speed", F=study.axes["F"])
+        self.assertEqual(row.dims, ("F", "speed"))
+        self.assertEqual(row["machine_peak"].shape, (4, 91))
+        self.assertEqual(set(row), set(ds.data_vars))
+        self.compare(row, ds)
+        labelled = row.to_xarray()
+        self.assertEqual(labelled.machine_peak.attrs["units"], "m")
+        self.assertEqual(labelled.speed.attrs["units"], "rpm")
+        self.assertEqual(float(labelled.machine_peak.sel(F=20, speed=600)), row["machine_peak"][1, 30])
+
+    def test_the_result_does_not_depend_on_the_threads(self):
+        study = frahm.Study.from_dict(MACHINE)
+        values = np.linspace(300, 1200, 1001)
+        one, two = (study.response("speed", values, quantities="*_peak", F=[20, 80], threads=n) for n in (1, 2))
+        self.assertEqual(set(one), {"machine_peak", "absorber_peak"})
+        for name in one:
+            np.testing.assert_array_equal(one[name], two[name])
+
+    def test_a_row_may_run_along_any_parameter(self):
+        study = frahm.Study.from_dict(MACHINE)
+        row = study.response("F", [0, 40], speed="10 Hz")
+        for i, force in enumerate((0, 40)):
+            peak = study.point(F=force, speed=600)["machine_peak"]
+            self.assertLessEqual(abs(row["machine_peak"][i] - peak), OF_MAP * peak)
+
+    def test_a_sweep_of_the_frequency_stays_on_the_branch_of_its_map(self):
+        text = (studies / "stops" / "machine_on_stops.toml").read_text()
+        text = text.replace('[compare]\nshow = "down"\n', "").replace("branches = true", "")
+        study = frahm.Study.from_text(text)
+        with tempfile.TemporaryDirectory() as folder:
+            with study.run(Path(folder) / "stops.h5", progress="none").open() as file:
+                ds = file.load()
+        row = study.response("r")
+        jump = np.diff(ds.machine_peak.values)
+        self.assertLess(jump.min(), -1)  # there is one to miss
+        np.testing.assert_allclose(row["machine_peak"], ds.machine_peak.values, rtol=OF_MAP)
+        with self.assertRaisesRegex(frahm.StudyError, "sweeps the frequency"):
+            study.response("D", [1, 2])
+
+    def test_points_without_a_response_have_a_reason(self):
+        free = {**MACHINE, "element": [each for each in MACHINE["element"] if not each["name"].endswith("damper")]}
+        natural = np.sqrt(np.linalg.eigvals([[342e3 / 80, -22e3 / 80], [-22e3 / 6, 22e3 / 6]]).min()) * 30 / np.pi
+        row = frahm.Study.from_dict(free).response("speed", [300, natural, 400], F=0)
+        self.assertEqual(row["status"][0], "ok")
+        self.assertNotEqual(row["status"][1], "ok")
+
+    def test_wrong_values_and_names_are_refused(self):
+        study = frahm.Study.from_dict(MACHINE)
+        with self.assertRaisesRegex(frahm.StudyError, 'did you mean "machine_peak"'):
+            study.response("speed", quantities=["machine_pek"])
+        with self.assertRaises(frahm.StudyError):
+            study.response("k")
+        with self.assertRaisesRegex(frahm.StudyError, "no values"):
+            study.response("speed", [])
+        with self.assertRaises(ValueError):
+            study.response("speed", [[1, 2], [3, 4]])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,205 @@
+"""Runs inside Python: their progress, their interruption, and other users of HDF5 in the same process."""
+
+import contextlib
+import copy
+import io
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import textwrap
+import threading
+import unittest
+from pathlib import Path
+
+import frahm
+from small_studies import MACHINE, studies
+
+LONG = copy.deepcopy(MACHINE)  # some seconds of one thread
+LONG["axis"] = [{"parameter": "F", "from": 1, "to": 200, "points": 901},
+                {"parameter": "speed", "unit": "rpm", "from": 300, "to": 1200, "points": 901}]
+
+
+def in_a_process(script, *arguments):
+    """Runs a script in a Python of its own."""
+    return subprocess.run([sys.executable, "-c", textwrap.dedent(script), *map(str, arguments)], text=True,
+                          capture_output=True, cwd=Path(__file__).parent,
+                          env={**os.environ, "PYTHONPATH": os.environ["PYTHONPATH"] + f":{Path(__file__).parent}"})
+
+
+class Runs(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.file = Path(temporary.name) / "machine.h5"
+
+    def test_a_run_tells_its_reports_its_table_and_its_file(self):
+        reports = []
+        result = frahm.Study.from_dict(MACHINE, k=300).run(self.file, progress=reports.append)
+        self.assertEqual(result.outcome, "done")
+        self.assertEqual(reports[-1]["event"], "end")
+        self.assertEqual({each["points"] for each in reports}, {4 * 91})
+        self.assertIn("machine_peak", str(result))
+        with result.open() as ds:
+            self.assertIn("python: frahm run study.toml --set k=300.0", ds.attrs["history"])
+        again = frahm.Study.from_dict(MACHINE, k=300).run(self.file, progress="none")
+        self.assertIn("everything is computed already", str(again))
+
+    def test_progress_is_a_line_that_is_written_over_where_that_can_be(self):
+        class Terminal(io.StringIO):
+            def isatty(self):
+                return True
+
+        for stream, begins in ((Terminal(), "\r["), (io.StringIO(), "[")):
+            with contextlib.redirect_stderr(stream):
+                frahm.Study.from_dict(MACHINE).run(self.file, fresh=True)
+            self.assertTrue(stream.getvalue().startswith(begins), stream.getvalue())
+            self.assertIn("100.0 %  364/364 points", stream.getvalue())
+            self.assertTrue(stream.getvalue().endswith("\n"))
+
+    def test_another_study_at_the_output_is_refused_with_advice(self):
+        frahm.Study.from_dict(MACHINE).run(self.file, progress="none")
+        with self.assertRaisesRegex(frahm.ResumeRefused, "(?s)k.*--fresh"):
+            frahm.Study.from_dict(MACHINE, k=300).run(self.file, progress="none")
+        frahm.Study.from_dict(MACHINE, k=300).run(self.file, fresh=True, progress="none")
+
+    def test_a_place_that_cannot_be_written_is_an_error_of_the_system(self):
+        with self.assertRaisesRegex(OSError, "no_such_folder"):
+            frahm.Study.from_dict(MACHINE).run("no_such_folder/x.h5", progress="none")
+
+    def test_a_fault_in_the_function_for_reports_does_not_end_the_run(self):
+        with contextlib.redirect_stderr(io.StringIO()):
+            result = frahm.Study.from_dict(MACHINE).run(self.file, progress=lambda report: 1 / 0)
+        self.assertEqual(result.outcome, "done")
+
+    def test_a_time_budget_stops_it_and_the_same_call_goes_on(self):
+        study = frahm.Study.from_dict(LONG)
+        first = study.run(self.file, time_budget=0.05, threads=1, progress="none")
+        self.assertEqual((first.outcome, first.file), ("stopped", None))
+        with self.assertRaises(FileNotFoundError):
+            first.open()
+
+    def test_an_interruption_keeps_what_is_computed(self):
+        # The interruption comes with the first report that has points done, from inside the run.
+        study, before = frahm.Study.from_dict(LONG), signal.getsignal(signal.SIGINT)
+        kept = []
+
+        def interrupt(report):
+            if report["done"] > 0 and not kept:
+                kept.append(report["done"])
+                os.kill(os.getpid(), signal.SIGINT)
+
+        with self.assertRaisesRegex(KeyboardInterrupt, "stopped by SIGINT.* kept beside"):
+            study.run(self.file, threads=1, progress=interrupt)
+        self.assertIs(signal.getsignal(signal.SIGINT), before)
+        self.assertFalse(self.file.exists())
+        reports = []
+        study.run(self.file, progress=reports.append)
+        self.assertGreaterEqual(reports[0]["resumed"], kept[0])
+        self.assertTrue(self.file.exists())
+
+    def test_a_termination_keeps_what_is_computed_and_ends_the_process(self):
+        done = in_a_process("""
+            import os, signal, sys
+            import frahm
+            from runs import LONG
+
+            def terminate(report):
+                if report["done"] > 0:
+                    os.kill(os.getpid(), signal.SIGTERM)
+
+            frahm.Study.from_dict(LONG).run(sys.argv[1], threads=1, progress=terminate)
+            print("not ended")
+            """, self.file)
+        self.assertEqual((done.returncode, done.stdout), (-signal.SIGTERM, ""), done.stderr)
+        self.assertTrue(list(self.file.parent.glob("*.frahm-log")))
+
+    def test_a_second_run_at_the_same_time_is_refused(self):
+        study, began, tried = frahm.Study.from_dict(MACHINE), threading.Event(), threading.Event()
+
+        def hold(report):  # the run cannot end before its report is taken
+            began.set()
+            tried.wait()
+
+        running = threading.Thread(target=study.run, args=[self.file], kwargs={"progress": hold})
+        running.start()
+        began.wait()
+        try:
+            with self.assertRaisesRegex(RuntimeError, "already under way"):
+                study.run(self.file.with_name("other.h5"), progress="none")
+        finally:
+            tried.set()
+            running.join()
+        self.assertTrue(self.file.exists())
+
+    def test_a_growing_map_takes_points_over(self):
+        frahm.Study.from_dict(MACHINE).run(self.file, progress="none")
+        more = copy.deepcopy(MACHINE)
+        more["axis"][0]["values"] = [0, 10, 20, 40, 80]
+        result = frahm.Study.from_dict(more).run(self.file.with_name("more.h5"), from_result=self.file, progress="none")
+        self.assertRegex(str(result), r"reused +364 points of .*machine.h5, 91 computed")
+
+    def test_a_motion_has_no_map_but_a_group(self):
+        study = frahm.Study.load(studies / "lecture" / "lecture_free_vibration.toml")
+        result = study.run(self.file, progress="none")
+        with result.open("decay") as decay:
+            self.assertGreater(decay.sizes["time"], 10)
+
+    def test_open_tells_flags_by_name(self):
+        with frahm.Study.from_dict(MACHINE).run(self.file, progress="none").open() as ds:
+            self.assertTrue((frahm.names(ds.status) == "ok").all())
+            self.assertEqual(frahm.names(ds.guide_regime).dims, ("F", "speed"))
+            with self.assertRaisesRegex(ValueError, "is no flag"):
+                frahm.names(ds.machine_peak)
+
+    def test_hdf5_serves_h5py_in_the_same_process_whoever_comes_first(self):
+        # A file left open by h5py at the end of the process has to be whole.
+        for first in ("frahm", "h5py"):
+            done = in_a_process("""
+                import sys
+                import importlib
+                first, folder = sys.argv[1:]
+                importlib.import_module(first)
+                import frahm, h5py
+                from small_studies import MACHINE
+                def run():
+                    frahm.Study.from_dict(MACHINE).run(folder + "/map.h5", fresh=True, progress="none")
+                if first == "frahm":
+                    run()
+                left_open = h5py.File(folder + f"/{first}.h5", "w")
+                left_open["x"] = list(range(1000))
+                run()
+                with h5py.File(folder + "/map.h5") as file:
+                    assert file["machine_peak"].shape == (4, 91)
+                try:
+                    h5py.File(folder + "/no_such.h5")
+                except OSError as error:
+                    assert "no_such.h5" in str(error)
+                sys.stdout.write("whole")
+                """, first, self.file.parent)
+            self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "whole", ""), first)
+            read = in_a_process("""
+                import sys, h5py
+                print(h5py.File(sys.argv[1])["x"][:].sum())
+                """, self.file.parent / f"{first}.h5")
+            self.assertEqual(read.stdout.strip(), "499500", (first, read.stderr))
+
+    def test_blas_has_its_threads_back_after_a_run(self):
+        done = in_a_process("""
+            import ctypes, glob, sys
+            import frahm
+            from small_studies import MACHINE
+            blas = [line.split()[-1] for line in open("/proc/self/maps") if "openblas" in line]
+            if not blas:
+                sys.exit(0)
+            library = ctypes.CDLL(blas[0])
+            library.openblas_set_num_threads(2)
+            frahm.Study.from_dict(MACHINE).run(sys.argv[1], progress="none")
+            assert library.openblas_get_num_threads() == 2
+            """, self.file)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
