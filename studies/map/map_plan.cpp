@@ -18,6 +18,17 @@
 namespace frahm::studies {
 namespace {
 
+// Who computes or assembles a map keeps track of each tile, in some 24 bytes.
+void check_tiles(const MapPlan& plan) {
+  constexpr std::uint64_t most = std::uint64_t{1} << 24;
+  if (plan.tiles <= most) return;
+  throw StudyError(
+      rules::too_large,
+      "{}: the map of {} points has {} tiles, of which at most {} can be kept track of; divide it into "
+      "several studies",
+      plan.study.source.name, plan.grid.points(), plan.tiles, most);
+}
+
 void choose_quantities(MapPlan& plan) {
   if (plan.study.sweep()) {
     plan.quantities = output_quantities(plan.study);
@@ -49,6 +60,7 @@ MapPlan plan_map(Study study, std::vector<std::string> set) {
   plan.set = std::move(set);
   plan.grid = grid_of(plan.study);
   plan.tiles = plan.grid.tiles();
+  check_tiles(plan);
   choose_quantities(plan);
   check_sample_names(plan);
   std::vector<std::string> names;

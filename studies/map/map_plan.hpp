@@ -22,7 +22,7 @@ struct MapPlan : StudyPlan {
   std::size_t own_variables() const { return quantities.size() + motion_quantities.size(); }
 };
 
-// Throws StudyError for an error in the study, and for a study without axes.
+// Throws StudyError for an error in the study, for a study without axes and for more than 16 million tiles.
 MapPlan plan_map(Study study, std::vector<std::string> set);
 
 class KnownPoints;

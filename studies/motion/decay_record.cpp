@@ -31,7 +31,10 @@ std::string ending(const Study& study, const FreeDecay& decay) {
                  ? fmt::format("still moving after {:.10g}{}; it will come to rest", decay.duration, seconds)
                  : fmt::format("comes to rest at {:.10g}{}", decay.stop_time, seconds);
     case DecayEnd::creeping:
-      return "creeps towards its rest and never arrives";
+      // With less than critical damping friction stops it in the end, where it passes its rest by less than
+      // rounding.
+      return fmt::format("creeps towards its rest; followed to {:.6g}{}, where {}", decay.duration, seconds,
+                         left);
     case DecayEnd::decayed:
       return fmt::format("never stops; after {:.6g}{} {}", decay.duration, seconds, left);
     case DecayEnd::cut_off:

@@ -1,30 +1,31 @@
 #include "tests/fuzz/file_in_memory.hpp"
 
 #include <fmt/format.h>
-#include <sys/mman.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <system_error>
+#include <fstream>
+#include <stdexcept>
 
 namespace frahm::fuzz {
+namespace {
+
+std::filesystem::path place_of_files() {
+  const std::filesystem::path memory = "/dev/shm";
+  return ::access(memory.c_str(), W_OK) == 0 ? memory : std::filesystem::temp_directory_path();
+}
+
+}  // namespace
 
 FileInMemory::FileInMemory(std::span<const std::uint8_t> bytes)
-    : descriptor_(::memfd_create("input", MFD_CLOEXEC)) {
-  if (descriptor_ < 0) throw std::system_error(errno, std::generic_category(), "memfd_create");
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
-    if (written < 0) throw std::system_error(errno, std::generic_category(), "write");
-    bytes = bytes.subspan(static_cast<std::size_t>(written));
-  }
+    : path_(place_of_files() / fmt::format("frahm-fuzzed-{}", ::getpid())) {
+  std::ofstream file(path_, std::ios::binary);
+  file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  if (!file.flush()) throw std::runtime_error(fmt::format("{}: cannot be written", path_.string()));
 }
 
 FileInMemory::~FileInMemory() {
-  ::close(descriptor_);
-}
-
-std::filesystem::path FileInMemory::path() const {
-  return fmt::format("/proc/self/fd/{}", descriptor_);
+  std::error_code ignored;
+  std::filesystem::remove(path_, ignored);
 }
 
 }  // namespace frahm::fuzz

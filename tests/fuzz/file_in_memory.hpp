@@ -6,7 +6,8 @@
 
 namespace frahm::fuzz {
 
-// Bytes under a path, for readers that open files; gone with the object.
+// Bytes under a path, for readers that open files; gone with the object. It lies in memory (/dev/shm) where
+// there is such a place; HDF5 asks for the real path, which a file without a name has not.
 class FileInMemory {
  public:
   explicit FileInMemory(std::span<const std::uint8_t> bytes);
@@ -14,10 +15,10 @@ class FileInMemory {
   FileInMemory(const FileInMemory&) = delete;
   FileInMemory& operator=(const FileInMemory&) = delete;
 
-  std::filesystem::path path() const;
+  const std::filesystem::path& path() const { return path_; }
 
  private:
-  int descriptor_;
+  std::filesystem::path path_;
 };
 
 }  // namespace frahm::fuzz

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
+#include <stdexcept>
 #include <string>
 
 #include "tests/known_answers/exponential_integrator.hpp"
@@ -16,7 +17,7 @@ namespace {
 
 constexpr double kSettled = 1e-10;  // change of the velocities in a period, of the fastest
 constexpr double kAgrees = 1e-7;    // of the largest: what is left of the transient when it counts as settled
-constexpr int kMostPeriods = 400;
+constexpr int kMostPeriods = 4000;
 constexpr double kFewUnsettled = 0.05;  // of the networks: hardly damped ones need thousands of periods
 
 RandomNetwork draw(unsigned trial) {
@@ -56,13 +57,19 @@ bool settles(ExponentialIntegrator& reference) {
   return false;
 }
 
-// How many of these networks, each given by its number, do not settle.
+// How many of these networks, each given by its number, do not settle or are too much for the reference.
 int check_networks(unsigned first, unsigned count) {
   int unsettled = 0;
   for (unsigned trial = first; trial < first + count; ++trial) {
     const RandomNetwork drawn = draw(trial);
     ExponentialIntegrator reference(drawn.network, drawn.values);
-    if (!settles(reference)) {
+    try {
+      if (!settles(reference)) {
+        ++unsettled;
+        continue;
+      }
+    } catch (const std::runtime_error& error) {
+      WARN("network " << trial << ": " << error.what());
       ++unsettled;
       continue;
     }

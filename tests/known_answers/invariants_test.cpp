@@ -11,7 +11,7 @@ namespace frahm::invariants {
 namespace {
 
 TEST_CASE("What leaves the motion of a random network as it is leaves its response as it is", "[slow]") {
-  constexpr std::uint64_t kNetworks = 300;
+  constexpr std::uint64_t kNetworks = 500;
   for (std::uint64_t seed = 1; seed <= kNetworks; ++seed) {
     std::string broken;
     for (const Violation& violation : violations_of(draw(seed))) {

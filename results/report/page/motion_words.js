@@ -67,7 +67,7 @@ export function restText({ rest, unit, turningPoints }, places = digits) {
 }
 
 // The state of a mass relative to its rest position at the end of the record: "rests", "held" (others move on), "tends"
-// (it never arrives) or "moves" (friction stops it later, or it never arrives).
+// (it never arrives, or nearer than rounding) or "moves" (friction stops it later, or it never arrives).
 export function approachOf(mass, motion) {
   if (Number.isFinite(motion.stopTime)) return "rests";
   if (isHeldSinceTurning(mass, motion)) return "held";
@@ -85,7 +85,8 @@ function restOfMass(mass, motion) {
     case "held":
       return [`It reaches its rest, ${at}, at ${timeText(mass.turningTimes.at(-1))}.`];
     case "tends":
-      return [`It tends to ${at} without ever arriving.`];
+      // Damped by less than critical, it is stopped in the end, nearer to its rest than rounding.
+      return [motion.mayStop ? `It tends to ${at}.` : `It tends to ${at} without ever arriving.`];
     default:
       return [`It does not reach its rest, ${at}, within ${timeText(motion.duration)}.`];
   }

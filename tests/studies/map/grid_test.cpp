@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <numeric>
 
+#include "studies/map/map_plan.hpp"
 #include "tests/studies/small_studies.hpp"
 #include "tests/study_path.hpp"
 
@@ -134,6 +135,15 @@ TEST_CASE("a row of a building's frequencies is cut, so that every core has some
   CHECK(points_of_tile(30) <= 100);
   CHECK(points_of_tile(40) <= 25);
   CHECK(points_of_tile(60) <= 10);
+}
+
+TEST_CASE("A map of more tiles than can be kept track of is refused at once") {
+  const auto plan = [](int frequencies) {
+    return plan_map(study_of(axis("f", 0.1, 0.3, 1000000) + axis("r", 0.5, 1.5, frequencies)), {});
+  };
+  CHECK(plan(60000).tiles == 15'000'000);
+  CHECK_THROWS_WITH(plan(1000000), Catch::Contains("the map of 1000000000000 points has 250000000 tiles, of "
+                                                   "which at most 16777216 can be kept track of"));
 }
 
 }  // namespace
