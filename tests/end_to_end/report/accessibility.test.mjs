@@ -44,61 +44,70 @@ const kinds = {
 
 for (const [kind, name] of Object.entries(kinds)) {
   test(`the page of ${kind} is accessible`, async (t) => {
-    const file = pageOf(t, name);
-    for (const look of [{ width: 1280 }, { width: 390, colorScheme: "dark" }]) {
-      const { page } = await open(t, file, look);
-      const found = await findings(page);
-      assert.equal(found.length, 0, found.join("\n\n"));
-    }
+    const { page } = await open(t, pageOf(t, name));
+    const wide = await findings(page);
+    assert.equal(wide.length, 0, wide.join("\n\n"));
+    await page.emulateMedia({ colorScheme: "dark" });
+    await page.setViewportSize({ width: 390, height: 844 });
+    await page.waitForTimeout(300); // figures are drawn anew
+    const narrow = await findings(page);
+    assert.equal(narrow.length, 0, narrow.join("\n\n"));
   });
 }
 
 // The numbers of the chosen point, as the page tells them.
 const place = (page) => page.locator("main section:has(> h2:text-is('Point'))").textContent();
 
-test("the arrow keys move the chosen point of a map", async (t) => {
-  const { page } = await open(t, pageOf(t, "regime_map"));
-  const plot = page.locator("[aria-label^='response map']");
-  const before = await place(page);
-  for (let i = 0; i < 200 && !(await plot.evaluate((each) => each === document.activeElement)); ++i)
-    await page.keyboard.press("Tab");
-  assert.ok(await plot.evaluate((each) => each === document.activeElement), "Tab comes to the map");
-  await page.keyboard.press("ArrowRight");
-  await page.keyboard.press("Shift+ArrowUp");
-  const told = page.locator("[role=status]");
-  await page.waitForFunction(() => document.querySelector("[role=status]").textContent !== "");
-  await page.waitForTimeout(300); // the frame in which it is drawn
-  assert.match(await told.textContent(), /^Point: .*= /);
-  assert.notEqual(await place(page), before);
-});
+test("a map", async (t) => {
+  const file = pageOf(t, "regime_map");
 
-test("a tap takes a point of a map on a phone, and its controls are large enough for a finger", async (t) => {
-  const { page } = await open(t, pageOf(t, "regime_map"), { width: 390, height: 844, hasTouch: true });
-  const before = await place(page);
-  const box = await page.locator("[aria-label^='response map'] svg").first().boundingBox();
-  await page.touchscreen.tap(box.x + 0.5 * box.width, box.y + 0.6 * box.height);
-  await page.waitForTimeout(300);
-  assert.notEqual(await place(page), before);
-  const small = await page.evaluate(() =>
-    [...document.querySelectorAll("button, select, input")]
-      .filter((each) => each.checkVisibility() && each.getBoundingClientRect().height < 24)
-      .map((each) => each.outerHTML.slice(0, 80)),
-  );
-  assert.deepEqual(small, []);
-});
-
-test("a map ends where its axes do", async (t) => {
-  const { page } = await open(t, pageOf(t, "regime_map"));
-  const ends = await page.evaluate(() => {
-    const svg = document.querySelector("[aria-label^='response map'] svg");
-    return { x: svg.scale("x").domain, y: svg.scale("y").domain };
+  await t.test("the arrow keys move the chosen point", async (t) => {
+    const { page } = await open(t, file);
+    const plot = page.locator("[aria-label^='response map']");
+    const before = await place(page);
+    for (let i = 0; i < 200 && !(await plot.evaluate((each) => each === document.activeElement)); ++i)
+      await page.keyboard.press("Tab");
+    assert.ok(await plot.evaluate((each) => each === document.activeElement), "Tab comes to the map");
+    await page.keyboard.press("ArrowRight");
+    await page.keyboard.press("Shift+ArrowUp");
+    const told = page.locator("[role=status]");
+    await page.waitForFunction(() => document.querySelector("[role=status]").textContent !== "");
+    await page.waitForTimeout(300); // the frame in which it is drawn
+    assert.match(await told.textContent(), /^Point: .*= /);
+    assert.notEqual(await place(page), before);
   });
-  const text = readFileSync(study("regime_map"), "utf8");
-  const axes = [
-    ...text.matchAll(/\[\[axis\]\]\s+parameter = "(\w+)"[^[]*?from = ([\d.]+)[^[]*?to = ([\d.]+)/g),
-  ];
-  for (const [, name, from, to] of axes) {
-    const shown = Object.values(ends).find(([low, high]) => low === Number(from) && high === Number(to));
-    assert.ok(shown || name === "zeta", `${name}: ${from} to ${to}, drawn ${JSON.stringify(ends)}`);
-  }
+
+  await t.test(
+    "a tap takes a point on a phone, and its controls are large enough for a finger",
+    async (t) => {
+      const { page } = await open(t, file, { width: 390, height: 844, hasTouch: true });
+      const before = await place(page);
+      const box = await page.locator("[aria-label^='response map'] svg").first().boundingBox();
+      await page.touchscreen.tap(box.x + 0.5 * box.width, box.y + 0.6 * box.height);
+      await page.waitForTimeout(300);
+      assert.notEqual(await place(page), before);
+      const small = await page.evaluate(() =>
+        [...document.querySelectorAll("button, select, input")]
+          .filter((each) => each.checkVisibility() && each.getBoundingClientRect().height < 24)
+          .map((each) => each.outerHTML.slice(0, 80)),
+      );
+      assert.deepEqual(small, []);
+    },
+  );
+
+  await t.test("it ends where its axes do", async (t) => {
+    const { page } = await open(t, file);
+    const ends = await page.evaluate(() => {
+      const svg = document.querySelector("[aria-label^='response map'] svg");
+      return { x: svg.scale("x").domain, y: svg.scale("y").domain };
+    });
+    const text = readFileSync(study("regime_map"), "utf8");
+    const axes = [
+      ...text.matchAll(/\[\[axis\]\]\s+parameter = "(\w+)"[^[]*?from = ([\d.]+)[^[]*?to = ([\d.]+)/g),
+    ];
+    for (const [, name, from, to] of axes) {
+      const shown = Object.values(ends).find(([low, high]) => low === Number(from) && high === Number(to));
+      assert.ok(shown || name === "zeta", `${name}: ${from} to ${to}, drawn ${JSON.stringify(ends)}`);
+    }
+  });
 });
