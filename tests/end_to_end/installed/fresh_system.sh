@@ -23,7 +23,8 @@ inside() { chroot "$root" /usr/bin/env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOM
 
 inside 'apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends /frahm_*.deb >/dev/null'
 inside 'cd /tmp && frahm --version && frahm verify | tail -1'
-inside 'cd /tmp && frahm new sweep machine.toml && frahm check machine.toml >/dev/null && frahm run machine.toml --progress none'
+inside 'cd /tmp && frahm new sweep machine.toml && sed -i "s/value = 80,/value = 90,/" machine.toml && grep -q "value = 90," machine.toml &&
+  frahm check machine.toml >/dev/null && frahm run machine.toml --progress none && frahm report machine.h5 && test -s machine.html'
 inside 'test -f /usr/share/bash-completion/completions/frahm && test -f /usr/share/frahm/studies/rig/rig_atlas.toml'
 echo "fresh_system: the program works"
 inside 'DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends /libfrahm-dev_*.deb cmake make pkg-config >/dev/null'
