@@ -188,7 +188,8 @@ TEST_CASE("a finished run is not repeated, and a file of another study is not ov
   const auto again = run(study, output);
   CHECK(again.code == 0);
   CHECK_THAT(again.out, Catch::Contains("computed already"));
-  folder.write("small.h5.frahm-lock", "of an assembly that was killed when its file was in place");
+  // What an assembly leaves that was killed when its file was in place.
+  folder.write("small.h5.frahm-lock", "process 4711");
   CHECK(run(study, output).code == 0);
   CHECK(folder.names() == Names{"small.h5", "small.toml"});
   const auto other = run(study, output, {"--set", "zeta=0.1"});
