@@ -1,7 +1,10 @@
 """Values of parameters in the form that the program reads: name=value."""
 
 import numbers
+import os
 from typing import Any, Iterable, Mapping, Union
+
+import numpy as np
 
 Value = Union[float, str]
 """A number in the parameter's usual unit, or a text with a unit: 600, "600 rpm"."""
@@ -9,17 +12,73 @@ Value = Union[float, str]
 
 def assignments(values: Mapping[str, Value]) -> list[str]:
     """name=value for each parameter."""
-    return [f"{name}={_text(name, value)}" for name, value in values.items()]
+    return [f"{_name(name)}={_text(name, value)}" for name, value in values.items()]
 
 
 def is_axis(value: Any) -> bool:
     """Whether a parameter is given several values."""
-    return isinstance(value, Iterable) and not isinstance(value, str) and getattr(value, "ndim", 1) > 0
+    return isinstance(value, Iterable) and not isinstance(value, (str, bytes)) and getattr(value, "ndim", 1) > 0
+
+
+def values_of_axis(name: str, given: Any) -> np.ndarray:
+    """The values of a parameter along an axis, a single one too."""
+    _name(name)
+    listed = list(given) if is_axis(given) and not hasattr(given, "__array__") else given
+    try:
+        array = np.atleast_1d(np.asarray(listed, dtype=float))
+    except (TypeError, ValueError, OverflowError):
+        raise TypeError(f"{name}={_short(given)}: must be a number or a list of numbers") from None
+    if array.ndim != 1:
+        raise ValueError(f"{name}: a list of values, not an array of {array.ndim} dimensions")
+    return array
+
+
+def file_name(path: Union[str, os.PathLike]) -> str:
+    """A path as the program takes it."""
+    return plain(os.fsdecode(path), "the file's name")
+
+
+def plain(text: Any, what: str) -> str:
+    """A text that the program can read."""
+    if not isinstance(text, str):
+        raise TypeError(f"{what}: must be a text, not {type(text).__name__}")
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        raise ValueError(f"{what} {_short(text)}: must be UTF-8") from None
+    return text
+
+
+def whole(value: Any, name: str, least: int) -> int:
+    """A whole number that the program can count to."""
+    if not isinstance(value, numbers.Integral):
+        raise TypeError(f"{name}={_short(value)}: must be a whole number")
+    if not least <= value < 2**31:
+        raise ValueError(f"{name}={_short(value)}: must be from {least} to {2**31 - 1}")
+    return int(value)
+
+
+def _name(name: Any) -> str:
+    plain(name, "a parameter's name")
+    if "=" in name or "," in name:
+        raise ValueError(f"{_short(name)}: no parameter is called so; give one name and its value")
+    return name
 
 
 def _text(name: str, value: Any) -> str:
     if isinstance(value, str):
+        if "," in plain(value, name):
+            raise ValueError(f"{name}={_short(value)}: must be one value, without a comma")
         return value
-    if isinstance(value, numbers.Real) or getattr(value, "ndim", None) == 0:
-        return repr(float(value))
+    single = value.item() if getattr(value, "ndim", None) == 0 else value  # also a 0-d array
+    if isinstance(single, numbers.Real) and not isinstance(single, bool):
+        try:
+            return repr(float(single))
+        except OverflowError:
+            raise ValueError(f"{name}={_short(value)}: must be a finite number") from None
     raise TypeError(f"{name}: a number or a text with a unit, not {type(value).__name__}")
+
+
+def _short(value: Any) -> str:
+    shown = repr(value)
+    return shown if len(shown) <= 60 else shown[:57] + "..."

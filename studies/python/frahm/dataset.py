@@ -21,6 +21,8 @@ def open(path: Union[str, os.PathLike], group: Optional[str] = None) -> "xarray.
 
 def names(flags: "xarray.DataArray") -> "xarray.DataArray":
     """The words for the numbers of a flag of a result: names(ds.status) == "ok"."""
+    if not hasattr(flags, "attrs"):
+        raise TypeError(f"names: takes a variable of a dataset, such as ds.status, not {type(flags).__name__}")
     if "flag_meanings" not in flags.attrs:
         raise ValueError(f"{flags.name}: is no flag")
     meanings = flags.attrs["flag_meanings"].split()

@@ -22,7 +22,7 @@ class Reports:
     """Takes the lines that a run writes: reports are shown, other lines kept and shown below them."""
 
     def __init__(self, progress: Progress):
-        if isinstance(progress, str) and progress not in ("auto", "none"):
+        if not callable(progress) and progress not in ("auto", "none"):
             raise ValueError(f"progress={progress!r}: must be \"auto\", \"none\" or a function")
         self.messages: list[str] = []
         self._told: Optional[Callable[[dict[str, Any]], None]] = progress if callable(progress) else None

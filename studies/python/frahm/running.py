@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Optional
 
 from . import _frahm
+from .assignments import file_name, whole
 from .dataset import open as open_result
 from .progress import Progress, Reports
 
@@ -48,9 +49,12 @@ def run(
     progress: Progress,
 ) -> Result:
     reports = Reports(progress)
-    path = os.fspath(output) if output is not None else os.path.splitext(os.path.basename(study.name))[0] + ".h5"
+    path = file_name(output) if output is not None else os.path.splitext(os.path.basename(study.name))[0] + ".h5"
+    taken_over = file_name(from_result) if from_result is not None else ""
+    if not isinstance(fresh, bool):  # "no" would discard what is computed
+        raise TypeError(f"fresh={fresh!r}: must be True or False")
     code, table = _frahm.run(
-        study, path, os.fspath(from_result or ""), threads, fresh, time_budget, _command(study, path), reports.line
+        study, path, taken_over, whole(threads, "threads", 0), fresh, time_budget, _command(study, path), reports.line
     )
     if code == 4:
         _pass_on(reports.messages)

@@ -9,7 +9,7 @@ from typing import Any, Callable, Mapping, Optional, Sequence, TypeVar, Union
 import numpy as np
 
 from . import _frahm
-from .assignments import Value, assignments, is_axis
+from .assignments import Value, assignments, file_name, is_axis, plain, values_of_axis, whole
 from .identification import Identification, identification_of
 from .point import Point, point_of
 from .progress import Progress
@@ -33,12 +33,12 @@ class Study:
 
         Raises StudyError for anything wrong in it, with the line, the rule and the nearest word.
         """
-        return cls(_frahm.Study.load(os.fspath(path), assignments(parameters)))
+        return cls(_frahm.Study.load(file_name(path), assignments(parameters)))
 
     @classmethod
     def from_text(cls, text: str, name: Path = "study.toml", **parameters: Value) -> "Study":
         """The same of a text. name: its file, for messages; tables are searched beside it."""
-        return cls(_frahm.Study.parse(text, os.fspath(name), assignments(parameters)))
+        return cls(_frahm.Study.parse(plain(text, "a study"), file_name(name), assignments(parameters)))
 
     @classmethod
     def from_dict(cls, study: Mapping[str, Any], name: Path = "study.toml", **parameters: Value) -> "Study":
@@ -97,8 +97,8 @@ class Study:
         """
         if path not in ("fastest", "general"):
             raise ValueError(f"path={path!r}: must be \"fastest\" or \"general\"")
-        samples = 513 if history is True else int(history)
-        if samples < 0 or samples == 1:
+        samples = 513 if history is True else whole(history, "history", 0)
+        if samples == 1:
             raise ValueError(f"history={history}: must be at least 2 instants")
         return point_of(self._study.point(assignments({**at, **parameters}), path, samples, bool(gradient)))
 
@@ -113,16 +113,16 @@ class Study:
         study records. threads: 0: one on each processor.
         """
         others = {**at, **parameters}
+        if row in others:
+            raise ValueError(f"{row}: runs along the row, and has no other values beside it")
         axes = {name: given for name, given in others.items() if is_axis(given)}
         fixed = {name: given for name, given in others.items() if name not in axes}
         axes[row] = self._values_of_axis(row) if values is None else values
-        arrays = {name: np.atleast_1d(np.asarray(given, dtype=float)) for name, given in axes.items()}
-        for name, array in arrays.items():
-            if array.ndim != 1:
-                raise ValueError(f"{name}: a list of values, not an array of {array.ndim} dimensions")
-        wanted = [quantities] if isinstance(quantities, str) else list(quantities or [])
+        arrays = {name: values_of_axis(name, given) for name, given in axes.items()}
+        listed = [quantities] if isinstance(quantities, str) else list(quantities or [])
+        wanted = [plain(each, "a quantity") for each in listed]
         given = [(name, array.tolist()) for name, array in arrays.items()]
-        return response_of(arrays, self._study.rows(assignments(fixed), given, wanted, threads))
+        return response_of(arrays, self._study.rows(assignments(fixed), given, wanted, whole(threads, "threads", 0)))
 
     def run(self, output: Optional[Path] = None, *, from_result: Optional[Path] = None, threads: int = 0,
             fresh: bool = False, time_budget: Optional[float] = None, progress: Progress = "auto") -> Result:

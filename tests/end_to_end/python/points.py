@@ -64,6 +64,21 @@ class Points(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "fastest"):
             frahm.Study.from_dict(MACHINE).point(path="slow")
 
+    def test_wrong_values_are_refused_by_their_name(self):
+        study = frahm.Study.from_dict(MACHINE)
+        for error, words, wrong in (
+            (ValueError, "speed='600,F=1'.*comma", {"speed": "600,F=1"}),  # it would set F
+            (ValueError, "'F=1,speed'", {"F=1,speed": 600}),
+            (TypeError, "F: .*not bool", {"F": True}),
+            (ValueError, "F=1000.*finite", {"F": 10**400}),
+            (ValueError, "speed .*UTF-8", {"speed": "600 \ud800"}),
+            (TypeError, "history=2.5: must be a whole number", {"history": 2.5}),
+            (ValueError, "history=1000.*from 0 to", {"history": 10**30}),
+        ):
+            with self.assertRaisesRegex(error, words):
+                study.point(**wrong)
+        self.assertEqual(study.point(F=np.array(7)).parameters["F"][0], 7)
+
     def test_a_motion_is_refused(self):
         study = frahm.Study.load(studies / "lecture" / "run_up.toml")
         with self.assertRaisesRegex(frahm.StudyError, "has no periodic response"):

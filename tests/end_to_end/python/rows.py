@@ -82,6 +82,22 @@ class Rows(unittest.TestCase):
             study.response("speed", [])
         with self.assertRaises(ValueError):
             study.response("speed", [[1, 2], [3, 4]])
+        with self.assertRaisesRegex(TypeError, "speed=.*1j.*list of numbers"):
+            study.response("speed", [1j])
+        with self.assertRaisesRegex(ValueError, "speed: runs along the row"):
+            study.response("speed", [600], speed=700)
+        with self.assertRaisesRegex(TypeError, "a parameter's name: must be a text, not int"):
+            study.response(3, [1])
+        with self.assertRaisesRegex(TypeError, "a quantity: must be a text, not int"):
+            study.response("speed", [600], quantities=[3])
+        for threads, error in ((-1, ValueError), (10**30, ValueError), ("2", TypeError), (1.5, TypeError)):
+            with self.assertRaisesRegex(error, "threads="):
+                study.response("speed", [600], threads=threads)
+
+    def test_values_may_come_from_a_generator(self):
+        study = frahm.Study.from_dict(MACHINE)
+        np.testing.assert_array_equal(study.response("speed", (rpm for rpm in (500, 600)))["machine_peak"],
+                                      study.response("speed", [500, 600])["machine_peak"])
 
 
 if __name__ == "__main__":

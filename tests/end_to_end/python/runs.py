@@ -152,6 +152,22 @@ class Runs(unittest.TestCase):
             self.assertEqual(frahm.names(ds.guide_regime).dims, ("F", "speed"))
             with self.assertRaisesRegex(ValueError, "is no flag"):
                 frahm.names(ds.machine_peak)
+        with self.assertRaisesRegex(TypeError, "names: .*not int"):
+            frahm.names(3)
+
+    def test_wrong_options_are_refused_by_their_name(self):
+        study = frahm.Study.from_dict(MACHINE)
+        for error, words, wrong in (
+            (TypeError, "threads='2'", {"threads": "2"}),
+            (ValueError, "threads=-3: must be from 0 to", {"threads": -3}),
+            (TypeError, "fresh='no': must be True or False", {"fresh": "no"}),
+            (ValueError, "progress=3: must be", {"progress": 3}),
+            (ValueError, "the file's name .*must be UTF-8", {"from_result": b"\xff.h5"}),
+        ):
+            with self.assertRaisesRegex(error, words):
+                study.run(self.file, **wrong)
+        with self.assertRaisesRegex(ValueError, "the file's name .*must be UTF-8"):
+            study.run(b"\xff.h5")
 
     def test_hdf5_serves_h5py_in_the_same_process_whoever_comes_first(self):
         # A file left open by h5py at the end of the process has to be whole.

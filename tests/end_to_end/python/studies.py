@@ -63,6 +63,14 @@ class Studies(unittest.TestCase):
         with self.assertRaisesRegex(frahm.StudyError, "no_such.toml"):
             frahm.Study.load("no_such.toml")
 
+    def test_a_name_or_text_that_is_not_utf_8_is_refused(self):
+        with self.assertRaisesRegex(ValueError, "the file's name .*must be UTF-8"):
+            frahm.Study.load(b"\xff.toml")
+        with self.assertRaisesRegex(ValueError, "a study .*must be UTF-8"):
+            frahm.Study.from_text("a = '\udc80'")
+        with self.assertRaisesRegex(TypeError, "a study: must be a text, not int"):
+            frahm.Study.from_text(3)
+
     def test_a_parameter_that_there_is_not_gets_the_nearest_word(self):
         study = frahm.Study.from_dict(MACHINE)
         for wrong in (lambda: study.point(sped=600), lambda: study.response("sped", [1]),
