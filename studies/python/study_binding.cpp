@@ -15,19 +15,25 @@ using studies::TomlEntry;
 using studies::TomlTable;
 using studies::TomlValue;
 
-TomlValue toml_of(py::handle value, const std::string& place);
+// As deep as the reader takes; a dictionary may hold itself.
+constexpr int kDeepest = 16;
 
-TomlTable table_of(const py::dict& dictionary, const std::string& place) {
+TomlValue toml_of(py::handle value, const std::string& place, int depth);
+
+TomlTable table_of(const py::dict& dictionary, const std::string& place, int depth) {
   TomlTable table;
   for (const auto& [key, value] : dictionary) {
     const std::string name = py::str(key);
-    table.push_back({name, {}, toml_of(value, place.empty() ? name : fmt::format("{}.{}", place, name))});
+    table.push_back(
+        {name, {}, toml_of(value, place.empty() ? name : fmt::format("{}.{}", place, name), depth + 1)});
   }
   return table;
 }
 
 // place: its keys, for messages. numbers.Integral and numbers.Real hold NumPy's numbers too.
-TomlValue toml_of(py::handle value, const std::string& place) {
+TomlValue toml_of(py::handle value, const std::string& place, int depth) {
+  if (depth > kDeepest)
+    throw studies::StudyError(studies::rules::too_large, "{}: nested deeper than {} levels", place, kDeepest);
   const py::module_ numbers = py::module_::import("numbers");
   if (py::isinstance<py::bool_>(value)) return {{}, value.cast<bool>()};
   if (py::isinstance(value, numbers.attr("Integral")))
@@ -35,11 +41,12 @@ TomlValue toml_of(py::handle value, const std::string& place) {
   if (py::isinstance(value, numbers.attr("Real")))
     return {{}, py::float_(py::reinterpret_borrow<py::object>(value)).cast<double>()};
   if (py::isinstance<py::str>(value)) return {{}, value.cast<std::string>()};
-  if (py::isinstance<py::dict>(value)) return {{}, table_of(py::reinterpret_borrow<py::dict>(value), place)};
-  if (py::hasattr(value, "tolist")) return toml_of(value.attr("tolist")(), place);
+  if (py::isinstance<py::dict>(value))
+    return {{}, table_of(py::reinterpret_borrow<py::dict>(value), place, depth)};
+  if (py::hasattr(value, "tolist")) return toml_of(value.attr("tolist")(), place, depth + 1);
   if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) {
     TomlArray array;
-    for (const py::handle item : value) array.push_back(toml_of(item, place));
+    for (const py::handle item : value) array.push_back(toml_of(item, place, depth + 1));
     return {{}, std::move(array)};
   }
   throw studies::StudyError(studies::rules::wrong_type,
@@ -113,7 +120,7 @@ void add_study(py::module_& module) {
       .def("quantities", quantities_of);
   add_responses(study);
   module.def("toml_text", [](const py::dict& dictionary) {
-    return studies::toml_text(TomlValue{{}, table_of(dictionary, "")});
+    return studies::toml_text(TomlValue{{}, table_of(dictionary, "", 0)});
   });
 }
 

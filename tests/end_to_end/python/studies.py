@@ -36,6 +36,16 @@ class Studies(unittest.TestCase):
         with self.assertRaisesRegex(frahm.StudyError, "mass: .*NoneType"):
             frahm.Study.from_dict(changed)
 
+    def test_a_dictionary_that_holds_itself_is_refused(self):
+        endless = dict(MACHINE)
+        endless["mass"] = [endless]
+        deep = []
+        for _ in range(200_000):
+            deep = [deep]
+        for wrong in (endless, dict(MACHINE, mass=deep)):
+            with self.assertRaisesRegex(frahm.StudyError, "mass.*nested deeper than 16 levels"):
+                frahm.Study.from_dict(wrong)
+
     def test_parameters_are_set_with_units_and_stay_set(self):
         study = frahm.Study.from_dict(MACHINE, speed="10 Hz").with_parameters(F=7)
         self.assertEqual(study.parameters["speed"], (600.0, "rpm"))
