@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -83,6 +84,17 @@ std::size_t File::read_at(std::uint64_t offset, std::span<std::byte> to) const {
     done += static_cast<std::size_t>(count);
   }
   return done;
+}
+
+bool File::holds_only_zeros() const {
+  std::array<std::byte, 4096> bytes{};
+  for (std::uint64_t at = 0;;) {
+    const std::size_t count = read_at(at, bytes);
+    if (count == 0) return true;
+    const auto read = std::span(bytes).first(count);
+    if (std::ranges::any_of(read, [](std::byte each) { return each != std::byte{0}; })) return false;
+    at += count;
+  }
 }
 
 void File::write_at(std::uint64_t offset, std::span<const std::byte> from) {

@@ -28,6 +28,8 @@ class File {
   // Fills `to` from `offset` [bytes] on; the number of bytes read is smaller than to.size() only at the end
   // of the file.
   std::size_t read_at(std::uint64_t offset, std::span<std::byte> to) const;
+  // Also of an empty file. After a power failure bytes that were not synced may be zeros.
+  bool holds_only_zeros() const;
   // Writes all of `from` at `offset` [bytes]: in one call to the kernel, unless the kernel takes only a part.
   void write_at(std::uint64_t offset, std::span<const std::byte> from);
   void truncate(std::uint64_t size);

@@ -99,13 +99,14 @@ void encode_record(std::uint64_t mark, std::uint64_t tile, std::span<const std::
 bool begins_as_log(const File& file) {
   std::array<char, file_magic.size()> text{};
   const std::size_t size = file.read_at(0, std::as_writable_bytes(std::span(text)));
-  return file_magic.starts_with(std::string_view(text.data(), size));
+  return file_magic.starts_with(std::string_view(text.data(), size)) || file.holds_only_zeros();
 }
 
 std::optional<LogHeader> read_header(const File& log) {
   Bytes bytes(header_size);
   if (log.read_at(0, bytes) < header_size) return std::nullopt;
   if (std::memcmp(bytes.data(), file_magic.data(), file_magic.size()) != 0) {
+    if (log.holds_only_zeros()) return std::nullopt;
     throw IoError(log.path(),
                   "not a shard log, or its header is damaged (it does not begin with FRAHMLOG); remove the "
                   "file to have its tiles computed again");

@@ -30,3 +30,10 @@ TEST_CASE("a lock file that a killed process has left is taken over and goes") {
   }
   CHECK(std::filesystem::is_empty(scratch.directory()));
 }
+
+TEST_CASE("a lock file whose bytes a power failure left as zeros is taken over and goes") {
+  const Scratch scratch;
+  std::ofstream(lock_path(scratch.output())) << std::string(40, '\0');
+  { const OutputLock lock(scratch.output()); }
+  CHECK(std::filesystem::is_empty(scratch.directory()));
+}

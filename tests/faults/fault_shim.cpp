@@ -12,6 +12,7 @@
 //                 "fail": the call fails;  "fail_on": this one and all later ones do. Under ENOSPC and EDQUOT
 //                 what gives space back still works then.
 //   FAULT_ERRNO   number of the error of "fail" and "fail_on"
+//   FAULT_SYNCED  keeps copies there of what is synced (synced_copies.hpp); only with FAULT_COUNT "changes"
 //   FAULT_RANK    of a program of several MPI ranks only this one is counted (OMPI_COMM_WORLD_RANK)
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -30,6 +31,8 @@
 #include <cstring>
 #include <string>
 #include <string_view>
+
+#include "tests/faults/synced_copies.hpp"
 
 namespace {
 
@@ -220,6 +223,15 @@ int truncate_to(int descriptor, off_t size) {
                    [&] { return real(descriptor, size); });
 }
 
+int sync_with(const char* name, int (*real)(int), int descriptor) {
+  const Call call = counted(name, Kind::change, path_of(descriptor));
+  return carry_out(call, -1, [&] {
+    const int result = real(descriptor);
+    if (call.number > 0 && result == 0) keep_synced(descriptor, call.path);
+    return result;
+  });
+}
+
 int open_at(int directory, const char* path, int flags, mode_t mode) {
   static const auto real = original<decltype(::openat)>("openat");
   const bool creates = (flags & (O_CREAT | O_TRUNC)) != 0;
@@ -298,13 +310,12 @@ int remove(const char* path) noexcept {
 
 int fsync(int descriptor) {
   static const auto real = original<int(int)>("fsync");
-  return carry_out(counted("fsync", Kind::change, path_of(descriptor)), -1, [&] { return real(descriptor); });
+  return sync_with("fsync", real, descriptor);
 }
 
 int fdatasync(int descriptor) {
   static const auto real = original<int(int)>("fdatasync");
-  return carry_out(counted("fdatasync", Kind::change, path_of(descriptor)), -1,
-                   [&] { return real(descriptor); });
+  return sync_with("fdatasync", real, descriptor);
 }
 
 int open(const char* path, int flags, ...) {
