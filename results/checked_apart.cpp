@@ -4,7 +4,6 @@
 #include <fmt/core.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -16,11 +15,7 @@
 #include <cstring>
 #include <exception>
 #include <fstream>
-#include <mutex>
-#include <optional>
-#include <set>
 #include <string>
-#include <utility>
 
 #include "results/store_error.hpp"
 
@@ -32,45 +27,6 @@ constexpr rlim_t most_memory = rlim_t{1} << 30;  // [bytes] beyond what the proc
 constexpr char passed = 'p', failed = 'f';       // the first byte of the child's answer
 
 std::atomic<bool> is_kept_here = false;
-
-// What changes when a file is written or replaced.
-using State = std::array<std::int64_t, 7>;
-
-std::optional<State> state_of(const std::filesystem::path& path) {
-  struct stat status {};
-  if (::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
-  return State{static_cast<std::int64_t>(status.st_dev),
-               static_cast<std::int64_t>(status.st_ino),
-               status.st_size,
-               status.st_mtim.tv_sec,
-               status.st_mtim.tv_nsec,
-               status.st_ctim.tv_sec,
-               status.st_ctim.tv_nsec};
-}
-
-// The files that this process has found good, and by which check.
-using Passed = std::pair<State, std::string>;
-
-class Known {
- public:
-  bool has(const Passed& one) {
-    const std::lock_guard turn(turn_);
-    return passed_.contains(one);
-  }
-  void add(const Passed& one) {
-    const std::lock_guard turn(turn_);
-    passed_.insert(one);
-  }
-
- private:
-  std::mutex turn_;
-  std::set<Passed> passed_;
-};
-
-Known& known() {
-  static Known files;
-  return files;
-}
 
 // [bytes], 0 if unknown
 rlim_t memory_in_use() {
@@ -147,11 +103,9 @@ void keep_checks_here() {
   is_kept_here = true;
 }
 
-void check_apart(const std::filesystem::path& path, const std::string& what,
-                 const std::function<void()>& check) {
-  const std::optional<State> state = state_of(path);
-  if (!state || is_kept_here) return check();  // no file: the check says so
-  if (known().has({*state, what})) return;
+void check_apart(const std::filesystem::path& path, const std::function<void()>& check) {
+  std::error_code unseen;  // no file: the check says so
+  if (is_kept_here || !std::filesystem::is_regular_file(path, unseen)) return check();
   std::array<int, 2> pipe{};
   const bool has_pipe = ::pipe2(pipe.data(), O_CLOEXEC) == 0;
   const pid_t child = has_pipe ? ::fork() : -1;
@@ -168,7 +122,6 @@ void check_apart(const std::filesystem::path& path, const std::string& what,
   }
   if (answer.empty()) throw StoreError(path.string(), "is damaged", ending(status));
   if (answer.front() == failed) throw StoreError(answer.substr(1));
-  known().add({*state, what});
 }
 
 }  // namespace frahm::results

@@ -50,7 +50,7 @@ void check_form(const hdf5::Dataset& dataset, std::size_t needed) {
 
 // A file that anybody may have made is first read by a child.
 hdf5::File open_checked(const std::filesystem::path& path) {
-  check_apart(path, "opening", [&] { hdf5::File::open(path).root(); });
+  check_apart(path, [&] { hdf5::File::open(path).root(); });
   return hdf5::File::open(path);
 }
 
@@ -80,7 +80,7 @@ std::vector<double> numbers_of(const hdf5::Dataset& dataset) {
 DataReader::DataReader(const std::filesystem::path& path) : path_(path), file_(open_checked(path)) {}
 
 void DataReader::check(const std::string& dataset, std::size_t dimensions) const {
-  check_apart(path_, dataset, [&] {
+  check_apart(path_, [&] {
     const hdf5::File file = hdf5::File::open(path_);
     const hdf5::Dataset found = find(file, dataset, dimensions);
     numbers_of(found);

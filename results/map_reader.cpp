@@ -29,7 +29,7 @@ void check_format(const hdf5::Group& root) {
 
 // A file that anybody may have made is walked through by a child before this process touches it.
 hdf5::File open_checked(const std::filesystem::path& path) {
-  check_apart(path, "structure", [&] { check_structure(path); });
+  check_apart(path, [&] { check_structure(path); });
   return hdf5::File::open(path);
 }
 
