@@ -126,6 +126,7 @@ int wait_for_end(Ranks& ranks) {
 void end_all(Ranks& ranks, int code) {
   for (int rank = 1; rank < ranks.size(); ++rank)
     ranks.send(rank, encode({.kind = Kind::end, .code = static_cast<std::uint64_t>(code)}));
+  ranks.end_without_given_up(code);
 }
 
 }  // namespace frahm::engine

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "engine/handout.hpp"
@@ -14,26 +15,38 @@ using Kind = RankMessage::Kind;
 }  // namespace
 
 Dealer::Dealer(Ranks& ranks, std::uint64_t study, int threads, std::vector<std::uint64_t> tiles,
-               TileQueue& own)
+               TileQueue& own, Silence silence)
     : ranks_(ranks),
       study_(study),
       tiles_(std::move(tiles)),
       own_(own),
+      silence_(std::move(silence)),
       present_(ranks.size() - 1),
       members_(static_cast<std::size_t>(ranks.size())) {
   members_.front() = {.name = "rank 0", .threads = threads, .at_work = true};
 }
 
-void Dealer::serve(bool stop_asked) {
+void Dealer::serve(bool stop_asked, Clock::time_point now) {
+  pass_time(now);
   if (stop_asked) stop();
   while (const auto message = ranks_.receive()) answer(message->from, decode(message->bytes));
+  give_up_silent();
   fill_own();
 }
 
+void Dealer::pass_time(Clock::time_point now) {
+  constexpr std::chrono::duration<double> longest_step(1.0);
+  const std::chrono::duration<double> step = now - served_.value_or(now);
+  awake_ += std::min(step, longest_step);
+  served_ = now;
+}
+
 void Dealer::answer(int rank, const RankMessage& message) {
+  Member& member = members_[static_cast<std::size_t>(rank)];
+  if (member.is_given_up) return answer_late(rank, message);
+  member.heard = awake_;
   {
     const std::lock_guard turn(turn_);
-    Member& member = members_[static_cast<std::size_t>(rank)];
     if (message.kind == Kind::ask || message.kind == Kind::tell || message.kind == Kind::leave)
       member.finished = message.finished;
     if (message.kind == Kind::leave) {
@@ -50,6 +63,43 @@ void Dealer::answer(int rank, const RankMessage& message) {
   if (message.kind == Kind::ready) welcome(rank, message);
   if (message.kind == Kind::ask) deal_to(rank);
   if (message.kind == Kind::fail || (message.kind == Kind::leave && !message.text.empty())) stop();
+}
+
+// It was only slow, or is thawed. Its tiles are computed by others; it may go.
+void Dealer::answer_late(int rank, const RankMessage& message) {
+  if (message.kind == Kind::ready || message.kind == Kind::ask || message.kind == Kind::tell)
+    ranks_.send(rank, encode({.kind = Kind::stop}));
+  else
+    ranks_.take_back(rank);
+}
+
+void Dealer::give_up_silent() {
+  for (std::size_t rank = 1; rank < members_.size(); ++rank) {
+    const Member& member = members_[rank];
+    if (!member.has_left && awake_ - member.heard > silence_.longest) give_up(static_cast<int>(rank));
+  }
+}
+
+void Dealer::give_up(int rank) {
+  Member& member = members_[static_cast<std::size_t>(rank)];
+  ranks_.give_up(rank);
+  Salvage left = silence_.salvage(rank, member.tiles);
+  const std::lock_guard turn(turn_);
+  leave(member);
+  member.is_given_up = true;
+  member.finished.tiles = left.finished.tiles;
+  member.finished.points = left.finished.points;
+  member.finished.failed = left.finished.failed;
+  if (!stopping_) tiles_.insert(tiles_.end(), left.missing.begin(), left.missing.end());
+  notices_.push_back(fmt::format(
+      "{} has not been heard of for {:.0f} s and is not waited for; {} of its {} tiles are dealt out again",
+      member.name.empty() ? fmt::format("rank {}", rank) : member.name, silence_.longest.count(),
+      left.missing.size(), member.tiles.size()));
+}
+
+std::vector<std::string> Dealer::take_notices() {
+  const std::lock_guard turn(turn_);
+  return std::exchange(notices_, {});
 }
 
 void Dealer::leave(Member& member) {
@@ -71,7 +121,7 @@ void Dealer::deal_to(int rank) {
   std::vector<std::uint64_t> block;
   {
     const std::lock_guard turn(turn_);
-    block = take_block(members_[static_cast<std::size_t>(rank)].threads);
+    block = take_block(members_[static_cast<std::size_t>(rank)]);
   }
   const Kind kind = block.empty() ? Kind::close : Kind::deal;
   ranks_.send(rank, encode({.kind = kind, .tiles = std::move(block)}));
@@ -82,10 +132,10 @@ void Dealer::fill_own() {
   std::vector<std::uint64_t> block;
   {
     const std::lock_guard turn(turn_);
-    block = take_block(members_.front().threads);
+    block = take_block(members_.front());
   }
   own_.add(block);
-  own_is_closed_ = block.empty();
+  own_is_closed_ = block.empty() && all_have_left();
   if (own_is_closed_) own_.close();
 }
 
@@ -100,14 +150,16 @@ void Dealer::stop() {
   }
 }
 
-// The next tiles for a rank with so many threads; none when all are dealt out.
-std::vector<std::uint64_t> Dealer::take_block(int threads) {
+// The next tiles for a rank; none when all are dealt out.
+std::vector<std::uint64_t> Dealer::take_block(Member& member) {
   const std::size_t left = tiles_.size() - next_;
   if (left == 0) return {};
   const auto begin = tiles_.begin() + static_cast<std::ptrdiff_t>(next_);
-  const std::size_t size = block_size(left, threads, expected_threads());
+  const std::size_t size = block_size(left, member.threads, expected_threads());
+  const auto end = begin + static_cast<std::ptrdiff_t>(size);
   next_ += size;
-  return {begin, begin + static_cast<std::ptrdiff_t>(size)};
+  member.tiles.insert(member.tiles.end(), begin, end);
+  return {begin, end};
 }
 
 // Ranks without a message yet are assumed to have as many threads as rank 0.

@@ -10,7 +10,9 @@
 #include <array>
 #include <cstdlib>
 #include <cstring>
+#include <iostream>
 #include <list>
+#include <set>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
@@ -98,6 +100,14 @@ class MpiRanks : public Ranks {
     return message;
   }
 
+  void give_up(int rank) override { given_up_.insert(rank); }
+  void take_back(int rank) override { given_up_.erase(rank); }
+  void end_without_given_up(int code) override {
+    if (given_up_.empty()) return;
+    std::cout.flush();
+    MPI_Abort(MPI_COMM_WORLD, code);  // MPI_Finalize would wait for them
+  }
+
  private:
   // The bytes must not move until they are sent.
   struct Sending {
@@ -117,6 +127,7 @@ class MpiRanks : public Ranks {
   int rank_ = 0, size_ = 1;
   std::vector<cpu_set_t> machine_;  // masks_of_machine()
   std::list<Sending> sendings_;
+  std::set<int> given_up_;
 };
 
 }  // namespace

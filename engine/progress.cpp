@@ -102,6 +102,14 @@ void Progress::update(const Tally& tally) {
   if (now_() >= next_) report(tally, false);
 }
 
+void Progress::note(const std::vector<std::string>& texts) {
+  const bool is_bar = form_ == ProgressForm::bar || form_ == ProgressForm::coloured_bar;
+  for (const std::string& text : texts) {
+    out_ << fmt::format("{}note: {}\n", is_bar ? "\r\x1b[K" : "", text);
+    out_.flush();
+  }
+}
+
 void Progress::finish(const Tally& tally) {
   report(tally, true);
 }

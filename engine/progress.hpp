@@ -5,6 +5,7 @@
 #include <functional>
 #include <iosfwd>
 #include <string>
+#include <vector>
 
 namespace frahm::engine {
 
@@ -40,6 +41,8 @@ class Progress {
            std::string stage = {});
 
   void update(const Tally& tally);  // the first call always reports
+  // What has to be said whatever the form, each on a line of its own: "note: rank 3 ...".
+  void note(const std::vector<std::string>& texts);
   void finish(const Tally& tally);  // always reports; the last call
 
  private:

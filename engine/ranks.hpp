@@ -32,6 +32,12 @@ class Ranks {
   // Neither function waits. Messages from one rank to another arrive whole and in the order of sending.
   virtual void send(int to, const Bytes& message) = 0;
   virtual std::optional<Message> receive() = 0;
+
+  // A rank that is given up is not waited for at the end, until it is taken back.
+  virtual void give_up(int rank) = 0;
+  virtual void take_back(int rank) = 0;
+  // If a rank is given up, ends the program in all ranks at once with this exit code; else does nothing.
+  virtual void end_without_given_up(int code) = 0;
 };
 
 }  // namespace frahm::engine

@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <iostream>
+#include <iterator>
 #include <optional>
 #include <stdexcept>
 #include <thread>
+#include <unordered_set>
 #include <utility>
 
 #include "engine/dealer.hpp"
+#include "engine/io_error.hpp"
 #include "engine/shard_log.hpp"
 #include "engine/stop_request.hpp"
 #include "engine/team.hpp"
@@ -33,6 +36,10 @@ void check(const RunOptions& options) {
   if (options.time_budget && !(options.time_budget->count() > 0.0)) {
     throw std::invalid_argument(
         fmt::format("time budget of {} s: must be > 0", options.time_budget->count()));
+  }
+  if (!(options.rank_silence.count() > 0.0)) {
+    throw std::invalid_argument(
+        fmt::format("rank silence of {} s: must be > 0", options.rank_silence.count()));
   }
 }
 
@@ -74,6 +81,35 @@ Remainder read_logs(const Job& job, const RunOptions& options, const LogHeader& 
   return remainder;
 }
 
+std::filesystem::path log_of_rank(const RunOptions& options, int rank) {
+  return log_path(options.output, fmt::format("shard-{}-of-{}{}", options.shard.index, options.shard.count,
+                                              rank > 0 ? fmt::format("-rank-{}", rank) : ""));
+}
+
+// What the log of a frozen rank has of its tiles. If it cannot be read they are all missing; the assembly
+// will say why.
+Salvage read_log_of_rank(const Job& job, const RunOptions& options, const LogHeader& study, int rank,
+                         const std::vector<std::uint64_t>& tiles) {
+  std::unordered_set<std::uint64_t> missing(tiles.begin(), tiles.end());
+  Finished finished;
+  const auto take_up = [&](std::uint64_t tile, std::span<const std::byte> record) {
+    if (missing.erase(tile) == 0) return;  // of an earlier run
+    if (job.check) job.check(tile, record);
+    ++finished.tiles;
+    finished.points += job.points(tile);
+    if (job.failed) finished.failed += job.failed(tile, record);
+  };
+  try {
+    index_tiles({log_of_rank(options, rank)}, study, take_up);
+  } catch (const IoError&) {
+    return {.missing = tiles, .finished = {}};
+  }
+  Salvage left{.missing = {}, .finished = finished};
+  std::ranges::copy_if(tiles, std::back_inserter(left.missing),
+                       [&](std::uint64_t tile) { return missing.contains(tile); });
+  return left;
+}
+
 // The progress of the whole run.
 Tally tally_of(const Tally& found, const TeamWork& work, const std::optional<Dealer>& dealer) {
   Finished finished = work.finished();
@@ -102,10 +138,15 @@ class Attendance {
 };
 
 // Alone, a process has all tiles in its queue at once. Among ranks they are dealt out.
-std::optional<Dealer> supply(const RunOptions& options, const LogHeader& study, int threads,
+std::optional<Dealer> supply(const Job& job, const RunOptions& options, const LogHeader& study, int threads,
                              const std::vector<std::uint64_t>& tiles, TileQueue& queue) {
-  if (options.ranks)
-    return std::optional<Dealer>(std::in_place, *options.ranks, study_mark(study), threads, tiles, queue);
+  if (options.ranks) {
+    const auto salvage = [&job, &options, study](int rank, const std::vector<std::uint64_t>& dealt) {
+      return read_log_of_rank(job, options, study, rank, dealt);
+    };
+    return std::optional<Dealer>(std::in_place, *options.ranks, study_mark(study), threads, tiles, queue,
+                                 Silence{.longest = options.rank_silence, .salvage = salvage});
+  }
   queue.add(tiles);
   queue.close();
   return std::nullopt;
@@ -139,18 +180,22 @@ Summary run(const Job& job, const RunOptions& options) {
   TeamWork work(job, log);
   const int wanted = options.threads > 0 ? options.threads : default_threads(options.ranks);
   const int threads = team_size(wanted, tiles.size());
-  std::optional<Dealer> dealer = supply(options, study, threads, tiles, work.queue());
+  std::optional<Dealer> dealer = supply(job, options, study, threads, tiles, work.queue());
   const auto give_up = [&] { return work.has_failed() || stop.asked(); };
   const auto tally = [&, &found = summary.points] { return tally_of(found, work, dealer); };
   Progress progress(progress_form(options.progress), std::cerr);
   {
-    const Watch showing(100ms, [&] { progress.update(tally()); });
+    const Watch showing(100ms, [&] {
+      if (dealer) progress.note(dealer->take_notices());
+      progress.update(tally());
+    });
     const Watch syncing(1s, [&] { work.keep_on_disk(); });
     const Attendance others(dealer, give_up);
     work.compute(threads, give_up);
     others.wait();
   }
   work.keep_on_disk();
+  if (dealer) progress.note(dealer->take_notices());
   progress.finish(tally());
   work.rethrow_failure();
   if (dealer) dealer->rethrow_failure();
@@ -166,8 +211,7 @@ Summary run(const Job& job, const RunOptions& options) {
 
 std::filesystem::path own_log(const RunOptions& options) {
   const int rank = options.ranks ? options.ranks->rank() : 0;
-  return log_path(options.output, fmt::format("shard-{}-of-{}{}", options.shard.index, options.shard.count,
-                                              rank > 0 ? fmt::format("-rank-{}", rank) : ""));
+  return log_of_rank(options, rank);
 }
 
 }  // namespace frahm::engine

@@ -61,6 +61,9 @@ struct RunOptions {
   std::optional<std::chrono::duration<double>> time_budget;  // > 0, from the start of the run; absent: none
   ProgressStyle progress = ProgressStyle::automatic;
   Ranks* ranks = nullptr;  // the ranks of the program; null: this process works alone
+  // A rank that says nothing for so long is not waited for (engine/dealer); > 0. At work it speaks every
+  // second.
+  std::chrono::duration<double> rank_silence{60.0};
 };
 
 enum class Outcome {

@@ -69,7 +69,7 @@ void add_progress(CLI::App& command, engine::ProgressStyle& style) {
 
 // Which options of a run the line has, be their texts empty.
 struct RunGiven {
-  bool shard, output, from, time_budget;
+  bool shard, output, from, time_budget, rank_silence;
 };
 
 int run_as_given(CommandLine& line, const RunGiven& given, std::ostream& out) {
@@ -80,6 +80,7 @@ int run_as_given(CommandLine& line, const RunGiven& given, std::ostream& out) {
   if (given.from && options.from.empty())
     throw StudyError(rules::wrong_option, "--from \"\": name the result whose points are taken over");
   if (given.time_budget) options.run.time_budget = time_span_of("--time-budget", line.time_budget);
+  if (given.rank_silence) options.run.rank_silence = time_span_of("--rank-silence", line.rank_silence);
   const bool leads = !options.run.ranks || options.run.ranks->rank() == 0;
   return leads ? run_command(options, out) : assist_command(options);
 }
@@ -102,12 +103,15 @@ void add_run(CLI::App& program, CommandLine& line) {
       ->type_name("RESULT");
   run->add_flag("--fresh", options.run.fresh, "start anew: an earlier result and its logs are lost");
   run->add_option("--time-budget", line.time_budget, "stop after 90s, 50m, 2h or 1d")->type_name("TIME");
+  run->add_option("--rank-silence", line.rank_silence,
+                  "go on without an MPI rank that says nothing for so long; else for 60s")
+      ->type_name("TIME");
   add_set(*run, options.set);
   add_progress(*run, options.run.progress);
   run->callback([&, run] {
     line.is_run = true;
     const RunGiven given{run->count("--shard") > 0, run->count("--output") > 0, run->count("--from") > 0,
-                         run->count("--time-budget") > 0};
+                         run->count("--time-budget") > 0, run->count("--rank-silence") > 0};
     line.action = [&, given](std::ostream& out) { return run_as_given(line, given, out); };
   });
 }

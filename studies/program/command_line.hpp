@@ -21,7 +21,7 @@ namespace frahm::studies {
 // All values that a command line can set.
 struct CommandLine {
   RunCommandOptions run;
-  std::string shard, time_budget;  // of a run, as written
+  std::string shard, time_budget, rank_silence;  // of a run, as written
   CheckOptions check;
   PointOptions point;
   BranchCommandOptions branch;

@@ -4,6 +4,7 @@
 #include <deque>
 #include <map>
 #include <numeric>
+#include <set>
 
 using namespace frahm::engine;
 using Catch::Matchers::Contains;
@@ -27,6 +28,11 @@ class ScriptedRanks : public Ranks {
     return message;
   }
 
+  void give_up(int rank) override { given_up_.insert(rank); }
+  void take_back(int rank) override { given_up_.erase(rank); }
+  void end_without_given_up(int) override {}
+  const std::set<int>& given_up() const { return given_up_; }
+
   void say(int from, const RankMessage& message) { coming_.push_back({from, encode(message)}); }
   // What rank 0 has told a rank since this was asked last.
   std::vector<RankMessage> told(int rank) { return std::exchange(sent_[rank], {}); }
@@ -35,7 +41,11 @@ class ScriptedRanks : public Ranks {
   int size_;
   std::deque<Message> coming_;
   std::map<int, std::vector<RankMessage>> sent_;
+  std::set<int> given_up_;
 };
+
+// No rank of the test is silent for so long.
+const Silence patient{.longest = std::chrono::hours(1), .salvage = {}};
 
 constexpr std::uint64_t mark = 77;
 
@@ -84,7 +94,7 @@ TEST_CASE("a message between ranks comes as it was sent") {
 TEST_CASE("every tile is dealt out once, in order, in blocks that shrink to single ones") {
   ScriptedRanks ranks(3);
   TileQueue own;
-  Dealer dealer(ranks, mark, 2, numbers(500), own);
+  Dealer dealer(ranks, mark, 2, numbers(500), own, patient);
   ranks.say(1, ready(4));
   ranks.say(2, ready(1));
   dealer.serve(false);
@@ -117,7 +127,6 @@ TEST_CASE("every tile is dealt out once, in order, in blocks that shrink to sing
   CHECK(dealt == numbers(500));
   CHECK(first > 10);
   CHECK(last == 1);
-  CHECK_FALSE(own.take());  // closed
   CHECK(dealer.threads() == 7);
 
   CHECK_FALSE(dealer.all_have_left());
@@ -125,6 +134,7 @@ TEST_CASE("every tile is dealt out once, in order, in blocks that shrink to sing
   ranks.say(2, {.kind = Kind::leave, .finished = {.tiles = 7, .points = 70, .failed = 2}});
   dealer.serve(false);
   CHECK(dealer.all_have_left());
+  CHECK_FALSE(own.take());  // closed
   CHECK(dealer.finished().tiles == 12);
   CHECK(dealer.finished().points == 120);
   CHECK(dealer.finished().failed == 2);
@@ -135,7 +145,7 @@ TEST_CASE("every tile is dealt out once, in order, in blocks that shrink to sing
 TEST_CASE("asked to stop, rank 0 deals no more and tells the ranks at work, also one that comes late") {
   ScriptedRanks ranks(3);
   TileQueue own;
-  Dealer dealer(ranks, mark, 1, numbers(100), own);
+  Dealer dealer(ranks, mark, 1, numbers(100), own, patient);
   ranks.say(1, ready(1));
   dealer.serve(false);
   ranks.told(1);
@@ -159,7 +169,7 @@ TEST_CASE("asked to stop, rank 0 deals no more and tells the ranks at work, also
 TEST_CASE("a rank that is stopped by a signal stops all, and is named as the reason") {
   ScriptedRanks ranks(3);
   TileQueue own;
-  Dealer dealer(ranks, mark, 1, numbers(100), own);
+  Dealer dealer(ranks, mark, 1, numbers(100), own, patient);
   ranks.say(1, ready(1));
   ranks.say(2, ready(1));
   dealer.serve(false);
@@ -177,7 +187,7 @@ TEST_CASE("a rank that is stopped by a signal stops all, and is named as the rea
 TEST_CASE("a rank that fails stops all, and its error is thrown with its name and code") {
   ScriptedRanks ranks(3);
   TileQueue own;
-  Dealer dealer(ranks, mark, 1, numbers(100), own);
+  Dealer dealer(ranks, mark, 1, numbers(100), own, patient);
   ranks.say(2, ready(1));
   ranks.say(1, {.kind = Kind::fail, .code = 2, .text = "no study"});  // before it was ready
   ranks.say(2, {.kind = Kind::fail, .code = 6, .text = "disk full"});
@@ -195,7 +205,7 @@ TEST_CASE("a rank that fails stops all, and its error is thrown with its name an
 TEST_CASE("the error of a rank at work names its process and machine") {
   ScriptedRanks ranks(2);
   TileQueue own;
-  Dealer dealer(ranks, mark, 1, numbers(3), own);
+  Dealer dealer(ranks, mark, 1, numbers(3), own, patient);
   ranks.say(1, ready(1));
   ranks.say(1, {.kind = Kind::fail, .code = 6, .text = "disk full"});
   dealer.serve(false);
@@ -205,12 +215,122 @@ TEST_CASE("the error of a rank at work names its process and machine") {
 TEST_CASE("with nothing to compute all ranks are sent home at once") {
   ScriptedRanks ranks(2);
   TileQueue own;
-  Dealer dealer(ranks, mark, 1, {}, own);
+  Dealer dealer(ranks, mark, 1, {}, own, patient);
   ranks.say(1, ready(8));
   ranks.say(1, {.kind = Kind::ask});
+  ranks.say(1, {.kind = Kind::leave});
   dealer.serve(false);
   CHECK_FALSE(own.take());
   const auto told = ranks.told(1);
   REQUIRE(told.size() == 2);
   CHECK(told[1].kind == Kind::close);
+}
+
+namespace {
+
+// A rank is dealt tiles, has finished the first one when it falls silent, and rank 0 looks at the times
+// given.
+struct Frozen {
+  ScriptedRanks ranks{3};
+  TileQueue own;
+  std::vector<std::uint64_t> dealt = {};  // to rank 1
+  Silence silence{.longest = std::chrono::seconds(10), .salvage = [this](int rank, const auto& tiles) {
+                    CHECK(rank == 1);
+                    CHECK(tiles == dealt);
+                    return Salvage{.missing = {tiles.begin() + 1, tiles.end()},
+                                   .finished = {.tiles = 1, .points = 10, .failed = 2}};
+                  }};
+  Dealer dealer{ranks, mark, 1, numbers(100), own, silence};
+  Dealer::Clock::time_point now = Dealer::Clock::now();
+
+  Frozen() {
+    ranks.say(1, ready(1));
+    ranks.say(2, ready(1));
+    ranks.say(1, {.kind = Kind::ask});
+    dealer.serve(false, now);
+    dealt = ranks.told(1).at(1).tiles;
+    REQUIRE(dealt.size() > 2);
+  }
+  // Rank 2 goes on speaking.
+  void pass(int seconds) {
+    for (int second = 0; second < seconds; ++second) {
+      ranks.say(2, {.kind = Kind::tell});
+      dealer.serve(false, now += std::chrono::seconds(1));
+    }
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a rank that is silent for too long is given up, and what its log lacks is dealt out again") {
+  Frozen job;
+  job.pass(10);
+  CHECK(job.ranks.given_up().empty());
+  CHECK(job.dealer.take_notices().empty());
+  job.pass(1);
+  CHECK(job.ranks.given_up() == std::set<int>{1});
+  CHECK(job.dealer.finished().points == 10);
+  CHECK(job.dealer.finished().failed == 2);
+  const auto notices = job.dealer.take_notices();
+  REQUIRE(notices.size() == 1);
+  CHECK_THAT(notices[0], Contains("rank 1 (process 4711 on node17)") && Contains("10 s"));
+
+  std::vector<std::uint64_t> rest = empty(job.own);
+  for (bool open = true; open;) {
+    job.ranks.told(2);
+    job.ranks.say(2, {.kind = Kind::ask});
+    job.dealer.serve(false, job.now);
+    const RankMessage answer = job.ranks.told(2).at(0);
+    open = answer.kind == Kind::deal;
+    rest.insert(rest.end(), answer.tiles.begin(), answer.tiles.end());
+    const auto mine = empty(job.own);
+    rest.insert(rest.end(), mine.begin(), mine.end());
+  }
+  std::sort(rest.begin(), rest.end());
+  std::vector<std::uint64_t> others = numbers(100);
+  std::erase(others, job.dealt.front());
+  CHECK(rest == others);
+  CHECK_FALSE(job.dealer.all_have_left());
+  job.ranks.say(2, {.kind = Kind::leave});
+  job.dealer.serve(false, job.now);
+  CHECK(job.dealer.all_have_left());
+  CHECK_FALSE(job.own.take());
+}
+
+TEST_CASE("a rank that thaws after it was given up is sent home, and its counts do not count") {
+  Frozen job;
+  job.pass(11);
+  job.ranks.say(1, {.kind = Kind::tell, .finished = {.tiles = 3, .points = 30}});
+  job.dealer.serve(false, job.now);
+  CHECK(job.ranks.told(1).at(0).kind == Kind::stop);
+  job.ranks.say(1,
+                {.kind = Kind::leave, .finished = {.tiles = 3, .points = 30}, .text = "stopped by SIGTERM"});
+  job.dealer.serve(false, job.now);
+  CHECK(job.ranks.given_up().empty());
+  CHECK(job.dealer.finished().points == 10);
+  CHECK(job.dealer.stop_reason().empty());
+}
+
+TEST_CASE("the time in which rank 0 was frozen itself is no silence of the others") {
+  Frozen job;
+  job.dealer.serve(false, job.now += std::chrono::hours(1));
+  CHECK(job.ranks.given_up().empty());
+}
+
+TEST_CASE("a rank that never came is given up too") {
+  ScriptedRanks ranks(2);
+  TileQueue own;
+  const auto nothing = [](int, const auto& tiles) {
+    CHECK(tiles.empty());
+    return Salvage{};
+  };
+  Dealer dealer(ranks, mark, 1, numbers(3), own, {.longest = std::chrono::seconds(1), .salvage = nothing});
+  auto now = Dealer::Clock::now();
+  std::vector<std::uint64_t> mine;
+  for (int second = 0; second < 4; ++second) {
+    dealer.serve(false, now += std::chrono::seconds(1));
+    for (const std::uint64_t tile : empty(own)) mine.push_back(tile);
+  }
+  CHECK(dealer.all_have_left());
+  CHECK(mine == numbers(3));
 }

@@ -1,5 +1,6 @@
 """Ranks of an MPI job killed at random moments and at chosen calls of one of them, one or all at once: the job ends,
-nothing that was finished is lost, and any other way to run the study goes on from there to the same bytes.
+nothing that was finished is lost, and any other way to run the study goes on from there to the same bytes. A frozen
+rank is noticed, and the others finish without it.
 
 usage: ranks.py FRAHM SOURCE_DIR MPIEXEC
 """
@@ -17,6 +18,7 @@ from faulty_runs import (EVERYTHING, OUTPUT, TIME_LIMIT, Expected, Fault, ended,
 
 RANKS = 3
 KILLS = 15 if EVERYTHING else 4  # at random moments, in each of several series
+FREEZES = 6 if EVERYTHING else 2
 CALLS = 40 if EVERYTHING else 5  # of each rank, each before, half-way and after
 AT_ONCE = 4                      # jobs, which mostly wait for their launchers
 ALLOWED = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
@@ -29,9 +31,9 @@ class Launcher:
     def __init__(self, mpiexec):
         self.mpiexec = mpiexec
 
-    def start(self, place, ranks, environment=None):
+    def start(self, place, ranks, environment=None, options=()):
         command = ["-np", str(ranks), place.bench.program, "run", "study.toml", "-o", OUTPUT, "--threads", "1",
-                   "--progress", "none"]
+                   "--progress", "none", *options]
         return place.start(*command, environment=dict(environment or os.environ, **ALLOWED), program=self.mpiexec)
 
 
@@ -126,6 +128,28 @@ def kill_at_random(launcher, bench, study, expected):
     return kills
 
 
+def freeze(launcher, bench, study, expected, thaws):
+    """The last of the ranks freezes as soon as its log has a tile; the job ends without it."""
+    place = bench.place(study)
+    process = launcher.start(place, RANKS, options=("--rank-silence", "2s"))
+    log = f"{OUTPUT}.shard-0-of-1-rank-{RANKS - 1}.frahm-log"
+    give_up = time.monotonic() + TIME_LIMIT
+    while log not in place.names() or not tiles_of_log(place.read(log)):
+        assert process.poll() is None and time.monotonic() < give_up, "the rank has finished no tile"
+        time.sleep(0.01)
+    frozen = ranks_of(process)[-1]
+    os.kill(frozen, signal.SIGSTOP)
+    if thaws:
+        time.sleep(3.5)
+        os.kill(frozen, signal.SIGCONT)
+    outcome = job_ended(process)
+    case = f"a rank that freezes{' and thaws' if thaws else ''}"
+    assert outcome.code == 0, f"{case}: {outcome}"
+    assert "has not been heard of for 2 s" in outcome.err, f"{case}: {outcome}"
+    expected.check_file(place, case)
+    expected.check_resume(place, case)
+
+
 def drill(bench):
     random.seed(4)
     launcher = Launcher(mpiexec)
@@ -135,6 +159,9 @@ def drill(bench):
     expected = Expected(bench.place(study))
     kills = sum(in_parallel(lambda _: kill_at_random(launcher, bench, study, expected), range(AT_ONCE), AT_ONCE))
     print(f"{kills} random kills of one rank or of all", flush=True)
+    for number in range(FREEZES):
+        freeze(launcher, bench, study, expected, thaws=number % 2 == 1)
+    print(f"{FREEZES} ranks frozen", flush=True)
 
 
 if __name__ == "__main__":
