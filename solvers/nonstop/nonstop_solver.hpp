@@ -15,7 +15,7 @@ namespace frahm::periodic::nonstop {
 
 // Orbits of a network on which no contact ever sticks, up to kLanes of them side by side. Where nothing
 // sticks the response is linear but for the reversals, and these are one equation each, in their phases; the
-// motion between them and all its quantities are explicit (DESIGN: non-stop orbits). An orbit is proved not
+// motion between them and all its quantities are explicit (solvers/README.md, 4). An orbit is proved not
 // to stick, with a margin; by uniqueness it then is the only one. A point that is not proved is left to
 // another solver.
 //

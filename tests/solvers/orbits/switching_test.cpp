@@ -7,7 +7,7 @@
 #include "tests/known_answers/responses.hpp"
 #include "tests/known_answers/single_mass.hpp"
 
-// The seven points at which switching between sticking and sliding can go wrong (DESIGN section 3).
+// The seven points at which switching between sticking and sliding can go wrong.
 namespace frahm::periodic {
 namespace {
 

@@ -21,7 +21,7 @@ constexpr double kSlope = 1e-6;    // of a derivative against differences
 const std::function<bool()> kGoOn = [] { return false; };
 
 // One mass on a spring of 1 and a damper under cos(r t) between stops of stiffness 4 at a clearance of 1
-// (DESIGN: two stable orbits at r = 1.6, the upper fold at r = 2.0018066685, X = 4.9326330).
+// (two stable orbits at r = 1.6, the upper fold at r = 2.0018066685, X = 4.9326330).
 // at: damping, r.
 Task mass_between_stops() {
   Task task;

@@ -114,13 +114,13 @@ struct Tuning {
   double f, zeta;
 };
 
-// DESIGN 9: force on the primary, mu -> mu + beta for an inerter to the ground.
+// Force on the primary, mu -> mu + beta for an inerter to the ground.
 Tuning optimum_for_force(double mu) {
   return {std::sqrt((2.0 + mu) / 2.0) / (1.0 + mu),
           std::sqrt(mu * (4.0 + 3.0 * mu) / (8.0 * (1.0 + mu) * (2.0 + mu)))};
 }
 
-// DESIGN 9: acceleration of the support, on which the inerter stands.
+// Acceleration of the support, on which the inerter stands.
 Tuning optimum_for_support(double mu, double beta) {
   const double a = beta * (1.0 - mu) + (2.0 - mu) * (1.0 + mu),
                b = beta * (3.0 - mu) + (4.0 - mu) * (1.0 + mu);
