@@ -71,14 +71,15 @@ inline void differentiate_map(W& w) {
   }
 }
 
-// Some rows and columns of result = a b, all D x D, whose sums stay in registers.
+// Adds the terms k of `from` to `to` to some rows and columns of result = a b, all D x D; the sums stay in
+// registers.
 template <int Rows, int Columns>
-FRAHM_INLINE void multiply_tile(int D, const Lanes* a, const Lanes* b, Lanes* result) {
+FRAHM_INLINE void multiply_tile(int D, int from, int to, const Lanes* a, const Lanes* b, Lanes* result) {
   Lanes sum[Rows][Columns];
   for (int r = 0; r < Rows; ++r) {
-    for (int c = 0; c < Columns; ++c) sum[r][c] = a[r * D] * b[c];
+    for (int c = 0; c < Columns; ++c) sum[r][c] = from == 0 ? a[r * D] * b[c] : result[r * D + c];
   }
-  for (int k = 1; k < D; ++k) {
+  for (int k = from == 0 ? 1 : from; k < to; ++k) {
     for (int r = 0; r < Rows; ++r) {
       for (int c = 0; c < Columns; ++c) sum[r][c] += a[r * D + k] * b[k * D + c];
     }
@@ -88,28 +89,38 @@ FRAHM_INLINE void multiply_tile(int D, const Lanes* a, const Lanes* b, Lanes* re
   }
 }
 
-// result = a b, all of the size of the states
+// result = a b, all of the size of the states. Terms are added by portions of which the rows of b stay in the
+// cache, always in the same order.  symmetric: the result is, so that half of it is enough.
 template <class W>
-inline void multiply(const W& w, const Lanes* a, const Lanes* b, Lanes* result) {
-  constexpr int kRows = 4, kColumns = 2;
+inline void multiply(const W& w, const Lanes* a, const Lanes* b, Lanes* result, bool symmetric = false) {
+  constexpr int kRows = 4, kColumns = 2, kPortion = 32;
   const int D = w.states;
-  int i = 0;
-  for (; i + kRows <= D; i += kRows) {
-    int j = 0;
-    for (; j + kColumns <= D; j += kColumns)
-      multiply_tile<kRows, kColumns>(D, a + i * D, b + j, result + i * D + j);
-    if (j < D) multiply_tile<kRows, 1>(D, a + i * D, b + j, result + i * D + j);
+  for (int from = 0; from < D; from += kPortion) {
+    const int to = from + kPortion < D ? from + kPortion : D;
+    int i = 0;
+    for (; i + kRows <= D; i += kRows) {
+      int j = symmetric ? i : 0;
+      for (; j + kColumns <= D; j += kColumns)
+        multiply_tile<kRows, kColumns>(D, from, to, a + i * D, b + j, result + i * D + j);
+      if (j < D) multiply_tile<kRows, 1>(D, from, to, a + i * D, b + j, result + i * D + j);
+    }
+    for (; i < D; ++i) {
+      for (int j = symmetric ? i : 0; j < D; ++j)
+        multiply_tile<1, 1>(D, from, to, a + i * D, b + j, result + i * D + j);
+    }
   }
-  for (; i < D; ++i) {
-    for (int j = 0; j < D; ++j) multiply_tile<1, 1>(D, a + i * D, b + j, result + i * D + j);
+  if (!symmetric) return;
+  for (int i = 1; i < D; ++i) {
+    for (int j = 0; j < i; ++j) result[i * D + j] = result[j * D + i];
   }
 }
 
 // The largest modulus of the eigenvalues of A, which is overwritten: of A^m, m = 2^k, two eigenvalues of
 // largest modulus have the trace and half of trace^2 - trace(A^2m) as their sum and product. What others add
 // dies out as m grows, and the m-th root leaves 1/m of it. Ends when `accuracy` is reached in every lane.
+// symmetric: A is.
 template <class W>
-inline Lanes largest_modulus(const W& w, Lanes* A, Lanes* scratch, double accuracy) {
+inline Lanes largest_modulus(const W& w, Lanes* A, Lanes* scratch, double accuracy, bool symmetric = false) {
   const int D = w.states;
   constexpr int kMostSquarings = 40;
   Lanes exponent = lanes(0.0), estimate = lanes(1e300);
@@ -121,7 +132,7 @@ inline Lanes largest_modulus(const W& w, Lanes* A, Lanes* scratch, double accura
     const Lanes inverse = 1.0 / size;
     for (int i = 0; i < D * D; ++i) A[i] = A[i] * inverse;
     exponent = exponent + share * log(size);
-    multiply(w, A, A, scratch);
+    multiply(w, A, A, scratch, symmetric);
     Lanes trace = lanes(0.0), trace_of_square = lanes(0.0);
     for (int i = 0; i < D; ++i) {
       trace += A[i * D + i];
@@ -140,6 +151,19 @@ inline Lanes largest_modulus(const W& w, Lanes* A, Lanes* scratch, double accura
     for (int i = 0; i < D * D; ++i) A[i] = scratch[i];
   }
   return exp(estimate);
+}
+
+// The largest multiplier. Without a reversal the map is the modes' own flow, and it is exp(Re lambda T) of
+// one.
+template <class W>
+inline Lanes largest_multiplier(W& w) {
+  if (w.reversals > 0) {
+    for (int i = 0; i < w.states * w.states; ++i) w.square[i] = w.flow[i];
+    return largest_modulus(w, w.square, w.scratch, 1e-14);
+  }
+  Lanes largest = w.rate[0].re;
+  for (int s = 1; s < w.modes; ++s) largest = max(largest, w.rate[s].re);
+  return exp(w.span * largest);
 }
 
 // Modal coordinates amid the first segment: what the reversals left, the harmonics, and the rest positions
@@ -203,15 +227,14 @@ inline void judge(W& w, Mask told) {
   tell(w.pack.state_norm, norm_of_state(w));
 
   differentiate_map(w);
-  for (int i = 0; i < D * D; ++i) w.square[i] = w.flow[i];
-  const Lanes radius = largest_modulus(w, w.square, w.scratch, 1e-14);
+  const Lanes radius = largest_multiplier(w);
   tell(w.pack.multiplier, w.shape.half_period ? radius * radius : radius);
 
   multiply(w, view(w.pack.to_energy), w.flow, w.scratch);
   multiply(w, w.scratch, view(w.pack.from_energy), w.flow);
   for (int i = 0; i < D * D; ++i) w.scratch[i] = w.flow[i % D * D + i / D];  // transposed
-  multiply(w, w.scratch, w.flow, w.square);
-  tell(w.pack.contraction, sqrt(largest_modulus(w, w.square, w.scratch, 1e-6)));
+  multiply(w, w.scratch, w.flow, w.square, true);
+  tell(w.pack.contraction, sqrt(largest_modulus(w, w.square, w.scratch, 1e-6, true)));
 }
 
 }  // namespace

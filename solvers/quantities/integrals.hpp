@@ -10,7 +10,9 @@
 #include "solvers/quantities/orbit_steps.hpp"
 
 // Integrals over an orbit. Means, root mean squares, Fourier components, damping losses are all entries of,
-// or products with, one matrix: the integral of y y^T with y = (q, v, s, u) state and oscillators.
+// or products with, one matrix: the integral of y y^T with y = (q, v, s, u) state and oscillators. Products
+// of the oscillators with each other are of use where supports move; of a large system without such they are
+// left at zero.
 namespace frahm::periodic {
 
 // Six-point Gauss-Legendre nodes and weights on [0, 1] (Abramowitz and Stegun, table 25.4). Over a step the
@@ -77,6 +79,7 @@ void Integrals<N, H>::integrate(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow,
   Nodes full;
   for (int i = 0; i < kNodes; ++i) full.col(i) = powers(kNodeAt[i]);
 
+  const Eigen::Index rows = eq.motion.rows() > 0 ? size : eq.states();
   Eigen::Matrix<double, kPaddedSize, kSize> gram = decltype(gram)::Zero(padded(size), size);
   const auto count = static_cast<Eigen::Index>(signals.size());
   signals_.setZero(count, eq.oscillators() + 1);
@@ -96,7 +99,10 @@ void Integrals<N, H>::integrate(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow,
     y.topRows(eq.states()) = x.z.transpose().lazyProduct(at);
     y.middleRows(eq.states(), eq.oscillators()) = x.u.transpose().lazyProduct(at);
     for (int i = 0; i < kNodes; ++i) weighted.col(i) = (step.length * kNodeWeight[i]) * y.col(i);
-    gram += weighted.lazyProduct(y.topRows(size).transpose());
+    if constexpr (S::is_fixed)
+      gram += weighted.lazyProduct(y.topRows(size).transpose());
+    else
+      gram.topRows(rows) += weighted.topRows(rows).lazyProduct(y.transpose());
     for (Eigen::Index s = 0; s < count; ++s) {
       for (int i = 0; i < kNodes; ++i) {
         const auto u = weighted.col(i).segment(eq.states(), eq.oscillators());
@@ -117,6 +123,8 @@ void Integrals<N, H>::integrate(OrbitSteps<N, H>& orbit, const Flow<N, H>& flow,
   }
   const double seconds = (half_period ? 2.0 : 1.0) * eq.step;
   gram_ = seconds * gram.topRows(size);
+  if (!S::is_fixed && rows < size)
+    gram_.block(rows, 0, size - rows, rows) = gram_.block(0, rows, rows, size - rows).transpose().eval();
   signals_ *= seconds;
   input_ *= seconds;
   input_size_ *= seconds;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <numbers>
+#include <set>
 #include <utility>
 
 #include "solvers/mechanics/rotation.hpp"
@@ -21,6 +22,9 @@ using mechanics::NodeKind;
 // The highest harmonic of the fundamental: events are searched on samples of the highest one over a whole
 // period.
 constexpr std::int64_t highest_order = 1000;
+
+// Each order has two oscillators in the flow: a hundred take some 15 ms an orbit, 200 some 80 ms and 200 MB.
+constexpr std::size_t most_orders = 200;
 
 const std::string force_path = "excitation.force";
 const std::string motion_path = "excitation.motion";
@@ -207,6 +211,14 @@ int lowest_order(const NetworkReading& reading, const TomlSection& section, bool
   return lowest;
 }
 
+void check_number_of_orders(const NetworkReading& reading, const TomlSection& section) {
+  std::set<int> orders;
+  for (const Excitation& component : reading.result.network.excitations) orders.insert(component.order);
+  if (orders.size() <= most_orders) return;
+  section.fail_here(rules::too_large, "its components have {} orders: at most {}", orders.size(),
+                    most_orders);
+}
+
 // A hysteretic element has its damping at one frequency only, omega_h.
 void check_hysteretic_frequency(const NetworkReading& reading, const TomlSection& section) {
   const auto& network = reading.result.network;
@@ -254,6 +266,7 @@ void read_excitation(NetworkReading& reading, const TomlValue& excitation, bool 
   read_recorded_components(reading, excitation);
   if (!section.find("frequency") && (!constant_will_do || needs_frequency(reading.result.network)))
     section.fail_here(rules::missing_key, "the key \"frequency\" is missing (an angular frequency, rad/s)");
+  check_number_of_orders(reading, section);
   const int lowest = lowest_order(reading, section, constant_will_do);
   auto& reference = reading.result.network.reference_order;
   reference = section.find("reference_order") ? read_order(section, "reference_order", 1) : lowest;
