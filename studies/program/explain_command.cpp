@@ -36,7 +36,9 @@ const Meaning exit_codes[] = {
 
 const Meaning flags[] = {
     {"not_computed", "status or regime: has no value here; what is not asked for, or not reached"},
-    {"ok", "status: a periodic response was found, with its accuracy beside it (residual, error_bound)"},
+    {"ok",
+     "status: a periodic response was found, with its accuracy beside it (residual, error_bound); without an "
+     "error_bound how many digits are right is not known, and frahm point tells why"},
     {"grazing",
      "status: a contact's velocity or force only touches its limit: the response is right, its derivative "
      "does "
