@@ -29,7 +29,8 @@ enum class Dimension {
 enum class Range { finite, not_negative, positive };
 
 struct ValueKey {
-  const char* key = "";  // in a study file; "": the kind has no such value
+  const char* key = "";     // in a study file; "": the kind has no such value
+  const char* symbol = "";  // in ElementKind::force; "": the key itself
   Dimension dimension = Dimension::number;
   Range range = Range::finite;
 
@@ -73,7 +74,8 @@ class ElementFormula {
 
 struct ElementKind {
   ElementType type;
-  const char* name;  // in a study file
+  const char* name;   // in a study file
+  const char* force;  // its force by the symbols of its values, for readers; u across it, v = u'
   ValueKey value, second{};
   ElementFormula adds;
   const laws::Law* law = nullptr;  // of its contact; none: it has no contact

@@ -98,6 +98,7 @@ Examples:
 inline constexpr const char* explain_examples = R"(
 Examples:
   frahm explain stiffness                     a key of a study, and where it stands
+  frahm explain spring                        a type of element: its force, its values, units and ranges
   frahm explain main_peak                     a quantity, whatever its mass or element
   frahm explain grazing                       a status of a point
   frahm explain 7                             an exit code)";

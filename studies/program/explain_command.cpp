@@ -7,6 +7,7 @@
 
 #include "solvers/quantities/quantity_table.hpp"
 #include "studies/program/exit_code.hpp"
+#include "studies/reading/element_keys.hpp"
 #include "studies/reading/spelling.hpp"
 #include "studies/reading/study_keys.hpp"
 #include "studies/reading/study_source.hpp"
@@ -35,7 +36,9 @@ const Meaning exit_codes[] = {
 
 const Meaning flags[] = {
     {"not_computed", "status or regime: has no value here; what is not asked for, or not reached"},
-    {"ok", "status: a periodic response was found, with its accuracy beside it (residual, error_bound)"},
+    {"ok",
+     "status: a periodic response was found, with its accuracy beside it (residual, error_bound); without an "
+     "error_bound how many digits are right is not known, and frahm point tells why"},
     {"grazing",
      "status: a contact's velocity or force only touches its limit: the response is right, its derivative "
      "does "
@@ -102,6 +105,87 @@ std::vector<std::string> quantities_called(const std::string& word) {
   return found;
 }
 
+std::string written_range(mechanics::Range range) {
+  switch (range) {
+    case mechanics::Range::finite:
+      return "any number";
+    case mechanics::Range::not_negative:
+      return ">= 0";
+    case mechanics::Range::positive:
+      return "> 0";
+  }
+  return "";
+}
+
+// "stiffness = k [N/m], of what turns [N m/rad], >= 0".
+std::string told(const mechanics::ValueKey& value, bool is_optional) {
+  std::string text = value.key;
+  if (*value.symbol) text += fmt::format(" = {}", value.symbol);
+  const Quantity along = element_quantity(value.dimension, false),
+                 turning = element_quantity(value.dimension, true);
+  text += fmt::format(" [{}]", written_si_unit(along));
+  if (turning != along) text += fmt::format(", of what turns [{}]", written_si_unit(turning));
+  return text + fmt::format(", {}{}", written_range(value.range), is_optional ? "; may be left out" : "");
+}
+
+// "; for kind = sweep or transient" where not all forms of the section have the key.
+std::string owners_told(const KeyOwners& owners) {
+  if (*owners.of == '\0') return "";
+  const std::string decider = *owners.decider ? fmt::format("{} = ", owners.decider) : "";
+  return fmt::format("; for {}{}", decider, listed(separated(owners.of), " or "));
+}
+
+// What stands in the table of keys.
+std::string meaning_of(const StudyKey& key) {
+  const std::vector<std::string> words = words_of(key);
+  const std::string choices = words.empty() ? "" : fmt::format(" ({})", listed(words, " or "));
+  return key.meaning + choices + owners_told(key.owners);
+}
+
+// The values of a type of element, and what stands of its other keys in the table of keys.
+std::string keys_told(const std::string& type) {
+  const mechanics::ElementKind& kind = kind_called(type);
+  std::string text;
+  for (const std::string& key : keys_of_type(type)) {
+    const bool is_iwan = type == iwan;
+    const mechanics::ValueKey* found = nullptr;
+    for (const mechanics::ValueKey* value : {&kind.value, &kind.second, &kind.slope, &kind.cubic}) {
+      if (!is_iwan && key == value->key) found = value;
+    }
+    const bool is_optional =
+        found == &kind.slope || found == &kind.cubic || (found == &kind.second && kind.second_is_optional);
+    text += "\n  " + (found ? told(*found, is_optional)
+                            : fmt::format("{}: {}", key, meaning_of(study_key("element", key))));
+  }
+  return text;
+}
+
+std::vector<std::string> types_called(const std::string& word) {
+  std::vector<std::string> found;
+  for (const std::string& type : element_types()) {
+    if (word != type) continue;
+    const std::string force =
+        type == iwan ? fmt::format("the sum of its sliders, each a jenkins: {}", kind_called(type).force)
+                     : kind_called(type).force;
+    found.push_back(fmt::format("{}: type of an [[element]], u across it, v = u': its force is {}{}", type,
+                                force, keys_told(type)));
+  }
+  return found;
+}
+
+// The words of choices: `arctan`, `kanai_tajimi`.
+std::vector<std::string> choices_called(const std::string& word) {
+  std::vector<std::string> found;
+  for (const StudyKey& key : study_keys()) {
+    for (const StudyWord& each : key.words) {
+      if (word == each.word)
+        found.push_back(
+            fmt::format("{}: a {} of {}: {}", word, key.key, written_section(key.section), each.meaning));
+    }
+  }
+  return found;
+}
+
 // A section or a key: `stiffness`, `element.stiffness`, `[[element]]`.
 std::vector<std::string> keys_called(const std::string& word) {
   std::vector<std::string> found;
@@ -110,18 +194,19 @@ std::vector<std::string> keys_called(const std::string& word) {
     const std::string path = section.empty() ? each.key : section + "." + each.key;
     if (word != each.key && word != path && word != written_section(path)) continue;
     const bool is_section = section.empty();
-    std::string text = is_section
-                           ? fmt::format("{}: section of a study: {}", written_section(path), each.meaning)
-                           : fmt::format("{} in {}: {}", each.key, written_section(section), each.meaning);
-    if (*each.words) text += fmt::format(" ({})", each.words);
-    found.push_back(std::move(text));
+    found.push_back(is_section
+                        ? fmt::format("{}: section of a study: {}", written_section(path), meaning_of(each))
+                        : fmt::format("{} in {}: {}", each.key, written_section(section), meaning_of(each)));
   }
   return found;
 }
 
 std::vector<std::string> all_words() {
   std::vector<std::string> words;
-  for (const StudyKey& each : study_keys()) words.emplace_back(each.key);
+  for (const StudyKey& each : study_keys()) {
+    words.emplace_back(each.key);
+    for (std::string& word : words_of(each)) words.push_back(std::move(word));
+  }
   for (const Meaning& each : flags) words.push_back(each.word);
   for (const auto& row : periodic::quantity_table()) words.emplace_back(row.suffix);
   return words;
@@ -130,8 +215,10 @@ std::vector<std::string> all_words() {
 }  // namespace
 
 int explain_command(const std::string& word, std::ostream& out) {
-  std::vector<std::string> found = keys_called(word);
-  for (std::string& text : quantities_called(word)) found.push_back(std::move(text));
+  std::vector<std::string> found;
+  for (auto* called : {keys_called, types_called, choices_called, quantities_called}) {
+    for (std::string& text : called(word)) found.push_back(std::move(text));
+  }
   for (const Meaning& each : exit_codes) {
     if (word == each.word) found.push_back(fmt::format("{}: {}", each.word, each.text));
   }
@@ -140,7 +227,7 @@ int explain_command(const std::string& word, std::ostream& out) {
   }
   if (found.empty())
     throw StudyError(rules::unknown_name,
-                     "explain: \"{}\" is no key, quantity, status, regime or exit code{}", word,
+                     "explain: \"{}\" is no key, type, choice, quantity, status, regime or exit code{}", word,
                      suggestion(word, all_words()));
   for (const std::string& text : found) out << text << '\n';
   return exit_code::done;

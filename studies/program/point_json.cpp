@@ -77,6 +77,7 @@ void print_point_json(const Study& study, const PointReport& report, std::ostrea
   json["status"] = report.status;
   json["reason"] = report.reason;
   json["residual"] = report.residual;
+  json["why_no_error_bound"] = report.why_no_bound;
   json["newton_iterations"] = report.newton_iterations;
   json["passages"] = report.passages;
   json["found_by"] = way_name(report.way);

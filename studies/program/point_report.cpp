@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "solvers/algebra/no_value.hpp"
+#include "solvers/mechanics/bends.hpp"
 #include "solvers/mechanics/linear_system.hpp"
+#include "solvers/mechanics/smooth_laws.hpp"
 #include "solvers/orbits/orbit.hpp"
 #include "studies/map/comparison.hpp"
 #include "studies/map/row_solver.hpp"
@@ -129,6 +132,28 @@ std::string status_of(const PointReport& report) {
   return "";
 }
 
+bool is_found(const PointReport& report) {
+  return report.status == "ok" || report.status == "grazing" || report.status == "several";
+}
+
+double value_of(const PointReport& report, const char* name) {
+  for (const auto& [description, value] : report.quantities) {
+    if (description.name == name) return value;
+  }
+  return kNone;
+}
+
+// Why the certificate (orbits/certificate.hpp) bounds no error here; "" where it does.
+std::string why_no_bound(const mechanics::Network& network, const PointReport& report) {
+  constexpr double undamped = 1.0 - 1e-9;  // the largest multiplier: below, rounding does not make it
+  if (!is_found(report) || !std::isnan(value_of(report, "error_bound"))) return "";
+  if (mechanics::has_smooth_law(network)) return "a smooth law is integrated, within tolerances";
+  if (value_of(report, "floquet_radius") >= undamped)
+    return "nothing damps the motion, so that no error fades";
+  if (mechanics::may_have_several_responses(network)) return "a law is not monotone, so that errors may grow";
+  return "an event nearly happens: within rounding the orbit may have others";
+}
+
 }  // namespace
 
 PointReport tell_point(const Study& study, std::vector<double> parameters, periodic::Path path,
@@ -151,8 +176,8 @@ PointReport tell_point(const Study& study, std::vector<double> parameters, perio
   }
   report.modes = modes_at_point(study, values);
   add_comparison(study, parameters, quantities, report);
-  if (report.status == "ok" || report.status == "grazing" || report.status == "several")
-    add_motion(response, way, history_samples, report);
+  report.why_no_bound = why_no_bound(study.network, report);
+  if (is_found(report)) add_motion(response, way, history_samples, report);
   if (gradient) report.gradient = gradient_at(study, parameters);
   return report;
 }

@@ -29,6 +29,7 @@ struct PointReport {
   std::string status;                 // meaning of the flag: "ok", "grazing", "several", "failed" ...
   std::string reason;                 // why there is no response; else empty
   double residual = 0.0;              // 1
+  std::string why_no_bound;           // of a response without an error bound: the reason; else empty
   int newton_iterations = 0;
   periodic::Way way{};                         // how the orbit was found
   int passages = 0;                            // of the flow that the search took

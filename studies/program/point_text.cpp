@@ -36,6 +36,8 @@ void print_heading(const Study& study, const PointReport& report, std::ostream& 
     fmt::print(out, " on the phases of its events; proved that there are no others\n");
   else
     fmt::print(out, ", {} passages of the flow\n", report.passages);
+  if (!report.why_no_bound.empty())
+    fmt::print(out, "no error bound: {}; how many digits are right is not known\n", report.why_no_bound);
   fmt::print(out, "\n");
 }
 

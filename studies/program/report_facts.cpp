@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -122,7 +123,8 @@ std::string component_text(const Study& study, std::size_t k, double at_start, d
   const std::string& node = is_force ? network.masses[each.node] : network.prescribed[each.node];
   const std::string what =
       fmt::format("{} {} {}", is_force ? "force" : "motion", is_force ? "on" : "of", node);
-  if (mechanics::is_recorded(each.kind)) return what + " as recorded";
+  if (mechanics::is_recorded(each.kind))
+    return what + (at_start == 1.0 ? " as recorded" : fmt::format(" as recorded, times {:.6g}", at_start));
   const char* unit = study.dimensionless ? ""
                      : !is_force         ? each.kind == mechanics::ExcitationKind::belt ? " m/s" : " m"
                      : mechanics::rotates(network, each.node) ? " N m"
@@ -134,11 +136,11 @@ std::string component_text(const Study& study, std::size_t k, double at_start, d
   return fmt::format("{}{}{}, {:.6g} to {:.6g}{} over the band", what, crank, order, at_start, at_end, unit);
 }
 
-// The excitation for which an optimum holds; none where the response is in proportion to it.
-std::vector<results::Text> excitation_of_optimum(const Study& study) {
-  if (!is_nonlinear(study.network)) return {};
+// The excitation of a scenario, or of the study itself where it sets nothing.
+std::string excitation_with(const Study& study, std::span<const Assignment> set) {
   const auto amplitudes_at = [&](double band) {
     std::vector<double> parameters = study.parameters.nominal();
+    for (const Assignment& each : set) parameters[each.parameter] = each.value;
     if (study.tune()->band) parameters[study.tune()->band->parameter] = band;
     mechanics::NetworkValues values;
     evaluate(study.values, study.parameters, parameters, values);
@@ -150,7 +152,19 @@ std::vector<results::Text> excitation_of_optimum(const Study& study) {
   std::vector<std::string> components;
   for (std::size_t k = 0; k < start.size(); ++k)
     components.push_back(component_text(study, k, start[k].amplitude, end[k].amplitude));
-  return {{"excitation", fmt::format("{}", fmt::join(components, "; "))}};
+  return fmt::format("{}", fmt::join(components, "; "));
+}
+
+// The excitation for which an optimum holds; of each scenario, where these differ in it. None where the
+// response is in proportion to it.
+std::vector<results::Text> excitation_of_optimum(const Study& study) {
+  if (!is_nonlinear(study.network)) return {};
+  std::vector<results::Text> texts;
+  for (const ScenarioChoice& scenario : study.tune()->scenarios)
+    texts.push_back({"excitation_" + scenario.name, excitation_with(study, scenario.set)});
+  const auto differs = [&](const results::Text& each) { return each.second != texts.front().second; };
+  if (std::ranges::any_of(texts, differs)) return texts;
+  return {{"excitation", texts.empty() ? excitation_with(study, {}) : texts.front().second}};
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <ostream>
-#include <sstream>
 #include <string>
 
 #include "studies/program/exit_code.hpp"
@@ -20,13 +19,6 @@ Json repetition_schema() {
 }
 
 Json section_schema(const std::string& path);
-
-Json words_of(const std::string& words) {
-  Json list = Json::array();
-  std::istringstream text(words);
-  for (std::string word; std::getline(text, word, '|');) list.push_back(word);
-  return list;
-}
 
 Json list_of(Json item) {
   return {{"type", "array"}, {"items", std::move(item)}, {"minItems", 1}};
@@ -62,7 +54,8 @@ Json form_of(const StudyKey& key) {
     case KeyForm::texts:
       return list_of({{"type", "string"}});
     case KeyForm::choice:
-      return {{"enum", words_of(key.words)}};
+    case KeyForm::element_type:
+      return {{"enum", words_of(key)}};
     case KeyForm::table:
       return section_schema(path);
     case KeyForm::tables:
@@ -93,10 +86,8 @@ Json section_schema(const std::string& path) {
 
 // A number of a study: plain, an expression, or with its unit.
 Json value_schema() {
-  const Json with_unit = {{"type", "object"},
-                          {"properties", {{"value", {{"type", "number"}}}, {"unit", {{"type", "string"}}}}},
-                          {"required", {"value"}},
-                          {"additionalProperties", false}};
+  Json with_unit = section_schema("{ value, unit }");
+  with_unit["required"] = {"value"};
   return {{"anyOf", {{{"type", "number"}}, {{"type", "string"}, {"minLength", 1}}, with_unit}}};
 }
 

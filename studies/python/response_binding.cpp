@@ -120,6 +120,7 @@ py::dict point(const LoadedStudy& loaded, const std::vector<std::string>& at, co
   result["status"] = report.status;
   result["reason"] = report.reason;
   result["residual"] = report.residual;
+  result["why_no_error_bound"] = report.why_no_bound;
   result["newton_iterations"] = report.newton_iterations;
   result["found_by"] = studies::way_name(report.way);
   result["parameters"] = parameters_of(report);

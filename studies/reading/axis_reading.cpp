@@ -101,9 +101,6 @@ namespace {
 
 constexpr double most_grid_points = 1e12;  // ages of computing, and far from overflow
 
-const std::vector<std::string> axis_keys{"parameter", "unit",    "from",   "to",
-                                         "points",    "spacing", "values", "zip"};
-
 // n values from a to b, both exactly; equal steps or equal ratios.
 std::vector<double> spaced(double from, double to, std::size_t points, bool logarithmic) {
   std::vector<double> values(points);
@@ -129,7 +126,7 @@ std::vector<double> read_range(const TomlSection& section) {
                  "one point does not reach from \"from\" to \"to\"; write values = [...]");
   if (from == to)
     section.fail(rules::wrong_order, "to", "\"from\" and \"to\" are the same, {}; write values = [...]", to);
-  const bool logarithmic = section.choice_or("spacing", {"linear", "log"}) == "log";
+  const bool logarithmic = section.choice("spacing") == "log";
   for (const char* end : {"from", "to"}) {
     if (logarithmic && !(section.number(end) > 0.0)) {
       section.fail(rules::out_of_range, end,
@@ -170,8 +167,8 @@ void check_values_differ(const TomlSection& section, const ParameterAxis& axis) 
 }
 
 void read_axis(const StudyContext& context, const TomlValue& table, std::size_t number, Study& study) {
-  const TomlSection section(context.source, table, label(table, "axis", "parameter", "axis", number),
-                            axis_keys);
+  const TomlSection section(context.source, table, label(table, "axis", "parameter", "axis", number), "axis",
+                            "numbers");
   ParameterAxis axis;
   axis.position = section.position();
   axis.parameter = read_axis_parameter(section, study);
@@ -235,8 +232,7 @@ void read_coordinates(const StudyContext& context, const TomlValue& root, Study&
   std::size_t number = 0;
   for (const TomlValue* table : read_tables(context.source, root, "coordinate")) {
     const TomlSection section(context.source, *table,
-                              label(*table, "coordinate", "name", "coordinate", ++number),
-                              {"name", "value", "unit", "long_name"});
+                              label(*table, "coordinate", "name", "coordinate", ++number), "coordinate");
     DerivedCoordinate coordinate;
     coordinate.name = section.identifier("name");
     std::vector<std::string> taken = study.parameters.names();

@@ -129,7 +129,7 @@ void read_branches(const StudyContext& context, const TomlSection& output, Study
   if (!value) return;
   BranchChoice choice;
   if (value->as<TomlTable>()) {
-    const TomlSection section(context.source, *value, "[output]: branches", {"along", "at"});
+    const TomlSection section(context.source, *value, "[output]: branches", "output.branches");
     choice.axis = section.find("along") ? axis_called(section, study, section.text("along"))
                                         : innermost_axis(*study.sweep());
     if (section.find("along"))

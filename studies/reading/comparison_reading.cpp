@@ -32,7 +32,7 @@ void read_compared_law(NetworkReading& reading, const TomlSection& section, cons
   if (rubbing == elements.end())
     section.fail(rules::no_contact, "law", "the study has no coulomb element that could follow it");
   refuse_other_smooth_laws(section, study);
-  const bool arctan = section.choice_or("law", {"exact", "arctan"}) == "arctan";
+  const bool arctan = section.choice("law") == "arctan";
   comparison.law = arctan ? FrictionLaw::arctan : FrictionLaw::exact;
   if (arctan) {
     refuse_bends(study, "the compared law \"arctan\" does not stand beside it");
@@ -97,7 +97,7 @@ periodic::Quantity read_quantity(const TomlSection& section, const OutputChoice:
 }
 
 TomlSection section_of(const StudyContext& context, const TomlEntry& entry) {
-  return {context.source, entry.value, "[compare]", {"law", "slope", "taylor_order", "show", "quantities"}};
+  return {context.source, entry.value, "[compare]", "compare"};
 }
 
 // "law", "taylor_order" or "show".

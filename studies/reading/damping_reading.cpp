@@ -41,7 +41,7 @@ void read_rayleigh(NetworkReading& reading, const TomlSection& section) {
 void read_damping(NetworkReading& reading, const TomlValue& root) {
   const TomlEntry* entry = find_entry(root, "damping");
   if (!entry) return;
-  const TomlSection section(reading.context.source, entry->value, "[damping]", {"modal", "rayleigh"});
+  const TomlSection section(reading.context.source, entry->value, "[damping]", "damping");
   const bool is_modal = section.find("modal") != nullptr;
   if (is_modal == (section.find("rayleigh") != nullptr))
     section.fail_here(rules::one_of_two_keys,

@@ -111,7 +111,7 @@ void read_schedule(const TuneReading& reading, const TomlSection& section, Desig
     section.fail(rules::key_without_use, "schedule",
                  "the band is a single frequency; leave the schedule out");
   const TomlSection schedule(reading.context.source, *value, fmt::format("{}: schedule", section.where()),
-                             {"knots", "max_slope", "jumps"});
+                             "design.schedule");
   design.knots = read_knots(schedule, *band);
   read_jumps(reading, schedule, design);
   if (!schedule.find("max_slope")) return;
@@ -130,8 +130,7 @@ std::optional<WantedDimension> wanted_of_parameter(const Parameter& parameter) {
 
 void read_design(TuneReading& reading, const TomlValue& table, std::size_t number) {
   const TomlSection section(reading.context.source, table,
-                            label(table, "design", "parameter", "design", number),
-                            {"parameter", "lower", "upper", "unit", "schedule", "rule"});
+                            label(table, "design", "parameter", "design", number), "design");
   DesignChoice design;
   design.position = section.position();
   design.parameter = read_design_parameter(reading, section);
@@ -152,8 +151,7 @@ void read_design(TuneReading& reading, const TomlValue& table, std::size_t numbe
 
 void read_limit(TuneReading& reading, const TomlValue& table, std::size_t number) {
   const TomlSection section(reading.context.source, table,
-                            label(table, "constraint", "quantity", "constraint", number),
-                            {"quantity", "lower", "upper", "unit", "band"});
+                            label(table, "constraint", "quantity", "constraint", number), "constraint");
   LimitChoice limit;
   limit.quantity = read_real_quantity(reading, section, "quantity");
   limit.name = section.text("quantity");
@@ -165,7 +163,7 @@ void read_limit(TuneReading& reading, const TomlValue& table, std::size_t number
   check_bounds(section, limit.lower, limit.upper);
   if (const TomlValue* value = section.find("band")) {
     const TomlSection range(reading.context.source, *value, fmt::format("{}: band", section.where()),
-                            {"from", "to"});
+                            "constraint.band");
     limit.band = read_range(range, reading.choice.band ? reading.choice.band->unit.si_factor : 1.0);
   }
   reading.choice.limits.push_back(std::move(limit));
@@ -186,7 +184,7 @@ Assignment read_setting(const TuneReading& reading, const TomlSection& scenario,
 
 void read_scenario(TuneReading& reading, const TomlValue& table, std::size_t number) {
   const TomlSection section(reading.context.source, table,
-                            label(table, "scenario", "name", "scenario", number), {"name", "set"});
+                            label(table, "scenario", "name", "scenario", number), "scenario");
   ScenarioChoice scenario;
   scenario.name = section.identifier("name");
   for (const ScenarioChoice& other : reading.choice.scenarios) {
@@ -204,7 +202,7 @@ void read_scenario(TuneReading& reading, const TomlValue& table, std::size_t num
 
 void read_column(TuneReading& reading, const TomlValue& table, std::size_t number) {
   const TomlSection section(reading.context.source, table, label(table, "column", "name", "column", number),
-                            {"name", "value", "unit", "lower", "upper"});
+                            "column");
   ColumnChoice column;
   column.name = section.identifier("name");
   std::optional<WantedDimension> wanted;

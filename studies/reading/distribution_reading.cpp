@@ -2,10 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-
-#include "studies/reading/spelling.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -13,18 +10,6 @@ namespace {
 using samples::Distribution;
 
 constexpr double least_share = 1e-9;  // that cuts leave: less has no digits left
-
-const std::vector<std::string> distribution_names{"normal", "lognormal", "uniform",
-                                                  "triangular"};  // as Distribution::Kind
-
-// Refuses keys of other distributions, which would have no effect.
-void check_keys(const TomlSection& section, const std::string& name, const std::vector<std::string>& own) {
-  for (const std::string& key : distribution_keys) {
-    if (key == "distribution" || std::ranges::find(own, key) != own.end() || !section.find(key)) continue;
-    section.fail(rules::key_without_use, key, "has no effect: a {} distribution has {}", name,
-                 listed(own, " and "));
-  }
-}
 
 // The one of two keys that is given.
 std::string one_of(const TomlSection& section, const char* first, const char* second) {
@@ -56,7 +41,6 @@ void check_cuts(const TomlSection& section, const Distribution& distribution) {
 }
 
 void read_normal(const TomlSection& section, Distribution& distribution) {
-  check_keys(section, "normal", {"mean", "deviation", "variation", "lower", "upper"});
   distribution.centre = section.number("mean");
   const std::string spread = one_of(section, "deviation", "variation");
   distribution.spread = positive(section, spread);
@@ -68,7 +52,6 @@ void read_normal(const TomlSection& section, Distribution& distribution) {
 
 // Mean = median exp(s^2 / 2), s the deviation of the logarithm.
 void read_lognormal(const TomlSection& section, Distribution& distribution) {
-  check_keys(section, "lognormal", {"mean", "median", "deviation", "variation", "lower", "upper"});
   const std::string centre = one_of(section, "median", "mean");
   distribution.centre = positive(section, centre);
   const std::string spread = one_of(section, "deviation", "variation");
@@ -83,14 +66,10 @@ void read_lognormal(const TomlSection& section, Distribution& distribution) {
   if (centre == "mean") distribution.centre *= std::exp(-0.5 * distribution.spread * distribution.spread);
 }
 
-void read_bounded(const TomlSection& section, const std::string& name, Distribution& distribution) {
-  const bool triangular = name == "triangular";
-  std::vector<std::string> own{"lower", "upper"};
-  if (triangular) own.insert(own.begin() + 1, "mode");
-  check_keys(section, name, own);
-  for (const std::string& key : own) section.require(key);
+void read_bounded(const TomlSection& section, Distribution& distribution) {
+  for (const char* end : {"lower", "upper"}) section.require(end);
   read_ends(section, distribution);
-  if (!triangular) return;
+  if (distribution.kind == Distribution::Kind::uniform) return;
   distribution.centre = section.number("mode");
   if (distribution.centre < distribution.lower || distribution.centre > distribution.upper)
     section.fail(rules::out_of_range, "mode", "is {}; must be from {} to {}", distribution.centre,
@@ -100,9 +79,8 @@ void read_bounded(const TomlSection& section, const std::string& name, Distribut
 // "normal, mean 5, deviation 0.5": what the study says.
 std::string told(const TomlSection& section, const std::string& name) {
   std::string text = name;
-  for (const std::string& key : distribution_keys) {
-    if (key != "distribution" && section.find(key))
-      text += fmt::format(", {} {:.6g}", key, section.number(key));
+  for (const char* key : {"mean", "median", "mode", "deviation", "variation", "lower", "upper"}) {
+    if (section.find(key)) text += fmt::format(", {} {:.6g}", key, section.number(key));
   }
   return text;
 }
@@ -111,12 +89,12 @@ std::string told(const TomlSection& section, const std::string& name) {
 
 ReadDistribution read_distribution(const TomlSection& section) {
   section.require("distribution");
-  const std::string name = section.choice_or("distribution", distribution_names);
+  const std::string name = section.choice("distribution");
+  section.keep_to(name);
   Distribution distribution;
-  distribution.kind = static_cast<Distribution::Kind>(std::ranges::find(distribution_names, name) -
-                                                      distribution_names.begin());
+  distribution.kind = section.choice_as<Distribution::Kind>("distribution");
   if (name == "uniform" || name == "triangular") {
-    read_bounded(section, name, distribution);
+    read_bounded(section, distribution);
   } else {
     name == "normal" ? read_normal(section, distribution) : read_lognormal(section, distribution);
     if (section.find("lower") || section.find("upper")) read_ends(section, distribution);

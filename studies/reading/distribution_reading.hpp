@@ -1,16 +1,11 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "solvers/samples/distribution.hpp"
 #include "studies/reading/toml_section.hpp"
 
 namespace frahm::studies {
-
-// The keys of a distribution in an [[axis.of]], beside its parameter and unit.
-inline const std::vector<std::string> distribution_keys{"distribution", "mean",      "median", "mode",
-                                                        "deviation",    "variation", "lower",  "upper"};
 
 struct ReadDistribution {
   samples::Distribution distribution;  // in the unit of the section

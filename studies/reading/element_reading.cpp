@@ -6,82 +6,38 @@
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/rotation.hpp"
 #include "studies/reading/direction_reading.hpp"
+#include "studies/reading/element_keys.hpp"
 #include "studies/reading/network_reading.hpp"
 #include "studies/reading/spelling.hpp"
+#include "studies/reading/study_keys.hpp"
 
 namespace frahm::studies {
 namespace {
 
-using mechanics::Dimension;
 using mechanics::ElementKind;
 using mechanics::Node;
 using mechanics::NodeKind;
 using mechanics::ValueKey;
 
-Quantity quantity_of(Dimension dimension, bool rotational) {
-  switch (dimension) {
-    case Dimension::number:
-      break;
-    case Dimension::stiffness:
-      return rotational ? Quantity::torsional_stiffness : Quantity::stiffness;
-    case Dimension::damping:
-      return rotational ? Quantity::torsional_damping : Quantity::damping;
-    case Dimension::inertance:
-      return rotational ? Quantity::inertia : Quantity::inertance;
-    case Dimension::force:
-      return rotational ? Quantity::torque : Quantity::force;
-    case Dimension::inverse_speed:
-      return rotational ? Quantity::inverse_rate : Quantity::inverse_speed;
-    case Dimension::cubic_stiffness:
-      return rotational ? Quantity::torsional_cubic_stiffness : Quantity::cubic_stiffness;
-  }
-  return Quantity::number;
-}
-
-constexpr const char* iwan = "iwan";  // which is of jenkins elements
-constexpr const char* iwan_keys[] = {"stiffnesses", "forces",   "distribution", "stiffness",
-                                     "force",       "elements", "chi"};
-
-// The keys of elements beside name, type and between, each once: values, then the choice of a law and its
-// slope.
-std::vector<std::string> keys_of_kinds() {
-  std::vector<std::string> keys;
-  const auto add = [&](const std::string& key) {
-    if (!key.empty() && std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
-  };
-  for (const ElementKind& kind : mechanics::element_kinds()) add(kind.value.key);
-  for (const ElementKind& kind : mechanics::element_kinds()) add(kind.second.key);
-  add("law");
-  for (const ElementKind& kind : mechanics::element_kinds()) add(kind.slope.key);
-  for (const ElementKind& kind : mechanics::element_kinds()) add(kind.cubic.key);
-  for (const char* key : {"table", "clearance", "tension"}) add(key);
-  for (const char* key : iwan_keys) add(key);
-  return keys;
-}
-
-const ElementKind& read_kind(const TomlSection& section) {
+// The type that is written, and that it has the keys beside it.
+std::string read_type(const TomlSection& section) {
   const std::string type = section.text("type");
-  std::vector<std::string> known;
-  for (const ElementKind& kind : mechanics::element_kinds()) {
-    if (kind.name == type) return kind;
-    known.push_back(kind.name);
-  }
-  known.emplace_back(iwan);
-  section.fail(rules::unknown_name, "type", "no element is of type \"{}\"{}", type, suggestion(type, known));
+  const std::vector<std::string> known = element_types();
+  if (std::ranges::find(known, type) == known.end())
+    section.fail(rules::unknown_name, "type", "no element is of type \"{}\"{}", type,
+                 suggestion(type, known));
+  return type;
 }
 
 // Each type has its values and no key of another type.
-void check_keys_of_kind(const TomlSection& section, const ElementKind& kind) {
-  for (const std::string& key : keys_of_kinds()) {
-    const bool of_law = (kind.can_be_smoothed() && (key == "law" || key == kind.slope.key)) ||
-                        (kind.cubic.exists() && key == kind.cubic.key);
-    const bool of_table = (kind.table != nullptr || kind.can_be_smoothed()) && key == "table";
-    const bool of_stops = kind.stop != nullptr && (key == "clearance" || key == "tension");
-    if (of_law || of_table || of_stops || key == kind.value.key || key == kind.second.key ||
-        !section.find(key))
-      continue;
+void check_keys_of_type(const TomlSection& section, const std::string& type) {
+  const std::vector<std::string> own = keys_of_type(type);
+  for (const std::string& key : keys_of("element")) {
+    if (is_of_every_type(key) || !section.find(key) || std::ranges::find(own, key) != own.end()) continue;
+    if (type == iwan) section.fail(rules::unknown_key, key, "an iwan has sliders, no {}", key);
+    const ElementKind& kind = kind_called(type);
     const std::string second = kind.second.exists() ? fmt::format(" and a {}", kind.second.key) : "";
-    section.fail(rules::unknown_key, key, "a {} has a {}{}, no {}", kind.name, kind.value.key, second, key);
+    section.fail(rules::unknown_key, key, "a {} has a {}{}, no {}", type, kind.value.key, second, key);
   }
 }
 
@@ -178,10 +134,7 @@ void add_element(NetworkReading& reading, const TomlSection& section, mechanics:
 // The first of its sliders stands for all.
 void add_iwan(NetworkReading& reading, const TomlSection& section, mechanics::Element element,
               const StudyDirection& along) {
-  for (const std::string& key : keys_of_kinds()) {
-    if (section.find(key) && std::ranges::find(iwan_keys, key) == std::end(iwan_keys))
-      section.fail(rules::unknown_key, key, "an iwan has sliders, no {}", key);
-  }
+  check_keys_of_type(section, iwan);
   const std::vector<StudySlider> sliders = read_sliders(reading, section, element.rotational);
   check_one_law(reading, section, mechanics::kind_of(element), element.law);
   element.parts = sliders.size();
@@ -193,14 +146,14 @@ void add_iwan(NetworkReading& reading, const TomlSection& section, mechanics::El
 
 void add_of_kind(NetworkReading& reading, const TomlSection& section, const ElementKind& kind,
                  mechanics::Element element, const StudyDirection& along) {
-  check_keys_of_kind(section, kind);
+  check_keys_of_type(section, kind.name);
   element.law = read_law(section, kind);
   if (kind.law != nullptr) check_one_law(reading, section, kind, element.law);
   StudyCharacteristic characteristic = read_characteristic(reading, section, element.rotational, element);
   element.has_static_force = kind.can_be_smoothed() && section.find(kind.second.key) != nullptr;
   element.has_cubic = kind.cubic.exists() && section.find(kind.cubic.key) != nullptr;
   const auto read = [&](const ValueKey& value, bool may_be_absent = false) {
-    return read_value(reading, section, value.key, quantity_of(value.dimension, element.rotational),
+    return read_value(reading, section, value.key, element_quantity(value.dimension, element.rotational),
                       value.range, may_be_absent ? std::optional(0.0) : std::nullopt);
   };
   const bool has_table = characteristic.kind == StudyCharacteristic::Kind::table ||
@@ -218,20 +171,17 @@ void add_of_kind(NetworkReading& reading, const TomlSection& section, const Elem
 }  // namespace
 
 void read_element(NetworkReading& reading, const TomlValue& table, std::size_t number) {
-  std::vector<std::string> keys{"name", "type", "between", "along"};
-  for (std::string& key : keys_of_kinds()) keys.push_back(std::move(key));
   const TomlSection section(reading.context.source, table, label(table, "element", "name", "element", number),
-                            keys);
+                            "element");
   const std::string name = section.identifier("name");
   take_name(reading, section, name, section.where());
-  const bool is_iwan = section.text("type") == iwan;
-  const ElementKind& kind =
-      is_iwan ? mechanics::kind_of(mechanics::ElementType::jenkins) : read_kind(section);
+  const std::string type = read_type(section);
+  const ElementKind& kind = kind_called(type);
   auto [direction, given, rotational] = read_ends(reading, section);
   mechanics::Element element{name, kind.type, std::move(direction)};
   element.rotational = rotational;
   element.twists_ground = given.is_given() ? given.twists_ground : rotational;
-  if (is_iwan) return add_iwan(reading, section, std::move(element), given);
+  if (type == iwan) return add_iwan(reading, section, std::move(element), given);
   add_of_kind(reading, section, kind, std::move(element), given);
 }
 

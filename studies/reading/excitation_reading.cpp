@@ -28,12 +28,6 @@ constexpr std::size_t most_orders = 200;
 
 const std::string force_path = "excitation.force";
 const std::string motion_path = "excitation.motion";
-const std::vector<std::string> excitation_keys{"frequency", "reference_order", "force", "motion", "record"};
-
-// A component's keys, with those of the other profile, so that the message can be about the profile.
-const std::vector<std::string> force_keys{"on", "node", "profile", "amplitude", "order", "phase"};
-const std::vector<std::string> motion_keys{"node",  "profile", "amplitude", "velocity", "acceleration",
-                                           "order", "phase",   "crank",     "rod",      "taylor_order"};
 
 int read_order(const TomlSection& section, const std::string& key, std::int64_t least) {
   const std::int64_t order = section.integer_or(key, 1);
@@ -44,22 +38,11 @@ int read_order(const TomlSection& section, const std::string& key, std::int64_t 
   return static_cast<int>(order);
 }
 
-enum class Profile { harmonic, crank };
-
-Profile read_profile(const TomlSection& section, const std::vector<std::string>& profiles) {
-  const bool crank = section.choice_or("profile", profiles) == "crank";
-  if (crank) {
-    for (const char* key : {"amplitude", "velocity", "acceleration", "order"}) {
-      if (section.find(key))
-        section.fail(rules::key_without_use, key, "belongs to the profile \"harmonic\", not to \"crank\"");
-    }
-    return Profile::crank;
-  }
-  for (const char* key : {"crank", "rod", "taylor_order"}) {
-    if (section.find(key))
-      section.fail(rules::key_without_use, key, "belongs to the profile \"crank\", not to \"harmonic\"");
-  }
-  return Profile::harmonic;
+// "harmonic" or "crank", and no key of the other.
+std::string read_profile(const TomlSection& section) {
+  std::string profile = section.choice("profile");
+  section.keep_to(profile);
+  return profile;
 }
 
 // The amplitude of a motion is that of its displacement, velocity or acceleration.
@@ -140,7 +123,7 @@ void read_crank(NetworkReading& reading, const TomlSection& section, Excitation 
 void read_force(NetworkReading& reading, const TomlValue& table, std::size_t number) {
   const std::string named = find_entry(table, "node") ? "node" : "on";
   const TomlSection section(reading.context.source, table,
-                            label(table, "force on", named, force_path, number), force_keys);
+                            label(table, "force on", named, force_path, number), force_path);
   if (section.find("on") && section.find("node"))
     section.fail(rules::given_twice, "node", "the mass is named twice, by \"on\" and \"node\"");
   const std::string name = section.text(named);
@@ -154,18 +137,18 @@ void read_force(NetworkReading& reading, const TomlValue& table, std::size_t num
     section.fail(rules::wrong_node, named, "a force acts on a mass, and \"{}\" is {}", name,
                  node->kind == NodeKind::ground ? "fixed" : "a node of prescribed motion");
   }
-  read_profile(section, {"harmonic"});
+  read_profile(section);
   read_component(reading, section, {ExcitationKind::force, node->index});
 }
 
 TomlSection motion_section(const NetworkReading& reading, const TomlValue& table, std::size_t number) {
-  return {reading.context.source, table, label(table, "motion of", "node", motion_path, number), motion_keys};
+  return {reading.context.source, table, label(table, "motion of", "node", motion_path, number), motion_path};
 }
 
 void read_motion(NetworkReading& reading, const TomlValue& table, std::size_t number) {
   const TomlSection section = motion_section(reading, table, number);
   const auto node = find_node(reading.result.network, section.identifier("node"));
-  if (read_profile(section, {"harmonic", "crank"}) == Profile::crank) {
+  if (read_profile(section) == "crank") {
     read_crank(reading, section, {ExcitationKind::crank, node->index});
   } else {
     read_component(reading, section, {ExcitationKind::motion, node->index});
@@ -252,7 +235,7 @@ void read_prescribed_nodes(NetworkReading& reading, const TomlValue& excitation)
 }
 
 void read_excitation(NetworkReading& reading, const TomlValue& excitation, bool constant_will_do) {
-  const TomlSection section(reading.context.source, excitation, "[excitation]", excitation_keys);
+  const TomlSection section(reading.context.source, excitation, "[excitation]", "excitation");
   reading.result.values.omega =
       read_value(reading, section, "frequency", Quantity::angular_frequency, Range::positive, 1.0);
   std::size_t number = 0;

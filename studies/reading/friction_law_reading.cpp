@@ -4,6 +4,7 @@
 
 #include "solvers/mechanics/element_table.hpp"
 #include "studies/reading/network_reading.hpp"
+#include "studies/reading/study_keys.hpp"
 
 // The law of a coulomb element, and laws that do not go together.
 namespace frahm::studies {
@@ -12,10 +13,8 @@ namespace {
 using mechanics::ElementKind;
 using mechanics::FrictionLaw;
 
-constexpr const char* law_names[] = {"exact", "arctan", "stribeck"};  // in the order of FrictionLaw
-
 const char* name_of(FrictionLaw law) {
-  return law_names[static_cast<std::size_t>(law)];
+  return study_key("element", "law").words[static_cast<std::size_t>(law)].word;
 }
 
 // A key that one law alone has.
@@ -28,9 +27,7 @@ void keep_key_to(const TomlSection& section, const char* key, FrictionLaw owner,
 
 FrictionLaw read_law(const TomlSection& section, const ElementKind& kind) {
   if (!kind.can_be_smoothed()) return FrictionLaw::exact;
-  const std::string name = section.choice_or("law", {law_names[0], law_names[1], law_names[2]});
-  const auto place = std::ranges::find(law_names, name);
-  const auto law = static_cast<FrictionLaw>(place - std::begin(law_names));
+  const auto law = section.choice_as<FrictionLaw>("law");
   keep_key_to(section, kind.second.key, FrictionLaw::exact, law);
   keep_key_to(section, kind.slope.key, FrictionLaw::arctan, law);
   keep_key_to(section, "table", FrictionLaw::stribeck, law);

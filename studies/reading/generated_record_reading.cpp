@@ -13,10 +13,6 @@ using transient::Envelope;
 constexpr std::int64_t most_records = 1'000'000;
 constexpr double most_samples = 1e8;  // of all records: a gigabyte
 
-const std::vector<std::string> white_keys{"generate", "count", "seed", "duration", "rate", "intensity"};
-const std::vector<std::string> ground_keys{"ground_frequency", "ground_damping", "corner_frequency",
-                                           "corner_damping", "envelope"};
-
 // A number > 0, in SI where a unit is given.
 double read_positive(const StudyContext& context, const TomlSection& section, const std::string& key,
                      Quantity quantity) {
@@ -54,16 +50,14 @@ Envelope read_envelope(const StudyContext& context, const TomlSection& generated
   const TomlValue* value = generated.find("envelope");
   if (!value) return envelope;
   const TomlSection section(context.source, *value, generated.where() + ": envelope",
-                            {"shape", "rise", "level_end", "decay"});
+                            "axis.records.envelope");
   section.require("shape");
-  const bool is_jennings = section.choice_or("shape", {"jennings", "trapezoid"}) == "jennings";
+  const std::string shape = section.choice("shape");
+  section.keep_to(shape);
+  const bool is_jennings = shape == "jennings";
   envelope.shape = is_jennings ? Envelope::Shape::jennings : Envelope::Shape::trapezoid;
   read_level(context, section, duration, envelope);
-  if (is_jennings)
-    envelope.decay = read_positive(context, section, "decay", Quantity::rate);
-  else if (section.find("decay"))
-    section.fail(rules::key_without_use, "decay",
-                 "belongs to the shape \"jennings\"; a trapezoid falls to 0 at the end");
+  if (is_jennings) envelope.decay = read_positive(context, section, "decay", Quantity::rate);
   return envelope;
 }
 
@@ -100,12 +94,12 @@ void check_size(const TomlSection& section, const GeneratedRecords& generated) {
 }  // namespace
 
 GeneratedRecords read_generated(const StudyContext& context, const TomlSection& axis) {
-  std::vector<std::string> keys = white_keys;
-  keys.insert(keys.end(), ground_keys.begin(), ground_keys.end());
-  const TomlSection section(context.source, axis.require("records"), axis.where() + ": records", keys);
+  const TomlSection section(context.source, axis.require("records"), axis.where() + ": records",
+                            "axis.records");
   GeneratedRecords generated;
   section.require("generate");
-  generated.kind = section.choice_or("generate", {"white", "kanai_tajimi"});
+  generated.kind = section.choice("generate");
+  section.keep_to(generated.kind);
   section.require("count");
   const std::int64_t count = section.integer_or("count", 1);
   if (count < 1 || count > most_records)
@@ -120,14 +114,7 @@ GeneratedRecords read_generated(const StudyContext& context, const TomlSection& 
   generated.sampling.rate = read_plain(section, "rate");
   generated.ground.intensity = read_plain(section, "intensity");
   check_size(section, generated);
-  if (generated.kind == "kanai_tajimi") {
-    read_ground(context, section, generated);
-  } else {
-    for (const std::string& key : ground_keys) {
-      if (section.find(key))
-        section.fail(rules::key_without_use, key, "belongs to generate = \"kanai_tajimi\", not to \"white\"");
-    }
-  }
+  if (generated.kind == "kanai_tajimi") read_ground(context, section, generated);
   return generated;
 }
 

@@ -153,12 +153,8 @@ void read_bounds(const Study& study, const TomlSection& section, IdentifiedParam
 
 // Reads a formula's estimate for a parameter.
 void read_estimate(const IdentifyReading& reading, const TomlSection& section, IdentifiedParameter& taken) {
-  const std::string& method = method_name(reading.choice.method);
-  for (const char* key : {"lower", "upper", "each_record"}) {
-    if (section.find(key))
-      section.fail(rules::key_without_use, key,
-                   "belongs to the method \"grey_box\"; \"{}\" has no use for it", method);
-  }
+  const std::string method = method_name(reading.choice.method);
+  section.keep_to(method);
   const std::vector<std::string> known = estimates_of(reading.choice);
   taken.estimate = section.text("estimate");
   if (reading.data == DataFiles::leave) return;  // the estimates depend on the data

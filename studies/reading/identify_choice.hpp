@@ -33,8 +33,7 @@ inline constexpr const char* identification_group = "identification";
 inline constexpr double converged_outcome = 1.0;
 
 // Names of the methods, as a study writes them, in the order of IdentifyMethod.
-const std::vector<std::string>& method_names();
-const std::string& method_name(IdentifyMethod method);
+std::string method_name(IdentifyMethod method);
 
 // A column of measurements: its role (the measured quantity) and its numbers [SI].
 struct DataColumn {

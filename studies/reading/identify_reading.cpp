@@ -6,6 +6,7 @@
 
 #include "studies/reading/network_reading.hpp"
 #include "studies/reading/spelling.hpp"
+#include "studies/reading/study_keys.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -14,45 +15,12 @@ using Method = IdentifyMethod;
 
 constexpr std::int64_t most_cycles = 1'000'000;
 
-// A key of [identify] that only some methods have.
-struct MethodKey {
-  const char* name;
-  std::vector<Method> methods;
-};
-
-const std::vector<MethodKey>& method_keys() {
-  static const std::vector<MethodKey> keys{
-      {"start", {Method::grey_box}},
-      {"fixed_from", {Method::grey_box}},
-      {"reference_frequency", {Method::grey_box}},
-      {"curve", {Method::half_power, Method::resonance_magnification, Method::forced_resonance}},
-      {"cycles", {Method::log_decrement}},
-      {"sensor_offset", {Method::free_decay}},
-      {"mass", {Method::free_decay, Method::forced_resonance}},
-      {"stiffness", {Method::free_decay, Method::forced_resonance}}};
-  return keys;
-}
-
-// Refuses keys of other methods, which would have no effect here.
-void check_keys_of_method(const TomlSection& section, Method method) {
-  for (const MethodKey& key : method_keys()) {
-    if (!section.find(key.name) || std::count(key.methods.begin(), key.methods.end(), method) > 0) continue;
-    std::vector<std::string> owners;
-    for (const Method owner : key.methods) owners.push_back(fmt::format("\"{}\"", method_name(owner)));
-    section.fail(rules::key_without_use, key.name, "belongs to the method {}; \"{}\" has no use for it",
-                 listed(owners, " or "), method_name(method));
-  }
-}
-
 void read_method(const TomlSection& section, IdentifyChoice& choice) {
   section.require("method");
-  const std::string name = section.choice_or("method", method_names());
-  const auto found = std::find(method_names().begin(), method_names().end(), name);
-  choice.method = static_cast<Method>(found - method_names().begin());
-  check_keys_of_method(section, choice.method);
-  if (section.choice_or("start", {"given", "free_decay"}) == "free_decay")
-    choice.start = IdentifyStart::free_decay;
-  if (section.choice_or("curve", {"force", "support"}) == "support") choice.curve = CurveOf::support;
+  choice.method = section.choice_as<Method>("method");
+  section.keep_to(method_name(choice.method));
+  choice.start = section.choice_as<IdentifyStart>("start");
+  choice.curve = section.choice_as<CurveOf>("curve");
   choice.sensor_offset = section.boolean_or("sensor_offset", false);
   if (!section.find("cycles")) return;
   const std::int64_t cycles = section.integer_or("cycles", 1);
@@ -169,29 +137,22 @@ void check_parameters(const TomlSection& section, const IdentifyChoice& choice) 
 }
 
 std::vector<TomlSection> sections_of(const TomlSection& identify, const TomlValue& root, const char* kind,
-                                     const char* naming_key, const std::vector<std::string>& keys) {
+                                     const char* naming_key) {
   std::vector<TomlSection> sections;
   const std::string path = fmt::format("identify.{}", kind);
   const TomlValue& parent = find_entry(root, "identify")->value;
   for (const TomlValue* table : read_tables(identify.source(), parent, path)) {
     const std::string where =
         label(*table, fmt::format("[[{}]]", path), naming_key, path, sections.size() + 1);
-    sections.emplace_back(identify.source(), *table, where, keys);
+    sections.emplace_back(identify.source(), *table, where, path);
   }
   return sections;
 }
 
 }  // namespace
 
-const std::vector<std::string>& method_names() {
-  static const std::vector<std::string> names{
-      "half_power",     "resonance_magnification", "log_decrement", "free_decay", "forced_resonance",
-      "energy_balance", "hysteresis_loop",         "added_mass",    "grey_box"};
-  return names;
-}
-
-const std::string& method_name(IdentifyMethod method) {
-  return method_names()[static_cast<std::size_t>(method)];
+std::string method_name(IdentifyMethod method) {
+  return study_key("identify", "method").words[static_cast<std::size_t>(method)].word;
 }
 
 TomlSection identify_section(const StudySource& source, const TomlValue& root) {
@@ -199,22 +160,15 @@ TomlSection identify_section(const StudySource& source, const TomlValue& root) {
   if (!entry)
     throw source.error_at(rules::missing_section, root.position,
                           "the study has no [identify] with its method");
-  return {source,
-          entry->value,
-          "[identify]",
-          {"method", "start", "fixed_from", "curve", "cycles", "sensor_offset", "mass", "stiffness",
-           "reference_frequency", "record", "parameter"}};
+  return {source, entry->value, "[identify]", "identify"};
 }
 
 std::vector<TomlSection> record_sections(const TomlSection& identify, const TomlValue& root) {
-  return sections_of(
-      identify, root, "record", "name",
-      {"name", "file", "columns", "units", "set", "motion", "added_mass", "static_displacement"});
+  return sections_of(identify, root, "record", "name");
 }
 
 std::vector<TomlSection> parameter_sections(const TomlSection& identify, const TomlValue& root) {
-  return sections_of(identify, root, "parameter", "parameter",
-                     {"parameter", "lower", "upper", "unit", "each_record", "estimate"});
+  return sections_of(identify, root, "parameter", "parameter");
 }
 
 void read_identification(const StudyContext& context, const TomlValue& root, Study& study) {

@@ -72,7 +72,7 @@ std::vector<StudySlider> spread_sliders(NetworkReading& reading, const TomlSecti
       section.fail(rules::one_of_two_keys, key,
                    "the element has a distribution already; give one of the two");
   }
-  const bool is_power = section.choice_or("distribution", {"uniform", "power"}) == "power";
+  const bool is_power = section.choice("distribution") == "power";
   const double chi = read_exponent(section, is_power);
   const auto& count = section.require("elements");
   const std::int64_t n = section.integer_or("elements", 1);

@@ -44,7 +44,6 @@ struct DerivedCoordinate {
 // Of the values in the file: doubles with the digits that their error bound supports, floats, or doubles with
 // all digits.
 enum class Precision { known_digits, single, full };
-inline const std::vector<std::string> precision_names{"double", "single", "full"};
 
 // The records that drive the motions of a map, one after the other.
 struct RecordAxis {

@@ -95,8 +95,7 @@ void read_matrices(NetworkReading& reading, const TomlValue& root, const std::fi
   std::size_t number = 0;
   for (const TomlValue* table : read_tables(reading.context.source, root, "matrices")) {
     const TomlSection section(reading.context.source, *table,
-                              label(*table, "matrices", "name", "matrices", ++number),
-                              {"name", "names", "mass", "stiffness", "damping"});
+                              label(*table, "matrices", "name", "matrices", ++number), "matrices");
     mechanics::MatrixPart part;
     part.name = section.identifier("name");
     take_name(reading, section, part.name, section.where());

@@ -5,8 +5,7 @@ namespace frahm::studies {
 void read_motion_output(const StudyContext& context, const TomlValue& root, Study& study) {
   const TomlEntry* entry = find_entry(root, "output");
   if (!entry) return;
-  const TomlSection section(context.source, entry->value, "[output]",
-                            {"quantities", "precision", "histories", "quantiles", "signal"});
+  const TomlSection section(context.source, entry->value, "[output]", "output", kind_name(study.kind()));
   read_recorded(section, *study.map());
   read_histories(context, section, "histories", study);
 }

@@ -26,8 +26,7 @@ int read_samples(const TomlSection& section, std::int64_t otherwise) {
 
 InitialValues read_initial_values(NetworkReading& reading, const TomlValue& table, std::size_t number) {
   const TomlSection section(reading.context.source, table,
-                            label(table, "initial values of", "node", "initial", number),
-                            {"node", "displacement", "velocity"});
+                            label(table, "initial values of", "node", "initial", number), "initial");
   const std::string name = section.text("node");
   const auto& network = reading.result.network;
   const auto node = find_node(network, name);
@@ -68,8 +67,7 @@ std::vector<InitialValues> read_initial(NetworkReading& reading, const TomlValue
 void read_decay(NetworkReading& reading, const TomlValue& root, DecayChoice& motion) {
   static const TomlValue nothing{{}, TomlTable{}};
   const TomlEntry* entry = find_entry(root, "decay");
-  const TomlSection section(reading.context.source, entry ? entry->value : nothing, "[decay]",
-                            {"duration", "samples", "reference_frequency"});
+  const TomlSection section(reading.context.source, entry ? entry->value : nothing, "[decay]", "decay");
   motion.duration = read_optional(reading, section, "duration", Quantity::time);
   motion.samples = read_samples(section, 0);
   motion.reference_frequency =
@@ -122,8 +120,7 @@ void read_transient(NetworkReading& reading, const TomlValue& root, TransientCho
   if (!entry)
     throw reading.context.source.error_at(rules::missing_section, root.position,
                                           "the study has no [transient] with its duration");
-  const TomlSection section(reading.context.source, entry->value, "[transient]",
-                            {"duration", "samples", "sweep_to", "sweep_rate"});
+  const TomlSection section(reading.context.source, entry->value, "[transient]", "transient");
   motion.duration = read_optional(reading, section, "duration", Quantity::time);
   motion.samples = read_samples(section, samples_of_a_transient);
   motion.sweep_to = read_optional(reading, section, "sweep_to", Quantity::angular_frequency);

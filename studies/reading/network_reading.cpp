@@ -16,7 +16,7 @@ using mechanics::NodeKind;
 
 void read_mass(NetworkReading& reading, const TomlValue& table, std::size_t number) {
   const TomlSection section(reading.context.source, table, label(table, "mass", "name", "mass", number),
-                            {"name", "mass", "inertia"});
+                            "mass");
   const std::string name = section.identifier("name");
   take_name(reading, section, name, section.where());
   reading.result.network.masses.push_back(name);

@@ -28,9 +28,7 @@ void check_sweep(const TomlSection& section, const Study& study) {
 }
 
 periodic::OrbitsWanted::Show read_show(const TomlSection& section) {
-  using enum periodic::OrbitsWanted::Show;
-  const std::string show = section.choice_or("show", {"largest", "smallest", "up", "down"});
-  return show == "smallest" ? smallest : show == "up" ? up : show == "down" ? down : largest;
+  return section.choice_as<periodic::OrbitsWanted::Show>("show");
 }
 
 periodic::OrbitsWanted read_orbits_wanted(const StudyContext& context, const TomlValue& root,
@@ -38,7 +36,7 @@ periodic::OrbitsWanted read_orbits_wanted(const StudyContext& context, const Tom
   periodic::OrbitsWanted wanted;
   const TomlEntry* entry = find_entry(root, "orbits");
   if (!entry) return wanted;
-  const TomlSection section(context.source, entry->value, "[orbits]", {"starts", "most_multiple", "show"});
+  const TomlSection section(context.source, entry->value, "[orbits]", "orbits");
   const bool has_one = study.tune() ? !tuning::may_take_several_orbits(study.network)
                                     : !mechanics::may_have_several_responses(study.network);
   if (has_one)

@@ -153,8 +153,7 @@ void read_recorded(const TomlSection& section, MapChoice& map) {
   OutputChoice& output = map.output;
   read_quantiles(section, map.samples);
   read_quantities(section, output);
-  const auto precision = std::ranges::find(precision_names, section.choice_or("precision", precision_names));
-  output.precision = static_cast<Precision>(precision - precision_names.begin());
+  output.precision = section.choice_as<Precision>("precision");
 }
 
 void read_histories(const StudyContext& context, const TomlSection& section, const char* key, Study& study) {
@@ -209,11 +208,9 @@ std::vector<OutputChoice::Name> read_quantity_names(const TomlSection& section) 
 void read_output(const StudyContext& context, const TomlValue& root, Study& study) {
   const TomlEntry* entry = find_entry(root, "output");
   if (!entry) return;
-  const TomlSection section(context.source, entry->value, "[output]",
-                            {"quantities", "precision", "path", "borders", "branches", "orbits", "resonances",
-                             "quantiles", "signal"});
+  const TomlSection section(context.source, entry->value, "[output]", "output", kind_name(study.kind()));
   read_recorded(section, *study.sweep());
-  study.sweep()->general_path = section.choice_or("path", {"fastest", "general"}) == "general";
+  study.sweep()->general_path = section.choice("path") == "general";
   read_borders(section, study);
   read_histories(context, section, "orbits", study);
   read_resonances(context, section, study);
@@ -251,9 +248,7 @@ void read_report(const StudyContext& context, const TomlValue& root, Study& stud
     if (sweep) sweep->profile = read_profile(nullptr, study.network);
     return;
   }
-  std::vector<std::string> keys{"quantities", "headline"};
-  if (sweep) keys.insert(keys.end(), {"profile", "height"});
-  const TomlSection section(context.source, entry->value, "[report]", keys);
+  const TomlSection section(context.source, entry->value, "[report]", "report", kind_name(study.kind()));
   if (section.find("headline")) study.map()->headline = read_headline(section, study);
   if (section.find("quantities")) study.map()->report_quantities = read_quantity_names(section);
   if (sweep) sweep->profile = read_profile(&section, study.network);

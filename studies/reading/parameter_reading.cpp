@@ -30,7 +30,7 @@ Parameter named_parameter(const StudyContext& context, const TomlEntry& entry) {
 
 TableOf read_table(const StudyContext& context, const Parameters& parameters, const std::string& where,
                    const TomlValue& value, const std::filesystem::path& folder) {
-  const TomlSection section(context.source, value, where, {"table", "of"});
+  const TomlSection section(context.source, value, where, "{ table, of }");
   TableOf table;
   table.file = section.text("table");
   const std::string of = section.identifier("of");
@@ -173,7 +173,7 @@ NumberWithUnit read_number_with_unit(const StudyContext& context, const std::str
                                   "found {}",
                                   where, described(value));
   }
-  const TomlSection section(context.source, value, where, {"value", "unit"});
+  const TomlSection section(context.source, value, where, "{ value, unit }");
   const double number = section.number("value");
   const TomlValue* unit = section.find("unit");
   if (!unit) return {number, std::nullopt, value.position};

@@ -140,7 +140,7 @@ std::optional<WrittenRecordAxis> read_record_axis(const StudyContext& context, c
     if (axis)
       throw context.source.error_at(rules::given_twice, table->position,
                                     "axis of records: there is one already (line {})", axis->position.line);
-    axis = read_records(context, {context.source, *table, "axis of records", {"records"}});
+    axis = read_records(context, {context.source, *table, "axis of records", "axis", "records"});
   }
   return axis;
 }

@@ -89,9 +89,7 @@ void read_motion_kind(const IdentifyReading& reading, const TomlSection& section
                  "no motion of a mass was measured; the columns are {}",
                  described(record_forms(study).front()));
   const bool measured = any(is_excitation), stated = !study.network.excitations.empty();
-  const std::string word = section.choice_or(
-      "motion", measured || stated ? std::vector<std::string>{"forced", "free", "periodic"}
-                                   : std::vector<std::string>{"free", "forced", "periodic"});
+  const std::string word = section.choice("motion", measured || stated ? "forced" : "free");
   record.motion = word == "free"     ? MotionKind::free
                   : word == "forced" ? MotionKind::forced
                                      : MotionKind::periodic;
@@ -137,12 +135,7 @@ void read_settings(const IdentifyReading& reading, const TomlSection& section, R
 // Each key of a record belongs to the methods, and the forms of their data, that use it.
 void check_keys(const IdentifyReading& reading, const TomlSection& section, const RecordForm& form) {
   const Method method = reading.choice.method;
-  const std::string& name = method_name(method);
-  for (const char* key : {"set", "motion"}) {
-    if (section.find(key) && method != Method::grey_box)
-      section.fail(rules::key_without_use, key,
-                   "belongs to the method \"grey_box\"; \"{}\" has no use for it", name);
-  }
+  section.keep_to(method_name(method));
   const auto check = [&](const char* key, bool wanted, const char* rule) {
     if (section.find(key) && !wanted) section.fail(rules::key_without_use, key, "has no use here; {}", rule);
     if (!section.find(key) && wanted)

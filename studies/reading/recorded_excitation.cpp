@@ -24,10 +24,6 @@ constexpr std::array place_keys{
     PlaceKey{"acceleration_of", RecordOf::acceleration}, PlaceKey{"velocity_of", RecordOf::velocity},
     PlaceKey{"displacement_of", RecordOf::displacement}, PlaceKey{"force_on", RecordOf::force}};
 
-const std::vector<std::string> record_keys{
-    "acceleration_of", "velocity_of", "displacement_of", "force_on", "file", "time",
-    "column",          "unit",        "scale",           "from",     "to"};
-
 std::string why_no_record(StudyKind kind) {
   if (kind == StudyKind::identify) return "its measured excitations are columns of [[identify.record]]";
   return fmt::format(
@@ -62,7 +58,7 @@ std::vector<TomlSection> record_sections(const StudySource& source, const TomlVa
         where = label(*table, each.of == RecordOf::force ? "record of a force on" : "record of", each.key,
                       record_path, number);
     }
-    sections.emplace_back(source, *table, std::move(where), record_keys);
+    sections.emplace_back(source, *table, std::move(where), record_path);
   }
   return sections;
 }

@@ -10,23 +10,16 @@
 #include "studies/reading/distribution_reading.hpp"
 #include "studies/reading/sample_reading.hpp"
 #include "studies/reading/sample_table.hpp"
-#include "studies/reading/spelling.hpp"
 
 namespace frahm::studies {
 namespace {
 
-const std::vector<std::string> sample_axis_keys{"samples",    "sequence",   "seed", "of",
-                                                "fixed_from", "parameters", "zip"};
-const std::vector<std::string> sequence_names{"sobol", "latin_hypercube", "random"};  // as samples::Sequence
-
 // The distributions of the tables [[axis.of]], each with an axis.
 std::vector<samples::Distribution> read_distributions(const TomlValue& table, SampleReading& reading) {
-  std::vector<std::string> keys_of{"parameter", "unit"};
-  keys_of.insert(keys_of.end(), distribution_keys.begin(), distribution_keys.end());
   std::vector<samples::Distribution> distributions;
   for (const TomlValue* each : read_tables(reading.context.source, table, "of")) {
     const std::string where = label(*each, "axis.of", "parameter", "axis.of", distributions.size() + 1);
-    const TomlSection section(reading.context.source, *each, where, keys_of);
+    const TomlSection section(reading.context.source, *each, where, "axis.of");
     const std::size_t parameter = read_axis_parameter(section, reading.study);
     const ReadDistribution read = read_distribution(section);
     ParameterAxis& added = add_axis(reading, parameter);
@@ -72,7 +65,7 @@ void draw(SampleReading& reading, const TomlValue& table, const std::filesystem:
           DataFiles data) {
   const TomlSection& section = reading.section;
   const std::size_t count = read_count(section);
-  const std::string sequence = section.choice_or("sequence", sequence_names);
+  const std::string sequence = section.choice("sequence");
   const std::uint64_t seed = read_seed(section);
   const std::vector<samples::Distribution> distributions = read_distributions(table, reading);
   const JointEstimates joint = read_joint_estimates(reading, folder, data);
@@ -81,8 +74,7 @@ void draw(SampleReading& reading, const TomlValue& table, const std::filesystem:
     section.fail_here(
         rules::missing_key,
         "what is uncertain is missing: give tables [[axis.of]] with distributions, or fixed_from");
-  const auto which =
-      static_cast<samples::Sequence>(std::ranges::find(sequence_names, sequence) - sequence_names.begin());
+  const auto which = section.choice_as<samples::Sequence>("sequence");
   const Eigen::MatrixXd points = samples::unit_points(which, count, reading.choice.axes.size(), seed);
   for (Eigen::Index d = 0; d < own; ++d) {
     const samples::Distribution& distribution = distributions[static_cast<std::size_t>(d)];
@@ -170,8 +162,8 @@ bool is_axis_of_samples(const TomlValue& table) {
 void read_axis_of_samples(const StudyContext& context, const TomlValue& table, std::size_t number,
                           const std::filesystem::path& folder, DataFiles data, Study& study) {
   const bool of_file = is_of_file(table);
-  const TomlSection section(context.source, table, fmt::format("[[axis]] {}", number),
-                            of_file ? std::vector<std::string>{"from", "zip"} : sample_axis_keys);
+  const TomlSection section(context.source, table, fmt::format("[[axis]] {}", number), "axis",
+                            of_file ? "file" : "samples");
   SampleReading reading{
       .context = context,
       .section = section,

@@ -10,7 +10,7 @@ void read_signals(NetworkReading& reading, const TomlValue& root) {
   std::size_t number = 0;
   for (const TomlValue* table : read_tables(reading.context.source, output->value, "output.signal")) {
     const TomlSection section(reading.context.source, *table,
-                              label(*table, "signal", "name", "output.signal", ++number), {"name", "along"});
+                              label(*table, "signal", "name", "output.signal", ++number), "output.signal");
     const std::string name = section.identifier("name");
     take_name(reading, section, name, section.where());
     StudyDirection along =

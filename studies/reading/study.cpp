@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "studies/reading/readable_file.hpp"
@@ -11,6 +10,7 @@
 #include "studies/reading/repetition.hpp"
 #include "studies/reading/signal_reading.hpp"
 #include "studies/reading/spelling.hpp"
+#include "studies/reading/study_keys.hpp"
 #include "studies/reading/study_reading.hpp"
 
 namespace frahm::studies {
@@ -19,30 +19,10 @@ namespace {
 constexpr std::string_view hdf5_signature = "\x89HDF\r\n";
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // some editors begin a UTF-8 file with it
 
-// The sections of each kind of study, in the order of StudyKind.
-const std::array<std::vector<std::string>, 5> sections_of_kind{
-    {{"study", "parameters", "mass", "matrices", "element", "damping", "excitation", "axis", "coordinate",
-      "output", "orbits", "compare", "report"},
-     {"study", "parameters", "mass", "matrices", "element", "damping", "decay", "initial"},
-     {"study", "parameters", "mass", "matrices", "element", "damping", "excitation", "transient", "initial",
-      "axis", "coordinate", "output", "report"},
-     {"study", "parameters", "mass", "matrices", "element", "damping", "excitation", "orbits", "tune",
-      "design", "constraint", "scenario", "column", "axis"},
-     {"study", "parameters", "mass", "matrices", "element", "damping", "excitation", "initial", "identify"}}};
-
-const std::vector<std::string>& sections(StudyKind kind) {
-  return sections_of_kind[static_cast<std::size_t>(kind)];
-}
-
-bool contains(const std::vector<std::string>& words, const std::string& word) {
-  return std::find(words.begin(), words.end(), word) != words.end();
-}
-
 void check_top_keys(const StudySource& source, const TomlValue& root) {
-  std::vector<std::string> known;
-  for (const auto& words : sections_of_kind) known.insert(known.end(), words.begin(), words.end());
+  const std::vector<std::string> known = keys_of("");
   for (const TomlEntry& entry : *root.as<TomlTable>()) {
-    if (contains(known, entry.key)) continue;
+    if (std::ranges::find(known, entry.key) != known.end()) continue;
     throw source.error_at(rules::unknown_section, entry.position, "unknown section \"{}\"{}", entry.key,
                           suggestion(entry.key, known));
   }
@@ -59,10 +39,8 @@ std::string why_without(StudyKind kind, const std::string& section) {
   if (one_motion && section == "excitation")
     return ": a free vibration starts from [[initial]] values and is not driven";
   std::vector<std::string> owners;
-  for (const StudyKind each :
-       {StudyKind::sweep, StudyKind::decay, StudyKind::transient, StudyKind::tune, StudyKind::identify}) {
-    if (contains(sections(each), section)) owners.push_back(fmt::format("\"{}\"", kind_name(each)));
-  }
+  for (const std::string& each : separated(study_key("", section).owners.of))
+    owners.push_back(fmt::format("\"{}\"", each));
   return "; it is for kind = " + listed(owners, " or ");
 }
 
@@ -74,7 +52,7 @@ bool may_have_signals(StudyKind kind) {
 // Refuses sections of other kinds of study, which would have no effect here.
 void check_sections_of_kind(const Study& study, const TomlValue& root) {
   for (const TomlEntry& entry : *root.as<TomlTable>()) {
-    if (contains(sections(study.kind()), entry.key)) continue;
+    if (has(study_key("", entry.key), kind_name(study.kind()))) continue;
     if (entry.key == "output" && may_have_signals(study.kind()) && entry.value.as<TomlTable>()) {
       check_output_has_signals_alone(study, entry, why_without(study.kind(), entry.key));
       continue;
@@ -89,20 +67,20 @@ void read_heading(const TomlValue& root, Study& study) {
   if (!heading)
     throw study.source.error_at(rules::missing_section, root.position,
                                 "[study] with schema and kind is missing");
-  const TomlSection section(study.source, heading->value, "[study]", {"schema", "kind", "title", "units"});
+  const TomlSection section(study.source, heading->value, "[study]", "study");
   section.require("schema");
   const std::int64_t schema = section.integer_or("schema", 1);
   if (schema != 1)
     section.fail(rules::out_of_range, "schema", "{} is unknown; this version reads schema = 1", schema);
   section.require("kind");
-  const std::string kind = section.choice_or("kind", {"sweep", "tune", "identify", "decay", "transient"});
-  if (kind == kind_name(StudyKind::sweep)) study.choice = SweepChoice{};
-  if (kind == kind_name(StudyKind::decay)) study.choice = DecayChoice{};
-  if (kind == kind_name(StudyKind::transient)) study.choice = TransientChoice{};
-  if (kind == kind_name(StudyKind::tune)) study.choice = TuneChoice{};
-  if (kind == kind_name(StudyKind::identify)) study.choice = IdentifyChoice{};
+  const auto kind = section.choice_as<StudyKind>("kind");
+  if (kind == StudyKind::sweep) study.choice = SweepChoice{};
+  if (kind == StudyKind::decay) study.choice = DecayChoice{};
+  if (kind == StudyKind::transient) study.choice = TransientChoice{};
+  if (kind == StudyKind::tune) study.choice = TuneChoice{};
+  if (kind == StudyKind::identify) study.choice = IdentifyChoice{};
   study.title = section.text_or("title", "");
-  study.dimensionless = section.choice_or("units", {"SI", "dimensionless"}) == "dimensionless";
+  study.dimensionless = section.choice("units") == "dimensionless";
 }
 
 // The parameters that the masses, elements and the damping of the structure read.
@@ -240,19 +218,7 @@ Study parse_study(std::string text, const std::filesystem::path& name, DataFiles
 }
 
 std::string_view kind_name(StudyKind kind) {
-  switch (kind) {
-    case StudyKind::sweep:
-      return "sweep";
-    case StudyKind::decay:
-      return "decay";
-    case StudyKind::transient:
-      return "transient";
-    case StudyKind::tune:
-      return "tune";
-    case StudyKind::identify:
-      return "identify";
-  }
-  return "study";
+  return study_key("study", "kind").words[static_cast<std::size_t>(kind)].word;
 }
 
 std::string_view kind_noun(StudyKind kind) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "studies/reading/spelling.hpp"
+#include "studies/reading/study_keys.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -37,12 +38,13 @@ const TomlEntry* find_entry(const TomlValue& table, std::string_view key) {
 }
 
 TomlSection::TomlSection(const StudySource& source, const TomlValue& table, std::string where,
-                         std::vector<std::string> keys)
-    : source_(&source), table_(&table), where_(std::move(where)) {
+                         std::string_view section, std::string_view form)
+    : source_(&source), table_(&table), where_(std::move(where)), section_(section), form_(form) {
   const auto* entries = table.as<TomlTable>();
   if (!entries)
     fail_at(rules::wrong_type, source, table, where_,
             fmt::format("expected a table, found {}", described(table)));
+  const std::vector<std::string> keys = keys_of(section_, form_);
   for (const TomlEntry& entry : *entries) {
     if (std::find(keys.begin(), keys.end(), entry.key) != keys.end()) continue;
     throw source.error_at(rules::unknown_key, entry.position, "{}: unknown key \"{}\"{}", where_, entry.key,
@@ -92,15 +94,30 @@ std::int64_t TomlSection::integer_or(std::string_view key, std::int64_t otherwis
   return *integer;
 }
 
-std::string TomlSection::choice_or(std::string_view key, const std::vector<std::string>& choices,
-                                   std::string_view besides) const {
-  if (!find(key)) return choices.front();
+std::string TomlSection::choice(std::string_view key, std::string_view otherwise,
+                                std::string_view besides) const {
+  const std::vector<std::string> words = words_of(study_key(section_, key), form_);
+  if (!find(key)) return otherwise.empty() ? words.front() : std::string(otherwise);
   const std::string word = text(key);
-  if (std::find(choices.begin(), choices.end(), word) == choices.end()) {
+  if (std::find(words.begin(), words.end(), word) == words.end()) {
     fail(rules::not_a_choice, key, "\"{}\" is not possible here; write {}{}", word,
-         listed(quoted(choices), besides.empty() ? " or " : ", "), besides);
+         listed(quoted(words), besides.empty() ? " or " : ", "), besides);
   }
   return word;
+}
+
+std::size_t TomlSection::place_of(std::string_view key, std::string_view word) const {
+  const std::vector<std::string> words = words_of(study_key(section_, key));
+  return static_cast<std::size_t>(std::find(words.begin(), words.end(), word) - words.begin());
+}
+
+void TomlSection::keep_to(std::string_view form) const {
+  for (const TomlEntry& entry : *table_->as<TomlTable>()) {
+    const StudyKey& key = study_key(section_, entry.key);
+    if (has(key, form)) continue;
+    fail(rules::key_without_use, entry.key, "belongs to {} = {}, not to \"{}\"", key.owners.decider,
+         listed(quoted(separated(key.owners.of)), " or "), form);
+  }
 }
 
 std::string read_text(const StudySource& source, const std::string& where, const TomlValue& value) {

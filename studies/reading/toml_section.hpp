@@ -10,14 +10,15 @@
 
 namespace frahm::studies {
 
-// A table of the study with the keys it may have, and its values by type. Every function throws a StudyError
-// with the position, what was found and what is allowed.
+// A table of the study with the keys that study_keys() gives it, and its values by type. Every function
+// throws a StudyError with the position, what was found and what is allowed.
 class TomlSection {
  public:
-  // where: the table's name in messages: `[study]`, `element "guide"`. keys: all allowed keys; the first
-  // other key is an error.
-  TomlSection(const StudySource& source, const TomlValue& table, std::string where,
-              std::vector<std::string> keys);
+  // where: the table's name in messages: `[study]`, `element "guide"`. section: its name in study_keys();
+  // form: the form of the section, if that is known before its keys are read. The first key that these have
+  // not is an error.
+  TomlSection(const StudySource& source, const TomlValue& table, std::string where, std::string_view section,
+              std::string_view form = "");
 
   const StudySource& source() const { return *source_; }
   Position position() const { return table_->position; }
@@ -31,9 +32,18 @@ class TomlSection {
   bool boolean_or(std::string_view key, bool otherwise) const;
   double number(std::string_view key) const;  // required, finite
   std::int64_t integer_or(std::string_view key, std::int64_t otherwise) const;
-  // The first of the choices if absent. besides: what else the key can be, for the message.
-  std::string choice_or(std::string_view key, const std::vector<std::string>& choices,
-                        std::string_view besides = "") const;
+  // One of the words of the table of keys; if absent `otherwise`, or the first of them. besides: what else
+  // the key can be, for the message.
+  std::string choice(std::string_view key, std::string_view otherwise = "",
+                     std::string_view besides = "") const;
+  // Likewise as an enumerator, where these stand in the order of the words.
+  template <class Enum>
+  Enum choice_as(std::string_view key) const {
+    return static_cast<Enum>(place_of(key, choice(key)));
+  }
+
+  // Refuses keys that another form of the section has and this one has not, once a key has told the form.
+  void keep_to(std::string_view form) const;
 
   // At the table, and at the value of a key.
   template <class... Args>
@@ -49,9 +59,12 @@ class TomlSection {
   }
 
  private:
+  std::size_t place_of(std::string_view key, std::string_view word) const;
+
   const StudySource* source_;
   const TomlValue* table_;
   std::string where_;
+  std::string section_, form_;
 };
 
 // The single forms of what TomlSection reads; `where` names the value in messages.

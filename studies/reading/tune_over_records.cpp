@@ -104,21 +104,19 @@ void read_tuning_over_records(const StudyContext& context, const TomlValue& root
   if (!entry)
     throw context.source.error_at(rules::missing_section, root.position,
                                   "the study has no [tune] with its objective");
-  const TomlSection section(
-      context.source, entry->value, "[tune]",
-      {"objective", "quantity", "quantile", "records", "duration", "solver", "start", "tolerance"});
+  const TomlSection section(context.source, entry->value, "[tune]", "tune", "records");
   TuneReading reading{context, root, study};
   TuneChoice& choice = reading.choice;
   PeakChoice peaks;
   section.require("objective");
-  if (section.choice_or("objective", {"worst_peak", "mean_peak"}, " under records") == "mean_peak")
+  if (section.choice("objective", "", " under records") == "mean_peak")
     peaks.objective = tuning::RecordObjective::mean_peak;
   check_excitation(reading, section);
   peaks.quantity = read_peak(reading, section);
   choice.quantity_name = section.text("quantity");
   read_records_of(context, root, folder, data, section, study, peaks);
   peaks.duration = read_duration(section, peaks);
-  choice.solver = tuning::solver_named(section.choice_or("solver", {"slsqp", "ipopt", "mma"}));
+  choice.solver = tuning::solver_named(section.choice("solver", "slsqp"));
   read_start(section, choice);
   if (choice.start == tuning::Start::global || choice.start == tuning::Start::map)
     section.fail(rules::key_without_use, "start",

@@ -16,7 +16,7 @@ constexpr double largest_tolerance = 0.1;  // of the certificate: above it nothi
 
 void read_objective(const TomlSection& section, TuneChoice& choice) {
   section.require("objective");
-  const std::string word = section.choice_or("objective", {"minimax", "mean_square", "variance"});
+  const std::string word = section.choice("objective");
   choice.objective = word == "minimax"       ? Objective::minimax
                      : word == "mean_square" ? Objective::mean_square
                                              : Objective::variance;
@@ -49,8 +49,7 @@ void read_noise(TuneReading& reading, const TomlSection& section) {
                       "{{ acceleration_of = \"<node>\" }}");
   if (!value) return;
   if (!wanted) section.fail(rules::key_without_use, "noise", "belongs to objective = \"variance\"");
-  const TomlSection noise(reading.context.source, *value, "[tune]: noise",
-                          {"force_on", "acceleration_of", "intensity"});
+  const TomlSection noise(reading.context.source, *value, "[tune]: noise", "tune.noise");
   const bool force = noise.find("force_on") != nullptr;
   if (force == (noise.find("acceleration_of") != nullptr))
     noise.fail_here(rules::one_of_two_keys,
@@ -87,7 +86,7 @@ UsualUnit read_band_unit(const TuneReading& reading, const TomlSection& section,
 void read_band(TuneReading& reading, const TomlSection& section) {
   const TomlValue* value = section.find("band");
   if (!value) return;
-  const TomlSection band(reading.context.source, *value, "[tune]: band", {"parameter", "from", "to", "unit"});
+  const TomlSection band(reading.context.source, *value, "[tune]: band", "tune.band");
   BandChoice choice;
   choice.position = band.position();
   choice.parameter = read_number_parameter(reading, band, "parameter", "a band");
@@ -117,8 +116,7 @@ void require_band(const TuneReading& reading, const TomlSection& section) {
 void read_trade_off(TuneReading& reading, const TomlSection& section) {
   const TomlValue* value = section.find("trade_off");
   if (!value) return;
-  const TomlSection table(reading.context.source, *value, "[tune]: trade_off",
-                          {"quantity", "values", "unit"});
+  const TomlSection table(reading.context.source, *value, "[tune]: trade_off", "tune.trade_off");
   TradeOffChoice trade_off;
   trade_off.quantity = read_real_quantity(reading, table, "quantity");
   trade_off.name = table.text("quantity");
@@ -151,7 +149,7 @@ void check_weight(const TuneReading& reading, const TomlSection& section) {
 
 void check_dominate(const TuneReading& reading, const TomlSection& section) {
   if (!section.find("dominate")) return;
-  section.choice_or("dominate", {"constant"});
+  section.choice("dominate");
   if (!reading.choice.has_schedule())
     section.fail(rules::key_without_use, "dominate",
                  "needs a [[design]] with a schedule, which is to be nowhere above its constant");
@@ -279,9 +277,7 @@ void read_tuning(const StudyContext& context, const TomlValue& root, Study& stud
   if (!entry)
     throw context.source.error_at(rules::missing_section, root.position,
                                   "the study has no [tune] with its objective");
-  const TomlSection section(context.source, entry->value, "[tune]",
-                            {"objective", "quantity", "band", "solver", "start", "global", "tolerance",
-                             "weight", "dominate", "trade_off", "noise", "quantile"});
+  const TomlSection section(context.source, entry->value, "[tune]", "tune", "band");
   TuneReading reading{context, root, study};
   TuneChoice& choice = reading.choice;
   refuse_samples(reading);

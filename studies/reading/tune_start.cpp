@@ -19,8 +19,7 @@ tuning::SolverKind read_solver(const TomlSection& section, const TuneChoice& cho
   const bool starts_from_path =
       schedules == 1 && choice.objective == tuning::Objective::minimax && !section.find("dominate");
   const char* by_default = schedules == 0 || (starts_from_path && knots <= kFewKnots) ? "slsqp" : "ipopt";
-  if (!section.find("solver")) return tuning::solver_named(by_default);
-  return tuning::solver_named(section.choice_or("solver", {"ipopt", "slsqp", "mma"}));
+  return tuning::solver_named(section.choice("solver", by_default));
 }
 
 void check_map(const TuneReading& reading, const TomlSection& section) {
@@ -53,15 +52,14 @@ void read_start(const TomlSection& section, TuneChoice& choice) {
     section.fail(rules::wrong_type, "start",
                  "expected \"map\", \"given\", \"nlopt\" or a number of starts, found {}", described(*value));
   } else {
-    const std::string word = section.choice_or("start", {"given", "map", "nlopt"}, " or a number of starts");
+    const std::string word = section.choice("start", "given", " or a number of starts");
     if (word == "nlopt") choice.start = tuning::Start::global;
     if (word == "map") choice.start = tuning::Start::map;
   }
   choice.start_is_given = value != nullptr;
   if (section.find("global") && choice.start != tuning::Start::global)
     section.fail(rules::key_without_use, "global", "belongs to start = \"nlopt\"");
-  choice.global_solver =
-      tuning::solver_named(section.choice_or("global", {"crs2", "isres", "direct", "mlsl"}));
+  choice.global_solver = tuning::solver_named(section.choice("global"));
 }
 
 }  // namespace frahm::studies

@@ -8,6 +8,7 @@
 
 #include "solvers/mechanics/bends.hpp"
 #include "solvers/mechanics/rotation.hpp"
+#include "studies/reading/study_keys.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -266,8 +267,9 @@ void add_swept_frequencies(const SweepChoice& sweep, const Parameters& parameter
 std::string physics_hash(const Study& study, std::span<const std::string> quantities) {
   CanonicalText text;
   text.line("solver {}", solver_version);
+  const auto words = study_key("output", "precision").words;  // in the order of Precision
   if (study.map())
-    text.line("precision {}", precision_names[static_cast<std::size_t>(study.map()->output.precision)]);
+    text.line("precision {}", words[static_cast<std::size_t>(study.map()->output.precision)].word);
   if (study.sweep() && study.sweep()->general_path) text.line("path general");
   const bool searches = study.sweep() ? mechanics::may_have_several_responses(study.network)
                                       : study.tune() && tuning::may_take_several_orbits(study.network);

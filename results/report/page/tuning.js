@@ -192,6 +192,13 @@ export function settlingRounds({ group, kind, parameters, objective }) {
   return decisive < 0 ? 0 : bounds.length - 1 - decisive;
 }
 
+// The excitation of each scenario, where these differ in it.
+function excitationsOf(study, scenarios) {
+  return scenarios
+    .map((scenario) => ({ scenario, excitation: study?.texts[`excitation_${scenario}`] ?? "" }))
+    .filter(({ excitation }) => excitation !== "");
+}
+
 export function tuningOf(record) {
   const group = record.groups.get("optimum"),
     { texts } = group;
@@ -217,6 +224,7 @@ export function tuningOf(record) {
     root: texts.objective_kind === "minimax" ? unit : rootUnit(unit),
     reason: texts.reason ?? "",
     excitation: record.groups.get("study")?.texts.excitation ?? "",
+    excitations: excitationsOf(record.groups.get("study"), scenarios),
     scenarios: several ? scenarios : [],
     parameters: listOf(texts.parameters).map((name) => parameterOf(group, name)),
     peaks: peaksOf(group, band, several ? scenarios : [], state),

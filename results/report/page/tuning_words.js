@@ -307,10 +307,13 @@ function detuningSentences(tuning) {
 
 // With friction, stops or tables a response does not grow in proportion to its excitation, and nor does an optimum hold
 // for another one.
-function excitationSentences({ excitation }) {
-  if (!excitation) return [];
+function excitationSentences({ excitation, excitations }) {
+  if (!excitation && excitations.length === 0) return [];
+  const held = excitation
+    ? `this excitation: ${excitation}`
+    : `the excitations of its ${excitations.length} scenarios, which are listed below`;
   return [
-    `The design holds for this excitation: ${excitation}. Friction, stops and tables do not scale with the motion: under ` +
+    `The design holds for ${held}. Friction, stops and tables do not scale with the motion: under ` +
       `another amplitude it is the best only where their forces and clearances are changed in the same proportion.`,
   ];
 }

@@ -28,6 +28,7 @@ class Point(Mapping[str, QuantityValue]):
     status: str  #: "ok", "grazing", "several", "failed" ...
     reason: str  #: why there is no response; else empty
     residual: float  #: of the periodic condition, relative
+    why_no_error_bound: str  #: why it is not known how many digits are right; empty where `error_bound` is
     newton_iterations: int
     found_by: str  #: "event phases" or "shooting"
     parameters: Mapping[str, tuple[float, str]]  #: value and unit of each number of the study
@@ -85,6 +86,7 @@ def point_of(found: Mapping[str, Any]) -> Point:
         status=found["status"],
         reason=found["reason"],
         residual=found["residual"],
+        why_no_error_bound=found["why_no_error_bound"],
         newton_iterations=found["newton_iterations"],
         found_by=found["found_by"],
         parameters=found["parameters"],

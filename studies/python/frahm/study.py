@@ -22,7 +22,10 @@ Kind = TypeVar("Kind")
 
 
 class Study:
-    """A study that was read and checked. Made by load(), from_text() or from_dict(); never changed."""
+    """A study that was read and checked. Made by load(), from_text() or from_dict(); never changed.
+
+    It can be pickled, for other processes: it is read again there, with the tables beside its file.
+    """
 
     def __init__(self, checked: _frahm.Study):
         self._study = checked
@@ -47,6 +50,15 @@ class Study:
         `text` is the file it stands for, to which the lines of messages belong.
         """
         return cls.from_text(_frahm.toml_text(dict(study)), name, **parameters)
+
+    def __reduce__(self):
+        return _read_again, (self.text, self.name, self._study.set)
+
+    def __copy__(self) -> "Study":
+        return self
+
+    def __deepcopy__(self, memo: Any) -> "Study":
+        return self
 
     def with_parameters(self, /, **parameters: Value) -> "Study":
         """The study with other values of parameters; those set before stay unless set anew."""
@@ -165,6 +177,11 @@ class Study:
 
     def __repr__(self) -> str:
         return f"<frahm.Study {self.name}: {self._study.noun}{', ' + repr(self.title) if self.title else ''}>"
+
+
+def _read_again(text: str, name: str, parameters: Sequence[str]) -> Study:
+    """A study in another process."""
+    return Study(_frahm.Study.parse(text, name, parameters))
 
 
 def _finished(result: Result) -> Result:

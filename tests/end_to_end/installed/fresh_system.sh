@@ -25,6 +25,7 @@ inside 'apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y 
 inside 'cd /tmp && frahm --version && frahm verify | tail -1'
 inside 'cd /tmp && frahm new sweep machine.toml && sed -i "s/value = 80,/value = 90,/" machine.toml && grep -q "value = 90," machine.toml &&
   frahm check machine.toml >/dev/null && frahm run machine.toml --progress none && frahm report machine.h5 && test -s machine.html'
+inside 'cd /tmp && frahm explain spring | grep -q "N/m" && frahm schema | grep -q json-schema.org && zcat /usr/share/man/man1/frahm.1.gz | grep -q frahm'
 inside 'test -f /usr/share/bash-completion/completions/frahm && test -f /usr/share/frahm/studies/rig/rig_atlas.toml'
 echo "fresh_system: the program works"
 inside 'DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends /libfrahm-dev_*.deb cmake make pkg-config >/dev/null'
@@ -36,6 +37,9 @@ if ls "$root"/python3-frahm_*.deb >/dev/null 2>&1; then
   inside 'cd /tmp && python3 -c "
 import frahm
 study = frahm.Study.load(\"/usr/share/frahm/studies/classics/den_hartog.toml\")
-print(study.point(r=0.9, f=0.1), study.run(\"python.h5\", progress=\"none\").open().sizes)"'
+print(study.point(r=0.9, f=0.1), study.run(\"python.h5\", progress=\"none\").open().sizes)
+machine = frahm.Study.load(\"machine.toml\")
+kept = frahm.open(\"machine.h5\")
+print(machine.point(), kept.sizes)" && frahm report python.h5 && test -s python.html'
   echo "fresh_system: the Python package works"
 fi

@@ -1,6 +1,8 @@
 """A point has the numbers of `frahm point`, and exact derivatives."""
 
 import json
+import math
+import multiprocessing
 import subprocess
 import threading
 import time
@@ -78,6 +80,35 @@ class Points(unittest.TestCase):
             with self.assertRaisesRegex(error, words):
                 study.point(**wrong)
         self.assertEqual(study.point(F=np.array(7)).parameters["F"][0], 7)
+
+    def test_processes_give_the_same_numbers(self):
+        study = frahm.Study.from_dict(MACHINE, speed="10 Hz").with_parameters(F=30)
+        places = [{"speed": speed} for speed in (450, 600, 620, 900)]
+        with multiprocessing.get_context("spawn").Pool(2) as pool:
+            found = pool.map(study.point, places)
+            with self.assertRaises(frahm.StudyError) as refused:
+                pool.map(study.point, [{"sped": 600}])
+        self.assertEqual(refused.exception.rule, "unknown_name")
+        for point, at in zip(found, places):
+            alone = study.point(at)
+            self.assertEqual(point.parameters, alone.parameters)
+            np.testing.assert_equal(point.quantities, alone.quantities)
+
+    def test_a_point_without_an_error_bound_says_why(self):
+        damped = frahm.Study.from_dict(MACHINE).point()
+        self.assertGreater(damped["error_bound"], 0)
+        self.assertEqual(damped.why_no_error_bound, "")
+        undamped = frahm.Study.from_dict({
+            "study": {"schema": 1, "kind": "sweep", "units": "dimensionless"},
+            "parameters": {"w": 1.00001},
+            "mass": [{"name": "main", "mass": 1}],
+            "element": [{"name": "spring", "type": "spring", "between": ["ground", "main"], "stiffness": 1}],
+            "excitation": {"frequency": "w", "force": [{"on": "main", "amplitude": 1}]},
+            "axis": [{"parameter": "w", "values": [1.00001]}],
+        }).point()
+        self.assertEqual(undamped.status, "ok")
+        self.assertTrue(math.isnan(undamped["error_bound"]))
+        self.assertIn("nothing damps", undamped.why_no_error_bound)
 
     def test_a_motion_is_refused(self):
         study = frahm.Study.load(studies / "lecture" / "run_up.toml")

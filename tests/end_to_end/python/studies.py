@@ -1,6 +1,7 @@
 """Studies are read from files, texts and dictionaries, and refused in the words of the program."""
 
 import copy
+import pickle
 import subprocess
 import tempfile
 import unittest
@@ -51,6 +52,14 @@ class Studies(unittest.TestCase):
         self.assertEqual(study.parameters["speed"], (600.0, "rpm"))
         self.assertEqual(study.with_parameters(F=8).parameters["F"][0], 8)
         self.assertEqual(study.parameters["F"][0], 7)
+
+    def test_a_study_is_pickled_and_copied_with_what_was_set(self):
+        study = frahm.Study.from_dict(MACHINE, "somewhere/machine.toml").with_parameters(F=7, speed="10 Hz")
+        again = pickle.loads(pickle.dumps(study))
+        self.assertEqual((again.text, again.name, again.parameters), (study.text, study.name, study.parameters))
+        self.assertEqual(again.with_parameters(k=300).parameters["F"][0], 7)
+        self.assertIs(copy.copy(study), study)
+        self.assertIs(copy.deepcopy({"study": study})["study"], study)
 
     def test_a_mistake_is_told_in_the_words_of_the_program(self):
         wrong = copy.deepcopy(MACHINE)

@@ -149,3 +149,31 @@ test("a tuning with friction says for which excitation it holds, one without doe
   );
   assert.doesNotMatch(await wordsOf("tune_classical"), /holds for this excitation/);
 });
+
+test("a tuning with friction lists the excitation of each scenario where these differ in it", async (t) => {
+  const folder = folderOf(t),
+    text = readFileSync(study("tune_friction_absorber"), "utf8");
+  const pageOf = async (name, scenarios) => {
+    const file = join(folder, `${name}.toml`);
+    const driven = text
+      .replace("amplitude = 1.0", 'amplitude = "P"')
+      .replace("[parameters]", "[parameters]\nP = 1.0");
+    writeFileSync(
+      file,
+      driven + scenarios.map((set, i) => `\n[[scenario]]\nname = "s${i}"\nset = ${set}\n`).join(""),
+    );
+    frahm(["run", file, "-o", join(folder, `${name}.h5`), "--progress", "none"]);
+    frahm(["report", join(folder, `${name}.h5`)]);
+    return (await open(t, join(folder, `${name}.html`))).page;
+  };
+  const differing = await pageOf("differing", ["{ P = 0.8 }", "{ P = 1.2 }"]);
+  const said = (page) => page.locator("main section", { hasText: "What this means" }).first().textContent();
+  assert.match(
+    await said(differing),
+    /holds for the excitations of its 2 scenarios, which are listed below\. Friction/,
+  );
+  const rows = differing.locator("table", { hasText: "excitation for which it holds" }).locator("tbody tr");
+  assert.deepEqual(await rows.allTextContents(), ["s0force on main, 0.8", "s1force on main, 1.2"]);
+  const same = await pageOf("same", ["{ P = 2, mu = 0.05 }", "{ P = 2, mu = 0.06 }"]);
+  assert.match(await said(same), /holds for this excitation: force on main, 2\. Friction/);
+});

@@ -114,6 +114,16 @@ TEST_CASE("A point without a response says why and shows no numbers for it") {
   CHECK_FALSE(told.has("slides"));
 }
 
+TEST_CASE("A point without an error bound says why, in words and as JSON") {
+  const std::vector<std::string> damped{"r=0.9", "f=0"}, undamped{"r=0.9", "f=0", "zeta=0"};
+  CHECK_FALSE(tell({.study = study_path("den_hartog"), .at = damped}).has("no error bound"));
+  const Told told = tell({.study = study_path("den_hartog"), .at = undamped});
+  CHECK(told.has("status ok\n"));
+  CHECK(told.has("\nno error bound: nothing damps the motion"));
+  const Told json = tell({.study = study_path("den_hartog"), .at = undamped, .json = true});
+  CHECK(json.has("\"why_no_error_bound\": \"nothing damps the motion"));
+}
+
 TEST_CASE("A point whose matrices have no meaning has failed, as it would in a map") {
   TemporaryDirectory directory;
   std::ofstream(directory / "weightless.toml") << R"([study]

@@ -252,6 +252,21 @@ function factsTable(tuning) {
   );
 }
 
+// For which excitation each scenario holds, where these differ in it; many are folded up.
+function excitationsTable({ excitations }) {
+  if (excitations.length === 0) return null;
+  const shown = 8;
+  const rows = excitations.map(({ scenario, excitation }) => [words(scenario), excitation]);
+  const listed = table(["scenario", "excitation for which it holds"], rows);
+  if (rows.length <= shown) return listed;
+  return element(
+    "details",
+    {},
+    element("summary", {}, `Excitation of each of ${rows.length} scenarios`),
+    listed,
+  );
+}
+
 function worstTable(tuning) {
   const names = { before: "before", after: "tuned", constant: "best constant", rule: "by the rule" };
   const known = Object.entries(names).filter(([design]) => Number.isFinite(tuning.worst[design]));
@@ -363,7 +378,12 @@ export function tuningParts(record) {
   return [
     ...(warning ? [element("p", { class: "warning" }, warning)] : []),
     meaningSection(whatItMeans(tuning)),
-    ...sectionOf("Optimum", [optimumTable(tuning), ...schedulesTables(tuning), worstTable(tuning)]),
+    ...sectionOf("Optimum", [
+      optimumTable(tuning),
+      ...schedulesTables(tuning),
+      worstTable(tuning),
+      excitationsTable(tuning),
+    ]),
     ...sectionOf(
       "Response",
       first ? [...figureCards([first], record, "wide"), ...figureCards(others, record)] : [],

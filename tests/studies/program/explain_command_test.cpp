@@ -1,0 +1,65 @@
+// What `frahm explain` tells comes from the tables that the readers and solvers use.
+#include "studies/program/explain_command.hpp"
+
+#include <catch2/catch.hpp>
+#include <sstream>
+#include <string>
+
+#include "studies/reading/element_keys.hpp"
+#include "studies/reading/study_keys.hpp"
+
+namespace {
+
+using namespace frahm::studies;
+using frahm::mechanics::ElementKind;
+using frahm::mechanics::ValueKey;
+
+std::string explained(const std::string& word) {
+  std::ostringstream out;
+  explain_command(word, out);
+  return out.str();
+}
+
+}  // namespace
+
+TEST_CASE("every type of element is explained by its force and its keys with units and ranges") {
+  for (const ElementKind& kind : frahm::mechanics::element_kinds()) {
+    INFO(kind.name);
+    const std::string text = explained(kind.name);
+    CHECK_THAT(text, Catch::Contains(std::string("its force is ") + kind.force));
+    for (const ValueKey* value : {&kind.value, &kind.second, &kind.slope, &kind.cubic}) {
+      if (!value->exists()) continue;
+      const Quantity quantity = element_quantity(value->dimension, false);
+      CHECK_THAT(text, Catch::Contains("  " + std::string(value->key)) &&
+                           Catch::Contains("[" + std::string(written_si_unit(quantity)) + "]"));
+    }
+    for (const std::string& key : keys_of_type(kind.name)) CHECK_THAT(text, Catch::Contains("\n  " + key));
+  }
+  CHECK_THAT(explained("spring"),
+             Catch::Contains("stiffness = k [N/m], of what turns [N m/rad], any number"));
+  CHECK_THAT(explained("maxwell"), Catch::Contains("damping = c [N s/m], of what turns [N m s/rad], > 0"));
+  CHECK_THAT(explained("coulomb"),
+             Catch::Contains("static_force = F_s") && Catch::Contains(">= 0; may be left out"));
+  CHECK_THAT(explained("iwan"), Catch::Contains("jenkins") && Catch::Contains("\n  chi: "));
+}
+
+TEST_CASE("every word of a choice is explained with the key that it is of") {
+  for (const StudyKey& key : study_keys()) {
+    for (const StudyWord& each : key.words) {
+      INFO(key.section << "." << key.key << " = " << each.word);
+      CHECK_THAT(explained(each.word), Catch::Contains(key.key) &&
+                                           Catch::Contains(written_section(key.section)) &&
+                                           Catch::Contains(each.meaning));
+    }
+  }
+}
+
+TEST_CASE("a key that not all forms of its section have is told with those that have it") {
+  CHECK_THAT(explained("ground_damping"), Catch::Contains("for generate = kanai_tajimi"));
+  CHECK_THAT(explained("compare"), Catch::Contains("for kind = sweep"));
+  CHECK_THAT(explained("element.type"), Catch::Contains("spring, damper") && Catch::Contains("or iwan"));
+}
+
+TEST_CASE("a word of a choice that is misspelt gets the nearest one") {
+  CHECK_THROWS_WITH(explained("kanai_tajimy"), Catch::Contains("did you mean \"kanai_tajimi\""));
+}
