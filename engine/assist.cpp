@@ -20,6 +20,9 @@ using Clock = std::chrono::steady_clock;
 using Kind = RankMessage::Kind;
 using namespace std::chrono_literals;
 
+constexpr std::chrono::seconds told_every(1);  // rank 0 shows the progress of all
+constexpr std::chrono::seconds synced_every(1);
+
 // The next message of rank 0. It is polled with pauses: MPI itself would wait at full speed.
 RankMessage next_message(Ranks& ranks) {
   for (;;) {
@@ -41,7 +44,7 @@ class Asking {
       has_asked_ = true;
       tell(Kind::ask);
     }
-    if (Clock::now() - told_ >= 1s) tell(Kind::tell);
+    if (Clock::now() - told_ >= told_every) tell(Kind::tell);
   }
 
  private:
@@ -78,7 +81,7 @@ Finished compute_tiles(const Job& job, const RunOptions& options, int threads, c
   {
     Asking asking(*options.ranks, work);
     const Watch conversation(2ms, [&] { asking.look(stop_asked()); });
-    const Watch syncing(1s, [&] { work.keep_on_disk(); });
+    const Watch syncing(synced_every, [&] { work.keep_on_disk(); });
     work.compute(threads, stop_asked);
   }
   work.keep_on_disk();

@@ -19,7 +19,6 @@ class File {
   static std::optional<File> open_if_present(const std::filesystem::path& path);
 
   File(File&& other) noexcept;
-  File& operator=(File&& other) noexcept;
   ~File();
 
   const std::filesystem::path& path() const { return path_; }

@@ -59,10 +59,7 @@ struct StopProblem {
   Row displacement;       // factors of the displacement
   Lanes level;            // its part under friction
 
-  explicit StopProblem(const W& w) {
-    V = w.phasor[0];
-    Q = w.phasor[1];
-    level = w.constant[1] + w.friction[1];
+  explicit StopProblem(const W& w) : V(w.phasor[0]), Q(w.phasor[1]), level(w.constant[1] + w.friction[1]) {
     const Row v = row_of(w, complex_view(w.pack.form_modal)), a = row_of(w, w.slope_modal);
     displacement = row_of(w, complex_view(w.pack.form_modal) + w.modes);
     // v . coordinates = -V, a . coordinates = -i V

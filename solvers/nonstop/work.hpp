@@ -98,15 +98,15 @@ struct Work : C {
   Lanes* harmonic_size;  // [orders] bound of the energy norm
 
   // Reversals, a contact's in their order, contact after contact.
-  Lanes* count;                 // [contacts] of reversals
-  Lanes* guess;                 // [contacts][kMostReversals]
-  Lanes* guess_turn;            // [contacts] direction of the first
-  double *cosine, *sine;        // [samples] over a turn
-  Lanes* phase;                 // [reversals]
-  Lanes* turn;                  // +1: from then on it slides forward
-  int contact[kMostReversals];  // of each reversal
-  int reversals = 0;            // of the lanes in hand
-  Lanes iterations;             // of Newton's method
+  Lanes* count;                      // [contacts] of reversals
+  Lanes* guess;                      // [contacts][kMostReversals]
+  Lanes* guess_turn;                 // [contacts] direction of the first
+  double *cosine, *sine;             // [samples] over a turn
+  Lanes* phase;                      // [reversals]
+  Lanes* turn;                       // +1: from then on it slides forward
+  int contact[kMostReversals] = {};  // of each reversal
+  int reversals = 0;                 // of the lanes in hand
+  Lanes iterations;                  // of Newton's method
   // The same in order of phase, within the span.
   Lanes* sorted_phase;
   Lanes* sorted_turn;

@@ -29,8 +29,8 @@ std::unique_ptr<ResponseSolver> make_divided_solver(const mechanics::Network& ne
 
 PeriodicResponse::PeriodicResponse(const mechanics::Network& network, std::vector<Quantity> quantities,
                                    Path path, const OrbitsWanted& wanted)
-    : solver_(common_divisor(network) > 1 ? make_divided_solver(network, std::move(quantities), path, wanted)
-                                          : make_solver(network, std::move(quantities), path, wanted)) {}
+    : solver_((common_divisor(network) > 1 ? make_divided_solver : make_solver)(
+          network, std::move(quantities), path, wanted)) {}
 PeriodicResponse::~PeriodicResponse() = default;
 PeriodicResponse::PeriodicResponse(PeriodicResponse&&) noexcept = default;
 PeriodicResponse& PeriodicResponse::operator=(PeriodicResponse&&) noexcept = default;

@@ -20,8 +20,10 @@ std::string with_unit(const std::string& name, const std::string& unit) {
 
 BranchTable::BranchTable(const Study& study, std::size_t along,
                          const std::vector<periodic::Quantity>& quantities)
-    : study_(study), along_(along), name_(study.parameters.list[along].name) {
-  unit_ = spoken_value(study, along, 0.0).unit;
+    : study_(study),
+      along_(along),
+      name_(study.parameters.list[along].name),
+      unit_(spoken_value(study, along, 0.0).unit) {
   for (const periodic::Quantity& each : quantities)
     quantities_.push_back(periodic::describe(each, study.network, study.dimensionless));
   const auto found = std::ranges::find(quantities_, headline_of(study), &periodic::QuantityDescription::name);

@@ -103,18 +103,17 @@ void check_combinations_are_held(const Study& study) {
   const Eigen::MatrixXd free = algebra::null_space(A);
   if (free.cols() == 0) return;
   constexpr double rounding = 1e-9;
-  std::vector<std::string> floating;
-  const StudyValue* first = nullptr;
-  for (std::size_t i = 0; i < network.masses.size(); ++i) {
-    if (free.row(static_cast<Eigen::Index>(i)).norm() < rounding) continue;
-    floating.push_back(fmt::format("\"{}\"", network.masses[i]));
-    if (!first) first = &study.values.mass[i];
-  }
+  std::vector<std::size_t> floating;
+  for (std::size_t i = 0; i < network.masses.size(); ++i)
+    if (free.row(static_cast<Eigen::Index>(i)).norm() >= rounding) floating.push_back(i);
+  std::vector<std::string> names;
+  for (const std::size_t i : floating) names.push_back(fmt::format("\"{}\"", network.masses[i]));
+  const StudyValue& first = study.values.mass[floating.front()];
   throw study.source.error_at(
-      rules::floating_mass, first->position,
+      rules::floating_mass, first.position,
       "{}: {} can move together without straining any spring, so the stiffness matrix is "
       "not positive definite; each needs one more spring",
-      first->where, listed(floating, " and "));
+      first.where, listed(names, " and "));
 }
 
 }  // namespace frahm::studies

@@ -120,6 +120,7 @@ ColumnName column_name(const std::string& cell) {
 std::optional<double> cell_number(std::string_view cell) {
   if (cell.size() > 1 && cell[0] == '+' && cell[1] != '-') cell.remove_prefix(1);
   double value = 0.0;
+  // cppcheck-suppress invalidLifetime ; the string that is_decimal_comma() looks at still lives
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   if (error != std::errc{} || end != cell.data() + cell.size()) return std::nullopt;
   return value;

@@ -26,7 +26,7 @@ const TomlValue& axis_of_samples(const TuneReading& reading) {
   if (!reading.choice.scenarios.empty())
     throw source.error_at(rules::key_without_use, tables[0]->position,
                           "each sample is a scenario; leave out either the samples or the [[scenario]]");
-  return *tables[0];
+  return *tables.front();
 }
 
 void check_not_tuned(const TuneReading& reading, const ParameterAxis& axis) {

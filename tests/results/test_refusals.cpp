@@ -24,7 +24,7 @@ using Catch::Matchers::Message;
 namespace {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-const std::array<std::uint64_t, 2> origin{0, 0}, one{1, 1}, whole{sample::designs, sample::frequencies};
+const std::array<std::uint64_t, 2> origin{0, 0}, one{1, 1};
 
 // What is thrown, with its type; empty if nothing is.
 std::string refusal(const std::function<void()>& act) {

@@ -78,7 +78,7 @@ TEST_CASE("the standard record has peak, amplitude, mean, rms and phase of each 
     names.push_back(variable.name);
   const std::vector<std::string> of_signal{"half_peak", "half_amplitude", "half_mean", "half_rms",
                                            "half_phase"};
-  CHECK(std::ranges::search(names, of_signal).begin() != names.end());
+  CHECK(std::search(names.begin(), names.end(), of_signal.begin(), of_signal.end()) != names.end());
   CHECK(names.size() == 16 + of_signal.size());
   CHECK_FALSE(periodic::find_quantity("half_energy", study.network));
   CHECK_FALSE(periodic::find_quantity("half_stroke", study.network));
