@@ -185,9 +185,19 @@ int check_command(const CheckOptions& options, std::ostream& out) {
     throw StudyError(rules::other_kind, "{}",
                      options.study.string() + ": --simulate-ranks is for maps; this study is " +
                          std::string(kind_noun(read.kind())));
-  if (read.kind() == StudyKind::tune) return check_tuning(options, std::move(read), out);
-  if (read.identify()) return check_identification(options, std::move(read), out);
-  if (!read.map()) return check_motion(read, options.listing(), out);
+  switch (read.kind()) {
+    case StudyKind::tune:
+      return check_tuning(options, std::move(read), out);
+    case StudyKind::identify:
+      return check_identification(options, std::move(read), out);
+    case StudyKind::decay:
+      return check_motion(read, options.listing(), out);
+    case StudyKind::transient:
+      if (!read.map()) return check_motion(read, options.listing(), out);
+      break;
+    case StudyKind::sweep:
+      break;
+  }
   const MapPlan plan = plan_map(std::move(read), options.set);
   const double start_seconds = std::chrono::duration<double>(Clock::now() - start).count();
   const Study& study = plan.study;

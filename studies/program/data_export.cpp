@@ -15,6 +15,7 @@
 #include "results/map_reader.hpp"
 #include "solvers/mechanics/rotation.hpp"
 #include "studies/motion/measurements.hpp"
+#include "studies/program/point_command.hpp"
 #include "studies/program/whole_file.hpp"
 #include "studies/reading/settings.hpp"
 #include "studies/record/stored_study.hpp"
@@ -163,6 +164,7 @@ int export_data(const std::filesystem::path& file, const DataOptions& options, s
                      "{}: an identification reads measurements and has no motion of its own; "
                      "frahm export --study makes a study of what it found",
                      file.string());
+  if (!study.motion()) require_responses(study);
   const MeasurementOptions asked{
       .rate = rate_of(study, options.rate),
       .duration = options.duration.empty()
@@ -170,7 +172,7 @@ int export_data(const std::filesystem::path& file, const DataOptions& options, s
                       : std::optional(si_amount(study, "--duration", options.duration, Quantity::time)),
       .noise = noise_of(study, options),
       .columns = options.columns};
-  const bool motion = study.kind() == StudyKind::decay || study.kind() == StudyKind::transient;
+  const bool motion = study.motion() != nullptr;
   if (motion && !options.at.empty())
     throw StudyError(rules::wrong_option, "--at: belongs to the periodic response of a sweep or tuning");
   const std::vector<double> parameters = parameters_at(study, options.at);

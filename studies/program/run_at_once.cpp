@@ -4,6 +4,7 @@
 #include <fmt/ostream.h>
 
 #include <iostream>
+#include <stdexcept>
 #include <string>
 
 #include "engine/fingerprint.hpp"
@@ -81,24 +82,32 @@ void write_file(const StudyPlan& plan, const RunRecord& record, const std::files
 int compute(const StudyPlan& plan, const RunRecord& record, const std::filesystem::path& output,
             const transient::Watch& watch, std::ostream& out) {
   const Study& study = plan.study;
-  const std::string motion_group(kind_name(study.kind()));
-  if (study.identify()) {
-    const IdentificationResult result = identify(study, watch);
-    write_file(plan, record, output, identification_group, identification_columns(study, result),
-               identification_texts(study, result));
-    print_identification(study, result, out);
-    return result.fit.converged ? exit_code::done : exit_code::not_converged;
+  const std::string group(kind_name(study.kind()));
+  switch (study.kind()) {
+    case StudyKind::identify: {
+      const IdentificationResult result = identify(study, watch);
+      write_file(plan, record, output, identification_group, identification_columns(study, result),
+                 identification_texts(study, result));
+      print_identification(study, result, out);
+      return result.fit.converged ? exit_code::done : exit_code::not_converged;
+    }
+    case StudyKind::decay: {
+      const transient::FreeDecay decay = solve_decay(study, watch);
+      write_file(plan, record, output, group, decay_columns(study, decay));
+      print_decay(study, decay, out);
+      return exit_code::done;
+    }
+    case StudyKind::transient: {
+      const transient::ForcedMotion motion = solve_transient(study, watch);
+      write_file(plan, record, output, group, transient_columns(study, motion));
+      print_transient(study, motion, out);
+      return exit_code::done;
+    }
+    case StudyKind::sweep:
+    case StudyKind::tune:
+      break;
   }
-  if (study.kind() == StudyKind::decay) {
-    const transient::FreeDecay decay = solve_decay(study, watch);
-    write_file(plan, record, output, motion_group, decay_columns(study, decay));
-    print_decay(study, decay, out);
-  } else {
-    const transient::ForcedMotion motion = solve_transient(study, watch);
-    write_file(plan, record, output, motion_group, transient_columns(study, motion));
-    print_transient(study, motion, out);
-  }
-  return exit_code::done;
+  throw std::logic_error(fmt::format("{} is no one piece of work", kind_noun(study.kind())));
 }
 
 }  // namespace

@@ -4,8 +4,10 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <string>
+#include <string_view>
 
 #include "studies/program/exit_code.hpp"
+#include "studies/reading/element_keys.hpp"
 #include "studies/reading/study_keys.hpp"
 
 namespace frahm::studies {
@@ -72,6 +74,62 @@ bool is_list(const std::string& path) {
   return written_section(path).starts_with("[[");
 }
 
+// Whether a section has a key when its decider is `word`.
+bool is_of(const StudyKey& key, const StudyKey& decider, const std::string& word) {
+  if (decider.form == KeyForm::element_type)
+    return is_of_every_type(key.key) || std::ranges::count(keys_of_type(word), key.key) > 0;
+  return std::string_view(key.owners.decider) != decider.key || has(key, word);
+}
+
+// The keys that a section does not have when its decider is `word`.
+Json refused_keys(const std::string& path, const StudyKey& decider, const std::string& word) {
+  Json refused = Json::object();
+  for (const StudyKey& key : study_keys()) {
+    if (key.section == path && !is_of(key, decider, word)) refused[key.key] = false;
+  }
+  return refused;
+}
+
+bool decides(const StudyKey& key) {
+  return key.form == KeyForm::choice || key.form == KeyForm::element_type;
+}
+
+Json if_then(const StudyKey& decider, const std::string& word, Json then) {
+  const Json is_so = {{"properties", {{decider.key, {{"const", word}}}}}, {"required", {decider.key}}};
+  return {{"if", is_so}, {"then", {{"properties", std::move(then)}}}};
+}
+
+// If a key of a section is some word, the section has none of the keys of its other forms.
+Json rules_of_forms(const std::string& path) {
+  Json rules = Json::array();
+  for (const StudyKey& decider : study_keys()) {
+    if (decider.section != path || !decides(decider)) continue;
+    for (const std::string& word : words_of(decider)) {
+      if (Json refused = refused_keys(path, decider, word); !refused.empty())
+        rules.push_back(if_then(decider, word, std::move(refused)));
+    }
+  }
+  return rules;
+}
+
+// The kind of a study decides about its sections, and about keys in them.
+Json rules_of_kinds() {
+  Json rules = Json::array();
+  const StudyKey& kind = study_key("study", "kind");
+  for (const std::string& word : words_of(kind)) {
+    Json refused = refused_keys("", kind, word);
+    for (const StudyKey& section : study_keys()) {
+      if (*section.section || refused.contains(section.key) || section.form != KeyForm::table) continue;
+      if (Json keys = refused_keys(section.key, kind, word); !keys.empty())
+        refused[section.key] = {{"properties", std::move(keys)}};
+    }
+    Json rule = if_then(kind, word, std::move(refused));
+    rule["if"] = {{"properties", {{"study", std::move(rule["if"])}}}};
+    rules.push_back(std::move(rule));
+  }
+  return rules;
+}
+
 Json section_schema(const std::string& path) {
   Json keys = Json::object();
   for (const StudyKey& key : study_keys()) {
@@ -81,7 +139,9 @@ Json section_schema(const std::string& path) {
     keys[key.key] = std::move(form);
   }
   if (is_list(path)) keys["repeat"] = repetition_schema();
-  return {{"type", "object"}, {"properties", std::move(keys)}, {"additionalProperties", false}};
+  Json schema = {{"type", "object"}, {"properties", std::move(keys)}, {"additionalProperties", false}};
+  if (Json rules = rules_of_forms(path); !rules.empty()) schema["allOf"] = std::move(rules);
+  return schema;
 }
 
 // A number of a study: plain, an expression, or with its unit.
@@ -98,6 +158,7 @@ int schema_command(std::ostream& out) {
   schema.update(section_schema(""));
   schema["required"] = {"study"};
   schema["properties"]["study"]["required"] = {"schema", "kind"};
+  schema["allOf"] = rules_of_kinds();
   schema["$defs"] = {{"value", value_schema()}};
   out << schema.dump(2) << '\n';
   return exit_code::done;

@@ -44,19 +44,17 @@ std::string why_without(StudyKind kind, const std::string& section) {
   return "; it is for kind = " + listed(owners, " or ");
 }
 
-// Of its [output] a study that is no map has the signals alone.
-bool may_have_signals(StudyKind kind) {
-  return kind != StudyKind::identify;
-}
-
 // Refuses sections of other kinds of study, which would have no effect here.
 void check_sections_of_kind(const Study& study, const TomlValue& root) {
   for (const TomlEntry& entry : *root.as<TomlTable>()) {
-    if (has(study_key("", entry.key), kind_name(study.kind()))) continue;
-    if (entry.key == "output" && may_have_signals(study.kind()) && entry.value.as<TomlTable>()) {
+    const std::string_view kind = kind_name(study.kind());
+    const bool is_part = has(study_key("", entry.key), kind);
+    const bool has_signals_alone = entry.key == "output" && !has(study_key("output", "quantities"), kind);
+    if (is_part && has_signals_alone && entry.value.as<TomlTable>()) {
       check_output_has_signals_alone(study, entry, why_without(study.kind(), entry.key));
       continue;
     }
+    if (is_part && !has_signals_alone) continue;
     throw study.source.error_at(rules::other_kind, entry.position, "the section \"{}\" is not part of {}{}",
                                 entry.key, kind_noun(study.kind()), why_without(study.kind(), entry.key));
   }

@@ -149,6 +149,14 @@ TEST_CASE("a result given for a study and a study for a result are recognised") 
   }
 }
 
+TEST_CASE("a study without one motion or response has no measurements to export") {
+  const Folder folder;
+  const std::string study = study_path("tune_slip_force");  // over records
+  const auto outcome = frahm({"export", study, "--data", folder / "measured.csv"});
+  CHECK(outcome.code == 2);
+  CHECK_THAT(outcome.err, Catch::Contains("a tuning over records has no periodic response"));
+}
+
 TEST_CASE("a rerun that is refused names what has changed") {
   const Folder folder;
   const std::string study = folder.write("small.toml", small), result = folder / "small.h5";

@@ -75,6 +75,14 @@ wrong = {
     "a list for a value": small.replace("amplitude = 1\n", "amplitude = [1]\n"),
     "a table for a list of tables": small.replace("[[mass]]", "[mass]"),
     "a value with a third key": small.replace("amplitude = 1\n", 'amplitude = { value = 1, units = "N" }\n'),
+    "a key of another type of element": small.replace("stiffness = 1\n", "stiffness = 1\ninertance = 1\n"),
+    "a section of another kind": small + "\n[decay]\n",
+    "a key of another kind": small + "\n[output]\nhistories = true\n",
+    "a key of another profile": small.replace("[[excitation.force]]", """[[excitation.motion]]
+node = "base"
+profile = "harmonic"
+crank = 0.1
+[[excitation.force]]"""),
     "an empty name": small.replace('on = "main"', 'on = ""'),
 }
 with tempfile.TemporaryDirectory() as folder:
