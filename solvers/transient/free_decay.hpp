@@ -35,7 +35,8 @@ inline constexpr double kGone = 1e-100;
 
 enum class DecayEnd {
   at_rest,   // stopped by friction
-  creeping,  // it tends to a position that friction holds, and never arrives
+  creeping,  // it tends to a position that friction holds; with zeta < 1 it arrives, by less than rounding
+             // beyond it
   decayed,   // no friction slides any more, and the energy norm has fallen to kDecayed
   cut_off,   // none of these, as far as it has been followed
   failed,
