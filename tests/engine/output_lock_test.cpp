@@ -37,3 +37,13 @@ TEST_CASE("a lock file whose bytes a power failure left as zeros is taken over a
   { const OutputLock lock(scratch.output()); }
   CHECK(std::filesystem::is_empty(scratch.directory()));
 }
+
+TEST_CASE("a file of the lock's name that is no lock is refused and stays as it is") {
+  const Scratch scratch;
+  const std::string work = "measured by hand";
+  std::ofstream(lock_path(scratch.output())) << work;
+  CHECK_THROWS_WITH(OutputLock(scratch.output()),
+                    Contains("map.h5.frahm-lock") && Contains("is no lock of frahm"));
+  std::ifstream file(lock_path(scratch.output()));
+  CHECK(std::string(std::istreambuf_iterator<char>(file), {}) == work);
+}

@@ -1,7 +1,10 @@
 #include "engine/team.hpp"
 
 #include <catch2/catch.hpp>
+#include <cstdlib>
+#include <optional>
 #include <stdexcept>
+#include <string>
 #include <thread>
 
 using namespace frahm::engine;
@@ -32,4 +35,40 @@ TEST_CASE("a team has no more threads than pieces of work, and one at least") {
   CHECK(team_size(4, 0) == 1);
   CHECK(team_size(0, 1) == 1);
   CHECK(team_size(0, 1000000) >= 1);
+}
+
+namespace {
+
+// A variable of the environment while a test runs; null: unset.
+class Variable {
+ public:
+  Variable(const char* name, const char* value) : name_(name) {
+    if (const char* before = std::getenv(name)) before_ = before;
+    set(value);
+  }
+  ~Variable() { set(before_ ? before_->c_str() : nullptr); }
+  Variable(const Variable&) = delete;
+  Variable& operator=(const Variable&) = delete;
+
+ private:
+  void set(const char* value) { value ? ::setenv(name_, value, 1) : ::unsetenv(name_); }
+
+  const char* name_;
+  std::optional<std::string> before_;
+};
+
+int threads_with_slurm(const char* processors) {
+  const Variable slurm("SLURM_CPUS_PER_TASK", processors);
+  return default_threads();
+}
+
+}  // namespace
+
+TEST_CASE("a task of Slurm has a thread for each processor it was given, and no more than there are") {
+  const Variable openmp("OMP_NUM_THREADS", nullptr);
+  const int all = threads_with_slurm(nullptr);
+  CHECK(all >= 1);
+  CHECK(threads_with_slurm("1") == 1);
+  CHECK(threads_with_slurm("1000000") == all);
+  for (const char* wrong : {"", "0", "-1", "many"}) CHECK(threads_with_slurm(wrong) == all);
 }

@@ -218,7 +218,7 @@ TEST_CASE("the error of the arctan law falls with the slope as (A + B ln slope) 
        {Case{0.9, 0.05, 0.2}, Case{1.3, 0.02, 0.1}, Case{0.8, 0.1, 0.1}, Case{1.1, 0.05, 0.3}}) {
     INFO("r " << r << ", zeta " << zeta << ", f " << f);
     const double exact = non_stop_response(r, zeta, f).amplitude;
-    const auto scaled_error = [&](double slope) {
+    const auto scaled_error = [&, r = r, zeta = zeta, f = f](double slope) {
       REQUIRE(smooth.solve(with_slope(single_mass_values(r, zeta, f), slope)).status == Status::ok);
       return slope * (smooth["x_peak"] - exact);
     };

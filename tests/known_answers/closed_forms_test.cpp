@@ -152,7 +152,7 @@ TEST_CASE("The two-frequency orbit satisfies its equation of motion") {
           if (!response.valid()) continue;
           ++valid;
           const double base = r1 / M, start = response.peak_phase / base;
-          const auto force = [&](double tau) {
+          const auto force = [&, M = M, N = N](double tau) {
             const double t = base * (tau + start);
             return std::cos(M * t) + p2 * std::cos(N * t + 0.7);
           };

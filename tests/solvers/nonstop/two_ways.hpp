@@ -33,7 +33,7 @@ inline double difference(std::size_t i, const std::vector<Quantity>& quantities,
   if (a[i] == b[i] || (std::isnan(a[i]) && std::isnan(b[i]))) return 0.0;
   const auto [measure, index, side] = quantities[i];
   const double apart = std::abs(a[i] - b[i]);
-  const auto of = [&](Measure other) { return value_of(other, index, quantities, a); };
+  const auto of = [&, index = index](Measure other) { return value_of(other, index, quantities, a); };
   double result = apart / std::abs(a[i]);
   if (measure == Measure::mean || measure == Measure::harmonic) result = apart / of(Measure::peak);
   if (measure == Measure::energy) result = apart / value_of(Measure::energy_input, 0, quantities, a);

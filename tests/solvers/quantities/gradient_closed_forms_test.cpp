@@ -43,8 +43,9 @@ double difference(const Function& f, double x) {
 
 TEST_CASE(
     "Den Hartog's amplitude without stops has the derivatives of its closed form, by f in closed form too") {
-  for (const auto& [r, zeta, f] : {Triple{0.7, 0.05, 0.2}, Triple{1.0, 0.1, 0.5}, Triple{1.3, 0.0, 0.1},
-                                   Triple{0.9, 1.2, 0.05}, Triple{2.0, 0.02, 0.4}}) {
+  for (const Triple& at : {Triple{0.7, 0.05, 0.2}, Triple{1.0, 0.1, 0.5}, Triple{1.3, 0.0, 0.1},
+                           Triple{0.9, 1.2, 0.05}, Triple{2.0, 0.02, 0.4}}) {
+    const double r = at[0], zeta = at[1], f = at[2];
     INFO("r " << r << " zeta " << zeta << " f " << f);
     REQUIRE(non_stop_response(r, zeta, f).valid());
     const auto gradient = single_mass_gradient(r, zeta, f, {{Measure::peak, 0}});
@@ -62,7 +63,8 @@ TEST_CASE(
 }
 
 TEST_CASE("With one stop a half cycle too") {
-  for (const auto& [r, zeta, f] : {Triple{0.5, 0.05, 0.6}, Triple{0.8, 0.1, 0.8}, Triple{1.2, 0.02, 0.85}}) {
+  for (const Triple& at : {Triple{0.5, 0.05, 0.6}, Triple{0.8, 0.1, 0.8}, Triple{1.2, 0.02, 0.85}}) {
+    const double r = at[0], zeta = at[1], f = at[2];
     INFO("r " << r << " zeta " << zeta << " f " << f);
     REQUIRE(one_stop_response(r, zeta, f).valid());
     const auto gradient =

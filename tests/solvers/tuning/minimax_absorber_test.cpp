@@ -18,7 +18,6 @@ using Catch::Matchers::WithinRel;
 constexpr double kPeak = 1e-9;  // of the highest peak, relative
 constexpr double kTuning =
     1e-7;  // of f and zeta: along the line of equal peaks the peak is flat to first order
-constexpr double kGap = 1e-12;  // of the highest peak: where the exchange ends
 
 struct Gain {
   double value;                  // |x1| k / P

@@ -144,15 +144,17 @@ TEST_CASE("where one solver does not close the gap the other tries") {
   Task task = absorber_task();
   task.tolerance = kNoGapMeets;
   task.most_rounds = 3;
-  for (const auto& [first, other] : {std::pair(SolverKind::slsqp, SolverKind::ipopt),
-                                     std::pair(SolverKind::ipopt, SolverKind::slsqp)}) {
+  for (const auto& [first, other] :
+       {std::pair(SolverKind::slsqp, SolverKind::ipopt), std::pair(SolverKind::ipopt, SolverKind::slsqp)}) {
     task.solver = first;
     const std::vector<Round> rounds = Tuning(task).run().rounds;
     const auto handed_over = std::ranges::find(rounds, other, &Round::solver);
     REQUIRE(handed_over != rounds.end());
     CHECK(handed_over != rounds.begin());
-    CHECK(std::all_of(rounds.begin(), handed_over, [&](const Round& round) { return round.solver == first; }));
-    CHECK(std::all_of(handed_over, rounds.end(), [&](const Round& round) { return round.solver == other; }));
+    CHECK(std::all_of(rounds.begin(), handed_over,
+                      [&, first = first](const Round& round) { return round.solver == first; }));
+    CHECK(std::all_of(handed_over, rounds.end(),
+                      [&, other = other](const Round& round) { return round.solver == other; }));
   }
 }
 
