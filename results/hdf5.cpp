@@ -138,7 +138,7 @@ Handle& Handle::operator=(Handle&& other) noexcept {
 // A destructor cannot throw: File::close() reports the failure.
 Handle::~Handle() {
   if (id_ < 0 || H5Idec_ref(id_) >= 0 || !failure_ || !failure_->empty()) return;
-  *failure_ = deepest_error();
+  *failure_ = take_deepest_error();
   if (failure_->empty()) *failure_ = "an object could not be closed";
 }
 
