@@ -44,6 +44,11 @@ std::string get_hash(const std::byte* from) {
   return std::string(text, strnlen(text, hash_size));
 }
 
+// The header is synced before the first record is appended: until then a power failure may leave zeros of it.
+bool is_unsynced_header(const File& file) {
+  return file.size() <= header_size && file.holds_only_zeros();
+}
+
 }  // namespace
 
 Bytes encode_header(const LogHeader& header) {
@@ -99,14 +104,14 @@ void encode_record(std::uint64_t mark, std::uint64_t tile, std::span<const std::
 bool begins_as_log(const File& file) {
   std::array<char, file_magic.size()> text{};
   const std::size_t size = file.read_at(0, std::as_writable_bytes(std::span(text)));
-  return file_magic.starts_with(std::string_view(text.data(), size)) || file.holds_only_zeros();
+  return file_magic.starts_with(std::string_view(text.data(), size)) || is_unsynced_header(file);
 }
 
 std::optional<LogHeader> read_header(const File& log) {
   Bytes bytes(header_size);
   if (log.read_at(0, bytes) < header_size) return std::nullopt;
   if (std::memcmp(bytes.data(), file_magic.data(), file_magic.size()) != 0) {
-    if (log.holds_only_zeros()) return std::nullopt;
+    if (is_unsynced_header(log)) return std::nullopt;
     throw IoError(log.path(),
                   "not a shard log, or its header is damaged (it does not begin with FRAHMLOG); remove the "
                   "file to have its tiles computed again");

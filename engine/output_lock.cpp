@@ -17,8 +17,9 @@ void refuse_foreign_file(const File& file) {
   constexpr std::string_view begin = "process ";
   std::array<char, begin.size()> text{};
   const std::size_t size = file.read_at(0, std::as_writable_bytes(std::span(text)));
-  if (file.size() <= owner_size && begin.starts_with(std::string_view(text.data(), size))) return;
-  if (file.holds_only_zeros()) return;
+  const bool is_lock = begin.starts_with(std::string_view(text.data(), size)) ||
+                       file.holds_only_zeros();  // after a power failure
+  if (is_lock && file.size() <= owner_size) return;
   throw IoError(file.path(), "is there already and is no lock of frahm; remove or rename it");
 }
 

@@ -92,7 +92,7 @@ TEST_CASE("a log cut at any byte of its header is begun anew") {
 TEST_CASE("a log whose bytes a power failure left as zeros holds no tile and is begun anew") {
   const Scratch scratch;
   const auto path = log_path(scratch.output(), "a");
-  for (const std::size_t size : {header_size - 1, header_size, 10 * header_size}) {
+  for (const std::size_t size : {header_size - 1, header_size}) {
     INFO(size << " bytes");
     write_file(path, std::string(size, '\0'));
     CHECK(good_tiles(path) == 0);
@@ -100,6 +100,9 @@ TEST_CASE("a log whose bytes a power failure left as zeros holds no tile and is 
     { ShardLog(path, study).append(0, sample(0)); }
     CHECK(good_tiles(path) == 1);
   }
+  // Records come after a header that was synced: zeros in place of both are damage.
+  write_file(path, std::string(10 * header_size, '\0'));
+  CHECK_THROWS_WITH(ShardLog(path, study), Contains("not a shard log"));
 }
 
 TEST_CASE("a bit flipped anywhere in a record cuts the log before that record") {
