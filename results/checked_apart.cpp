@@ -48,9 +48,12 @@ void restrain_child() {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   lower_limit(RLIMIT_CORE, 0);
   lower_limit(RLIMIT_CPU, most_seconds);
-#ifndef __SANITIZE_ADDRESS__  // which has terabytes of its own
-  if (const rlim_t now = memory_in_use(); now > 0) lower_limit(RLIMIT_DATA, now + most_memory);
+#ifdef __SANITIZE_ADDRESS__
+  constexpr bool is_bounded = false;  // the sanitizer has terabytes of its own
+#else
+  constexpr bool is_bounded = true;
 #endif
+  if (const rlim_t now = memory_in_use(); is_bounded && now > 0) lower_limit(RLIMIT_DATA, now + most_memory);
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU}) ::signal(signal, SIG_DFL);
   const int nowhere = ::open("/dev/null", O_RDWR);
   for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, stream);

@@ -24,7 +24,7 @@ std::uint32_t fletcher32(std::span<const std::byte> data) {
   };
   const auto fold = [](std::uint32_t sum) { return (sum & 0xffff) + (sum >> 16); };
   constexpr std::size_t block =
-      2 * 359;  // bytes; the sums of 360 words, one reserved for an odd end, stay below 2^32
+      std::size_t{2} * 359;  // bytes; the sums of 360 words, one reserved for an odd end, stay below 2^32
   const std::size_t even = data.size() / 2 * 2;
   for (std::size_t from = 0; from < even; from += block) {
     sum1 = fold(sum1);

@@ -84,7 +84,7 @@ void check_size(hid_t type, hssize_t elements, const std::string& where) {
 std::string variable_text_of(hid_t attribute, hid_t type, const std::string& where) {
   char* text = nullptr;
   checked(H5Aread(attribute, type, static_cast<void*>(&text)), where, "cannot read an attribute");
-  const std::string copy = text ? text : "";
+  std::string copy = text ? text : "";
   H5free_memory(text);
   return copy;
 }

@@ -180,6 +180,7 @@ std::vector<Dataset::Use> Dataset::uses() const {
   checked(H5Tinsert(memory.get(), "dimension", HOFFSET(Pair, axis), H5T_NATIVE_UINT), where_, what);
   checked(H5Aread(attribute.get(), memory.get(), pairs.data()), where_, what);
   std::vector<Use> uses;
+  uses.reserve(pairs.size());
   for (const Pair& pair : pairs) uses.push_back({pair.dataset, pair.axis});
   return uses;
 }

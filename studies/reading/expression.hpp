@@ -181,7 +181,8 @@ Number Expression::apply(Operation operation, const Number& a, const Number& b) 
 
 template <class Number>
 Number Expression::evaluate(std::span<const Number> parameters) const {
-  std::array<Number, stack_size> stack;  // left uninitialised: every entry is written before it is read
+  // Left uninitialised: every entry is written before it is read.
+  std::array<Number, stack_size> stack;  // NOLINT(cppcoreguidelines-pro-type-member-init)
   std::size_t size = 0;
   for (const Instruction& step : program_) {
     switch (step.operation) {
