@@ -58,7 +58,11 @@ std::optional<File> File::open_if_present(const std::filesystem::path& path) {
       uninterrupted([&] { return ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC); });
   if (descriptor < 0 && errno == ENOENT) return std::nullopt;
   if (descriptor < 0) throw IoError(path, "open for reading", errno);
-  return File(path, descriptor);
+  File file(path, descriptor);
+  struct stat status {};
+  if (::fstat(descriptor, &status) == 0 && !S_ISREG(status.st_mode))
+    throw IoError(path, "is no regular file but a directory, pipe or device");
+  return file;
 }
 
 std::uint64_t File::size() const {

@@ -108,14 +108,13 @@ bool begins_as_log(const File& file) {
 }
 
 std::optional<LogHeader> read_header(const File& log) {
-  Bytes bytes(header_size);
-  if (log.read_at(0, bytes) < header_size) return std::nullopt;
-  if (std::memcmp(bytes.data(), file_magic.data(), file_magic.size()) != 0) {
-    if (is_unsynced_header(log)) return std::nullopt;
+  if (!begins_as_log(log)) {
     throw IoError(log.path(),
                   "not a shard log, or its header is damaged (it does not begin with FRAHMLOG); remove the "
                   "file to have its tiles computed again");
   }
+  Bytes bytes(header_size);
+  if (log.read_at(0, bytes) < header_size || is_unsynced_header(log)) return std::nullopt;
   const auto version = get_little_endian<std::uint32_t>(&bytes[version_at]);
   if (version != log_version) {
     throw IoError(log.path(),

@@ -108,7 +108,11 @@ void keep_checks_here() {
 
 void check_apart(const std::filesystem::path& path, const std::function<void()>& check) {
   std::error_code unseen;  // no file: the check says so
-  if (is_kept_here || !std::filesystem::is_regular_file(path, unseen)) return check();
+  const std::filesystem::file_status kind = std::filesystem::status(path, unseen);
+  const bool is_regular = std::filesystem::is_regular_file(kind);
+  if (std::filesystem::exists(kind) && !is_regular && !std::filesystem::is_directory(kind))
+    throw StoreError(path.string(), "is no regular file but a pipe or a device", "");
+  if (is_kept_here || !is_regular) return check();
   std::array<int, 2> pipe{};
   const bool has_pipe = ::pipe2(pipe.data(), O_CLOEXEC) == 0;
   const pid_t child = has_pipe ? ::fork() : -1;

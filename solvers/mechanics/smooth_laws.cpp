@@ -32,6 +32,18 @@ bool never_falls(const std::vector<CurvePoint>& curve) {
   return std::ranges::is_sorted(curve, {}, &CurvePoint::force);
 }
 
+// Whether the force of a law of friction never falls with the speed.
+bool rises(FrictionLaw law, const SmoothValue& value) {
+  switch (law) {
+    case FrictionLaw::exact:
+    case FrictionLaw::arctan:
+      return true;
+    case FrictionLaw::stribeck:
+      return never_falls(value.curve);
+  }
+  return false;
+}
+
 }  // namespace
 
 bool has_smooth_law(const Element& element) {
@@ -51,17 +63,24 @@ const SmoothValue& smooth_value(const NetworkValues& values, std::size_t element
 void check_smooth_law(const Element& element, const SmoothValue& value) {
   if (!has_smooth_law(element)) return;
   require(std::isfinite(value.cubic), element, "cubic", value.cubic, "must be finite");
-  if (element.law == FrictionLaw::arctan)
-    require(std::isfinite(value.slope) && value.slope > 0.0, element, "slope", value.slope,
-            "must be finite and positive");
-  if (element.law == FrictionLaw::stribeck) check_curve(element, value.curve);
+  switch (element.law) {
+    case FrictionLaw::exact:
+      break;
+    case FrictionLaw::arctan:
+      require(std::isfinite(value.slope) && value.slope > 0.0, element, "slope", value.slope,
+              "must be finite and positive");
+      break;
+    case FrictionLaw::stribeck:
+      check_curve(element, value.curve);
+      break;
+  }
 }
 
 bool smooth_laws_are_monotone(const Network& network, const NetworkValues& values) {
   for (std::size_t e = 0; e < network.elements.size(); ++e) {
     const SmoothValue& value = smooth_value(values, e);
     if (network.elements[e].has_cubic && value.cubic != 0.0) return false;
-    if (network.elements[e].law == FrictionLaw::stribeck && !never_falls(value.curve)) return false;
+    if (!rises(network.elements[e].law, value)) return false;
   }
   return true;
 }

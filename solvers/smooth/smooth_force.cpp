@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 namespace frahm::smooth {
 
@@ -18,10 +19,15 @@ ForceAndSlope Cubic::at(double u) const {
 SmoothForce::SmoothForce(const mechanics::Element& element, const mechanics::SmoothValue& value, double limit)
     : law_(Cubic{value.cubic}) {
   if (element.has_cubic) return;
-  if (element.law == mechanics::FrictionLaw::stribeck) {
-    law_ = FrictionCurve(value.curve);
-  } else {
-    law_ = Arctan{limit, value.slope};
+  switch (element.law) {
+    case mechanics::FrictionLaw::exact:
+      throw std::logic_error("the exact law of '" + element.name + "' is not smooth");
+    case mechanics::FrictionLaw::arctan:
+      law_ = Arctan{limit, value.slope};
+      break;
+    case mechanics::FrictionLaw::stribeck:
+      law_ = FrictionCurve(value.curve);
+      break;
   }
 }
 

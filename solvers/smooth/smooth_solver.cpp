@@ -24,14 +24,22 @@ using mechanics::FrictionLaw;
 using mechanics::Network;
 using periodic::History;
 
-bool follows_arctan(const Element& element) {
-  return mechanics::has_smooth_law(element) && element.law == FrictionLaw::arctan;
+// Whether the orbit under the exact law is near that under a smooth one.
+bool is_near_exact(const Element& element) {
+  if (element.has_cubic) return false;
+  switch (element.law) {
+    case FrictionLaw::exact:
+    case FrictionLaw::arctan:
+      return true;
+    case FrictionLaw::stribeck:
+      return false;
+  }
+  return false;
 }
 
-// Where all that is smooth is arctan, the exact law's orbit is near.
 std::unique_ptr<periodic::ResponseSolver> solver_of_exact_law(Network network) {
   for (Element& element : network.elements) {
-    if (mechanics::has_smooth_law(element) && !follows_arctan(element)) return nullptr;
+    if (!is_near_exact(element)) return nullptr;
     element.law = FrictionLaw::exact;
   }
   return periodic::make_exact_solver(network, {});

@@ -423,9 +423,12 @@ std::optional<int> parse_command_line(int argc, const char* const* argv, Command
   line.branch.command = line.run.command;
   line.commands = told(program, "frahm");
   if (const auto wrong = first_unreadable(argc, argv)) {
+    std::string shown = argv[*wrong];
+    std::ranges::replace_if(
+        shown, [](char c) { return c == '\n' || c == '\t'; }, '?');
     complaints << fmt::format(
         "frahm: argument {} \"{}\": must be UTF-8 without control characters such as a line feed\n", *wrong,
-        argv[*wrong]);
+        shown);
     return exit_code::wrong_input;
   }
   try {

@@ -84,8 +84,8 @@ engine::Summary compute(const StudyPlan& plan, const engine::Job& job, const eng
   } catch (const engine::ResumeRefused& refused) {
     if (is_new) remove_study_note(run.output, plan);
     throw engine::ResumeRefused(refused, advice_about_logs(refused, plan, run.output));
-  } catch (const StudyError&) {  // of the work itself: no log of this study will need the note
-    if (is_new) remove_study_note(run.output, plan);
+  } catch (...) {  // without a log nothing will need the note
+    if (is_new && engine::find_logs(run.output).empty()) remove_study_note(run.output, plan);
     throw;
   }
 }

@@ -78,6 +78,8 @@ void convert_axis(const TomlSection& section, ParameterAxis& axis) {
   }
 }
 
+constexpr std::size_t most_dimensions = 32;  // of an array in HDF5
+
 void add_to_grid(const TomlSection& section, std::size_t index, Study& study) {
   const ParameterAxis& axis = study.map()->axes[index];
   for (GridDimension& dimension : study.map()->dimensions) {
@@ -94,6 +96,9 @@ void add_to_grid(const TomlSection& section, std::size_t index, Study& study) {
     return;
   }
   const std::string& name = axis.zip.empty() ? study.parameters.list[axis.parameter].name : axis.zip;
+  if (study.map()->dimensions.size() == most_dimensions)
+    section.fail_here(rules::too_large, "a map has at most {} dimensions; zip axes that advance together",
+                      most_dimensions);
   study.map()->dimensions.push_back({name, {index}, axis.values.size()});
 }
 

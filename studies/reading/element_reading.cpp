@@ -163,7 +163,14 @@ void add_of_kind(NetworkReading& reading, const TomlSection& section, const Elem
   StudyValue second = kind.second.exists() ? read(kind.second, kind.second_is_optional) : StudyValue{};
   add_element(reading, section, std::move(element), along, std::move(value), std::move(second));
   StudyValues& values = reading.result.values;
-  if (added.law == mechanics::FrictionLaw::arctan) values.slope.back() = read(kind.slope);
+  switch (added.law) {
+    case mechanics::FrictionLaw::exact:
+    case mechanics::FrictionLaw::stribeck:  // its table is its characteristic
+      break;
+    case mechanics::FrictionLaw::arctan:
+      values.slope.back() = read(kind.slope);
+      break;
+  }
   if (added.has_cubic) values.cubic.back() = read(kind.cubic);
   values.characteristic.back() = std::move(characteristic);
 }

@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "solvers/mechanics/element_table.hpp"
 #include "studies/reading/network_reading.hpp"
 #include "studies/reading/study_keys.hpp"
+#include "studies/reading/study_words.hpp"
 
 // The law of a coulomb element, and laws that do not go together.
 namespace frahm::studies {
@@ -12,6 +14,9 @@ namespace {
 
 using mechanics::ElementKind;
 using mechanics::FrictionLaw;
+
+static_assert(std::size(words::friction_laws) == static_cast<std::size_t>(FrictionLaw::stribeck) + 1,
+              "a word for each law");
 
 const char* name_of(FrictionLaw law) {
   return study_key("element", "law").words[static_cast<std::size_t>(law)].word;

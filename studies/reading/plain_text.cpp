@@ -5,11 +5,17 @@
 namespace frahm::studies {
 namespace {
 
-// U+0000 to U+001F, U+007F, and U+0080 to U+009F, which in UTF-8 is C2 80 to C2 9F.
+// U+0000 to U+001F, U+007F, and U+0080 to U+009F, which in UTF-8 is C2 80 to C2 9F; and what turns the
+// direction of the text behind it: U+200E and U+200F, U+202A to U+202E, U+2066 to U+2069.
 bool is_control(std::string_view character) {
-  const auto lead = static_cast<unsigned char>(character.front());
-  if (character.size() == 1) return lead < 0x20U || lead == 0x7FU;
-  return lead == 0xC2U && static_cast<unsigned char>(character[1]) < 0xA0U;
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(character[i]); };
+  if (character.size() == 1) return byte(0) < 0x20U || byte(0) == 0x7FU;
+  if (character.size() == 2) return byte(0) == 0xC2U && byte(1) < 0xA0U;
+  if (character.size() != 3 || byte(0) != 0xE2U) return false;
+  const bool is_mark = byte(1) == 0x80U && (byte(2) == 0x8EU || byte(2) == 0x8FU);
+  const bool is_embedding = byte(1) == 0x80U && byte(2) >= 0xAAU && byte(2) <= 0xAEU;
+  const bool is_isolate = byte(1) == 0x81U && byte(2) >= 0xA6U && byte(2) <= 0xA9U;
+  return is_mark || is_embedding || is_isolate;
 }
 
 }  // namespace

@@ -45,11 +45,21 @@ std::ifstream open_file(const std::filesystem::path& path, const std::string& na
   return file;
 }
 
+// Of a file that may have no end what a study may have (1 MiB), and a little more.
+std::string begin_of(std::istream& file) {
+  constexpr std::size_t most = std::size_t{2} << 20;  // bytes
+  std::string text(most, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(most));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  return text;
+}
+
 }  // namespace
 
 std::string read_file(const std::filesystem::path& path, const std::string& name, FileKind kind) {
   std::ifstream file = open_file(path, name, kind);
   try {
+    if (kind == FileKind::any) return begin_of(file);
     return std::string(std::istreambuf_iterator<char>(file), {});
   } catch (const std::ios_base::failure& failure) {  // of the buffer itself: a disk that cannot read
     refuse(name, failure.code().message());

@@ -94,8 +94,8 @@ class Scan {
 
 void scan_before_toml(const StudySource& source) {
   if (source.text.size() > longest_text) {
-    throw source.error_at(rules::too_large, {}, "{} bytes are too long for a study (at most {})",
-                          source.text.size(), longest_text);
+    throw source.error_at(rules::too_large, {}, "is too long for a study, which has at most {} bytes",
+                          longest_text);
   }
   Scan(source).run();
 }

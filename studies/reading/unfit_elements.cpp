@@ -19,9 +19,15 @@ struct SmoothKey {
 SmoothKey smooth_key(const Study& study, std::size_t e) {
   const StudyValues& values = study.values;
   if (study.network.elements[e].has_cubic) return {values.cubic[e].where, values.cubic[e].position, "cubic"};
-  if (study.network.elements[e].law == mechanics::FrictionLaw::arctan)
-    return {values.slope[e].where, values.slope[e].position, "arctan"};
-  return {values.characteristic[e].where, values.characteristic[e].position, "stribeck"};
+  switch (study.network.elements[e].law) {
+    case mechanics::FrictionLaw::exact:
+      break;  // it is not smooth
+    case mechanics::FrictionLaw::arctan:
+      return {values.slope[e].where, values.slope[e].position, "arctan"};
+    case mechanics::FrictionLaw::stribeck:
+      return {values.characteristic[e].where, values.characteristic[e].position, "stribeck"};
+  }
+  return {{}, {}, "exact"};
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <numbers>
 
+#include "studies/reading/study_source.hpp"
+
 namespace frahm::studies {
 namespace {
 
@@ -194,9 +196,9 @@ std::string coherent_unit(const Unit& unit) {
 
 UnitSystem::UnitSystem() : database_(std::make_unique<Database>()) {
   if (!database_->system) {
-    throw std::runtime_error(
-        "the unit database of UDUNITS-2 cannot be read (package libudunits2-data, or the "
-        "environment variable UDUNITS2_XML_PATH)");
+    throw StudyError(rules::unreadable_file, "{}",
+                     "the unit database of UDUNITS-2 cannot be read (package libudunits2-data, or the "
+                     "environment variable UDUNITS2_XML_PATH)");
   }
 }
 

@@ -57,6 +57,18 @@ void add_parameters(const Study& study, CanonicalText& text) {
   }
 }
 
+// Of an element with a law of friction the number beside its force, which is a part of its identity.
+const StudyValue& second_number(mechanics::FrictionLaw law, const StudyValues& values, std::size_t element) {
+  switch (law) {
+    case mechanics::FrictionLaw::exact:
+    case mechanics::FrictionLaw::stribeck:
+      break;
+    case mechanics::FrictionLaw::arctan:
+      return values.slope[element];
+  }
+  return values.second[element];
+}
+
 std::string node_text(const mechanics::Node& node) {
   return fmt::format("{}:{}", static_cast<int>(node.kind), node.index);
 }
@@ -91,7 +103,7 @@ void add_network(const Study& study, CanonicalText& text) {
     const mechanics::Element& element = network.elements[i];
     text.line("element {} {} {} {} {} {}", element.name, static_cast<int>(element.type),
               direction_text(element), value(values.element[i]), static_cast<int>(element.law),
-              value(element.law == mechanics::FrictionLaw::arctan ? values.slope[i] : values.second[i]));
+              value(second_number(element.law, values, i)));
     if (element.has_cubic) text.line("cubic {}", value(values.cubic[i]));
     if (element.parts != 1) text.line("parts {}", element.parts);
   }

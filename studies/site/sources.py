@@ -10,6 +10,7 @@ from sphinx.addnodes import download_reference
 
 languages = {".toml": "toml", ".sh": "bash", ".cpp": "cpp", ".py": "python", "": "text"}
 of_folders = {".toml", ".sh"}  # shown in full on the page of their folder; other files are named there
+of_downloads = {".csv"}  # lie beside that page
 
 
 def with_chapters(app, name, source):
@@ -63,6 +64,18 @@ def to_pages_of_files(app, doctree, document):
         own_pages(app).setdefault(document, set()).add(str(path))
         address = app.builder.get_relative_uri(document, page_of(path))
         node.replace_self(nodes.reference("", "", *node.children, refuri=address, internal=True))
+    add_studies_beside(app, doctree, document)
+
+
+def add_studies_beside(app, doctree, document):
+    """At the end of a folder's README a link to the page of its studies, if it has any."""
+    folder = PurePosixPath(document).parent
+    if not document.endswith("/README") or not any((Path(app.srcdir) / folder).glob("*.toml")):
+        return
+    own_pages(app).setdefault(document, set()).add(str(folder))
+    address = app.builder.get_relative_uri(document, page_of(folder))
+    link = nodes.reference("", "The studies of this folder, in full", refuri=address, internal=True)
+    doctree.append(nodes.paragraph("", "", link))
 
 
 def text_of(app, path):
@@ -70,9 +83,17 @@ def text_of(app, path):
     return f'<section id="{path.name}"><h2>{html.escape(path.name)}</h2>\n{block}</section>'
 
 
-def listed(path):
+def listed(app, path):
+    """A file in the list of its folder's page: shown there, or to be downloaded beside it."""
     name = html.escape(path.name)
-    return f'<li><a href="#{name}">{name}</a></li>' if path.suffix in of_folders else f"<li>{name}</li>"
+    if path.suffix in of_folders:
+        return f'<li><a href="#{name}">{name}</a></li>'
+    if path.suffix not in of_downloads:
+        return f"<li>{name}</li>"
+    folder = Path(app.outdir) / page_of(path.parent.relative_to(app.srcdir))
+    folder.mkdir(parents=True, exist_ok=True)
+    shutil.copyfile(path, folder / path.name)
+    return f'<li><a href="{html.escape(folder.name)}/{name}">{name}</a></li>'
 
 
 def body_of(app, path):
@@ -80,7 +101,7 @@ def body_of(app, path):
         return text_of(app, path)
     files = sorted(each for each in path.iterdir() if each.is_file())
     texts = [text_of(app, each) for each in files if each.suffix in of_folders]
-    return "\n".join(["<ul>", *map(listed, files), "</ul>", *texts])
+    return "\n".join(["<ul>", *(listed(app, each) for each in files), "</ul>", *texts])
 
 
 def pages(app):

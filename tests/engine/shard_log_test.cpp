@@ -140,10 +140,13 @@ TEST_CASE("a bit flipped in the header is an error naming the file, except where
 TEST_CASE("a file that is no shard log is refused and left as it is") {
   const Scratch scratch;
   const auto path = log_path(scratch.output(), "a");
-  const std::string text(1000, 'x');
-  write_file(path, text);
-  CHECK_THROWS_AS(ShardLog(path, study), IoError);
-  CHECK(read_file(path) == text);
+  for (const std::size_t size : {1UL, 9UL, header_size, 1000UL}) {
+    const std::string text(size, 'x');
+    write_file(path, text);
+    CHECK_THROWS_AS(ShardLog(path, study), IoError);
+    CHECK(read_file(path) == text);
+    CHECK_THROWS_AS(study_of_log(path), IoError);
+  }
 }
 
 TEST_CASE("a log of another study is refused with both values and left as it is") {

@@ -19,6 +19,7 @@ from .tuning import Tuning, tuning_of
 
 Path = Union[str, os.PathLike]
 Kind = TypeVar("Kind")
+RUN_OPTIONS = ("from_result", "threads", "fresh", "time_budget", "progress")  # of Study.run()
 
 
 class Study:
@@ -161,7 +162,11 @@ class Study:
     def _in_file(self, kind: str, done: str, output: Optional[Path], options: Mapping[str, Any],
                  read: Callable[[Result, bool], Kind]) -> Kind:
         if self.kind != kind:
-            raise _frahm.StudyError(f"{self.name}: {self._study.noun} cannot be {done}; its kind must be \"{kind}\"")
+            raise _refused("other_kind", f"{self.name}: {self._study.noun} cannot be {done}; its kind must be \"{kind}\"")
+        unknown = [name for name in options if name not in RUN_OPTIONS]
+        if unknown:
+            raise TypeError(f"{kind}() has no option {unknown[0]!r}, only output, {', '.join(RUN_OPTIONS)}; "
+                            f"how it is done stands in the study, in [{kind}]")
         if output is not None:
             return read(_finished(self.run(output, **options)), True)
         with tempfile.TemporaryDirectory(prefix="frahm-") as folder:
@@ -172,11 +177,19 @@ class Study:
     def _values_of_axis(self, row: str) -> np.ndarray:
         axes = self.axes
         if row not in axes:
-            raise _frahm.StudyError(f"{row}: no axis of the study runs along it; give its values")
+            if row not in self.parameters:
+                raise _refused("unknown_name", f"{row}: no number of the study is called so; they are {', '.join(self.parameters)}")
+            raise _refused("missing_key", f"{row}: no axis of the study runs along it; give its values")
         return axes[row]
 
     def __repr__(self) -> str:
         return f"<frahm.Study {self.name}: {self._study.noun}{', ' + repr(self.title) if self.title else ''}>"
+
+
+def _refused(rule: str, message: str) -> _frahm.StudyError:
+    error = _frahm.StudyError(message)
+    error.rule = rule
+    return error
 
 
 def _read_again(text: str, name: str, parameters: Sequence[str]) -> Study:

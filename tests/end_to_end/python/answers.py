@@ -51,8 +51,13 @@ class Answers(unittest.TestCase):
 
     def test_another_kind_of_study_is_refused(self):
         study = frahm.Study.from_dict(MACHINE)
+        with self.assertRaisesRegex(TypeError, r"tune\(\) has no option 'start'.*in \[tune\]"):
+            frahm.Study.load(studies / "tuning" / "tune_classical.toml").tune(start=3)
         with self.assertRaisesRegex(frahm.StudyError, 'a sweep cannot be tuned; its kind must be "tune"'):
             study.tune()
+        with self.assertRaises(frahm.StudyError) as refused:
+            study.tune()
+        self.assertEqual(refused.exception.rule, "other_kind")
         with self.assertRaisesRegex(frahm.StudyError, "cannot be identified"):
             study.identify()
 

@@ -76,8 +76,12 @@ class Rows(unittest.TestCase):
         study = frahm.Study.from_dict(MACHINE)
         with self.assertRaisesRegex(frahm.StudyError, 'did you mean "machine_peak"'):
             study.response("speed", quantities=["machine_pek"])
-        with self.assertRaises(frahm.StudyError):
+        with self.assertRaises(frahm.StudyError) as refused:
             study.response("k")
+        self.assertEqual(refused.exception.rule, "missing_key")
+        with self.assertRaises(frahm.StudyError) as refused:
+            study.response("omega")
+        self.assertEqual(refused.exception.rule, "unknown_name")
         with self.assertRaisesRegex(frahm.StudyError, "no values"):
             study.response("speed", [])
         with self.assertRaises(ValueError):

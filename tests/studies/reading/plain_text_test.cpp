@@ -13,6 +13,7 @@ TEST_CASE("Control characters and bytes that are no text become question marks")
   CHECK(plain_text("C1: \xc2\x9b"
                    "31m") == "C1: ?31m");
   CHECK(plain_text("line\n\ttab\r\x7f") == "line\n\ttab??");
+  CHECK(plain_text("left \u202Eright\u2069") == "left ?right?");  // turned round by a terminal
   CHECK(plain_text("Dämpfung ζ – 1") == "Dämpfung ζ – 1");
   CHECK(plain_text("\xff\xc3") == "??");
   CHECK(plain_text(std::string("a\0b", 3)) == "a?b");
