@@ -109,9 +109,10 @@ bool begins_as_log(const File& file) {
 
 std::optional<LogHeader> read_header(const File& log) {
   if (!begins_as_log(log)) {
-    throw IoError(log.path(),
-                  "not a shard log, or its header is damaged (it does not begin with FRAHMLOG); remove the "
-                  "file to have its tiles computed again");
+    throw IoError(
+        log.path(),
+        "not a shard log, or its header is damaged (it does not begin with FRAHMLOG); rename it, or "
+        "remove it to have its tiles computed again");
   }
   Bytes bytes(header_size);
   if (log.read_at(0, bytes) < header_size || is_unsynced_header(log)) return std::nullopt;
