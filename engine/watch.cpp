@@ -22,12 +22,12 @@ void Watch::end() {
 
 void Watch::keep_looking() {
   std::unique_lock turn(turn_);
-  while (!ended_) {
+  do {
     turn.unlock();
     look_();
     turn.lock();
     ending_.wait_for(turn, period_, [this] { return ended_; });
-  }
+  } while (!ended_);
 }
 
 }  // namespace frahm::engine

@@ -9,7 +9,7 @@
 namespace frahm::engine {
 
 // Calls `look` again and again in a thread of its own, with a pause of `period` between: for slow work on
-// disk, terminal and network. `look` must not throw.
+// disk, terminal and network; once at least, however soon it ends. `look` must not throw.
 class Watch {
  public:
   Watch(std::chrono::milliseconds period, std::function<void()> look);

@@ -16,6 +16,16 @@ TEST_CASE("a watch looks again and again until it is ended") {
   CHECK(looks == at_end);
 }
 
+TEST_CASE("a watch that is ended at once has looked") {
+  for (int i = 0; i < 100; ++i) {
+    std::atomic<int> looks = 0;
+    {
+      const Watch watch(1h, [&] { ++looks; });
+    }
+    REQUIRE(looks == 1);
+  }
+}
+
 TEST_CASE("a watch with a long period ends at once") {
   const auto start = std::chrono::steady_clock::now();
   {
