@@ -34,6 +34,11 @@ VectorXd least_determined(const LeastSquaresFit& fit, const VectorXd& scales) {
   return scales.cwiseProduct(algebra::singular_values(fit.jacobian * scales.asDiagonal()).V.rightCols<1>());
 }
 
+// Whether a descent came to an answer: from some starts the model cannot be computed.
+bool has_answer(const LeastSquaresFit& fit) {
+  return fit.p.size() > 0 && fit.p.allFinite() && fit.jacobian.size() > 0;
+}
+
 }  // namespace
 
 Minima::Minima(const GreyBoxTask& task, Misfit& misfit, int& iterations)
@@ -65,7 +70,7 @@ bool Minima::misses(const LeastSquaresFit& fit, double share) const {
 
 // Keeps the fit with the lower sum of squares; if they are equal, the converged one.
 void Minima::take(LeastSquaresFit fit, LeastSquaresFit& best) {
-  if (fit.p.size() == 0 || !fit.p.allFinite() || fit.jacobian.size() == 0) return;
+  if (!has_answer(fit)) return;
   const double sum = fit.sum_of_squares(), least = best.sum_of_squares();
   const bool lower = sum < (1.0 - kLower) * least;
   const bool alike = sum <= (1.0 + kLower) * least && fit.converged && !best.converged;
@@ -163,7 +168,7 @@ std::vector<VectorXd> Minima::starts_beside(const LeastSquaresFit& fit) {
 void Minima::keep_rival(const LeastSquaresFit& other, const LeastSquaresFit& fit) {
   constexpr double kAlike = 25.0,
                    kApart = 100.0;  // s^2: noise makes one of many minima so much lower by chance
-  if (other.p.size() != fit.p.size() || !other.p.allFinite()) return;
+  if (!has_answer(other)) return;
   const double free = std::max(1.0, static_cast<double>(fit.residuals.size() - fit.p.size()));
   const double variance = fit.sum_of_squares() / free;
   const bool alike = other.sum_of_squares() <= fit.sum_of_squares() + kAlike * variance;
