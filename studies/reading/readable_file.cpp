@@ -46,11 +46,11 @@ std::ifstream open_file(const std::filesystem::path& path, const std::string& na
 }
 
 // Of a file that may have no end what a study may have (1 MiB), and a little more.
-std::string begin_of(std::istream& file) {
+std::string begin_of(std::ifstream& file) {
   constexpr std::size_t most = std::size_t{2} << 20;  // bytes
   std::string text(most, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(most));
-  text.resize(static_cast<std::size_t>(file.gcount()));
+  // The buffer itself throws where the disk cannot read; the stream would keep it to itself.
+  text.resize(static_cast<std::size_t>(file.rdbuf()->sgetn(text.data(), static_cast<std::streamsize>(most))));
   return text;
 }
 
