@@ -43,6 +43,7 @@ class RestSearch {
   ContactMask sliding_less_than(double share, const Orbit<N, H>& orbit) const;
 
  private:
+  bool hold_more(ContactMask barely, Orbit<N, H>& orbit);
   void hold_all(Orbit<N, H>& orbit);
 
   static constexpr double kFar = 10.0;  // of the orbit's own size: a digit
@@ -107,7 +108,7 @@ void RestSearch<N, H>::settle(Orbit<N, H>& orbit) {
     if (shift(orbit) == Shift::far) try_held(tried, orbit);
   }
   const ContactMask barely = sliding_less_than(orbit.is_found() ? 0.01 : 0.5, orbit);
-  if (barely != 0 && barely != tried && try_held(barely, orbit)) return;
+  if (barely != tried && hold_more(barely, orbit)) return;
   const ContactMask rarely = sliding_less_than(0.1, orbit);
   if (rarely == 0 || rarely == tried || rarely == barely || !orbit.is_found()) return;
   judge_stability(flow_, orbit);
@@ -126,6 +127,18 @@ bool RestSearch<N, H>::try_held(ContactMask held, Orbit<N, H>& orbit) {
   if (moved != Shift::near) return false;
   std::swap(orbit, trial_);
   return true;
+}
+
+// Holds these contacts and, with them, those that barely slide in the orbit that this gives. False, with
+// `orbit` unchanged, if the first are not held by forces within their limits.
+template <int N, int H>
+bool RestSearch<N, H>::hold_more(ContactMask barely, Orbit<N, H>& orbit) {
+  ContactMask held = 0;
+  while ((barely & ~held) != 0 && try_held(barely, orbit)) {
+    held |= barely;
+    barely = sliding_less_than(0.01, orbit);
+  }
+  return held != 0;
 }
 
 // Beside a resonance without damping Newton's method may slide ever less and not arrive at an orbit whose

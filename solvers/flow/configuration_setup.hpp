@@ -59,6 +59,16 @@ void Configuration<N, H>::set_springs(const StepEquations<N, H>& equations) {
   }
 }
 
+// The row of a mass that the stuck contacts hold is rounding, by which the mass would creep under a force:
+// far in the many steps of a long period.
+template <class Square>
+void stop_held_masses(Square& P) {
+  constexpr double kRounding = 1e-12;
+  for (Eigen::Index i = 0; i < P.rows(); ++i) {
+    if (P.row(i).cwiseAbs().maxCoeff() < kRounding) P.row(i).setZero();
+  }
+}
+
 template <int N, int H>
 void Configuration<N, H>::set_tables(const StepEquations<N, H>& equations) {
   const Eigen::Index n = equations.masses(), m = equations.contacts();
@@ -72,8 +82,7 @@ void Configuration<N, H>::set_tables(const StepEquations<N, H>& equations) {
 
   typename S::Square& P = tables.P;
   P = S::Square::Identity(n, n) - tables.reaction * equations.W.transpose();
-  // A projector's trace is its rank, so one without a large entry is zero: every mass is held.
-  if (P.cwiseAbs().maxCoeff() < 1e-12) P.setZero();
+  stop_held_masses(P);
   // For a force on the masses: the acceleration that remains, and the force that the stuck contacts take; the
   // sign is that of the pull of the springs and dampers.
   const typename S::Square left = -(P * equations.M_inverse);

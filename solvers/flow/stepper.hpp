@@ -32,6 +32,8 @@ inline void Flow<N, H>::accelerate(const Mode<N, H>& mode, Instant<N, H>& at) co
   }
 }
 
+// Stuck contacts are held anew after each step: what rounding leaves of their velocity would else move them
+// on for the rest of the period, which has 10^4 steps and more where the excitation is slow.
 template <int N, int H>
 inline bool Flow<N, H>::step(const Instant<N, H>& from, const Mode<N, H>& mode, Instant<N, H>& to,
                              Expansion<N, H>& x) const {
@@ -46,6 +48,7 @@ inline bool Flow<N, H>::step(const Instant<N, H>& from, const Mode<N, H>& mode, 
     to.z += mode.step;
   }
   turn_oscillators(from, to);
+  configurations_[mode.configuration].hold(equations_, to.u, to.z);
   accelerate(mode, to);
   return is_large;
 }

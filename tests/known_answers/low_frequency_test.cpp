@@ -6,8 +6,8 @@
 #include "tests/known_answers/responses.hpp"
 #include "tests/known_answers/single_mass.hpp"
 
-// Low frequencies and low damping, where one half cycle holds many stops: against a long forward march from
-// rest.
+// Low frequencies: with low damping, where one half cycle holds many stops, against a long forward march from
+// rest; and where friction holds for ever, against the closed form.
 namespace frahm::periodic {
 namespace {
 
@@ -59,6 +59,37 @@ TEST_CASE("At low frequency the orbit with many stops is the one that a long mar
     }
   }
   CHECK(most_stops >= 8.0);
+}
+
+// Two masses that friction ties for ever, on springs and a damper to ground: one mass of 3 kg in all.
+TEST_CASE("Masses that friction ties stay together through a long period, within the error bound") {
+  using namespace mechanics;
+  const Node ground{}, a{NodeKind::mass, 0}, b{NodeKind::mass, 1};
+  Responses responses({.masses = {"a", "b"},
+                       .prescribed = {},
+                       .elements = {{"ka", ElementType::spring, ground, a},
+                                    {"kb", ElementType::spring, ground, b},
+                                    {"c", ElementType::damper, ground, a},
+                                    {"tie", ElementType::coulomb, a, b}},
+                       .excitations = {{ExcitationKind::force, 0, 0}, {ExcitationKind::force, 1, 1}}});
+  const double mass = 3.0, stiffness = 1.7, damping = 5.3, constant = 0.52, amplitude = 0.351;
+  for (const double omega : {0.001, 0.003, 0.01, 0.1}) {
+    INFO("omega " << omega);
+    responses.solve({.omega = omega,
+                     .mass = {1.7, 1.3},
+                     .element = {1.0, 0.7, damping, 10.0},
+                     .excitation = {{constant, 0.0}, {amplitude, 0.0}}});
+    // X = P / |k - m omega^2 + i omega c|, about the static displacement under the constant force.
+    const double exact = amplitude / std::hypot(stiffness - mass * omega * omega, damping * omega);
+    const double bound = responses["error_bound"];
+    CHECK(bound < 1e-10);
+    for (const char* name : {"a", "b"}) {
+      CHECK(std::abs(responses[std::string(name) + "_amplitude"] - exact) <= bound);
+      CHECK(std::abs(responses[std::string(name) + "_mean"] - constant / stiffness) <= bound);
+    }
+    CHECK(responses["tie_stroke"] <= 2.0 * bound);
+    CHECK(responses["energy_balance"] < kBalance);
+  }
 }
 
 }  // namespace
