@@ -43,7 +43,9 @@ class RestSearch {
   ContactMask sliding_less_than(double share, const Orbit<N, H>& orbit) const;
 
  private:
-  bool hold_more(ContactMask barely, Orbit<N, H>& orbit);
+  bool hold_some(ContactMask barely, Orbit<N, H>& orbit);
+  ContactMask slides_longest(ContactMask contacts, const Orbit<N, H>& orbit) const;
+  double time_slid(Eigen::Index contact, const Orbit<N, H>& orbit) const;
   void hold_all(Orbit<N, H>& orbit);
 
   static constexpr double kFar = 10.0;  // of the orbit's own size: a digit
@@ -73,6 +75,16 @@ double RestSearch<N, H>::distance_slid(Eigen::Index j, const Orbit<N, H>& orbit)
   return distance;
 }
 
+// How long a contact slides in a passage [steps].
+template <int N, int H>
+double RestSearch<N, H>::time_slid(Eigen::Index j, const Orbit<N, H>& orbit) const {
+  double time = 0.0;
+  for (const Segment<N, H>& segment : orbit.passage.segments) {
+    if (!contains(flow_.mode(segment.mode).stuck, j)) time += segment.length;
+  }
+  return time;
+}
+
 template <int N, int H>
 ContactMask RestSearch<N, H>::sliding_less_than(double share, const Orbit<N, H>& orbit) const {
   constexpr double kNothing = 1e-6;  // of the displacement that the orbit's energy can reach
@@ -81,10 +93,7 @@ ContactMask RestSearch<N, H>::sliding_less_than(double share, const Orbit<N, H>&
   ContactMask result = 0;
   for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
     if (eq.limit[j] == 0.0) continue;
-    double sliding = 0.0;
-    for (const Segment<N, H>& segment : orbit.passage.segments) {
-      if (!contains(flow_.mode(segment.mode).stuck, j)) sliding += segment.length;
-    }
+    const double sliding = time_slid(j, orbit);
     const double reach = std::sqrt(2.0 * eq.W.col(j).dot(eq.K_inverse * eq.W.col(j))) * energy;
     if (sliding < share * eq.period || distance_slid(j, orbit) < kNothing * reach) result |= bit(j);
   }
@@ -108,7 +117,7 @@ void RestSearch<N, H>::settle(Orbit<N, H>& orbit) {
     if (shift(orbit) == Shift::far) try_held(tried, orbit);
   }
   const ContactMask barely = sliding_less_than(orbit.is_found() ? 0.01 : 0.5, orbit);
-  if (barely != tried && hold_more(barely, orbit)) return;
+  if (barely != tried && hold_some(barely, orbit)) return;
   const ContactMask rarely = sliding_less_than(0.1, orbit);
   if (rarely == 0 || rarely == tried || rarely == barely || !orbit.is_found()) return;
   judge_stability(flow_, orbit);
@@ -129,16 +138,31 @@ bool RestSearch<N, H>::try_held(ContactMask held, Orbit<N, H>& orbit) {
   return true;
 }
 
-// Holds these contacts and, with them, those that barely slide in the orbit that this gives. False, with
-// `orbit` unchanged, if the first are not held by forces within their limits.
+// Holds of these contacts as many as forces within their limits can, first without the one that slides
+// longest, and then those that barely slide in the orbit that this gives. False, with `orbit` unchanged, if
+// none is held.
 template <int N, int H>
-bool RestSearch<N, H>::hold_more(ContactMask barely, Orbit<N, H>& orbit) {
-  ContactMask held = 0;
-  while ((barely & ~held) != 0 && try_held(barely, orbit)) {
-    held |= barely;
+bool RestSearch<N, H>::hold_some(ContactMask barely, Orbit<N, H>& orbit) {
+  ContactMask tried = 0;
+  bool holds = false;
+  while ((barely & ~tried) != 0) {
+    tried |= barely;
+    while (barely != 0 && !try_held(barely, orbit)) barely &= ~slides_longest(barely, orbit);
+    if (barely == 0) break;
+    holds = true;
     barely = sliding_less_than(0.01, orbit);
   }
-  return held != 0;
+  return holds;
+}
+
+// Of these contacts the one that slides longest.
+template <int N, int H>
+ContactMask RestSearch<N, H>::slides_longest(ContactMask contacts, const Orbit<N, H>& orbit) const {
+  Eigen::Index longest = first(contacts);
+  for (Eigen::Index j = longest; j < flow_.equations().contacts(); ++j) {
+    if (contains(contacts, j) && time_slid(j, orbit) > time_slid(longest, orbit)) longest = j;
+  }
+  return bit(longest);
 }
 
 // Beside a resonance without damping Newton's method may slide ever less and not arrive at an orbit whose

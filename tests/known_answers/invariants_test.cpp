@@ -10,11 +10,12 @@
 namespace frahm::invariants {
 namespace {
 
-// What of the invariants the network breaks at status ok, as text.
-std::string broken_by(std::uint64_t seed) {
+// What of the invariants the network breaks, as text: by all answers, or those that stand without doubt.
+enum class Of { all, ok };
+std::string broken_by(std::uint64_t seed, Of answers) {
   std::string broken;
   for (const Violation& violation : violations_of(draw(seed))) {
-    if (violation.standing != Standing::ok) continue;
+    if (answers == Of::ok && violation.standing != Standing::ok) continue;
     if (std::abs(violation.found - violation.expected) <= violation.allowed) continue;
     broken += fmt::format("{}: {} = {}, expected {}\n", violation.invariant, violation.figure,
                           violation.found, violation.expected);
@@ -26,16 +27,16 @@ TEST_CASE("What leaves the motion of a random network as it is leaves its respon
   constexpr std::uint64_t kNetworks = 500;
   for (std::uint64_t seed = 1; seed <= kNetworks; ++seed) {
     INFO("random_invariants --seed " << seed);
-    CHECK(broken_by(seed) == "");
+    CHECK(broken_by(seed, Of::ok) == "");
   }
 }
 
 // 503736: friction holds a mass against a force through 10^4 steps. 504224: two contacts hold for ever, one
 // on a weak spring; the search came from afar.
 TEST_CASE("Networks that once broke an invariant keep them all") {
-  for (const std::uint64_t seed : {503736, 504224}) {
+  for (const std::uint64_t seed : {503736, 504224, 605939}) {
     INFO("random_invariants --seed " << seed);
-    CHECK(broken_by(seed) == "");
+    CHECK(broken_by(seed, Of::all) == "");
   }
 }
 
