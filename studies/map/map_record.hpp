@@ -26,6 +26,12 @@ results::Variable variable_of(const Study& study, const periodic::QuantityDescri
 // none. An orbit that does not exist has a row without samples. Throws AssemblyStopped.
 void write_orbits(const MapPlan& plan, const AssemblyOptions& options, results::MapWriter& writer);
 
+// What they take: the time is that of one of them, times their number; the size is before compression.
+struct OrbitsCost {
+  double seconds = 0.0, bytes = 0.0;
+};
+OrbitsCost cost_of_orbits(const MapPlan& plan);
+
 // The same of the motions that a study of motions lists, in /histories. A motion that failed has a row
 // without samples.
 void write_histories(const MapPlan& plan, const AssemblyOptions& options, results::MapWriter& writer);

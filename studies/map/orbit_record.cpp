@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <chrono>
 #include <complex>
 #include <string_view>
 
@@ -147,6 +148,18 @@ std::vector<std::vector<double>> samples_of(const KeptOrbit& orbit, std::size_t 
 }
 
 }  // namespace
+
+OrbitsCost cost_of_orbits(const MapPlan& plan) {
+  using Clock = std::chrono::steady_clock;
+  const auto& points = plan.study.map()->output.histories;
+  if (points.empty()) return {};
+  const Clock::time_point start = Clock::now();
+  keep_orbit(plan, points[points.size() / 2]);
+  const double number = static_cast<double>(points.size());
+  const double values = static_cast<double>(samples_in_period * sample_variables(plan.study).size());
+  return {.seconds = number * std::chrono::duration<double>(Clock::now() - start).count(),
+          .bytes = number * values * sizeof(double)};
+}
 
 void write_orbits(const MapPlan& plan, const AssemblyOptions& options, results::MapWriter& writer) {
   const Study& study = plan.study;

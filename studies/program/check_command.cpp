@@ -15,6 +15,7 @@
 #include "studies/identification/identification_record.hpp"
 #include "studies/map/first_modes.hpp"
 #include "studies/map/map_plan.hpp"
+#include "studies/map/map_record.hpp"
 #include "studies/map/map_sample.hpp"
 #include "studies/map/map_summary.hpp"
 #include "studies/motion/motion_record.hpp"
@@ -70,6 +71,16 @@ void print_prediction(const Study& study, const Grid& grid, const MapSample& sam
                study.transient() ? "a motion" : "a response", sample.failed, sample.points, sample.failed_at,
                sample.reason);
   }
+}
+
+// The orbits that the study lists are solved once more, for their histories.
+void print_orbits_cost(const MapPlan& plan, int threads, std::ostream& out) {
+  const std::size_t orbits = plan.study.map()->output.histories.size();
+  if (orbits == 0) return;
+  const OrbitsCost cost = cost_of_orbits(plan);
+  const double seconds = cost.seconds / engine::team_size(threads, orbits);
+  fmt::print(out, "orbits  the histories of {}, about {} more, {} before compression\n", orbits,
+             seconds < 1.0 ? "a second" : engine::readable_time(seconds), readable_size(cost.bytes));
 }
 
 void print_array(const CheckOptions& options, const StudyPlan& plan, const char* noun,
@@ -216,7 +227,10 @@ int check_command(const CheckOptions& options, std::ostream& out) {
   print_grid(study, plan.grid, out);
   print_samples(study, out);
   print_prediction(study, plan.grid, sample, options.threads, out);
-  if (study.sweep()) print_branch_cost(plan, options.threads, out);
+  if (study.sweep()) {
+    print_orbits_cost(plan, options.threads, out);
+    print_branch_cost(plan, options.threads, out);
+  }
   print_array(options, plan, "map", core_seconds, out);
   if (options.simulate_ranks > 0) {
     print_rank_table(plan.grid, sample, options.simulate_ranks, std::max(1, options.threads), start_seconds,

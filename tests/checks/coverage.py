@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tells which lines of `solvers` and `engine` the tests have run, after a run of them in a build of preset `coverage`.
+"""Tells which lines of `solvers` and `engine` the tests have run, after a run of them in a build of preset `asan`.
 
 usage: coverage.py [--build FOLDER] [--least PERCENT]
 
@@ -23,7 +23,7 @@ def lines_of(build):
     """{file: {line: how often}} by gcovr; a line of a template is covered if one of its instances is."""
     report = build / "lines.json"
     filters = [word for room in ROOMS for word in ("--filter", f"{room}/")]
-    subprocess.run(["gcovr", "--root", str(SOURCE), *filters, "--json", str(report), "-j", str(os.cpu_count()),
+    subprocess.run(["gcovr", "--root", str(SOURCE), *filters, "--gcov-executable", "llvm-cov-14 gcov", "--json", str(report), "-j", str(os.cpu_count()),
                     str(build)], check=True, cwd=SOURCE)
     counts = defaultdict(lambda: defaultdict(int))
     for file in json.loads(report.read_text())["files"]:
@@ -68,7 +68,7 @@ def write_missed(counts, path):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--build", type=Path, default=SOURCE / "build/coverage")
+    parser.add_argument("--build", type=Path, default=SOURCE / "build/asan")
     parser.add_argument("--least", type=float, default=95.0, help="of each room [%%]")
     options = parser.parse_args()
     counts = lines_of(options.build)

@@ -123,6 +123,13 @@ TEST_CASE("a new study of each kind runs as it is") {
   CHECK(frahm({"new", "sweep", model}).code == 6);
 }
 
+TEST_CASE("check tells what the histories of listed orbits take") {
+  // 512 instants of time, two states and an acceleration, three forces, slip and its rate: 9 numbers, 3
+  // times.
+  CHECK_THAT(frahm({"check", study_path("regime_map")}).out,
+             Catch::Contains("orbits  the histories of 3, about a second more, 111 kB before compression"));
+}
+
 TEST_CASE("words of studies and results are explained and so are the exit codes") {
   CHECK_THAT(frahm({"explain", "machine_peak"}).out, Catch::Contains("[m]") && Catch::Contains("largest"));
   CHECK_THAT(frahm({"explain", "stiffness"}).out, Catch::Contains("[[element]]") && Catch::Contains("N/m"));

@@ -125,7 +125,7 @@ def fuzz(target, options, work):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--build", type=Path, default=SOURCE / "build/fuzz")
+    parser.add_argument("--build", type=Path, default=SOURCE / "build/asan")
     parser.add_argument("--inputs", type=int, default=20000, help="for each target")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("targets", nargs="*", default=list(TARGETS), metavar="TARGET")

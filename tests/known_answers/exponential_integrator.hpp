@@ -13,7 +13,7 @@
 // network, element by element, and shares no code with the solvers. The harmonics of the forcing and a one
 // are states too, so that in each state of the contacts and bends the motion is X(t + h) = exp(A h) X(t): its
 // Taylor series is summed to rounding over fixed steps. Every end of a state is a root of a polynomial in the
-// step, isolated by bounds on its derivatives, so that no double root is missed. The modes of contacts at
+// step (isolated_roots.hpp). The modes of contacts at
 // rest are found by trying all.
 namespace frahm::periodic {
 
