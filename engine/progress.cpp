@@ -37,12 +37,20 @@ std::optional<double> time_left(const Tally& tally, double seconds) {
   return static_cast<double>(tally.points - tally.done) / *speed;
 }
 
-std::string text(const std::string& stage, const Tally& tally, double seconds) {
+// Points that take long have no rate worth telling; what moves is the number of evaluations, and the time.
+std::string movement(const Tally& tally, const std::string& counted, double seconds) {
+  if (tally.evaluations > 0)
+    return fmt::format("  {} evaluations in {}", tally.evaluations, readable_time(seconds));
+  const auto speed = rate(tally, seconds);
+  return speed ? fmt::format("  {:.3g} {}/s", *speed, counted) : "";
+}
+
+std::string text(const std::string& stage, const std::string& counted, const Tally& tally, double seconds) {
   // Rounded down: 100 % is said when all is done, not before.
   const double shown = std::floor(10.0 * percent(tally)) / 10.0;
   std::string line = stage.empty() ? "" : stage + " ";
-  line += fmt::format("{:5.1f} %  {}/{} points", shown, tally.done, tally.points);
-  if (const auto speed = rate(tally, seconds)) line += fmt::format("  {:.3g} points/s", *speed);
+  line += fmt::format("{:5.1f} %  {}/{} {}", shown, tally.done, tally.points, counted);
+  line += movement(tally, counted, seconds);
   const auto left = time_left(tally, seconds);
   if (left && *left > 0.0) line += fmt::format("  {} left", readable_time(*left));
   if (tally.reused > 0) line += fmt::format("  {} reused", tally.reused);
@@ -56,16 +64,19 @@ std::string bar(const Tally& tally) {
   return fmt::format("{:=<{}}{:-<{}}", "", full, "", width - full);
 }
 
-std::string json(const std::string& stage, const Tally& tally, double seconds, bool last) {
+std::string json(const std::string& stage, const std::string& counted, const Tally& tally, double seconds,
+                 bool last) {
   const auto number = [](std::optional<double> value) {
     return value ? fmt::format("{:.6g}", *value) : "null";
   };
   return fmt::format(
-      R"({{"event":"{}",{}"points":{},"done":{},"resumed":{},"reused":{},"failed":{},"percent":{:.3f},)"
+      R"({{"event":"{}",{}"points":{},"done":{},"resumed":{},"reused":{},"failed":{},{}"percent":{:.3f},)"
       R"("seconds":{:.3f},"points_per_second":{},"seconds_left":{}}})",
       last ? "end" : "progress", stage.empty() ? "" : fmt::format(R"("stage":"{}",)", stage), tally.points,
-      tally.done, tally.resumed, tally.reused, tally.failed, percent(tally), seconds,
-      number(rate(tally, seconds)), number(time_left(tally, seconds)));
+      tally.done, tally.resumed, tally.reused, tally.failed,
+      tally.evaluations > 0 ? fmt::format(R"("counted":"{}","evaluations":{},)", counted, tally.evaluations)
+                            : "",
+      percent(tally), seconds, number(rate(tally, seconds)), number(time_left(tally, seconds)));
 }
 
 std::chrono::milliseconds period(ProgressForm form) {
@@ -95,8 +106,14 @@ ProgressForm progress_form(ProgressStyle style) {
 }
 
 Progress::Progress(ProgressForm form, std::ostream& out, std::function<Clock::time_point()> now,
-                   std::string stage)
-    : form_(form), out_(out), now_(std::move(now)), stage_(std::move(stage)), start_(now_()), next_(start_) {}
+                   std::string stage, std::string counted)
+    : form_(form),
+      out_(out),
+      now_(std::move(now)),
+      stage_(std::move(stage)),
+      counted_(std::move(counted)),
+      start_(now_()),
+      next_(start_) {}
 
 void Progress::update(const Tally& tally) {
   if (now_() >= next_) report(tally, false);
@@ -122,17 +139,17 @@ void Progress::report(const Tally& tally, bool last) {
   // Each report is one write, so that lines of several processes on one terminal stay whole.
   switch (form_) {
     case ProgressForm::bar:
-      out_ << fmt::format("\r[{}] {}\x1b[K{}", bar(tally), text(stage_, tally, seconds), end);
+      out_ << fmt::format("\r[{}] {}\x1b[K{}", bar(tally), text(stage_, counted_, tally, seconds), end);
       break;
     case ProgressForm::coloured_bar:
       out_ << fmt::format("\r\x1b[3{}m[{}]\x1b[0m {}\x1b[K{}", tally.failed > 0 ? '3' : '2', bar(tally),
-                          text(stage_, tally, seconds), end);
+                          text(stage_, counted_, tally, seconds), end);
       break;
     case ProgressForm::plain:
-      out_ << text(stage_, tally, seconds) + "\n";
+      out_ << text(stage_, counted_, tally, seconds) + "\n";
       break;
     case ProgressForm::json:
-      out_ << json(stage_, tally, seconds, last) + "\n";
+      out_ << json(stage_, counted_, tally, seconds, last) + "\n";
       break;
     case ProgressForm::none:
       return;

@@ -23,6 +23,8 @@ struct Tally {
   std::uint64_t resumed = 0;  // of these, finished by earlier runs
   std::uint64_t reused = 0;   // of those done since, not computed but found in an earlier result
   std::uint64_t failed = 0;   // of those done, the points that have no result
+  // Of work whose points take long: how often a model has been computed so far, by this process.
+  std::uint64_t evaluations = 0;
 };
 
 enum class ProgressForm { bar, coloured_bar, plain, json, none };
@@ -36,9 +38,9 @@ class Progress {
   using Clock = std::chrono::steady_clock;
 
   // `out` must outlive it. The time of the run, from which the rate is found, begins here.
-  // stage: what is done, "writing"; empty: the tiles are computed.
+  // stage: what is done, "writing"; empty: the tiles are computed. counted: what the points are called.
   Progress(ProgressForm form, std::ostream& out, std::function<Clock::time_point()> now = Clock::now,
-           std::string stage = {});
+           std::string stage = {}, std::string counted = "points");
 
   void update(const Tally& tally);  // the first call always reports
   // What has to be said whatever the form, each on a line of its own: "note: rank 3 ...".
@@ -51,7 +53,7 @@ class Progress {
   ProgressForm form_;
   std::ostream& out_;
   std::function<Clock::time_point()> now_;
-  std::string stage_;
+  std::string stage_, counted_;
   Clock::time_point start_;
   Clock::time_point next_;  // time of the next report
 };

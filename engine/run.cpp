@@ -111,13 +111,15 @@ Salvage read_log_of_rank(const Job& job, const RunOptions& options, const LogHea
 }
 
 // The progress of the whole run.
-Tally tally_of(const Tally& found, const TeamWork& work, const std::optional<Dealer>& dealer) {
+Tally tally_of(const Tally& found, const Job& job, const TeamWork& work,
+               const std::optional<Dealer>& dealer) {
   Finished finished = work.finished();
   if (dealer) finished += dealer->finished();
   Tally now = found;
   now.done += finished.points;
   now.reused += finished.reused;
   now.failed += finished.failed;
+  if (job.evaluations) now.evaluations = job.evaluations();
   return now;
 }
 
@@ -153,10 +155,10 @@ std::optional<Dealer> supply(const Job& job, const RunOptions& options, const Lo
 }
 
 // Adds the counts of this run to a summary.
-void count(const TeamWork& work, const std::optional<Dealer>& dealer, int threads, Ranks* ranks,
-           Summary& summary) {
+void count(const Job& job, const TeamWork& work, const std::optional<Dealer>& dealer, int threads,
+           Ranks* ranks, Summary& summary) {
   const Finished elsewhere = dealer ? dealer->finished() : Finished{};
-  summary.points = tally_of(summary.points, work, dealer);
+  summary.points = tally_of(summary.points, job, work, dealer);
   summary.tiles_computed = work.finished().tiles + elsewhere.tiles;
   summary.cpu_seconds_elsewhere = 1e-3 * static_cast<double>(elsewhere.cpu_milliseconds);
   summary.threads = dealer ? dealer->threads() : threads;
@@ -168,7 +170,8 @@ void count(const TeamWork& work, const std::optional<Dealer>& dealer, int thread
 
 Summary run(const Job& job, const RunOptions& options) {
   check(options);
-  const StopRequest stop(options.time_budget);
+  const Clock::time_point start = Clock::now();
+  const StopRequest stop(options.time_budget, start - options.begun);
   const LogHeader study{.fingerprint = job.fingerprint, .tiles = job.tiles};
   if (options.fresh) discard_logs(options, study);
   ShardLog log(own_log(options), study);
@@ -182,8 +185,8 @@ Summary run(const Job& job, const RunOptions& options) {
   const int threads = team_size(wanted, tiles.size());
   std::optional<Dealer> dealer = supply(job, options, study, threads, tiles, work.queue());
   const auto give_up = [&] { return work.has_failed() || stop.asked(); };
-  const auto tally = [&, &found = summary.points] { return tally_of(found, work, dealer); };
-  Progress progress(progress_form(options.progress), std::cerr);
+  const auto tally = [&, &found = summary.points] { return tally_of(found, job, work, dealer); };
+  Progress progress(progress_form(options.progress), std::cerr, Clock::now, {}, job.counted);
   {
     const Watch showing(100ms, [&] {
       if (dealer) progress.note(dealer->take_notices());
@@ -200,8 +203,8 @@ Summary run(const Job& job, const RunOptions& options) {
   work.rethrow_failure();
   if (dealer) dealer->rethrow_failure();
 
-  count(work, dealer, threads, options.ranks, summary);
-  summary.seconds = stop.elapsed().count();
+  count(job, work, dealer, threads, options.ranks, summary);
+  summary.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   const bool all = summary.tiles_computed == tiles.size();
   summary.outcome = all ? Outcome::complete : Outcome::stopped;
   summary.reason = all ? "every tile is finished" : stop.reason();

@@ -43,6 +43,10 @@ struct Job {
   std::function<void(std::uint64_t tile, std::span<const std::byte> record)> check = {};
   // Points that the kernels of this process took from an earlier result; may be empty.
   std::function<std::uint64_t()> reused = {};
+  // How often the kernels of this process have computed a model, where a tile takes many such evaluations and
+  // long; may be empty.
+  std::function<std::uint64_t()> evaluations = {};
+  std::string counted = "points";  // what the points are called
 };
 
 // The part of the tiles a run computes: those with tile % count == index. Needs index < count.
@@ -58,7 +62,9 @@ struct RunOptions {
   // Discard what earlier runs left: all logs; for one shard of several its own log and those of other
   // studies, because the other shards of this study may be at work or done.
   bool fresh = false;
-  std::optional<std::chrono::duration<double>> time_budget;  // > 0, from the start of the run; absent: none
+  std::optional<std::chrono::duration<double>> time_budget;  // > 0, from `begun`; absent: none
+  // When the program began, as far as it knows; else when the options were made.
+  std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();
   ProgressStyle progress = ProgressStyle::automatic;
   Ranks* ranks = nullptr;  // the ranks of the program; null: this process works alone
   // A rank that says nothing for so long is not waited for (engine/dealer); > 0. At work it speaks every
@@ -82,7 +88,7 @@ struct Summary {
   int threads = 0;  // of all ranks
   int ranks = 1;
   int threads_here = 0;                // of this machine, for the work left when all ranks are done
-  double seconds = 0.0;                // wall time
+  double seconds = 0.0;                // wall time of it
   double cpu_seconds_elsewhere = 0.0;  // of the other ranks
   std::vector<UnusedBytes> unused;     // ends of logs that could not be used when the run began
 };

@@ -85,6 +85,17 @@ void KnownPoints::take(const MapBox& box, std::span<double> values, std::vector<
   taken_ += taken;
 }
 
+void KnownPoints::check(std::uint64_t first, std::uint64_t step) {
+  std::vector<double> values;
+  std::vector<char> known;
+  for (std::uint64_t tile = first; tile < plan_.grid.tiles(); tile += step) {
+    const MapBox box = plan_.grid.box(tile);
+    values.resize(box.points() * variables_.size());
+    take(box, values, known);
+  }
+  taken_ = 0;
+}
+
 // The points of a tile that the earlier map has, in the order of its chunks.
 std::vector<KnownPoints::Found> KnownPoints::find(const MapBox& box) const {
   const results::MapLayout& layout = reader_.layout();

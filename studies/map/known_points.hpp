@@ -30,6 +30,10 @@ class KnownPoints {
   // `known`, which has an entry for each point of the box.  Throws results::StoreError for damaged data.
   void take(const MapBox& box, std::span<double> values, std::vector<char>& known);
 
+  // Reads once all that the tiles first, first + step, ... will take, so that a damaged file is refused
+  // before anything is computed. Throws as take().
+  void check(std::uint64_t first, std::uint64_t step);
+
   EarlierResult source() const { return source_; }
   std::uint64_t taken() const { return taken_; }  // points so far
   // How many points of the earlier map's grid are not in the new map.

@@ -1,7 +1,7 @@
 #pragma once
 
-// What the program and its commands say of themselves, at the head and the foot of their help. Each command has
-// at least two examples.
+// What the program and its commands say of themselves, at the head and the foot of their help. Each command
+// has at least two examples.
 namespace frahm::studies::help {
 
 inline constexpr const char* overview =
@@ -100,6 +100,7 @@ Examples:
   frahm explain stiffness                     a key of a study, and where it stands
   frahm explain spring                        a type of element: its force, its values, units and ranges
   frahm explain main_peak                     a quantity, whatever its mass or element
+  frahm explain kN/mm                         a unit: of what, and how much in SI
   frahm explain grazing                       a status of a point
   frahm explain 7                             an exit code)";
 

@@ -301,9 +301,11 @@ void add_new(CLI::App& program, NewOptions& options, Action& action) {
 }
 
 void add_explain(CLI::App& program, std::string& word, Action& action) {
-  CLI::App* command = add_command(
-      program, "explain", "what a key, a quantity, a status or an exit code means", help::explain_examples);
-  command->add_option("WORD", word, "the key of a study, quantity, status or exit code")->required();
+  CLI::App* command =
+      add_command(program, "explain", "what a key, a quantity, a unit, a status or an exit code means",
+                  help::explain_examples);
+  command->add_option("WORD", word, "the key of a study, quantity, unit, status, outcome or exit code")
+      ->required();
   command->callback([&] { action = [&](std::ostream& out) { return explain_command(word, out); }; });
 }
 
@@ -405,6 +407,28 @@ std::string complaint(const CLI::App& program, const Command& tree, const CLI::P
   return fmt::format("unknown command \"{}\"{}{}", word, suggestion(word, names), more);
 }
 
+// `frahm tune --help`: a kind of study has no command of its own.
+std::string help_of_kind(const std::string& kind, const Command& run) {
+  return fmt::format(
+      "frahm has no command \"{0}\": frahm run computes a study of any kind, one with kind = \"{0}\" too.\n\n"
+      "  frahm new {0} {0}.toml    writes such a study to start from, with comments\n"
+      "  frahm check {0}.toml\n"
+      "  frahm run {0}.toml\n\n{1}",
+      kind, help_text(run));
+}
+
+// The help that a command line asks for.
+std::string asked_help(const CLI::App& program, const Command& tree) {
+  const Command& command = given_command(program, tree);
+  const std::vector<std::string> unknown = program.remaining(true);
+  if (&command == &tree && !unknown.empty()) {
+    for (const std::string& kind : starter_kinds())
+      if (unknown.front() == kind)
+        return help_of_kind(kind, *std::ranges::find(tree.commands, "run", &Command::last_word));
+  }
+  return help_text(command);
+}
+
 // The first argument that could not be told in a message, kept in a note or stored in a result.
 std::optional<int> first_unreadable(int argc, const char* const* argv) {
   for (int i = 1; i < argc; ++i) {
@@ -434,7 +458,7 @@ std::optional<int> parse_command_line(int argc, const char* const* argv, Command
   try {
     program.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    out << help_text(given_command(program, line.commands));
+    out << asked_help(program, line.commands);
     return exit_code::done;
   } catch (const CLI::ParseError& error) {
     complaints << "frahm: " << complaint(program, line.commands, error) << '\n';

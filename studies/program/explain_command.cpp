@@ -11,6 +11,7 @@
 #include "studies/reading/spelling.hpp"
 #include "studies/reading/study_keys.hpp"
 #include "studies/reading/study_source.hpp"
+#include "studies/reading/units.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -52,6 +53,17 @@ const Meaning flags[] = {
     {"not_periodic",
      "status: no stable response was found among the multiples of the period that were tried "
      "([orbits] most_multiple)"},
+    {"converged",
+     "outcome of a tuning or a fit: it meets its tolerances; of a tuning those of the certificate gap and of "
+     "the KKT residual"},
+    {"not_converged",
+     "outcome of a tuning or a fit: it does not meet its tolerances; the best found is told"},
+    {"infeasible",
+     "outcome of a tuning: no design met the limits ([[constraint]]); the one told breaks them least, and "
+     "`violation` says by how much"},
+    {"unbounded", "outcome of a tuning: the response has no bound at some frequency of the band"},
+    {"failed", "outcome of a tuning: the response could not be computed; the reason is told beside it"},
+    {"stopped", "outcome of a tuning: by a signal or the time budget; the same command goes on"},
     {"no_friction", "regime of a friction element: it has no friction force here, F = 0"},
     {"non_stop", "regime of a friction element: it slides all the time, turning at single instants"},
     {"one_stop", "regime of a friction element: it sticks once in each half of the period"},
@@ -186,6 +198,29 @@ std::vector<std::string> choices_called(const std::string& word) {
   return found;
 }
 
+// A unit, for each quantity that may have it: `Hz`, `kN/mm`, `gravity`.
+std::vector<std::string> units_called(const std::string& word) {
+  const UnitSystem units;
+  std::vector<std::string> found;
+  try {
+    const Unit unit = units.parse(word);
+    for (const Quantity quantity : quantities_in(unit)) {
+      const double factor = si_factor(unit, quantity);
+      found.push_back(fmt::format("{0}: unit of {1}: 1 {0} = {2:.10g} {3}{4}; such as {5}", word,
+                                  quantity_name(quantity), factor, written_si_unit(quantity),
+                                  factor == unit.scale ? "" : ", as it counts cycles",
+                                  usual_units(quantity)));
+    }
+    if (found.empty())
+      found.push_back(
+          fmt::format("{}: unit of {}, which no value of a study is by itself", word, dimension_name(unit)));
+    if (word == "g")
+      found.emplace_back("g: in an [[excitation.record]] of accelerations the same as gravity");
+  } catch (const UnitError&) {  // it is none
+  }
+  return found;
+}
+
 // A section or a key: `stiffness`, `element.stiffness`, `[[element]]`.
 std::vector<std::string> keys_called(const std::string& word) {
   std::vector<std::string> found;
@@ -225,10 +260,14 @@ int explain_command(const std::string& word, std::ostream& out) {
   for (const Meaning& each : flags) {
     if (word == each.word) found.push_back(fmt::format("{}: {}", each.word, each.text));
   }
+  // Words of our own come first: UDUNITS has a unit called `force`.
+  if (found.empty()) found = units_called(word);
   if (found.empty())
-    throw StudyError(rules::unknown_name,
-                     "explain: \"{}\" is no key, type, choice, quantity, status, regime or exit code{}", word,
-                     suggestion(word, all_words()));
+    throw StudyError(
+        rules::unknown_name,
+        "explain: \"{}\" is no key, type, choice, quantity, unit, status, regime, outcome or exit "
+        "code{}",
+        word, suggestion(word, all_words()));
   for (const std::string& text : found) out << text << '\n';
   return exit_code::done;
 }

@@ -85,7 +85,7 @@ engine::Summary compute(const StudyPlan& plan, const engine::Job& job, const eng
     if (is_new) remove_study_note(run.output, plan);
     throw engine::ResumeRefused(refused, advice_about_logs(refused, plan, run.output));
   } catch (...) {  // without a log nothing will need the note
-    if (is_new && engine::find_logs(run.output).empty()) remove_study_note(run.output, plan);
+    if (is_new && !has_log_of(run.output, plan)) remove_study_note(run.output, plan);
     throw;
   }
 }
@@ -153,7 +153,7 @@ int run_in_logs(const RunCommandOptions& options, const engine::RunOptions& run,
 
   record.threads = summary.threads;
   record.ranks = summary.ranks;
-  const engine::StopRequest stop(run.time_budget, engine::StopRequest::Seconds(summary.seconds));
+  const engine::StopRequest stop(run.time_budget, Clock::now() - run.begun);
   const AssemblyOptions assembly{.output = run.output,
                                  .logs = engine::find_logs(run.output),
                                  .threads = summary.threads_here,

@@ -41,18 +41,35 @@ void print_table(const Study& study, const periodic::LinearModes& modes, Listing
                masses);
 }
 
+// The largest ratio that [damping] modal gives a mode; 0 without it.
+double largest_ratio(const Study& study, const mechanics::NetworkValues& values) {
+  if (study.network.damping != mechanics::DampingModel::modal) return 0.0;
+  return std::ranges::max(values.damping);
+}
+
+// A ratio meant in per cent is a valid one, and another system.
+void note_beyond_critical(double ratio, std::ostream& out) {
+  if (ratio <= 1.0) return;
+  fmt::print(
+      out,
+      "note: [damping]: modal: a ratio of {:.6g} is above 1, that of critical damping: such a mode does "
+      "not swing; 2 % is 0.02\n",
+      ratio);
+}
+
 }  // namespace
 
 ModesAtPoint modes_at_point(const Study& study, const mechanics::NetworkValues& values) {
   const auto& elements = study.network.elements;
   const bool friction = std::any_of(elements.begin(), elements.end(), mechanics::has_contact);
   return {periodic::linear_modes(study.network, values, false),
-          periodic::linear_modes(study.network, values, true), friction};
+          periodic::linear_modes(study.network, values, true), friction, largest_ratio(study, values)};
 }
 
 void print_modes(const Study& study, const ModesAtPoint& modes, Listing listing, std::ostream& out) {
   fmt::print(out, "Undamped modes{}\n", modes.friction ? " with all friction sliding" : "");
   print_table(study, modes.sliding, listing, out);
+  note_beyond_critical(modes.largest_ratio, out);
   if (!modes.friction) return;
   if (modes.stuck.frequency.empty()) {
     fmt::print(out, "With all friction stuck nothing moves.\n");

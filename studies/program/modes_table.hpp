@@ -15,6 +15,7 @@ struct ModesAtPoint {
   periodic::LinearModes sliding;
   periodic::LinearModes stuck;  // no modes if nothing can move
   bool friction = false;        // without it the two are the same
+  double largest_ratio = 0.0;   // of those in [damping] modal
 };
 
 // Throws mechanics::MechanicsError for invalid matrices.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -23,6 +24,8 @@
 
 namespace frahm::studies {
 namespace {
+
+using Start = std::chrono::steady_clock::time_point;  // of the program
 
 // How a command ended.
 struct Ending {
@@ -61,8 +64,9 @@ Ending carry_out(const CommandLine& line, std::ostream& out) {
 }
 
 // Runs the program in a single process, or in rank 0.
-int lead(engine::Ranks* ranks, int argc, const char* const* argv, std::ostream& out) {
+int lead(engine::Ranks* ranks, Start begun, int argc, const char* const* argv, std::ostream& out) {
   CommandLine line;
+  line.run.run.begun = begun;
   line.run.run.ranks = ranks;
   PlainOutput plain(out), complaints(std::cerr);
   if (const auto code = parse_command_line(argc, argv, line, plain, complaints)) return *code;
@@ -73,8 +77,9 @@ int lead(engine::Ranks* ranks, int argc, const char* const* argv, std::ostream& 
 
 // Runs the program in the other ranks: a run is shared, rank 0 does every other command. These ranks print
 // nothing; rank 0 reports their errors.
-int follow(engine::Ranks& ranks, int argc, const char* const* argv) {
+int follow(engine::Ranks& ranks, Start begun, int argc, const char* const* argv) {
   CommandLine line;
+  line.run.run.begun = begun;
   line.run.run.ranks = &ranks;
   std::ostringstream unseen;
   if (parse_command_line(argc, argv, line, unseen, unseen) || !line.is_run)
@@ -86,11 +91,12 @@ int follow(engine::Ranks& ranks, int argc, const char* const* argv) {
 }  // namespace
 
 int run_program(int argc, const char* const* argv, std::ostream& out) {
+  const Start begun = std::chrono::steady_clock::now();  // the ranks take time to meet
   const std::unique_ptr<engine::Ranks> ranks = engine::mpi_ranks();
-  if (!ranks) return lead(nullptr, argc, argv, out);
+  if (!ranks) return lead(nullptr, begun, argc, argv, out);
   results::keep_checks_here();
-  if (ranks->rank() > 0) return follow(*ranks, argc, argv);
-  const int code = lead(ranks.get(), argc, argv, out);
+  if (ranks->rank() > 0) return follow(*ranks, begun, argc, argv);
+  const int code = lead(ranks.get(), begun, argc, argv, out);
   engine::end_all(*ranks, code);
   return code;
 }

@@ -87,6 +87,13 @@ std::vector<results::Column> motion_facts(const Study& study) {
   return facts;
 }
 
+// The page calls them signals beside the masses, whose quantities they share.
+std::vector<results::Text> names_of_signals(const Study& study) {
+  std::vector<std::string> names;
+  for (const mechanics::Signal& signal : study.network.signals) names.push_back(signal.name);
+  return {{"signals", fmt::format("{}", fmt::join(names, ","))}};
+}
+
 // The parts of the band over which the limits of a tuning hold, for limits that name one, in the unit of the
 // band.
 std::vector<results::Column> limit_bands(const Study& study) {
@@ -173,7 +180,8 @@ std::vector<results::PageGroup> report_facts(const Study& study) {
   std::vector<results::PageGroup> groups;
   if (std::vector<results::Column> cranks = crank_motions(study); !cranks.empty())
     groups.push_back({.name = "crank", .columns = std::move(cranks)});
-  if (study.motion() && !study.map()) groups.push_back({.name = "study", .columns = motion_facts(study)});
+  if (study.motion() && !study.map())
+    groups.push_back({.name = "study", .columns = motion_facts(study), .texts = names_of_signals(study)});
   if (study.sweep() && study.sweep()->profile)
     groups.push_back(profile_group(study, *study.sweep()->profile));
   if (study.kind() == StudyKind::tune)

@@ -60,6 +60,9 @@ results::PageGroup profile_group(const Study& study, const Profile& profile) {
       .name = "profile",
       .columns = {},
       .texts = {{"masses", list(masses)}, {"springs", list(springs)}, {"owners", list(owners)}}};
+  if (!profile.position)
+    group.texts.emplace_back(
+        "hint", "all masses in the order of the study, absorbers too; [report] profile names the storeys");
   if (!profile.height.empty())
     group.columns.push_back({.variable = {.name = "height",
                                           .unit = study.dimensionless ? "1" : "m",

@@ -7,6 +7,7 @@
 #include "studies/program/growing.hpp"
 #include "studies/program/logged_run.hpp"
 #include "studies/program/map_table.hpp"
+#include "studies/program/study_note.hpp"
 #include "studies/record/finished_file.hpp"
 
 namespace frahm::studies {
@@ -19,6 +20,8 @@ int run_map(const RunCommandOptions& options, Study study, std::ostream& out) {
   const auto job = [&] {
     if (!options.from.empty()) plan.grown_from = earlier.emplace(plan, options.from).source();
     if (earlier) refuse_loss(plan, *earlier, options.from, run.output);
+    // What a stopped run has computed is kept, also where a file that was whole no longer is.
+    if (earlier && !has_log_of(run.output, plan)) earlier->check(run.shard.index, run.shard.count);
     return job_of(plan, earlier ? &*earlier : nullptr);
   };
   const auto make_file = [&](const RunRecord& record, const AssemblyOptions& how,

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <fstream>
 #include <iterator>
@@ -13,9 +14,11 @@
 
 #include "engine/file.hpp"
 #include "engine/io_error.hpp"
+#include "engine/tile_index.hpp"
 #include "results/part_file.hpp"
 #include "studies/reading/assignment.hpp"
 #include "studies/reading/plain_text.hpp"
+#include "studies/record/finished_file.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -58,7 +61,8 @@ std::optional<StudyNote> read_note(const std::filesystem::path& path) {
   note.study = line;
   const std::size_t overrides = read_numbers(file, note);
   for (std::size_t i = 0; i < overrides && std::getline(file, line); ++i) note.set.push_back(line);
-  if (!file) throw engine::IoError(path, "this note of a study is damaged; run the study again to mend it");
+  if (!file || !note.study.is_absolute())
+    throw engine::IoError(path, "this note of a study is damaged; run the study again to mend it");
   try {
     note.text.assign(std::istreambuf_iterator<char>(file), {});
   } catch (const std::ios_base::failure& failure) {  // of the buffer itself: a disk that cannot read
@@ -84,6 +88,21 @@ bool is_note(const std::filesystem::path& path) {
   } catch (const engine::IoError&) {
     return false;
   }
+}
+
+bool is_there(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::exists(std::filesystem::symlink_status(path, ignored));
+}
+
+// A file of that name which is no note is somebody's work, unless a log of the study shows that a note was
+// here, which is then damaged. One of nothing but zeros is what a power failure leaves.
+void refuse_foreign_file(const std::filesystem::path& path, const std::filesystem::path& output,
+                         const StudyPlan& plan) {
+  refuse_link(path);
+  const auto file = engine::File::open_if_present(path);
+  if (!file || is_note(path) || file->holds_only_zeros() || has_log_of(output, plan)) return;
+  throw engine::IoError(path, "is there already and is no note of frahm; remove or rename it");
 }
 
 // The study of a note. If the note was moved with its tables and logs, the tables are beside the note and no
@@ -112,8 +131,8 @@ bool write_study_note(const std::filesystem::path& output, const StudyPlan& plan
   for (const std::string& set : plan.set) text += set + '\n';
   text += plan.study.source.text;
   const std::filesystem::path path = note_path(output, plan.log_header().fingerprint);
-  std::error_code error;
-  const bool is_new = !std::filesystem::exists(path, error);
+  const bool is_new = !is_there(path);
+  if (!is_new) refuse_foreign_file(path, output, plan);
   // Other shards may be writing the same note at this moment: each renames its complete file.
   results::PartFile part(path);
   errno = 0;
@@ -123,6 +142,16 @@ bool write_study_note(const std::filesystem::path& output, const StudyPlan& plan
   if (!file) throw engine::IoError(path, "write", errno);
   part.publish();
   return is_new;
+}
+
+bool has_log_of(const std::filesystem::path& output, const StudyPlan& plan) {
+  return std::ranges::any_of(engine::find_logs(output), [&](const std::filesystem::path& log) {
+    try {
+      return engine::study_of_log(log) == plan.log_header();
+    } catch (const engine::IoError&) {  // somebody else's
+      return false;
+    }
+  });
 }
 
 NotedStudy study_from_note(const std::vector<std::filesystem::path>& outputs,

@@ -14,8 +14,11 @@
 // result it grows from follows the number of overrides, and that result's file name is on the next line.
 namespace frahm::studies {
 
-// Returns whether there was no note before. Throws engine::IoError.
+// Returns whether there was no note before. Throws engine::IoError, also where another file has its name.
 bool write_study_note(const std::filesystem::path& output, const StudyPlan& plan);
+
+// Whether a log of this study is beside the output. Throws engine::IoError.
+bool has_log_of(const std::filesystem::path& output, const StudyPlan& plan);
 
 // A study read from its note.
 struct NotedStudy {

@@ -15,6 +15,7 @@
 #include "results/part_file.hpp"
 #include "studies/reading/readable_file.hpp"
 #include "studies/reading/study_source.hpp"
+#include "studies/record/finished_file.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -80,6 +81,7 @@ void write_whole_file(const std::filesystem::path& path, const std::function<voi
   if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error)) {
     return write_file(path, path, write);
   }
+  refuse_link(path);
   const engine::OutputLock lock(path);
   results::PartFile part(path);
   write_file(part.part(), path, write);

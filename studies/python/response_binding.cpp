@@ -109,7 +109,7 @@ py::dict point(const LoadedStudy& loaded, const std::vector<std::string>& at, co
                std::size_t samples, bool gradient) {
   Study study = loaded.study;
   studies::require_responses(study);
-  std::vector<double> parameters = studies::parameters_at(study, at);
+  std::vector<double> parameters = studies::parameters_at(study, at, "point()");
   studies::set_crank_orders_at(study, parameters);
   const FoundPoint found = [&] {
     const py::gil_scoped_release free;
@@ -135,11 +135,11 @@ py::dict point(const LoadedStudy& loaded, const std::vector<std::string>& at, co
 using GivenAxes = std::vector<std::pair<std::string, std::vector<double>>>;
 
 studies::RowGrid grid_of(const Study& study, const std::vector<std::string>& at, const GivenAxes& axes) {
-  studies::RowGrid grid{studies::parameters_at(study, at), {}};
+  studies::RowGrid grid{studies::parameters_at(study, at, "response()"), {}};
   for (const auto& [name, values] : axes) {
     if (values.empty()) throw studies::StudyError(studies::rules::empty, "{}: no values are given", name);
     const std::string first = fmt::format("{}={:.17g}", name, values.front());
-    const studies::Assignment begin = studies::parse_assignments(study, "response", first).front();
+    const studies::Assignment begin = studies::parse_assignments(study, "response()", first).front();
     studies::RowAxis& axis = grid.axes.emplace_back(begin.parameter, std::vector<double>{});
     const double factor = studies::usual_unit(study, begin.parameter).si_factor;
     for (const double value : values) axis.si_values.push_back(value * factor);

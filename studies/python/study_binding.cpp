@@ -89,7 +89,7 @@ py::list quantities_of(const LoadedStudy& loaded) {
 }
 
 LoadedStudy with(studies::Study study, const std::vector<std::string>& set) {
-  return {studies::with_settings(std::move(study), set), set};
+  return {studies::with_settings(std::move(study), set, "parameter"), set};
 }
 
 }  // namespace

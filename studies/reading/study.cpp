@@ -100,12 +100,17 @@ std::vector<std::size_t> read_by_matrices(const Study& study) {
 // A transient without axes is one motion, of whose [output] the signals alone have a meaning.
 void check_motion_without_axes(const Study& study, const TomlValue& root) {
   const std::string why = ": without an [[axis]] it computes one motion, not a map";
+  const std::string way =
+      "; the motion is recorded whole, with an [[output.signal]] for what lies between masses, and an "
+      "[[axis]] "
+      "with one value makes it a map of one point";
   for (const TomlEntry& entry : *root.as<TomlTable>()) {
     if (entry.key == "output" && entry.value.as<TomlTable>())
-      check_output_has_signals_alone(study, entry, why);
+      check_output_has_signals_alone(study, entry, why + way);
     if (entry.key == "coordinate" || entry.key == "report")
       throw study.source.error_at(rules::other_kind, entry.position, "the section \"{}\" is not part of {}{}",
-                                  entry.key, kind_noun(study.kind()), why);
+                                  entry.key, kind_noun(study.kind()),
+                                  why + (entry.key == "report" ? way : ""));
   }
 }
 

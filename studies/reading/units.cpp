@@ -139,6 +139,18 @@ std::string_view written_si_unit(Quantity quantity) {
   return entry(quantity).written_si_unit;
 }
 
+std::string_view usual_units(Quantity quantity) {
+  return entry(quantity).examples;
+}
+
+std::vector<Quantity> quantities_in(const Unit& unit) {
+  std::vector<Quantity> found;
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    if (has_dimension(unit, static_cast<Quantity>(i))) found.push_back(static_cast<Quantity>(i));
+  }
+  return found;
+}
+
 bool Unit::counts_cycles() const {
   return radians == 0 && has_dimension(*this, Quantity::angular_frequency);
 }

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "studies/reading/rules.hpp"
 
@@ -40,6 +41,7 @@ enum class Quantity {
 std::string_view quantity_name(Quantity quantity);    // with its article: "a stiffness"
 std::string_view si_unit(Quantity quantity);          // for the record, in the form of CF: "N m-1"
 std::string_view written_si_unit(Quantity quantity);  // for readers: "N/m"
+std::string_view usual_units(Quantity quantity);      // for readers: "N/m, kN/m or N/mm"
 
 // A unit that does not exist or has the wrong dimension; what() names the unit, its dimension and what was
 // expected.
@@ -71,6 +73,9 @@ double si_factor(const Unit& unit, Quantity expected);
 
 // The quantity of a unit, in words: "a stiffness", else its dimension in base units: "m2 s-2".
 std::string dimension_name(const Unit& unit);
+
+// The quantities whose values may have this unit: of N m an energy, a torque, a torsional stiffness.
+std::vector<Quantity> quantities_in(const Unit& unit);
 
 // The same with the SI unit, for readers: "a stiffness (N/m)", "a pure number", "a quantity in kg s2".
 std::string dimension_with_unit(const Unit& unit);

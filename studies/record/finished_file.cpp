@@ -40,14 +40,22 @@ bool is_partial(const std::filesystem::path& path) {
          !provenance_text(results::MapReader(path), missing_tiles_text).empty();
 }
 
+void refuse_link(const std::filesystem::path& output) {
+  std::error_code ignored;  // what is not there is no link
+  if (std::filesystem::is_symlink(std::filesystem::symlink_status(output, ignored)))
+    throw engine::IoError(
+        output, "is a link, which would be replaced and not what it points to; name the file itself");
+}
+
 void check_result_place(const std::filesystem::path& output, const std::filesystem::path& study) {
   std::error_code error;
-  if (!std::filesystem::exists(output, error)) return;
+  if (!std::filesystem::exists(output, error)) return refuse_link(output);
   if (std::filesystem::equivalent(output, study, error))
     throw engine::IoError(output, "is the study itself; give another -o");
   if (!std::filesystem::is_regular_file(output, error))
     throw engine::IoError(output,
                           "is not a regular file, and a result is not written there; give another -o");
+  refuse_link(output);
   try {
     const results::MapReader result(output);
   } catch (const results::StoreError& reason) {

@@ -30,8 +30,12 @@ void require_result(const std::filesystem::path& path);
 // Whether there is a file made by merge --partial.
 bool is_partial(const std::filesystem::path& path);
 
+// A file takes the place of another of its name in one step, which would leave of a link nothing. Throws
+// engine::IoError for a link, wherever it points.
+void refuse_link(const std::filesystem::path& output);
+
 // A result may be a new file or replace another result; it never replaces a study, a table, any other file, a
-// folder or a device.  study: the study's own file; empty: not known.
+// folder, a device or a link.  study: the study's own file; empty: not known.
 // Throws engine::IoError.
 void check_result_place(const std::filesystem::path& output, const std::filesystem::path& study);
 

@@ -92,6 +92,16 @@ TEST_CASE("help teaches by examples, for each command") {
   }
 }
 
+TEST_CASE("help about a kind of study, which is no command, tells how it is computed") {
+  for (const std::string kind : {"sweep", "tune", "identify", "decay", "transient"}) {
+    const auto help = frahm({kind, "--help"});
+    CHECK(help.code == 0);
+    CHECK_THAT(help.out, Catch::Contains("frahm new " + kind) &&
+                             Catch::Contains("frahm run " + kind + ".toml") &&
+                             Catch::Contains("Usage: frahm run"));
+  }
+}
+
 TEST_CASE("an unknown word of the command line gets the nearest one") {
   CHECK_THAT(frahm({"chek", "a.toml"}).err, Catch::Contains("did you mean \"check\""));
   CHECK_THAT(frahm({"run", "--fressh", "a.toml"}).err, Catch::Contains("did you mean \"--fresh\""));
@@ -246,6 +256,55 @@ TEST_CASE(
     CHECK(std::filesystem::is_symlink(link));
     CHECK(folder.names() == Names{"empty.h5", "link.h5", "small.toml", "thesis.h5"});
   }
+}
+
+TEST_CASE("a link is not replaced by an output, wherever it points") {
+  const Folder folder;
+  const std::string study = folder.write("small.toml", small), result = folder / "small.h5";
+  REQUIRE(run(study, result).code == 0);
+  const std::string before = text_of(result);
+  const auto is_refused = [&](const std::string& link, const std::string& target, const Names& arguments) {
+    INFO(arguments.front() << " " << link);
+    std::filesystem::create_symlink(target, link);
+    const auto refused = frahm(arguments);
+    CHECK(refused.code == 6);
+    CHECK_THAT(refused.err, Catch::Contains(link + ": is a link"));
+    CHECK(std::filesystem::read_symlink(link) == target);
+    std::filesystem::remove(link);
+  };
+  const std::string link = folder / "link.h5", table = folder / "link.csv", page = folder / "link.html";
+  for (const std::string& target : {folder / "nowhere", result}) {
+    is_refused(link, target, {"run", study, "-o", link, "--progress", "none"});
+    is_refused(link, target, {"run", study, "-o", link, "--progress", "none", "--fresh"});
+  }
+  is_refused(table, folder / "nowhere", {"export", result, "-o", table});
+  is_refused(page, folder / "nowhere", {"report", result, "-o", page});
+  CHECK(text_of(result) == before);
+  CHECK(folder.names() == Names{"small.h5", "small.toml"});
+}
+
+TEST_CASE("a run refused for a foreign log leaves nothing, and a file named as its note stays as it is") {
+  const Folder folder, other;
+  const std::string study = folder.write("small.toml", small), output = folder / "small.h5";
+  folder.write("small.h5.mine.frahm-log",
+               "a log of something else, longer than the header of a log of frahm is");
+  CHECK(run(study, output).code == 6);
+  CHECK(folder.names() == Names{"small.h5.mine.frahm-log", "small.toml"});
+
+  REQUIRE(run(study, other / "small.h5", {"--shard", "0/2"}).code == 0);
+  const Names there = other.names();
+  const auto note =
+      std::ranges::find_if(there, [](const auto& name) { return name.ends_with(".frahm-study"); });
+  REQUIRE(note != there.end());
+  std::filesystem::remove(folder / "small.h5.mine.frahm-log");
+  folder.write(*note, "my thesis");
+  for (const Names& more : {Names{}, Names{"--fresh"}}) {
+    const auto refused = run(study, output, more);
+    CHECK(refused.code == 6);
+    CHECK_THAT(refused.err, Catch::Contains(*note) && Catch::Contains("is no note of frahm"));
+  }
+  CHECK(text_of(folder / *note) == "my thesis");
+  CHECK(folder.names() == Names{*note, "small.toml"});
 }
 
 TEST_CASE("logs are told of and merged in a folder that was moved with its study and the table it reads") {

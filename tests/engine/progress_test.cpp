@@ -122,6 +122,23 @@ TEST_CASE("the progress of a stage names it") {
   CHECK_THAT(json.str(), StartsWith(R"({"event":"progress","stage":"writing","points":200,)"));
 }
 
+TEST_CASE(
+    "work whose points take long tells its evaluations and its time, and calls the points by their name") {
+  std::ostringstream plain, json;
+  Progress::Clock::duration time = 0s;
+  const auto now = [&] { return Progress::Clock::time_point(time); };
+  Progress of_plain(ProgressForm::plain, plain, now, "", "starts"),
+      of_json(ProgressForm::json, json, now, "", "starts");
+  of_plain.update({.points = 2});
+  time = 95s;
+  of_plain.update({.points = 2, .done = 1, .evaluations = 12345});
+  of_json.update({.points = 2, .done = 1, .evaluations = 12345});
+  CHECK(plain.str() ==
+        "  0.0 %  0/2 starts\n"
+        " 50.0 %  1/2 starts  12345 evaluations in 1 min 35 s  1 min 35 s left\n");
+  CHECK_THAT(json.str(), Contains(R"("counted":"starts","evaluations":12345,)"));
+}
+
 TEST_CASE("progress of form none is silent") {
   Watched watched(ProgressForm::none);
   watched.progress.update({.points = 1});

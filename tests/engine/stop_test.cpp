@@ -97,6 +97,17 @@ TEST_CASE("the time budget stops the run") {
   CHECK(kept_tiles(scratch.output(), study_of(slow)).size() == summary.tiles_computed);
 }
 
+TEST_CASE("what the program has used of the time budget before the run counts") {
+  const Scratch scratch;
+  RunOptions options = quiet(scratch);
+  options.time_budget = std::chrono::hours(1);
+  options.begun = std::chrono::steady_clock::now() - std::chrono::hours(2);
+  const Summary summary = run(sample_job(10), options);
+  CHECK(summary.outcome == Outcome::stopped);
+  CHECK_THAT(summary.reason, Contains("time budget of 3600 s"));
+  CHECK(summary.tiles_computed == 0);
+}
+
 TEST_CASE("a signal after the last tile was taken does not make a complete run a stopped one") {
   const Scratch scratch;
   const Job job = sample_job(5, [](std::uint64_t tile) {

@@ -67,6 +67,23 @@ def check_links(bench):
     assert place.call(*SWEEP).code == 0 and place.read("mine.txt") == MINE
 
 
+def check_notes(bench):
+    """A file named as the very note of a run, 32 hex digits, and a run refused for somebody else's log."""
+    place = bench.place(small_map(bench))
+    assert place.call(*SWEEP, "--shard", "0/2").code == 0
+    note = next(name for name in place.names() if name.endswith(".frahm-study"))
+    for options in ((), ("--fresh",)):
+        place = bench.place(small_map(bench))
+        place.write(note, MINE)
+        outcome = place.call(*SWEEP, *options)
+        assert outcome.code == 6 and note in outcome.err and place.read(note) == MINE, outcome
+    place = bench.place(small_map(bench))
+    log = OUTPUT + ".mine.frahm-log"
+    place.write(log, MINE)
+    outcome = place.call(*SWEEP)
+    assert outcome.code == 6 and place.names() == [log], f"{outcome} {place.names()}"
+
+
 def check_two_exports(bench):
     place = made(bench)
     assert place.call("export", OUTPUT, "-o", "expected.csv").code == 0
@@ -224,7 +241,7 @@ def check_failed_sweep(bench):
 
 
 def drill(bench):
-    for check in (check_names_like_ours, check_links, check_two_exports, check_modes, check_limits, check_own_outputs,
+    for check in (check_names_like_ours, check_notes, check_links, check_two_exports, check_modes, check_limits, check_own_outputs,
                   check_what_the_study_reads, check_words, check_utc, check_tiny, check_failed_sweep, check_killed_parts):
         check(bench)
         print(check.__name__, flush=True)

@@ -1,4 +1,5 @@
-// One motion as its page uses it, a free vibration (/decay) or a forced one (/transient): masses, stops, energies.
+// One motion as its page uses it, a free vibration (/decay) or a forced one (/transient): masses, with the signals of the
+// study among them, stops, energies.
 
 function namesWith(group, end, dimension) {
   return group.columns
@@ -27,10 +28,12 @@ function turnsOf(group, name) {
   };
 }
 
-function massOf(group, name) {
+// A mass, or a signal: a combination of displacements.
+function nodeOf(group, name, isSignal) {
   const number = (suffix) => group.number(`${name}_${suffix}`);
   return {
     name,
+    noun: isSignal ? "signal" : "mass",
     displacement: group.column(`${name}_displacement`),
     velocity: group.column(`${name}_velocity`),
     unit:
@@ -107,6 +110,7 @@ export function motionOf(record, kind) {
   ]);
   const frequency = group.column("frequency"),
     angularFrequency = frequency?.dimension === "time" ? frequency : null;
+  const signals = new Set((record.groups.get("study")?.texts.signals ?? "").split(","));
   const fact = (name) => record.groups.get("study")?.number(name) ?? NaN;
   return {
     kind,
@@ -120,7 +124,7 @@ export function motionOf(record, kind) {
     hysteretic: fact("hysteretic_elements") !== 0,
     duration,
     stopTime: group.number("stop_time"),
-    masses: [...names].map((name) => massOf(group, name)),
+    masses: [...names].map((name) => nodeOf(group, name, signals.has(name))), // and signals
     stops: namesWith(group, "_stop_onset", "stop")
       .map((name) => stopsOf(group, name, duration))
       .filter(({ from }) => from.length > 0),
@@ -223,15 +227,13 @@ export function isHeldSinceTurning({ turningPoints, rest }, { mayStop }) {
 
 // Whether the decrements of a mass, computed about zero, measure its decay: the mass swings from one side of zero to
 // the other. A single mass does, except where it stops.
-export function swingsAboutZero({ turningPoints }, { masses }) {
-  return (
-    masses.length === 1 || turningPoints.every((point, i) => i === 0 || point * turningPoints[i - 1] < 0)
-  );
+export function swingsAboutZero({ turningPoints }, motion) {
+  return isOneMode(motion) || turningPoints.every((point, i) => i === 0 || point * turningPoints[i - 1] < 0);
 }
 
 // Whether a mass decays in one mode, so that its decrement gives a damping ratio.
 export function isOneMode({ masses }) {
-  return masses.length === 1;
+  return masses.filter(({ noun }) => noun !== "signal").length === 1;
 }
 
 // Whether the decrements end before the cycles do: the rest is rounding.

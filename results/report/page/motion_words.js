@@ -31,16 +31,16 @@ export function decrementText(decrement, places = digits) {
   return isRounding(decrement) ? "0 (rounding)" : numberText(decrement, places);
 }
 
-function turningSentence({ name, unit, turningPoints }, { kind }) {
+function turningSentence({ name, noun, unit, turningPoints }, { kind }) {
   if (kind !== "decay") return [];
   const count = turningPoints.length;
-  if (count === 0) return [`mass ${words(name)} does not turn.`];
+  if (count === 0) return [`${noun} ${words(name)} does not turn.`];
   const first = quantityText(turningPoints[0], unit, digits);
-  if (count === 1) return [`mass ${words(name)} turns once, at ${first}.`];
+  if (count === 1) return [`${noun} ${words(name)} turns once, at ${first}.`];
   const last = isRoundingOf(turningPoints.at(-1), turningPoints)
     ? "a displacement below rounding"
     : quantityText(turningPoints.at(-1), unit, digits);
-  return [`mass ${words(name)} turns ${count} times, first at ${first}, last at ${last}.`];
+  return [`${noun} ${words(name)} turns ${count} times, first at ${first}, last at ${last}.`];
 }
 
 function decrementSentence(mass, motion) {
@@ -93,18 +93,19 @@ function restOfMass(mass, motion) {
 }
 
 function decayOf(mass, motion) {
-  if (isStill(mass, motion)) return [`mass ${words(mass.name)} does not move: it lies at ${restText(mass)}.`];
+  if (isStill(mass, motion))
+    return [`${mass.noun} ${words(mass.name)} does not move: it lies at ${restText(mass)}.`];
   return [...turningSentence(mass, motion), ...decrementSentence(mass, motion), ...restOfMass(mass, motion)];
 }
 
-function peakOf({ name, unit, peak, peakTime }, { time, frequency, units }) {
+function peakOf({ name, noun, unit, peak, peakTime }, { time, frequency, units }) {
   if (!Number.isFinite(peak)) return [];
   const there = frequency
     ? `, where the excitation has ` +
       `${quantityText(interpolated(time.values, frequency.values, peakTime), frequency.unit, digits)}`
     : "";
   return [
-    `The largest displacement of mass ${words(name)} is ${quantityText(peak, unit, digits)}, at ` +
+    `The largest displacement of ${noun} ${words(name)} is ${quantityText(peak, unit, digits)}, at ` +
       `${quantityText(peakTime, units.time, digits)}${there}.`,
   ];
 }

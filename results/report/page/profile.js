@@ -5,7 +5,7 @@ import { axisText } from "./axes.js";
 const listed = (text) => (text ? text.split(",") : []);
 
 // {masses, the lowest first; heights; springs: the one below each mass, or ""; owners: names that begin those of
-// quantities; unit: of the heights, undefined where they are numbers from 1}. null if the result has no profile.
+// quantities; unit: of the heights, undefined where they are numbers from 1; hint: where the study has not chosen, or ""}. null if the result has no profile.
 export function profileOf(record) {
   const group = record.groups.get("profile");
   if (!group) return null;
@@ -17,6 +17,7 @@ export function profileOf(record) {
     owners: new Set(listed(group.texts.owners)),
     heights: height ? Array.from(height.values) : masses.map((_, i) => i + 1),
     unit: height?.unit,
+    hint: group.texts.hint ?? "",
   };
 }
 

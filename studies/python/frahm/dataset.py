@@ -10,13 +10,35 @@ if TYPE_CHECKING:
 
 
 def open(path: Union[str, os.PathLike], group: Optional[str] = None) -> "xarray.Dataset":
-    """Opens a result as an xarray dataset: its map, or one of its groups ("orbits", "optimum", "provenance").
+    """Opens a result as an xarray dataset: its map, or one of its groups.
+
+    A map is opened without a group; beside it may be "orbits", "resonance", "modes", "statistics" ... What has no
+    map is in a group: "optimum" of a tuning, of a trade-off with "optimum/front"; "identification"; "decay" or
+    "transient" of one motion. Every result has "provenance". ValueError tells the groups of a file without the one asked for.
 
     Data are read when they are used; `.load()` reads all, `.close()` closes the file.
     """
     import xarray
 
-    return xarray.open_dataset(os.fspath(path), engine="h5netcdf", group=group)
+    name = os.fspath(path)
+    known = _groups(name)
+    if group is not None and group.strip("/") not in known:
+        raise ValueError(f"{name}: has no group {group!r}; it has {', '.join(known)}")
+    dataset = xarray.open_dataset(name, engine="h5netcdf", group=group)
+    if group is None and not dataset.variables:
+        dataset.close()
+        raise ValueError(f"{name}: has no map; name one of its groups: {', '.join(known)}")
+    return dataset
+
+
+def _groups(path: str) -> list[str]:
+    import h5netcdf
+
+    def within(group: "h5netcdf.Group", path: str) -> list[str]:
+        return [each for name in group.groups for each in [path + name, *within(group[name], f"{path}{name}/")]]
+
+    with h5netcdf.File(path, "r") as file:
+        return within(file, "")
 
 
 def names(flags: "xarray.DataArray") -> "xarray.DataArray":

@@ -6,7 +6,7 @@ import time
 from typing import Any, Callable, Optional, TextIO, Union
 
 Progress = Union[str, Callable[[dict[str, Any]], None]]
-""""auto", "none", or a function that gets each report: points, done, failed, percent, seconds_left ..."""
+""""auto", "none", or a function that gets each report: points, done, failed, percent, seconds_left ...; of a tuning evaluations"""
 
 SECONDS_BETWEEN_LINES = 30  # where a line cannot be written over, as the program does
 
@@ -56,10 +56,12 @@ class Reports:
 
 def _line(report: dict[str, Any]) -> str:
     full = int(report["percent"] / 5)
-    line = f"[{'=' * full}{'-' * (20 - full)}] {report['percent']:5.1f} %  {report['done']}/{report['points']} points"
+    line = f"[{'=' * full}{'-' * (20 - full)}] {report['percent']:5.1f} %  {report['done']}/{report['points']} {report.get('counted', 'points')}"
     if report.get("stage"):
         line = f"{report['stage']} {line}"
-    if report.get("points_per_second"):
+    if report.get("evaluations"):
+        line += f"  {report['evaluations']} evaluations in {_readable(report['seconds'])}"
+    elif report.get("points_per_second"):
         line += f"  {report['points_per_second']:.3g} points/s"
     if report.get("seconds_left"):
         line += f"  {_readable(report['seconds_left'])} left"

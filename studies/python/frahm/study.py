@@ -1,5 +1,7 @@
 """A study: what is asked of a system."""
 
+import difflib
+import inspect
 import os
 import tempfile
 from dataclasses import replace
@@ -19,7 +21,6 @@ from .tuning import Tuning, tuning_of
 
 Path = Union[str, os.PathLike]
 Kind = TypeVar("Kind")
-RUN_OPTIONS = ("from_result", "threads", "fresh", "time_budget", "progress")  # of Study.run()
 
 
 class Study:
@@ -108,6 +109,7 @@ class Study:
         history: the motion over a period, at 513 instants or as many as are given. path: "general" finds
         every orbit by shooting. A point without a response has a status and a reason, and is no error.
         """
+        self._refuse_misspelt(Study.point, parameters)
         if path not in ("fastest", "general"):
             raise ValueError(f"path={path!r}: must be \"fastest\" or \"general\"")
         samples = 513 if history is True else whole(history, "history", 0)
@@ -125,6 +127,7 @@ class Study:
         an axis of the result before the row; at: the same as a dictionary. quantities: names or patterns ("*_peak"); none: those that the
         study records. threads: 0: one on each processor.
         """
+        self._refuse_misspelt(Study.response, parameters)
         others = {**at, **parameters}
         if row in others:
             raise ValueError(f"{row}: runs along the row, and has no other values beside it")
@@ -163,9 +166,10 @@ class Study:
                  read: Callable[[Result, bool], Kind]) -> Kind:
         if self.kind != kind:
             raise _refused("other_kind", f"{self.name}: {self._study.noun} cannot be {done}; its kind must be \"{kind}\"")
-        unknown = [name for name in options if name not in RUN_OPTIONS]
+        of_run = _options(Study.run)
+        unknown = [name for name in options if name not in of_run]
         if unknown:
-            raise TypeError(f"{kind}() has no option {unknown[0]!r}, only output, {', '.join(RUN_OPTIONS)}; "
+            raise TypeError(f"{kind}() has no option {unknown[0]!r}, only output, {', '.join(of_run)}; "
                             f"how it is done stands in the study, in [{kind}]")
         if output is not None:
             return read(_finished(self.run(output, **options)), True)
@@ -173,6 +177,14 @@ class Study:
             result = _finished(self.run(os.path.join(folder, f"{kind}.h5"), **options))
             told = [line for line in result.table.splitlines() if folder not in line]  # that file goes
             return read(replace(result, table="\n".join(told) + "\n"), False)
+
+    def _refuse_misspelt(self, method: Callable[..., Any], given: Mapping[str, Any]) -> None:
+        """What is meant as an option of a method and taken as a parameter."""
+        for name in given:
+            meant = difflib.get_close_matches(name, _options(method), 1)
+            if name not in self.parameters and meant:
+                raise TypeError(f"{method.__name__}() has no option {name!r}, and the study no such parameter; "
+                                f"did you mean {meant[0]!r}?")
 
     def _values_of_axis(self, row: str) -> np.ndarray:
         axes = self.axes
@@ -184,6 +196,11 @@ class Study:
 
     def __repr__(self) -> str:
         return f"<frahm.Study {self.name}: {self._study.noun}{', ' + repr(self.title) if self.title else ''}>"
+
+
+def _options(method: Callable[..., Any]) -> list[str]:
+    """The names that can only be given as keywords."""
+    return [name for name, each in inspect.signature(method).parameters.items() if each.kind is each.KEYWORD_ONLY]
 
 
 def _refused(rule: str, message: str) -> _frahm.StudyError:

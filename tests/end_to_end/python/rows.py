@@ -82,6 +82,10 @@ class Rows(unittest.TestCase):
         with self.assertRaises(frahm.StudyError) as refused:
             study.response("omega")
         self.assertEqual(refused.exception.rule, "unknown_name")
+        with self.assertRaisesRegex(TypeError, r"response\(\) has no option 'quantity'.*did you mean 'quantities'"):
+            study.response("speed", quantity="machine_peak")
+        with self.assertRaisesRegex(frahm.StudyError, r'^response\(\) "damping=3.0": no parameter is called "damping"'):
+            study.response("speed", damping=3)
         with self.assertRaisesRegex(frahm.StudyError, "no values"):
             study.response("speed", [])
         with self.assertRaises(ValueError):

@@ -145,6 +145,10 @@ class Runs(unittest.TestCase):
         result = study.run(self.file, progress="none")
         with result.open("decay") as decay:
             self.assertGreater(decay.sizes["time"], 10)
+        with self.assertRaisesRegex(ValueError, "has no map; name one of its groups: .*decay"):
+            result.open()
+        with self.assertRaisesRegex(ValueError, "has no group 'optimum'; it has .*decay"):
+            result.open("optimum")
 
     def test_open_tells_flags_by_name(self):
         with frahm.Study.from_dict(MACHINE).run(self.file, progress="none").open() as ds:

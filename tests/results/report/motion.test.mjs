@@ -6,6 +6,7 @@ import {
   dampingRatio,
   envelope,
   interpolated,
+  isOneMode,
   motionOf,
   samplingOf,
   stretch,
@@ -105,6 +106,33 @@ test("a contact that is not released sticks to the end", () => {
   assert.equal(motion.stops.length, 1);
   assert.deepEqual(Array.from(motion.stops[0].to), [2, 4]);
   assert.match(whatItMeans(motion).flat().join(" "), /Contact guide sticks 2 times, 2 s in all\./);
+});
+
+test("a signal is called one, and does not make one mass two", () => {
+  const columns = {
+    sway_extremum_time: ["s", "extremum", [0, 1, 2, 3, NaN]],
+    sway_extremum: ["m", "extremum", [0.016, -0.012, 0.008, -0.004, NaN]],
+  };
+  const record = (texts) =>
+    motionOf(
+      sampleRecord({
+        study: sampleGroup(texts, {}),
+        decay: sampleGroup(
+          {},
+          {
+            main_extremum_time: columns.sway_extremum_time,
+            main_extremum: columns.sway_extremum,
+            ...columns,
+          },
+        ),
+      }),
+      "decay",
+    );
+  const motion = record({ signals: "sway" });
+  assert.match(told(motion), /Mass main turns 4 times/);
+  assert.match(told(motion), /Signal sway turns 4 times/);
+  assert.ok(isOneMode(motion));
+  assert.ok(!isOneMode(record({ signals: "" })));
 });
 
 test("the frequency at the peak of a run-up lies between its samples", () => {

@@ -45,6 +45,19 @@ TEST_CASE("Checking the rig atlas tells its size, its array of tasks and its mod
   CHECK(has(text, "With all friction stuck nothing moves."));
 }
 
+TEST_CASE("a modal damping ratio above that of critical damping is noted, as 2 may mean 2 %") {
+  const TemporaryDirectory folder;
+  const auto checked = [&](const char* ratio) {
+    std::ofstream(folder / "study.toml")
+        << small_studies::building(2, 9, 5) << "[damping]\nmodal = " << ratio << '\n';
+    std::ostringstream out;
+    CHECK(check_command({.study = folder / "study.toml", .threads = 1}, out) == 0);
+    return out.str();
+  };
+  CHECK(has(checked("2"), "note: [damping]: modal: a ratio of 2 is above 1, that of critical damping"));
+  CHECK_FALSE(has(checked("0.02"), "note: [damping]"));
+}
+
 TEST_CASE("A simulation of ranks tells time, efficiency and losses of 1, 10, 100 ... ranks") {
   std::ostringstream out;
   CHECK(check_command({.study = study_path("rig_atlas"), .threads = 2, .simulate_ranks = 250}, out) == 0);

@@ -1,12 +1,16 @@
 // What `frahm explain` tells comes from the tables that the readers and solvers use.
 #include "studies/program/explain_command.hpp"
 
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <sstream>
 #include <string>
 
 #include "studies/reading/element_keys.hpp"
 #include "studies/reading/study_keys.hpp"
+#include "studies/reading/units.hpp"
+#include "studies/tuning/outcome_words.hpp"
 
 namespace {
 
@@ -62,4 +66,30 @@ TEST_CASE("a key that not all forms of its section have is told with those that 
 
 TEST_CASE("a word of a choice that is misspelt gets the nearest one") {
   CHECK_THROWS_WITH(explained("kanai_tajimy"), Catch::Contains("did you mean \"kanai_tajimi\""));
+}
+
+TEST_CASE("every outcome of a tuning is explained, also where a point has a status of that name") {
+  for (const std::string& word : outcome_words()) {
+    INFO(word);
+    CHECK_THAT(explained(word), Catch::Contains(word + ": outcome of a tuning"));
+  }
+  CHECK_THAT(explained("infeasible"), Catch::Contains("no design met the limits"));
+  CHECK_THAT(explained("failed"), Catch::Contains("failed: status: "));
+}
+
+TEST_CASE("a unit is explained with every quantity that may have it, as the reader takes it") {
+  for (const char* unit : {"Hz", "kN/mm", "gravity", "g", "N m", "rpm"}) {
+    INFO(unit);
+    const Unit read = UnitSystem().parse(unit);
+    REQUIRE_FALSE(quantities_in(read).empty());
+    for (const Quantity quantity : quantities_in(read))
+      CHECK_THAT(explained(unit), Catch::Contains(fmt::format(
+                                      "{0}: unit of {1}: 1 {0} = {2:.10g} {3}", unit, quantity_name(quantity),
+                                      si_factor(read, quantity), written_si_unit(quantity))));
+  }
+  CHECK_THAT(explained("Hz"), Catch::Contains("1 Hz = 6.283185307 rad/s, as it counts cycles"));
+  CHECK_THAT(explained("gravity"), Catch::Contains("1 gravity = 9.80665 m/s2"));
+  CHECK_THAT(explained("g"), Catch::Contains("1 g = 0.001 kg") && Catch::Contains("the same as gravity"));
+  CHECK_THAT(explained("K"), Catch::Contains("a temperature"));
+  CHECK_THAT(explained("force"), !Catch::Contains("unit of"));
 }

@@ -35,6 +35,13 @@ TEST_CASE("a report's profile names its masses, the spring below each, and who o
   CHECK(group.columns[0].values == std::vector<double>{3.0, 6.0, 9.0, 12.0});
 }
 
+TEST_CASE("a profile that the study has not chosen says which key chooses") {
+  const Study chosen = building("profile = \"all\"\n");
+  CHECK(text_of(group_of(chosen), "hint") == "no hint");
+  const Study all = parse_study(small_studies::building(12, 2, 5), "building.toml");
+  CHECK_THAT(text_of(group_of(all), "hint"), Catch::Contains("absorbers too; [report] profile"));
+}
+
 TEST_CASE("masses of a profile that no spring joins have none between them") {
   CHECK(text_of(group_of(building("profile = [\"floor2\", \"floor4\", \"floor3\"]\n")), "springs") ==
         ",,spring4");

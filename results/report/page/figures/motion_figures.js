@@ -77,7 +77,8 @@ function titleOf(motion, quantity) {
   const shown = motion.masses.filter((mass) => mass[quantity]);
   const [one, many] =
     quantity === "velocity" ? ["Velocity", "Velocities"] : ["Displacement", "Displacements"];
-  return several(shown) ? `${many} of the masses` : `${one} of ${words(shown[0].name)}`;
+  const signals = shown.some(({ noun }) => noun === "signal") ? " and signals" : "";
+  return several(shown) ? `${many} of the masses${signals}` : `${one} of ${words(shown[0].name)}`;
 }
 
 const unitOf = (motion, quantity) => motion.masses.find((mass) => mass[quantity])[quantity].unit;

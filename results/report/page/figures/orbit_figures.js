@@ -28,10 +28,10 @@ const namesEnding = (samples, end) =>
   [...samples.keys()].filter((name) => name.endsWith(end)).map((name) => name.slice(0, -end.length));
 
 // Of many names the first and the last.
-const endsOfMany = (names) => (names.length > mostListed ? [names[0], names.at(-1)] : names);
+export const endsOfMany = (names) => (names.length > mostListed ? [names[0], names.at(-1)] : names);
 
 // Masses have an acceleration, contacts a sliding velocity.
-function massesOf(samples) {
+export function massesOf(samples) {
   return namesEnding(samples, "_acceleration");
 }
 function contactsOf(samples) {
@@ -84,8 +84,9 @@ function loop(canvas, xColumn, yColumn, xLabel, yLabel) {
 const columnsOf = (samples, names) =>
   names.map((name) => ({ name, unit: samples.get(name).unit, values: samples.get(name).values }));
 
-// Figures of one orbit: of many masses or contacts, of the first and the last.  label: its point in words; suffix: of their files.
-export function orbitFigures(samples, label, suffix) {
+// Figures of one orbit: of many masses or contacts, of the first and the last.  label: its point in words; suffix: of their
+// files; portraits: the masses whose phase portraits they are.
+export function orbitFigures(samples, label, suffix, portraits = endsOfMany(massesOf(samples))) {
   if (!samples.get("time")?.values.length) return [];
   const masses = massesOf(samples);
   const unitOf = (name) => samples.get(name).unit;
@@ -117,7 +118,7 @@ export function orbitFigures(samples, label, suffix) {
       table: () => columnsOf(samples, ["time", ...members]),
     });
   }
-  for (const mass of endsOfMany(masses)) {
+  for (const mass of portraits) {
     const [x, v] = [`${mass}_displacement`, `${mass}_velocity`];
     figures.push({
       name: `orbit_phase_portrait_${mass}${suffix}`,

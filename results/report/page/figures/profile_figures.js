@@ -34,10 +34,10 @@ function heightAxis(profile) {
   return { label: heightLabel(profile), unit: profile.unit ?? "1", zero: true, ...numbered };
 }
 
-function caption(map, points, shown, all, what) {
+function caption(map, points, hint, shown, all, what) {
   const place = points.length === 1 ? pointNames(map, points)[0] : "";
   const some = shown < all ? `${shown} of ${all} ${what} are recorded` : "";
-  return [place, some].filter(Boolean).join("; ");
+  return [place, some, hint].filter(Boolean).join("; ");
 }
 
 // One curve for each point, named in the legend if there are several.
@@ -75,7 +75,7 @@ export function peakProfile(map, profile, pointsOf) {
   return following({
     name: "profile_peak",
     title: "Largest displacements over the height",
-    note: () => caption(map, pointsOf(), peaks.length, profile.masses.length, "masses"),
+    note: () => caption(map, pointsOf(), profile.hint, peaks.length, profile.masses.length, "masses"),
     spec: () => {
       const lines = curvesOf(map, pointsOf(), pathOf);
       return {
@@ -107,7 +107,7 @@ export function driftProfile(map, profile, pointsOf) {
   return following({
     name: "profile_drift",
     title: "Strokes between neighbours over the height",
-    note: () => caption(map, pointsOf(), drifts.length, joined, "springs"),
+    note: () => caption(map, pointsOf(), profile.hint, drifts.length, joined, "springs"),
     spec: () => ({
       x: { label: "stroke of the spring", unit: drifts[0].variable.unit, zero: true },
       y: heightAxis(profile),
@@ -191,7 +191,7 @@ export function modeShapes(group, profile) {
   return {
     name: "mode_shapes",
     title: "Mode shapes over the height",
-    caption: `Undamped modes with all friction sliding, at ${group.texts.point}; above each its frequency and damping ratio`,
+    caption: `Undamped modes with all friction sliding, at ${group.texts.point}; above each its frequency and damping ratio${profile.hint && `; ${profile.hint}`}`,
     draw: (canvas) => drawModes(canvas, modes, profile, unitText(group.column("mode_frequency").unit)),
     table: () => [
       { name: "mass", unit: "", values: profile.masses },

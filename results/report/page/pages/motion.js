@@ -57,7 +57,12 @@ function massesTable(motion) {
     words(mass.name),
     ...columns.map(([, of, text]) => text(of(mass, motion), mass, motion)),
   ]);
-  return [table(["mass", ...columns.map(([name]) => name)], rows, { numeric: columns.map((_, i) => i + 1) })];
+  const nouns = [...new Set(masses.map(({ noun }) => noun))];
+  return [
+    table([nouns.join(" or "), ...columns.map(([name]) => name)], rows, {
+      numeric: columns.map((_, i) => i + 1),
+    }),
+  ];
 }
 
 function stopText({ stopTime, units }) {
