@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "solvers/events/bend_guards.hpp"
@@ -106,7 +108,7 @@ Choice choose_alone(const StepEquations<N, H>& eq, Eigen::Index j, double c, Wor
 template <int N, int H>
 Choice choose_together(const StepEquations<N, H>& eq, ContactMask at_rest,
                        const FreeAccelerations<N, H>& free, Workspace<N, H>& w) {
-  constexpr double kWithoutLimit = 1e9;
+  constexpr double kWithoutLimit = 1e9, kRounding = 16.0 * std::numeric_limits<double>::epsilon();
   std::vector<Eigen::Index> contacts;
   for (Eigen::Index j = 0; j < eq.contacts(); ++j) {
     if (contains(at_rest, j)) contacts.push_back(j);
@@ -145,11 +147,14 @@ Choice choose_together(const StepEquations<N, H>& eq, ContactMask at_rest,
   for (Eigen::Index i = 0; i < m; ++i) {
     const Eigen::Index j = contact(i);
     const double limit = eq.limit[j];
-    const double pull = std::abs(acceleration[i]) / (G(i, i) * weight[i] + std::abs(c[i]));
+    const double size = G(i, i) * weight[i] + std::abs(c[i]);
+    const double pull = std::abs(acceleration[i]) / size;
+    // Of the sum c - G lambda: that of a weak contact beside strong ones.
+    const double rounding = kRounding * G.row(i).cwiseAbs().dot(force.cwiseAbs()) / size;
     const double room = (eq.static_limit[j] - std::abs(force[i])) / weight[i];
     const bool has_let_go = least[i] == most[i];
     if (limit > 0.0 && !contains(w.held, j)) w.note_margin(std::max(pull, room));
-    if (pull <= kTie && limit > 0.0 && !has_let_go)
+    if (pull <= std::max(kTie, rounding) && limit > 0.0 && !has_let_go)
       choice.stuck |= bit(j);
     else if (limit > 0.0 ? force[i] > 0.0 : acceleration[i] > 0.0)
       choice.forward |= bit(j);
