@@ -21,10 +21,11 @@ ROOMS = "solvers", "engine"
 
 def lines_of(build):
     """{file: {line: how often}} by gcovr; a line of a template is covered if one of its instances is."""
-    report = build / "lines.json"
-    filters = [word for room in ROOMS for word in ("--filter", f"{room}/")]
-    subprocess.run(["gcovr", "--root", str(SOURCE), *filters, "--gcov-executable", "llvm-cov-14 gcov", "--json", str(report), "-j", str(os.cpu_count()),
-                    str(build)], check=True, cwd=SOURCE)
+    report = build.resolve() / "lines.json"
+    filters = [word for room in ROOMS for word in ("--filter", f"{SOURCE}/{room}/")]
+    # In the folder of the build, as llvm-cov leaves its files where it runs.
+    subprocess.run(["gcovr", "--root", str(SOURCE), *filters, "--gcov-executable", "llvm-cov-14 gcov", "--json",
+                    str(report), "-j", str(os.cpu_count()), *ROOMS], check=True, cwd=build)
     counts = defaultdict(lambda: defaultdict(int))
     for file in json.loads(report.read_text())["files"]:
         for line in file["lines"]:
