@@ -73,21 +73,24 @@ bool are_same(double a, double b, double tolerance) {
   return a == b || (std::isnan(a) && std::isnan(b)) || std::abs(a - b) <= tolerance * std::abs(a);
 }
 
+bool follows_harmonic(Measure measure) {
+  return measure == Measure::harmonic || measure == Measure::magnification ||
+         measure == Measure::transmissibility;
+}
+
 // Every quantity of one coordinate, beside that of another. A mean is part of the peak, and may be its
-// rounding; so is the component at the reference order of a mass that friction holds.
+// rounding; so is the component at the reference order where friction holds the mass, and what is told in
+// proportion to it.
 void check_alike(const Network& network, const Found& found, std::size_t a, std::size_t b, double tolerance) {
-  const double of_peak = tolerance * found(Measure::peak, a);
-  const bool is_held = found(Measure::harmonic, a) <= of_peak;
+  const double of_peak = tolerance * found(Measure::peak, a), harmonic = found(Measure::harmonic, a);
   for (const QuantityRow& row : quantity_table()) {
     if (row.owner != Owner::mass) continue;
     const double own = found(row.measure, a), other = found(row.measure, b);
     INFO(describe({row.measure, b}, network, false).name << " " << own << " and " << other);
-    if (row.measure == Measure::mean || (is_held && row.measure == Measure::harmonic)) {
-      CHECK(std::abs(own - other) <= of_peak);
-    } else if (!is_held ||
-               (row.measure != Measure::magnification && row.measure != Measure::transmissibility)) {
-      CHECK(are_same(own, other, tolerance));
-    }
+    double part = 0.0;
+    if (row.measure == Measure::mean) part = of_peak;
+    if (follows_harmonic(row.measure) && harmonic <= of_peak) part = of_peak * (own / harmonic);
+    CHECK((are_same(own, other, tolerance) || std::abs(own - other) <= part));
   }
 }
 
