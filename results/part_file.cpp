@@ -6,9 +6,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <optional>
@@ -23,41 +23,41 @@ namespace frahm::results {
 namespace {
 
 constexpr std::string_view mark = ".part-";
-constexpr std::size_t random_digits = 16;
+constexpr std::size_t random_digits = 8;
 
 [[noreturn]] void fail(const std::filesystem::path& path, const char* what, int error) {
   throw StoreError(path.string(), what, std::strerror(error));
 }
 
 std::string random_name(const std::filesystem::path& path) {
-  std::random_device random;
-  return fmt::format("{}{}{:08x}{:08x}", path.string(), mark, random(), random());
+  const std::uint32_t random = std::random_device{}();
+  return fmt::format("{}{}{:08x}{:08x}", path.string(), mark, random, ~random);
 }
 
-// What stands behind the mark in the name of a part: the inode; 0 where it was not told yet. Nothing for
-// another name.
-std::optional<ino_t> inode_in(std::string_view name, std::string_view output) {
-  if (!name.starts_with(output) || !name.substr(output.size()).starts_with(mark)) return std::nullopt;
+// Eight hex digits as a number; nothing for other text.
+std::optional<std::uint32_t> number_of(std::string_view digits) {
+  std::uint32_t number = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number, 16);
+  if (error != std::errc{} || end != digits.data() + digits.size()) return std::nullopt;
+  return number;
+}
+
+bool is_named_as_part(std::string_view name, std::string_view output) {
+  if (!name.starts_with(output) || !name.substr(output.size()).starts_with(mark)) return false;
   name.remove_prefix(output.size() + mark.size());
-  const auto is_hex = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
-  if (name.size() < random_digits || !std::ranges::all_of(name.substr(0, random_digits), is_hex))
-    return std::nullopt;
-  name.remove_prefix(random_digits);
-  if (name.empty()) return ino_t{0};
-  ino_t inode = 0;
-  const auto [end, error] = std::from_chars(name.data() + 1, name.data() + name.size(), inode);
-  if (name.front() != '-' || error != std::errc{} || end != name.data() + name.size()) return std::nullopt;
-  return inode;
+  if (name.size() != 2 * random_digits) return false;
+  const auto random = number_of(name.substr(0, random_digits));
+  const auto complement = number_of(name.substr(random_digits));
+  return random && complement && *random == ~*complement;
 }
 
-// Removes a file that is named as a part, if it is one and nobody writes it.
-void remove_if_dead(const std::filesystem::path& part, ino_t inode) {
+// Removes a file that is named as a part, if it is a plain file and nobody writes it.
+void remove_if_dead(const std::filesystem::path& part) {
   const int descriptor = ::open(part.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) return;
   struct stat status {};
-  const bool is_ours = ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) && status.st_nlink == 1 &&
-                       (status.st_size == 0 || status.st_ino == inode);
-  if (is_ours && ::flock(descriptor, LOCK_EX | LOCK_NB) == 0) ::unlink(part.c_str());
+  const bool is_plain = ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) && status.st_nlink == 1;
+  if (is_plain && ::flock(descriptor, LOCK_EX | LOCK_NB) == 0) ::unlink(part.c_str());
   ::close(descriptor);
 }
 
@@ -87,20 +87,14 @@ bool PartFile::create() {
   part_ = random_name(path_);
   descriptor_ = ::open(part_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (descriptor_ < 0) fail(path_, "cannot create a file beside it", errno);
-  struct stat own {
-  }, replaced{};
-  ::fstat(descriptor_, &own);
-  const std::filesystem::path named = fmt::format("{}-{}", part_.string(), own.st_ino);
   // On a file system without locks this fails, and nobody removes the part of anybody else.
   ::flock(descriptor_, LOCK_EX | LOCK_NB);
-  if (::rename(part_.c_str(), named.c_str()) != 0) {
-    const int error = errno;
-    ::unlink(part_.c_str());
+  struct stat own {
+  }, replaced{};
+  if (::stat(part_.c_str(), &own) != 0) {
     ::close(std::exchange(descriptor_, -1));
-    if (error == ENOENT) return false;
-    fail(path_, "cannot create a file beside it", error);
+    return false;
   }
-  part_ = named;
   if (::lstat(path_.c_str(), &replaced) == 0 && S_ISREG(replaced.st_mode))
     ::fchmod(descriptor_,
              replaced.st_mode & 07777);  // where it fails, the rights of a new file are right too
@@ -125,8 +119,8 @@ void remove_dead_parts(const std::filesystem::path& path) {
   std::error_code error;  // a folder that cannot be listed: the part cannot be created either, which is told
   std::filesystem::directory_iterator entry(folder.empty() ? "." : folder, error);
   for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
-    if (const auto inode = inode_in(entry->path().filename().string(), output))
-      remove_if_dead(folder / entry->path().filename(), *inode);
+    if (is_named_as_part(entry->path().filename().string(), output))
+      remove_if_dead(folder / entry->path().filename());
   }
 }
 

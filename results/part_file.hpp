@@ -1,7 +1,5 @@
 #pragma once
 
-#include <sys/types.h>
-
 #include <filesystem>
 
 namespace frahm::results {
@@ -9,10 +7,10 @@ namespace frahm::results {
 // A file being written under a name of its own in the folder of its path; publish() renames the complete file
 // to the path in one step.
 //
-// The part's name is <path>.part-<16 random hex digits>-<its inode>; it is created anew and follows no link,
-// and is locked (flock) while it is written. A part left by a process that was killed is removed by the next
-// one of the same path: one that no process has locked and that bears its own inode, or is empty, which no
-// file of anybody else's is that looks like it by chance.
+// The part's name is <path>.part- and 16 hex digits: 8 random ones and their complement, which the name of
+// no other file has by chance. It is created anew and follows no link, and is locked (flock) while it is
+// written. A part left by a process that was killed, which no process has locked, is removed by the next one
+// of the same path. (Its inode proves nothing: file systems on a network number their files anew.)
 class PartFile {
  public:
   // Creates the part, with the access rights of the file that it is to replace, else those of any new file.

@@ -74,7 +74,7 @@ std::optional<StudyNote> read_note(const std::filesystem::path& path) {
 // The note that a file's name is of: the note itself or a part of it; nothing for another file's.
 std::optional<std::string> note_of_name(const std::string& name, const std::string& output) {
   if (!name.starts_with(output + ".")) return std::nullopt;
-  static const std::regex form("([0-9a-f]{1,16}-[0-9a-f]{1,16}\\.frahm-study)(\\.part-[0-9a-f]+(-[0-9]+)?)?");
+  static const std::regex form("([0-9a-f]{1,16}-[0-9a-f]{1,16}\\.frahm-study)(\\.part-[0-9a-f]{16})?");
   const std::string rest = name.substr(output.size() + 1);
   std::smatch part;
   if (!std::regex_match(rest, part, form)) return std::nullopt;

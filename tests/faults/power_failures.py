@@ -7,7 +7,6 @@ usage: power_failures.py FRAHM SOURCE_DIR
 """
 
 import os
-import re
 import shutil
 
 from faulty_runs import (EVERYTHING, OUTPUT, Expected, Fault, ended, in_parallel, larger_sweep, main, resumed_points, sampled,
@@ -64,18 +63,10 @@ def power_fails(bench, study, at):
     return left
 
 
-def put_back(place, name, data):
-    """As on the disk of then, whose inodes these are not: a part of a result has its own in its name."""
-    place.write(name, data)
-    part = re.fullmatch(r"(.*\.part-\w+)-\d+", name)
-    if part:
-        os.rename(place.path(name), place.path(f"{part[1]}-{os.stat(place.path(name)).st_ino}"))
-
-
 def go_on(bench, study, expected, files, case):
     place = bench.place(study)
     for name, data in files.items():
-        put_back(place, name, data)
+        place.write(name, data)
     tiles = {tile for name, data in files.items() if name.endswith(".frahm-log") for tile in tiles_of_log(data)}
     is_made = OUTPUT in files
     resumed = resumed_points(expected.check_resume(place, case))

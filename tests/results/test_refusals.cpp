@@ -217,6 +217,15 @@ TEST_CASE("an unfinished file leaves nothing behind and the finished one before 
   CHECK(MapReader(directory / "map.h5").layout().title == "Sample");
 }
 
+TEST_CASE("a part that a killed process left is removed, copied to another disk too; files of others stay") {
+  const TemporaryDirectory directory;
+  const std::string dead = "map.h5.part-0f1e2d3cf0e1d2c3", foreign = "map.h5.part-0f1e2d3cf0e1d2c4";
+  for (const std::string& name : {dead, foreign}) std::ofstream(directory / name) << "half a file";
+  sample::write(directory / "map.h5");
+  CHECK_FALSE(std::filesystem::exists(directory / dead));
+  CHECK(std::filesystem::exists(directory / foreign));
+}
+
 TEST_CASE("a layout refused leaves nothing behind") {
   const TemporaryDirectory directory;
   MapLayout layout = sample::layout();
