@@ -139,7 +139,9 @@ struct Assessment {
 
 // rule: values of the scheduled parameters over the band by another rule (already clipped), one function per
 // parameter, empty for parameters without a rule.
+// stop_asked: called between responses; once it is true the assessment ends early and is not whole.
 using Rule = std::function<double(double band)>;
-Assessment assess(const Task& task, const Optimum& optimum, const std::vector<Rule>& rules);
+Assessment assess(const Task& task, const Optimum& optimum, const std::vector<Rule>& rules,
+                  const std::function<bool()>& stop_asked);
 
 }  // namespace frahm::tuning

@@ -80,7 +80,10 @@ bool begin(const StudyPlan& plan, const engine::RunOptions& run, const std::file
 engine::Summary compute(const StudyPlan& plan, const engine::Job& job, const engine::RunOptions& run) {
   const bool is_new = write_study_note(run.output, plan);
   try {
-    return engine::run(job, run);
+    engine::Summary summary = engine::run(job, run);
+    // Another shard may have found the note and have no log yet.
+    if (is_new && summary.points.done == 0 && run.shard.count == 1) remove_study_note(run.output, plan);
+    return summary;
   } catch (const engine::ResumeRefused& refused) {
     if (is_new) remove_study_note(run.output, plan);
     throw engine::ResumeRefused(refused, advice_about_logs(refused, plan, run.output));
@@ -112,9 +115,12 @@ int tell_stopped(const engine::Summary& summary, const std::filesystem::path& ou
   return exit_code::stopped;
 }
 
-int tell_unwritten(const engine::StopRequest& stop, const std::filesystem::path& output) {
-  fmt::print(std::cerr, "{}: all is computed and kept beside {}; the same command writes the file\n",
-             stop.reason(), output.string());
+// seconds: that the making of the file had; it begins anew.
+int tell_unwritten(const engine::StopRequest& stop, const std::filesystem::path& output, double seconds) {
+  fmt::print(std::cerr,
+             "{}: all is computed and kept beside {}; the same command makes the file, which takes more than "
+             "the {:.1f} s that were left\n",
+             stop.reason(), output.string(), seconds);
   return exit_code::stopped;
 }
 
@@ -160,7 +166,9 @@ int run_in_logs(const RunCommandOptions& options, const engine::RunOptions& run,
                                  .progress = run.progress,
                                  .stop_asked = [&] { return stop.asked(); }};
   check_result_place(run.output, options.study);  // again: it may have changed
-  if (!work.assemble(record, assembly, *lock)) return tell_unwritten(stop, run.output);
+  const Clock::time_point computed = Clock::now();
+  if (!work.assemble(record, assembly, *lock))
+    return tell_unwritten(stop, run.output, std::chrono::duration<double>(Clock::now() - computed).count());
   remove_study_notes(run.output);
   return work.tell_made({.points = summary.points.done - summary.points.resumed - summary.points.reused,
                          .reused = summary.points.reused,

@@ -50,7 +50,7 @@ std::optional<TuningResult> assemble_tuning(const StudyPlan& plan, const RunReco
     starts.push_back({start, decode_optima(bytes)});
   });
   if (options.stop_asked()) return std::nullopt;
-  TuningResult result = tuning_result(plan.study, std::move(starts));
+  TuningResult result = tuning_result(plan.study, std::move(starts), options.stop_asked);
   if (options.stop_asked()) return std::nullopt;
   write_file(plan, run, options.output, result, missing.size());
   if (missing.empty()) remove_used_logs(options);

@@ -40,10 +40,11 @@ std::size_t least_of(const std::vector<const Optimum*>& optima) {
   return static_cast<std::size_t>(std::ranges::min_element(optima, {}, objective) - optima.begin());
 }
 
-tuning::Assessment assess(const Study& study, const Optimum& optimum) {
+tuning::Assessment assess(const Study& study, const Optimum& optimum,
+                          const std::function<bool()>& stop_asked) {
   if (study.tune()->peaks || !has_design(study, optimum)) return {};
   try {
-    return tuning::assess(tuning_task(study), optimum, rules_of(study));
+    return tuning::assess(tuning_task(study), optimum, rules_of(study), stop_asked);
   } catch (const mechanics::MechanicsError& error) {
     throw StudyError(rules::not_computed, "{}", study.source.name + ": " + error.what());
   }
@@ -77,7 +78,8 @@ bool has_design(const Study& study, const Optimum& optimum) {
   return true;
 }
 
-TuningResult tuning_result(const Study& study, std::vector<StartResult> starts) {
+TuningResult tuning_result(const Study& study, std::vector<StartResult> starts,
+                           const std::function<bool()>& stop_asked) {
   TuningResult result{
       .starts = std::move(starts), .best = {}, .assessment = {}, .before = peaks_before(study)};
   std::size_t limits = std::numeric_limits<std::size_t>::max();
@@ -87,7 +89,7 @@ TuningResult tuning_result(const Study& study, std::vector<StartResult> starts) 
     for (const StartResult& start : result.starts) optima.push_back(&start.optima[limit]);
     result.best.push_back(study.tune()->peaks ? least_of(optima) : best_of(optima));
   }
-  result.assessment = assess(study, result.optimum());
+  result.assessment = assess(study, result.optimum(), stop_asked);
   return result;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "solvers/tuning/optimum.hpp"
@@ -31,8 +32,10 @@ struct TuningResult {
 // designs that break their limits the least violation counts. At least one.
 std::size_t best_of(const std::vector<const tuning::Optimum*>& optima);
 
-// Chooses among the starts and assesses the optimum. Throws StudyError for an invalid task.
-TuningResult tuning_result(const Study& study, std::vector<StartResult> starts);
+// Chooses among the starts and assesses the optimum. Once stop_asked is true it ends early and its
+// assessment is not whole. Throws StudyError for an invalid task.
+TuningResult tuning_result(const Study& study, std::vector<StartResult> starts,
+                           const std::function<bool()>& stop_asked);
 
 // Of a trade-off: whether another point of the front has an objective no higher under a lower limit, so that
 // this one's limit gains nothing.

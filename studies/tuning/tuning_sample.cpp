@@ -99,7 +99,7 @@ TuningSample sample_tuning(const StudyPlan& plan, double seconds) {
   }
   sample.least_seconds = sample.most_seconds = sample.seconds;
   const auto assessment = Clock::now();
-  tuning_result(plan.study, {std::move(first)});
+  tuning_result(plan.study, {std::move(first)}, [] { return false; });
   sample.assessment_seconds = seconds_since(assessment);
   return sample;
 }

@@ -37,9 +37,10 @@ std::vector<double> constants(const DesignSpace& space, std::span<const double> 
 
 class Assessor {
  public:
-  Assessor(const Task& task, const Optimum& optimum)
+  Assessor(const Task& task, const Optimum& optimum, const std::function<bool()>& stop_asked)
       : task_(without_bounds(task, optimum)),
-        tuning_(task_, {}, effort_, never_stop_),
+        stop_asked_(stop_asked),
+        tuning_(task_, {}, effort_, stop_asked_),
         optimum_(optimum),
         x_(variables_of(optimum)) {}
 
@@ -88,6 +89,7 @@ class Assessor {
         continue;
       }
       for (const double at : band) {
+        if (stop_asked_()) return result;
         const bool solved = response.solve(x, at, Derivatives::none) == TunedResponse::State::solved;
         value.push_back(solved ? response.value(BandCurve::larger) : kNone);
         ++searched_.points;
@@ -121,7 +123,7 @@ class Assessor {
         x.push_back(rules[p](at));
       }
     }
-    DesignTuning tuning(ruled, {}, effort_, never_stop_);
+    DesignTuning tuning(ruled, {}, effort_, stop_asked_);
     return curve("rule", tuning, x, band);
   }
 
@@ -140,6 +142,7 @@ class Assessor {
     for (std::size_t p = 0; p < space.parameters(); ++p) {
       std::vector<double>& growth = result.growth.emplace_back();
       for (const double change : kChanges) {
+        if (stop_asked_()) return result;
         std::vector<double> x = x_;
         for (std::size_t i = space.first(p); i < space.first(p) + space.count(p); ++i) x[i] *= 1.0 + change;
         growth.push_back(worst(tuning_, x) / at_optimum - 1.0);
@@ -151,7 +154,7 @@ class Assessor {
   const Task task_;
   Effort effort_;
   SearchedPoints searched_;
-  const std::function<bool()> never_stop_ = [] { return false; };
+  const std::function<bool()>& stop_asked_;
   DesignTuning tuning_;
   const Optimum& optimum_;
   const std::vector<double> x_;
@@ -159,8 +162,9 @@ class Assessor {
 
 }  // namespace
 
-Assessment assess(const Task& task, const Optimum& optimum, const std::vector<Rule>& rules) {
-  return Assessor(task, optimum).assess(rules);
+Assessment assess(const Task& task, const Optimum& optimum, const std::vector<Rule>& rules,
+                  const std::function<bool()>& stop_asked) {
+  return Assessor(task, optimum, stop_asked).assess(rules);
 }
 
 }  // namespace frahm::tuning

@@ -124,6 +124,16 @@ TEST_CASE("a record tells that its schedule was to dominate the constant, and on
   CHECK(dominate(parse(dominating)) == "constant");
 }
 
+TEST_CASE("the assessment of an optimum ends where it is asked to stop, amid the frequencies of a curve") {
+  const Study study = read_study(study_path("tune_absorber_stops"));
+  tuning::Optimum optimum = optimum_of(2.0);
+  optimum.parameters = {{{0.9}, {tuning::AtBound::no}, {0}, {0}}, {{0.1}, {tuning::AtBound::no}, {0}, {0}}};
+  int asked = 0;
+  const TuningResult result = tuning_result(study, {{0, {optimum}}}, [&] { return ++asked > 20; });
+  CHECK(result.assessment.searched.points < 20);
+  CHECK(result.optimum().objective == 2.0);
+}
+
 TEST_CASE("a variance without a band has the objective of the design before beside that after") {
   const Study study = parse(
       heading + absorber +
