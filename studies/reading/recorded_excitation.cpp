@@ -110,7 +110,7 @@ void read_recorded_components(NetworkReading& reading, const TomlValue& excitati
         is_force ? driven_mass(reading, section, place) : *find_node(network, place.node);
     network.excitations.push_back(
         {is_force ? ExcitationKind::recorded_force : ExcitationKind::recorded_motion, node.index, 0});
-    values.amplitude.push_back(read_value(reading, section, "scale", Quantity::number, Range::finite, 1.0));
+    values.amplitude.push_back(read_value(reading, section, "scale", Quantity::number, 1.0));
     values.phase.push_back({});
     values.rod.push_back({});
   }
