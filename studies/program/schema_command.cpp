@@ -19,6 +19,7 @@ using Json = nlohmann::ordered_json;
 
 // Names, in which a repetition may write a number: "floor{i}".
 constexpr const char* name_pattern = R"(^[A-Za-z]([A-Za-z0-9_]|\{[^{}]*\})*$)";
+constexpr const char* name_or_star = R"(^([A-Za-z]([A-Za-z0-9_]|\{[^{}]*\})*|.*\*.*)$)";
 
 Json section_schema(const std::string& path);
 
@@ -112,6 +113,8 @@ Json form_of(const StudyKey& key, KeyForm form) {
       return name_schema();
     case KeyForm::names:
       return list_of(name_schema(), key.length);
+    case KeyForm::patterns:
+      return list_of({{"type", "string"}, {"pattern", name_or_star}}, key.length);
     case KeyForm::choice:
     case KeyForm::element_type:
       return {{"enum", words_of(key)}};
@@ -152,8 +155,9 @@ class Addition {
   Json properties_ = Json::object(), required_ = Json::array(), all_ = Json::array();
 };
 
+// A key is there; an empty list says nothing.
 Json has_key(const std::string& key) {
-  return {{"required", {key}}};
+  return {{"required", {key}}, {"properties", {{key, {{"minItems", 1}}}}}};
 }
 
 Json none_of(const Json& schemas) {
@@ -176,6 +180,8 @@ Json group_schema(const KeyGroup& group) {
       return {{"anyOf", each}};
     case Together::all_or_none:
       return {{"anyOf", {{{"required", keys}}, none_of(each)}}};
+    case Together::not_without:
+      return {{"dependentRequired", {{keys.front(), {keys.back()}}}}};
   }
   return {};
 }

@@ -154,6 +154,7 @@ void read_bounds(const Study& study, const TomlSection& section, IdentifiedParam
 // Reads a formula's estimate for a parameter.
 void read_estimate(const IdentifyReading& reading, const TomlSection& section, IdentifiedParameter& taken) {
   const std::string method = method_name(reading.choice.method);
+  section.keep_to(method);
   const std::vector<std::string> known = estimates_of(reading.choice);
   taken.estimate = section.text("estimate");
   if (reading.data == DataFiles::leave) return;  // the estimates depend on the data
@@ -171,8 +172,10 @@ void read_identified_parameters(IdentifyReading& reading, const TomlSection& sec
   identified.position = section.position();
   identified.parameter = read_parameter(reading, section);
   identified.unit = read_usual_unit(reading, section, identified.parameter);
-  section.keep_to(method_name(reading.choice.method));
   if (reading.choice.method == Method::grey_box) {
+    if (section.find("estimate"))
+      section.fail(rules::key_without_use, "estimate",
+                   "a grey box estimates the parameters themselves; leave it out");
     read_bounds(reading.study, section, identified);
     identified.each_record = section.boolean_or("each_record", false);
   } else {

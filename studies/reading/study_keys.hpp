@@ -24,6 +24,7 @@ enum class KeyForm {
   texts,
   name,          // letters, digits and _, after a letter
   names,         // a list of those
+  patterns,      // a list of those, or of patterns of them: "floor*_peak"
   choice,        // one of StudyKey::words
   element_type,  // the name of a type of element: element_types() has the words
   table,         // a section of its own, named `section.key`
@@ -119,7 +120,13 @@ struct StudyKey {
 };
 
 // Keys of a section that go together, in some form of it or in all.
-enum class Together { one, at_most_one, at_least_one, all_or_none };
+enum class Together {
+  one,
+  at_most_one,
+  at_least_one,
+  all_or_none,
+  not_without,  // the first needs the second
+};
 struct KeyGroup {
   const char* section;
   const char* keys;  // "a|b"

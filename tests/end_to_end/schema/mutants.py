@@ -3,7 +3,8 @@ import copy
 import json
 import math
 
-WRONG = [True, "a b", "", [], {}, 1, 0, -1, 1.5, 10**9, [1], [1, 2, 3], [[1, 2]], ["a b"], [True], {"a b": 1}, {"value": "a"}, {"value": -1}]
+WRONG = (True, "a b", [], {}, -1, 1.5, 10**9, [1, 2, 3])
+MORE_WRONG = ("", 1, 0, [1], [[1, 2]], ["a b"], [True], {"a b": 1}, {"value": "a"}, {"value": -1})
 DECIDERS = ("kind", "type", "law", "distribution", "profile", "method", "objective", "generate", "shape")
 
 
@@ -46,14 +47,13 @@ def changed(study, place, change):
     return result
 
 
-def form_of(study, table):
-    words = [study.get("study", {}).get("kind")] + [table.get(key) for key in DECIDERS]
-    return json.dumps([word if isinstance(word, str) else word is not None for word in words])
+def form_of(table):
+    return " ".join(f"{key} = {table[key]}" for key in DECIDERS if isinstance(table.get(key), str))
 
 
-def mutants(studies, keys_of):
-    """Of each key of each form of a section once, from the smallest study.  studies: by path, the smallest
-    first.  keys_of(path): the keys that a section may have.  Yields path, what was done, study."""
+def mutants(studies, keys_of, wrong_values=WRONG):
+    """Of each key of each form of a section once, from the first study that has it.  studies: by path.
+    keys_of(path): the keys that a section may have.  Yields path, what was done, study."""
     examples = {}  # values of keys, to put where they are not
     for study in studies.values():
         for path, _, table in tables(study):
@@ -69,22 +69,23 @@ def mutants(studies, keys_of):
 
     for name, study in studies.items():
         for path, place, table in tables(study):
-            form, known = form_of(study, table), keys_of(path)
+            form, known = form_of(table), keys_of(path)
+            of_kind = form + form_of(study.get("study", {}))
             if known and new(path, form, "unknown"):
                 yield name, f"{path}: a key nobody knows", changed(study, place, lambda each: each.update(frobnicate=1))
             for key in table:
                 label = key if not known or key in known else "*"
-                if new(path, form, label, "removed"):
+                if new(path, of_kind, label, "removed"):
                     yield name, f"{path} {key} removed", changed(study, place, lambda each: each.pop(key))
                 if known and new(path, form, label, "misspelt"):
                     yield name, f"{path} {key} misspelt", changed(study, place, lambda each: each.update({key + "e": each.pop(key)}))
-                for wrong in WRONG:
-                    if wrong != table[key] and new(path, form if path else "", label, repr(wrong)):
+                for wrong in wrong_values:
+                    if wrong != table[key] and new(path, form, label, repr(wrong)):
                         yield name, f"{path} {key} = {written(wrong)}", changed(study, place, lambda each: each.update({key: copy.deepcopy(wrong)}))
                 if isinstance(table[key], list):
                     for what, other in (("halved", table[key][:1]), ("doubled", table[key] * 2)):
                         if new(path, form, label, what):
                             yield name, f"{path} {key} {what}", changed(study, place, lambda each: each.update({key: copy.deepcopy(other)}))
             for key in known - set(table):
-                if (path, key) in examples and new(path, form, key, "added"):
+                if (path, key) in examples and new(path, of_kind, key, "added"):
                     yield name, f"{path} {key} added", changed(study, place, lambda each: each.update({key: copy.deepcopy(examples[path, key])}))
