@@ -90,6 +90,27 @@ profile = "harmonic"
 crank = 0.1
 [[excitation.force]]"""),
     "an empty name": small.replace('on = "main"', 'on = ""'),
+    "another version": small.replace("schema = 1", "schema = 2"),
+    "a spring without stiffness": small.replace("stiffness = 1\n", ""),
+    "friction without a force": small.replace('force = "f"\n', ""),
+    "a force without amplitude": small.replace("amplitude = 1\n", ""),
+    "one point": small.replace("points = 481", "points = 1"),
+    "no point": small.replace("points = 481", "points = 0"),
+    "an order below 0": small.replace("amplitude = 1\n", "amplitude = 1\norder = -1\n"),
+    "an order above all": small.replace("amplitude = 1\n", "amplitude = 1\norder = 1001\n"),
+    "one node": small.replace('["ground", "main"]\nstiffness', '["main"]\nstiffness'),
+    "two directions": small.replace("stiffness = 1\n", "stiffness = 1\nalong = { main = 1 }\n"),
+    "values beside a range": small.replace("from = 0\nto", "values = [0, 1]\nfrom = 0\nto"),
+    "damping that is true": small + "\n[damping]\nmodal = true\n",
+    "half of Rayleigh's damping": small + "\n[damping]\nrayleigh = [0.1]\n",
+    "two kinds of damping": small + "\n[damping]\nmodal = 0.1\nrayleigh = [0.1, 0.1]\n",
+    "a name of two words": small.replace('name = "main"', 'name = "a b"'),
+    "a repetition without end": small.replace('name = "main"', 'name = "main"\nrepeat = { i = [1] }'),
+    "no mass": small.replace('[[mass]]\nname = "main"\nmass = 1\n', ""),
+    "no excitation": small.replace('[excitation]\nfrequency = "r"\n\n[[excitation.force]]\non = "main"\namplitude = 1\n', ""),
+    "no axis": small[: small.index("[[axis]]")],
+    "a negative mass": small.replace("mass = 1\n", "mass = -1\n"),
+    "an exact law with a slope": small.replace('force = "f"\n', 'force = "f"\nslope = 10\n'),
 }
 with tempfile.TemporaryDirectory() as folder:
     for what, text in wrong.items():
