@@ -15,7 +15,6 @@ using Method = IdentifyMethod;
 
 void read_method(const TomlSection& section, IdentifyChoice& choice) {
   choice.method = section.choice_as<Method>("method");
-  section.keep_to(method_name(choice.method));
   choice.start = section.choice_as<IdentifyStart>("start");
   choice.curve = section.choice_as<CurveOf>("curve");
   choice.sensor_offset = section.boolean_or("sensor_offset", false);
@@ -159,6 +158,7 @@ void read_identification(const StudyContext& context, const TomlValue& root, Stu
   IdentifyChoice& choice = *study.identify();
   read_method(section, choice);
   check_system(section, study, choice);
+  section.keep_to(method_name(choice.method));
   NetworkReading reading(context, study.parameters);
   reading.result = {study.network, study.values};
   read_known_values(reading, section, choice);

@@ -109,9 +109,11 @@ const Limits& TomlSection::limits(std::string_view key) const {
 }
 
 void TomlSection::check_limits(std::string_view key, double number, std::string_view kind) const {
-  if (!limits(key).hold(number))
-    fail(rules::out_of_range, key, "{} is out of range: {} ({})", number, limits(key).told(kind),
-         study_key(section_, key).meaning);
+  if (limits(key).hold(number)) return;
+  const StudyKey& row = study_key(section_, key);
+  const std::vector<std::string> words = quoted(words_of(row));
+  fail(rules::out_of_range, key, "{} is out of range: {}{} ({})", number, limits(key).told(kind),
+       words.empty() ? "" : ", or " + listed(words, " or "), row.meaning);
 }
 
 void TomlSection::require_keys(std::string_view form) const {

@@ -212,6 +212,7 @@ for (name, what, study), (rule, message) in zip(mistakes, answers):
         counts[f"refused by the reader alone: {why}"] += 1
         if not why:
             unlike.append((name, what, rule, message.split("\n")[0]))
+    assert what != "wrong" or rule != "none", f"the reader accepts {name}"
     assert what != "as it is" or rule == "none" and is_valid, (name, rule, message)
 print(*(f"{count:6d} {what}" for what, count in sorted(counts.items())), sep="\n")
 assert not unlike, "\n".join(map(str, unlike))
