@@ -3,8 +3,8 @@ import copy
 import json
 import math
 
-WRONG = (True, "a b", [], {}, -1, 1.5, 10**9, [1, 2, 3])
-MORE_WRONG = ("", 1, 0, [1], [[1, 2]], ["a b"], [True], {"a b": 1}, {"value": "a"}, {"value": -1})
+WRONG = (True, "a b", [], {}, -1, 10**9, [1, 2, 3])
+MORE_WRONG = ("", 1, 0, 1.5, [1], [[1, 2]], ["a b"], [True], {"a b": 1}, {"value": "a"}, {"value": -1})
 DECIDERS = ("kind", "type", "law", "distribution", "profile", "method", "objective", "generate", "shape")
 
 
