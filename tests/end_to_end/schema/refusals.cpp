@@ -1,5 +1,5 @@
-// Reads studies from the standard input, each a name and a text that end with a zero byte. Writes for each the
-// key of the rule that it breaks, or "none", and the message, in the same form.
+// Reads studies from the standard input, each a name and a text that end with a zero byte. Writes for each
+// the key of the rule that it breaks, or "none", and the message, in the same form.
 #include <iostream>
 #include <string>
 
