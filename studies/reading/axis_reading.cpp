@@ -122,13 +122,6 @@ std::vector<double> read_range(const TomlSection& section) {
   const double to = section.number("to");
   section.require("points");
   const std::int64_t points = section.integer_or("points", 0);
-  if (points < 1 || points > most_axis_points) {
-    section.fail(rules::out_of_range, "points", "{} is out of range: a whole number from 2 to {}", points,
-                 most_axis_points);
-  }
-  if (points == 1)
-    section.fail(rules::out_of_range, "points",
-                 "one point does not reach from \"from\" to \"to\"; write values = [...]");
   if (from == to)
     section.fail(rules::wrong_order, "to", "\"from\" and \"to\" are the same, {}; write values = [...]", to);
   const bool logarithmic = section.choice("spacing") == "log";

@@ -31,7 +31,7 @@ void read_stops(NetworkReading& reading, const TomlSection& section, const Eleme
       return;
     add_value(reading, of,
               read_value_at(reading, of.where, value, rotational ? Quantity::angle : Quantity::length,
-                            Range::not_negative));
+                            range_in(section, "clearance")));
     of.sides.push_back(side);
     element.bends.push_back({side, law});
   };

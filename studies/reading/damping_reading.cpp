@@ -9,7 +9,7 @@ namespace {
 void read_modal(NetworkReading& reading, const TomlSection& section) {
   std::vector<StudyValue>& ratios = reading.result.values.damping;
   const auto read = [&](const std::string& where, const TomlValue& value) {
-    ratios.push_back(read_value_at(reading, where, value, Quantity::number, Range::not_negative));
+    ratios.push_back(read_value_at(reading, where, value, Quantity::number, range_in(section, "modal")));
   };
   const TomlValue& value = section.require("modal");
   const auto* list = value.as<TomlArray>();
@@ -30,7 +30,7 @@ void read_rayleigh(NetworkReading& reading, const TomlSection& section) {
                  "two numbers are expected: rayleigh = [a, b] is a M + b K, a in 1/s, b in s");
   const auto read = [&](const char* where, const TomlValue& value, Quantity quantity) {
     reading.result.values.damping.push_back(
-        read_value_at(reading, where, value, quantity, Range::not_negative));
+        read_value_at(reading, where, value, quantity, range_in(section, "rayleigh")));
   };
   read("[damping]: rayleigh: a", list->front(), Quantity::rate);
   read("[damping]: rayleigh: b", list->back(), Quantity::time);

@@ -20,12 +20,6 @@ std::string one_of(const TomlSection& section, const char* first, const char* se
   return has_first ? first : second;
 }
 
-double positive(const TomlSection& section, const std::string& key) {
-  const double value = section.number(key);
-  if (!(value > 0.0)) section.fail(rules::out_of_range, key, "is {}; must be > 0", value);
-  return value;
-}
-
 void read_ends(const TomlSection& section, Distribution& distribution) {
   if (section.find("lower")) distribution.lower = section.number("lower");
   if (section.find("upper")) distribution.upper = section.number("upper");
@@ -43,7 +37,7 @@ void check_cuts(const TomlSection& section, const Distribution& distribution) {
 void read_normal(const TomlSection& section, Distribution& distribution) {
   distribution.centre = section.number("mean");
   const std::string spread = one_of(section, "deviation", "variation");
-  distribution.spread = positive(section, spread);
+  distribution.spread = section.number(spread);
   if (spread == "deviation") return;
   distribution.spread *= std::abs(distribution.centre);
   if (!(distribution.spread > 0.0))
@@ -53,9 +47,11 @@ void read_normal(const TomlSection& section, Distribution& distribution) {
 // Mean = median exp(s^2 / 2), s the deviation of the logarithm.
 void read_lognormal(const TomlSection& section, Distribution& distribution) {
   const std::string centre = one_of(section, "median", "mean");
-  distribution.centre = positive(section, centre);
+  distribution.centre = section.number(centre);
+  if (!(distribution.centre > 0.0))
+    section.fail(rules::out_of_range, centre, "is {}; must be > 0", distribution.centre);
   const std::string spread = one_of(section, "deviation", "variation");
-  const double given = positive(section, spread);
+  const double given = section.number(spread);
   if (spread == "variation") {
     distribution.spread = samples::log_deviation(given);
   } else if (centre == "mean") {
@@ -67,7 +63,6 @@ void read_lognormal(const TomlSection& section, Distribution& distribution) {
 }
 
 void read_bounded(const TomlSection& section, Distribution& distribution) {
-  for (const char* end : {"lower", "upper"}) section.require(end);
   read_ends(section, distribution);
   if (distribution.kind == Distribution::Kind::uniform) return;
   distribution.centre = section.number("mode");
@@ -88,7 +83,6 @@ std::string told(const TomlSection& section, const std::string& name) {
 }  // namespace
 
 ReadDistribution read_distribution(const TomlSection& section) {
-  section.require("distribution");
   const std::string name = section.choice("distribution");
   section.keep_to(name);
   Distribution distribution;

@@ -33,9 +33,7 @@ WantedColumn wanted_column(const TomlSection& section, const std::string& key, c
     wanted.name = section.text(key);
     return wanted;
   }
-  const std::int64_t number = section.integer_or(key, 1);
-  if (number < 1) section.fail(rules::out_of_range, key, "{} is out of range: columns count from 1", number);
-  wanted.number = static_cast<std::size_t>(number);
+  wanted.number = static_cast<std::size_t>(section.integer_or(key, 1));
   return wanted;
 }
 
@@ -147,11 +145,10 @@ Record read_driving_record(const StudyContext& context, const TomlSection& secti
   reading.wanted = {wanted_column(section, "time", "time", 1), wanted_column(section, "column", "value", 2)};
   RawRecord raw = read_columns(std::move(reading), folder);
   if (raw.doubtful > 0)
-    throw data_error(
-        rules::doubtful_row, section, file.position,
-        fmt::format("{}: rows marked as doubtful: {}; a record drives the motion at all "
-                    "times, and none of its rows can be left out",
-                    file.name, raw.doubtful));
+    throw data_error(rules::doubtful_row, section, file.position,
+                     fmt::format("{}: rows marked as doubtful: {}; a record drives the motion at all "
+                                 "times, and none of its rows can be left out",
+                                 file.name, raw.doubtful));
   std::optional<TomlValue> unit;
   if (const TomlValue* value = section.find("unit")) unit = *value;
   take_g(place, raw.columns[1], unit);

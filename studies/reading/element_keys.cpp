@@ -32,15 +32,47 @@ bool is_of_every_type(std::string_view key) {
   return std::ranges::find(keys_of_every_type, key) != std::end(keys_of_every_type);
 }
 
-std::vector<std::string> keys_of_type(std::string_view type) {
-  if (type == iwan) return {"stiffnesses", "forces", "distribution", "stiffness", "force", "elements", "chi"};
+std::vector<ElementForm> forms_of_type(std::string_view type) {
+  if (type == iwan)
+    return {{.needed = {"stiffnesses", "forces"}},
+            {"distribution", "uniform", {"distribution", "stiffness", "force", "elements"}},
+            {"distribution", "power", {"distribution", "stiffness", "force", "elements", "chi"}}};
   const ElementKind& kind = kind_called(type);
-  std::vector<std::string> keys{kind.value.key};
-  if (kind.second.exists()) keys.emplace_back(kind.second.key);
-  if (kind.can_be_smoothed()) keys.insert(keys.end(), {"law", kind.slope.key});
-  if (kind.cubic.exists()) keys.emplace_back(kind.cubic.key);
-  if (kind.table != nullptr || kind.can_be_smoothed()) keys.emplace_back("table");
-  if (kind.stop != nullptr) keys.insert(keys.end(), {"clearance", "tension"});
+  ElementForm by_value{.needed = {kind.value.key}};
+  if (kind.second.exists())
+    (kind.second_is_optional ? by_value.optional : by_value.needed).emplace_back(kind.second.key);
+  if (kind.stop != nullptr)
+    by_value.needed.emplace_back("clearance"), by_value.optional.emplace_back("tension");
+  if (kind.cubic.exists()) by_value.optional.emplace_back(kind.cubic.key);
+  if (kind.can_be_smoothed()) {
+    by_value.decider = "law", by_value.word = "exact", by_value.optional.emplace_back("law");
+    return {by_value,
+            {"law", "arctan", {kind.value.key, "law", kind.slope.key}},
+            {"law", "stribeck", {"law", "table"}}};
+  }
+  if (kind.table != nullptr) return {by_value, {.needed = {"table"}}};
+  return {by_value};
+}
+
+mechanics::Range range_of_type(std::string_view type, std::string_view key) {
+  const ElementKind& kind = kind_called(type);
+  if (key == "stiffnesses") return kind.value.range;
+  if (key == "forces") return kind.second.range;
+  for (const mechanics::ValueKey* value : {&kind.value, &kind.second, &kind.slope, &kind.cubic}) {
+    if (value->exists() && key == value->key) return value->range;
+  }
+  return mechanics::Range::finite;
+}
+
+std::vector<std::string> keys_of_type(std::string_view type) {
+  std::vector<std::string> keys;
+  for (const ElementForm& form : forms_of_type(type)) {
+    for (const auto* more : {&form.needed, &form.optional}) {
+      for (const std::string& key : *more) {
+        if (std::ranges::find(keys, key) == keys.end()) keys.push_back(key);
+      }
+    }
+  }
   return keys;
 }
 

@@ -21,7 +21,18 @@ const mechanics::ElementKind& kind_called(std::string_view type);
 // Whether every type has the key: name, type, and what the element acts along.
 bool is_of_every_type(std::string_view key);
 
-// The other keys of a type.
+// A form of a type by its other keys: a coulomb by its law, a spring by its stiffness or its table.
+struct ElementForm {
+  const char* decider = "";  // the key whose word tells the form, if one does
+  const char* word = "";
+  std::vector<std::string> needed{}, optional{};
+};
+std::vector<ElementForm> forms_of_type(std::string_view type);
+
+// The range of a value of a type, which has it.
+mechanics::Range range_of_type(std::string_view type, std::string_view key);
+
+// The other keys of a type, of all its forms.
 std::vector<std::string> keys_of_type(std::string_view type);
 
 // What a value of an element is, of one that turns too.

@@ -10,7 +10,6 @@ namespace {
 
 using transient::Envelope;
 
-constexpr std::int64_t most_records = 1'000'000;
 constexpr double most_samples = 1e8;  // of all records: a gigabyte
 
 // A number > 0, in SI where a unit is given.
@@ -25,12 +24,6 @@ double read_positive(const StudyContext& context, const TomlSection& section, co
     throw context.source.error_at(error.rule(), number.unit_position, "{}: {}", where, error.what());
   }
   if (!(value > 0.0)) section.fail(rules::out_of_range, key, "{} is not possible; must be > 0", number.value);
-  return value;
-}
-
-double read_plain(const TomlSection& section, const std::string& key) {
-  const double value = section.number(key);
-  if (!(value > 0.0)) section.fail(rules::out_of_range, key, "{} is not possible; must be > 0", value);
   return value;
 }
 
@@ -51,7 +44,6 @@ Envelope read_envelope(const StudyContext& context, const TomlSection& generated
   if (!value) return envelope;
   const TomlSection section(context.source, *value, generated.where() + ": envelope",
                             "axis.records.envelope");
-  section.require("shape");
   const std::string shape = section.choice("shape");
   section.keep_to(shape);
   const bool is_jennings = shape == "jennings";
@@ -64,11 +56,11 @@ Envelope read_envelope(const StudyContext& context, const TomlSection& generated
 void read_ground(const StudyContext& context, const TomlSection& section, GeneratedRecords& generated) {
   transient::GroundNoise& ground = generated.ground;
   ground.ground_frequency = read_positive(context, section, "ground_frequency", Quantity::angular_frequency);
-  ground.ground_damping = read_plain(section, "ground_damping");
+  ground.ground_damping = section.number("ground_damping");
   if (section.find("corner_frequency") || section.find("corner_damping")) {
     ground.corner_frequency =
         read_positive(context, section, "corner_frequency", Quantity::angular_frequency);
-    ground.corner_damping = read_plain(section, "corner_damping");
+    ground.corner_damping = section.number("corner_damping");
   }
   // Half the rate is the highest frequency that samples tell apart.
   const double highest = std::numbers::pi * generated.sampling.rate;
@@ -97,22 +89,13 @@ GeneratedRecords read_generated(const StudyContext& context, const TomlSection& 
   const TomlSection section(context.source, axis.require("records"), axis.where() + ": records",
                             "axis.records");
   GeneratedRecords generated;
-  section.require("generate");
   generated.kind = section.choice("generate");
   section.keep_to(generated.kind);
-  section.require("count");
-  const std::int64_t count = section.integer_or("count", 1);
-  if (count < 1 || count > most_records)
-    section.fail(rules::out_of_range, "count", "{} is out of range: a whole number from 1 to {}", count,
-                 most_records);
-  generated.count = static_cast<std::size_t>(count);
-  const std::int64_t seed = section.integer_or("seed", 1);
-  if (seed < 0)
-    section.fail(rules::out_of_range, "seed", "{} is out of range: a whole number from 0 on", seed);
-  generated.sampling.seed = static_cast<std::uint64_t>(seed);
+  generated.count = static_cast<std::size_t>(section.integer_or("count", 1));
+  generated.sampling.seed = static_cast<std::uint64_t>(section.integer_or("seed", 1));
   generated.sampling.duration = read_positive(context, section, "duration", Quantity::time);
-  generated.sampling.rate = read_plain(section, "rate");
-  generated.ground.intensity = read_plain(section, "intensity");
+  generated.sampling.rate = section.number("rate");
+  generated.ground.intensity = section.number("intensity");
   check_size(section, generated);
   if (generated.kind == "kanai_tajimi") read_ground(context, section, generated);
   return generated;

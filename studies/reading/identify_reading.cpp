@@ -13,21 +13,13 @@ namespace {
 
 using Method = IdentifyMethod;
 
-constexpr std::int64_t most_cycles = 1'000'000;
-
 void read_method(const TomlSection& section, IdentifyChoice& choice) {
-  section.require("method");
   choice.method = section.choice_as<Method>("method");
-  section.keep_to(method_name(choice.method));
   choice.start = section.choice_as<IdentifyStart>("start");
   choice.curve = section.choice_as<CurveOf>("curve");
   choice.sensor_offset = section.boolean_or("sensor_offset", false);
   if (!section.find("cycles")) return;
-  const std::int64_t cycles = section.integer_or("cycles", 1);
-  if (cycles < 1 || cycles > most_cycles)
-    section.fail(rules::out_of_range, "cycles", "{} is out of range: a whole number from 1 to {}", cycles,
-                 most_cycles);
-  choice.cycles = static_cast<std::size_t>(cycles);
+  choice.cycles = static_cast<std::size_t>(section.integer_or("cycles", 1));
 }
 
 void read_known_values(NetworkReading& reading, const TomlSection& section, IdentifyChoice& choice) {
@@ -64,7 +56,7 @@ RecordChoice read_record_heading(NetworkReading& reading, const TomlSection& sec
         ? section.fail(rules::name_taken, "name", "{}", problem)
         : section.fail_here(rules::name_taken, "{}", problem + "; give them a \"name\" each");
   }
-  record.added_mass = read_optional(reading, section, "added_mass", Quantity::mass, Range::not_negative);
+  record.added_mass = read_optional(reading, section, "added_mass", Quantity::mass);
   record.static_displacement = read_optional(reading, section, "static_displacement", Quantity::length);
   return record;
 }
@@ -130,12 +122,6 @@ void check_stiffness(const TomlSection& section, const IdentifyChoice& choice) {
         "rest is force / stiffness");
 }
 
-void check_parameters(const TomlSection& section, const IdentifyChoice& choice) {
-  if (choice.method != Method::grey_box || !choice.parameters.empty()) return;
-  section.fail_here(rules::missing_section,
-                    "the study has no [[identify.parameter]]: a grey box needs a parameter to fit");
-}
-
 std::vector<TomlSection> sections_of(const TomlSection& identify, const TomlValue& root, const char* kind,
                                      const char* naming_key) {
   std::vector<TomlSection> sections;
@@ -156,11 +142,7 @@ std::string method_name(IdentifyMethod method) {
 }
 
 TomlSection identify_section(const StudySource& source, const TomlValue& root) {
-  const TomlEntry* entry = find_entry(root, "identify");
-  if (!entry)
-    throw source.error_at(rules::missing_section, root.position,
-                          "the study has no [identify] with its method");
-  return {source, entry->value, "[identify]", "identify"};
+  return {source, find_entry(root, "identify")->value, "[identify]", "identify"};
 }
 
 std::vector<TomlSection> record_sections(const TomlSection& identify, const TomlValue& root) {
@@ -176,13 +158,12 @@ void read_identification(const StudyContext& context, const TomlValue& root, Stu
   IdentifyChoice& choice = *study.identify();
   read_method(section, choice);
   check_system(section, study, choice);
+  section.keep_to(method_name(choice.method));
   NetworkReading reading(context, study.parameters);
   reading.result = {study.network, study.values};
   read_known_values(reading, section, choice);
   for (const TomlSection& record : record_sections(section, root))
     choice.records.push_back(read_record_heading(reading, record, choice));
-  if (choice.records.empty())
-    section.fail_here(rules::missing_section, "the study has no [[identify.record]]: nothing was measured");
 }
 
 void read_measurements(const StudyContext& context, const TomlValue& root,
@@ -199,7 +180,6 @@ void read_measurements(const StudyContext& context, const TomlValue& root,
   if (formula) read_all_records();
   for (const TomlSection& parameter : parameter_sections(section, root))
     read_identified_parameters(reading, parameter);
-  check_parameters(section, choice);
   if (!formula) read_all_records();
   if (data == DataFiles::leave) return;
   check_count(section, choice, records);

@@ -1,14 +1,12 @@
 #include <fmt/format.h>
 
-#include "solvers/flow/sizes.hpp"
 #include "solvers/laws/iwan.hpp"
+#include "studies/reading/element_keys.hpp"
 #include "studies/reading/network_reading.hpp"
 
 // An iwan element: sliders side by side, each a jenkins element.
 namespace frahm::studies {
 namespace {
-
-constexpr std::int64_t most_sliders = periodic::kMostContacts;
 
 Quantity stiffness_of(bool rotational) {
   return rotational ? Quantity::torsional_stiffness : Quantity::stiffness;
@@ -37,8 +35,9 @@ std::vector<StudySlider> listed_sliders(NetworkReading& reading, const TomlSecti
       section.fail(rules::key_without_use, key, "belongs to a distribution; the sliders are listed here");
   }
   const auto stiffnesses =
-      read_list(reading, section, "stiffnesses", stiffness_of(rotational), Range::positive);
-  const auto forces = read_list(reading, section, "forces", force_of(rotational), Range::not_negative);
+      read_list(reading, section, "stiffnesses", stiffness_of(rotational), range_of_type(iwan, "stiffness"));
+  const auto forces =
+      read_list(reading, section, "forces", force_of(rotational), range_of_type(iwan, "force"));
   if (stiffnesses.size() != forces.size())
     section.fail(rules::wrong_length, "forces", "{} for {} stiffnesses; each slider has one of both",
                  forces.size(), stiffnesses.size());
@@ -53,11 +52,7 @@ double read_exponent(const TomlSection& section, bool is_power) {
       section.fail(rules::key_without_use, "chi", "only the distribution \"power\" has an exponent");
     return 0.0;
   }
-  const double chi = section.number("chi");
-  constexpr double most_chi = 100.0;  // beyond, all slip forces are one but for the last digits
-  if (!(chi > -1.0 && chi <= most_chi))
-    section.fail(rules::out_of_range, "chi", "is {}; must be > -1 and at most {}", chi, most_chi);
-  return chi;
+  return section.number("chi");  // beyond 100 all slip forces are one but for the last digits
 }
 
 StudyValue scaled(StudyValue value, double share) {
@@ -74,15 +69,12 @@ std::vector<StudySlider> spread_sliders(NetworkReading& reading, const TomlSecti
   }
   const bool is_power = section.choice("distribution") == "power";
   const double chi = read_exponent(section, is_power);
-  const auto& count = section.require("elements");
+  section.require("elements");
   const std::int64_t n = section.integer_or("elements", 1);
-  if (n < 1 || n > most_sliders)
-    throw section.source().error_at(rules::out_of_range, count.position,
-                                    "{}: elements: is {}; must be from 1 to {}", section.where(), n,
-                                    most_sliders);
   const StudyValue stiffness =
-      read_value(reading, section, "stiffness", stiffness_of(rotational), Range::positive);
-  const StudyValue force = read_value(reading, section, "force", force_of(rotational), Range::not_negative);
+      read_value(reading, section, "stiffness", stiffness_of(rotational), range_of_type(iwan, "stiffness"));
+  const StudyValue force =
+      read_value(reading, section, "force", force_of(rotational), range_of_type(iwan, "force"));
   std::vector<StudySlider> sliders;
   for (const laws::IwanShare& share : laws::iwan_shares(static_cast<int>(n), chi))
     sliders.push_back({scaled(stiffness, share.stiffness), scaled(force, share.force)});

@@ -11,18 +11,7 @@ namespace {
 
 using mechanics::NodeKind;
 
-constexpr std::int64_t most_samples = 10'000'000;      // of a history: some hundred megabytes
 constexpr std::int64_t samples_of_a_transient = 1001;  // smooth to the eye over dozens of periods
-
-int read_samples(const TomlSection& section, std::int64_t otherwise) {
-  const std::int64_t samples = section.integer_or("samples", otherwise);
-  const bool none = samples == 0 && otherwise == 0;
-  if (!none && (samples < 2 || samples > most_samples)) {
-    section.fail(rules::out_of_range, "samples", "{} is out of range: a whole number from 2 to {}{}", samples,
-                 most_samples, otherwise == 0 ? ", or 0 for no history" : "");
-  }
-  return static_cast<int>(samples);
-}
 
 InitialValues read_initial_values(NetworkReading& reading, const TomlValue& table, std::size_t number) {
   const TomlSection section(reading.context.source, table,
@@ -43,8 +32,8 @@ InitialValues read_initial_values(NetworkReading& reading, const TomlValue& tabl
   const bool turns = mechanics::rotates(network, node->index);
   const Quantity displacement = turns ? Quantity::angle : Quantity::length;
   const Quantity velocity = turns ? Quantity::angular_frequency : Quantity::speed;
-  return {node->index, read_value(reading, section, "displacement", displacement, Range::finite, 0.0),
-          read_value(reading, section, "velocity", velocity, Range::finite, 0.0)};
+  return {node->index, read_value(reading, section, "displacement", displacement, 0.0),
+          read_value(reading, section, "velocity", velocity, 0.0)};
 }
 
 std::vector<InitialValues> read_initial(NetworkReading& reading, const TomlValue& root) {
@@ -69,14 +58,9 @@ void read_decay(NetworkReading& reading, const TomlValue& root, DecayChoice& mot
   const TomlEntry* entry = find_entry(root, "decay");
   const TomlSection section(reading.context.source, entry ? entry->value : nothing, "[decay]", "decay");
   motion.duration = read_optional(reading, section, "duration", Quantity::time);
-  motion.samples = read_samples(section, 0);
+  motion.samples = static_cast<int>(section.integer_or("samples", 0));
   motion.reference_frequency =
       read_optional(reading, section, "reference_frequency", Quantity::angular_frequency);
-  if (motion.initial.empty()) {
-    throw reading.context.source.error_at(
-        rules::missing_section, root.position,
-        "the study has no [[initial]]: nothing moves that is not displaced or set in motion");
-  }
 }
 
 // A run-up sets the frequency's parameter, if there is one, so the frequency must be that parameter alone.
@@ -116,13 +100,10 @@ void check_run_up(const NetworkReading& reading, const TomlSection& section) {
 }
 
 void read_transient(NetworkReading& reading, const TomlValue& root, TransientChoice& motion) {
-  const TomlEntry* entry = find_entry(root, "transient");
-  if (!entry)
-    throw reading.context.source.error_at(rules::missing_section, root.position,
-                                          "the study has no [transient] with its duration");
-  const TomlSection section(reading.context.source, entry->value, "[transient]", "transient");
+  const TomlSection section(reading.context.source, find_entry(root, "transient")->value, "[transient]",
+                            "transient");
   motion.duration = read_optional(reading, section, "duration", Quantity::time);
-  motion.samples = read_samples(section, samples_of_a_transient);
+  motion.samples = static_cast<int>(section.integer_or("samples", samples_of_a_transient));
   motion.sweep_to = read_optional(reading, section, "sweep_to", Quantity::angular_frequency);
   motion.sweep_rate = read_optional(reading, section, "sweep_rate", Quantity::angular_acceleration);
   if (motion.sweep_to.has_value() != motion.sweep_rate.has_value()) {

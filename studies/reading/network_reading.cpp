@@ -7,6 +7,7 @@
 #include "studies/reading/recorded_excitation.hpp"
 #include "studies/reading/signal_reading.hpp"
 #include "studies/reading/spelling.hpp"
+#include "studies/reading/study_keys.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -26,9 +27,8 @@ void read_mass(NetworkReading& reading, const TomlValue& table, std::size_t numb
     section.fail(rules::one_of_two_keys, "inertia",
                  "it has a mass already; what both moves along and turns is two [[mass]], one with each");
   reading.result.network.rotation.push_back(rotates);
-  reading.result.values.mass.push_back(
-      rotates ? read_value(reading, section, "inertia", Quantity::inertia, Range::not_negative)
-              : read_value(reading, section, "mass", Quantity::mass, Range::not_negative));
+  reading.result.values.mass.push_back(rotates ? read_value(reading, section, "inertia", Quantity::inertia)
+                                               : read_value(reading, section, "mass", Quantity::mass));
 }
 
 // A value that is a parameter alone, perhaps through other names, determines that parameter's quantity.
@@ -123,6 +123,17 @@ StudyValue read_value(NetworkReading& reading, const TomlSection& section, const
   return read_value_at(reading, result.where, *value, quantity, range);
 }
 
+StudyValue read_value(NetworkReading& reading, const TomlSection& section, const std::string& key,
+                      Quantity quantity, std::optional<double> otherwise) {
+  return read_value(reading, section, key, quantity, range_in(section, key), otherwise);
+}
+
+Range range_in(const TomlSection& section, std::string_view key) {
+  const Limits& limits = section.limits(key);
+  if (limits.least != 0.0) return Range::finite;
+  return limits.above ? Range::positive : Range::not_negative;
+}
+
 StudyValue read_value_at(NetworkReading& reading, const std::string& where, const TomlValue& value,
                          Quantity quantity, Range range) {
   StudyValue result{.quantity = quantity, .range = range, .where = where, .position = value.position};
@@ -147,9 +158,9 @@ StudyValue read_value_at(NetworkReading& reading, const std::string& where, cons
 }
 
 std::optional<StudyValue> read_optional(NetworkReading& reading, const TomlSection& section,
-                                        const std::string& key, Quantity quantity, Range range) {
+                                        const std::string& key, Quantity quantity) {
   if (!section.find(key)) return std::nullopt;
-  return read_value(reading, section, key, quantity, range);
+  return read_value(reading, section, key, quantity);
 }
 
 namespace {
@@ -186,8 +197,6 @@ NetworkOfStudy read_network(const StudyContext& context, const TomlValue& root,
         rules::missing_section, root.position,
         "the study has no [[mass]] and no [[matrices]]: nothing moves{}",
         kind == StudyKind::identify ? "; leave out all of the system, or add its masses" : "");
-  if (is_forced && !excitation)
-    throw context.source.error_at(rules::missing_section, root.position, "the study has no [excitation]");
   if (is_forced) refuse_records(context, excitation->value, kind);
   if (is_forced) read_prescribed_nodes(reading, excitation->value);
   number = 0;

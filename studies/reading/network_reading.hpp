@@ -42,9 +42,12 @@ std::vector<std::string> node_names(const mechanics::Network& network);
 // absent.
 StudyValue read_value(NetworkReading& reading, const TomlSection& section, const std::string& key,
                       Quantity quantity, Range range, std::optional<double> otherwise = std::nullopt);
+// The same of a key whose range is in the table of keys.
+StudyValue read_value(NetworkReading& reading, const TomlSection& section, const std::string& key,
+                      Quantity quantity, std::optional<double> otherwise = std::nullopt);
 std::optional<StudyValue> read_optional(NetworkReading& reading, const TomlSection& section,
-                                        const std::string& key, Quantity quantity,
-                                        Range range = Range::positive);
+                                        const std::string& key, Quantity quantity);
+Range range_in(const TomlSection& section, std::string_view key);
 
 // The law of a coulomb element; exact of every other. Refuses keys of other laws.
 mechanics::FrictionLaw read_law(const TomlSection& section, const mechanics::ElementKind& kind);

@@ -2,20 +2,6 @@
 #include "studies/reading/study_reading.hpp"
 
 namespace frahm::studies {
-namespace {
-
-constexpr std::int64_t most_starts = 10'000;
-constexpr std::int64_t longest_multiple = 64;  // the motions are followed for 324 periods and more
-
-int read_count(const TomlSection& section, const char* key, int otherwise, std::int64_t most) {
-  const std::int64_t count = section.integer_or(key, otherwise);
-  if (count < 1 || count > most)
-    section.fail(rules::out_of_range, key, "is {}; must be from 1 to {}", count, most);
-  return static_cast<int>(count);
-}
-
-}  // namespace
-
 void check_sweep(const TomlSection& section, const Study& study) {
   refuse_smooth_laws(study, "a sweep up or down");
   if (!study.sweep()->frequency_dimension)
@@ -43,8 +29,8 @@ periodic::OrbitsWanted read_orbits_wanted(const StudyContext& context, const Tom
     section.fail_here(rules::key_without_use,
                       "has no effect: several responses are searched where an element is a gap, has a table, "
                       "a cubic or a static_force; here there is one alone");
-  wanted.starts = read_count(section, "starts", wanted.starts, most_starts);
-  wanted.most_multiple = read_count(section, "most_multiple", wanted.most_multiple, longest_multiple);
+  wanted.starts = static_cast<int>(section.integer_or("starts", wanted.starts));
+  wanted.most_multiple = static_cast<int>(section.integer_or("most_multiple", wanted.most_multiple));
   if (study.tune()) {
     if (section.find("show"))
       section.fail(rules::key_without_use, "show", "has no effect: in a tuning the worst response counts");

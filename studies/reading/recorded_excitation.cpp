@@ -6,6 +6,7 @@
 
 #include "solvers/mechanics/rotation.hpp"
 #include "studies/reading/spelling.hpp"
+#include "studies/reading/study_keys.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -95,7 +96,7 @@ Quantity quantity_of(const RecordedPlace& place, const mechanics::Network& netwo
 }
 
 void refuse_records(const StudyContext& context, const TomlValue& excitation, StudyKind kind) {
-  if (kind == StudyKind::transient || kind == StudyKind::tune) return;
+  if (has(study_key("excitation", "record"), kind_name(kind))) return;
   if (const TomlEntry* entry = find_entry(excitation, "record"))
     throw context.source.error_at(rules::other_kind, entry->position, "[[{}]] is not part of {}: {}",
                                   record_path, kind_noun(kind), why_no_record(kind));
@@ -110,7 +111,7 @@ void read_recorded_components(NetworkReading& reading, const TomlValue& excitati
         is_force ? driven_mass(reading, section, place) : *find_node(network, place.node);
     network.excitations.push_back(
         {is_force ? ExcitationKind::recorded_force : ExcitationKind::recorded_motion, node.index, 0});
-    values.amplitude.push_back(read_value(reading, section, "scale", Quantity::number, Range::finite, 1.0));
+    values.amplitude.push_back(read_value(reading, section, "scale", Quantity::number, 1.0));
     values.phase.push_back({});
     values.rod.push_back({});
   }

@@ -46,27 +46,13 @@ void set_values(SampleReading& reading, std::size_t i, const Eigen::VectorXd& dr
   }
 }
 
-std::size_t read_count(const TomlSection& section) {
-  const std::int64_t samples = section.integer_or("samples", 0);
-  if (samples < 2 || samples > most_axis_points)
-    section.fail(rules::out_of_range, "samples", "{} is out of range: a whole number from 2 to {}", samples,
-                 most_axis_points);
-  return static_cast<std::size_t>(samples);
-}
-
-std::uint64_t read_seed(const TomlSection& section) {
-  const std::int64_t seed = section.integer_or("seed", 1);
-  if (seed < 0) section.fail(rules::out_of_range, "seed", "is {}; must be >= 0", seed);
-  return static_cast<std::uint64_t>(seed);
-}
-
 // `samples = 1000` of stated distributions.
 void draw(SampleReading& reading, const TomlValue& table, const std::filesystem::path& folder,
           DataFiles data) {
   const TomlSection& section = reading.section;
-  const std::size_t count = read_count(section);
+  const auto count = static_cast<std::size_t>(section.integer_or("samples", 0));
   const std::string sequence = section.choice("sequence");
-  const std::uint64_t seed = read_seed(section);
+  const auto seed = static_cast<std::uint64_t>(section.integer_or("seed", 1));
   const std::vector<samples::Distribution> distributions = read_distributions(table, reading);
   const JointEstimates joint = read_joint_estimates(reading, folder, data);
   const auto own = static_cast<Eigen::Index>(distributions.size());

@@ -30,9 +30,16 @@ void check_top_keys(const StudySource& source, const TomlValue& root) {
 
 // What to say of a section that this kind of study does without.
 std::string why_without(StudyKind kind, const std::string& section) {
-  const bool of_a_map =
-      section == "axis" || section == "coordinate" || section == "output" || section == "orbits";
+  const bool is_output = section == "output";
+  const bool of_a_map = section == "axis" || section == "coordinate" || is_output || section == "orbits";
   const bool one_motion = kind == StudyKind::decay;
+  if (kind == StudyKind::tune && is_output)
+    return ": it records its optimum, with the numbers of [[column]] beside it; what lies between masses is "
+           "an [[output.signal]], and other quantities are those of the study that frahm export --sweep "
+           "writes of the optimum";
+  if (one_motion && is_output)
+    return ": it computes one motion, not a map, and records it whole: `samples` of [decay] asks for its "
+           "history, an [[output.signal]] for what lies between masses";
   if (kind == StudyKind::tune && of_a_map)
     return ": the band of [tune] and the bounds of [[design]] are its ranges";
   if (one_motion && of_a_map) return ": it computes one motion, not a map";
@@ -60,17 +67,23 @@ void check_sections_of_kind(const Study& study, const TomlValue& root) {
   }
 }
 
+// Refuses a study without a section that its kind needs.
+void require_sections_of_kind(const Study& study, const TomlValue& root) {
+  for (const StudyKey& section : study_keys()) {
+    if (*section.section || !needs(section, kind_name(study.kind())) || is_given(section, root)) continue;
+    throw study.source.error_at(rules::missing_section, root.position,
+                                "the study has no {}: {} needs it ({})", written_section(section.key),
+                                kind_noun(study.kind()), section.meaning);
+  }
+}
+
 void read_heading(const TomlValue& root, Study& study) {
   const TomlEntry* heading = find_entry(root, "study");
   if (!heading)
     throw study.source.error_at(rules::missing_section, root.position,
                                 "[study] with schema and kind is missing");
   const TomlSection section(study.source, heading->value, "[study]", "study");
-  section.require("schema");
-  const std::int64_t schema = section.integer_or("schema", 1);
-  if (schema != 1)
-    section.fail(rules::out_of_range, "schema", "{} is unknown; this version reads schema = 1", schema);
-  section.require("kind");
+  section.integer_or("schema", 1);
   const auto kind = section.choice_as<StudyKind>("kind");
   if (kind == StudyKind::sweep) study.choice = SweepChoice{};
   if (kind == StudyKind::decay) study.choice = DecayChoice{};
@@ -176,6 +189,7 @@ Study parse_study(std::string text, const std::filesystem::path& name, DataFiles
   check_top_keys(study.source, root);
   read_heading(root, study);
   check_sections_of_kind(study, root);
+  require_sections_of_kind(study, root);
 
   const UnitSystem units;
   std::vector<WrittenExpression> written;

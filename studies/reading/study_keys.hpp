@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,18 +11,26 @@ namespace frahm::studies {
 // What stands behind a key of a study. `value` is a number, an expression of parameters or { value, unit }.
 enum class KeyForm {
   value,
-  values,  // a list of those
-  number,  // a plain one
+  values,       // a list of those
+  pairs,        // a list of pairs of those
+  plain_value,  // a number or { value, unit }
+  column,       // of data: its number or its heading
+  parameter,    // a value, or { table, of }
+  number,       // a plain one
+  numbers,      // a list of those
   integer,
   boolean,
   text,
   texts,
+  name,          // letters, digits and _, after a letter
+  names,         // a list of those
+  patterns,      // a list of those, or of patterns of them: "floor*_peak"
   choice,        // one of StudyKey::words
   element_type,  // the name of a type of element: element_types() has the words
   table,         // a section of its own, named `section.key`
   tables,        // [[section.key]], or a list of tables
-  names,         // a table whose keys are names that the author chooses
-  any,           // several of these; of texts StudyKey::words, if it has any
+  settings,      // a table whose keys are names that the author chooses: StudyKey::inside
+  list_of_settings,
 };
 
 // A word that a key may be.
@@ -37,27 +46,112 @@ struct KeyOwners {
   const char* of = "";       // the forms: "a|b"; "": all
 };
 
+// The numbers that a key may be.
+struct Limits {
+  double least = -std::numeric_limits<double>::infinity();
+  double most = std::numeric_limits<double>::infinity();
+  bool above = false, below = false;  // least and most are none of them
+  bool or_another = false;            // beside them `another` is one
+  double another = 0.0;
+
+  bool hold(double number) const;
+  // "from 2 to 10000, or 0", "> 0".  kind: "a whole number ".
+  std::string told(std::string_view kind = "") const;
+};
+
+inline constexpr Limits positive{.least = 0.0, .above = true};
+inline constexpr Limits not_negative{.least = 0.0};
+
+// How many entries a list or a table of settings has.
+struct Length {
+  std::size_t least = 1;
+  std::size_t most = std::numeric_limits<std::size_t>::max();
+};
+
+// Forms of a section in which a key must be there.
+struct Needed {
+  bool always = false;
+  KeyOwners of = {};
+};
+
+// What else than its form a key may be, and what the entries of settings are.
+struct Or {
+  KeyForm form;
+  const char* section = "";  // of a table, where it is not `section.key`
+};
+struct Inside {
+  KeyForm form;
+};
+
 // A key of a section of a study file. The table of them is what the readers allow (TomlSection), what
 // `frahm schema` prints and what `frahm explain` tells.
 struct StudyKey {
-  constexpr StudyKey(const char* in, const char* name, KeyForm what, const char* told, KeyOwners of = {})
-      : StudyKey(in, name, what, told, {}, of) {}
-  constexpr StudyKey(const char* in, const char* name, KeyForm what, const char* told,
-                     std::span<const StudyWord> choices, KeyOwners of = {})
-      : section(in), key(name), form(what), meaning(told), words(choices), owners(of) {}
+  // more: what is to be said beside, in any order.
+  template <class... More>
+  constexpr StudyKey(const char* in, const char* name, KeyForm what, const char* told, const More&... more)
+      : section(in), key(name), form(what), meaning(told) {
+    (take(more), ...);
+  }
 
   const char* section;  // "" for the sections themselves; "excitation.force"; "{ value, unit }" of values
   const char* key;
   KeyForm form;
   const char* meaning;
-  std::span<const StudyWord> words;  // of a choice: the first is the default, if there is one
-  KeyOwners owners;
+  std::span<const StudyWord> words{};  // of a choice: the first is the default, if there is one
+  KeyOwners owners{};
+  Needed need{};
+  Limits limits{};  // of a number, and of all numbers of a list
+  Length length{};
+  bool has_other = false;
+  KeyForm other = KeyForm::value;  // where has_other
+  const char* section_of_other = "";
+  KeyForm inside = KeyForm::value;  // of settings
+
+ private:
+  constexpr void take(std::span<const StudyWord> choices) { words = choices; }
+  constexpr void take(const KeyOwners& forms) { owners = forms; }
+  constexpr void take(const Needed& forms) { need = forms; }
+  constexpr void take(const Limits& numbers) { limits = numbers; }
+  constexpr void take(const Length& entries) { length = entries; }
+  constexpr void take(const Or& second) {
+    has_other = true, other = second.form, section_of_other = second.section;
+  }
+  constexpr void take(const Inside& entries) { inside = entries.form; }
 };
+
+// Keys of a section that go together, in some form of it or in all.
+enum class Together {
+  one,
+  at_most_one,
+  at_least_one,
+  all_or_none,
+  not_without,  // the first needs the second
+};
+struct KeyGroup {
+  const char* section;
+  const char* keys;  // "a|b"
+  Together rule;
+  KeyOwners of = {};
+};
+std::span<const KeyGroup> key_groups();
+
+// A form of a section that keys tell: the first in the table whose mark is there.
+struct SectionForm {
+  const char* section;
+  const char* form;
+  const char* marks;  // "a|b": any of these keys; "excitation.record" of another section; "": no other form
+  bool is_text = false;  // a mark that is a text
+};
+std::span<const SectionForm> section_forms();
 
 std::span<const StudyKey> study_keys();
 
-// Whether a form of the section has it.
+bool is_one_of(std::string_view word, std::string_view words);  // "a" of "a|b"
+// Whether a word of the decider is among the owners.
+bool has_by(const KeyOwners& owners, std::string_view decider, std::string_view form);
+// Whether a form of the section has it, and must have it.
 bool has(const StudyKey& key, std::string_view form);
+bool needs(const StudyKey& key, std::string_view form);
 // Throws std::logic_error if the section has no such key: a mistake of ours.
 const StudyKey& study_key(std::string_view section, std::string_view key);
 

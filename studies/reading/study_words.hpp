@@ -53,6 +53,9 @@ inline constexpr StudyWord envelopes[] = {
     {"jennings", "(t/rise)^2, then level, from level_end on falling by exp(-decay t)"},
     {"trapezoid", "t/rise, then level, from level_end on straight to 0"}};
 
+inline constexpr StudyWord sets_of_quantities[] = {{"standard", "those that most ask for"},
+                                                   {"all", "every quantity of the study"}};
+
 inline constexpr StudyWord precisions[] = {  // in the order of Precision
     {"double", "eight bytes, digits beyond the known ones cleared"},
     {"single", "four bytes"},

@@ -37,6 +37,12 @@ const TomlEntry* find_entry(const TomlValue& table, std::string_view key) {
   return entry == entries->end() ? nullptr : &*entry;
 }
 
+bool is_given(const StudyKey& key, const TomlValue& table) {
+  const TomlEntry* entry = find_entry(table, key.key);
+  const auto* list = entry ? entry->value.as<TomlArray>() : nullptr;
+  return entry && !(key.form == KeyForm::tables && list && list->empty());
+}
+
 TomlSection::TomlSection(const StudySource& source, const TomlValue& table, std::string where,
                          std::string_view section, std::string_view form)
     : source_(&source), table_(&table), where_(std::move(where)), section_(section), form_(form) {
@@ -50,6 +56,7 @@ TomlSection::TomlSection(const StudySource& source, const TomlValue& table, std:
     throw source.error_at(rules::unknown_key, entry.position, "{}: unknown key \"{}\"{}", where_, entry.key,
                           suggestion(entry.key, keys));
   }
+  require_keys(form_);
 }
 
 const TomlValue* TomlSection::find(std::string_view key) const {
@@ -83,7 +90,9 @@ bool TomlSection::boolean_or(std::string_view key, bool otherwise) const {
 }
 
 double TomlSection::number(std::string_view key) const {
-  return read_number(*source_, key_of(where_, key), require(key));
+  const double number = read_number(*source_, key_of(where_, key), require(key));
+  check_limits(key, number, "");
+  return number;
 }
 
 std::int64_t TomlSection::integer_or(std::string_view key, std::int64_t otherwise) const {
@@ -91,7 +100,30 @@ std::int64_t TomlSection::integer_or(std::string_view key, std::int64_t otherwis
   if (!value) return otherwise;
   const auto* integer = value->as<std::int64_t>();
   if (!integer) fail(rules::wrong_type, key, "expected a whole number, found {}", described(*value));
+  check_limits(key, static_cast<double>(*integer), "a whole number ");
   return *integer;
+}
+
+const Limits& TomlSection::limits(std::string_view key) const {
+  return study_key(section_, key).limits;
+}
+
+void TomlSection::check_limits(std::string_view key, double number, std::string_view kind) const {
+  if (limits(key).hold(number)) return;
+  const StudyKey& row = study_key(section_, key);
+  const std::vector<std::string> words = quoted(words_of(row));
+  fail(rules::out_of_range, key, "{} is out of range: {}{} ({})", number, limits(key).told(kind),
+       words.empty() ? "" : ", or " + listed(words, " or "), row.meaning);
+}
+
+void TomlSection::require_keys(std::string_view form) const {
+  for (const StudyKey& key : study_keys()) {
+    if (key.section != section_ || !needs(key, form) || is_given(key, *table_)) continue;
+    if (key.form == KeyForm::tables)
+      fail_here(rules::missing_section, "needs {} ({})", written_section(section_ + "." + key.key),
+                key.meaning);
+    fail_here(rules::missing_key, "the key \"{}\" is missing ({})", key.key, key.meaning);
+  }
 }
 
 std::string TomlSection::choice(std::string_view key, std::string_view otherwise,
@@ -118,6 +150,7 @@ void TomlSection::keep_to(std::string_view form) const {
     fail(rules::key_without_use, entry.key, "belongs to {} = {}, not to \"{}\"", key.owners.decider,
          listed(quoted(separated(key.owners.of)), " or "), form);
   }
+  require_keys(form);
 }
 
 std::string read_text(const StudySource& source, const std::string& where, const TomlValue& value) {

@@ -10,13 +10,16 @@
 
 namespace frahm::studies {
 
+struct Limits;
+struct StudyKey;
+
 // A table of the study with the keys that study_keys() gives it, and its values by type. Every function
 // throws a StudyError with the position, what was found and what is allowed.
 class TomlSection {
  public:
   // where: the table's name in messages: `[study]`, `element "guide"`. section: its name in study_keys();
   // form: the form of the section, if that is known before its keys are read. The first key that these have
-  // not is an error.
+  // not is an error, and so is one that they need and is not there.
   TomlSection(const StudySource& source, const TomlValue& table, std::string where, std::string_view section,
               std::string_view form = "");
 
@@ -30,7 +33,7 @@ class TomlSection {
   std::string text_or(std::string_view key, std::string otherwise) const;
   std::string identifier(std::string_view key) const;  // required, of the form [A-Za-z][A-Za-z0-9_]*
   bool boolean_or(std::string_view key, bool otherwise) const;
-  double number(std::string_view key) const;  // required, finite
+  double number(std::string_view key) const;  // required, finite, within the limits of the table of keys
   std::int64_t integer_or(std::string_view key, std::int64_t otherwise) const;
   // One of the words of the table of keys; if absent `otherwise`, or the first of them. besides: what else
   // the key can be, for the message.
@@ -42,7 +45,10 @@ class TomlSection {
     return static_cast<Enum>(place_of(key, choice(key)));
   }
 
-  // Refuses keys that another form of the section has and this one has not, once a key has told the form.
+  const Limits& limits(std::string_view key) const;  // of the table of keys
+
+  // Refuses keys that another form of the section has and this one has not, and requires its own, once a key
+  // has told the form.
   void keep_to(std::string_view form) const;
 
   // At the table, and at the value of a key.
@@ -59,6 +65,8 @@ class TomlSection {
   }
 
  private:
+  void check_limits(std::string_view key, double number, std::string_view kind) const;
+  void require_keys(std::string_view form) const;
   std::size_t place_of(std::string_view key, std::string_view word) const;
 
   const StudySource* source_;
@@ -82,6 +90,9 @@ std::vector<const TomlValue*> read_tables(const StudySource& source, const TomlV
 // `[[element]] 3`. number: from 1.
 std::string label(const TomlValue& table, std::string_view kind, std::string_view naming_key,
                   std::string_view path, std::size_t number);
+
+// Whether a table has a key; an empty list of tables is none.
+bool is_given(const StudyKey& key, const TomlValue& table);
 
 // An entry of a table, nullptr if absent.
 const TomlEntry* find_entry(const TomlValue& table, std::string_view key);

@@ -30,8 +30,6 @@ transient::MotionQuantity read_peak(const TuneReading& reading, const TomlSectio
 void read_quantile(const TomlSection& section, TuneChoice& choice) {
   if (!section.find("quantile")) return;
   choice.quantile = section.number("quantile");
-  if (!(choice.quantile > 0.0 && choice.quantile < 1.0))
-    section.fail(rules::out_of_range, "quantile", "{} is out of range: above 0 and below 1", choice.quantile);
   if (choice.drawn.empty())
     section.fail(rules::key_without_use, "quantile",
                  "is one of samples: give an [[axis]] of them, as in samples = 100");
@@ -55,10 +53,7 @@ void check_excitation(const TuneReading& reading, const TomlSection& section) {
 
 double read_duration(const TomlSection& section, const PeakChoice& peaks) {
   if (!section.find("duration")) return end_of_records(peaks.driving);
-  const double duration = section.number("duration");
-  if (!(duration > 0.0))
-    section.fail(rules::out_of_range, "duration", "{} is not possible; must be > 0 (s)", duration);
-  return duration;
+  return section.number("duration");
 }
 
 void read_records_of(const StudyContext& context, const TomlValue& root, const std::filesystem::path& folder,
@@ -100,15 +95,10 @@ void read_tuning_over_records(const StudyContext& context, const TomlValue& root
                               const std::filesystem::path& folder, DataFiles data, Study& study) {
   refuse_smooth_laws(study, kind_noun(study.kind()));
   refuse_tables(context, root);
-  const TomlEntry* entry = find_entry(root, "tune");
-  if (!entry)
-    throw context.source.error_at(rules::missing_section, root.position,
-                                  "the study has no [tune] with its objective");
-  const TomlSection section(context.source, entry->value, "[tune]", "tune", "records");
+  const TomlSection section(context.source, find_entry(root, "tune")->value, "[tune]", "tune", "records");
   TuneReading reading{context, root, study};
   TuneChoice& choice = reading.choice;
   PeakChoice peaks;
-  section.require("objective");
   if (section.choice("objective", "", " under records") == "mean_peak")
     peaks.objective = tuning::RecordObjective::mean_peak;
   check_excitation(reading, section);

@@ -12,10 +12,7 @@ namespace {
 using periodic::Measure;
 using tuning::Objective;
 
-constexpr double largest_tolerance = 0.1;  // of the certificate: above it nothing is certified
-
 void read_objective(const TomlSection& section, TuneChoice& choice) {
-  section.require("objective");
   const std::string word = section.choice("objective");
   choice.objective = word == "minimax"       ? Objective::minimax
                      : word == "mean_square" ? Objective::mean_square
@@ -66,9 +63,6 @@ void read_noise(TuneReading& reading, const TomlSection& section) {
   reading.choice.noise.kind = force ? tuning::NoiseKind::force_on : tuning::NoiseKind::acceleration_of;
   reading.choice.noise.node = static_cast<std::size_t>(node - names.begin());
   if (noise.find("intensity")) reading.choice.noise.intensity = noise.number("intensity");
-  if (!(reading.choice.noise.intensity > 0.0))
-    noise.fail(rules::out_of_range, "intensity", "{} is not possible; must be > 0",
-               reading.choice.noise.intensity);
 }
 
 // As with an axis, a range without a unit is SI, and refused if the parameter is given in another unit.
@@ -163,9 +157,6 @@ void check_dominate(const TuneReading& reading, const TomlSection& section) {
 void read_tolerance(const TomlSection& section, TuneChoice& choice) {
   if (!section.find("tolerance")) return;
   choice.tolerance = section.number("tolerance");
-  if (!(choice.tolerance > 0.0 && choice.tolerance < largest_tolerance))
-    section.fail(rules::out_of_range, "tolerance", "{} is out of range: above 0 and below {}",
-                 choice.tolerance, largest_tolerance);
 }
 
 periodic::Quantity read_real_quantity(const TuneReading& reading, const TomlSection& section,
@@ -273,11 +264,7 @@ StudyValue read_formula(const TuneReading& reading, const TomlSection& section, 
 
 void read_tuning(const StudyContext& context, const TomlValue& root, Study& study) {
   refuse_smooth_laws(study, kind_noun(study.kind()));
-  const TomlEntry* entry = find_entry(root, "tune");
-  if (!entry)
-    throw context.source.error_at(rules::missing_section, root.position,
-                                  "the study has no [tune] with its objective");
-  const TomlSection section(context.source, entry->value, "[tune]", "tune", "band");
+  const TomlSection section(context.source, find_entry(root, "tune")->value, "[tune]", "tune", "band");
   TuneReading reading{context, root, study};
   TuneChoice& choice = reading.choice;
   refuse_samples(reading);

@@ -37,17 +37,10 @@ void check_map(const TuneReading& reading, const TomlSection& section) {
 }
 
 void read_start(const TomlSection& section, TuneChoice& choice) {
-  constexpr std::int64_t most_starts = 100'000;
   const TomlValue* value = section.find("start");
   if (value && value->as<std::int64_t>()) {
-    const std::int64_t starts = section.integer_or("start", 1);
-    if (starts < 1 || starts > most_starts)
-      section.fail(rules::out_of_range, "start",
-                   "{} is out of range: a whole number from 1 to {}, \"map\", \"given\" or "
-                   "\"nlopt\"",
-                   starts, most_starts);
     choice.start = tuning::Start::many;
-    choice.starts = static_cast<std::size_t>(starts);
+    choice.starts = static_cast<std::size_t>(section.integer_or("start", 1));
   } else if (value && !value->as<std::string>()) {
     section.fail(rules::wrong_type, "start",
                  "expected \"map\", \"given\", \"nlopt\" or a number of starts, found {}", described(*value));

@@ -1,4 +1,7 @@
-"""schema.py PROGRAM SOURCES: the JSON Schema of studies, against every study, the reader and what it refuses."""
+"""schema.py PROGRAM SOURCES REFUSALS [--all]: the JSON Schema of studies, against every study, the reader and what
+it refuses.  --all: of mistakes in every study too, some twenty thousand, in minutes."""
+import collections
+import concurrent.futures
 import json
 import re
 import subprocess
@@ -9,7 +12,9 @@ from pathlib import Path
 
 import jsonschema
 
-program, sources = sys.argv[1], Path(sys.argv[2])
+program, sources, refusals = sys.argv[1], Path(sys.argv[2]), sys.argv[3]
+sys.path.insert(0, str(Path(__file__).parent / "schema"))
+from mutants import MORE_WRONG, WRONG, mutants, text_of  # noqa: E402
 
 
 def frahm(*arguments):
@@ -33,7 +38,8 @@ for kind in ("sweep", "tune", "identify", "decay", "transient"):
 def own(node):
     """The table that is meant by a list of tables, or by what may be a table too."""
     node = node.get("items", node)
-    return next((each for each in node.get("anyOf", []) if "properties" in each and "$ref" not in node), node)
+    forms = [each.get("items", each) for each in node.get("anyOf", [])]
+    return next((each for each in forms if "properties" in each), node)
 
 
 def keys(section, node):
@@ -84,6 +90,27 @@ profile = "harmonic"
 crank = 0.1
 [[excitation.force]]"""),
     "an empty name": small.replace('on = "main"', 'on = ""'),
+    "another version": small.replace("schema = 1", "schema = 2"),
+    "a spring without stiffness": small.replace("stiffness = 1\n", ""),
+    "friction without a force": small.replace('force = "f"\n', ""),
+    "a force without amplitude": small.replace("amplitude = 1\n", ""),
+    "one point": small.replace("points = 481", "points = 1"),
+    "no point": small.replace("points = 481", "points = 0"),
+    "an order below 0": small.replace("amplitude = 1\n", "amplitude = 1\norder = -1\n"),
+    "an order above all": small.replace("amplitude = 1\n", "amplitude = 1\norder = 1001\n"),
+    "one node": small.replace('["ground", "main"]\nstiffness', '["main"]\nstiffness'),
+    "two directions": small.replace("stiffness = 1\n", "stiffness = 1\nalong = { main = 1 }\n"),
+    "values beside a range": small.replace("from = 0\nto", "values = [0, 1]\nfrom = 0\nto"),
+    "damping that is true": small + "\n[damping]\nmodal = true\n",
+    "half of Rayleigh's damping": small + "\n[damping]\nrayleigh = [0.1]\n",
+    "two kinds of damping": small + "\n[damping]\nmodal = 0.1\nrayleigh = [0.1, 0.1]\n",
+    "a name of two words": small.replace('name = "main"', 'name = "a b"'),
+    "a repetition without end": small.replace('name = "main"', 'name = "main"\nrepeat = { i = [1] }'),
+    "no mass": small.replace('[[mass]]\nname = "main"\nmass = 1\n', ""),
+    "no excitation": small.replace('[excitation]\nfrequency = "r"\n\n[[excitation.force]]\non = "main"\namplitude = 1\n', ""),
+    "no axis": small[: small.index("[[axis]]")],
+    "a negative mass": small.replace("mass = 1\n", "mass = -1\n"),
+    "an exact law with a slope": small.replace('force = "f"\n', 'force = "f"\nslope = 10\n'),
 }
 with tempfile.TemporaryDirectory() as folder:
     for what, text in wrong.items():
@@ -93,9 +120,111 @@ with tempfile.TemporaryDirectory() as folder:
         study.write_text(text)
         assert frahm("check", study).returncode == 2, f"the reader accepts {what}"
 
-# Each key is explained.
-for section, key, below in keys("", schema):
-    if key == "repeat":
+# What a schema cannot know.  Whole rules: of names that refer to one another, of values beside each other, of
+# units and expressions, of the system as a whole, and of files.
+BEYOND = set("""
+unknown_name name_taken given_twice computed_parameter wrong_dependence wrong_node unknown_column
+wrong_order wrong_law wrong_matrix floating_mass no_contact several_responses unfit_quantity unfit_axis unfit_for_method
+unknown_unit wrong_dimension missing_unit ambiguous_unit two_units unit_in_dimensionless wrong_expression circular_definition
+not_text not_toml not_finite unreadable_file wrong_file no_header wrong_row doubtful_row too_few too_large
+""".split())
+# Of the other rules, by what the reader says.
+PARTLY_BEYOND = [
+    ("out_of_range", r" at .* = |within|scenario|record \"", "a value that follows from parameters"),
+    ("out_of_range", r"outside|times the rod|is no value of this axis|below the force|beside a static_force", "one value beside another"),
+    ("out_of_range", r"distribution lies outside|mode: is|of a mean of 0", "one number of a distribution beside another"),
+    ("out_of_range", r"point \d+.*must be|force .* at 0|at rest a damper|falls at velocity", "the points of a table together"),
+    ("out_of_range", r"along: .* a factor is of a size", "the size of a factor, which has a unit"),
+    ("out_of_range", r"numbers rise|spacing = \"log\"|too low for the ground", "the ends of a range beside each other"),
+    ("out_of_range", r"height|looks over up to|weight: |has no value", "numbers behind expressions, or of a list"),
+    ("wrong_length", r"stiffnesses|ratios are given|names? (is|are) given|heights for|cannot advance together|: .*csv", "lists of one length"),
+    ("empty", r"has no stop on either side", "infinity, which JSON has not"),
+    ("wrong_type", r"path of a dataset|whole number, found the number", "columns of HDF5; 3.0 is whole for JSON"),
+    ("not_a_name", r"\{", "{i} in a name, without its repeat"),
+    ("missing_key", r"\"frequency\"|\"duration\" is missing|\"band\" is missing|\"file\" is missing", "what depends on other sections"),
+    ("missing_key", r"columns|reference_frequency|added_mass|static_displacement|force / stiffness", "what depends on the columns of the data"),
+    ("missing_key", r"what is uncertain is missing", "an empty list of what is uncertain"),
+    ("missing_section", r"of order 1 or more|nothing moves|\[excitation\] and none was measured|\[\[initial\]\]", "what other sections ask for"),
+    ("other_kind", r"without an \[\[axis\]\]|over records|over a band|axis of records|a tuning is one of samples", "forms of a kind"),
+    ("key_without_use", r"has no effect: |\"crank\" to be cut|cut at this order|shows this response|constant and has no", "what this system makes useless"),
+    ("key_without_use", r"fitted; a|it is tuned|runs over the band|go along it|does not go with time|order 0", "a name or a column beside another"),
+    ("key_without_use", r"has no use here; it is the mass added", "what depends on the columns of the data"),
+    ("key_without_use", r"over records|under records|of samples|is of files|\[\[excitation.record\]\]|is a scenario", "records and samples of other sections"),
+    ("key_without_use", r"\[\[design\]\]|schedule|there is no band|a variance has no|belongs to (start|objective)", "forms of a tuning"),
+]
+
+
+def why_beyond(rule, message):
+    if rule in BEYOND:
+        return rule
+    said = message.split("\n")[0]
+    return next((why for of, pattern, why in PARTLY_BEYOND if of == rule and re.search(pattern, said)), None)
+
+
+def refused(named_texts):
+    """Of each study the rule that it breaks, or "none", and the message; by two processes."""
+    halves = [named_texts[::2], named_texts[1::2]]
+    processes = [subprocess.Popen([refusals], stdin=subprocess.PIPE, stdout=subprocess.PIPE) for _ in halves]
+    with concurrent.futures.ThreadPoolExecutor() as pool:
+        packed = ["".join(f"{name}\0{text}\0" for name, text in half).encode() for half in halves]
+        read = list(pool.map(lambda each: each[0].communicate(each[1])[0].decode().split("\0")[:-1], zip(processes, packed)))
+    answers = [None] * len(named_texts)
+    for start, words in enumerate(read):
+        answers[start::2] = zip(words[::2], words[1::2])
+    return answers
+
+
+def keys_of(path):
+    node = schema
+    for step in path:
+        node = own(node).get("properties", {}).get(step, {})
+    return set(own(node).get("properties", {}))
+
+
+# Reader and schema refuse the same mistakes, but for what a schema cannot know.
+here = Path(__file__).parent / "schema" / "studies"
+in_all = "--all" in sys.argv
+bases = sorted([*here.glob("*.toml"), *(paths if in_all else [])], key=lambda path: path.stat().st_size)
+studies = {str(path): tomllib.loads(path.read_text()) for path in bases}
+mistakes = [(name, "as it is", study) for name, study in studies.items()]
+mistakes += mutants(studies, keys_of, WRONG + MORE_WRONG if in_all else WRONG)
+answers = refused([(name, text_of(study)) for name, _, study in mistakes])
+texts_of_wrong = []
+for path in sorted((sources / "tests/studies/reading/wrong").glob("*.toml")):
+    text = path.read_bytes().decode(errors="replace")
+    try:
+        mistakes.append((str(path), "wrong", tomllib.loads(text)))
+    except tomllib.TOMLDecodeError:
         continue
-    told = frahm("explain", f"{section}.{key}")
-    assert told.returncode == 0 and below["description"] in told.stdout, (section, key, told)
+    texts_of_wrong.append((str(path), text))
+answers += refused(texts_of_wrong)
+counts, unlike = collections.Counter(), []
+for (name, what, study), (rule, message) in zip(mistakes, answers):
+    is_valid = validator.is_valid(study)
+    if rule == "none":
+        counts["accepted by both" if is_valid else "refused by the schema alone"] += 1
+        if not is_valid:
+            unlike.append((name, what, "refused by the schema alone"))
+    elif not is_valid:
+        counts["refused by both"] += 1
+    else:
+        why = why_beyond(rule, message)
+        counts[f"refused by the reader alone: {why}"] += 1
+        if not why:
+            unlike.append((name, what, rule, message.split("\n")[0]))
+    assert what != "wrong" or rule != "none", f"the reader accepts {name}"
+    assert what != "as it is" or rule == "none" and is_valid, (name, rule, message)
+print(*(f"{count:6d} {what}" for what, count in sorted(counts.items())), sep="\n")
+assert not unlike, "\n".join(map(str, unlike))
+assert counts["refused by both"] > 2000, counts
+
+# Each key is explained.
+def explained(key):
+    section, name, below = key
+    section = section.replace("tune.records", "axis.records")  # the records of both are generated alike
+    told = frahm("explain", f"{section}.{name}")
+    assert told.returncode == 0 and below["description"] in told.stdout, (section, name, told)
+
+
+with concurrent.futures.ThreadPoolExecutor(2) as pool:
+    list(pool.map(explained, [key for key in keys("", schema) if key[1] != "repeat"]))

@@ -21,14 +21,17 @@ std::string path_of(const StudyKey& key) {
 }
 
 // The key that decides the form of a section: its own, or one of a section above.
-const StudyKey* decider_of(const StudyKey& key) {
-  const std::string section = key.section, above = section.substr(0, section.find('.'));
+const StudyKey* decider_called(const std::string& section, const std::string& name) {
+  const std::string above = section.substr(0, section.find('.'));
   for (const StudyKey& each : study_keys()) {
     const std::string in = each.section;
-    if (each.key == std::string(key.owners.decider) && (in == section || in == above || in == "study"))
-      return &each;
+    if (each.key == name && (in == section || in == above || in == "study")) return &each;
   }
   return nullptr;
+}
+
+const StudyKey* decider_of(const StudyKey& key) {
+  return decider_called(key.section, key.owners.decider);
 }
 
 }  // namespace
@@ -57,6 +60,39 @@ TEST_CASE("a choice has words and what decides over a key is a word of its decid
     REQUIRE(decider != nullptr);
     for (const std::string& form : separated(key.owners.of)) CHECK(contains(words_of(*decider), form));
   }
+}
+
+TEST_CASE(
+    "what decides over a needed key or a group is a word of its decider, and the keys of a group exist") {
+  const auto check = [](const std::string& section, const KeyOwners& of) {
+    if (*of.decider == '\0') return;
+    const StudyKey* decider = decider_called(section, of.decider);
+    REQUIRE(decider != nullptr);
+    for (const std::string& word : separated(of.of)) CHECK(contains(words_of(*decider), word));
+  };
+  for (const StudyKey& key : study_keys()) {
+    INFO(path_of(key));
+    check(key.section, key.need.of);
+  }
+  for (const KeyGroup& group : key_groups()) {
+    INFO(group.section << ": " << group.keys);
+    CHECK(separated(group.keys).size() >= 2);
+    for (const std::string& key : separated(group.keys)) CHECK(contains(keys_of(group.section), key));
+    check(group.section, group.of);
+  }
+}
+
+TEST_CASE("limits hold the numbers that they tell") {
+  const Limits& samples = study_key("decay", "samples").limits;
+  CHECK(samples.told("a whole number ") == "a whole number from 2 to 10000000, or 0");
+  for (const double in : {0.0, 2.0, 1e7}) CHECK(samples.hold(in));
+  for (const double out : {-1.0, 1.0, 1e7 + 1.0}) CHECK(!samples.hold(out));
+  CHECK(study_key("tune", "quantile").limits.told() == "above 0 and below 1");
+  CHECK(!study_key("tune", "quantile").limits.hold(1.0));
+  CHECK(study_key("element", "chi").limits.told() == "above -1 and at most 100");
+  CHECK(positive.told() == "> 0");
+  CHECK(!positive.hold(0.0));
+  CHECK(not_negative.hold(0.0));
 }
 
 TEST_CASE("the keys of an element are those of its types") {

@@ -1,0 +1,19 @@
+// Reads studies from the standard input, each a name and a text that end with a zero byte. Writes for each
+// the key of the rule that it breaks, or "none", and the message, in the same form.
+#include <iostream>
+#include <string>
+
+#include "studies/reading/study.hpp"
+
+int main() {
+  using namespace frahm::studies;
+  std::string name, text;
+  while (std::getline(std::cin, name, '\0') && std::getline(std::cin, text, '\0')) {
+    try {
+      parse_study(text, name);
+      std::cout << "none" << '\0' << '\0';
+    } catch (const StudyError& error) {
+      std::cout << error.rule().key << '\0' << error.what() << '\0';
+    }
+  }
+}
