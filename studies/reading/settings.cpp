@@ -40,6 +40,31 @@ SpokenValue spoken_value(const Study& study, std::size_t parameter, double si) {
   return spoken;
 }
 
+UsualUnit frequency_unit(const Study& study) {
+  for (std::size_t i = 0; i < study.parameters.list.size(); ++i) {
+    const Parameter& parameter = study.parameters.list[i];
+    if (parameter.in_frequency && parameter.quantity == Quantity::angular_frequency)
+      return usual_unit(study, i);
+  }
+  if (!study.values.omega.unit.text.empty()) return study.values.omega.unit;
+  for (const StudyValue* value : study.values_of_its_kind()) {
+    if (value->quantity == Quantity::angular_frequency && !value->unit.text.empty()) return value->unit;
+  }
+  return {};
+}
+
+UsualUnit recorded_frequency_unit(const Study& study) {
+  if (study.dimensionless) return {"1", 1.0};
+  const UsualUnit unit = frequency_unit(study);
+  return unit.text.empty() ? UsualUnit{"rad s-1", 1.0} : unit;
+}
+
+SpokenValue spoken_frequency(const Study& study, double omega) {
+  if (study.dimensionless) return {omega, ""};
+  const UsualUnit unit = frequency_unit(study);
+  return {omega / unit.si_factor, unit.text.empty() ? "rad/s" : unit.text};
+}
+
 std::string recorded_unit(const Study& study, std::size_t parameter) {
   const Parameter& definition = study.parameters.list[parameter];
   if (study.dimensionless) return "1";

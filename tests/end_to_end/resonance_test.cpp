@@ -1,4 +1,6 @@
 // Resonance and half-power frequencies along the frequency axis: [output] resonances.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -49,6 +51,30 @@ TEST_CASE("The resonances are exported as a table of their own") {
   CHECK(table.out.starts_with("eta,main_resonance_frequency,main_resonance_amplitude,"));
   CHECK(std::count(table.out.begin(), table.out.end(), '\n') == 7);
   CHECK(runs::frahm({"export", folder / "study.h5", "--group", "orbits", "-o", "-"}).code == 6);
+}
+
+TEST_CASE("Resonances and modes are recorded in the unit of the frequency's axis") {
+  const runs::Folder folder;
+  const std::string study = folder.write(
+      "study.toml",
+      "[study]\nschema = 1\nkind = \"sweep\"\n[parameters]\nw = 1\n[[mass]]\nname = \"m\"\nmass = 1\n"
+      "[[element]]\nname = \"s\"\ntype = \"spring\"\nbetween = [\"ground\", \"m\"]\nstiffness = 1e4\n"
+      "[[element]]\nname = \"d\"\ntype = \"damper\"\nbetween = [\"ground\", \"m\"]\ndamping = 10\n"
+      "[excitation]\nfrequency = \"w\"\n[[excitation.force]]\non = \"m\"\namplitude = 1\n"
+      "[[axis]]\nparameter = \"w\"\nunit = \"Hz\"\nfrom = 10\nto = 20\npoints = 21\n"
+      "[output]\nresonances = [\"m\"]\n");
+  REQUIRE(runs::frahm({"run", study, "-o", folder / "study.h5"}).code == 0);
+  const auto exported = [&](const char* group) {
+    return runs::frahm({"export", folder / "study.h5", "--group", group, "-o", "-"}).out;
+  };
+  const double hertz = 100.0 / (2.0 * std::acos(-1.0)), zeta = 0.05;
+  const std::string resonance = exported("resonance"), modes = exported("modes");
+  CHECK(resonance.starts_with(
+      "m_resonance_frequency [Hz],m_resonance_amplitude [m],m_half_power_low [Hz],m_half_power_high [Hz],"));
+  CHECK_THAT(std::stod(resonance.substr(resonance.find('\n') + 1)),
+             Catch::WithinAbs(hertz * std::sqrt(1.0 - 2.0 * zeta * zeta), 1e-6));
+  CHECK(modes.starts_with("mode,mode_mass,mode_frequency [Hz],"));
+  CHECK_THAT(modes, Catch::Contains(fmt::format("\n1,1,{:.10g}", hertz).substr(0, 14)));
 }
 
 TEST_CASE("A viscous resonance is at sqrt(1 - 2 zeta^2), and there is none above zeta = 0.707") {

@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <filesystem>
 #include <sstream>
 
@@ -20,6 +21,12 @@ std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
   for (std::string line; std::getline(in, line);) lines.push_back(line);
   return lines;
+}
+
+// The classical tuning, of another quantity.
+std::string with_quantity(const std::string& quantity) {
+  std::string text = classical;
+  return text.replace(text.find("main_peak"), 9, quantity);
 }
 
 // A schedule over rpm, and beside it a gear.
@@ -143,6 +150,37 @@ TEST_CASE("a schedule is a table beside its sweep") {
   CHECK(lines_of(sweep.tables[0].second).size() == 1 + 2 + 2);
   CHECK_THAT(sweep.text, Catch::Contains("I = { table = \"optimum_I.csv\", of = \"omega\" }"));
   CHECK_THAT(sweep.text, Catch::Contains("unit = \"rpm\""));
+}
+
+TEST_CASE("a run-up speaks of the frequency in the unit of the band") {
+  StoredTuning stored = scheduled("from = 150, to = 160, unit = \"rpm\"", "2");
+  stored.band = {150, 155, 160};
+  const SweepStudy run_up = run_up_study(stored, "up");
+  CHECK_THAT(run_up.text, Catch::Contains("sweep_to = { value = 160, unit = \"rpm\" }") &&
+                              Catch::Contains("sweep_rate = { value = 0.05, unit = \"rpm/s\" }"));
+  const Study study = parse_study(toml_text(read_toml({"up.toml", run_up.text})), "up.toml");
+  const double rpm = std::acos(-1.0) / 30.0;
+  const auto nominal = study.parameters.nominal();
+  CHECK(study.transient()->sweep_to->expression.evaluate(std::span<const double>(nominal)) ==
+        Approx(160.0 * rpm));
+  CHECK(study.transient()->sweep_rate->expression.evaluate(std::span<const double>(nominal)) ==
+        Approx(0.05 * rpm));
+}
+
+TEST_CASE("what is written of a tuning of a signal has the signal, and opens with it") {
+  const std::string signal = "[[output.signal]]\nname = \"gap\"\nalong = { main = 1, tmd = -1 }\n";
+  StoredTuning stored;
+  stored.study = parse_study(with_quantity("gap_peak") + signal, "tuning.toml");
+  stored.design = {{{0.95}, {}}, {{0.13}, {}}};
+  stored.band = {0.7, 0.9, 1.3};
+  const Study run_up = parse_study(run_up_study(stored, "up").text, "up.toml");
+  REQUIRE(run_up.network.signals.size() == 1);
+  CHECK(run_up.network.signals.front().name == "gap");
+  const Study sweep = parse_study(sweep_study(stored, "optimum").text, "optimum.toml");
+  REQUIRE(sweep.map()->headline);
+  CHECK(sweep.map()->headline->text == "gap_peak");
+  stored.study = parse_study(with_quantity("tmd_peak"), "tuning.toml");
+  CHECK(parse_study(sweep_study(stored, "optimum").text, "optimum.toml").map()->headline->text == "tmd_peak");
 }
 
 }  // namespace
