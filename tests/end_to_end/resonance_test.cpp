@@ -1,6 +1,4 @@
 // Resonance and half-power frequencies along the frequency axis: [output] resonances.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -73,8 +71,8 @@ TEST_CASE("Resonances and modes are recorded in the unit of the frequency's axis
       "m_resonance_frequency [Hz],m_resonance_amplitude [m],m_half_power_low [Hz],m_half_power_high [Hz],"));
   CHECK_THAT(std::stod(resonance.substr(resonance.find('\n') + 1)),
              Catch::WithinAbs(hertz * std::sqrt(1.0 - 2.0 * zeta * zeta), 1e-6));
-  CHECK(modes.starts_with("mode,mode_mass,mode_frequency [Hz],"));
-  CHECK_THAT(modes, Catch::Contains(fmt::format("\n1,1,{:.10g}", hertz).substr(0, 14)));
+  CHECK(modes.starts_with("mode,mode_frequency [Hz],"));
+  CHECK_THAT(std::stod(modes.substr(modes.find("\n1,") + 3)), Catch::WithinAbs(hertz, 1e-9));
 }
 
 TEST_CASE("A viscous resonance is at sqrt(1 - 2 zeta^2), and there is none above zeta = 0.707") {
