@@ -35,7 +35,9 @@ SpokenValue spoken_value(const Study& study, std::size_t parameter, double si) {
   const UsualUnit usual = usual_unit(study, parameter);
   SpokenValue spoken{si / usual.si_factor, usual.text};
   const Parameter& definition = study.parameters.list[parameter];
-  if (spoken.unit.empty() && definition.quantity) spoken.unit = written_si_unit(*definition.quantity);
+  const bool is_si =
+      definition.quantity && (spoken.unit.empty() || spoken.unit == si_unit(*definition.quantity));
+  if (is_si) spoken.unit = written_si_unit(*definition.quantity);
   if (study.dimensionless || spoken.unit == "1") spoken.unit.clear();
   return spoken;
 }
@@ -62,7 +64,8 @@ UsualUnit recorded_frequency_unit(const Study& study) {
 SpokenValue spoken_frequency(const Study& study, double omega) {
   if (study.dimensionless) return {omega, ""};
   const UsualUnit unit = frequency_unit(study);
-  return {omega / unit.si_factor, unit.text.empty() ? "rad/s" : unit.text};
+  const bool is_si = unit.text.empty() || unit.text == si_unit(Quantity::angular_frequency);
+  return {omega / unit.si_factor, is_si ? "rad/s" : unit.text};
 }
 
 std::string recorded_unit(const Study& study, std::size_t parameter) {
