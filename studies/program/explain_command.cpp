@@ -99,10 +99,16 @@ const char* name_of(periodic::Owner owner) {
   }
 }
 
-// `machine_peak`, `peak` or `MASS_peak`: a quantity by its name's end.
+// `natural_frequency_2` of `natural_frequency`.
+bool is_numbered(const std::string& word, const std::string& suffix) {
+  return word.starts_with(suffix + "_") && word.size() > suffix.size() + 1 &&
+         word.find_first_not_of("0123456789", suffix.size() + 1) == std::string::npos;
+}
+
+// `machine_peak`, `peak` or `MASS_peak`: a quantity by its name's end; of a mode with its number.
 bool names(const std::string& word, const periodic::QuantityRow& row) {
   const std::string suffix = row.suffix;
-  return word == suffix || (*name_of(row.owner) && word.ends_with("_" + suffix));
+  return word == suffix || is_numbered(word, suffix) || (*name_of(row.owner) && word.ends_with("_" + suffix));
 }
 
 std::string told(const periodic::QuantityRow& row) {

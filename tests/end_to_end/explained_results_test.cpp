@@ -78,7 +78,7 @@ TEST_CASE("every variable of a trade-off with a schedule and a column is explain
   check_explained(
       folder,
       folder.write("front.toml", heading + absorber + minimax + front + of_f + schedule + of_zeta + column),
-      {"r", "f", "zeta", "gear"});
+      {"r", "f", "f_0", "f_1", "f_2", "zeta", "gear"});
 }
 
 }  // namespace
