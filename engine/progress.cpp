@@ -39,8 +39,8 @@ std::optional<double> time_left(const Tally& tally, double seconds) {
 
 // Points that take long have no rate worth telling; what moves is the number of evaluations, and the time.
 std::string movement(const Tally& tally, const std::string& counted, double seconds) {
-  if (tally.evaluations > 0)
-    return fmt::format("  {} evaluations in {}", tally.evaluations, readable_time(seconds));
+  if (tally.evaluations.value_or(0) > 0)
+    return fmt::format("  {} evaluations in {}", *tally.evaluations, readable_time(seconds));
   const auto speed = rate(tally, seconds);
   return speed ? fmt::format("  {:.3g} {}/s", *speed, counted) : "";
 }
@@ -74,8 +74,8 @@ std::string json(const std::string& stage, const std::string& counted, const Tal
       R"("seconds":{:.3f},"points_per_second":{},"seconds_left":{}}})",
       last ? "end" : "progress", stage.empty() ? "" : fmt::format(R"("stage":"{}",)", stage), tally.points,
       tally.done, tally.resumed, tally.reused, tally.failed,
-      tally.evaluations > 0 ? fmt::format(R"("counted":"{}","evaluations":{},)", counted, tally.evaluations)
-                            : "",
+      tally.evaluations ? fmt::format(R"("counted":"{}","evaluations":{},)", counted, *tally.evaluations)
+                        : "",
       percent(tally), seconds, number(rate(tally, seconds)), number(time_left(tally, seconds)));
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,7 @@ struct Tally {
   std::uint64_t reused = 0;   // of those done since, not computed but found in an earlier result
   std::uint64_t failed = 0;   // of those done, the points that have no result
   // Of work whose points take long: how often a model has been computed so far, by this process.
-  std::uint64_t evaluations = 0;
+  std::optional<std::uint64_t> evaluations = {};
 };
 
 enum class ProgressForm { bar, coloured_bar, plain, json, none };

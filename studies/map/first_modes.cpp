@@ -7,6 +7,7 @@
 
 #include "solvers/mechanics/modes.hpp"
 #include "studies/map/grid.hpp"
+#include "studies/reading/settings.hpp"
 #include "studies/record/group_columns.hpp"
 
 namespace frahm::studies {
@@ -26,8 +27,10 @@ std::vector<results::Column> mode_columns(const Study& study, periodic::LinearMo
   modes.damping.resize(count);
   GroupColumns columns;
   columns.add_count("mode", "number of the mode", "mode", numbers_from_one(count));
-  columns.add("mode_frequency", study.dimensionless ? "1" : "rad s-1",
-              "undamped natural frequency with all friction sliding", "mode", modes.frequency);
+  const UsualUnit unit = recorded_frequency_unit(study);
+  for (double& frequency : modes.frequency) frequency /= unit.si_factor;
+  columns.add("mode_frequency", unit.text, "undamped natural frequency with all friction sliding", "mode",
+              modes.frequency);
   columns.add("mode_damping", "1", "damping ratio", "mode", modes.damping);
   for (std::size_t k = 0; k < count; ++k)
     columns.add(fmt::format("mode_shape_{}", k + 1), "1",

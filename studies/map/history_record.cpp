@@ -51,7 +51,7 @@ std::vector<results::Column> history_columns(const Study& study, const transient
   MotionColumns columns(study);
   columns.add_samples(motion.history);
   if (study.transient()->sweep_to)
-    columns.add("frequency", "rad s-1", "angular frequency of the excitation", "time", motion.frequency);
+    columns.add_frequencies("frequency", "frequency of the excitation", "time", motion.frequency);
   return columns.take();
 }
 

@@ -11,6 +11,7 @@
 #include "solvers/response/periodic_response.hpp"
 #include "solvers/response/resonance_peak.hpp"
 #include "studies/map/map_record.hpp"
+#include "studies/reading/settings.hpp"
 #include "studies/record/assembly_stage.hpp"
 
 namespace frahm::studies {
@@ -103,13 +104,14 @@ std::vector<results::Variable> row_variables(const Study& study, std::size_t fre
       add(name, study.map()->axes[a].unit, "parameter " + name);
     }
   }
+  const std::string of_frequency = recorded_frequency_unit(study).text;
   for (const std::size_t mass : study.sweep()->resonances) {
     const std::string& name = mechanics::coordinate_name(study.network, mass);
-    add(name + "_resonance_frequency", "rad s-1", "angular frequency at which " + name + " moves most");
+    add(name + "_resonance_frequency", of_frequency, "frequency at which " + name + " moves most");
     add(name + "_resonance_amplitude", std::string(mechanics::coordinate_unit(study.network, mass, "m")),
         "amplitude of " + name + " at the reference order there");
-    add(name + "_half_power_low", "rad s-1", "below it, where the amplitude is 1/sqrt(2) of that");
-    add(name + "_half_power_high", "rad s-1", "above it, where the amplitude is 1/sqrt(2) of that");
+    add(name + "_half_power_low", of_frequency, "below it, where the amplitude is 1/sqrt(2) of that");
+    add(name + "_half_power_high", of_frequency, "above it, where the amplitude is 1/sqrt(2) of that");
     add(name + "_half_power_damping", "1", "(high - low) / (2 resonance frequency)");
   }
   return variables;
@@ -139,12 +141,13 @@ std::vector<double> solve_row(const Study& study, std::size_t frequency_dimensio
       row.push_back(study.map()->axes[a].values[index[d]]);
   }
   curves.begin(std::move(parameters));
+  const double unit = recorded_frequency_unit(study).si_factor;
   for (std::size_t curve = 0; curve < study.sweep()->resonances.size(); ++curve) {
     const auto peak =
         periodic::find_resonance_peak([&](double at) { return curves.amplitude(curve, at); }, axis.si_values);
-    const double resonance = curves.angular_frequency(peak.at);
-    double low = curves.angular_frequency(peak.half_power_low),
-           high = curves.angular_frequency(peak.half_power_high);
+    const double resonance = curves.angular_frequency(peak.at) / unit;
+    double low = curves.angular_frequency(peak.half_power_low) / unit,
+           high = curves.angular_frequency(peak.half_power_high) / unit;
     if (low > high) std::swap(low, high);
     row.insert(row.end(), {resonance, peak.value, low, high, (high - low) / (2.0 * resonance)});
   }

@@ -126,8 +126,8 @@ std::vector<results::Column> decay_columns(const Study& study, const FreeDecay& 
   }
   columns.add_number("stop_time", "s", "time from which nothing moves any more", decay.stop_time);
   columns.add_number("duration", "s", "time until which the motion is recorded", decay.duration);
-  columns.add_number("reference_frequency", "rad s-1", "angular frequency of the loss factors",
-                     decay.hysteretic_omega);
+  columns.add_frequencies("reference_frequency", "frequency of the loss factors", "",
+                          {decay.hysteretic_omega});
   add_energies(study, decay.energy, columns);
   if (!decay.history.time.empty()) columns.add_samples(decay.history);
   return columns.take();

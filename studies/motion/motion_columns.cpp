@@ -7,6 +7,7 @@
 #include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/rotation.hpp"
 #include "solvers/mechanics/structural_damping.hpp"
+#include "studies/reading/settings.hpp"
 
 namespace frahm::studies {
 
@@ -22,6 +23,13 @@ void MotionColumns::add(const std::string& name, std::string_view unit, const st
 void MotionColumns::add_number(const std::string& name, std::string_view unit, const std::string& long_name,
                                double value) {
   add(name, unit, long_name, "", {value});
+}
+
+void MotionColumns::add_frequencies(const std::string& name, const std::string& long_name,
+                                    const std::string& dimension, std::vector<double> omega) {
+  const UsualUnit unit = recorded_frequency_unit(study_);
+  for (double& each : omega) each /= unit.si_factor;
+  add(name, unit.text, long_name, dimension, std::move(omega));
 }
 
 void MotionColumns::add_samples(const transient::Samples& samples) {

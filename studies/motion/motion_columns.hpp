@@ -24,6 +24,10 @@ class MotionColumns {
   // too, and each element's dissipated energy.
   void add_samples(const transient::Samples& samples);
 
+  // Frequencies [rad/s] in the study's unit of them.
+  void add_frequencies(const std::string& name, const std::string& long_name, const std::string& dimension,
+                       std::vector<double> omega);
+
   std::vector<results::Column> take() { return std::move(columns_); }
 
  private:

@@ -154,7 +154,7 @@ std::vector<results::Column> transient_columns(const Study& study, const ForcedM
   columns.add_samples(motion.history);
   add_driving_records(study, columns);
   if (study.transient()->sweep_to) {
-    columns.add("frequency", "rad s-1", "angular frequency of the excitation", "time", motion.frequency);
+    columns.add_frequencies("frequency", "frequency of the excitation", "time", motion.frequency);
     columns.add_number("discretisation_error", unit_of_all(study),
                        "largest change of any displacement when the stairs of the run-up were last halved",
                        motion.discretisation_error);

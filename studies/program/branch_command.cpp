@@ -66,6 +66,12 @@ double end_of_range(const Study& study, std::size_t parameter, const char* optio
   throw StudyError(rules::wrong_option, "--along {}: it is no axis of the study, so give {}", name, option);
 }
 
+// "10 Hz": as the study speaks of the parameter.
+std::string spoken_text(const Study& study, std::size_t parameter, double si) {
+  const SpokenValue spoken = spoken_value(study, parameter, si);
+  return fmt::format("{:.10g}{}{}", spoken.value, spoken.unit.empty() ? "" : " ", spoken.unit);
+}
+
 // Where the first response is searched [SI]: where --at puts the parameter, else at the start of the range.
 double start_of(const Study& study, std::size_t parameter, const BranchCommandOptions& options, double low,
                 double high) {
@@ -75,8 +81,9 @@ double start_of(const Study& study, std::size_t parameter, const BranchCommandOp
       if (each.parameter == parameter) start = each.value;
   }
   if (start >= low && start <= high) return start;
-  throw StudyError(rules::out_of_range, "--at {} = {}: must be within the range of the branch, {} to {} (SI)",
-                   study.parameters.list[parameter].name, start, low, high);
+  throw StudyError(rules::out_of_range, "--at {} = {}: must be within the range of the branch, {} to {}",
+                   study.parameters.list[parameter].name, spoken_text(study, parameter, start),
+                   spoken_text(study, parameter, low), spoken_text(study, parameter, high));
 }
 
 // A line that tells how far the branch is, on a terminal.
@@ -118,7 +125,8 @@ periodic::BranchWanted wanted_branch(const Study& study, std::size_t along,
   wanted.low = end_of_range(study, along, "--from", options.from, false);
   wanted.high = end_of_range(study, along, "--to", options.to, true);
   if (!(wanted.low < wanted.high))
-    throw StudyError(rules::wrong_order, "--from {}: must be below --to, {} (SI)", wanted.low, wanted.high);
+    throw StudyError(rules::wrong_order, "--from {}: must be below --to, {}",
+                     spoken_text(study, along, wanted.low), spoken_text(study, along, wanted.high));
   wanted.start = start_of(study, along, options, wanted.low, wanted.high);
   wanted.most_points = options.steps;
   wanted.multiple = options.multiple;

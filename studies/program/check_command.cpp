@@ -111,26 +111,31 @@ std::string seconds_text(const Study& study, double seconds) {
   return fmt::format("{:.6g}{}", seconds, study.dimensionless ? "" : " s");
 }
 
+// "250 rpm", as the study speaks of frequencies.
+std::string frequency_text(const Study& study, double omega) {
+  const SpokenValue spoken = spoken_frequency(study, omega);
+  return fmt::format("{:.6g}{}{}", spoken.value, spoken.unit.empty() ? "" : " ", spoken.unit);
+}
+
 void print_decay_choice(const Study& study, const mechanics::NetworkValues& values, std::ostream& out) {
   const auto& duration = study.motion()->duration;
   fmt::print(out, "decay      free vibration, {}\n",
              duration ? "for " + seconds_text(study, stated(study, *duration))
                       : "until rest, or until its end is clear");
   if (mechanics::frequency_dependent_element(study.network)) {
-    fmt::print(out, "reference  {:.6g}{}: the loss factors' frequency\n", values.hysteretic_omega,
-               study.dimensionless ? "" : " rad/s");
+    fmt::print(out, "reference  {}: the loss factors' frequency\n",
+               frequency_text(study, values.hysteretic_omega));
   }
 }
 
 void print_transient_choice(const Study& study, std::ostream& out) {
   const transient::ForcedOptions options = forced_options(study);
-  const char* unit = study.dimensionless ? "" : " rad/s";
   fmt::print(out, "transient  {}", seconds_text(study, options.duration));
   if (std::ranges::any_of(study.network.excitations, [](const auto& each) { return each.order > 0; }))
-    fmt::print(out, " at {:.6g}{}", options.from, unit);
+    fmt::print(out, " at {}", frequency_text(study, options.from));
   if (options.sweep.rate > 0.0) {
-    fmt::print(out, ", running to {:.6g}{} at {:.6g}{} a second", options.sweep.to, unit, options.sweep.rate,
-               unit);
+    fmt::print(out, ", running to {} at {} a {}", frequency_text(study, options.sweep.to),
+               frequency_text(study, options.sweep.rate), study.dimensionless ? "unit of time" : "second");
   }
   fmt::print(out, "\n");
 }

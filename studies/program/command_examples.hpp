@@ -109,6 +109,11 @@ Examples:
   frahm schema >frahm.schema.json             then, as the first line of a study: #:schema frahm.schema.json
   frahm schema | jq .properties.element.items.properties.type.enum)";
 
+inline constexpr const char* help_examples = R"(
+Examples:
+  frahm help run                              the same as frahm run --help
+  frahm help tune                             a kind of study: how it is computed)";
+
 inline constexpr const char* completion_examples = R"(
 Examples:
   frahm completion bash >~/.local/share/bash-completion/completions/frahm

@@ -47,23 +47,33 @@ void add_set(CLI::App& command, std::vector<std::string>& set) {
       ->allow_extra_args(false);
 }
 
+// Checks of values, whose messages are ours.
+auto among(std::vector<std::string> words) {
+  return [words = std::move(words)](const std::string& text) { return problem_of_word(text, words); };
+}
+auto whole_within(std::int64_t least, std::int64_t most) {
+  return [=](const std::string& text) { return problem_of_whole_number(text, least, most); };
+}
+
 void add_threads(CLI::App& command, int& threads) {
   command
       .add_option("--threads", threads,
                   "number of threads; 0: OMP_NUM_THREADS, else SLURM_CPUS_PER_TASK, else all processors")
       ->type_name("N")
-      ->check(CLI::Range(0, 4096))
+      ->check(whole_within(0, 4096))
       ->take_last();
 }
 
 void add_progress(CLI::App& command, engine::ProgressStyle& style) {
-  const std::map<std::string, engine::ProgressStyle> styles{{"auto", engine::ProgressStyle::automatic},
-                                                            {"plain", engine::ProgressStyle::plain},
-                                                            {"json", engine::ProgressStyle::json},
-                                                            {"none", engine::ProgressStyle::none}};
-  command.add_option("--progress", style, "auto, plain, json or none")
+  using enum engine::ProgressStyle;
+  const std::map<std::string, engine::ProgressStyle> styles{
+      {"auto", automatic}, {"plain", plain}, {"json", json}, {"none", none}};
+  command
+      .add_option_function<std::string>(
+          "--progress", [&style, styles](const std::string& word) { style = styles.at(word); },
+          "auto, plain, json or none")
       ->type_name("auto|plain|json|none")
-      ->transform(CLI::Transformer(styles))
+      ->check(among({"auto", "plain", "json", "none"}))
       ->take_last();
 }
 
@@ -127,12 +137,12 @@ void add_check(CLI::App& program, CheckOptions& options, Action& action) {
       ->add_option("--max-array", options.max_array,
                    "most tasks of a Slurm array (MaxArraySize); else as Slurm here says, or 1001")
       ->type_name("N")
-      ->check(CLI::Range(1, 4'000'001));  // the largest Slurm can be set to
+      ->check(whole_within(1, 4'000'001));  // the largest Slurm can be set to
   check
       ->add_option("--simulate-ranks", options.simulate_ranks,
                    "predict time and efficiency on up to so many MPI ranks of --threads each (0: one)")
       ->type_name("N")
-      ->check(CLI::Range(1, 100'000));
+      ->check(whole_within(1, 100'000));
   check->add_flag("--all", options.all, "every mode, of a large system too");
   check->callback([&] { action = [&](std::ostream& out) { return check_command(options, out); }; });
 }
@@ -153,7 +163,7 @@ void add_point(CLI::App& program, PointOptions& options, Action& action) {
           "--path", options.path,
           "fastest: from the phases of its events where that is proved; general: by shooting, always")
       ->type_name("fastest|general")
-      ->check(CLI::IsMember({"fastest", "general"}))
+      ->check(among({"fastest", "general"}))
       ->take_last();
   point->add_flag("--json", options.json, "the report as one JSON object");
   point->add_flag("--all", options.all, "every quantity and mode, of a large system too");
@@ -178,12 +188,12 @@ void add_branch(CLI::App& program, BranchCommandOptions& options, Action& action
   add_set(*branch, options.set);
   branch->add_option("--steps", options.steps, "most points in each direction, else 2000")
       ->type_name("N")
-      ->check(CLI::Range(1, 1'000'000));
+      ->check(whole_within(1, 1'000'000));
   branch
       ->add_option("--multiple", options.multiple,
                    "follow a response that takes so many periods of the excitation; else any")
       ->type_name("N")
-      ->check(CLI::Range(1, 64));
+      ->check(whole_within(1, 64));
   branch
       ->add_option("-o,--output", options.output,
                    "write all points to this file: CSV, or a result where it ends in .h5")
@@ -223,7 +233,8 @@ void add_export(CLI::App& program, ExportOptions& options, Action& action) {
   command->add_flag("--csv", options.csv, "CSV, which is the default");
   command->add_flag("--schedule", options.schedule, "of a tuning: its schedule for a controller");
   command->add_option("--step", options.step, "of --schedule: its step, in the unit of the band; else 1 rpm")
-      ->type_name("STEP");
+      ->type_name("STEP")
+      ->check(problem_of_number_above_zero);
   command->add_option("--sweep", options.sweep, "of a tuning: a study that sweeps its optimum, to this file")
       ->type_name("FILE");
   command
@@ -314,11 +325,24 @@ void add_completion(CLI::App& program, CommandLine& line) {
                                   help::completion_examples);
   command->add_option("SHELL", line.shell, "bash, zsh or fish")
       ->required()
-      ->check(CLI::IsMember({"bash", "zsh", "fish"}))
+      ->check(among({"bash", "zsh", "fish"}))
       ->type_name("bash|zsh|fish");
   command->callback([&line] {
     line.action = [&line](std::ostream& out) {
       out << completion_script(line.commands, line.shell);
+      return exit_code::done;
+    };
+  });
+}
+
+void add_help(CLI::App& program, CommandLine& line) {
+  std::string commands = "help";
+  for (const CLI::App* each : program.get_subcommands(nullptr)) commands += "|" + each->get_name();
+  CLI::App* command = add_command(program, "help", "print the help of a command", help::help_examples);
+  command->add_option("COMMAND", line.word, "else that of frahm itself")->type_name(commands);
+  command->callback([&line] {
+    line.action = [&line](std::ostream& out) {
+      out << help_for(line.commands, line.word);
       return exit_code::done;
     };
   });
@@ -348,6 +372,7 @@ void describe(CLI::App& program, CommandLine& line) {
   add_command(program, "schema", "print the JSON Schema of study files, for editors", help::schema_examples)
       ->callback([&line] { line.action = schema_command; });
   add_completion(program, line);
+  add_help(program, line);
 }
 
 // What CLI11 knows of an option, in our own words.
@@ -380,15 +405,29 @@ const Command& given_command(const CLI::App& program, const Command& tree) {
   return *std::ranges::find(tree.commands, given.front()->get_name(), &Command::last_word);
 }
 
+// What CLI11 says of an option that lacks its value or is given too often, in our own words.
+std::string in_our_words(const CLI::ParseError& error) {
+  const std::string what = error.what();
+  const std::string first = what.substr(0, what.find('\n'));
+  if (error.get_exit_code() != static_cast<int>(CLI::ExitCodes::ArgumentMismatch)) return first;
+  const std::string option = first.substr(0, first.find(':'));
+  constexpr std::string_view before = " required ", after = " missing", received = "received ";
+  const std::size_t type = first.find(before), times = first.rfind(received);
+  if (times != std::string::npos)
+    return fmt::format("{} is given {} times, and can be given once", option,
+                       first.substr(times + received.size()));
+  if (type == std::string::npos || !first.ends_with(after)) return first;
+  const std::size_t start = type + before.size();
+  return fmt::format("{} lacks its value, {}", option,
+                     first.substr(start, first.size() - after.size() - start));
+}
+
 // What is wrong with a command line, and the nearest word to one that is not known.
 std::string complaint(const CLI::App& program, const Command& tree, const CLI::ParseError& error) {
   const Command& command = given_command(program, tree);
   const std::vector<std::string> unknown = program.remaining(true);
   const std::string more = fmt::format("\nMore: {} --help", command.name);
-  if (unknown.empty()) {
-    const std::string what = error.what();
-    return what.substr(0, what.find('\n')) + more;
-  }
+  if (unknown.empty()) return fmt::format("{}: {}{}", command.name, in_our_words(error), more);
   const std::string word = unknown.front().substr(0, unknown.front().find('='));
   if (word.starts_with("-")) {
     std::vector<std::string> names;
@@ -399,34 +438,17 @@ std::string complaint(const CLI::App& program, const Command& tree, const CLI::P
   }
   if (&command != &tree)
     return fmt::format("{}: \"{}\" is one argument too many{}", command.name, word, more);
-  std::vector<std::string> names = starter_kinds();
-  if (std::ranges::find(names, word) != names.end())
-    return fmt::format("unknown command \"{}\"; frahm run computes a study of any kind{}", word, more);
-  names.clear();
-  for (const Command& each : tree.commands) names.push_back(each.last_word());
-  return fmt::format("unknown command \"{}\"{}{}", word, suggestion(word, names), more);
-}
-
-// `frahm tune --help`: a kind of study has no command of its own.
-std::string help_of_kind(const std::string& kind, const Command& run) {
-  return fmt::format(
-      "frahm has no command \"{0}\": frahm run computes a study of any kind, one with kind = \"{0}\" too.\n\n"
-      "  frahm new {0} {0}.toml    writes such a study to start from, with comments\n"
-      "  frahm check {0}.toml\n"
-      "  frahm run {0}.toml\n\n{1}",
-      kind, help_text(run));
+  return fmt::format("frahm: {}{}", unknown_command(tree, word), more);
 }
 
 // The help that a command line asks for.
 std::string asked_help(const CLI::App& program, const Command& tree) {
   const Command& command = given_command(program, tree);
   const std::vector<std::string> unknown = program.remaining(true);
-  if (&command == &tree && !unknown.empty()) {
-    for (const std::string& kind : starter_kinds())
-      if (unknown.front() == kind)
-        return help_of_kind(kind, *std::ranges::find(tree.commands, "run", &Command::last_word));
-  }
-  return help_text(command);
+  const std::vector<std::string> kinds = starter_kinds();
+  const bool is_of_kind =
+      &command == &tree && !unknown.empty() && std::ranges::find(kinds, unknown.front()) != kinds.end();
+  return is_of_kind ? help_for(tree, unknown.front()) : help_text(command);
 }
 
 // The first argument that could not be told in a message, kept in a note or stored in a result.
@@ -461,7 +483,7 @@ std::optional<int> parse_command_line(int argc, const char* const* argv, Command
     out << asked_help(program, line.commands);
     return exit_code::done;
   } catch (const CLI::ParseError& error) {
-    complaints << "frahm: " << complaint(program, line.commands, error) << '\n';
+    complaints << complaint(program, line.commands, error) << '\n';
     return exit_code::wrong_input;
   }
   if (line.version) line.action = [&line](std::ostream& to) { return version_command(line.verbose, to); };

@@ -30,7 +30,7 @@ struct CommandLine {
   ExportOptions table;
   ReportOptions report;
   NewOptions starter;
-  std::string word;   // to explain
+  std::string word;   // to explain, or of which help is asked
   std::string shell;  // to complete in
   Command commands;   // all there are
   bool version = false, verbose = false;

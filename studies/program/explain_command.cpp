@@ -7,6 +7,7 @@
 
 #include "solvers/quantities/quantity_table.hpp"
 #include "studies/program/exit_code.hpp"
+#include "studies/program/record_words.hpp"
 #include "studies/reading/element_keys.hpp"
 #include "studies/reading/spelling.hpp"
 #include "studies/reading/study_keys.hpp"
@@ -33,7 +34,20 @@ const Meaning exit_codes[] = {
      "exit code: refused to mix results of different studies; nothing was changed. Another -o, or --fresh"},
     {"6", "exit code: a file or stream could not be read or written, or memory ran out"},
     {"7", "exit code: a tuning or fit did not converge; the best so far is in the file"},
-    {"8", "exit code: the self-check of frahm verify failed on this machine"}};
+    {"8", "exit code: the self-check of frahm verify failed on this machine"},
+    {"done", "outcome of a run in Python: exit code 0, done"},
+    {"some_failed",
+     "outcome of a run in Python: exit code 3, finished, but some points failed; they are marked in the "
+     "file"},
+    {"stopped", "outcome of a run in Python: exit code 4, by a signal or the time budget"},
+    {"not_converged", "outcome of a run in Python: exit code 7; the best so far is in the file"}};
+
+// What is no key of the readers, and no unit of UDUNITS.
+const Meaning other_words[] = {{"repeat",
+                                "repeat in any [[table]]: { i = [1, 60] } makes a table for each i, and in "
+                                "its texts {i}, {i-1} and {i+1} "
+                                "are numbers; with a step [3, 60, 3]; of two indices every pair"},
+                               {"deg", "deg: no unit of a study: a degree is written degree"}};
 
 const Meaning flags[] = {
     {"not_computed", "status or regime: has no value here; what is not asked for, or not reached"},
@@ -85,10 +99,16 @@ const char* name_of(periodic::Owner owner) {
   }
 }
 
-// `machine_peak`, `peak` or `MASS_peak`: a quantity by its name's end.
+// `natural_frequency_2` of `natural_frequency`.
+bool is_numbered(const std::string& word, const std::string& suffix) {
+  return word.starts_with(suffix + "_") && word.size() > suffix.size() + 1 &&
+         word.find_first_not_of("0123456789", suffix.size() + 1) == std::string::npos;
+}
+
+// `machine_peak`, `peak` or `MASS_peak`: a quantity by its name's end; of a mode with its number.
 bool names(const std::string& word, const periodic::QuantityRow& row) {
   const std::string suffix = row.suffix;
-  return word == suffix || (*name_of(row.owner) && word.ends_with("_" + suffix));
+  return word == suffix || is_numbered(word, suffix) || (*name_of(row.owner) && word.ends_with("_" + suffix));
 }
 
 std::string told(const periodic::QuantityRow& row) {
@@ -244,6 +264,8 @@ std::vector<std::string> all_words() {
   }
   for (const Meaning& each : flags) words.push_back(each.word);
   for (const auto& row : periodic::quantity_table()) words.emplace_back(row.suffix);
+  for (const RecordWord& each : record_words()) words.emplace_back(each.name);
+  for (const Meaning& each : other_words) words.push_back(each.word);
   return words;
 }
 
@@ -260,14 +282,20 @@ int explain_command(const std::string& word, std::ostream& out) {
   for (const Meaning& each : flags) {
     if (word == each.word) found.push_back(fmt::format("{}: {}", each.word, each.text));
   }
+  for (const Meaning& each : other_words) {
+    if (word == each.word) found.push_back(each.text);
+  }
+  const bool is_known = !found.empty();
+  for (std::string& text : is_known ? record_words_named(word) : record_words_called(word))
+    found.push_back(std::move(text));
   // Words of our own come first: UDUNITS has a unit called `force`.
   if (found.empty()) found = units_called(word);
   if (found.empty())
-    throw StudyError(
-        rules::unknown_name,
-        "explain: \"{}\" is no key, type, choice, quantity, unit, status, regime, outcome or exit "
-        "code{}",
-        word, suggestion(word, all_words()));
+    throw StudyError(rules::unknown_name,
+                     "explain: \"{}\" is no key, type, choice, quantity, variable of results, unit, status, "
+                     "regime, outcome or "
+                     "exit code{}",
+                     word, suggestion(word, all_words()));
   for (const std::string& text : found) out << text << '\n';
   return exit_code::done;
 }

@@ -10,11 +10,13 @@
 #include <ostream>
 
 #include "results/map_reader.hpp"
+#include "results/store_error.hpp"
 #include "studies/identification/identification_record.hpp"
 #include "studies/identification/identified_study.hpp"
 #include "studies/map/beside_samples.hpp"
 #include "studies/map/grid.hpp"
 #include "studies/program/whole_file.hpp"
+#include "studies/reading/spelling.hpp"
 #include "studies/record/finished_file.hpp"
 #include "studies/tuning/schedule_table.hpp"
 #include "studies/tuning/sweep_study.hpp"
@@ -156,7 +158,16 @@ void write_table(const results::MapReader& map, const std::string& asked, std::o
   write_map(map, out);
 }
 
+void check_group(const results::MapReader& map, const ExportOptions& options) {
+  const std::vector<std::string> groups = map.groups();
+  if (options.group.empty() || std::ranges::find(groups, options.group) != groups.end()) return;
+  throw results::StoreError(
+      options.file, fmt::format("has no group \"{}\"{}", options.group, suggestion(options.group, groups)),
+      "");
+}
+
 void write_export(const ExportOptions& options, const results::MapReader& map, std::ostream& out) {
+  check_group(map, options);
   if (options.group == statistics_group || options.group == tornado_group) {
     const results::MapReader of_group(options.file, options.group);
     if (!of_group.layout().axes.empty()) return write_map(of_group, out);

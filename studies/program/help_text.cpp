@@ -5,6 +5,10 @@
 #include <algorithm>
 #include <sstream>
 
+#include "studies/program/starter_studies.hpp"
+#include "studies/reading/spelling.hpp"
+#include "studies/reading/study_source.hpp"
+
 namespace frahm::studies {
 namespace {
 
@@ -66,6 +70,20 @@ std::string entries(const Command& command, bool positional) {
   return text;
 }
 
+std::string help_of_kind(const std::string& kind, const Command& run) {
+  return fmt::format(
+      "frahm has no command \"{0}\": frahm run computes a study of any kind, one with kind = \"{0}\" too.\n\n"
+      "  frahm new {0} {0}.toml    writes such a study to start from, with comments\n"
+      "  frahm check {0}.toml\n"
+      "  frahm run {0}.toml\n\n{1}",
+      kind, help_text(run));
+}
+
+bool is_kind(const std::string& word) {
+  const std::vector<std::string> kinds = starter_kinds();
+  return std::ranges::find(kinds, word) != kinds.end();
+}
+
 }  // namespace
 
 std::string help_text(const Command& command) {
@@ -79,6 +97,24 @@ std::string help_text(const Command& command) {
     text += fmt::format("  {:<{}}{}\n", each.last_word(), widest_name, each.what);
   }
   return text + command.foot + "\n";
+}
+
+std::string help_for(const Command& tree, const std::string& name) {
+  if (name.empty()) return help_text(tree);
+  const auto command = [&](const std::string& word) {
+    return std::ranges::find(tree.commands, word, &Command::last_word);
+  };
+  if (const auto found = command(name); found != tree.commands.end()) return help_text(*found);
+  if (is_kind(name)) return help_of_kind(name, *command("run"));
+  throw StudyError(rules::wrong_option, "help: {}", unknown_command(tree, name));
+}
+
+std::string unknown_command(const Command& tree, const std::string& name) {
+  if (is_kind(name))
+    return fmt::format("unknown command \"{}\"; frahm run computes a study of any kind", name);
+  std::vector<std::string> names;
+  for (const Command& each : tree.commands) names.push_back(each.last_word());
+  return fmt::format("unknown command \"{}\"{}", name, suggestion(name, names));
 }
 
 }  // namespace frahm::studies

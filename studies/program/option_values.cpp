@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
 
+#include "studies/reading/spelling.hpp"
 #include "studies/reading/study_source.hpp"
 
 namespace frahm::studies {
@@ -71,6 +73,28 @@ std::chrono::duration<double> time_span_of(std::string_view option, std::string_
                      option, text);
   }
   return std::chrono::duration<double>(number * seconds);
+}
+
+std::string problem_of_word(std::string_view text, std::span<const std::string> words) {
+  if (std::ranges::find(words, text) != words.end()) return "";
+  return fmt::format("\"{}\" is not possible{}", text, suggestion(text, words));
+}
+
+std::string problem_of_whole_number(std::string_view text, std::int64_t least, std::int64_t most) {
+  std::int64_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool is_number = error == std::errc{} && end == text.data() + text.size();
+  if (is_number && number >= least && number <= most) return "";
+  return fmt::format("\"{}\" is no whole number from {} to {}", text, least, most);
+}
+
+std::string problem_of_number_above_zero(const std::string& text) {
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool is_number = error == std::errc{} && end == text.data() + text.size();
+  return is_number && number > 0.0 && std::isfinite(number)
+             ? ""
+             : fmt::format("\"{}\" is no number above 0", text);
 }
 
 }  // namespace frahm::studies

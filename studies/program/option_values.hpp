@@ -1,14 +1,15 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 
 #include "engine/run.hpp"
 
-// Values of options that are more than a number. All throw StudyError, naming the option, for an invalid
-// value.
+// Values of options. What reads them throws StudyError, naming the option, for an invalid value.
 namespace frahm::studies {
 
 // "3/16": shard 3 of 16, counted from 0.
@@ -20,5 +21,11 @@ engine::Shard shard_of_array_task(const std::function<const char*(const char*)>&
 
 // "90s", "50m", "2h", "1.5d"; > 0. option: its name, for messages.
 std::chrono::duration<double> time_span_of(std::string_view option, std::string_view text);
+
+// What to say of a value behind the option's name; "" of one that is right: one of some words, a whole number
+// of a range, a number > 0.
+std::string problem_of_word(std::string_view text, std::span<const std::string> words);
+std::string problem_of_whole_number(std::string_view text, std::int64_t least, std::int64_t most);
+std::string problem_of_number_above_zero(const std::string& text);
 
 }  // namespace frahm::studies

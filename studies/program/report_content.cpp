@@ -10,6 +10,7 @@
 #include "studies/program/report_facts.hpp"
 #include "studies/program/report_profile.hpp"
 #include "studies/reading/name_pattern.hpp"
+#include "studies/reading/spelling.hpp"
 #include "studies/record/stored_study.hpp"
 
 namespace frahm::studies {
@@ -61,10 +62,10 @@ void check_quantities(const std::vector<std::string>& asked, const results::MapL
       return matches(name, variable.name);
     });
     if (is_known) continue;
-    std::string names;
-    for (const results::Variable& variable : known) names += (names.empty() ? "" : ", ") + variable.name;
-    throw StudyError(rules::wrong_option, "--quantities: the result has no quantity \"{}\"; it has {}", name,
-                     names.empty() ? "no map" : names);
+    std::vector<std::string> names;
+    for (const results::Variable& variable : known) names.push_back(variable.name);
+    throw StudyError(rules::wrong_option, "--quantities: the result has no quantity \"{}\"{}", name,
+                     names.empty() ? ", as it has no map" : suggestion(name, names));
   }
 }
 

@@ -13,6 +13,7 @@
 #include "studies/motion/crank_motion.hpp"
 #include "studies/motion/motion_record.hpp"
 #include "studies/program/report_profile.hpp"
+#include "studies/reading/settings.hpp"
 #include "studies/tuning/tuning_record.hpp"
 
 namespace frahm::studies {
@@ -29,20 +30,14 @@ results::Column excitation_frequency(const Study& study) {
           .values = {values.omega}};
 }
 
-// The study's unit of the excitation frequency, as a column with the SI value of one such unit; none if the
-// unit is SI.
-std::vector<results::Column> frequency_unit(const Study& study) {
-  for (std::size_t i = 0; i < study.parameters.list.size(); ++i) {
-    const Parameter& parameter = study.parameters.list[i];
-    if (!parameter.in_frequency || parameter.quantity != Quantity::angular_frequency) continue;
-    const UsualUnit unit = usual_unit(study, i);
-    if (unit.text.empty()) return {};
-    return {{.variable = {.name = "frequency_unit",
-                          .unit = unit.text,
-                          .long_name = "unit of the excitation frequency in rad/s"},
-             .values = {unit.si_factor}}};
-  }
-  return {};
+// What the unit of the run's frequency is in rad/s, which the page takes periods from; none of SI.
+std::vector<results::Column> frequency_unit_in_si(const Study& study) {
+  const UsualUnit unit = recorded_frequency_unit(study);
+  if (unit.si_factor == 1.0) return {};
+  return {{.variable = {.name = "frequency_unit",
+                        .unit = unit.text,
+                        .long_name = "unit of the excitation frequency in rad/s"},
+           .values = {unit.si_factor}}};
 }
 
 // The number of elements that meet a condition.
@@ -82,7 +77,7 @@ std::vector<results::Column> motion_facts(const Study& study) {
                                         given_duration(study)};
   if (study.kind() == StudyKind::transient) {
     facts.push_back(excitation_frequency(study));
-    for (results::Column& unit : frequency_unit(study)) facts.push_back(std::move(unit));
+    for (results::Column& unit : frequency_unit_in_si(study)) facts.push_back(std::move(unit));
   }
   return facts;
 }

@@ -5,6 +5,7 @@
 
 #include "solvers/mechanics/crank.hpp"
 #include "studies/reading/direction_reading.hpp"
+#include "studies/reading/settings.hpp"
 #include "studies/reading/study_reading.hpp"
 
 namespace frahm::studies {
@@ -105,11 +106,14 @@ void check_derived(const Study& study, const Checked& checked, std::span<const d
   const double value = parameters[checked.reads.front()];
   if (std::isfinite(value)) return;
   if (const auto* table = std::get_if<TableOf>(&checked.parameter->definition)) {
-    const double of = parameters[table->of];
+    const auto told = [&](double si) {
+      const SpokenValue spoken = spoken_value(study, table->of, si);
+      return fmt::format("{:.6g}{}{}", spoken.value, spoken.unit.empty() ? "" : " ", spoken.unit);
+    };
     fail(rules::out_of_range, study, checked, parameters,
          fmt::format("the table \"{}\" has no value", table->file),
-         fmt::format("it covers {} from {} to {} (SI), here {:.6g}", study.parameters.list[table->of].name,
-                     table->table.x.front(), table->table.x.back(), of));
+         fmt::format("it covers {} from {} to {}, here {}", study.parameters.list[table->of].name,
+                     told(table->table.x.front()), told(table->table.x.back()), told(parameters[table->of])));
   }
   fail(rules::out_of_range, study, checked, parameters, "has no value", "must be a finite number");
 }

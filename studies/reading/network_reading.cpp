@@ -149,7 +149,8 @@ StudyValue read_value_at(NetworkReading& reading, const std::string& where, cons
   }
   const NumberWithUnit number = read_number_with_unit(reading.context, result.where, value);
   try {
-    result.expression = Expression(number.value * (number.unit ? si_factor(*number.unit, quantity) : 1.0));
+    if (number.unit) result.unit = {number.unit->text, si_factor(*number.unit, quantity)};
+    result.expression = Expression(number.value * result.unit.si_factor);
   } catch (const UnitError& error) {
     throw reading.context.source.error_at(error.rule(), number.unit_position, "{}: {}", result.where,
                                           error.what());

@@ -24,6 +24,7 @@ struct StudyValue {
   Range range = Range::finite;
   std::string where;  // for messages: `element "guide": force`
   Position position;
+  UsualUnit unit{};  // of a number that the study gives one
 };
 
 // A combination of coordinates as the study gives it: `along = { roof = 1, wheel = "-r" }`. Its factors are

@@ -14,10 +14,13 @@ TomlValue toml_string(const std::string& value) {
   return {{}, value};
 }
 
+TomlValue toml_with_unit(double value, const std::string& unit) {
+  return {{}, TomlTable{{"value", {}, toml_number(value)}, {"unit", {}, toml_string(unit)}}};
+}
+
 TomlValue toml_parameter(const Study& study, std::size_t parameter, double si) {
   const SpokenValue spoken = spoken_value(study, parameter, si);
-  if (spoken.unit.empty()) return toml_number(spoken.value);
-  return {{}, TomlTable{{"value", {}, toml_number(spoken.value)}, {"unit", {}, toml_string(spoken.unit)}}};
+  return spoken.unit.empty() ? toml_number(spoken.value) : toml_with_unit(spoken.value, spoken.unit);
 }
 
 TomlEntry* entry_of(TomlTable& table, const std::string& key) {

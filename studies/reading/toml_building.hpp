@@ -10,6 +10,7 @@ namespace frahm::studies {
 
 TomlValue toml_number(double value);
 TomlValue toml_string(const std::string& value);
+TomlValue toml_with_unit(double value, const std::string& unit);  // { value = 3, unit = "mm" }
 
 // A number parameter's value [SI] in its usual unit: 3, or { value = 3, unit = "mm" }.
 TomlValue toml_parameter(const Study& study, std::size_t parameter, double si);

@@ -32,8 +32,6 @@ std::string key_text(const std::string& key) {
   return bare ? key : in_quotes(key);
 }
 
-std::string in_line(const TomlValue& value);
-
 // The text between the brackets of an array or of a table.
 template <class Items, class Text>
 std::string joined(const Items& items, const Text& text) {
@@ -43,19 +41,6 @@ std::string joined(const Items& items, const Text& text) {
     result += text(item);
   }
   return result;
-}
-
-// Numbers in their shortest form that reads back exactly.
-std::string in_line(const TomlValue& value) {
-  if (const auto* flag = value.as<bool>()) return *flag ? "true" : "false";
-  if (const auto* whole = value.as<std::int64_t>()) return fmt::format("{}", *whole);
-  if (const auto* number = value.as<double>()) return fmt::format("{}", *number);
-  if (const auto* text = value.as<std::string>()) return in_quotes(*text);
-  if (const auto* array = value.as<TomlArray>()) return fmt::format("[{}]", joined(*array, in_line));
-  const auto entry = [](const TomlEntry& each) {
-    return fmt::format("{} = {}", key_text(each.key), in_line(each.value));
-  };
-  return fmt::format("{{ {} }}", joined(*value.as<TomlTable>(), entry));
 }
 
 bool is_array_of_tables(const TomlValue& value) {
@@ -85,7 +70,7 @@ void write_table(const std::string& path, const TomlTable& table, bool nested, s
   };
   for (const TomlEntry& entry : table) {
     if (!has_heading(entry.value))
-      text += fmt::format("{} = {}\n", key_text(entry.key), in_line(entry.value));
+      text += fmt::format("{} = {}\n", key_text(entry.key), toml_in_line(entry.value));
   }
   for (const TomlEntry& entry : table) {
     if (!has_heading(entry.value)) continue;
@@ -99,6 +84,19 @@ void write_table(const std::string& path, const TomlTable& table, bool nested, s
 }
 
 }  // namespace
+
+// Numbers in their shortest form that reads back exactly.
+std::string toml_in_line(const TomlValue& value) {
+  if (const auto* flag = value.as<bool>()) return *flag ? "true" : "false";
+  if (const auto* whole = value.as<std::int64_t>()) return fmt::format("{}", *whole);
+  if (const auto* number = value.as<double>()) return fmt::format("{}", *number);
+  if (const auto* text = value.as<std::string>()) return in_quotes(*text);
+  if (const auto* array = value.as<TomlArray>()) return fmt::format("[{}]", joined(*array, toml_in_line));
+  const auto entry = [](const TomlEntry& each) {
+    return fmt::format("{} = {}", key_text(each.key), toml_in_line(each.value));
+  };
+  return fmt::format("{{ {} }}", joined(*value.as<TomlTable>(), entry));
+}
 
 std::string toml_text(const TomlValue& root) {
   std::string text;

@@ -8,8 +8,8 @@
 
 namespace frahm::studies {
 
-// What has changed between two studies, a line for each: "parameter M: 80 kg, now 90 kg". Names, values,
-// elements, excitations and axes; what else may differ is not told.
+// What has changed between two studies that have not the same fingerprint, a line for each: "parameter M: 80
+// kg, now 90 kg". All that their documents say; where these say the same, that it is a file or the program.
 std::vector<std::string> study_changes(const Study& kept, const Study& now);
 
 // The same of a result and the study that is to replace it; none where the result has no study that can be

@@ -117,14 +117,28 @@ TomlValue tuned_study(const StoredTuning& stored, const char* kind, const std::s
   return root;
 }
 
-// From rest to the end of the band, slowly enough for most systems to show their steady response on the way.
-TomlTable run_up_of(const BandChoice& band) {
+// From rest to the end of the band, slowly enough for most systems to show their steady response on the way;
+// in the unit of the band.
+TomlTable run_up_of(const Study& study, const BandChoice& band) {
   constexpr double kPeriods = 500.0;  // of the first frequency, that the band takes
   const double duration = kPeriods * 2.0 * std::numbers::pi / band.range.from;
-  const double rate = to_digits((band.range.to - band.range.from) / duration, 2);
-  return {{"sweep_to", {}, toml_number(band.range.to)},
-          {"sweep_rate", {}, toml_number(rate)},
-          {"samples", {}, toml_number(2001.0)}};
+  const double rate = (band.range.to - band.range.from) / duration / band.unit.si_factor;
+  const std::string unit = unit_of(study, band.parameter);
+  const TomlValue of_rate = unit.empty()      ? toml_number(to_digits(rate, 2))
+                            : unit == "rad/s" ? toml_with_unit(to_digits(rate, 2), "rad/s2")
+                                              : toml_with_unit(to_digits(rate, 2), unit + "/s");
+  return {{"sweep_to", {}, toml_parameter(study, band.parameter, band.range.to)},
+          {"sweep_rate", {}, of_rate},
+          {"samples", {}, {{}, std::int64_t{2001}}}};
+}
+
+// A page of the sweep opens with what was tuned, where that is a peak or a stroke.
+std::optional<TomlTable> report_of(const std::string& quantity) {
+  for (const std::string_view ending : {"_peak", "_stroke"}) {
+    if (quantity.ends_with(ending))
+      return TomlTable{{"headline", {}, toml_string(quantity.substr(0, quantity.size() - ending.size()))}};
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -144,6 +158,8 @@ SweepStudy sweep_study(const StoredTuning& stored, const std::string& stem) {
   TomlValue output = output_of(study, find_entry(root, "output"));
   std::erase_if(sections, [](const TomlEntry& entry) { return entry.key == "output"; });
   sections.push_back({"output", {}, std::move(output)});
+  if (auto report = report_of(study.tune()->quantity_name))
+    sections.push_back({"report", {}, {{}, std::move(*report)}});
   sweep.text = fmt::format("{}\n{}", sweep_mark, toml_text(root));
   return sweep;
 }
@@ -163,9 +179,9 @@ SweepStudy run_up_study(const StoredTuning& stored, const std::string& stem) {
   entry_of(std::get<TomlTable>(entry_of(sections, "parameters")->value.content),
            study.parameters.list[band->parameter].name)
       ->value = toml_parameter(study, band->parameter, band->range.from);
-  std::erase_if(sections,
-                [](const TomlEntry& entry) { return entry.key == "output" || entry.key == "orbits"; });
-  sections.push_back({"transient", {}, {{}, run_up_of(*band)}});
+  // Of a tuning's output there are the signals alone, which a motion has too.
+  std::erase_if(sections, [](const TomlEntry& entry) { return entry.key == "orbits"; });
+  sections.push_back({"transient", {}, {{}, run_up_of(study, *band)}});
   TomlArray axes;
   add_scenario_axes(study, axes);
   if (!axes.empty()) sections.push_back({"axis", {}, {{}, std::move(axes)}});

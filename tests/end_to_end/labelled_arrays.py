@@ -54,7 +54,7 @@ def check_map(path, engine, study):
         assert ds.tmd_friction_sliding_velocity.attrs["units"] == "m s-1"
     with xr.open_dataset(path, engine=engine, group="modes") as ds:
         assert dict(ds.sizes) == {"mode": 2, "mode_mass": 2} and ds.attrs["masses"] == "main,tmd", ds
-        assert ds.mode_frequency.attrs["units"] == "rad s-1" and list(ds.mode.values) == [1, 2]
+        assert ds.mode_frequency.attrs["units"] == "rpm" and list(ds.mode.values) == [1, 2]
         np.testing.assert_array_equal(abs(ds.mode_shape_1).max(), 1)
     with xr.open_dataset(path, engine=engine, group="borders") as ds:
         assert set(ds.data_vars) == {"I", "FP", "omega", "element", "axis", "regime_below", "regime_above"}

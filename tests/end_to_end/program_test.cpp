@@ -57,6 +57,49 @@ TEST_CASE("wrong usage ends with code 2 and says what is wrong") {
   CHECK(folder.names() == Names{"small.toml"});
 }
 
+// The first line of what a wrong command line is told.
+std::string complaint(const Names& arguments) {
+  const auto outcome = frahm(arguments);
+  CHECK(outcome.code == 2);
+  return outcome.err.substr(0, outcome.err.find('\n'));
+}
+
+TEST_CASE("a wrong value of an option is one line in our words, with what is possible") {
+  CHECK(complaint({"run", "s.toml", "--progress", "foo"}) ==
+        "frahm run: --progress: \"foo\" is not possible; known: auto, plain, json, none");
+  CHECK(complaint({"point", "s.toml", "--path", "genral"}) ==
+        "frahm point: --path: \"genral\" is not possible; did you mean \"general\"?");
+  CHECK(complaint({"completion", "bsh"}) ==
+        "frahm completion: SHELL: \"bsh\" is not possible; did you mean \"bash\"?");
+  CHECK(complaint({"run", "s.toml", "--threads", "x"}) ==
+        "frahm run: --threads: \"x\" is no whole number from 0 to 4096");
+  CHECK(complaint({"export", "s.toml", "--rate", "1", "--rate", "2"}) ==
+        "frahm export: --rate is given 2 times, and can be given once");
+  CHECK(complaint({"run", "s.toml", "-o"}) == "frahm run: --output lacks its value, FILE");
+  CHECK(complaint({"run", "s.toml", "--thread", "2"}) ==
+        "frahm run: unknown option --thread; did you mean \"--threads\"?");
+  CHECK(complaint({"rnu"}) == "frahm: unknown command \"rnu\"; did you mean \"run\"?");
+}
+
+TEST_CASE("frahm help is frahm --help, of a command and of a kind of study too") {
+  CHECK(frahm({"help"}).out == frahm({"--help"}).out);
+  CHECK(frahm({"help", "run"}).out == frahm({"run", "--help"}).out);
+  CHECK(frahm({"help", "tune"}).out == frahm({"tune", "--help"}).out);
+  CHECK(frahm({"help", "run"}).code == 0);
+  CHECK(complaint({"help", "rnu"}) == "frahm: help: unknown command \"rnu\"; did you mean \"run\"?");
+}
+
+TEST_CASE("a quantity or group that a result has not gets the nearest that it has") {
+  const Folder folder;
+  const std::string study = folder.write("small.toml", small), result = folder / "small.h5";
+  REQUIRE(run(study, result).code == 0);
+  const auto page = frahm({"report", result, "--quantities", "main_peek"});
+  CHECK(page.code == 2);
+  CHECK_THAT(page.err, Catch::Contains("no quantity \"main_peek\"; did you mean \"main_peak\"?"));
+  CHECK_THAT(frahm({"export", result, "--group", "mods"}).err,
+             Catch::Contains("has no group \"mods\"; did you mean \"modes\"?"));
+}
+
 // Those that the help of the program lists.
 Names commands_of_help() {
   std::istringstream help(frahm({"--help"}).out);

@@ -51,6 +51,30 @@ TEST_CASE("The resonances are exported as a table of their own") {
   CHECK(runs::frahm({"export", folder / "study.h5", "--group", "orbits", "-o", "-"}).code == 6);
 }
 
+TEST_CASE("Resonances and modes are recorded in the unit of the frequency's axis") {
+  const runs::Folder folder;
+  const std::string study = folder.write(
+      "study.toml",
+      "[study]\nschema = 1\nkind = \"sweep\"\n[parameters]\nw = 1\n[[mass]]\nname = \"m\"\nmass = 1\n"
+      "[[element]]\nname = \"s\"\ntype = \"spring\"\nbetween = [\"ground\", \"m\"]\nstiffness = 1e4\n"
+      "[[element]]\nname = \"d\"\ntype = \"damper\"\nbetween = [\"ground\", \"m\"]\ndamping = 10\n"
+      "[excitation]\nfrequency = \"w\"\n[[excitation.force]]\non = \"m\"\namplitude = 1\n"
+      "[[axis]]\nparameter = \"w\"\nunit = \"Hz\"\nfrom = 10\nto = 20\npoints = 21\n"
+      "[output]\nresonances = [\"m\"]\n");
+  REQUIRE(runs::frahm({"run", study, "-o", folder / "study.h5"}).code == 0);
+  const auto exported = [&](const char* group) {
+    return runs::frahm({"export", folder / "study.h5", "--group", group, "-o", "-"}).out;
+  };
+  const double hertz = 100.0 / (2.0 * std::acos(-1.0)), zeta = 0.05;
+  const std::string resonance = exported("resonance"), modes = exported("modes");
+  CHECK(resonance.starts_with(
+      "m_resonance_frequency [Hz],m_resonance_amplitude [m],m_half_power_low [Hz],m_half_power_high [Hz],"));
+  CHECK_THAT(std::stod(resonance.substr(resonance.find('\n') + 1)),
+             Catch::WithinAbs(hertz * std::sqrt(1.0 - 2.0 * zeta * zeta), 1e-6));
+  CHECK(modes.starts_with("mode,mode_frequency [Hz],"));
+  CHECK_THAT(std::stod(modes.substr(modes.find("\n1,") + 3)), Catch::WithinAbs(hertz, 1e-9));
+}
+
 TEST_CASE("A viscous resonance is at sqrt(1 - 2 zeta^2), and there is none above zeta = 0.707") {
   std::string text = runs::reduced("lecture_isolation", {});
   text = runs::replaced(text, "[output]\n", "[output]\nresonances = [\"machine\"]\n");
@@ -81,13 +105,12 @@ TEST_CASE("identification_response.toml: the solved half-power points are those 
   REQUIRE(f_n.size() == 11);
   for (std::size_t i = 0; i < f_n.size(); ++i) {
     INFO("row " << i);
-    const double omega = 2.0 * 3.14159265358979323846 * f_n[i];
-    const double resonance = columns.at("main_resonance_frequency")[i] / omega;
+    const double resonance = columns.at("main_resonance_frequency")[i] / f_n[i];  // both in Hz
     const double zeta = std::sqrt(0.5 * (1.0 - resonance * resonance));
     const double spread = 2.0 * zeta * std::sqrt(1.0 - zeta * zeta);
-    CHECK_THAT(columns.at("main_half_power_low")[i] / omega,
+    CHECK_THAT(columns.at("main_half_power_low")[i] / f_n[i],
                Catch::WithinAbs(std::sqrt(resonance * resonance - spread), 1e-8));
-    CHECK_THAT(columns.at("main_half_power_high")[i] / omega,
+    CHECK_THAT(columns.at("main_half_power_high")[i] / f_n[i],
                Catch::WithinAbs(std::sqrt(resonance * resonance + spread), 1e-8));
     CHECK_THAT(columns.at("main_resonance_amplitude")[i], Catch::WithinRel(1e-3 / spread, 1e-8));
   }

@@ -129,7 +129,9 @@ TEST_CASE(
   const auto now = [&] { return Progress::Clock::time_point(time); };
   Progress of_plain(ProgressForm::plain, plain, now, "", "starts"),
       of_json(ProgressForm::json, json, now, "", "starts");
-  of_plain.update({.points = 2});
+  of_plain.update({.points = 2, .evaluations = 0});
+  of_json.update({.points = 2, .evaluations = 0});
+  CHECK_THAT(json.str(), Contains(R"("counted":"starts","evaluations":0,)"));
   time = 95s;
   of_plain.update({.points = 2, .done = 1, .evaluations = 12345});
   of_json.update({.points = 2, .done = 1, .evaluations = 12345});

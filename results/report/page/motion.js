@@ -75,11 +75,11 @@ function unitsOf({ columns }) {
   return { time: of(/^time$|^duration$|_peak_time$|_stop_onset$/, "s"), energy: of(/_energy$/, "J") };
 }
 
-// The frequency of a run in the unit that the study uses, such as rpm.
-function spokenFrequency(column, study) {
-  const spoken = study?.column("frequency_unit");
-  if (!spoken) return column;
-  return { ...column, unit: spoken.unit, values: column.values.map((value) => value / spoken.values[0]) };
+// The frequency of a run in rad/s, from the unit that the study uses, such as rpm.
+function inRadians(column, study) {
+  const unit = study?.column("frequency_unit");
+  if (!unit || unit.unit !== column.unit) return column;
+  return { ...column, unit: "rad s-1", values: column.values.map((value) => value * unit.values[0]) };
 }
 
 // The records that drive the motion, each along times of its own: [{name, time, values, unit, meaning}].
@@ -108,8 +108,8 @@ export function motionOf(record, kind) {
     ...namesWith(group, "_extremum", "extremum"),
     ...namesWith(group, "_peak", ""),
   ]);
-  const frequency = group.column("frequency"),
-    angularFrequency = frequency?.dimension === "time" ? frequency : null;
+  const recorded = group.column("frequency"),
+    frequency = recorded?.dimension === "time" ? recorded : null;
   const signals = new Set((record.groups.get("study")?.texts.signals ?? "").split(","));
   const fact = (name) => record.groups.get("study")?.number(name) ?? NaN;
   return {
@@ -129,8 +129,8 @@ export function motionOf(record, kind) {
       .map((name) => stopsOf(group, name, duration))
       .filter(({ from }) => from.length > 0),
     energies: energiesOf(group),
-    angularFrequency,
-    frequency: angularFrequency && spokenFrequency(angularFrequency, record.groups.get("study")),
+    angularFrequency: frequency && inRadians(frequency, record.groups.get("study")),
+    frequency,
     discretisationError: group.number("discretisation_error"),
   };
 }

@@ -335,7 +335,7 @@ test("the frequency of a run is told in the study's unit, and its period is that
         {},
         {
           time: ["s", "time", time],
-          frequency: ["rad s-1", "time", time.map((t) => rpm * (60 + 6 * t))],
+          frequency: ["rpm", "time", time.map((t) => 60 + 6 * t)],
           main_displacement: ["m", "time", time.map(Math.sin)],
         },
       ),

@@ -106,4 +106,17 @@ TEST_CASE("Wrong use of a branch is refused by what is wrong") {
   check_refusal({.study = study.path, .along = "r", .output = "-"}, rules::wrong_option, "--output");
 }
 
+TEST_CASE("a range or start that is wrong is told in the study's unit") {
+  const StudyOnDisk study(
+      "[study]\nschema = 1\nkind = \"sweep\"\n[parameters]\nw = 1\n[[mass]]\nname = \"m\"\nmass = 1\n"
+      "[[element]]\nname = \"s\"\ntype = \"spring\"\nbetween = [\"ground\", \"m\"]\nstiffness = 4e4\n"
+      "[excitation]\nfrequency = \"w\"\n[[excitation.force]]\non = \"m\"\namplitude = 1\n"
+      "[[axis]]\nparameter = \"w\"\nunit = \"Hz\"\nfrom = 1\nto = 2\npoints = 3\n");
+  std::ostringstream out;
+  CHECK_THROWS_WITH(branch_command({.study = study.path, .along = "w", .from = "30", .to = "20 Hz"}, out),
+                    Catch::Contains("--from 30 Hz: must be below --to, 20 Hz"));
+  CHECK_THROWS_WITH(branch_command({.study = study.path, .along = "w", .at = {"w=50"}}, out),
+                    Catch::Contains("--at w = 50 Hz: must be within the range of the branch, 1 Hz to 2 Hz"));
+}
+
 }  // namespace

@@ -45,6 +45,21 @@ TEST_CASE("Checking the rig atlas tells its size, its array of tasks and its mod
   CHECK(has(text, "With all friction stuck nothing moves."));
 }
 
+TEST_CASE("the frequencies of a run-up are told in the study's unit, wherever it stands") {
+  std::ostringstream of_parameter;
+  check_command({.study = study_path("run_up"), .threads = 1}, of_parameter);
+  CHECK_THAT(of_parameter.str(), Catch::Contains(" at 100 rpm, running to 1000 rpm at 100 rpm a second\n"));
+  const TemporaryDirectory folder;
+  std::ofstream(folder / "study.toml")
+      << "[study]\nschema = 1\nkind = \"transient\"\n[[mass]]\nname = \"m\"\nmass = 1\n"
+         "[[element]]\nname = \"s\"\ntype = \"spring\"\nbetween = [\"ground\", \"m\"]\nstiffness = 4e4\n"
+         "[excitation]\nfrequency = { value = 10, unit = \"Hz\" }\n"
+         "[[excitation.force]]\non = \"m\"\namplitude = 1\n[transient]\nduration = 2\n";
+  std::ostringstream of_value;
+  check_command({.study = folder / "study.toml", .threads = 1}, of_value);
+  CHECK_THAT(of_value.str(), Catch::Contains("transient  2 s at 10 Hz\n"));
+}
+
 TEST_CASE("a modal damping ratio above that of critical damping is noted, as 2 may mean 2 %") {
   const TemporaryDirectory folder;
   const auto checked = [&](const char* ratio) {

@@ -217,7 +217,7 @@ TEST_CASE("a schedule is read from a table beside the study and refused outside 
   };
   const Study inside = study("35");
   CHECK(inside.parameters.nominal() == std::vector<double>{20, 6});
-  CHECK_THROWS_WITH(study("40"), Catch::Contains("it covers omega from 15 to 35 (SI), here 40"));
+  CHECK_THROWS_WITH(study("40"), Catch::Contains("it covers omega from 15 rad/s to 35 rad/s, here 40 rad/s"));
   std::filesystem::remove_all(folder);
 }
 

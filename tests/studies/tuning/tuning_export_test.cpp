@@ -22,6 +22,12 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
+// The classical tuning, of another quantity.
+std::string with_quantity(const std::string& quantity) {
+  std::string text = classical;
+  return text.replace(text.find("main_peak"), 9, quantity);
+}
+
 // A schedule over rpm, and beside it a gear.
 StoredTuning scheduled(const std::string& band, const std::string& knots) {
   StoredTuning stored;
@@ -143,6 +149,30 @@ TEST_CASE("a schedule is a table beside its sweep") {
   CHECK(lines_of(sweep.tables[0].second).size() == 1 + 2 + 2);
   CHECK_THAT(sweep.text, Catch::Contains("I = { table = \"optimum_I.csv\", of = \"omega\" }"));
   CHECK_THAT(sweep.text, Catch::Contains("unit = \"rpm\""));
+}
+
+TEST_CASE("a run-up speaks of the frequency in the unit of the band") {
+  StoredTuning stored = scheduled("from = 150, to = 160, unit = \"rpm\"", "2");
+  stored.band = {150, 155, 160};
+  const SweepStudy run_up = run_up_study(stored, "up");
+  CHECK_THAT(run_up.text, Catch::Contains("sweep_to = { value = 160, unit = \"rpm\" }") &&
+                              Catch::Contains("sweep_rate = { value = 0.05, unit = \"rpm/s\" }"));
+}
+
+TEST_CASE("what is written of a tuning of a signal has the signal, and opens with it") {
+  const std::string signal = "[[output.signal]]\nname = \"gap\"\nalong = { main = 1, tmd = -1 }\n";
+  StoredTuning stored;
+  stored.study = parse_study(with_quantity("gap_peak") + signal, "tuning.toml");
+  stored.design = {{{0.95}, {}}, {{0.13}, {}}};
+  stored.band = {0.7, 0.9, 1.3};
+  const Study run_up = parse_study(run_up_study(stored, "up").text, "up.toml");
+  REQUIRE(run_up.network.signals.size() == 1);
+  CHECK(run_up.network.signals.front().name == "gap");
+  const Study sweep = parse_study(sweep_study(stored, "optimum").text, "optimum.toml");
+  REQUIRE(sweep.map()->headline);
+  CHECK(sweep.map()->headline->text == "gap_peak");
+  stored.study = parse_study(with_quantity("tmd_peak"), "tuning.toml");
+  CHECK(parse_study(sweep_study(stored, "optimum").text, "optimum.toml").map()->headline->text == "tmd_peak");
 }
 
 }  // namespace

@@ -1,0 +1,244 @@
+#include "studies/record/document_changes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "studies/reading/study_keys.hpp"
+#include "studies/reading/toml_section.hpp"
+#include "studies/reading/toml_writing.hpp"
+#include "studies/reading/units.hpp"
+
+namespace frahm::studies {
+namespace {
+
+constexpr double rounding_of_units = 1e-14;  // relative: of a value times the factor of its unit
+constexpr std::size_t longest_list = 60;     // bytes of a list that is told whole
+
+// A single value; `si` where it is a number, of a unit where it has one.
+struct Item {
+  std::string text;
+  std::optional<double> si;
+  bool has_unit = false;
+};
+
+// What a study says under one name.
+struct Fact {
+  std::string name;                 // `mass "main": mass`
+  std::vector<std::string> tables;  // those it is in, the outermost first
+  bool is_list = false;
+  std::vector<Item> items;  // one unless it is a list
+};
+
+// All that a study says, in the order of its file.
+struct Facts {
+  std::vector<Fact> list;
+  std::set<std::string> tables;
+
+  const Fact* find(const std::string& name) const {
+    const auto fact = std::ranges::find(list, name, &Fact::name);
+    return fact == list.end() ? nullptr : &*fact;
+  }
+};
+
+const StudyKey* key_of(std::string_view section, std::string_view key) {
+  const auto all = study_keys();
+  const auto row = std::ranges::find_if(
+      all, [&](const StudyKey& each) { return each.section == section && each.key == key; });
+  return row == all.end() ? nullptr : &*row;
+}
+
+// What no result depends on.
+bool is_beside(std::string_view section, std::string_view key) {
+  return (section.empty() && (key == "report" || key == "coordinate")) ||
+         (section == "study" && key == "title");
+}
+
+const std::string* text_in(const TomlValue& table, std::string_view key) {
+  const TomlEntry* entry = find_entry(table, key);
+  return entry ? entry->value.as<std::string>() : nullptr;
+}
+
+// The unit that a table has for its numbers: of the bounds of a design variable, the values of an axis. That
+// of a measured record is of what is in its file.
+std::string unit_of_numbers(const TomlValue& table, std::string_view section) {
+  const std::string* unit = text_in(table, "unit");
+  return unit && section != "excitation.record" ? *unit : "";
+}
+
+bool is_in_unit_of_table(const StudyKey* key) {
+  if (!key || std::string_view(key->key) == "variation") return false;  // over the mean
+  return key->form == KeyForm::number || key->form == KeyForm::values || key->form == KeyForm::any;
+}
+
+// By what tables of a list are told apart.
+std::string name_of(const TomlValue& table, const std::string& section, std::size_t number) {
+  for (const char* naming : {"name", "parameter", "node", "on", "quantity"}) {
+    if (text_in(table, naming))
+      return label(table, section.substr(section.rfind('.') + 1), naming, section, number);
+  }
+  return fmt::format("[[{}]] {}", section, number);
+}
+
+class FactReading {
+ public:
+  Facts read(const TomlValue& document) {
+    add_table(document, "", "");
+    return std::move(facts_);
+  }
+
+ private:
+  void add_table(const TomlValue& table, const std::string& section, const std::string& where) {
+    if (!where.empty()) {
+      facts_.tables.insert(where);
+      inside_.push_back(where);
+    }
+    const std::string unit = unit_of_numbers(table, section);
+    for (const TomlEntry& entry : *table.as<TomlTable>()) {
+      if (is_beside(section, entry.key) || (!unit.empty() && entry.key == "unit")) continue;
+      add_entry(entry, section, where, unit);
+    }
+    if (!where.empty()) inside_.pop_back();
+  }
+
+  void add_entry(const TomlEntry& entry, const std::string& section, const std::string& where,
+                 const std::string& unit) {
+    const std::string path = section.empty() ? entry.key : section + "." + entry.key;
+    const StudyKey* key = key_of(section, entry.key);
+    const std::string name = where.empty() ? "[" + entry.key + "]" : fmt::format("{}: {}", where, entry.key);
+    if (key && key->form == KeyForm::tables && entry.value.as<TomlArray>()) {
+      add_tables(*entry.value.as<TomlArray>(), path, where);
+    } else if (key && key->form == KeyForm::names && entry.value.as<TomlTable>()) {
+      for (const TomlEntry& each : *entry.value.as<TomlTable>())
+        add_value(each.value, section.empty() ? "parameter " + each.key : name + ": " + each.key, "");
+    } else if (entry.value.as<TomlTable>() && !keys_of(path).empty()) {
+      add_table(entry.value, path, name);
+    } else {
+      add_value(entry.value, name, is_in_unit_of_table(key) ? unit : "");
+    }
+  }
+
+  void add_tables(const TomlArray& list, const std::string& section, const std::string& where) {
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      if (!list[i].as<TomlTable>()) continue;
+      const std::string own = name_of(list[i], section, i + 1);
+      const bool stands_alone = where.empty() || where.starts_with('[');  // its name tells enough
+      std::string name = stands_alone ? own : fmt::format("{}: {}", where, own);
+      if (facts_.tables.contains(name)) name += fmt::format(" ([[{}]] {})", section, i + 1);
+      add_table(list[i], section, name);
+    }
+  }
+
+  void add_value(const TomlValue& value, std::string name, const std::string& unit) {
+    Fact fact{.name = std::move(name), .tables = inside_, .items = {}};
+    if (const auto* list = value.as<TomlArray>()) {
+      fact.is_list = true;
+      for (const TomlValue& each : *list) fact.items.push_back(item_of(each, unit));
+    } else {
+      fact.items.push_back(item_of(value, unit));
+    }
+    facts_.list.push_back(std::move(fact));
+  }
+
+  Item item_of(const TomlValue& value, const std::string& unit_of_table) const {
+    const TomlEntry* inner = find_entry(value, "value");
+    const TomlValue& number = inner ? inner->value : value;
+    const std::string* own_unit = inner ? text_in(value, "unit") : nullptr;
+    if (!is_number(number)) return {.text = toml_in_line(value), .si = std::nullopt};
+    const std::string unit = own_unit ? *own_unit : unit_of_table;
+    const auto* whole = number.as<std::int64_t>();
+    const double plain = whole ? static_cast<double>(*whole) : *number.as<double>();
+    const std::string text = toml_in_line(number);
+    if (unit.empty()) return {text, plain};
+    return {fmt::format("{} {}", text, unit), in_si(plain, unit), true};
+  }
+
+  // Cycles are turns here, as in a frequency. None of a unit that another version knew.
+  std::optional<double> in_si(double value, const std::string& text) const {
+    try {
+      const Unit unit = units_.parse(text);
+      return value * unit.scale * (unit.counts_cycles() ? 2.0 * std::numbers::pi : 1.0);
+    } catch (const UnitError&) {
+      return std::nullopt;
+    }
+  }
+
+  UnitSystem units_;
+  Facts facts_;
+  std::vector<std::string> inside_;
+};
+
+bool is_same(const Item& a, const Item& b) {
+  if (a.text == b.text) return true;
+  if (!a.si || !b.si) return false;
+  const double rounding = a.has_unit || b.has_unit ? rounding_of_units * std::abs(*a.si) : 0.0;
+  return std::abs(*a.si - *b.si) <= rounding;
+}
+
+bool is_same(const Fact& a, const Fact& b) {
+  return a.is_list == b.is_list &&
+         std::ranges::equal(a.items, b.items,
+                            [](const Item& one, const Item& other) { return is_same(one, other); });
+}
+
+std::string told(const Fact& fact) {
+  if (!fact.is_list) return fact.items.front().text;
+  std::string text;
+  for (const Item& item : fact.items) text += (text.empty() ? "" : ", ") + item.text;
+  return text.size() <= longest_list ? "[" + text + "]" : fmt::format("{} values", fact.items.size());
+}
+
+std::string change_of(const Fact& before, const Fact& after) {
+  const std::string first = told(before), second = told(after);
+  if (first != second) return fmt::format("{}: {}, now {}", before.name, first, second);
+  // Two long lists of as many values: the first that differs.
+  std::size_t at = 0, different = 0;
+  for (std::size_t i = before.items.size(); i-- > 0;) {
+    if (is_same(before.items[i], after.items[i])) continue;
+    at = i;
+    ++different;
+  }
+  return fmt::format("{}: value {} of {}: {}, now {}{}", before.name, at + 1, before.items.size(),
+                     before.items[at].text, after.items[at].text,
+                     different > 1 ? fmt::format(", and {} more", different - 1) : "");
+}
+
+// The outermost table of a fact that another study has not; "" where it has them all.
+std::string missing_table(const Fact& fact, const Facts& other) {
+  const auto table = std::ranges::find_if(
+      fact.tables, [&](const std::string& each) { return !other.tables.contains(each); });
+  return table == fact.tables.end() ? "" : *table;
+}
+
+}  // namespace
+
+std::vector<std::string> document_changes(const TomlValue& kept, const TomlValue& now) {
+  const Facts before = FactReading().read(kept), after = FactReading().read(now);
+  std::vector<std::string> changes;
+  const auto tell = [&](const std::string& line) {  // a table that is new or gone is told once
+    if (std::ranges::find(changes, line) == changes.end()) changes.push_back(line);
+  };
+  for (const Fact& fact : before.list) {
+    const Fact* found = after.find(fact.name);
+    if (found && is_same(fact, *found)) continue;
+    const std::string table = found ? "" : missing_table(fact, after);
+    if (found)
+      tell(change_of(fact, *found));
+    else
+      tell(table.empty() ? fmt::format("{}: {}, now gone", fact.name, told(fact)) : table + ": gone");
+  }
+  for (const Fact& fact : after.list) {
+    if (before.find(fact.name)) continue;
+    const std::string table = missing_table(fact, before);
+    tell(table.empty() ? fmt::format("{}: new, {}", fact.name, told(fact)) : table + ": new");
+  }
+  return changes;
+}
+
+}  // namespace frahm::studies
