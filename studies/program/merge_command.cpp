@@ -144,6 +144,8 @@ bool is_merged(const MergeOptions& options, std::vector<std::filesystem::path> l
     const auto study = engine::study_of_log(log);
     if (study && study->fingerprint != *kept) return false;
   }
+  refuse_damage(options.output, logs.empty() ? "frahm run --fresh computes it anew"
+                                             : "remove it, and merge makes it anew of the shard logs");
   engine::remove_logs(logs);
   remove_notes(options, logs);
   fmt::print(out, "{} is finished already, nothing is left to merge\n", options.output.string());

@@ -7,7 +7,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "engine/fingerprint.hpp"
 #include "engine/output_lock.hpp"
 #include "engine/stop_request.hpp"
 #include "results/map_reader.hpp"
@@ -18,7 +17,6 @@
 #include "studies/program/refusal_advice.hpp"
 #include "studies/record/finished_file.hpp"
 #include "studies/record/provenance.hpp"
-#include "studies/record/study_changes.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -61,11 +59,9 @@ bool is_of_same_file(const Study& study, const std::filesystem::path& output) {
 }
 
 void refuse_another_study(const StudyPlan& plan, const std::filesystem::path& output) {
-  const auto kept = fingerprint_of_file(output);
-  if (!kept || *kept == plan.fingerprint) return;
-  if (plan.study.identify() && is_of_same_file(plan.study, output)) return;
-  throw engine::ResumeRefused(output, *kept, plan.fingerprint,
-                              refusal_advice(changes_since(output, plan.study)));
+  const bool is_there = std::filesystem::exists(output);
+  if (is_there && plan.study.identify() && is_of_same_file(plan.study, output)) return;
+  refuse_another_result(output, plan);
 }
 
 void write_file(const StudyPlan& plan, const RunRecord& record, const std::filesystem::path& output,

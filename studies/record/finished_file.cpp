@@ -64,6 +64,14 @@ void check_result_place(const std::filesystem::path& output, const std::filesyst
   }
 }
 
+void refuse_damage(const std::filesystem::path& result, const std::string& advice) {
+  try {
+    results::MapReader(result).check_data();
+  } catch (const results::StoreError& reason) {
+    throw results::StoreError(reason.what(), "the result is damaged", advice);
+  }
+}
+
 std::string provenance_text(const results::MapReader& map, const std::string& name) {
   if (!map.has_group("provenance")) return "";
   for (const auto& [key, text] : map.texts("provenance")) {

@@ -39,6 +39,10 @@ void refuse_link(const std::filesystem::path& output);
 // Throws engine::IoError.
 void check_result_place(const std::filesystem::path& output, const std::filesystem::path& study);
 
+// Reads all of a result that is taken for finished. Throws results::StoreError if it is damaged, with what to
+// do.
+void refuse_damage(const std::filesystem::path& result, const std::string& advice);
+
 // A text of /provenance; empty if there is none of this name.
 std::string provenance_text(const results::MapReader& map, const std::string& name);
 
