@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "engine/io_error.hpp"
 #include "engine/output_lock.hpp"
 #include "engine/stop_request.hpp"
 #include "results/map_reader.hpp"
@@ -45,9 +46,7 @@ void refuse_own_data(const Study& study, const std::filesystem::path& output) {
   std::error_code ignored;  // a missing file is no data file
   for (const std::filesystem::path& file : study.identify()->files) {
     if (std::filesystem::equivalent(output, file, ignored))
-      throw StudyError(rules::wrong_file,
-                       "{}: is a file that the study reads; name another for the result with -o",
-                       output.string());
+      throw engine::IoError(output, "is a file that the study reads; name another for the result with -o");
   }
 }
 

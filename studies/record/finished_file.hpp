@@ -24,7 +24,11 @@ inline constexpr const char* grown_from_identity = "grown_from_identity";
 // Refuses a study where the name of a result is needed. Throws StudyError.
 void refuse_study(const std::filesystem::path& result);
 
-// Throws engine::IoError if there is no such result: an unfinished run or a wrong name.
+// Throws engine::IoError for a folder where the name of a result is needed.
+void refuse_folder(const std::filesystem::path& result);
+
+// Throws engine::IoError if there is no such result: an unfinished run, a wrong name or a folder; StudyError
+// for a study.
 void require_result(const std::filesystem::path& path);
 
 // Whether there is a file made by merge --partial.
@@ -33,6 +37,9 @@ bool is_partial(const std::filesystem::path& path);
 // A file takes the place of another of its name in one step, which would leave of a link nothing. Throws
 // engine::IoError for a link, wherever it points.
 void refuse_link(const std::filesystem::path& output);
+
+// Throws engine::IoError if the folder in which an output is to be made does not exist.
+void require_folder_of(const std::filesystem::path& output);
 
 // A result may be a new file or replace another result; it never replaces a study, a table, any other file, a
 // folder, a device or a link.  study: the study's own file; empty: not known.
