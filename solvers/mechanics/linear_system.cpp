@@ -287,7 +287,7 @@ void Assembly::set_forcing(const NetworkValues& values, LinearSystem& system) co
   const double fastest = orders_.back() * values.omega;
   if (!std::isfinite(fastest * fastest * system.M.diagonal().maxCoeff()))
     refuse("the angular frequency", values.omega,
-           "is too high: with the masses its square is beyond what a number can be");
+           "must be lower: its square times the masses must be finite");
   const auto n = static_cast<Eigen::Index>(network_.masses.size());
   const auto p = static_cast<Eigen::Index>(network_.prescribed.size());
   const auto harmonics = static_cast<Eigen::Index>(orders_.size());

@@ -336,7 +336,7 @@ TEST_CASE("the texts of a group without numbers are exported, and replace no oth
   CHECK_THAT(texts.out, Catch::StartsWith("name,text\n\"study\",\"[study]\n") &&
                             Catch::Contains("kind = \"\"sweep\"\"") &&
                             Catch::Contains("\n\"study_file\",\"small.toml\"\n"));
-  for (const std::string& text : {"my thesis\n", "\nmy thesis\n"}) {
+  for (const std::string& text : {std::string("my thesis\n"), std::string("\nmy thesis\n")}) {
     const std::string mine = folder.write("mine.csv", text);
     CHECK(frahm({"export", result, "--group", "provenance", "-o", mine}).code == 6);
     CHECK(text_of(mine) == text);
