@@ -1,7 +1,9 @@
 #include "studies/map/unfit_systems.hpp"
 
+#include <algorithm>
 #include <chrono>
 
+#include "solvers/mechanics/element_table.hpp"
 #include "solvers/mechanics/linear_system.hpp"
 #include "studies/map/grid.hpp"
 
@@ -10,13 +12,17 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// The dimensions along which masses or elements change.
+// The dimensions along which masses or elements change: all of which a system may be refused for.
 std::vector<std::size_t> dimensions_of_systems(const Study& study) {
+  const StudyValues& values = study.values;
   std::vector<std::size_t> reads;
-  for (const auto* list : {&study.values.mass, &study.values.element, &study.values.second}) {
-    for (const StudyValue& value : *list)
-      reads.insert(reads.end(), value.expression.reads().begin(), value.expression.reads().end());
-  }
+  const auto add = [&](const StudyValue& value) {
+    reads.insert(reads.end(), value.expression.reads().begin(), value.expression.reads().end());
+  };
+  for (const auto* list : {&values.mass, &values.element, &values.second, &values.slope, &values.cubic,
+                           &values.damping, &values.points})
+    std::ranges::for_each(*list, add);
+  if (mechanics::frequency_dependent_element(study.network) != nullptr) add(values.omega);
   return dimensions_moving(study, reads);
 }
 
