@@ -8,6 +8,7 @@
 
 #include "results/checked_apart.hpp"
 #include "results/columns.hpp"
+#include "results/data_check.hpp"
 #include "results/format.hpp"
 #include "results/store_error.hpp"
 #include "results/structure_check.hpp"
@@ -178,6 +179,10 @@ std::vector<Text> MapReader::texts(const std::string& group) const {
 
 std::vector<Column> MapReader::columns(const std::string& group) const {
   return read_columns(file_.root().group(group));
+}
+
+void MapReader::check_data() const {
+  results::check_data(file_.root());
 }
 
 }  // namespace frahm::results

@@ -42,6 +42,9 @@ class MapReader {
   // up to the end. StoreError if there is no such group.
   std::vector<Column> columns(const std::string& group) const;
 
+  // Reads all numbers of the file. Throws StoreError, naming the dataset, for the first that are damaged.
+  void check_data() const;
+
  private:
   void read_map(const hdf5::Group& group);
 

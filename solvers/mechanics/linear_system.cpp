@@ -284,6 +284,10 @@ void Assembly::set_forcing(const NetworkValues& values, LinearSystem& system) co
   if (!(values.omega > 0.0 && std::isfinite(values.omega))) {
     refuse("the angular frequency", values.omega, "must be finite and positive");
   }
+  const double fastest = orders_.back() * values.omega;
+  if (!std::isfinite(fastest * fastest * system.M.diagonal().maxCoeff()))
+    refuse("the angular frequency", values.omega,
+           "must be lower: its square times the masses must be finite");
   const auto n = static_cast<Eigen::Index>(network_.masses.size());
   const auto p = static_cast<Eigen::Index>(network_.prescribed.size());
   const auto harmonics = static_cast<Eigen::Index>(orders_.size());

@@ -32,6 +32,7 @@ void check_is_hdf5(const std::filesystem::path& path) {
 std::string_view kind_of(const results::MapReader& result) {
   if (result.has_group("identification")) return "an identification";
   if (result.has_group("optimum")) return "a tuning";
+  if (result.has_group("branches")) return "a branch";
   return "one motion";
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -14,8 +15,10 @@
 #include "solvers/mechanics/linear_system.hpp"
 #include "studies/map/branch_record.hpp"
 #include "studies/map/branch_rows.hpp"
+#include "studies/map/output_quantities.hpp"
 #include "studies/program/branch_table.hpp"
 #include "studies/program/exit_code.hpp"
+#include "studies/program/refusal_advice.hpp"
 #include "studies/program/whole_file.hpp"
 #include "studies/reading/assignment.hpp"
 #include "studies/reading/settings.hpp"
@@ -41,6 +44,10 @@ std::size_t parameter_along(const Study& study, const std::string& name) {
   return *found;
 }
 
+bool is_result(const std::filesystem::path& output) {
+  return output.extension() == ".h5";
+}
+
 void check_options(const Study& study, const BranchCommandOptions& options) {
   if (study.kind() != StudyKind::sweep) {
     throw StudyError(rules::other_kind, "{}: {} has no branches; they are those of a sweep's responses",
@@ -51,6 +58,8 @@ void check_options(const Study& study, const BranchCommandOptions& options) {
     throw StudyError(rules::wrong_option,
                      "--output \"-\": the special points go to standard output; name a file");
   }
+  if (options.fresh && !(options.output && is_result(*options.output)))
+    throw StudyError(rules::wrong_option, "--fresh: belongs to a result, --output FILE.h5");
 }
 
 // An end of the range [SI]: as the option says, else that of the parameter's axis.
@@ -133,10 +142,6 @@ periodic::BranchWanted wanted_branch(const Study& study, std::size_t along,
   return wanted;
 }
 
-bool is_result(const std::filesystem::path& output) {
-  return output.extension() == ".h5";
-}
-
 void check_place(const BranchCommandOptions& options) {
   if (!options.output) return;
   if (is_result(*options.output))
@@ -145,12 +150,28 @@ void check_place(const BranchCommandOptions& options) {
     check_output_is_not_input(*options.output, options.study);
 }
 
+// Of the same physics as the map of its study, for other points.  parameters: SI, of the branch.
+StudyPlan plan_of_branch(const Study& study, const BranchCommandOptions& options, std::size_t along,
+                         std::vector<double> parameters, const periodic::BranchWanted& wanted) {
+  const std::vector<periodic::Quantity> recorded = output_quantities(study);
+  const auto variables = output_variables(study, recorded);  // of a comparison too, behind these
+  std::vector<std::string> names;
+  for (std::size_t q = 0; q < recorded.size(); ++q) names.push_back(variables[q].name);
+  parameters[along] = wanted.start;
+  const std::string course =
+      fmt::format("along {} from {} to {}, {} points each way of {} periods, begun at {}",
+                  study.parameters.list[along].name, wanted.low, wanted.high, wanted.most_points,
+                  wanted.multiple, fmt::join(parameters, " "));
+  return {.study = study,
+          .set = options.set,
+          .fingerprint = branch_fingerprint(fingerprint(study, {}, names), course)};
+}
+
 // A result that has this branch alone.  parameters: SI, of the branch.
-void write_result(const BranchCommandOptions& options, const Study& study, std::size_t along,
+void write_result(const BranchCommandOptions& options, const StudyPlan& plan, std::size_t along,
                   std::span<const double> parameters, const std::vector<periodic::Quantity>& quantities,
                   const periodic::Branch& branch, const std::string& started) {
-  const engine::OutputLock lock(*options.output);
-  const StudyPlan plan{.study = study, .set = options.set, .fingerprint = fingerprint(study)};
+  const Study& study = plan.study;
   const RunRecord run{.command = options.command, .threads = 1, .started = started};
   results::MapWriter writer(*options.output, file_layout(plan, run));
   BranchRecord(study, along, axis_parameters_beside(study, along), quantities, writer)
@@ -174,6 +195,12 @@ int branch_command(const BranchCommandOptions& options, std::ostream& out) {
     check_point(study, parameters);
     set_crank_orders_at(study, parameters);
   }
+  const StudyPlan plan = plan_of_branch(study, options, along, parameters, wanted);
+  std::optional<engine::OutputLock> lock;
+  if (options.output && is_result(*options.output)) {
+    lock.emplace(*options.output);
+    if (!options.fresh) refuse_another_result(*options.output, plan);
+  }
   const std::vector<periodic::Quantity> quantities = branch_quantities(study);
   const auto values_at = [&](double value) {
     parameters[along] = value;
@@ -194,7 +221,7 @@ int branch_command(const BranchCommandOptions& options, std::ostream& out) {
     return exit_code::some_failed;
   }
   if (options.output && is_result(*options.output))
-    write_result(options, study, along, parameters, quantities, branch, started);
+    write_result(options, plan, along, parameters, quantities, branch, started);
   else if (options.output)
     write_whole_file(*options.output, table.csv(branch), Replaces::own_table);
   table.print(branch, out);

@@ -18,6 +18,7 @@
 #include "studies/map/map_record.hpp"
 #include "studies/map/map_sample.hpp"
 #include "studies/map/map_summary.hpp"
+#include "studies/map/unfit_systems.hpp"
 #include "studies/motion/motion_record.hpp"
 #include "studies/program/array_job.hpp"
 #include "studies/program/branch_cost.hpp"
@@ -71,6 +72,14 @@ void print_prediction(const Study& study, const Grid& grid, const MapSample& sam
                study.transient() ? "a motion" : "a response", sample.failed, sample.points, sample.failed_at,
                sample.reason);
   }
+}
+
+// Tells the systems that cannot be, which the sample may not have met.
+void print_unfit_systems(const Study& study, const MapSample& sample, std::ostream& out) {
+  const UnfitSystems found = unfit_systems(study);
+  if (found.unfit == 0 || sample.reason == found.reason) return;
+  fmt::print(out, "without a system: {} of {} combinations of masses and elements, the first at {}: {}\n",
+             found.unfit, found.tried, found.first_at, found.reason);
 }
 
 // The orbits that the study lists are solved once more, for their histories.
@@ -215,6 +224,7 @@ int check_command(const CheckOptions& options, std::ostream& out) {
       break;
   }
   const MapPlan plan = plan_map(std::move(read), options.set);
+  refuse_unfit_map(plan.study);
   const double start_seconds = std::chrono::duration<double>(Clock::now() - start).count();
   const Study& study = plan.study;
   const MapSample sample = sample_of(plan, sample_seconds);
@@ -232,6 +242,7 @@ int check_command(const CheckOptions& options, std::ostream& out) {
   print_grid(study, plan.grid, out);
   print_samples(study, out);
   print_prediction(study, plan.grid, sample, options.threads, out);
+  print_unfit_systems(study, sample, out);
   if (study.sweep()) {
     print_orbits_cost(plan, options.threads, out);
     print_branch_cost(plan, options.threads, out);

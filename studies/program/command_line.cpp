@@ -198,6 +198,7 @@ void add_branch(CLI::App& program, BranchCommandOptions& options, Action& action
       ->add_option("-o,--output", options.output,
                    "write all points to this file: CSV, or a result where it ends in .h5")
       ->type_name("FILE");
+  branch->add_flag("--fresh", options.fresh, "replace another result that is there: it is lost");
   add_progress(*branch, options.progress);
   branch->callback([&] { action = [&](std::ostream& out) { return branch_command(options, out); }; });
 }

@@ -12,12 +12,14 @@
 #include <ostream>
 #include <string_view>
 
+#include "engine/io_error.hpp"
 #include "results/map_reader.hpp"
 #include "solvers/mechanics/rotation.hpp"
 #include "studies/motion/measurements.hpp"
 #include "studies/program/point_command.hpp"
 #include "studies/program/whole_file.hpp"
 #include "studies/reading/settings.hpp"
+#include "studies/record/finished_file.hpp"
 #include "studies/record/stored_study.hpp"
 
 namespace frahm::studies {
@@ -119,9 +121,7 @@ void check_place(const std::filesystem::path& place) {
   std::string line;
   if (!there || !std::filesystem::is_regular_file(place)) return;
   if (std::getline(there, line) && line.starts_with(data_mark)) return;
-  throw StudyError(rules::wrong_file,
-                   "{}: is there already and not made by frahm export --data; name another file",
-                   place.string());
+  throw engine::IoError(place, "is there already and not made by frahm export --data; name another file");
 }
 
 std::string csv(const Study& study, const std::filesystem::path& file, const DataOptions& options,
@@ -152,6 +152,7 @@ Study study_of(const std::filesystem::path& file, const std::vector<std::string>
   if (!set.empty())
     throw StudyError(rules::wrong_option,
                      "--set: a result is of parameters that are settled; name its study");
+  require_result(file);
   return read_stored_study(results::MapReader(file), file).study;
 }
 

@@ -32,7 +32,7 @@ const Meaning exit_codes[] = {
     {"4", "exit code: stopped, by a signal or the time budget; the same command resumes"},
     {"5",
      "exit code: refused to mix results of different studies; nothing was changed. Another -o, or --fresh"},
-    {"6", "exit code: a file or stream could not be read or written, or memory ran out"},
+    {"6", "exit code: a file or stream could not be read or written, a file is in the way of an output, or memory ran out"},
     {"7", "exit code: a tuning or fit did not converge; the best so far is in the file"},
     {"8", "exit code: the self-check of frahm verify failed on this machine"},
     {"done", "outcome of a run in Python: exit code 0, done"},
@@ -218,6 +218,10 @@ std::vector<std::string> choices_called(const std::string& word) {
   return found;
 }
 
+std::string unit_behind(Quantity quantity) {
+  return quantity == Quantity::number ? "" : fmt::format(" {}", written_si_unit(quantity));
+}
+
 // A unit, for each quantity that may have it: `Hz`, `kN/mm`, `gravity`.
 std::vector<std::string> units_called(const std::string& word) {
   const UnitSystem units;
@@ -225,11 +229,11 @@ std::vector<std::string> units_called(const std::string& word) {
   try {
     const Unit unit = units.parse(word);
     for (const Quantity quantity : quantities_in(unit)) {
+      if (quantity == Quantity::angle && unit.radians == 0) continue;  // a share is no angle
       const double factor = si_factor(unit, quantity);
-      found.push_back(fmt::format("{0}: unit of {1}: 1 {0} = {2:.10g} {3}{4}; such as {5}", word,
-                                  quantity_name(quantity), factor, written_si_unit(quantity),
-                                  factor == unit.scale ? "" : ", as it counts cycles",
-                                  usual_units(quantity)));
+      found.push_back(fmt::format(
+          "{0}: unit of {1}: 1 {0} = {2:.10g}{3}{4}; such as {5}", word, quantity_name(quantity), factor,
+          unit_behind(quantity), factor == unit.scale ? "" : ", as it counts cycles", usual_units(quantity)));
     }
     if (found.empty())
       found.push_back(

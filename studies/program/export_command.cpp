@@ -148,12 +148,29 @@ void write_columns(const std::vector<results::Column>& columns, std::ostream& ou
   }
 }
 
+// A cell that commas, quotes and line feeds stay in.
+std::string quoted(const std::string& text) {
+  std::string cell = "\"";
+  for (const char c : text) cell += c == '"' ? "\"\"" : std::string(1, c);
+  return cell + '"';
+}
+
+void write_texts(const std::vector<results::Text>& texts, std::ostream& out) {
+  out << "name,text\n";
+  for (const auto& [name, text] : texts) out << quoted(name) << ',' << quoted(text) << '\n';
+}
+
+void write_group(const results::MapReader& map, const std::string& group, std::ostream& out) {
+  std::vector<results::Column> columns = map.columns(group);
+  if (columns.empty()) return write_texts(map.texts(group), out);
+  write_columns(beside_samples(std::move(columns)), out);
+}
+
 // Writes the requested group, else the map, or in a file without a map the motion, optimum or branch.
 void write_table(const results::MapReader& map, const std::string& asked, std::ostream& out) {
-  if (!asked.empty()) return write_columns(beside_samples(map.columns(asked)), out);
+  if (!asked.empty()) return write_group(map, asked, out);
   for (const char* group : {"decay", "transient", optimum_group, identification_group, "branches"}) {
-    if (map.layout().axes.empty() && map.has_group(group))
-      return write_columns(beside_samples(map.columns(group)), out);
+    if (map.layout().axes.empty() && map.has_group(group)) return write_group(map, group, out);
   }
   write_map(map, out);
 }
@@ -176,48 +193,33 @@ void write_export(const ExportOptions& options, const results::MapReader& map, s
   out << schedule_table(read_stored_tuning(options.file), options.step);
 }
 
-[[noreturn]] void refuse_place(const std::filesystem::path& place) {
-  throw StudyError(rules::wrong_file, "{}: is there already and not made by frahm export; name another file",
-                   place.string());
-}
-
-// A study replaces only an earlier study of its own kind, which begins with this mark.
-void check_place_of_study(const char* option, const std::filesystem::path& place, const char* mark) {
+void check_name_of_study(const char* option, const std::filesystem::path& place) {
   if (place.extension() != ".toml")
     throw StudyError(rules::wrong_file, "{} {}: a study is named .toml", option, place.string());
-  std::ifstream there(place);
-  std::string line;
-  if (!there || (std::getline(there, line) && line == mark)) return;
-  refuse_place(place);
 }
 
-bool holds(const std::filesystem::path& file, const std::string& text) {
-  std::ifstream there(file, std::ios::binary);
-  return std::string(std::istreambuf_iterator<char>(there), {}) == text;
-}
-
-// A study at the optimum of a tuning, with its tables beside it. A table alone is of an export that failed,
-// if it has the very bytes.
+// A study at the optimum of a tuning, with its tables beside it. Whoever has changed one of them since keeps
+// them all; some of them alone are of an export that failed.
 int write_at_optimum(const ExportOptions& options, std::ostream& out) {
   const bool runs_up = !options.run_up.empty();
   const std::filesystem::path& place = runs_up ? options.run_up : options.sweep;
-  check_place_of_study(runs_up ? "--run-up" : "--sweep", place, runs_up ? run_up_mark : sweep_mark);
-  const bool again = std::filesystem::exists(place);  // its tables then exist and are ours
+  check_name_of_study(runs_up ? "--run-up" : "--sweep", place);
+  require_result(options.file);
   const auto study_of = runs_up ? run_up_study : sweep_study;
   const SweepStudy sweep = study_of(read_stored_tuning(options.file), place.stem().string());
-  for (const auto& [name, csv] : sweep.tables) {
-    const std::filesystem::path table = place.parent_path() / name;
-    if (!again && std::filesystem::exists(table) && !holds(table, csv)) refuse_place(table);
-  }
-  for (const auto& [name, csv] : sweep.tables) write_whole_file(place.parent_path() / name, csv);
-  write_whole_file(place, sweep.text);
+  refuse_other_text(place, sweep.text);
+  for (const auto& [name, csv] : sweep.tables) refuse_other_text(place.parent_path() / name, csv);
+  for (const auto& [name, csv] : sweep.tables)
+    write_whole_file(place.parent_path() / name, csv, Replaces::own_text);
+  write_whole_file(place, sweep.text, Replaces::own_text);
   fmt::print(out, "{}\n", place.string());
   return 0;
 }
 
 int write_study(const ExportOptions& options, std::ostream& out) {
-  check_place_of_study("--study", options.study, identified_mark);
-  write_whole_file(options.study, identified_study(options.file));
+  check_name_of_study("--study", options.study);
+  require_result(options.file);
+  write_whole_file(options.study, identified_study(options.file), Replaces::own_text);
   fmt::print(out, "{}\n", options.study.string());
   return 0;
 }
@@ -252,11 +254,12 @@ int export_command(const ExportOptions& options, std::ostream& out) {
   if (!options.sweep.empty() || !options.run_up.empty()) return write_at_optimum(options, out);
   if (!options.study.empty()) return write_study(options, out);
   if (!options.data.output.empty()) return export_data(options.file, options.data, out);
-  if (options.file.extension() == ".toml")
-    throw StudyError(rules::wrong_file,
-                     "{}: is a study, whose result is exported, or with --data what sensors would "
-                     "show of it",
-                     options.file.string());
+  if (options.file.extension() == ".toml" && std::filesystem::exists(options.file))
+    throw StudyError(
+        rules::wrong_file,
+        "{0}: is a study; name its result, such as {1}, which frahm run {0} makes, or add --data "
+        "FILE.csv for what sensors would show of it",
+        options.file.string(), options.file.stem().string() + ".h5");
   require_result(options.file);
   const results::MapReader map(options.file);
   if (options.output == "-") {

@@ -44,7 +44,8 @@ bool is_finished(const StudyPlan& plan, const std::filesystem::path& output) {
   const auto kept = fingerprint_of_file(output);
   if (!kept) return false;
   if (*kept == plan.fingerprint) return !is_partial(output);
-  const bool could_grow = kept->physics == plan.fingerprint.physics && plan.study.map();
+  const bool is_map = !results::MapReader(output).layout().axes.empty();
+  const bool could_grow = kept->physics == plan.fingerprint.physics && plan.study.map() && is_map;
   throw engine::ResumeRefused(
       output, *kept, plan.fingerprint,
       refusal_advice(changes_since(output, plan.study),
@@ -72,6 +73,7 @@ bool begin(const StudyPlan& plan, const engine::RunOptions& run, const std::file
     if (!is_done()) return true;
     lock.reset();  // another process has finished it while this one waited
   }
+  refuse_damage(run.output, "--fresh computes it anew");
   remove_leftovers(plan, run.output);
   return false;
 }

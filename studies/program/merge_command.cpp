@@ -135,7 +135,6 @@ int merge_tuning(const MergeOptions& options, const std::vector<std::filesystem:
 // Whether an earlier merge or run has made the file already: a whole result of the same study as the logs
 // that are still there. Such logs, left by a process killed while removing them, are removed.
 bool is_merged(const MergeOptions& options, std::vector<std::filesystem::path> logs, std::ostream& out) {
-  refuse_study(options.output);
   check_result_place(options.output, {});
   const auto kept = fingerprint_of_file(options.output);
   if (!kept || is_partial(options.output)) return false;
@@ -144,6 +143,8 @@ bool is_merged(const MergeOptions& options, std::vector<std::filesystem::path> l
     const auto study = engine::study_of_log(log);
     if (study && study->fingerprint != *kept) return false;
   }
+  refuse_damage(options.output, logs.empty() ? "frahm run --fresh computes it anew"
+                                             : "remove it, and merge makes it anew of the shard logs");
   engine::remove_logs(logs);
   remove_notes(options, logs);
   fmt::print(out, "{} is finished already, nothing is left to merge\n", options.output.string());
@@ -154,6 +155,9 @@ bool is_merged(const MergeOptions& options, std::vector<std::filesystem::path> l
 
 int merge_command(const MergeOptions& options, std::ostream& out) {
   engine::let_failed_writes_return();
+  refuse_folder(options.output);
+  refuse_study(options.output);
+  require_folder_of(options.output);
   const engine::OutputLock lock(options.output);
   const auto logs = options.logs.empty() ? engine::find_logs(options.output) : options.logs;
   if (is_merged(options, logs, out)) return exit_code::done;

@@ -63,13 +63,22 @@ Ending carry_out(const CommandLine& line, std::ostream& out) {
   }
 }
 
+// The code of a command line that asks for no command, but for help which may not have been printed.
+int without_command(int code, std::ostream& out, std::ostream& complaints) {
+  out.flush();
+  if (out) return code;
+  complaints << "frahm: standard output could not be written to\n";
+  return exit_code::input_output;
+}
+
 // Runs the program in a single process, or in rank 0.
 int lead(engine::Ranks* ranks, Start begun, int argc, const char* const* argv, std::ostream& out) {
   CommandLine line;
   line.run.run.begun = begun;
   line.run.run.ranks = ranks;
   PlainOutput plain(out), complaints(std::cerr);
-  if (const auto code = parse_command_line(argc, argv, line, plain, complaints)) return *code;
+  if (const auto code = parse_command_line(argc, argv, line, plain, complaints))
+    return without_command(*code, plain, complaints);
   const Ending ending = carry_out(line, plain);
   if (!ending.complaint.empty()) complaints << "frahm: " << ending.complaint << '\n';
   return ending.code;

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "engine/fingerprint.hpp"
+#include "studies/record/finished_file.hpp"
+#include "studies/record/study_changes.hpp"
+
 namespace frahm::studies {
 
 std::string refusal_advice(const std::vector<std::string>& changes, const std::string& advice) {
@@ -14,6 +18,13 @@ std::string refusal_advice(const std::vector<std::string>& changes, const std::s
                      ? "it is not replaced unasked: name another file with -o, or discard what is there "
                        "with --fresh"
                      : advice);
+}
+
+void refuse_another_result(const std::filesystem::path& output, const StudyPlan& plan) {
+  const auto kept = fingerprint_of_file(output);
+  if (!kept || *kept == plan.fingerprint) return;
+  throw engine::ResumeRefused(output, *kept, plan.fingerprint,
+                              refusal_advice(changes_since(output, plan.study)));
 }
 
 }  // namespace frahm::studies

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "engine/fingerprint.hpp"
+#include "engine/io_error.hpp"
 #include "engine/output_lock.hpp"
 #include "engine/stop_request.hpp"
 #include "results/map_reader.hpp"
@@ -18,7 +18,6 @@
 #include "studies/program/refusal_advice.hpp"
 #include "studies/record/finished_file.hpp"
 #include "studies/record/provenance.hpp"
-#include "studies/record/study_changes.hpp"
 
 namespace frahm::studies {
 namespace {
@@ -47,9 +46,7 @@ void refuse_own_data(const Study& study, const std::filesystem::path& output) {
   std::error_code ignored;  // a missing file is no data file
   for (const std::filesystem::path& file : study.identify()->files) {
     if (std::filesystem::equivalent(output, file, ignored))
-      throw StudyError(rules::wrong_file,
-                       "{}: is a file that the study reads; name another for the result with -o",
-                       output.string());
+      throw engine::IoError(output, "is a file that the study reads; name another for the result with -o");
   }
 }
 
@@ -61,11 +58,9 @@ bool is_of_same_file(const Study& study, const std::filesystem::path& output) {
 }
 
 void refuse_another_study(const StudyPlan& plan, const std::filesystem::path& output) {
-  const auto kept = fingerprint_of_file(output);
-  if (!kept || *kept == plan.fingerprint) return;
-  if (plan.study.identify() && is_of_same_file(plan.study, output)) return;
-  throw engine::ResumeRefused(output, *kept, plan.fingerprint,
-                              refusal_advice(changes_since(output, plan.study)));
+  const bool is_there = std::filesystem::exists(output);
+  if (is_there && plan.study.identify() && is_of_same_file(plan.study, output)) return;
+  refuse_another_result(output, plan);
 }
 
 void write_file(const StudyPlan& plan, const RunRecord& record, const std::filesystem::path& output,

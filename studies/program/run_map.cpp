@@ -4,6 +4,7 @@
 
 #include "studies/map/assemble.hpp"
 #include "studies/map/known_points.hpp"
+#include "studies/map/unfit_systems.hpp"
 #include "studies/program/growing.hpp"
 #include "studies/program/logged_run.hpp"
 #include "studies/program/map_table.hpp"
@@ -16,6 +17,7 @@ int run_map(const RunCommandOptions& options, Study study, std::ostream& out) {
   engine::RunOptions run = options.run;
   if (run.output.empty()) run.output = default_output(options.study);
   MapPlan plan = plan_map(std::move(study), options.set);
+  refuse_unfit_map(plan.study);
   std::optional<KnownPoints> earlier;
   const auto job = [&] {
     if (!options.from.empty()) plan.grown_from = earlier.emplace(plan, options.from).source();

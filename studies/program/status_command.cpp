@@ -123,8 +123,9 @@ std::string state_of_logs(const std::filesystem::path& file, const engine::LogHe
 }  // namespace
 
 int status_command(const std::filesystem::path& file, std::ostream& out) {
-  refuse_study(file);
+  refuse_folder(file);
   const bool is_there = std::filesystem::exists(file);
+  if (is_there) refuse_study(file);
   const FoundLogs found = logs_beside(file);
   if (!is_there && found.studies.empty() && found.unreadable.empty())
     throw engine::IoError(file, "there is no such file, and no shard log beside it");

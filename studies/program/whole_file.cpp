@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
+#include <iterator>
 #include <set>
 #include <sstream>
 #include <string>
@@ -44,6 +45,7 @@ std::set<std::string> columns_of(const std::filesystem::path& table) {
 
 bool has_own_columns(const std::filesystem::path& there, const std::filesystem::path& made) {
   const std::set<std::string> old_columns = columns_of(there), columns = columns_of(made);
+  if (old_columns.empty() || columns.empty()) return false;
   return std::ranges::includes(old_columns, columns) || std::ranges::includes(columns, old_columns);
 }
 
@@ -57,22 +59,33 @@ bool is_page(const std::filesystem::path& there) {
   return false;
 }
 
+std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
 void check_replaced(const std::filesystem::path& there, const std::filesystem::path& made,
                     Replaces replaces) {
   std::error_code ignored;  // a file that is gone is not replaced
   if (!std::filesystem::is_regular_file(there, ignored) || std::filesystem::is_empty(there, ignored)) return;
   if (replaces == Replaces::own_table && !has_own_columns(there, made))
-    throw StudyError(
-        rules::wrong_file,
-        "{}: is there already and is no table with these columns; name another file, or remove it",
-        there.string());
+    throw engine::IoError(
+        there, "is there already and is no table with these columns; name another file, or remove it");
   if (replaces == Replaces::own_page && !is_page(there))
-    throw StudyError(rules::wrong_file,
-                     "{}: is there already and is no page of frahm; name another file, or remove it",
-                     there.string());
+    throw engine::IoError(there, "is there already and is no page of frahm; name another file, or remove it");
+  if (replaces == Replaces::own_text) refuse_other_text(there, text_of(made));
 }
 
 }  // namespace
+
+void refuse_other_text(const std::filesystem::path& there, std::string_view text) {
+  std::error_code ignored;  // a file that is gone is not replaced
+  if (!std::filesystem::is_regular_file(there, ignored) || std::filesystem::is_empty(there, ignored)) return;
+  if (text_of(there) == text) return;
+  throw engine::IoError(there,
+                        "is there already and differs from what would be written, as where it was changed by "
+                        "hand; name another file, or remove it");
+}
 
 void write_whole_file(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write,
                       Replaces replaces) {
@@ -82,6 +95,7 @@ void write_whole_file(const std::filesystem::path& path, const std::function<voi
     return write_file(path, path, write);
   }
   refuse_link(path);
+  require_folder_of(path);
   const engine::OutputLock lock(path);
   results::PartFile part(path);
   write_file(part.part(), path, write);
@@ -98,15 +112,13 @@ void write_whole_file(const std::filesystem::path& path, std::string_view text, 
 void check_output_is_not_input(const std::filesystem::path& output, const std::filesystem::path& input,
                                std::string_view extension) {
   std::error_code error;
-  if (std::filesystem::equivalent(output, input, error)) {
-    throw StudyError(rules::wrong_file, "{}: is the file that is read; name another for the output",
-                     output.string());
-  }
+  if (std::filesystem::equivalent(output, input, error))
+    throw engine::IoError(output, "is the file that is read; name another for the output");
   for (const std::filesystem::path& read : files_read()) {
     if (std::filesystem::equivalent(output, read, error))
-      throw StudyError(rules::wrong_file, "{}: is a file that the study reads; name another for the output",
-                       output.string());
+      throw engine::IoError(output, "is a file that the study reads; name another for the output");
   }
+  require_folder_of(output);
   if (output.extension() == ".toml" || output.extension() == ".h5") {
     throw StudyError(rules::wrong_file, "{}: has the name of a study or a result; name this output {}",
                      output.string(), extension);

@@ -358,6 +358,12 @@ engine::Fingerprint grown_fingerprint(const engine::Fingerprint& study, const st
   return {.physics = study.physics, .grid = text.hash()};
 }
 
+engine::Fingerprint branch_fingerprint(const engine::Fingerprint& study, const std::string& course) {
+  CanonicalText text;
+  text.line("branch {}", course);
+  return {.physics = study.physics, .grid = text.hash()};
+}
+
 std::string identity_of(std::span<const results::Text> provenance) {
   CanonicalText text;
   for (const auto& [name, value] : provenance) text.line("{} {} {}", name, value.size(), value);

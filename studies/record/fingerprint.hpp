@@ -27,6 +27,10 @@ engine::Fingerprint fingerprint(const Study& study, Tiling tiling = {},
 // The fingerprint of the shard logs of a map that grows from the result with this identity.
 engine::Fingerprint grown_fingerprint(const engine::Fingerprint& study, const std::string& identity);
 
+// The fingerprint of one branch of a sweep.  course: the parameter followed, its range, all that a branch
+// depends on beside the physics of the study.
+engine::Fingerprint branch_fingerprint(const engine::Fingerprint& study, const std::string& course);
+
 // A hash that identifies one result, made from its texts: among them the study, who computed it and when, and
 // the result from which it grew.
 std::string identity_of(std::span<const results::Text> provenance);

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <system_error>
+
+#include "engine/file.hpp"
 #include "engine/io_error.hpp"
 #include "engine/tile_index.hpp"
 #include "results/store_error.hpp"
@@ -26,9 +30,15 @@ void refuse_study(const std::filesystem::path& result) {
                      result.stem().string() + ".h5", result.string());
 }
 
+void refuse_folder(const std::filesystem::path& result) {
+  std::error_code ignored;  // what is not there is no folder
+  if (std::filesystem::is_directory(result, ignored))
+    throw engine::IoError(result, "is a folder, not a result of frahm");
+}
+
 void require_result(const std::filesystem::path& path) {
-  refuse_study(path);
-  if (std::filesystem::exists(path)) return;
+  refuse_folder(path);
+  if (std::filesystem::exists(path)) return refuse_study(path);
   if (engine::find_logs(path).empty()) throw engine::IoError(path, "there is no such file");
   throw engine::IoError(path,
                         "the run that makes it is not finished (frahm status tells how far it is): frahm run "
@@ -47,9 +57,23 @@ void refuse_link(const std::filesystem::path& output) {
         output, "is a link, which would be replaced and not what it points to; name the file itself");
 }
 
+void require_folder_of(const std::filesystem::path& output) {
+  const auto words = [](int reason) { return std::generic_category().message(reason); };
+  const std::filesystem::path folder = engine::directory_of(output);
+  std::error_code error;
+  const std::filesystem::file_status found = std::filesystem::status(folder, error);
+  if (found.type() == std::filesystem::file_type::not_found)
+    throw engine::IoError(output, fmt::format("there is no folder {}: {}", folder.string(), words(ENOENT)));
+  if (std::filesystem::exists(found) && !std::filesystem::is_directory(found))
+    throw engine::IoError(output, fmt::format("{} is no folder: {}", folder.string(), words(ENOTDIR)));
+}
+
 void check_result_place(const std::filesystem::path& output, const std::filesystem::path& study) {
   std::error_code error;
-  if (!std::filesystem::exists(output, error)) return refuse_link(output);
+  if (!std::filesystem::exists(output, error)) {
+    require_folder_of(output);
+    return refuse_link(output);
+  }
   if (std::filesystem::equivalent(output, study, error))
     throw engine::IoError(output, "is the study itself; give another -o");
   if (!std::filesystem::is_regular_file(output, error))
@@ -61,6 +85,14 @@ void check_result_place(const std::filesystem::path& output, const std::filesyst
   } catch (const results::StoreError& reason) {
     throw engine::IoError(
         output, fmt::format("is not a result of frahm; give another -o, or remove it ({})", reason.what()));
+  }
+}
+
+void refuse_damage(const std::filesystem::path& result, const std::string& advice) {
+  try {
+    results::MapReader(result).check_data();
+  } catch (const results::StoreError& reason) {
+    throw results::StoreError(reason.what(), "the result is damaged", advice);
   }
 }
 

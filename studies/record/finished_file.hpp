@@ -24,7 +24,11 @@ inline constexpr const char* grown_from_identity = "grown_from_identity";
 // Refuses a study where the name of a result is needed. Throws StudyError.
 void refuse_study(const std::filesystem::path& result);
 
-// Throws engine::IoError if there is no such result: an unfinished run or a wrong name.
+// Throws engine::IoError for a folder where the name of a result is needed.
+void refuse_folder(const std::filesystem::path& result);
+
+// Throws engine::IoError if there is no such result: an unfinished run, a wrong name or a folder; StudyError
+// for a study.
 void require_result(const std::filesystem::path& path);
 
 // Whether there is a file made by merge --partial.
@@ -34,10 +38,17 @@ bool is_partial(const std::filesystem::path& path);
 // engine::IoError for a link, wherever it points.
 void refuse_link(const std::filesystem::path& output);
 
+// Throws engine::IoError if the folder in which an output is to be made does not exist.
+void require_folder_of(const std::filesystem::path& output);
+
 // A result may be a new file or replace another result; it never replaces a study, a table, any other file, a
 // folder, a device or a link.  study: the study's own file; empty: not known.
 // Throws engine::IoError.
 void check_result_place(const std::filesystem::path& output, const std::filesystem::path& study);
+
+// Reads all of a result that is taken for finished. Throws results::StoreError if it is damaged, with what to
+// do.
+void refuse_damage(const std::filesystem::path& result, const std::string& advice);
 
 // A text of /provenance; empty if there is none of this name.
 std::string provenance_text(const results::MapReader& map, const std::string& name);

@@ -17,6 +17,7 @@ namespace {
 
 using runs::Folder;
 using runs::frahm;
+using runs::text_of;
 using small_studies::axis;
 using small_studies::oscillator;
 using Names = std::vector<std::string>;
@@ -268,11 +269,6 @@ TEST_CASE("a finished run is not repeated, and a file of another study is not ov
   CHECK(folder.names() == Names{"small.h5", "small.toml"});
 }
 
-std::string text_of(const std::string& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 TEST_CASE(
     "what is no result is not overwritten, --fresh or not: a foreign file, the study, a folder, a device") {
   const std::string decay = text_of(study_path("lecture_free_vibration_friction"));
@@ -299,6 +295,117 @@ TEST_CASE(
     CHECK(std::filesystem::is_symlink(link));
     CHECK(folder.names() == Names{"empty.h5", "link.h5", "small.toml", "thesis.h5"});
   }
+}
+
+TEST_CASE("a branch replaces itself alone, any other result only when asked") {
+  const Folder folder;
+  const std::string study = folder.write("small.toml", small), map = folder / "small.h5";
+  REQUIRE(run(study, map).code == 0);
+  const std::string before = text_of(map);
+  const auto branch = [&](const std::string& output, const Names& more = {}) {
+    Names arguments{"branch", study, "--along", "r", "-o", output, "--progress", "none"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return frahm(arguments);
+  };
+  const auto refused = branch(map);  // of the same study
+  CHECK(refused.code == 5);
+  CHECK_THAT(refused.err, Catch::Contains("same physics for other points") && Catch::Contains("--fresh"));
+  CHECK(text_of(map) == before);
+
+  const std::string output = folder / "branch.h5";
+  CHECK(branch(output).code == 0);
+  CHECK(branch(output).code == 0);
+  for (const Names& other :
+       {Names{"--at", "f=0.5"}, Names{"--to", "1.5"}, Names{"--set", "zeta=0.1"}, Names{"--steps", "100"}}) {
+    INFO(other.front());
+    CHECK(branch(output, other).code == 5);
+  }
+  CHECK(run(study, output).code == 5);  // the map of the same study is another result too
+  CHECK(frahm({"run", study, "-o", folder / "new.h5", "--from", output}).code == 2);
+  CHECK(branch(output, {"--at", "f=0.5", "--fresh"}).code == 0);
+  CHECK(branch(output, {"--at", "f=0.5"}).code == 0);
+  CHECK(branch(folder / "branch.csv", {"--fresh"}).code == 2);
+  CHECK(folder.names() == Names{"branch.h5", "small.h5", "small.toml"});
+}
+
+TEST_CASE("a folder given for a result is called one") {
+  const Folder folder;
+  const std::string study = folder.write("small.toml", small);
+  for (const Names& command :
+       {Names{"status", folder / "."}, Names{"report", folder / ".", "-o", folder / "x.html"},
+        Names{"export", folder / "."}, Names{"merge", folder / "."},
+        Names{"export", folder / ".", "--sweep", folder / "x.toml"},
+        Names{"export", folder / ".", "--study", folder / "x.toml"},
+        Names{"export", folder / ".", "--data", folder / "x.csv"}}) {
+    INFO(command.front());
+    const auto outcome = frahm(command);
+    CHECK(outcome.code == 6);
+    CHECK_THAT(outcome.err, Catch::Contains("is a folder, not a result of frahm"));
+  }
+  const auto outcome = frahm({"export", study, "--sweep", folder / "x.toml"});
+  CHECK(outcome.code == 2);
+  CHECK_THAT(outcome.err, Catch::Contains("is a study") && Catch::Contains("frahm run " + study));
+  CHECK(frahm({"status", folder / "none.toml"}).code == 6);  // no study, but nothing at all
+  CHECK(folder.names() == Names{"small.toml"});
+}
+
+TEST_CASE("a folder that is not there is told by every command that writes a file") {
+  const Folder folder;
+  const std::string study = folder.write("small.toml", small), result = folder / "small.h5";
+  REQUIRE(run(study, result).code == 0);
+  const std::string nowhere = folder / "nowhere";
+  for (const Names& command :
+       {Names{"run", study, "-o", nowhere + "/x.h5"},
+        Names{"run", study, "--shard", "0/2", "-o", nowhere + "/x.h5"}, Names{"merge", nowhere + "/x.h5"},
+        Names{"export", result, "-o", nowhere + "/x.csv"}, Names{"report", result, "-o", nowhere + "/x.html"},
+        Names{"new", "sweep", nowhere + "/x.toml"}, Names{"point", study, "--history", nowhere + "/x.csv"},
+        Names{"branch", study, "--along", "r", "-o", nowhere + "/x.h5"},
+        Names{"branch", study, "--along", "r", "-o", nowhere + "/x.csv"}}) {
+    INFO(command.front());
+    const auto outcome = frahm(command);
+    CHECK(outcome.code == 6);
+    CHECK_THAT(outcome.err, Catch::Contains("there is no folder " + nowhere));
+    CHECK(outcome.out.empty());  // nothing was computed in vain
+  }
+  CHECK(folder.names() == Names{"small.h5", "small.toml"});
+}
+
+TEST_CASE("the texts of a group without numbers are exported, and replace no other file") {
+  const Folder folder;
+  const std::string study = folder.write("small.toml", small), result = folder / "small.h5";
+  REQUIRE(run(study, result).code == 0);
+  const auto texts = frahm({"export", result, "--group", "provenance", "-o", "-"});
+  CHECK(texts.code == 0);
+  CHECK_THAT(texts.out, Catch::StartsWith("name,text\n\"study\",\"[study]\n") &&
+                            Catch::Contains("kind = \"\"sweep\"\"") &&
+                            Catch::Contains("\n\"study_file\",\"small.toml\"\n"));
+  for (const std::string& text : {std::string("my thesis\n"), std::string("\nmy thesis\n")}) {
+    const std::string mine = folder.write("mine.csv", text);
+    CHECK(frahm({"export", result, "--group", "provenance", "-o", mine}).code == 6);
+    CHECK(text_of(mine) == text);
+  }
+}
+
+TEST_CASE("a map none of whose points has a system is refused, some of them are told by check") {
+  const Folder folder;
+  const std::string with_mass = runs::replaced(small, "mass = 1", "mass = \"M\"");
+  const auto study_of = [&](const std::string& value, const std::string& more) {
+    return folder.write(
+        "small.toml",
+        runs::replaced(with_mass, "[parameters]\n", "[parameters]\nM = " + value + "\n") + more);
+  };
+  std::string study = study_of("0", "");
+  for (const char* command : {"check", "run"}) {
+    const auto outcome = frahm({command, study});
+    CHECK(outcome.code == 2);
+    CHECK_THAT(outcome.err,
+               Catch::Contains("no point of the map can be computed, the first, f=0,r=0.2: the mass matrix"));
+  }
+  study = study_of("1", small_studies::axis_of("M", "[0, 1, 2]"));
+  const auto some = frahm({"check", study});
+  CHECK(some.code == 0);
+  CHECK_THAT(some.out, Catch::Contains("the first at f=0,r=0.2,M=0: the mass matrix"));
+  CHECK(folder.names() == Names{"small.toml"});
 }
 
 TEST_CASE("a link is not replaced by an output, wherever it points") {

@@ -28,13 +28,13 @@ class Stderr {
   std::streambuf* before_;
 };
 
-std::string read_text(const std::string& path) {
+}  // namespace
+
+std::string text_of(const std::string& path) {
   std::ifstream file(path);
   if (!file) throw std::runtime_error("cannot read " + path);
   return {std::istreambuf_iterator<char>(file), {}};
 }
-
-}  // namespace
 
 Outcome frahm(const std::vector<std::string>& arguments) {
   std::vector<const char*> argv{"frahm"};
@@ -46,7 +46,7 @@ Outcome frahm(const std::vector<std::string>& arguments) {
 }
 
 std::string reduced(const std::string& name, const std::map<std::string, int>& points) {
-  std::istringstream text(read_text(study_path(name)));
+  std::istringstream text(text_of(study_path(name)));
   std::string result, line, parameter;
   while (std::getline(text, line)) {
     if (line.starts_with("parameter = ")) parameter = line.substr(13, line.size() - 14);

@@ -24,6 +24,8 @@ std::string reduced(const std::string& name, const std::map<std::string, int>& p
 // A study's text with one passage, which must be there, replaced.
 std::string replaced(std::string text, const std::string& passage, const std::string& by);
 
+std::string text_of(const std::string& path);  // of a file
+
 // A folder of its own, removed with everything in it.
 class Folder {
  public:

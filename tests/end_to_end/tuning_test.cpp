@@ -197,9 +197,20 @@ TEST_CASE("the exported sweep of a schedule runs as it is and gives the recorded
     INFO("r = " << optimum["r"][i]);
     CHECK_THAT(peaks[i], Catch::WithinRel(optimum["response_after"][i], 1e-9));
   }
-  // Over an earlier one, but over no study of another's.
-  CHECK(frahm({"export", file, "--sweep", sweep}).code == 0);
-  CHECK(frahm({"export", file, "--sweep", folder / "tmd.toml"}).code == 2);
+  // Over the same, but over no study of another's, and over none that was changed since, nor its table.
+  const std::vector<std::string> export_again{"export", file, "--sweep", sweep};
+  CHECK(frahm(export_again).code == 0);
+  CHECK(frahm({"export", file, "--sweep", folder / "tmd.toml"}).code == 6);
+  for (const std::string& changed : {sweep, folder / "optimum_f.csv"}) {
+    const std::string before = runs::text_of(changed);
+    folder.write(std::filesystem::path(changed).filename().string(), before + "# by hand\n");
+    const Outcome refused = frahm(export_again);
+    CHECK(refused.code == 6);
+    CHECK_THAT(refused.err, Catch::Contains(changed + ": is there already and differs"));
+    CHECK(runs::text_of(changed) == before + "# by hand\n");
+    folder.write(std::filesystem::path(changed).filename().string(), before);
+  }
+  CHECK(frahm({"export", file, "--sweep", folder / "nowhere/optimum.toml"}).code == 6);
 }
 
 TEST_CASE("a tuning's table, schedule and what is asked wrongly of an export") {

@@ -59,6 +59,9 @@ STREAMS = {
     "$RUN <&- >&- 2>&-": 0,
     "$RUN --progress none 2>&- >&-": 0,
     "$RUN > /dev/full": 6,
+    "$RUN; ${RUN%% *} --help > /dev/full": 6,
+    "$RUN; ${RUN%% *} run --help > /dev/full": 6,
+    "$RUN; ${RUN%% *} explain stiffness > /dev/full": 6,
     "$RUN 2> /dev/full": 0,
     "$RUN | true; exit ${PIPESTATUS[0]}": 6,
     "$RUN | head -1; exit ${PIPESTATUS[0]}": None,  # the reader may be quicker or slower

@@ -274,12 +274,66 @@ def check_embedded_study(bench, data):
         assert outcome.code == 2 and "internal error" not in outcome.err, outcome
 
 
+def damage(path, name):
+    """Bytes within the first chunk of a dataset, away from its ends."""
+    with h5py.File(path) as file:
+        chunk = file[name].id.get_chunk_info(0)
+    with open(path, "r+b") as file:
+        file.seek(chunk.byte_offset + chunk.size // 2)
+        old = file.read(4)
+        file.seek(chunk.byte_offset + chunk.size // 2)
+        file.write(bytes(byte ^ 0xFF for byte in old))
+
+
+def in_chunks(path):
+    """The datasets of a file that are stored in chunks."""
+    names = []
+    with h5py.File(path) as file:
+        file.visititems(lambda name, item: names.append(name) if isinstance(item, h5py.Dataset) and item.chunks else None)
+    return names
+
+
+def check_reruns(bench):
+    """A rerun does not take a damaged result for a finished one, whichever of its data are damaged, and a merge keeps its logs."""
+    place = bench.place(small_map(bench))
+    assert place.run("--progress", "none").code == 0
+    whole = place.read(OUTPUT)
+    names = in_chunks(place.path(OUTPUT))
+    assert {"main_peak", "residual"} <= set(names) and any("/" in name for name in names), names
+    for name in names:
+        place.write(OUTPUT, whole)
+        damage(place.path(OUTPUT), name)
+        damaged = place.read(OUTPUT)
+        outcome = place.run("--progress", "none")
+        assert outcome.code == 6 and "computed already" not in outcome.out, f"{name}: {outcome}"
+        assert f"{OUTPUT}:/{name}: cannot read" in outcome.err and "--fresh computes it anew" in outcome.err, f"{name}: {outcome}"
+        assert place.read(OUTPUT) == damaged and place.names() == [OUTPUT], f"{name}: {place.names()}"
+    assert place.run("--progress", "none", "--fresh").code == 0
+    assert "computed already" in place.run("--progress", "none").out
+
+    place = bench.place(small_map(bench))
+    for shard in "0/2", "1/2":
+        assert place.run("--shard", shard, "--progress", "none").code == 0
+    beside = {name: place.read(name) for name in place.names()}
+    assert place.call("merge", OUTPUT).code == 0
+    for name, data in beside.items():  # as where the merge was killed before it removed them
+        place.write(name, data)
+    damage(place.path(OUTPUT), "main_peak")
+    outcome = place.call("merge", OUTPUT)
+    assert outcome.code == 6 and "remove it, and merge makes it anew" in outcome.err, outcome
+    assert set(beside) < set(place.names()), place.names()
+    os.remove(place.path(OUTPUT))
+    assert place.call("merge", OUTPUT).code == 0 and place.names() == [OUTPUT], place.names()
+    print(f"reruns of a result damaged in each of {len(names)} datasets", flush=True)
+
+
 def drill(bench):
     assert shutil.which("h5repack"), "hdf5-tools is needed"
     results = {"map": made(bench, small_map(bench)), "decay": made(bench, decay_study(bench))}
     check_repacked(bench, results["map"])
     check_made_to_harm(bench, results["map"])
     check_embedded_study(bench, results["map"])
+    check_reruns(bench)
     check_cuts(bench, results["map"])
     check_flips(bench, results)
 

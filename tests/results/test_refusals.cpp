@@ -323,4 +323,6 @@ TEST_CASE("a damaged chunk is an error, not a wrong number") {
   const MapReader reader(path);
   CHECK_THAT(refusal([&] { reader.read(0, origin, shape); }),
              Contains("map.h5:/x: cannot read") && Contains("Fletcher32"));
+  CHECK_THAT(refusal([&] { reader.check_data(); }),
+             Contains("map.h5:/x: cannot read") && Contains("Fletcher32"));
 }

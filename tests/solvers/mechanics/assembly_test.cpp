@@ -116,6 +116,9 @@ TEST_CASE("Values out of range are refused by name, value and rule") {
                Contains("angular frequency") && Contains("must be finite and positive"));
   }
   bad = good;
+  bad.omega = 1e200;  // a number, unlike its square
+  CHECK_THAT(refusal(network, bad), Contains("angular frequency = 1e+200: must be lower"));
+  bad = good;
   bad.excitation[0].amplitude = std::nan("");
   CHECK_THAT(refusal(network, bad), Contains("amplitude") && Contains("must be finite"));
 }

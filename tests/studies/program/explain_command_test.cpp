@@ -90,6 +90,7 @@ TEST_CASE("a unit is explained with every quantity that may have it, as the read
   CHECK_THAT(explained("Hz"), Catch::Contains("1 Hz = 6.283185307 rad/s, as it counts cycles"));
   CHECK_THAT(explained("gravity"), Catch::Contains("1 gravity = 9.80665 m/s2"));
   CHECK_THAT(explained("g"), Catch::Contains("1 g = 0.001 kg") && Catch::Contains("the same as gravity"));
+  CHECK(explained("%") == "%: unit of a pure number: 1 % = 0.01; such as 1 or %\n");
   CHECK_THAT(explained("K"), Catch::Contains("a temperature"));
   CHECK_THAT(explained("force"), !Catch::Contains("unit of"));
 }
