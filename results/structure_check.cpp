@@ -35,6 +35,7 @@ class Walk {
     dataset.check_attributes();
     if (!dataset.is_numeric()) return;  // not read by anything of ours
     try {
+      dataset.check_scales();
       read(dataset);
     } catch (
         const StoreError&) {  // told by who needs these data; what counts here is that HDF5 survives them

@@ -14,7 +14,7 @@ TEST_CASE("a check that dies of a file is an error with the name of the file") {
   std::ofstream(directory / "file.h5") << "contents";
   for (const int signal : {SIGSEGV, SIGFPE, SIGBUS, SIGABRT, SIGXCPU}) {
     INFO("signal " << signal);
-    CHECK_THROWS_WITH(check_apart(directory / "file.h5", [&] { std::raise(signal); }),
+    CHECK_THROWS_WITH(check_apart(directory / "file.h5", {[&] { std::raise(signal); }}),
                       Contains("file.h5") && Contains("is damaged"));
   }
 }
@@ -23,13 +23,13 @@ TEST_CASE("an error of a check has the same words as if it were thrown here") {
   const TemporaryDirectory directory;
   std::ofstream(directory / "file.h5") << "contents";
   const auto fail = [&] { throw StoreError("file.h5:/x", "is wrong", "as it must be"); };
-  CHECK_THROWS_WITH(check_apart(directory / "file.h5", fail), "file.h5:/x: is wrong: as it must be");
+  CHECK_THROWS_WITH(check_apart(directory / "file.h5", {fail}), "file.h5:/x: is wrong: as it must be");
 }
 
 TEST_CASE("a check changes nothing in this process") {
   const TemporaryDirectory directory;
   std::ofstream(directory / "file.h5") << "contents";
   int calls = 0;
-  check_apart(directory / "file.h5", [&] { ++calls; });
+  check_apart(directory / "file.h5", {[&] { ++calls; }});
   CHECK(calls == 0);  // it was counted in the child
 }
