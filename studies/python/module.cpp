@@ -8,11 +8,11 @@
 namespace frahm::python {
 namespace {
 
-// The file of this module.
+// The file of this module, wherever the process goes later.
 std::filesystem::path own_file() {
   Dl_info here{};
   ::dladdr(reinterpret_cast<void*>(&own_file), &here);
-  return here.dli_fname ? here.dli_fname : "";
+  return std::filesystem::absolute(here.dli_fname ? here.dli_fname : "");
 }
 
 // A file that anybody may have made, before a library of Python reads it.

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <csignal>
 #include <fstream>
+#include <stdexcept>
 
 #include "results/checked_apart.hpp"
 #include "results/store_error.hpp"
@@ -32,4 +33,13 @@ TEST_CASE("a check changes nothing in this process") {
   int calls = 0;
   check_apart(directory / "file.h5", {[&] { ++calls; }});
   CHECK(calls == 0);  // it was counted in the child
+}
+
+TEST_CASE("a check is found again by its words") {
+  for (const FileCheck& check :
+       {result_check("map.h5"), opening_check("data.h5"), dataset_check("data.h5", "decay/time", 1),
+        dataset_check("data.h5", "matrix", 2)})
+    CHECK(check_called(check.words).words == check.words);
+  CHECK_THROWS_AS(check_called({"result"}), std::invalid_argument);
+  CHECK_THROWS_AS(check_called({"anything", "map.h5"}), std::invalid_argument);
 }
