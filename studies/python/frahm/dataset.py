@@ -1,7 +1,8 @@
 """The files of runs as labelled arrays."""
 
 import os
-from typing import TYPE_CHECKING, Optional, Union
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Iterator, Optional, Union
 
 import numpy as np
 
@@ -28,16 +29,12 @@ def open(path: Union[str, os.PathLike], group: Optional[str] = None) -> "xarray.
     if group is not None:
         plain(group, "group")
     _require_result(name)
-    try:
+    with _told_as_damage(name):
         known = _groups(name)
-    except (OSError, RuntimeError, KeyError, ValueError) as error:
-        raise OSError(f"{name}: is damaged: {error}") from error
     if group is not None and group.strip("/") not in known:
         raise ValueError(f"{name}: has no group {group!r}; it has {', '.join(known)}")
-    try:
+    with _told_as_damage(name):
         dataset = xarray.open_dataset(name, engine="h5netcdf", group=group)
-    except (OSError, RuntimeError, KeyError, ValueError) as error:
-        raise OSError(f"{name}: cannot be opened by xarray: {error}") from error
     if group is None and not dataset.variables:
         dataset.close()
         raise ValueError(f"{name}: has no map; name one of its groups: {', '.join(known)}")
@@ -54,6 +51,17 @@ def _require_result(name: str) -> None:
         if not os.path.exists(name):
             raise FileNotFoundError(str(error)) from None
         raise
+
+
+@contextmanager
+def _told_as_damage(name: str) -> Iterator[None]:
+    """What libraries raise over a result whose names and references do not fit together is of any kind."""
+    try:
+        yield
+    except (ImportError, MemoryError):
+        raise
+    except Exception as error:
+        raise OSError(f"{name}: is damaged: {error}") from error
 
 
 def _groups(path: str) -> list[str]:
