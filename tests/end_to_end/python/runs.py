@@ -138,7 +138,8 @@ class Runs(unittest.TestCase):
             except OSError as error:
                 refused += 1
                 self.assertIn("damaged.h5", str(error))
-                if "ends in" not in told.stderr:  # by which signal is chance
+                # Where the check refuses it; a library that is served a pointer into nowhere may meet any end.
+                if error.__cause__ is None and "ends in" not in str(error) + told.stderr:
                     self.assertEqual(f"frahm: {error}\n", told.stderr)
         self.assertGreater(refused, 10)
         with self.assertRaisesRegex(OSError, "other than the file"):
