@@ -171,7 +171,7 @@ void count(const Job& job, const TeamWork& work, const std::optional<Dealer>& de
 Summary run(const Job& job, const RunOptions& options) {
   check(options);
   const Clock::time_point start = Clock::now();
-  const StopRequest stop(options.time_budget, start - options.begun);
+  const StopRequest stop(options.time_budget, start - options.begun, options.called_off);
   const LogHeader study{.fingerprint = job.fingerprint, .tiles = job.tiles};
   if (options.fresh) discard_logs(options, study);
   ShardLog log(own_log(options), study);

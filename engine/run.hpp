@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -63,6 +64,9 @@ struct RunOptions {
   // studies, because the other shards of this study may be at work or done.
   bool fresh = false;
   std::optional<std::chrono::duration<double>> time_budget;  // > 0, from `begun`; absent: none
+  // Whether somebody beside signals and the budget asks for a stop, as a function of Python that shows
+  // progress; it outlives the run. Null: nobody.
+  const std::atomic<bool>* called_off = nullptr;
   // When the program began, as far as it knows; else when the options were made.
   std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();
   ProgressStyle progress = ProgressStyle::automatic;

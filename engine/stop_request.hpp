@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <optional>
 #include <string>
@@ -8,14 +9,16 @@
 
 namespace frahm::engine {
 
-// A request to end a piece of work early: a signal (engine/stop_signals) or the end of a time budget, of
-// which a part may be used already. Only one may exist at a time, as with StopSignals.
+// A request to end a piece of work early: a signal (engine/stop_signals), the end of a time budget, of which
+// a part may be used already, or a flag that somebody sets (null: nobody). Only one may exist at a time, as
+// with StopSignals.
 class StopRequest {
  public:
   using Seconds = std::chrono::duration<double>;
 
-  explicit StopRequest(std::optional<Seconds> budget, Seconds used = Seconds(0.0))
-      : budget_(budget), used_(used) {}
+  explicit StopRequest(std::optional<Seconds> budget, Seconds used = Seconds(0.0),
+                       const std::atomic<bool>* called_off = nullptr)
+      : budget_(budget), used_(used), called_off_(called_off) {}
 
   bool asked() const;
   Seconds elapsed() const { return used_ + (std::chrono::steady_clock::now() - start_); }
@@ -26,6 +29,7 @@ class StopRequest {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::optional<Seconds> budget_;
   Seconds used_;
+  const std::atomic<bool>* called_off_;
   StopSignals signals_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/core.h>
+#include <spawn.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -27,6 +28,12 @@ constexpr rlim_t most_memory = rlim_t{1} << 30;  // [bytes] beyond what the proc
 constexpr char passed = 'p', failed = 'f';       // the first byte of the child's answer
 
 std::atomic<bool> is_kept_here = false;
+
+// The program that carries out checks; empty: a child of this one.
+std::filesystem::path& checking_program() {
+  static std::filesystem::path program;
+  return program;
+}
 
 // [bytes], 0 if unknown
 rlim_t memory_in_use() {
@@ -69,16 +76,41 @@ void send(int to, const std::string& text) {
   }
 }
 
-[[noreturn]] void be_child(int answer, const std::function<void()>& check) {
+[[noreturn]] void be_child(int answer, const std::function<FileCheck()>& check) {
   std::string text(1, passed);
   try {
     restrain_child();
-    check();
+    check().carry_out();
   } catch (const std::exception& error) {
     text = failed + std::string(error.what());
   }
   send(answer, text);
   ::_exit(0);  // without the parent's buffers and destructors
+}
+
+// Starts the program that carries out checks. Returns its process; -1: it cannot be started.
+pid_t begin_program(const std::filesystem::path& program, int answer, const FileCheck& check) {
+  std::vector<std::string> words = check.words;
+  words.insert(words.begin(), program.string());
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t streams;
+  ::posix_spawn_file_actions_init(&streams);
+  ::posix_spawn_file_actions_adddup2(&streams, answer, STDOUT_FILENO);
+  ::posix_spawn_file_actions_addopen(&streams, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  pid_t child = -1;
+  const bool is_begun =
+      ::posix_spawn(&child, program.c_str(), &streams, nullptr, arguments.data(), environ) == 0;
+  ::posix_spawn_file_actions_destroy(&streams);
+  return is_begun ? child : -1;
+}
+
+pid_t begin_child(int answer, const FileCheck& check) {
+  if (!checking_program().empty()) return begin_program(checking_program(), answer, check);
+  const pid_t child = ::fork();
+  if (child == 0) be_child(answer, [&] { return check; });
+  return child;
 }
 
 std::string receive(int from) {
@@ -106,21 +138,30 @@ void keep_checks_here() {
   is_kept_here = true;
 }
 
-void check_apart(const std::filesystem::path& path, const std::function<void()>& check) {
+void check_by(const std::filesystem::path& program) {
+  checking_program() = program;
+}
+
+void be_checking_program(const std::vector<std::string>& words) {
+  keep_checks_here();
+  const int answer = ::dup(STDOUT_FILENO);
+  be_child(answer, [&] { return check_called(words); });
+}
+
+void check_apart(const std::filesystem::path& path, const FileCheck& check) {
   std::error_code unseen;  // no file: the check says so
   const std::filesystem::file_status kind = std::filesystem::status(path, unseen);
   const bool is_regular = std::filesystem::is_regular_file(kind);
   if (std::filesystem::exists(kind) && !is_regular && !std::filesystem::is_directory(kind))
     throw StoreError(path.string(), "is no regular file but a pipe or a device", "");
-  if (is_kept_here || !is_regular) return check();
+  if (is_kept_here || !is_regular) return check.carry_out();
   std::array<int, 2> pipe{};
   const bool has_pipe = ::pipe2(pipe.data(), O_CLOEXEC) == 0;
-  const pid_t child = has_pipe ? ::fork() : -1;
-  if (child == 0) be_child(pipe[1], check);
+  const pid_t child = has_pipe ? begin_child(pipe[1], check) : -1;
   if (has_pipe) ::close(pipe[1]);
   if (child < 0) {  // no process to be had: better unguarded than not at all
     if (has_pipe) ::close(pipe[0]);
-    return check();
+    return check.carry_out();
   }
   const std::string answer = receive(pipe[0]);
   ::close(pipe[0]);

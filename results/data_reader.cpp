@@ -50,7 +50,7 @@ void check_form(const hdf5::Dataset& dataset, std::size_t needed) {
 
 // A file that anybody may have made is first read by a child.
 hdf5::File open_checked(const std::filesystem::path& path) {
-  check_apart(path, [&] { hdf5::File::open(path).root(); });
+  check_apart(path, opening_check(path));
   return hdf5::File::open(path);
 }
 
@@ -77,25 +77,27 @@ std::vector<double> numbers_of(const hdf5::Dataset& dataset) {
 
 }  // namespace
 
-DataReader::DataReader(const std::filesystem::path& path) : path_(path), file_(open_checked(path)) {}
-
-void DataReader::check(const std::string& dataset, std::size_t dimensions) const {
-  check_apart(path_, [&] {
-    const hdf5::File file = hdf5::File::open(path_);
-    const hdf5::Dataset found = find(file, dataset, dimensions);
-    numbers_of(found);
-    found.text("units");
-  });
+void check_opening(const std::filesystem::path& path) {
+  hdf5::File::open(path).root();
 }
 
+void check_dataset(const std::filesystem::path& path, const std::string& dataset, std::size_t dimensions) {
+  const hdf5::File file = hdf5::File::open(path);
+  const hdf5::Dataset found = find(file, dataset, dimensions);
+  numbers_of(found);
+  found.text("units");
+}
+
+DataReader::DataReader(const std::filesystem::path& path) : path_(path), file_(open_checked(path)) {}
+
 DataColumn DataReader::read(const std::string& dataset) const {
-  check(dataset, 1);
+  check_apart(path_, dataset_check(path_, dataset, 1));
   const hdf5::Dataset found = find(file_, dataset, 1);
   return {numbers_of(found), found.text("units")};
 }
 
 DataMatrix DataReader::read_matrix(const std::string& dataset) const {
-  check(dataset, 2);
+  check_apart(path_, dataset_check(path_, dataset, 2));
   const hdf5::Dataset found = find(file_, dataset, 2);
   const Shape shape = found.shape();
   return {shape[0], shape[1], numbers_of(found)};

@@ -21,6 +21,11 @@ struct DataMatrix {
   std::vector<double> values;
 };
 
+// What a reader does with a file before it reads: whether it can be opened; whether a dataset of it can be
+// read, of so many dimensions. Throw StoreError.
+void check_opening(const std::filesystem::path& path);
+void check_dataset(const std::filesystem::path& path, const std::string& dataset, std::size_t dimensions);
+
 // Reads columns and matrices of numbers from any HDF5 or netCDF-4 file, written by frahm or by another
 // program.
 class DataReader {
@@ -37,8 +42,6 @@ class DataReader {
   DataMatrix read_matrix(const std::string& dataset) const;
 
  private:
-  void check(const std::string& dataset, std::size_t dimensions) const;
-
   std::filesystem::path path_;
   hdf5::File file_;
 };

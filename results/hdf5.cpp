@@ -58,6 +58,14 @@ Handle file_access(const std::string& path) {
   return access;
 }
 
+// A file that this process has open already, as a dataset in Python, HDF5 would not open but share, if only
+// both ask for the same locks and the same way of closing; it knows a file by its inode and by the driver
+// that reads it. The driver with a log, of which none is kept, is the usual one under another name: so ours
+// is a file of its own.
+void keep_to_ourselves(const Handle& access, const std::string& path) {
+  checked(H5Pset_fapl_log(access.get(), nullptr, 0, 0), path, "cannot open");
+}
+
 Handle string_type(std::size_t size, const std::string& where) {
   Handle type(checked(H5Tcopy(H5T_C_S1), where, "cannot make a string type"));
   checked(H5Tset_size(type.get(), std::max<std::size_t>(size, 1)), where, "cannot make a string type");
@@ -328,6 +336,7 @@ File File::create(const std::filesystem::path& path) {
 
 File File::open(const std::filesystem::path& path) {
   const Handle access = file_access(path.string());
+  keep_to_ourselves(access, path.string());
   return File(Handle(checked(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()), path.string(),
                              "cannot open the file")),
               path.string());

@@ -106,6 +106,9 @@ class Dataset : public Object {
     unsigned axis = 0;
   };
   std::vector<Use> uses() const;
+  // Follows the list of its scales, as other readers do: HDF5's high-level library trusts it. Throws
+  // StoreError for a list that is none.
+  void check_scales() const;
   std::uint64_t address() const;  // in the file
 
  private:

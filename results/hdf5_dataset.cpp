@@ -159,6 +159,22 @@ void Dataset::attach_scale(unsigned axis, const Dataset& scale) {
 // From REFERENCE_LIST of the scale, pairs of a dataset's address and an axis. DIMENSION_LIST of the dataset
 // says the same in lists of variable length, and HDF5 1.10 reads these beyond its buffer where a file is
 // damaged.
+void Dataset::check_scales() const {
+  const std::string what = "cannot read the list of its scales";
+  checked(H5DSis_scale(id()), where_, what);
+  if (checked(H5Aexists(id(), "DIMENSION_LIST"), where_, what) == 0) return;
+  const Handle list(checked(H5Aopen(id(), "DIMENSION_LIST", H5P_DEFAULT), where_, what));
+  const Handle type(checked(H5Aget_type(list.get()), where_, what));
+  const Handle space(checked(H5Aget_space(list.get()), where_, what));
+  const std::size_t rank = shape().size();
+  if (H5Tget_class(type.get()) != H5T_VLEN ||
+      H5Sget_simple_extent_npoints(space.get()) != static_cast<hssize_t>(rank))
+    throw StoreError(where_, what, "it has no row for each dimension");
+  const auto visit = [](hid_t, unsigned, hid_t, void*) -> herr_t { return 0; };
+  for (std::size_t d = 0; d < rank; ++d)
+    checked(H5DSiterate_scales(id(), static_cast<unsigned>(d), nullptr, visit, nullptr), where_, what);
+}
+
 std::vector<Dataset::Use> Dataset::uses() const {
   const std::string what = "cannot read where it is attached";
   constexpr const char* list_name = "REFERENCE_LIST";

@@ -30,7 +30,7 @@ void check_format(const hdf5::Group& root) {
 
 // A file that anybody may have made is walked through by a child before this process touches it.
 hdf5::File open_checked(const std::filesystem::path& path) {
-  check_apart(path, [&] { check_structure(path); });
+  check_apart(path, result_check(path));
   return hdf5::File::open(path);
 }
 
@@ -124,9 +124,13 @@ void add_groups(const hdf5::Group& group, const std::string& path, std::vector<s
 
 }  // namespace
 
+void check_result(const std::filesystem::path& path) {
+  check_structure(path);
+  check_format(hdf5::File::open(path).root());
+}
+
 MapReader::MapReader(const std::filesystem::path& path) : file_(open_checked(path)) {
   const hdf5::Group root = file_.root();
-  check_format(root);
   layout_ = {.title = required_text(root, "title"),
              .source = required_text(root, "source"),
              .history = required_text(root, "history")};
@@ -135,7 +139,6 @@ MapReader::MapReader(const std::filesystem::path& path) : file_(open_checked(pat
 
 MapReader::MapReader(const std::filesystem::path& path, const std::string& group)
     : file_(open_checked(path)) {
-  check_format(file_.root());
   read_map(file_.root().group(group));
 }
 

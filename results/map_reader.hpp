@@ -12,6 +12,10 @@
 
 namespace frahm::results {
 
+// Whether a file is a result of frahm that HDF5 survives: check_structure(), then its format and version.
+// Throws StoreError.
+void check_result(const std::filesystem::path& path);
+
 // Reads a result file (FORMAT.md). Throws StoreError if the file cannot be opened, is not frahm's, is of a
 // newer format, or has damaged data (each chunk carries a checksum).
 class MapReader {

@@ -27,10 +27,22 @@ class Walk {
         this->group(group.group(name), depth + 1);
       }
     }
+    follow_scales(group);
     group.dataset_names();  // in the other order of its links, as readers ask for them
   }
 
  private:
+  // When every object was opened once: after an object that could not be read HDF5 opens it the second time.
+  static void follow_scales(const hdf5::Group& group) {
+    for (const std::string& name : group.link_names()) {
+      if (!group.has_dataset(name)) continue;
+      try {
+        group.dataset(name).check_scales();
+      } catch (const StoreError&) {  // as below
+      }
+    }
+  }
+
   static void dataset(const hdf5::Dataset& dataset) {
     dataset.check_attributes();
     if (!dataset.is_numeric()) return;  // not read by anything of ours

@@ -161,7 +161,7 @@ int run_in_logs(const RunCommandOptions& options, const engine::RunOptions& run,
 
   record.threads = summary.threads;
   record.ranks = summary.ranks;
-  const engine::StopRequest stop(run.time_budget, Clock::now() - run.begun);
+  const engine::StopRequest stop(run.time_budget, Clock::now() - run.begun, run.called_off);
   const AssemblyOptions assembly{.output = run.output,
                                  .logs = engine::find_logs(run.output),
                                  .threads = summary.threads_here,

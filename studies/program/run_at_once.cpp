@@ -121,7 +121,8 @@ int run_at_once(const RunCommandOptions& options, Study study, std::ostream& out
   int code = exit_code::done;
   try {
     const engine::StopRequest stop(options.run.time_budget,
-                                   std::chrono::steady_clock::now() - options.run.begun);
+                                   std::chrono::steady_clock::now() - options.run.begun,
+                                   options.run.called_off);
     code = compute(plan, record, output, watch_for_stop(stop), out);
   } catch (const Stopped& stopped) {
     fmt::print(std::cerr, "{}: nothing is kept of one piece of work, which begins anew\n", stopped.reason);

@@ -5,6 +5,7 @@
 #include <pybind11/stl.h>
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "studies/reading/study.hpp"
@@ -27,6 +28,12 @@ py::array_t<Number> array_of(const std::vector<double>& values) {
   Number* out = array.mutable_data();
   for (const double value : values) *out++ = static_cast<Number>(value);
   return array;
+}
+
+// A text that may come from a file, whatever its bytes.
+inline py::str text_of(std::string_view text) {
+  return py::reinterpret_steal<py::str>(
+      PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "replace"));
 }
 
 // Parts of the module.

@@ -7,7 +7,7 @@
 #include "studies/program/refusal_advice.hpp"
 #include "studies/python/binding.hpp"
 
-// The errors of the program as exceptions of Python, with the same words.
+// The errors of the program as exceptions of Python, with the same words but for options and commands.
 namespace frahm::python {
 namespace {
 
@@ -24,8 +24,16 @@ PyObject* new_error(py::module_& module, const char* name, const char* doc, PyOb
   return error;
 }
 
-void raise_study_error(const char* message, std::string_view rule) {
-  const py::object error = py::handle(study_error)(message);
+py::object in_words_of_python(std::string_view message) {
+  return py::module_::import("frahm.words").attr("of_python")(text_of(message));
+}
+
+void raise(PyObject* type, std::string_view message) {
+  PyErr_SetObject(type, in_words_of_python(message).ptr());
+}
+
+void raise_study_error(std::string_view message, std::string_view rule) {
+  const py::object error = py::handle(study_error)(in_words_of_python(message));
   error.attr("rule") = std::string(rule);
   PyErr_SetObject(study_error, error.ptr());
 }
@@ -39,11 +47,11 @@ void translate(std::exception_ptr thrown) {
     raise_study_error(error.what(), studies::rules::not_computed.key);
   } catch (const engine::ResumeRefused& error) {
     const std::string advice = error.advice().empty() ? studies::refusal_advice({}) : error.advice();
-    PyErr_SetString(resume_refused, fmt::format("{}\n{}", error.what(), advice).c_str());
+    raise(resume_refused, fmt::format("{}\n{}", error.what(), advice));
   } catch (const engine::IoError& error) {
-    PyErr_SetString(PyExc_OSError, error.what());
+    raise(PyExc_OSError, error.what());
   } catch (const results::StoreError& error) {
-    PyErr_SetString(PyExc_OSError, error.what());
+    raise(PyExc_OSError, error.what());
   }
 }
 

@@ -1,16 +1,36 @@
+#include <dlfcn.h>
+
 #include "results/checked_apart.hpp"
 #include "studies/identification/identified_study.hpp"
 #include "studies/python/binding.hpp"
+#include "studies/record/finished_file.hpp"
 
 namespace frahm::python {
+namespace {
+
+// The file of this module, wherever the process goes later.
+std::filesystem::path own_file() {
+  Dl_info here{};
+  ::dladdr(reinterpret_cast<void*>(&own_file), &here);
+  return std::filesystem::absolute(here.dli_fname ? here.dli_fname : "");
+}
+
+// A file that anybody may have made, before a library of Python reads it.
+void check_result(const std::string& path) {
+  const py::gil_scoped_release free;
+  studies::require_result(path);
+  results::check_apart(path, results::result_check(path));
+}
+
+}  // namespace
 
 PYBIND11_MODULE(_frahm, module) {
-  // A child of a process with other threads, of which one may be inside HDF5, might wait for ever.
-  results::keep_checks_here();
+  results::check_by(own_file().replace_filename("check_file"));
   module.doc() = "The compiled part of frahm.";
   add_errors(module);
   add_study(module);
   add_run(module);
+  module.def("check_result", check_result, py::arg("path"));
   module.def("identified_study", [](const std::string& file) { return studies::identified_study(file); });
 }
 

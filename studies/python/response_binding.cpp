@@ -147,6 +147,14 @@ studies::RowGrid grid_of(const Study& study, const std::vector<std::string>& at,
   return grid;
 }
 
+// A text with a unit ("10 Hz") in the unit in which a bare number of the parameter is read.
+double in_usual_unit(const LoadedStudy& loaded, const std::string& name, const std::string& text) {
+  const std::string assignment = fmt::format("{}={}", name, text);
+  const studies::Assignment value =
+      studies::parse_assignments(loaded.study, "response()", assignment).front();
+  return value.value / studies::usual_unit(loaded.study, value.parameter).si_factor;
+}
+
 py::object array_of_variable(const periodic::QuantityDescription& variable,
                              const std::vector<double>& values) {
   if (variable.kind == periodic::QuantityKind::real) return array_of<double>(values);
@@ -191,6 +199,7 @@ py::tuple rows(const LoadedStudy& loaded, const std::vector<std::string>& at, co
 
 void add_responses(py::class_<LoadedStudy>& study) {
   study.def("point", point, py::arg("at"), py::arg("path"), py::arg("samples"), py::arg("gradient"))
+      .def("in_usual_unit", in_usual_unit, py::arg("name"), py::arg("text"))
       .def("rows", rows, py::arg("at"), py::arg("axes"), py::arg("names"), py::arg("threads"));
 }
 

@@ -13,11 +13,12 @@
 namespace frahm::python {
 namespace {
 
-// While it exists, lines written to std::cerr, by any thread, go to a function of Python instead. The lines
-// of a run alone: there is one run at a time in a process.
+// While it exists, lines written to std::cerr, by any thread, go to a function of Python instead, which
+// returns whether the run is to stop. The lines of a run alone: there is one run at a time in a process.
 class LinesToPython : public std::streambuf {
  public:
-  explicit LinesToPython(py::function tell) : tell_(std::move(tell)), before_(std::cerr.rdbuf(this)) {}
+  LinesToPython(py::function tell, std::atomic<bool>& called_off)
+      : tell_(std::move(tell)), called_off_(called_off), before_(std::cerr.rdbuf(this)) {}
   ~LinesToPython() override { std::cerr.rdbuf(before_); }
   LinesToPython(const LinesToPython&) = delete;
   LinesToPython& operator=(const LinesToPython&) = delete;
@@ -47,18 +48,18 @@ class LinesToPython : public std::streambuf {
     return lines;
   }
 
-  // A fault of the function that shows progress is no fault of the run.
+  // A fault of what shows the lines, such as a terminal that is gone, is no fault of the run.
   void tell(const std::string& line) {
     const py::gil_scoped_acquire held;
     try {
-      tell_(py::reinterpret_steal<py::str>(
-          PyUnicode_DecodeUTF8(line.data(), static_cast<py::ssize_t>(line.size()), "replace")));
+      if (tell_(text_of(line)).cast<bool>()) called_off_ = true;
     } catch (py::error_already_set& error) {
       error.discard_as_unraisable("frahm: progress");
     }
   }
 
   py::function tell_;
+  std::atomic<bool>& called_off_;
   std::mutex turn_;
   std::string line_;
   std::streambuf* before_;
@@ -88,11 +89,13 @@ py::tuple run(const LoadedStudy& loaded, const std::string& output, const std::s
   options.run.fresh = fresh;
   options.run.progress = engine::ProgressStyle::json;
   if (time_budget) options.run.time_budget = std::chrono::duration<double>(*time_budget);
+  std::atomic<bool> called_off = false;
+  options.run.called_off = &called_off;
   std::ostringstream out;
   int code = 0;
   {
     const OnlyRun alone;
-    const LinesToPython lines(std::move(tell));
+    const LinesToPython lines(std::move(tell), called_off);
     const OneBlasThread blas;
     const py::gil_scoped_release free;
     code = studies::run_study(options, loaded.study, out);

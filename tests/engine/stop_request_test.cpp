@@ -1,5 +1,6 @@
 #include "engine/stop_request.hpp"
 
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <csignal>
 
@@ -26,4 +27,13 @@ TEST_CASE("a part of the budget may be used before") {
   CHECK(stop.asked());
   CHECK(stop.elapsed() >= 61s);
   CHECK(stop.reason() == "the time budget of 60 s is used up");
+}
+
+TEST_CASE("who started the work may call it off") {
+  std::atomic<bool> called_off = false;
+  const StopRequest stop(std::nullopt, 0s, &called_off);
+  CHECK_FALSE(stop.asked());
+  called_off = true;
+  CHECK(stop.asked());
+  CHECK(stop.reason() == "called off");
 }

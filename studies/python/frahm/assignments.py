@@ -2,7 +2,7 @@
 
 import numbers
 import os
-from typing import Any, Iterable, Mapping, Union
+from typing import Any, Callable, Iterable, Mapping, Union
 
 import numpy as np
 
@@ -20,14 +20,21 @@ def is_axis(value: Any) -> bool:
     return isinstance(value, Iterable) and not isinstance(value, (str, bytes)) and getattr(value, "ndim", 1) > 0
 
 
-def values_of_axis(name: str, given: Any) -> np.ndarray:
-    """The values of a parameter along an axis, a single one too."""
+def values_of_axis(name: str, given: Any, number: Callable[[str, str], float]) -> np.ndarray:
+    """The values of a parameter along an axis, a single one too.
+
+    number: what a text with a unit is in the parameter's usual unit, of a name and the text.
+    """
     _name(name)
     listed = list(given) if is_axis(given) and not hasattr(given, "__array__") else given
+    if isinstance(listed, str):
+        listed = [listed]
+    if isinstance(listed, list):
+        listed = [number(name, _text(name, each)) if isinstance(each, str) else each for each in listed]
     try:
         array = np.atleast_1d(np.asarray(listed, dtype=float))
     except (TypeError, ValueError, OverflowError):
-        raise TypeError(f"{name}={_short(given)}: must be a number or a list of numbers") from None
+        raise TypeError(f"{name}={short(given)}: must be a number or a list of numbers, or texts with a unit") from None
     if array.ndim != 1:
         raise ValueError(f"{name}: a list of values, not an array of {array.ndim} dimensions")
     return array
@@ -35,6 +42,8 @@ def values_of_axis(name: str, given: Any) -> np.ndarray:
 
 def file_name(path: Union[str, os.PathLike]) -> str:
     """A path as the program takes it."""
+    if not isinstance(path, (str, bytes, os.PathLike)):
+        raise TypeError(f"the file's name: must be a text or a path, not {type(path).__name__}")
     return plain(os.fsdecode(path), "the file's name")
 
 
@@ -45,40 +54,43 @@ def plain(text: Any, what: str) -> str:
     try:
         text.encode()
     except UnicodeEncodeError:
-        raise ValueError(f"{what} {_short(text)}: must be UTF-8") from None
+        raise ValueError(f"{what} {short(text)}: must be UTF-8") from None
+    if "\0" in text:
+        raise ValueError(f"{what} {short(text)}: must not have a NUL character")
     return text
 
 
 def whole(value: Any, name: str, least: int) -> int:
     """A whole number that the program can count to."""
     if not isinstance(value, numbers.Integral):
-        raise TypeError(f"{name}={_short(value)}: must be a whole number")
+        raise TypeError(f"{name}={short(value)}: must be a whole number")
     if not least <= value < 2**31:
-        raise ValueError(f"{name}={_short(value)}: must be from {least} to {2**31 - 1}")
+        raise ValueError(f"{name}={short(value)}: must be from {least} to {2**31 - 1}")
     return int(value)
+
+
+def short(value: Any) -> str:
+    """A value in a message."""
+    shown = repr(value)
+    return shown if len(shown) <= 60 else shown[:57] + "..."
 
 
 def _name(name: Any) -> str:
     plain(name, "a parameter's name")
     if "=" in name or "," in name:
-        raise ValueError(f"{_short(name)}: no parameter is called so; give one name and its value")
+        raise ValueError(f"{short(name)}: no parameter is called so; give one name and its value")
     return name
 
 
 def _text(name: str, value: Any) -> str:
     if isinstance(value, str):
         if "," in plain(value, name):
-            raise ValueError(f"{name}={_short(value)}: must be one value, without a comma")
+            raise ValueError(f"{name}={short(value)}: must be one value, without a comma")
         return value
     single = value.item() if getattr(value, "ndim", None) == 0 else value  # also a 0-d array
     if isinstance(single, numbers.Real) and not isinstance(single, bool):
         try:
             return repr(float(single))
         except OverflowError:
-            raise ValueError(f"{name}={_short(value)}: must be a finite number") from None
+            raise ValueError(f"{name}={short(value)}: must be a finite number") from None
     raise TypeError(f"{name}: a number or a text with a unit, not {type(value).__name__}")
-
-
-def _short(value: Any) -> str:
-    shown = repr(value)
-    return shown if len(shown) <= 60 else shown[:57] + "..."

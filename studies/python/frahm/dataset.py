@@ -1,9 +1,13 @@
 """The files of runs as labelled arrays."""
 
 import os
-from typing import TYPE_CHECKING, Optional, Union
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Iterator, Optional, Union
 
 import numpy as np
+
+from . import _frahm
+from .assignments import file_name, plain
 
 if TYPE_CHECKING:
     import xarray
@@ -14,21 +18,50 @@ def open(path: Union[str, os.PathLike], group: Optional[str] = None) -> "xarray.
 
     A map is opened without a group; beside it may be "orbits", "resonance", "modes", "statistics" ... What has no
     map is in a group: "optimum" of a tuning, of a trade-off with "optimum/front"; "identification"; "decay" or
-    "transient" of one motion. Every result has "provenance". ValueError tells the groups of a file without the one asked for.
+    "transient" of one motion. Every result has "provenance". ValueError tells the groups of a file without the one asked for,
+    OSError (FileNotFoundError, IsADirectoryError) what is no result or damaged.
 
     Data are read when they are used; `.load()` reads all, `.close()` closes the file.
     """
     import xarray
 
-    name = os.fspath(path)
-    known = _groups(name)
+    name = file_name(path)
+    if group is not None:
+        plain(group, "group")
+    _require_result(name)
+    with _told_as_damage(name):
+        known = _groups(name)
     if group is not None and group.strip("/") not in known:
         raise ValueError(f"{name}: has no group {group!r}; it has {', '.join(known)}")
-    dataset = xarray.open_dataset(name, engine="h5netcdf", group=group)
+    with _told_as_damage(name):
+        dataset = xarray.open_dataset(name, engine="h5netcdf", group=group)
     if group is None and not dataset.variables:
         dataset.close()
         raise ValueError(f"{name}: has no map; name one of its groups: {', '.join(known)}")
     return dataset
+
+
+def _require_result(name: str) -> None:
+    """Refuses what is no result, and a damaged one, of which HDF5 might end the interpreter."""
+    if os.path.isdir(name):
+        raise IsADirectoryError(f"{name}: is a folder; name a result in it")
+    try:
+        _frahm.check_result(name)
+    except OSError as error:
+        if not os.path.exists(name):
+            raise FileNotFoundError(str(error)) from None
+        raise
+
+
+@contextmanager
+def _told_as_damage(name: str) -> Iterator[None]:
+    """What libraries raise over a result whose names and references do not fit together is of any kind."""
+    try:
+        yield
+    except (ImportError, MemoryError):
+        raise
+    except Exception as error:
+        raise OSError(f"{name}: is damaged: {error}") from error
 
 
 def _groups(path: str) -> list[str]:

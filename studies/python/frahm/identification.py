@@ -7,6 +7,7 @@ import numpy as np
 
 from . import _frahm
 from .dataset import names, open as open_result
+from .near import Parameters
 from .running import Result
 
 if TYPE_CHECKING:
@@ -92,7 +93,7 @@ def identification_of(result: Result, keep: bool) -> Identification:
     return Identification(
         outcome=str(names(found.outcome).values),
         method=found.attrs["method"],
-        estimates={name: estimate(name) for name in estimates},
+        estimates=Parameters((name, estimate(name)) for name in estimates),
         covariance=np.array([found[f"{name}_covariance"].values for name in estimates if f"{name}_covariance" in found]),
         fit=dict(zip(found.attrs.get("records", "").split(), np.atleast_1d(found["nrmse"].values).tolist()))
         if "nrmse" in found else {},

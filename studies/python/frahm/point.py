@@ -5,6 +5,8 @@ from typing import Any, Mapping, Optional, Union
 
 import numpy as np
 
+from .near import Columns, Parameters, Quantities
+
 QuantityValue = Union[float, int, str, None]
 
 
@@ -48,10 +50,7 @@ class Point(Mapping[str, QuantityValue]):
         return self.status in ("ok", "grazing", "several")
 
     def __getitem__(self, quantity: str) -> QuantityValue:
-        try:
-            return self.quantities[quantity]
-        except KeyError:
-            raise KeyError(f"there is no quantity {quantity!r}{_nearest(quantity, self.quantities)}") from None
+        return self.quantities[quantity]
 
     def __iter__(self):
         return iter(self.quantities)
@@ -64,22 +63,16 @@ class Point(Mapping[str, QuantityValue]):
         return f"<frahm.Point {self.status} at {at}; {len(self.quantities)} quantities>"
 
 
-def _nearest(word: str, words: Mapping[str, Any]) -> str:
-    from difflib import get_close_matches
-
-    found = get_close_matches(word, list(words), n=1)
-    return f"; did you mean {found[0]!r}?" if found else ""
-
-
 def point_of(found: Mapping[str, Any]) -> Point:
     """The point from what the compiled part found."""
     history, units = None, {name: unit for name, _, unit, _ in found["quantities"]}
     if found["history"] is not None:
-        history, units_of_history = found["history"]
+        history, units_of_history = Columns(found["history"][0]), found["history"][1]
         units |= units_of_history | {"time": "s"}
     gradient, why_none = None, {}
     if found["gradient"] is not None:
-        gradient, why_none, reason = found["gradient"]
+        derivatives, why_none, reason = found["gradient"]
+        gradient = Quantities((quantity, Parameters(by)) for quantity, by in derivatives.items())
         if reason:
             why_none = {"": reason}
     return Point(
@@ -90,7 +83,7 @@ def point_of(found: Mapping[str, Any]) -> Point:
         newton_iterations=found["newton_iterations"],
         found_by=found["found_by"],
         parameters=found["parameters"],
-        quantities={name: value for name, value, _, _ in found["quantities"]},
+        quantities=Quantities((name, value) for name, value, _, _ in found["quantities"]),
         units=units,
         meanings={name: meaning for name, _, _, meaning in found["quantities"]},
         stretches=[Stretch(*each) for each in found["stretches"]],

@@ -5,6 +5,8 @@ import sys
 import time
 from typing import Any, Callable, Optional, TextIO, Union
 
+from .words import of_python
+
 Progress = Union[str, Callable[[dict[str, Any]], None]]
 """"auto", "none", or a function that gets each report: points, done, failed, percent, seconds_left ...; of a tuning evaluations"""
 
@@ -25,6 +27,7 @@ class Reports:
         if not callable(progress) and progress not in ("auto", "none"):
             raise ValueError(f"progress={progress!r}: must be \"auto\", \"none\" or a function")
         self.messages: list[str] = []
+        self.raised: Optional[BaseException] = None  # by the function for reports
         self._told: Optional[Callable[[dict[str, Any]], None]] = progress if callable(progress) else None
         self._quiet = progress == "none"
         self._notebook = in_notebook()
@@ -32,18 +35,26 @@ class Reports:
         self._redraws = self._notebook or self._out.isatty()
         self._next = 0.0
 
-    def line(self, text: str) -> None:
+    def line(self, text: str) -> bool:
+        """Takes a line. Returns whether the run is to stop: the function for reports has raised."""
         if text.startswith("{"):
             self._report(json.loads(text))
-            return
+        else:
+            self._message(of_python(text))
+        return self.raised is not None
+
+    def _message(self, text: str) -> None:
         self.messages.append(text)
         if not self._quiet and self._told is None:
             print(text, file=self._out, flush=True)
 
     def _report(self, report: dict[str, Any]) -> None:
         last = report.get("event") == "end"
-        if self._told is not None:
-            self._told(report)
+        if self._told is not None and self.raised is None:
+            try:
+                self._told(report)
+            except BaseException as error:  # given to the caller when the run has stopped
+                self.raised = error
         if self._told is not None or self._quiet:
             return
         if self._redraws:

@@ -5,6 +5,8 @@ from typing import TYPE_CHECKING, Any, Mapping
 
 import numpy as np
 
+from .near import Quantities
+
 if TYPE_CHECKING:
     import xarray
 
@@ -55,7 +57,7 @@ def response_of(axes: Mapping[str, np.ndarray], found: tuple[list[Any], list[str
     """The response from what the compiled part found."""
     variables, units_of_axes, reasons = found
     shape = tuple(len(values) for values in axes.values())
-    values = {}
+    values: Quantities[np.ndarray] = Quantities()
     for name, array, _, _, flags in variables:
         if flags:
             array = _named(array, dict((number, meaning) for meaning, number in flags))

@@ -1,15 +1,18 @@
 """Runs: maps, tunings, motions and identifications, with their files."""
 
+import math
+import numbers
 import os
 import re
 import signal
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Optional
+from typing import TYPE_CHECKING, Any, Optional
 
 from . import _frahm
-from .assignments import file_name, whole
+from .assignments import file_name, short, whole
 from .dataset import open as open_result
 from .progress import Progress, Reports
+from .words import of_python
 
 if TYPE_CHECKING:
     import xarray
@@ -54,11 +57,24 @@ def run(
     if not isinstance(fresh, bool):  # "no" would discard what is computed
         raise TypeError(f"fresh={fresh!r}: must be True or False")
     code, table = _frahm.run(
-        study, path, taken_over, whole(threads, "threads", 0), fresh, time_budget, _command(study, path), reports.line
+        study, path, taken_over, whole(threads, "threads", 0), fresh, _budget(time_budget), _command(study, path), reports.line
     )
+    if reports.raised is not None:
+        raise reports.raised
     if code == 4:
         _pass_on(reports.messages)
-    return Result(OUTCOMES[code], None if code == 4 else path, table, reports.messages)
+    return Result(OUTCOMES[code], None if code == 4 else path, of_python(table), reports.messages)
+
+
+def _budget(seconds: Any) -> Optional[float]:
+    """A time budget [s]; None: without one."""
+    if seconds is None:
+        return None
+    if not isinstance(seconds, numbers.Real) or isinstance(seconds, bool):
+        raise TypeError(f"time_budget={short(seconds)}: must be a number of seconds")
+    if not 0 < seconds < math.inf:
+        raise ValueError(f"time_budget={short(seconds)}: must be above 0 and finite [s]")
+    return float(seconds)
 
 
 def _pass_on(messages: list[str]) -> None:

@@ -11,7 +11,7 @@ from typing import Any, Callable, Mapping, Optional, Sequence, TypeVar, Union
 import numpy as np
 
 from . import _frahm
-from .assignments import Value, assignments, file_name, is_axis, plain, values_of_axis, whole
+from .assignments import Value, assignments, file_name, is_axis, plain, short, values_of_axis, whole
 from .identification import Identification, identification_of
 from .point import Point, point_of
 from .progress import Progress
@@ -51,6 +51,8 @@ class Study:
 
         `text` is the file it stands for, to which the lines of messages belong.
         """
+        if not isinstance(study, Mapping):
+            raise TypeError(f"a study: must be a dictionary with the sections of a file, not {type(study).__name__}")
         return cls.from_text(_frahm.toml_text(dict(study)), name, **parameters)
 
     def __reduce__(self):
@@ -115,26 +117,31 @@ class Study:
         samples = 513 if history is True else whole(history, "history", 0)
         if samples == 1:
             raise ValueError(f"history={history}: must be at least 2 instants")
-        return point_of(self._study.point(assignments({**at, **parameters}), path, samples, bool(gradient)))
+        place = {**self._dictionary(Study.point, at), **parameters}
+        return point_of(self._study.point(assignments(place), path, samples, bool(gradient)))
 
-    def response(self, row: str, values: Optional[Sequence[float]] = None, at: Mapping[str, Any] = MappingProxyType({}),
+    def response(self, row: Optional[str] = None, values: Optional[Sequence[Value]] = None, at: Mapping[str, Any] = MappingProxyType({}),
                  /, *, quantities: Union[str, Sequence[str], None] = None, threads: int = 0,
                  **parameters: Any) -> Response:
         """Periodic responses along a row, on all cores, as a map of the study would have them.
 
-        row: the parameter that runs along it, most often the frequency. values: in its usual unit; none: those
-        of the study's axis. parameters: of the other parameters a value, or several, each of which then makes
+        row: the parameter that runs along it, most often the frequency. values: in its usual unit, or texts with a
+        unit; none: those of the study's axis. parameters: of the other parameters a value, or several, each of which then makes
         an axis of the result before the row; at: the same as a dictionary. quantities: names or patterns ("*_peak"); none: those that the
         study records. threads: 0: one on each processor.
         """
         self._refuse_misspelt(Study.response, parameters)
-        others = {**at, **parameters}
+        if row is None:
+            raise TypeError("response() takes first the parameter along the row, and then its values: "
+                            f"response({self._example()!r}, [...])")
+        plain(row, "a parameter's name")
+        others = {**self._dictionary(Study.response, at), **parameters}
         if row in others:
             raise ValueError(f"{row}: runs along the row, and has no other values beside it")
         axes = {name: given for name, given in others.items() if is_axis(given)}
         fixed = {name: given for name, given in others.items() if name not in axes}
         axes[row] = self._values_of_axis(row) if values is None else values
-        arrays = {name: values_of_axis(name, given) for name, given in axes.items()}
+        arrays = {name: values_of_axis(name, given, self._study.in_usual_unit) for name, given in axes.items()}
         listed = [quantities] if isinstance(quantities, str) else list(quantities or [])
         wanted = [plain(each, "a quantity") for each in listed]
         given = [(name, array.tolist()) for name, array in arrays.items()]
@@ -174,9 +181,26 @@ class Study:
         if output is not None:
             return read(_finished(self.run(output, **options)), True)
         with tempfile.TemporaryDirectory(prefix="frahm-") as folder:
-            result = _finished(self.run(os.path.join(folder, f"{kind}.h5"), **options))
+            try:
+                result = _finished(self.run(os.path.join(folder, f"{kind}.h5"), **options))
+            except (TimeoutError, KeyboardInterrupt) as stopped:
+                reason, _, kept = str(stopped).partition(": ")
+                if folder not in kept:
+                    raise
+                raise type(stopped)(f"{reason}: nothing is kept without a file; {kind}(output) keeps what is computed, "
+                                    "and the same call goes on from there") from None
             told = [line for line in result.table.splitlines() if folder not in line]  # that file goes
             return read(replace(result, table="\n".join(told) + "\n"), False)
+
+    def _example(self) -> str:
+        """A parameter of the study, for messages."""
+        return next(reversed([*self.parameters, *self.axes]), "omega")
+
+    def _dictionary(self, method: Callable[..., Any], given: Any) -> Mapping[str, Any]:
+        if isinstance(given, Mapping):
+            return given
+        raise TypeError(f"{method.__name__}({short(given)}): a value needs the name of its parameter, such as "
+                        f"{self._example()}={short(given)}; without one there is only a dictionary of them")
 
     def _refuse_misspelt(self, method: Callable[..., Any], given: Mapping[str, Any]) -> None:
         """What is meant as an option of a method and taken as a parameter."""

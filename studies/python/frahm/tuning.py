@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Mapping, Optional, Union
 import numpy as np
 
 from .dataset import names, open as open_result
+from .near import Parameters
 from .running import Result
 
 if TYPE_CHECKING:
@@ -49,7 +50,7 @@ def tuning_of(result: Result, keep: bool) -> Tuning:
     return Tuning(
         outcome=str(names(optimum.outcome).values),
         reason=optimum.attrs["reason"],
-        design={name: float(value) if value.ndim == 0 else value for name, value in design.items()},
+        design=Parameters((name, float(value) if value.ndim == 0 else value) for name, value in design.items()),
         knots={name: optimum[f"knots_{name}"].values for name in design if f"knots_{name}" in optimum.variables},
         objective=float(optimum.objective),
         certificate_gap=number("certificate_gap"),

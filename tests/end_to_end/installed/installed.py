@@ -127,6 +127,7 @@ def try_package(folder):
         fields = run("dpkg-deb", "--field", packages["python3-frahm"])
         assert "python3-numpy" in fields and "libhdf5-103" in fields, fields
         assert list(root.glob("usr/lib/python3/dist-packages/frahm/_frahm.*.so"))
+        assert os.access(root / "usr/lib/python3/dist-packages/frahm/check_file", os.X_OK)
         assert (root / "usr/share/frahm/studies/python/notebooks/atlas.ipynb").exists()
 
 

@@ -1,5 +1,7 @@
 """Tunings and identifications in one call."""
 
+import os
+import signal
 import tempfile
 import unittest
 from pathlib import Path
@@ -42,6 +44,8 @@ class Answers(unittest.TestCase):
             self.assertEqual(found.file, str(file))
             self.assertTrue(file.exists())
         self.assertEqual(found.outcome, "converged")
+        with self.assertRaisesRegex(KeyError, f"no parameter '{next(iter(found))}x'; did you mean"):
+            found[next(iter(found)) + "x"]
         for estimate in found.values():
             self.assertLess(estimate.low, estimate.value)
             self.assertLess(estimate.value, estimate.high)
@@ -65,6 +69,20 @@ class Answers(unittest.TestCase):
         study = frahm.Study.load(studies / "tuning" / "tune_rig_schedule.toml")
         with self.assertRaisesRegex(TimeoutError, "time budget"):
             study.tune(time_budget=1e-3, progress="none")
+
+    def test_what_is_stopped_without_a_file_is_not_said_to_be_kept_in_one(self):
+        text = (studies / "tuning" / "tune_classical.toml").read_text()
+        study = frahm.Study.from_text(text.replace("[tune]", "[tune]\nstart = 2000"))
+        reports = []
+
+        def interrupt(report):
+            if report["done"] > 0 and not reports:
+                reports.append(report)
+                os.kill(os.getpid(), signal.SIGINT)
+
+        with self.assertRaisesRegex(KeyboardInterrupt, r"^stopped by SIGINT: nothing is kept .*tune\(output\)") as told:
+            study.tune(progress=interrupt, threads=1)
+        self.assertNotIn("frahm-", str(told.exception))
 
 
 if __name__ == "__main__":

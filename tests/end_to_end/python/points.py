@@ -63,6 +63,13 @@ class Points(unittest.TestCase):
         point = frahm.Study.from_dict(MACHINE).point()
         with self.assertRaisesRegex(KeyError, "did you mean 'machine_peak'"):
             point["machine_pek"]
+        point = frahm.Study.from_dict(MACHINE).point(gradient=True, history=True)
+        for wrong, words in ((lambda: point.gradient["machine_peek"], "no quantity .* did you mean 'machine_peak'"),
+                             (lambda: point.gradient["machine_peak"]["sped"], "no parameter .* did you mean 'speed'"),
+                             (lambda: point.history["machine_displacment"], "did you mean 'machine_displacement'"),
+                             (lambda: point["nothing like it"], "no quantity 'nothing like it'\"$")):
+            with self.assertRaisesRegex(KeyError, words):
+                wrong()
         with self.assertRaisesRegex(ValueError, "fastest"):
             frahm.Study.from_dict(MACHINE).point(path="slow")
 
@@ -79,6 +86,10 @@ class Points(unittest.TestCase):
         ):
             with self.assertRaisesRegex(error, words):
                 study.point(**wrong)
+        with self.assertRaisesRegex(TypeError, r"point\(600\): a value needs the name of its parameter"):
+            study.point(600)
+        with self.assertRaisesRegex(ValueError, "speed .*must not have a NUL character"):
+            study.point(speed="600\0")
         self.assertEqual(study.point(F=np.array(7)).parameters["F"][0], 7)
 
     def test_processes_give_the_same_numbers(self):

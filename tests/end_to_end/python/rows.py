@@ -10,6 +10,8 @@ from small_studies import MACHINE, studies
 
 OF_MAP = 2e-12  # relative to the largest of the row: the map rounds to known digits
 
+PHASE = 1e-11  # [rad]: of an amplitude far below the largest of its row
+
 
 class Rows(unittest.TestCase):
     def compare(self, row, ds):
@@ -35,6 +37,20 @@ class Rows(unittest.TestCase):
         self.assertEqual(labelled.machine_peak.attrs["units"], "m")
         self.assertEqual(labelled.speed.attrs["units"], "rpm")
         self.assertEqual(float(labelled.machine_peak.sel(F=20, speed=600)), row["machine_peak"][1, 30])
+
+    def test_a_fine_row_is_that_of_the_map_as_near_as_the_guide_says(self):
+        fine = {**MACHINE, "axis": [MACHINE["axis"][0], {**MACHINE["axis"][1], "points": 901}]}
+        study = frahm.Study.from_dict(fine)
+        with tempfile.TemporaryDirectory() as folder:
+            with study.run(Path(folder) / "machine.h5", progress="none").open() as file:
+                ds = file.load()
+        row = study.response("speed", F=study.axes["F"])
+        for name in set(row) - {"residual", "error_bound", "energy_balance"}:
+            if row[name].dtype.kind != "f":
+                continue
+            difference, recorded = abs(row[name] - ds[name].values), abs(ds[name].values)
+            most = PHASE if name.endswith("_phase") else OF_MAP * np.nanmax(recorded, axis=-1, keepdims=True)
+            self.assertTrue((np.isnan(difference) | (difference <= most)).all(), name)
 
     def test_the_result_does_not_depend_on_the_threads(self):
         study = frahm.Study.from_dict(MACHINE)
@@ -65,6 +81,18 @@ class Rows(unittest.TestCase):
         with self.assertRaisesRegex(frahm.StudyError, "sweeps the frequency"):
             study.response("D", [1, 2])
 
+    def test_values_may_be_texts_with_units(self):
+        study = frahm.Study.from_dict(MACHINE)
+        told = study.response("speed", ["10 Hz", 660, "720 rpm"], F=["20 N", "0.04 kN"])
+        np.testing.assert_allclose(told.coords["speed"], [600, 660, 720], rtol=OF_MAP)
+        np.testing.assert_allclose(told.coords["F"], [20, 40], rtol=OF_MAP)
+        plain = study.response("speed", [600, 660, 720], F=[20, 40])
+        np.testing.assert_allclose(told["machine_peak"], plain["machine_peak"], rtol=OF_MAP)
+        with self.assertRaisesRegex(frahm.StudyError, 'speed=10 Hzz'):
+            study.response("speed", ["10 Hzz"])
+        with self.assertRaisesRegex(TypeError, r"takes first the parameter along the row, and then its values: response\("):
+            study.response(speed=["10 Hz", "11 Hz"])
+
     def test_points_without_a_response_have_a_reason(self):
         free = {**MACHINE, "element": [each for each in MACHINE["element"] if not each["name"].endswith("damper")]}
         natural = np.sqrt(np.linalg.eigvals([[342e3 / 80, -22e3 / 80], [-22e3 / 6, 22e3 / 6]]).min()) * 30 / np.pi
@@ -76,6 +104,8 @@ class Rows(unittest.TestCase):
         study = frahm.Study.from_dict(MACHINE)
         with self.assertRaisesRegex(frahm.StudyError, 'did you mean "machine_peak"'):
             study.response("speed", quantities=["machine_pek"])
+        with self.assertRaisesRegex(KeyError, "did you mean 'machine_peak'"):
+            study.response("speed", [600])["machine_pek"]
         with self.assertRaises(frahm.StudyError) as refused:
             study.response("k")
         self.assertEqual(refused.exception.rule, "missing_key")

@@ -14,7 +14,7 @@ import unittest
 from pathlib import Path
 
 import frahm
-from small_studies import MACHINE, studies
+from small_studies import MACHINE, program, studies
 
 LONG = copy.deepcopy(MACHINE)  # some seconds of one thread
 LONG["axis"] = [{"parameter": "F", "from": 1, "to": 200, "points": 901},
@@ -44,7 +44,7 @@ class Runs(unittest.TestCase):
         with result.open() as ds:
             self.assertIn("python: frahm run study.toml --set k=300.0", ds.attrs["history"])
         again = frahm.Study.from_dict(MACHINE, k=300).run(self.file, progress="none")
-        self.assertIn("everything is computed already", str(again))
+        self.assertIn("everything is computed already; fresh=True computes it anew", str(again))
 
     def test_progress_is_a_line_that_is_written_over_where_that_can_be(self):
         class Terminal(io.StringIO):
@@ -60,7 +60,7 @@ class Runs(unittest.TestCase):
 
     def test_another_study_at_the_output_is_refused_with_advice(self):
         frahm.Study.from_dict(MACHINE).run(self.file, progress="none")
-        with self.assertRaisesRegex(frahm.ResumeRefused, "(?s)k.*--fresh"):
+        with self.assertRaisesRegex(frahm.ResumeRefused, "(?s)k.*another output, or discard .* with fresh=True"):
             frahm.Study.from_dict(MACHINE, k=300).run(self.file, progress="none")
         frahm.Study.from_dict(MACHINE, k=300).run(self.file, fresh=True, progress="none")
 
@@ -68,10 +68,82 @@ class Runs(unittest.TestCase):
         with self.assertRaisesRegex(OSError, "no_such_folder"):
             frahm.Study.from_dict(MACHINE).run("no_such_folder/x.h5", progress="none")
 
-    def test_a_fault_in_the_function_for_reports_does_not_end_the_run(self):
-        with contextlib.redirect_stderr(io.StringIO()):
-            result = frahm.Study.from_dict(MACHINE).run(self.file, progress=lambda report: 1 / 0)
-        self.assertEqual(result.outcome, "done")
+    def test_an_exception_of_the_function_for_reports_stops_the_run_and_keeps_what_is_computed(self):
+        study, kept = frahm.Study.from_dict(LONG), []
+
+        def fail(report):
+            if report["done"] > 0:
+                kept.append(report["done"])
+                raise ZeroDivisionError("of the caller")
+
+        with self.assertRaisesRegex(ZeroDivisionError, "of the caller"):
+            study.run(self.file, threads=1, progress=fail)
+        self.assertEqual(len(kept), 1)
+        self.assertFalse(self.file.exists())
+        reports = []
+        study.run(self.file, progress=reports.append)
+        self.assertGreaterEqual(reports[0]["resumed"], kept[0])
+
+    def test_after_an_exception_with_the_last_report_nothing_is_computed_anew(self):
+        def fail(report):
+            if report["event"] == "end":
+                raise SystemExit(3)
+
+        with self.assertRaises(SystemExit):
+            frahm.Study.from_dict(MACHINE).run(self.file, progress=fail)
+        reports = []
+        frahm.Study.from_dict(MACHINE).run(self.file, progress=reports.append)
+        self.assertEqual(reports[0]["resumed"], 4 * 91)
+        self.assertTrue(self.file.exists())
+
+    def test_a_terminal_that_is_gone_does_not_end_the_run(self):
+        class Gone(io.StringIO):
+            def write(self, text):
+                raise BrokenPipeError
+
+        with contextlib.redirect_stderr(Gone()):
+            self.assertEqual(frahm.Study.from_dict(MACHINE).run(self.file).outcome, "done")
+
+    def test_a_dataset_that_is_left_open_does_not_hinder_another_run(self):
+        import h5py
+        import xarray
+
+        study = frahm.Study.from_dict(MACHINE)
+        study.run(self.file, progress="none")
+        left_open = [frahm.open(self.file), xarray.open_dataset(self.file, engine="h5netcdf"),
+                     h5py.File(self.file), h5py.File(self.file)]
+        first = float(left_open[0].machine_peak[1, 2])
+        self.assertIn("computed already", str(study.run(self.file, progress="none")))
+        study.with_parameters(k=300).run(self.file, fresh=True, progress="none")
+        again = frahm.open(self.file)
+        more = copy.deepcopy(MACHINE)
+        more["axis"][0]["values"] = [0, 10, 20, 40, 80]
+        grown = frahm.Study.from_dict(more, k=300).run(self.file.with_name("more.h5"), from_result=self.file, progress="none")
+        self.assertIn("91 computed", str(grown))
+        self.assertEqual(float(left_open[1].machine_peak[1, 2]), first)  # the file that was opened
+        self.assertNotEqual(float(again.machine_peak[1, 2]), first)
+        for each in [again, *left_open]:
+            each.close()
+
+    def test_a_damaged_file_does_not_end_the_interpreter(self):
+        study = frahm.Study.from_dict(MACHINE)
+        study.run(self.file, progress="none")
+        whole, damaged = self.file.read_bytes(), self.file.with_name("damaged.h5")
+        refused = 0
+        for place in range(1000, 20_000, 250):
+            damaged.write_bytes(whole[:place] + bytes(each ^ 0xFF for each in whole[place : place + 40]) + whole[place + 40 :])
+            told = subprocess.run([program, "status", damaged], text=True, capture_output=True)
+            try:
+                frahm.open(damaged).close()
+            except OSError as error:
+                refused += 1
+                self.assertIn("damaged.h5", str(error))
+                # Where the check refuses it; a library that is served a pointer into nowhere may meet any end.
+                if error.__cause__ is None and "ends in" not in str(error) + told.stderr:
+                    self.assertEqual(f"frahm: {error}\n", told.stderr)
+        self.assertGreater(refused, 10)
+        with self.assertRaisesRegex(OSError, "other than the file"):
+            study.run(self.file, from_result=damaged, progress="none")
 
     def test_a_time_budget_stops_it_and_the_same_call_goes_on(self):
         study = frahm.Study.from_dict(LONG)
@@ -159,6 +231,57 @@ class Runs(unittest.TestCase):
         with self.assertRaisesRegex(TypeError, "names: .*not int"):
             frahm.names(3)
 
+    def test_what_is_no_result_is_refused_in_plain_words(self):
+        study = self.file.with_suffix(".toml")
+        study.write_text(frahm.Study.from_dict(MACHINE).text)
+        for error, words, wrong in (
+            (IsADirectoryError, "is a folder", self.file.parent),
+            (FileNotFoundError, "there is no such file", self.file),
+            (frahm.StudyError, r"is a study; frahm.Study.load reads it, and its run\(\) makes a result, such as machine.h5", study),
+            (OSError, "points.py: cannot open the file: file signature not found", Path(__file__).with_name("points.py")),
+            (ValueError, "the file's name 'a.*b': must not have a NUL", "a\0b"),
+            (TypeError, "the file's name: must be a text or a path, not int", 3),
+        ):
+            with self.assertRaisesRegex(error, words):
+                frahm.open(wrong)
+        result = frahm.Study.load(study).run(self.file, progress="none")
+        with self.assertRaisesRegex(TypeError, "group: must be a text, not int"):
+            frahm.open(result.file, 3)
+        with self.assertRaisesRegex(ValueError, "no group 'provenanc'; it has .*provenance"):
+            result.open("provenanc")
+
+    def test_a_value_of_a_parameter_that_runs_along_an_axis_is_for_points_alone(self):
+        study = frahm.Study.from_dict(MACHINE, F=90)
+        self.assertEqual(study.point().parameters["F"][0], 90)
+        with self.assertRaisesRegex(frahm.StudyError, '^F=90.0: "F" runs along an axis of the map; change the axis'):
+            study.run(self.file, progress="none")
+
+    def test_messages_have_the_words_of_python(self):
+        decay = frahm.Study.load(studies / "lecture" / "lecture_free_vibration.toml")
+        study = frahm.Study.from_dict(MACHINE)
+        study.run(self.file, progress="none")
+        other = study.with_parameters(k=300)
+        for error, words, wrong in (
+            (frahm.StudyError, r"no periodic response to tell; run\(\) computes", decay.point),
+            (frahm.StudyError, "no points to take over .*from_result is for maps",
+             lambda: decay.run(self.file.with_name("x.h5"), from_result=self.file, progress="none")),
+            (frahm.StudyError, r"is a result; name the study it was made from \(frahm.open opens results\)",
+             lambda: frahm.Study.load(self.file)),
+            (OSError, "is not a result of frahm; give another output, or remove it",
+             lambda: study.run(__file__, progress="none")),
+            (frahm.ResumeRefused, "leave from_result out",
+             lambda: other.run(self.file.with_name("x.h5"), from_result=self.file, progress="none")),
+        ):
+            with self.assertRaisesRegex(error, words) as told:
+                wrong()
+            self.assertNotRegex(str(told.exception), r"(?<!\S)--?[a-z]")
+
+    def test_points_without_a_response_are_told_as_calls(self):
+        from frahm.words import of_python
+
+        self.assertEqual(of_python('    frahm point a b.toml --at "w=250 rpm,F=7" --set "k=3"'),
+                         '    study.point(w="250 rpm", F=7)')
+
     def test_wrong_options_are_refused_by_their_name(self):
         study = frahm.Study.from_dict(MACHINE)
         for error, words, wrong in (
@@ -166,6 +289,9 @@ class Runs(unittest.TestCase):
             (ValueError, "threads=-3: must be from 0 to", {"threads": -3}),
             (TypeError, "fresh='no': must be True or False", {"fresh": "no"}),
             (ValueError, "progress=3: must be", {"progress": 3}),
+            (TypeError, "time_budget='1s': must be a number of seconds", {"time_budget": "1s"}),
+            (ValueError, "time_budget=0: must be above 0", {"time_budget": 0}),
+            (ValueError, "time_budget=nan: must be above 0", {"time_budget": float("nan")}),
             (ValueError, "the file's name .*must be UTF-8", {"from_result": b"\xff.h5"}),
         ):
             with self.assertRaisesRegex(error, words):

@@ -37,6 +37,12 @@ class Studies(unittest.TestCase):
         with self.assertRaisesRegex(frahm.StudyError, "mass: .*NoneType"):
             frahm.Study.from_dict(changed)
 
+    def test_what_is_no_dictionary_is_refused(self):
+        with self.assertRaisesRegex(ValueError, "the file's name .*must not have a NUL character"):
+            frahm.Study.load("a\0.toml")
+        with self.assertRaisesRegex(TypeError, "a study: must be a dictionary with the sections of a file, not NoneType"):
+            frahm.Study.from_dict(None)
+
     def test_a_dictionary_that_holds_itself_is_refused(self):
         endless = dict(MACHINE)
         endless["mass"] = [endless]
