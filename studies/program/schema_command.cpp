@@ -9,6 +9,7 @@
 
 #include "studies/program/exit_code.hpp"
 #include "studies/reading/element_keys.hpp"
+#include "studies/reading/key_groups.hpp"
 #include "studies/reading/study_keys.hpp"
 
 // JSON Schema from the table of keys: https://json-schema.org/draft/2020-12.

@@ -74,7 +74,7 @@ std::string unit_of_numbers(const TomlValue& table, std::string_view section) {
 
 bool is_in_unit_of_table(const StudyKey* key) {
   if (!key || std::string_view(key->key) == "variation") return false;  // over the mean
-  return key->form == KeyForm::number || key->form == KeyForm::values || key->form == KeyForm::any;
+  return key->form == KeyForm::number || key->form == KeyForm::numbers;
 }
 
 // By what tables of a list are told apart.
@@ -114,7 +114,7 @@ class FactReading {
     const std::string name = where.empty() ? "[" + entry.key + "]" : fmt::format("{}: {}", where, entry.key);
     if (key && key->form == KeyForm::tables && entry.value.as<TomlArray>()) {
       add_tables(*entry.value.as<TomlArray>(), path, where);
-    } else if (key && key->form == KeyForm::names && entry.value.as<TomlTable>()) {
+    } else if (key && key->form == KeyForm::settings && entry.value.as<TomlTable>()) {
       for (const TomlEntry& each : *entry.value.as<TomlTable>())
         add_value(each.value, section.empty() ? "parameter " + each.key : name + ": " + each.key, "");
     } else if (entry.value.as<TomlTable>() && !keys_of(path).empty()) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "studies/reading/element_keys.hpp"
+#include "studies/reading/key_groups.hpp"
 
 namespace {
 
