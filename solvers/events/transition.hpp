@@ -23,8 +23,8 @@
 //                                        its force is a state    it sticks
 //   a stuck force is at its limit        -                       it lets go at once (two contacts released
 //   and grows after all this                                     together, or one that came to rest in a tie)
-//   in a loop of contacts the others     -                       it carries its limit and is idle (loops.hpp)
-//   hold one that let go
+//   in a loop of contacts a stuck        -                       the others hold it and it carries its limit,
+//   force reaches its limit                                      or some slide (loops.hpp)
 namespace frahm::periodic {
 
 // Sliding contacts that come to rest at this event: its own contact, and others at the same instant.
@@ -201,8 +201,7 @@ void release(Flow<N, H>& flow, Eigen::Index j, bool forward, Workspace<N, H>& w)
   w.mode = flow.mode_index(before.stuck & ~bit(j), before.positive | (forward ? bit(j) : 0), before.beyond);
 }
 
-// Stuck contacts whose force is at its limit and grows let go at once; so does a contact in a loop whose
-// share exceeds its limit.
+// Stuck contacts whose force is at its limit and grows let go at once.
 template <int N, int H>
 void release_at_limits(Flow<N, H>& flow, Workspace<N, H>& w) {
   for (bool again = true; again;) {
@@ -221,12 +220,22 @@ void release_at_limits(Flow<N, H>& flow, Workspace<N, H>& w) {
   }
 }
 
-// Removes rounding from the velocities of contacts that now stick, and releases those at their limits.
+// Removes rounding from the velocities of contacts that now stick, and decides of those at their limits.
+// letting_go: one of a loop, whose force has reached its limit (0: none).
 template <int N, int H>
-void settle_mode(Flow<N, H>& flow, Workspace<N, H>& w) {
+void settle_mode(Flow<N, H>& flow, ContactMask letting_go, Workspace<N, H>& w) {
   flow.configuration(flow.mode(w.mode)).hold(flow.equations(), w.left.u, w.left.z);
   flow.accelerate(flow.mode(w.mode), w.left);
-  release_at_limits(flow, w);
+  if (flow.equations().has_loops) {
+    const ContactMask slid = hold_together(flow, letting_go, w);
+    if (const ContactMask stays = letting_go & ~slid & flow.mode(w.mode).stuck; stays != 0) {
+      const double force = flow.stuck_force(w.left, flow.mode(w.mode), first(stays)).value;
+      release(flow, first(stays), force > 0.0, w);
+    }
+    if (letting_go != 0) slide_on(flow, w);
+  } else {
+    release_at_limits(flow, w);
+  }
   flow.accelerate(flow.mode(w.mode), w.left);
 }
 
@@ -236,18 +245,21 @@ template <int N, int H>
 void change_mode(Flow<N, H>& flow, ContactMask arrived, Eigen::Index released, bool forward,
                  Workspace<N, H>& w) {
   const ContactMask holding = flow.equations().holding;
+  ContactMask letting_go = 0;
   if (released >= 0) {
-    const ContactMask idle_before = flow.configuration(flow.mode(w.mode)).idle;
-    release(flow, released, forward, w);
-    if (idle_before != 0) wake(flow, idle_before, w);
-    if (contains(holding, released)) slide_on(flow, w);
+    const bool holds = contains(holding, released);
+    if (holds && flow.equations().has_loops)
+      letting_go = bit(released);
+    else
+      release(flow, released, forward, w);
+    if (holds && letting_go == 0) slide_on(flow, w);
   }
   if (const ContactMask states = arrived & ~holding; states != 0) {
     const Mode<N, H>& mode = flow.mode(w.mode);
     w.mode = flow.mode_index(mode.stuck | states, mode.positive, mode.beyond);
   }
-  if ((arrived & holding) != 0) choose_modes(flow, (flow.mode(w.mode).stuck | arrived) & holding, w);
-  settle_mode(flow, w);
+  if ((arrived & holding) != 0) choose_modes(flow, at_rest(flow, w) | (arrived & holding), w);
+  settle_mode(flow, letting_go, w);
 }
 
 }  // namespace frahm::periodic

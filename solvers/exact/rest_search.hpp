@@ -209,13 +209,10 @@ typename RestSearch<N, H>::Shift RestSearch<N, H>::shift(Orbit<N, H>& orbit) {
   if (found.verdict == RestShift::Verdict::none) return Shift::none;
   const typename Sizes<N, H>::State by = rest.E * found.delta;
   shift_orbit<N, H>(by, orbit);
-  // Part of the shift's forces may strain a loop alone; no state contains this part. If the reported shares
-  // then break a limit, or a force was at its limit before the shift, the motion is followed once more from
-  // the shifted state.
+  // Contacts in loops share its forces while more of them stick, at other instants than before. So the motion
+  // is followed once more from the shifted state; also where a force was at its limit before the shift.
   const bool stood_at_limit = orbit.status == Status::grazing && found.verdict == RestShift::Verdict::inside;
-  const bool breaks_limit =
-      eq.has_loops && std::ranges::any_of(stuck_forces(eq.holding, orbit), &StuckForce::breaks_limit);
-  if (stood_at_limit || breaks_limit) {
+  if (stood_at_limit || (eq.has_loops && !by.isZero(0.0))) {
     shooting_.find(orbit);
     if (!orbit.is_found()) return Shift::none;
   }
