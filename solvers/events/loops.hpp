@@ -107,18 +107,20 @@ void share(Flow<N, H>& flow, const RestProblem& rest, const LeastShares& shares,
   w.mode = flow.mode_index(all.stuck, all.positive, all.beyond);
 }
 
-// Contacts at rest slide from now on.
+// Contacts at rest slide from now on, but for those that the others hold. Returns those that do.
 template <int N, int H>
-void slide(Flow<N, H>& flow, const RestOutcome& outcome, Workspace<N, H>& w) {
+ContactMask slide(Flow<N, H>& flow, const RestOutcome& outcome, Workspace<N, H>& w) {
   const StepEquations<N, H>& eq = flow.equations();
   const Mode<N, H>& mode = flow.mode(w.mode);
-  const ContactMask slides = outcome.slides;
+  w.mode = flow.mode_index(mode.stuck & ~outcome.slides, (mode.positive & ~outcome.slides) | outcome.forward,
+                           mode.beyond);
+  const ContactMask slides = outcome.slides & ~at_rest(flow, w);
   w.fresh |= slides;
   w.just_released &= ~slides;
   for (Eigen::Index j = 0; outcome.is_slow && j < eq.contacts(); ++j) {
     if (contains(slides, j) && eq.static_limit[j] == eq.limit[j]) w.just_released |= bit(j);
   }
-  w.mode = flow.mode_index(mode.stuck & ~slides, (mode.positive & ~slides) | outcome.forward, mode.beyond);
+  return slides;
 }
 
 // The contacts at rest just after this instant: which slide, and how the others share the forces.
@@ -141,12 +143,14 @@ ContactMask hold_together(Flow<N, H>& flow, ContactMask letting_go, Workspace<N,
       w.undecided = true;
       return slid;
     }
-    if (outcome.slides == 0) {
+    const std::size_t all = w.mode;
+    const ContactMask slides = outcome.slides != 0 ? slide(flow, outcome, w) : 0;
+    if (slides == 0) {
+      w.mode = all;
       share(flow, rest, outcome.shares, w);
       return slid;
     }
-    slide(flow, outcome, w);
-    slid |= outcome.slides;
+    slid |= slides;
   }
 }
 

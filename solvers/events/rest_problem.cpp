@@ -13,11 +13,13 @@ using Eigen::Index, Eigen::VectorXd;
 // Where forces `lambda` leave the accelerations G (needed - lambda), or their rates.
 void find_sliding(const RestProblem& rest, const VectorXd& needed, const VectorXd& lambda, ContactMask among,
                   RestOutcome& outcome) {
-  constexpr double kRounding = 1e-9;  // of the terms
+  // Of the terms, and of those of other contacts, whose rounding reaches one that nothing pulls at.
+  constexpr double kRounding = 1e-9, kOfOthers = 1e-12;
   const VectorXd pull = rest.G * (needed - lambda);
   const VectorXd size = rest.G.cwiseAbs() * (needed.cwiseAbs() + lambda.cwiseAbs());
   for (Index i = 0; i < pull.size(); ++i) {
-    if (std::abs(pull[i]) <= kRounding * size[i] || (rest.at(i) & among) == 0) continue;
+    if (std::abs(pull[i]) <= kRounding * size[i] + kOfOthers * size.maxCoeff()) continue;
+    if ((rest.at(i) & among) == 0) continue;
     outcome.slides |= rest.at(i);
     if (pull[i] > 0.0) outcome.forward |= rest.at(i);
   }
